@@ -1,0 +1,27 @@
+"""robonav: robot learning for autonomous navigation, the package behind the book.
+
+One subpackage a chapter: ``mdp`` (2), ``robot`` (2.5), ``lfd`` (3), ``nnql`` (4), ``nirl`` (5).
+Importing this package registers the Gymnasium environments and nothing else: the rest loads where it is first used.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+_SUBPACKAGES = ("experiments", "grading", "lfd", "mdp", "nirl", "nnql", "plots", "robot", "widgets")
+
+if TYPE_CHECKING:
+    from . import experiments, grading, lfd, mdp, nirl, nnql, plots, robot, widgets  # noqa: F401
+
+
+def __getattr__(name: str) -> Any:
+    if name in _SUBPACKAGES:
+        return importlib.import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_SUBPACKAGES])

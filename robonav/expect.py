@@ -1,0 +1,95 @@
+"""What a function expects of its arguments, said in one clear sentence when it does not come.
+
+Every check names the argument, what was expected and what came, and returns the value ready to use.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from numbers import Integral, Real
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+
+def real(
+    name: str,
+    value: Any,
+    *,
+    above: float = -math.inf,
+    at_least: float = -math.inf,
+    at_most: float = math.inf,
+    below: float = math.inf,
+) -> float:
+    """A finite real number within the bounds; TypeError or ValueError otherwise."""
+    if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
+        raise TypeError(f"{name} must be a number, got {value!r}")
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{name} must be finite, got {value!r}")
+    bounds = []
+    if above > -math.inf:
+        bounds.append(f"greater than {above:g}")
+    if at_least > -math.inf:
+        bounds.append(f"at least {at_least:g}")
+    if at_most < math.inf:
+        bounds.append(f"at most {at_most:g}")
+    if below < math.inf:
+        bounds.append(f"less than {below:g}")
+    if not (above < number < below and at_least <= number <= at_most):
+        raise ValueError(f"{name} must be {' and '.join(bounds)}, got {value!r}")
+    return number
+
+
+def positive(name: str, value: Any) -> float:
+    """A finite real number above zero."""
+    return real(name, value, above=0)
+
+
+def integer(name: str, value: Any, *, at_least: int | None = None, at_most: int | None = None) -> int:
+    """A whole number within the bounds; TypeError or ValueError otherwise."""
+    if isinstance(value, bool | np.bool_) or not isinstance(value, Integral):
+        raise TypeError(f"{name} must be a whole number, got {value!r}")
+    number = int(value)
+    if at_least is not None and number < at_least:
+        raise ValueError(f"{name} must be at least {at_least}, got {number}")
+    if at_most is not None and number > at_most:
+        raise ValueError(f"{name} must be at most {at_most}, got {number}")
+    return number
+
+
+def array(
+    name: str, value: ArrayLike, *, shape: Sequence[int | str] | None = None, dtype: DTypeLike = float
+) -> NDArray[Any]:
+    """An array of finite numbers of the given shape; a letter in ``shape`` stands for any length."""
+    try:
+        result: NDArray[Any] = np.asarray(value, dtype=dtype)
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError(f"{name} must be an array of numbers, got {type(value).__name__}") from None
+    if shape is not None:
+        fits = result.ndim == len(shape) and all(
+            isinstance(want, str) or want == got for want, got in zip(shape, result.shape, strict=True)
+        )
+        if not fits:
+            wanted = ", ".join(map(str, shape))
+            raise ValueError(f"{name} must have shape ({wanted}), got {result.shape}")
+    if result.dtype.kind == "f" and not np.isfinite(result).all():
+        raise ValueError(f"{name} must hold finite numbers only, got NaN or infinity")
+    return result
+
+
+def one_of(name: str, value: Any, choices: Iterable[Any]) -> Any:
+    """One of a few choices."""
+    known = list(choices)
+    if value not in known:
+        raise ValueError(f"{name} must be one of {', '.join(map(str, known))}, got {value!r}")
+    return value
+
+
+def generator(name: str, value: Any) -> np.random.Generator:
+    """A numpy Generator, or one made from a whole number of at least 0."""
+    if isinstance(value, np.random.Generator):
+        return value
+    return np.random.default_rng(integer(name, value, at_least=0))

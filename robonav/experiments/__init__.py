@@ -1,0 +1,1 @@
+"""Every table and figure of the thesis as a named experiment."""

@@ -1,0 +1,1 @@
+"""The autograder: the pytest plugin, the sandbox, the class runner."""

@@ -1,0 +1,61 @@
+"""One look: the palette shared by matplotlib and JavaScript, and the matplotlib style.
+
+Colours are Okabe and Ito's (2008), told apart by colour-blind readers and legible on light and dark pages.
+A method has the same colour on every page.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+BLUE, ORANGE, GREEN, VERMILION = "#0072B2", "#E69F00", "#009E73", "#D55E00"
+SKY, PURPLE, YELLOW, GREY = "#56B4E9", "#CC79A7", "#F0E442", "#7F7F7F"
+
+ROBOT, TARGET, OBSTACLE, MOVING = BLUE, VERMILION, "#5F6368", PURPLE
+
+METHODS: dict[str, str] = {
+    "straight": GREY,
+    "A*": ORANGE,
+    "grid A*": SKY,
+    "lfd": BLUE,
+    "dagger": SKY,
+    "knn": YELLOW,
+    "nnql": GREEN,
+    "online": ORANGE,
+    "nfq": PURPLE,
+    "dqn": VERMILION,
+    "nirl": VERMILION,
+    "apprenticeship": ORANGE,
+    "relative_entropy": PURPLE,
+    "scirl": SKY,
+    "cloning": BLUE,
+}
+
+# Figures are transparent and their ink is a mid grey, so that one file serves the light and the dark theme.
+INK = "#808080"
+STYLE: dict[str, Any] = {
+    "figure.facecolor": "none",
+    "axes.facecolor": "none",
+    "savefig.facecolor": "none",
+    "savefig.transparent": True,
+    "text.color": INK,
+    "axes.labelcolor": INK,
+    "axes.edgecolor": INK,
+    "axes.titlecolor": INK,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "grid.color": INK,
+    "grid.alpha": 0.25,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": 11,
+    "axes.labelsize": 10,
+    "font.size": 10,
+    "legend.frameon": False,
+    "lines.linewidth": 1.8,
+    "figure.dpi": 110,
+    "figure.constrained_layout.use": True,
+    "svg.fonttype": "none",
+}

@@ -1,0 +1,1 @@
+"""Chapter 2: finite MDPs, planning, tabular learning, partial observation, gridworlds."""

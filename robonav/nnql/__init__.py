@@ -1,0 +1,1 @@
+"""Chapter 4: neural-network Q-learning."""

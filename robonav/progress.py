@@ -1,0 +1,28 @@
+"""Progress of long work: one optional callback, shown as a bar by the command line and by notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Protocol
+
+
+class Progress(Protocol):
+    """Called by long-running functions as ``progress(done, total)``."""
+
+    def __call__(self, done: int, total: int) -> None: ...
+
+
+@contextmanager
+def bar(description: str) -> Iterator[Progress]:
+    """A tqdm bar as a progress callback: ``with bar("training") as progress: train(progress=progress)``."""
+    from tqdm.auto import tqdm
+
+    with tqdm(desc=description) as shown:
+
+        def update(done: int, total: int) -> None:
+            shown.total = total
+            shown.n = done
+            shown.refresh()
+
+        yield update
