@@ -1,0 +1,61 @@
+# make book, make test, make lab: each makes .venv itself, once. Needs Python 3.11 or later and make.
+#
+#   PYTHON        the interpreter that .venv is made from
+#   PIP_OPTIONS   passed to every pip install, for instance an extra index with PyTorch's CPU builds
+#   PYTEST_OPTIONS passed to pytest
+
+SHELL := bash
+.SHELLFLAGS := -euo pipefail -c
+.DELETE_ON_ERROR:
+
+PYTHON ?= python3
+PIP_OPTIONS ?=
+PYTEST_OPTIONS ?=
+
+BIN := .venv/bin
+INSTALLED := .venv/.installed
+TORCH := $(shell grep '^torch==' requirements.lock)
+EXTRAS := book,lab,grading,tests,benchmarks
+
+.PHONY: help book test lab lock clean
+help:
+	@echo "make book   build the book into _build/html"
+	@echo "make test   run every check and test"
+	@echo "make lab    open JupyterLab on the notebooks"
+	@echo "make lock   write requirements.lock anew from pyproject.toml"
+	@echo "make clean  remove what was built; .venv stays"
+
+# PyTorch first: left to the resolver it may choose another build, gigabytes larger.
+$(INSTALLED): requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "robonav needs Python 3.11 or later; set PYTHON=")'
+	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet $(PIP_OPTIONS) '$(TORCH)'
+	$(BIN)/python -m pip install --quiet $(PIP_OPTIONS) -r requirements.lock
+	$(BIN)/python -m pip install --quiet --no-deps --editable .
+	touch $@
+
+book: $(INSTALLED)
+	$(BIN)/jupyter-book build . -W --keep-going -n --all
+	$(BIN)/python book/_ext/check_site.py
+
+test: $(INSTALLED)
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
+
+lab: $(INSTALLED)
+	$(BIN)/jupyter lab --notebook-dir=book
+
+# A fresh environment, so that nothing installed by hand slips in; versions only, so that the file serves every index.
+lock:
+	rm -rf _build/lock && $(PYTHON) -m venv _build/lock
+	_build/lock/bin/python -m pip install --quiet $(PIP_OPTIONS) '$(TORCH)'
+	_build/lock/bin/python -m pip install --quiet $(PIP_OPTIONS) '.[$(EXTRAS)]'
+	{ sed '/^[^#]/,$$d' requirements.lock; \
+	  _build/lock/bin/python -m pip freeze --exclude robonav | sed 's/+[a-z0-9.]*$$//'; } > _build/requirements.lock
+	mv _build/requirements.lock requirements.lock
+	rm -rf _build/lock
+
+clean:
+	rm -rf _build

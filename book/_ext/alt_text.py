@@ -1,0 +1,33 @@
+"""Warn about every picture without an alternative text; the build turns warnings into failure.
+
+For a cell's figure the text stands in the cell's metadata, as ``mystnb: {image: {alt: ...}}``; for a picture of the page
+itself in ``![the text](file)`` or in the ``:alt:`` option of its directive.
+"""
+
+from __future__ import annotations
+
+import re
+
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.util import logging
+
+LOGGER = logging.getLogger(__name__)
+IMAGE_TAG = re.compile(r"<img\b[^>]*>", re.IGNORECASE)
+ALT = re.compile(r"\balt\s*=\s*([\"'])\s*\S", re.IGNORECASE)
+
+
+def lint(app: Sphinx, doctree: nodes.document) -> None:
+    """Look at the pictures of one page, as nodes and inside raw HTML."""
+    for image in doctree.findall(nodes.image):
+        if not image.get("alt", "").strip():
+            LOGGER.warning("picture without alternative text: %s", image.get("uri"), location=image)
+    for raw in doctree.findall(nodes.raw):
+        for tag in IMAGE_TAG.findall(raw.astext()) if raw.get("format") == "html" else ():
+            if not ALT.search(tag) and "data:" not in tag and "${" not in tag and "src=" in tag:
+                LOGGER.warning("picture without alternative text: %.120s", tag, location=raw)
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.connect("doctree-read", lint)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,59 @@
+"""Look at the built book before anyone else does: every page of _toc.yml is there, has text, and shows no failure.
+
+Run after a build, as ``make book`` does; prints what is wrong and ends with exit code 1.
+"""
+
+from __future__ import annotations
+
+import html
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+SITE = ROOT / "_build" / "html"
+LEAST_TEXT = 400  # characters of an article, below which a page counts as empty
+FAILURES = {
+    "a failed cell": re.compile(r"Traceback \(most recent call last\)|ansi-red-fg"),
+    "a directive or role that did not parse": re.compile(r'class="system-message|class="problematic'),
+    "an unresolved reference": re.compile(r"<code[^>]*>\{(?:ref|eq|numref|cite[^}]*|prf:ref)\}"),
+}
+
+
+def pages(entry: Any) -> Iterator[str]:
+    """Every page named in a table of contents, parts and sections included."""
+    if isinstance(entry, dict):
+        yield from (entry[key] for key in ("root", "file") if key in entry)
+        entry = [value for value in entry.values() if isinstance(value, list)]
+    if isinstance(entry, list):
+        for inner in entry:
+            yield from pages(inner)
+
+
+def faults(page: str) -> Iterator[str]:
+    """What is wrong with one built page."""
+    built = SITE / f"{page}.html"
+    if not built.is_file():
+        yield "was not built"
+        return
+    source = built.read_text("utf-8")
+    article = re.search(r"<article\b.*?</article>", source, re.DOTALL)
+    text = html.unescape(re.sub(r"<[^>]+>", " ", article[0] if article else ""))
+    if len(" ".join(text.split())) < LEAST_TEXT:
+        yield f"holds fewer than {LEAST_TEXT} characters"
+    yield from (f"shows {name}" for name, sign in FAILURES.items() if article and sign.search(article[0]))
+
+
+def main() -> int:
+    listed = list(pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))))
+    found = [f"{page} {fault}" for page in listed for fault in faults(page)]
+    print("\n".join(found) or f"{len(listed)} pages, each built, filled and without a failure")
+    return bool(found) or not listed
+
+
+if __name__ == "__main__":
+    sys.exit(main())

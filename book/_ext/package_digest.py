@@ -1,0 +1,47 @@
+"""Run notebooks again when the package changes.
+
+Executed notebooks are kept in a cache that knows a notebook's own cells, not the code they import. The cache's folder is
+therefore named after a digest of the package, and pages are read anew when the digest is another.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import time
+from pathlib import Path
+
+from sphinx.application import Sphinx
+from sphinx.config import Config
+
+ROOT = Path(__file__).resolve().parents[2]
+CACHES = ROOT / "_build" / "executed"
+A_DAY = 24 * 3600  # seconds
+
+
+def digest_of(folder: Path) -> str:
+    """A short digest of every file below a folder, names included, byte code left out."""
+    total = hashlib.sha256()
+    for path in sorted(folder.rglob("*")):
+        if path.is_file() and "__pycache__" not in path.parts:
+            total.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return total.hexdigest()[:12]
+
+
+def choose_cache(app: Sphinx, config: Config) -> None:
+    """Point the notebook cache at the folder of this digest, and drop those that nobody used for a day."""
+    config.package_digest = digest_of(ROOT / "robonav")
+    chosen = CACHES / config.package_digest
+    chosen.mkdir(parents=True, exist_ok=True)
+    os.utime(chosen)
+    for other in CACHES.iterdir():
+        if other.stat().st_mtime < time.time() - A_DAY:
+            shutil.rmtree(other)
+    config.nb_execution_cache_path = str(chosen)
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.add_config_value("package_digest", "", "env")
+    app.connect("config-inited", choose_cache, priority=100)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
