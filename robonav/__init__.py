@@ -9,6 +9,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+import gymnasium
+
 __version__ = "0.1.0"
 
 _SUBPACKAGES = ("experiments", "grading", "lfd", "mdp", "nirl", "nnql", "plots", "robot", "widgets")
@@ -25,3 +27,11 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted([*globals(), *_SUBPACKAGES])
+
+
+gymnasium.register(
+    "robonav/Navigation-v0",
+    entry_point="robonav.robot.environments:NavigationEnv",
+    vector_entry_point="robonav.robot.environments:NavigationVectorEnv",
+    max_episode_steps=500,
+)

@@ -1,0 +1,131 @@
+"""Worlds and robots as matplotlib artists: drawn alike by the environments, the plots and, in JavaScript, the pages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Patch, Polygon, Rectangle, Wedge
+from numpy.typing import ArrayLike, NDArray
+
+from .. import look
+from . import kernels
+from .simulator import Simulator
+from .worlds import Worlds
+
+ROBOT_LENGTH = 4.0  # metres; the robot is a point, its picture is not
+
+
+def prepare(axes: Axes, size: float) -> None:
+    """A square map with its borders as walls and metres on both axes."""
+    axes.set(xlim=(-1, size + 1), ylim=(-1, size + 1), aspect="equal", xlabel="x (m)", ylabel="y (m)")
+    axes.grid(False)
+    axes.add_patch(Rectangle((0, 0), size, size, fill=False, edgecolor=look.OBSTACLE, linewidth=1.5))
+
+
+def obstacle_patches(worlds: Worlds, centres: ArrayLike | None = None) -> list[Patch]:
+    """The obstacles of the first world, at ``centres`` (M, 2) or where they start."""
+    placed = worlds.centres[0] if centres is None else np.asarray(centres)
+    patches: list[Patch] = []
+    for m in np.flatnonzero(worlds.kinds[0]):
+        a, b, turned = worlds.shapes[0, m]
+        colour = look.MOVING if worlds.speeds[0, m] > 0 else look.OBSTACLE
+        if worlds.kinds[0, m] == kernels.CIRCLE:
+            patches.append(Circle(tuple(placed[m]), a, color=colour))
+        else:
+            corner = placed[m] - [a, b]
+            patches.append(
+                Rectangle(tuple(corner), 2 * a, 2 * b, angle=np.degrees(turned), rotation_point="center", color=colour)
+            )
+    return patches
+
+
+def draw_world(axes: Axes, worlds: Worlds, centres: ArrayLike | None = None) -> None:
+    """The first world of a batch: borders, obstacles, start (a square) and target (a ring as wide as arrival)."""
+    prepare(axes, worlds.size)
+    for patch in obstacle_patches(worlds, centres):
+        axes.add_patch(patch)
+    axes.plot(*worlds.starts[0], marker="s", color=look.ROBOT, markersize=6, linestyle="none")
+    axes.add_patch(
+        Circle(tuple(worlds.targets[0]), kernels.ARRIVAL_DISTANCE, fill=False, edgecolor=look.TARGET, linewidth=2)
+    )
+
+
+def robot_outline(pose: ArrayLike) -> NDArray[np.float64]:
+    """Corners (3, 2) of the triangle that stands for the robot at ``pose``; its tip looks ahead."""
+    x, y, heading = np.asarray(pose, dtype=float)
+    angles = heading + np.array([0.0, 2.5, -2.5])
+    corners: NDArray[np.float64] = np.column_stack([np.cos(angles), np.sin(angles)])
+    return np.array([x, y]) + ROBOT_LENGTH / 2 * corners
+
+
+def draw_robot(axes: Axes, pose: ArrayLike, colour: str = look.ROBOT) -> Polygon:
+    """The robot at ``pose`` (x, y, heading)."""
+    artist = Polygon(robot_outline(pose), closed=True, color=colour, zorder=5)
+    axes.add_patch(artist)
+    return artist
+
+
+def draw_sensors(axes: Axes, pose: ArrayLike, ranges: Iterable[float], *, numbered: bool = False) -> list[Wedge]:
+    """The nine sectors, each as far as it reads (Fig. 2.6); warm where something is near."""
+    x, y, heading = np.asarray(pose, dtype=float)
+    half = np.degrees(kernels.SECTOR) / 2
+    wedges = []
+    for k, distance in enumerate(ranges):
+        middle = np.degrees(heading) + 2 * half * k
+        near = distance < kernels.SENSOR_RANGE
+        wedge = Wedge(
+            (x, y), distance, middle - half, middle + half, linewidth=0.6, edgecolor=look.ROBOT,
+            facecolor=look.ORANGE if near else look.SKY, alpha=0.35 if near else 0.15,
+        )  # fmt: skip
+        axes.add_patch(wedge)
+        wedges.append(wedge)
+        if numbered:
+            angle = np.radians(middle)
+            axes.annotate(
+                str(k + 1), (x + 0.7 * distance * np.cos(angle), y + 0.7 * distance * np.sin(angle)),
+                ha="center", va="center", fontsize=9, color=look.INK,
+            )  # fmt: skip
+    return wedges
+
+
+def draw_moment(axes: Axes, simulator: Simulator, i: int) -> None:
+    """Robot i of a simulator now: its world, sensors and pose."""
+    draw_world(axes, simulator.worlds[i], simulator.centres[i])
+    draw_sensors(axes, simulator.poses[i], simulator.sense().ranges[i])
+    draw_robot(axes, simulator.poses[i])
+
+
+def picture(simulator: Simulator, i: int, *, pixels: int = 480) -> NDArray[np.uint8]:
+    """Robot i of a simulator now, as an image (pixels, pixels, 3)."""
+    figure = Figure(figsize=(4.8, 4.8), dpi=pixels / 4.8, facecolor="white", layout="constrained")
+    canvas = FigureCanvasAgg(figure)
+    draw_moment(figure.add_subplot(), simulator, i)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3].copy()
+
+
+class Window:
+    """A window that shows a robot on its way, for ``render_mode="human"``."""
+
+    def __init__(self) -> None:
+        import matplotlib.pyplot as plt
+
+        self._plt: Any = plt
+        plt.ion()
+        self._figure, self._axes = plt.subplots(figsize=(6, 6))
+
+    def show(self, simulator: Simulator, i: int) -> None:
+        """Draw robot i now."""
+        self._axes.clear()
+        draw_moment(self._axes, simulator, i)
+        self._figure.canvas.draw_idle()
+        self._figure.canvas.flush_events()
+
+    def close(self) -> None:
+        """Close the window."""
+        self._plt.close(self._figure)
