@@ -1,0 +1,188 @@
+"""Frames: the only thing that crosses between the grader and a student's code.
+
+A frame is a prefix with two sizes, a JSON header, and the raw bytes of its arrays one after another. Numbers,
+strings, ``None``, lists, tuples, dicts with strings as keys, and plain arrays cross; nothing that could run code when
+it is read. (Other keys stay out: whole numbers chosen to collide make a dict take minutes.) Every size is checked
+before memory is taken for it. Nothing here imports more than numpy: the file also runs in the sandbox.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import struct
+from typing import Any, BinaryIO
+
+import numpy as np
+
+PREFIX = struct.Struct(">II")  # bytes of the header, bytes of all arrays together
+MOST_HEADER = 1 << 20
+MOST_ARRAYS = 1 << 26
+MOST_DEPTH = 16
+MOST_AXES = 8
+DTYPES = ("|b1", "|i1", "|u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8", "<f2", "<f4", "<f8")
+UNUSUAL = {"nan": math.nan, "inf": math.inf, "-inf": -math.inf}
+
+
+class FrameError(ValueError):
+    """Bytes that are no frame, or a value that no frame carries; the message says which."""
+
+
+def encode(value: Any) -> bytes:
+    """A value as one frame.
+
+    Raises
+    ------
+    FrameError : if the value holds anything else than the kinds above, is nested too deep, or is too large.
+    """
+    arrays: list[np.ndarray] = []
+    tree = _to_tree(value, arrays, MOST_DEPTH)
+    header = {"value": tree, "arrays": [[array.dtype.str, array.shape] for array in arrays]}
+    text = json.dumps(header, allow_nan=False, separators=(",", ":")).encode()
+    body = b"".join(array.tobytes() for array in arrays)
+    _check_sizes(len(text), len(body))
+    return PREFIX.pack(len(text), len(body)) + text + body
+
+
+def decode(frame: bytes) -> Any:
+    """The value of one whole frame; the inverse of ``encode``, except that numpy's scalars come back as Python's.
+
+    Raises
+    ------
+    FrameError : if the bytes are not exactly one well-formed frame.
+    """
+    if len(frame) < PREFIX.size:
+        raise FrameError("the frame ends within its prefix")
+    sizes = _check_sizes(*PREFIX.unpack_from(frame))
+    if len(frame) != PREFIX.size + sum(sizes):
+        raise FrameError(f"the frame should hold {sum(sizes)} bytes, it holds {len(frame) - PREFIX.size}")
+    header = _parse(frame[PREFIX.size : PREFIX.size + sizes[0]])
+    arrays = _to_arrays(header["arrays"], memoryview(frame)[PREFIX.size + sizes[0] :])
+    return _from_tree(header["value"], arrays, MOST_DEPTH)
+
+
+def write(stream: BinaryIO, value: Any) -> None:
+    """Send one frame."""
+    stream.write(encode(value))
+    stream.flush()
+
+
+def read(stream: BinaryIO) -> Any:
+    """Receive one frame; EOFError where the stream has ended before it."""
+    prefix = _exactly(stream, PREFIX.size)
+    sizes = _check_sizes(*PREFIX.unpack(prefix))
+    return decode(prefix + _exactly(stream, sum(sizes)))
+
+
+def _exactly(stream: BinaryIO, size: int) -> bytes:
+    parts = bytearray()
+    while len(parts) < size:
+        part = stream.read(size - len(parts))
+        if not part:
+            raise EOFError("the stream ended")
+        parts += part
+    return bytes(parts)
+
+
+def _check_sizes(header: int, arrays: int) -> tuple[int, int]:
+    if header > MOST_HEADER or arrays > MOST_ARRAYS:
+        raise FrameError(f"{header + arrays} bytes are too many for one frame")
+    return header, arrays
+
+
+def _to_tree(value: Any, arrays: list[np.ndarray], depth: int) -> Any:
+    """The value in JSON's own kinds; what JSON lacks becomes an object with one key that names the kind."""
+    if depth == 0:
+        raise FrameError(f"nested more than {MOST_DEPTH} deep")
+    if isinstance(value, np.generic):
+        value = value.item()
+    match value:
+        case None | bool() | str():
+            return value
+        case int():
+            if not -(1 << 63) <= value < 1 << 64:
+                raise FrameError("a whole number of more than 64 bits")
+            return int(value)
+        case float():
+            return float(value) if math.isfinite(value) else {"float": str(float(value))}
+        case list():
+            return [_to_tree(item, arrays, depth - 1) for item in value]
+        case tuple():
+            return {"tuple": [_to_tree(item, arrays, depth - 1) for item in value]}
+        case dict() if all(isinstance(key, str) for key in value):
+            return {"dict": {key: _to_tree(item, arrays, depth - 1) for key, item in value.items()}}
+        case np.ndarray():
+            plain = np.asarray(value)
+            plain = plain.astype(plain.dtype.newbyteorder("<"), copy=False)
+            if plain.dtype.str not in DTYPES or plain.ndim > MOST_AXES:
+                raise FrameError(f"an array of dtype {plain.dtype} and {plain.ndim} axes")
+            arrays.append(plain)
+            return {"array": len(arrays) - 1}
+    raise FrameError(f"a value of type {type(value).__name__}")  # a dict comes here only for its keys
+
+
+def _parse(text: bytes) -> dict[str, Any]:
+    try:
+        header = json.loads(text.decode(), parse_constant=_no_constant)
+    except (ValueError, RecursionError) as error:
+        raise FrameError(f"the header is not JSON: {error}") from None
+    if not isinstance(header, dict) or set(header) != {"value", "arrays"} or not isinstance(header["arrays"], list):
+        raise FrameError("the header must hold a value and its arrays")
+    return header
+
+
+def _no_constant(name: str) -> None:
+    raise ValueError(f"{name} is no JSON")
+
+
+def _to_arrays(described: list[Any], body: memoryview) -> list[np.ndarray]:
+    arrays, start = [], 0
+    for entry in described:
+        match entry:
+            case [str(dtype), [*shape]] if (
+                dtype in DTYPES and len(shape) <= MOST_AXES and all(type(n) is int and n >= 0 for n in shape)
+            ):
+                end = start + math.prod(shape) * np.dtype(dtype).itemsize
+            case _:
+                raise FrameError("an array's description must be a known dtype and a shape")
+        if end > len(body):
+            raise FrameError("an array is declared larger than the bytes that came")
+        try:
+            flat = np.frombuffer(body[start:end], dtype if dtype != "|b1" else "|u1")
+            arrays.append(flat.astype(dtype).reshape(shape))  # astype copies, and makes any byte a true or a false
+        except ValueError:  # a shape such as (0, 2**63): no bytes, yet beyond numpy
+            raise FrameError("an array's shape is beyond numpy's") from None
+        start = end
+    if start != len(body):
+        raise FrameError("bytes are left over after the last array")
+    return arrays
+
+
+def _from_tree(tree: Any, arrays: list[np.ndarray], depth: int) -> Any:
+    if depth == 0:
+        raise FrameError(f"nested more than {MOST_DEPTH} deep")
+    match tree:
+        case None | bool():
+            return tree
+        case int() if -(1 << 63) <= tree < 1 << 64:
+            return tree
+        case float() if math.isfinite(tree):
+            return tree
+        case str() if _is_text(tree):
+            return tree
+        case list():
+            return [_from_tree(item, arrays, depth - 1) for item in tree]
+        case {"float": str(name), **rest} if not rest and name in UNUSUAL:
+            return UNUSUAL[name]
+        case {"tuple": [*items], **rest} if not rest:
+            return tuple(_from_tree(item, arrays, depth - 1) for item in items)
+        case {"dict": dict(items), **rest} if not rest and all(map(_is_text, items)):
+            return {key: _from_tree(item, arrays, depth - 1) for key, item in items.items()}
+        case {"array": int(index), **rest} if not rest and type(index) is int and 0 <= index < len(arrays):
+            return arrays[index]
+    raise FrameError("the header holds something that is no value")
+
+
+def _is_text(value: str) -> bool:
+    """Whether the string can be written again: a lone surrogate can stand in JSON, but in no file."""
+    return not any("\ud800" <= character <= "\udfff" for character in value)
