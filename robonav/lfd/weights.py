@@ -1,0 +1,114 @@
+"""Trained networks in files: safetensors, with what made them, so that they can be made again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save
+
+from robonav import __version__, files
+
+from .network import Network
+
+FORMAT = "robonav weights 1"
+
+
+@dataclass(frozen=True, eq=False)
+class Weights:
+    """A trained network and what made it.
+
+    Parameters
+    ----------
+    network : the network, or a stack of them.
+    method : how it was trained: ``"lfd"``, ``"nnql"``, ...
+    encoding : how raw sensing becomes the network's inputs.
+    made : anything else that it takes to train it again (seed, number of demonstrations, ...), as JSON knows it.
+    version : of robonav, when it was trained.
+    """
+
+    network: Network
+    method: str
+    encoding: str
+    made: Mapping[str, Any] = field(default_factory=dict)
+    version: str = __version__
+
+
+def save_weights(path: str | Path, weights: Weights) -> None:
+    """Write a safetensors file: tensors ``weights.1``, ``biases.1``, ... (as the thesis counts) and what made them.
+
+    The same weights give the same bytes.
+
+    Raises
+    ------
+    TypeError : if ``weights.made`` holds what JSON does not know.
+    """
+    network = weights.network
+    tensors = {f"weights.{layer}": array for layer, array in enumerate(network.weights, start=1)}
+    tensors |= {f"biases.{layer}": array for layer, array in enumerate(network.biases, start=1)}
+    about = {
+        "format": FORMAT,
+        "method": weights.method,
+        "encoding": weights.encoding,
+        "made": dict(weights.made),
+        "version": weights.version,
+    }
+    try:
+        note = json.dumps(about, sort_keys=True, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise TypeError(f"made must hold only what JSON knows: {error}") from None
+    contiguous = {name: np.ascontiguousarray(array) for name, array in tensors.items()}
+    with files.whole(path) as file:
+        file.write(save(contiguous, metadata={"robonav": note}))
+
+
+def load_weights(path: str | Path) -> Weights:
+    """Read what :func:`save_weights` wrote.
+
+    Raises
+    ------
+    FileNotFoundError : if there is no such file.
+    ValueError : if it is no safetensors file, not one of ours, of another format, or does not hold a network.
+    """
+    name = Path(path).name
+    try:
+        with safe_open(str(path), framework="numpy") as file:
+            note = (file.metadata() or {}).get("robonav")
+            tensors = {key: file.get_tensor(key) for key in file.keys()}  # noqa: SIM118 - not a mapping
+    except (SafetensorError, TypeError, ValueError):
+        raise ValueError(f"{name} is not a whole safetensors file") from None
+    about = _about(name, note)
+    layers = len(tensors) // 2
+    try:
+        network = Network(
+            tuple(tensors.pop(f"weights.{layer}") for layer in range(1, layers + 1)),
+            tuple(tensors.pop(f"biases.{layer}") for layer in range(1, layers + 1)),
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"{name} does not hold a network: {error}") from None
+    if tensors:
+        raise ValueError(f"{name} does not hold a network: it has {', '.join(sorted(tensors))} besides")
+    return Weights(network, about["method"], about["encoding"], about["made"], about["version"])
+
+
+def _about(name: str, note: str | None) -> dict[str, Any]:
+    """What made the weights, checked: one sentence for a foreign file, one for another version."""
+    if note is None:
+        raise ValueError(f"{name} was not written by robonav: it does not say what made it")
+    try:
+        about = json.loads(note)
+        written = about["format"]
+    except (ValueError, TypeError, KeyError, RecursionError):
+        raise ValueError(f"{name} was not written by robonav: its note cannot be read") from None
+    if written != FORMAT:
+        raise ValueError(f"{name} has the format {written!r}, expected {FORMAT!r}")
+    kinds = {"method": str, "encoding": str, "made": dict, "version": str}
+    wrong = [key for key, kind in kinds.items() if not isinstance(about.get(key), kind)]
+    if wrong:
+        raise ValueError(f"{name} does not say its {', '.join(wrong)}")
+    return about
