@@ -1,0 +1,96 @@
+"""Features of a state and an action, for values that are linear in them (Eq. (4.3)).
+
+A feature map is anything callable as ``features(state) -> (A, n)``: the n numbers f_1(s, a) ... f_n(s, a) for each of
+the A actions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from robonav import expect
+
+Features = Callable[[Any], NDArray[np.float64]]
+
+
+def for_each_action(state_features: NDArray[np.float64], actions: int) -> NDArray[np.float64]:
+    """State features (d,) with their own weights for each action: (A, A * d), zero but for the action's block."""
+    return np.kron(np.eye(actions), state_features).astype(float)
+
+
+@dataclass(frozen=True)
+class OneHot:
+    """One feature for each state and action: a table, written as a linear function. States are numbers from 0."""
+
+    states: int
+    actions: int
+
+    def __post_init__(self) -> None:
+        expect.integer("states", self.states, at_least=1)
+        expect.integer("actions", self.actions, at_least=1)
+
+    def __call__(self, state: int) -> NDArray[np.float64]:
+        return for_each_action(np.eye(1, self.states, state)[0], self.actions)
+
+
+@dataclass(frozen=True)
+class Tiles:
+    """Tile coding: several grids laid over the state, each shifted a little; one feature for each tile and action.
+
+    A state is in one tile of each tiling, so that neighbours share most of their tiles, and what is learned in one
+    place is half known next to it. With k tilings divide the learning rate by k.
+
+    Attributes
+    ----------
+    low, high : bounds of the state's d coordinates; what lies outside counts as on the edge.
+    tiles : tiles along each coordinate, (d,).
+    tilings : how many grids. The i-th is shifted by i / tilings of a tile along the first coordinate, three times that
+        along the second, five times along the third ...: odd numbers keep the tilings apart in every direction
+        (Sutton and Barto 2018, 9.5.4).
+    actions : A.
+    """
+
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    tiles: tuple[int, ...]
+    tilings: int
+    actions: int
+
+    def __post_init__(self) -> None:
+        low = expect.array("low", self.low, shape=("d",))
+        high = expect.array("high", self.high, shape=low.shape)
+        if not (low < high).all():
+            raise ValueError(f"low must be below high in every coordinate, got {self.low} and {self.high}")
+        for tiles in expect.array("tiles", self.tiles, shape=low.shape, dtype=int):
+            expect.integer("tiles", tiles, at_least=1)
+        expect.integer("tilings", self.tilings, at_least=1)
+        expect.integer("actions", self.actions, at_least=1)
+
+    @cached_property
+    def shape(self) -> tuple[int, ...]:
+        """(tilings, tiles along each coordinate + 1): the shift makes room for one more."""
+        return (self.tilings, *(tiles + 1 for tiles in self.tiles))
+
+    @cached_property
+    def shifts(self) -> NDArray[np.float64]:
+        """(tilings, d) how far each tiling is shifted, in tiles."""
+        odd = 2 * np.arange(len(self.tiles)) + 1
+        return np.outer(np.arange(self.tilings), odd) % self.tilings / self.tilings
+
+    def active(self, state: ArrayLike) -> NDArray[np.int64]:
+        """(tilings,) the number of the tile that holds the state, in each tiling."""
+        low, high = np.asarray(self.low), np.asarray(self.high)
+        place = (np.clip(state, low, high) - low) / (high - low) * self.tiles  # in tiles
+        cells = np.minimum((place + self.shifts).astype(int), self.tiles)
+        return np.ravel_multi_index((np.arange(self.tilings), *cells.T), self.shape)
+
+    def __call__(self, state: ArrayLike) -> NDArray[np.float64]:
+        found = np.zeros(int(np.prod(self.shape)))
+        found[self.active(state)] = 1.0
+        return for_each_action(found, self.actions)

@@ -1,0 +1,68 @@
+"""Epsilon-greedy choice and falling rates."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from robonav.mdp import (
+    epsilon_greedy,
+    exponential_decay,
+    harmonic_decay,
+    linear_decay,
+    polynomial_decay,
+)
+from robonav.mdp.exploration import EpsilonGreedy, constant
+
+VALUES = arrays(float, st.tuples(st.integers(1, 6), st.integers(1, 5)), elements=st.sampled_from([-1.0, 0.0, 2.5]))
+
+
+def test_epsilon_greedy_by_hand():
+    np.testing.assert_allclose(
+        epsilon_greedy([[1, 3, 2, 0], [5, 5, 0, 0]], 0.2), [[0.05, 0.85, 0.05, 0.05], [0.45, 0.45, 0.05, 0.05]]
+    )
+
+
+@given(VALUES, st.floats(0, 1))
+def test_epsilon_greedy_is_a_policy_that_favours_the_best(q, epsilon):
+    policy = epsilon_greedy(q, epsilon)
+    np.testing.assert_allclose(policy.sum(axis=1), 1)
+    assert (policy >= epsilon / q.shape[1] - 1e-12).all()
+    assert ((policy * q).sum(axis=1) >= q.mean(axis=1) - 1e-9).all()
+
+
+@pytest.mark.parametrize("values", [[0.0, 1.0, 0.5], [2.0, 2.0, 1.0], [0.0, 0.0, 0.0]])
+@pytest.mark.parametrize("epsilon", [0.0, 0.3, 1.0])
+def test_the_quick_draw_follows_the_policy(values, epsilon):
+    choose = EpsilonGreedy(epsilon, np.random.default_rng(1))
+    choose.begin(0)
+    drawn = np.bincount([choose(values) for _ in range(20_000)], minlength=3) / 20_000
+    np.testing.assert_allclose(drawn, epsilon_greedy(values, epsilon), atol=0.015)
+    assert choose.expected(values) == pytest.approx(epsilon_greedy(values, epsilon) @ values)
+
+
+def test_epsilon_follows_its_schedule():
+    choose = EpsilonGreedy(linear_decay(1.0, 0.0, 10), np.random.default_rng(0))
+    seen = []
+    for episode in range(12):
+        choose.begin(episode)
+        seen.append(choose.epsilon)
+    np.testing.assert_allclose(seen, [1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0, 0], atol=1e-12)
+
+
+def test_decays_by_hand():
+    assert constant(0.3)(10**6) == 0.3
+    assert exponential_decay(1.0, 0.2, 5)(5) == pytest.approx(0.6)
+    assert exponential_decay(1.0, 0.2, 5)(10) == pytest.approx(0.4)
+    assert [harmonic_decay()(n) for n in range(3)] == [1, 1 / 2, pytest.approx(1 / 3)]
+    assert harmonic_decay(0.5, 10)(10) == pytest.approx(0.25)
+    assert polynomial_decay(0.5)(3) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("epsilon", [-0.1, 1.1, float("nan")])
+def test_epsilon_outside_its_range_is_refused(epsilon):
+    with pytest.raises(ValueError, match="epsilon"):
+        EpsilonGreedy(epsilon, np.random.default_rng(0))
+    with pytest.raises(ValueError, match="epsilon"):
+        EpsilonGreedy(lambda episode: epsilon, np.random.default_rng(0)).begin(0)
