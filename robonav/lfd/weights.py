@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +13,9 @@ from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save
 
 from robonav import __version__, files
+from robonav.robot.encoding import Encoder
 
-from .network import Network
+from .network import Array, Network
 
 FORMAT = "robonav weights 1"
 
@@ -27,16 +28,25 @@ class Weights:
     ----------
     network : the network, or a stack of them.
     method : how it was trained: ``"lfd"``, ``"nnql"``, ...
-    encoding : how raw sensing becomes the network's inputs.
+    encoder : how raw sensing becomes the network's inputs.
     made : anything else that it takes to train it again (seed, number of demonstrations, ...), as JSON knows it.
     version : of robonav, when it was trained.
+
+    Raises
+    ------
+    ValueError : if the encoder gives another number of inputs than the network takes.
     """
 
     network: Network
     method: str
-    encoding: str
+    encoder: Encoder
     made: Mapping[str, Any] = field(default_factory=dict)
     version: str = __version__
+
+    def __post_init__(self) -> None:
+        given, taken = self.encoder.size, self.network.sizes[0]
+        if given != taken:
+            raise ValueError(f"network must take the {given} inputs its encoder gives, got one of {taken}")
 
 
 def save_weights(path: str | Path, weights: Weights) -> None:
@@ -54,7 +64,7 @@ def save_weights(path: str | Path, weights: Weights) -> None:
     about = {
         "format": FORMAT,
         "method": weights.method,
-        "encoding": weights.encoding,
+        "encoder": asdict(weights.encoder),
         "made": dict(weights.made),
         "version": weights.version,
     }
@@ -83,17 +93,23 @@ def load_weights(path: str | Path) -> Weights:
     except (SafetensorError, TypeError, ValueError):
         raise ValueError(f"{name} is not a whole safetensors file") from None
     about = _about(name, note)
-    layers = len(tensors) // 2
     try:
-        network = Network(
-            tuple(tensors.pop(f"weights.{layer}") for layer in range(1, layers + 1)),
-            tuple(tensors.pop(f"biases.{layer}") for layer in range(1, layers + 1)),
-        )
+        network = _network(tensors)
+        encoder = about["encoder"]
+        encoder = Encoder(tuple(encoder["sensors"]), encoder["walls"], encoder["target"])
+        return Weights(network, about["method"], encoder, about["made"], about["version"])
     except (KeyError, TypeError, ValueError) as error:
-        raise ValueError(f"{name} does not hold a network: {error}") from None
-    if tensors:
-        raise ValueError(f"{name} does not hold a network: it has {', '.join(sorted(tensors))} besides")
-    return Weights(network, about["method"], about["encoding"], about["made"], about["version"])
+        raise ValueError(f"{name} does not hold a network and its encoder: {error}") from None
+
+
+def _network(tensors: dict[str, Array]) -> Network:
+    """The network in numbered tensors; KeyError or ValueError if they are not one."""
+    layers = range(1, len(tensors) // 2 + 1)
+    names = [f"{kind}.{layer}" for kind in ("weights", "biases") for layer in layers]
+    if set(names) != set(tensors):
+        raise ValueError(f"its tensors are {', '.join(sorted(tensors))}")
+    arrays = [tensors[name] for name in names]
+    return Network(tuple(arrays[: len(layers)]), tuple(arrays[len(layers) :]))
 
 
 def _about(name: str, note: str | None) -> dict[str, Any]:
@@ -107,7 +123,7 @@ def _about(name: str, note: str | None) -> dict[str, Any]:
         raise ValueError(f"{name} was not written by robonav: its note cannot be read") from None
     if written != FORMAT:
         raise ValueError(f"{name} has the format {written!r}, expected {FORMAT!r}")
-    kinds = {"method": str, "encoding": str, "made": dict, "version": str}
+    kinds = {"method": str, "encoder": dict, "made": dict, "version": str}
     wrong = [key for key, kind in kinds.items() if not isinstance(about.get(key), kind)]
     if wrong:
         raise ValueError(f"{name} does not say its {', '.join(wrong)}")

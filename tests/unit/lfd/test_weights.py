@@ -9,36 +9,39 @@ from safetensors.numpy import save_file
 from robonav import __version__
 from robonav.lfd.network import random_network, stacked
 from robonav.lfd.weights import Weights, load_weights, save_weights
+from robonav.robot import NNQL_SENSORS, Encoder
+
+ELEVEN = Encoder(target="number")
+SIXTEEN = Encoder(NNQL_SENSORS, walls=True, target="signed")
 
 MADE = {"seed": 3, "demonstrations": 25, "speed": 2.0, "note": "margin 5 m"}
 
 
-@pytest.mark.parametrize("sizes", [(11, 8, 5), (2, 1), (3, 4, 4, 2)])
-def test_weights_go_through_a_file_unchanged(tmp_path, sizes):
-    network = random_network(sizes, seed=0)
-    save_weights(tmp_path / "w.safetensors", Weights(network, "lfd", "sine and cosine", MADE))
+@pytest.mark.parametrize(("encoder", "hidden"), [(ELEVEN, (8,)), (SIXTEEN, (8,)), (Encoder(), ()), (ELEVEN, (4, 4))])
+def test_weights_go_through_a_file_unchanged(tmp_path, encoder, hidden):
+    network = random_network((encoder.size, *hidden, 5), seed=0)
+    save_weights(tmp_path / "w.safetensors", Weights(network, "lfd", encoder, MADE))
     loaded = load_weights(tmp_path / "w.safetensors")
-    for ours, theirs in zip(
-        network.weights + network.biases, loaded.network.weights + loaded.network.biases, strict=True
-    ):
+    again = loaded.network
+    for ours, theirs in zip(network.weights + network.biases, again.weights + again.biases, strict=True):
         np.testing.assert_array_equal(ours, theirs)
-    assert (loaded.method, loaded.encoding, loaded.made, loaded.version) == (
-        "lfd",
-        "sine and cosine",
-        MADE,
-        __version__,
-    )
+    assert (loaded.method, loaded.encoder, loaded.made, loaded.version) == ("lfd", encoder, MADE, __version__)
 
 
 def test_a_stack_goes_through_a_file_too(tmp_path):
-    networks = stacked([random_network((3, 2), seed=seed) for seed in range(4)])
-    save_weights(tmp_path / "w", Weights(networks, "dqn", "one-hot"))
+    networks = stacked([random_network((16, 5), seed=seed) for seed in range(4)])
+    save_weights(tmp_path / "w", Weights(networks, "dqn", SIXTEEN))
     assert load_weights(tmp_path / "w").network.stack == (4,)
+
+
+def test_network_and_encoder_have_to_fit():
+    with pytest.raises(ValueError, match="network must take the 12 inputs its encoder gives, got one of 11"):
+        Weights(random_network((11, 8, 5), seed=0), "lfd", Encoder())
 
 
 def test_the_same_weights_give_the_same_small_file(tmp_path):
     for name in ("a", "b"):
-        save_weights(tmp_path / name, Weights(random_network((11, 8, 5), seed=0), "lfd", "plain", MADE))
+        save_weights(tmp_path / name, Weights(random_network((11, 8, 5), seed=0), "lfd", ELEVEN, MADE))
     first = (tmp_path / "a").read_bytes()
     assert first == (tmp_path / "b").read_bytes()
     assert len(first) < 3000
@@ -46,16 +49,19 @@ def test_the_same_weights_give_the_same_small_file(tmp_path):
 
 def test_what_json_does_not_know_is_refused_before_anything_is_written(tmp_path):
     with pytest.raises(TypeError, match="made must hold only what JSON knows"):
-        save_weights(tmp_path / "w", Weights(random_network((3, 2), seed=0), "lfd", "plain", {"seed": np.int64(3)}))
+        save_weights(tmp_path / "w", Weights(random_network((11, 2), seed=0), "lfd", ELEVEN, {"seed": np.int64(3)}))
     assert not (tmp_path / "w").exists()
 
 
+ENCODER = {"sensors": list(range(1, 10)), "walls": False, "target": "number"}
+
+
 def note(**change):
-    about = {"format": "robonav weights 1", "method": "lfd", "encoding": "plain", "made": {}, "version": "0.1.0"}
+    about = {"format": "robonav weights 1", "method": "lfd", "encoder": ENCODER, "made": {}, "version": "0.1.0"}
     return {"robonav": json.dumps(about | change)}
 
 
-GOOD = {"weights.1": np.ones((2, 3)), "biases.1": np.ones(2)}
+GOOD = {"weights.1": np.ones((2, 11)), "biases.1": np.ones(2)}
 
 
 @pytest.mark.parametrize(
@@ -67,10 +73,14 @@ GOOD = {"weights.1": np.ones((2, 3)), "biases.1": np.ones(2)}
         (GOOD, {"robonav": "[" * 100_000}, "its note cannot be read"),
         (GOOD, note(format="robonav weights 2"), "has the format 'robonav weights 2', expected 'robonav weights 1'"),
         (GOOD, note(method=3, made=[]), "does not say its method, made"),
-        ({"weights.1": np.ones((2, 3))}, note(), "does not hold a network"),
+        ({"weights.1": np.ones((2, 11))}, note(), "does not hold a network"),
         (GOOD | {"more": np.ones(1)}, note(), "does not hold a network"),
-        ({"weights.1": np.ones((2, 3)), "biases.1": np.ones(3)}, note(), r"biases\[0\] must have shape \(2,\)"),
-        ({"weights.1": np.full((2, 3), np.nan), "biases.1": np.ones(2)}, note(), "finite numbers only"),
+        ({"weights.1": np.ones((2, 11)), "biases.1": np.ones(3)}, note(), r"biases\[0\] must have shape \(2,\)"),
+        (GOOD, note(encoder={}), "does not hold a network and its encoder: 'sensors'"),
+        (GOOD, note(encoder=ENCODER | {"sensors": ["1"]}), "sensors must be a whole number"),
+        (GOOD, note(encoder=ENCODER | {"target": "angle"}), "target must be one of"),
+        (GOOD, note(encoder=ENCODER | {"walls": True}), "network must take the 20 inputs"),
+        ({"weights.1": np.full((2, 11), np.nan), "biases.1": np.ones(2)}, note(), "finite numbers only"),
     ],
 )
 def test_files_that_are_not_ours_are_refused(tmp_path, tensors, metadata, message):
@@ -83,7 +93,7 @@ def test_files_that_are_not_ours_are_refused(tmp_path, tensors, metadata, messag
 
 @pytest.mark.parametrize("keep", [0, 7, 100, -1])
 def test_a_cut_or_foreign_file_is_refused(tmp_path, keep):
-    save_weights(tmp_path / "w", Weights(random_network((11, 8, 5), seed=0), "lfd", "plain"))
+    save_weights(tmp_path / "w", Weights(random_network((11, 8, 5), seed=0), "lfd", ELEVEN))
     (tmp_path / "cut").write_bytes((tmp_path / "w").read_bytes()[:keep])
     with pytest.raises(ValueError, match="cut is not a whole safetensors file"):
         load_weights(tmp_path / "cut")
