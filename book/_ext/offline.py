@@ -1,7 +1,7 @@
 """Keep the pages free of anything that is loaded from elsewhere.
 
-The front-end files that a page needs are committed under ``book/_static/third-party``; what the theme and matplotlib
-would still fetch, or would run without need, is taken out here.
+The front-end files that a page needs are committed under ``book/_static/third-party``; what Jupyter Book
+would still load without need is taken out here.
 """
 
 from __future__ import annotations
@@ -14,8 +14,6 @@ from sphinx.application import Sphinx
 
 # sphinx-thebe is loaded by Jupyter Book, is off in this book, and fails twice on every page if its tags stay.
 UNWANTED_SCRIPT = re.compile(r"thebe", re.IGNORECASE)
-# matplotlib's animation player asks a CDN for icons that the theme already brings.
-ICON_LINK = re.compile(r"<link\b[^>]*font-awesome[^>]*>\s*", re.IGNORECASE)
 
 
 def drop_unwanted_scripts(
@@ -29,14 +27,6 @@ def drop_unwanted_scripts(
     ]
 
 
-def drop_icon_links(app: Sphinx, doctree: nodes.document, page: str) -> None:
-    """Take links to icon fonts out of raw HTML, as cells put it on a page."""
-    for raw in doctree.findall(nodes.raw):
-        if raw.get("format") == "html" and ICON_LINK.search(raw.astext()):
-            raw.replace_self(nodes.raw("", ICON_LINK.sub("", raw.astext()), **raw.attributes))
-
-
 def setup(app: Sphinx) -> dict[str, bool]:
     app.connect("html-page-context", drop_unwanted_scripts, priority=900)
-    app.connect("doctree-resolved", drop_icon_links)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,7 +1,7 @@
 """Run notebooks again when the package changes.
 
-Executed notebooks are kept in a cache that knows a notebook's own cells, not the code they import. The cache's folder is
-therefore named after a digest of the package, and pages are read anew when the digest is another.
+Executed notebooks are kept in a cache that knows a notebook's own cells, not the code they import. The cache's folder
+is therefore named after a digest of the package, and pages are read anew when the digest is another.
 """
 
 from __future__ import annotations

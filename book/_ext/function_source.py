@@ -1,0 +1,73 @@
+"""Show the very function that runs: ``{source} robonav.mdp.value_iteration``.
+
+The directive puts a function's or class's source on the page, read from the package as it is imported, so a page
+cannot show an old copy. The docstring is left out, since the page's text takes its place; ``:docstring:`` keeps it.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import inspect
+import textwrap
+from pathlib import Path
+from typing import Any, ClassVar
+
+from docutils import nodes
+from docutils.parsers.rst import directives
+from sphinx.application import Sphinx
+from sphinx.directives.code import container_wrapper
+from sphinx.util.docutils import SphinxDirective
+
+
+def resolve(name: str) -> Any:
+    """The object of a dotted name: module first, then attributes."""
+    parts = name.split(".")
+    for cut in range(len(parts), 0, -1):
+        try:
+            found = importlib.import_module(".".join(parts[:cut]))
+        except ModuleNotFoundError:
+            continue
+        for attribute in parts[cut:]:
+            found = getattr(found, attribute)
+        return inspect.unwrap(getattr(found, "py_func", found))
+    raise ImportError(f"no module in {name!r} can be imported")
+
+
+def without_docstring(source: str) -> str:
+    """The same source with the docstring of its outermost definition cut out."""
+    definition = ast.parse(source).body[0]
+    if not isinstance(definition, ast.FunctionDef | ast.ClassDef) or ast.get_docstring(definition) is None:
+        return source
+    docstring = definition.body[0]
+    lines = source.splitlines(keepends=True)
+    after = docstring.end_lineno or docstring.lineno
+    while after < len(lines) and not lines[after].strip():
+        after += 1
+    return "".join(lines[: docstring.lineno - 1] + lines[after:])
+
+
+class FunctionSource(SphinxDirective):
+    """The directive ``{source}``."""
+
+    required_arguments = 1
+    option_spec: ClassVar[dict[str, Any]] = {"docstring": directives.flag}
+
+    def run(self) -> list[nodes.Node]:
+        name = self.arguments[0]
+        try:
+            found = resolve(name)
+            source = textwrap.dedent(inspect.getsource(found))
+            path = Path(inspect.getsourcefile(found) or "")
+        except (ImportError, AttributeError, TypeError, OSError) as error:
+            raise self.error(f"cannot show the source of {name}: {error}") from error
+        self.env.note_dependency(str(path))
+        if "docstring" not in self.options:
+            source = without_docstring(source)
+        code = nodes.literal_block(source, source, language="python", classes=["function-source"])
+        return [container_wrapper(self, code, f"`{name}`")]
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.add_directive("source", FunctionSource)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

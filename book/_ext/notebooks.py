@@ -1,0 +1,109 @@
+"""Each notebook page as an ``.ipynb`` to take away, offered by the page's download button.
+
+Pages are written in MyST, which a plain Jupyter shows as raw text in places; the notebook that is handed out is
+therefore put into plain Markdown, with equation numbers kept and solutions left out.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import jupytext
+import nbformat
+from docutils import nodes
+from sphinx.application import Sphinx
+from thesis_numbers import thesis_number
+
+FENCE = re.compile(
+    r"^(?P<fence>`{3,}|:{3,})\{(?P<name>[\w:.-]+)\} *(?P<title>[^\n]*)\n(?P<body>.*?)^(?P=fence)[ \t]*$", re.M | re.S
+)
+OPTIONS = re.compile(r"\A(?::[\w-]+:[^\n]*\n)+|\A---\n.*?\n---\n", re.S)
+DOLLARS = re.compile(r"^\$\$(?P<body>.*?)\$\$ *\((?P<label>[^()\n]+)\)[ \t]*$", re.M | re.S)
+ROLE = re.compile(r"\{(?P<name>[\w:.-]+)\}`(?P<text>[^`]+)`")
+TARGET = re.compile(r"^\([\w:. -]+\)=\n", re.M)
+KEY = re.compile(r"([a-z]+)(\d{4})[a-z]?")
+LEFT_OUT = ("solution", "solution-start", "solution-end", "exercise-end", "bibliography", "contents")
+
+
+def with_tag(tex: str, label: str | None) -> str:
+    """A displayed formula, numbered if its label holds a number of the thesis."""
+    number = thesis_number(label or "")
+    tag = f" \\tag{{{number}}}" if number else ""
+    return f"$$\n{tex.strip()}{tag}\n$$"
+
+
+def plain_directive(match: re.Match[str]) -> str:
+    """A directive in plain Markdown: formula, picture, code, or a quotation with a bold title."""
+    name, title, body = match["name"], match["title"].strip(), match["body"]
+    options = OPTIONS.match(body)
+    content = body[options.end() :] if options else body
+    if name in LEFT_OUT:
+        return ""
+    if name == "math":
+        label = re.search(r"^:label: *(\S+)", body, re.M)
+        return with_tag(content, label[1] if label else None)
+    if name in ("figure", "image"):
+        alt = re.search(r"^:alt: *(.+)$", body, re.M)
+        return f"![{alt[1] if alt else ''}]({title})\n\n{content.strip()}"
+    if name == "source":
+        return f"The code of this function: run `{title}??` in a cell (after `import robonav`)."
+    if name in ("code-block", "code"):
+        return f"```{title}\n{content}```"
+    heading = f"**{' '.join(filter(None, (name.removeprefix('prf:').capitalize(), title)))}**"
+    return "\n".join(f"> {line}".rstrip() for line in (heading, "", *plain(content).strip().splitlines()))
+
+
+def plain_role(match: re.Match[str]) -> str:
+    """A role in plain Markdown: what a reader would see of it."""
+    name, text = match["name"], match["text"]
+    if name == "eq":
+        return f"({thesis_number(text) or text})"
+    if name.startswith("cite"):
+        works = "; ".join(f"{author.capitalize()} {year}" for author, year in KEY.findall(text))
+        return works if name.startswith("cite:t") else f"({works})"
+    if name == "math":
+        return f"${text}$"
+    shown = re.fullmatch(r"(.*?)\s*<[^>]*>", text, re.S)
+    return shown[1] if shown else text
+
+
+def plain(markdown: str) -> str:
+    """MyST Markdown as a plain Jupyter shows it well."""
+    steps: list[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]]] = [
+        (FENCE, plain_directive),
+        (DOLLARS, lambda match: with_tag(match["body"], match["label"])),
+        (ROLE, plain_role),
+        (TARGET, ""),
+    ]
+    for pattern, replacement in steps:
+        markdown = pattern.sub(replacement, markdown)
+    return markdown
+
+
+def notebook_of(source: Path) -> nbformat.NotebookNode:
+    """The notebook of one page, without outputs."""
+    notebook = jupytext.read(source)
+    for index, cell in enumerate(notebook.cells):
+        cell["id"] = f"cell-{index}"
+        if cell.cell_type == "markdown":
+            cell.source = plain(cell.source)
+    notebook.metadata.pop("jupytext", None)
+    return notebook
+
+
+def offer(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: nodes.document | None) -> None:
+    """Write a notebook page's ``.ipynb`` beside its source and tell the theme, which adds the button."""
+    if doctree is None or "kernelspec" not in app.env.metadata.get(page, {}):
+        return
+    target = Path(app.outdir) / "_sources" / f"{page}.ipynb"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    nbformat.write(notebook_of(Path(app.env.doc2path(page))), target)
+    context["ipynb_source"] = f"{page}.ipynb"
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.connect("html-page-context", offer, priority=400)  # before the theme gathers its buttons
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

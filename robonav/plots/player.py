@@ -1,0 +1,44 @@
+"""A matplotlib animation as a player that works on a static page, with no network and for every reader."""
+
+from __future__ import annotations
+
+import html
+import re
+from typing import TYPE_CHECKING
+
+from robonav import expect
+
+if TYPE_CHECKING:
+    from IPython.display import HTML
+    from matplotlib.animation import Animation
+
+_ICON_FONT = re.compile(r"<link\b[^>]*font-awesome[^>]*>\s*", re.IGNORECASE)
+_BUTTON_TITLE = re.compile(r'<button title="([^"]+)"')
+
+
+def player(animation: Animation, *, description: str, frames_per_second: int = 8, loop: bool = True) -> HTML:
+    """The animation's frames with buttons and a slider, as the last value of a notebook cell.
+
+    Parameters
+    ----------
+    animation : what matplotlib's ``FuncAnimation`` or ``ArtistAnimation`` made.
+    description : what the animation shows, read out instead of the picture; not empty.
+    frames_per_second : speed at first; at least 1.
+    loop : start again at the end.
+
+    Raises
+    ------
+    ValueError : if ``description`` is empty or ``frames_per_second`` less than 1.
+    """
+    from IPython.display import HTML
+    from matplotlib import pyplot as plt
+
+    expect.integer("frames_per_second", frames_per_second, at_least=1)
+    if not description.strip():
+        raise ValueError("description must say what the animation shows, got an empty text")
+    page = animation.to_jshtml(fps=frames_per_second, default_mode="loop" if loop else "once")
+    plt.close("all")  # else the notebook shows the last frame once more
+    page = _ICON_FONT.sub("", page)
+    page = page.replace('<img id="_anim_img', f'<img alt="{html.escape(description)}" id="_anim_img')
+    page = page.replace('type="range" class="anim-slider"', 'type="range" aria-label="Frame" class="anim-slider"')
+    return HTML(_BUTTON_TITLE.sub(r'<button title="\1" aria-label="\1"', page))

@@ -1,0 +1,117 @@
+"""A headless Chromium that may reach nothing but this machine, and what a page did in it."""
+
+from __future__ import annotations
+
+import functools
+import re
+import shutil
+import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import BrowserContext, ConsoleMessage, Page, Route, sync_playwright
+
+ROOT = Path(__file__).resolve().parents[2]
+SITE = ROOT / "_build" / "html"
+
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+LOCAL = re.compile(r"(https?://(localhost|127\.0\.0\.1)[:/]|file:|data:|blob:)")
+DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
+
+FORMULAS_SET = "async () => { await window.MathJax?.startup?.promise }"
+WIDGETS_DRAWN = """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
+  .every((place) => place.parentElement.querySelector(".jupyter-widgets, .widget-subarea > *"))"""
+
+
+def executable() -> str | None:
+    """Where this machine's Chromium is, if it has one."""
+    return next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+
+
+@dataclass
+class Visit:
+    """One opened page, with what it asked of other machines and what it complained about."""
+
+    page: Page
+    external: list[str] = field(default_factory=list)
+    errors: list[str] = field(default_factory=list)
+
+    def open(self, address: str, *, settled: bool = True) -> Visit:
+        """Go to an address and wait until formulas and widgets are there."""
+        self.page.goto(address, wait_until="load")
+        if settled:
+            self.page.evaluate(FORMULAS_SET)
+            self.page.wait_for_function(WIDGETS_DRAWN, timeout=20_000)
+        return self
+
+
+def _watch(visit: Visit) -> None:
+    def route(request_route: Route) -> None:
+        address = request_route.request.url
+        if LOCAL.match(address):
+            request_route.continue_()
+        else:
+            visit.external.append(address)
+            request_route.abort()
+
+    def on_console(message: ConsoleMessage) -> None:
+        if message.type == "error":
+            visit.errors.append(f"{message.text} ({message.location.get('url', '')})")
+
+    visit.page.route("**/*", route)
+    visit.page.on("console", on_console)
+    visit.page.on("pageerror", lambda error: visit.errors.append(str(error)))
+
+
+@contextmanager
+def chromium(**options: Any) -> Iterator[BrowserContext]:
+    """A fresh browser; ``options`` are Playwright's, such as ``viewport`` or ``color_scheme``."""
+    with tempfile.TemporaryDirectory() as profile, sync_playwright() as playwright:
+        context = playwright.chromium.launch_persistent_context(
+            profile, executable_path=executable(), headless=True, args=FLAGS, **options
+        )
+        try:
+            yield context
+        finally:
+            context.close()
+
+
+@contextmanager
+def visiting(context: BrowserContext) -> Iterator[Visit]:
+    """A new page that is watched from its first request on."""
+    visit = Visit(context.new_page())
+    _watch(visit)
+    try:
+        yield visit
+    finally:
+        visit.page.close()
+
+
+class _Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, format: str, *arguments: Any) -> None:
+        """Say nothing of each request."""
+
+
+@contextmanager
+def served(folder: Path) -> Iterator[str]:
+    """A folder served on this machine alone; yields its address."""
+    handler = functools.partial(_Quiet, directory=str(folder))
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        try:
+            yield f"http://127.0.0.1:{server.server_address[1]}"
+        finally:
+            server.shutdown()

@@ -1,0 +1,56 @@
+"""The built book, served over http and read from disk, and a browser that cannot leave this machine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import yaml
+from browser import DESKTOP, ROOT, SITE, Visit, chromium, executable, served, visiting
+from check_site import pages
+from playwright.sync_api import BrowserContext
+
+PAGES = list(pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))))
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    if "page_name" in metafunc.fixturenames:
+        metafunc.parametrize("page_name", PAGES)
+
+
+@pytest.fixture(scope="session")
+def site() -> Path:
+    """The folder of the built book."""
+    if not (SITE / "index.html").is_file():
+        pytest.skip("the book is not built: run `make book` first")
+    return SITE
+
+
+@pytest.fixture(scope="session")
+def context(site: Path) -> Iterator[BrowserContext]:
+    """One desktop browser for all tests of a run."""
+    if executable() is None:
+        pytest.skip("Chromium is not installed")
+    with chromium(viewport=DESKTOP, color_scheme="light") as browser_context:
+        yield browser_context
+
+
+@pytest.fixture
+def visit(context: BrowserContext) -> Iterator[Visit]:
+    """A new, empty page."""
+    with visiting(context) as new:
+        yield new
+
+
+@pytest.fixture(scope="session")
+def http(site: Path) -> Iterator[str]:
+    """The address under which the book is served."""
+    with served(site) as address:
+        yield address
+
+
+@pytest.fixture(params=["http", "file"])
+def address(request: pytest.FixtureRequest, site: Path) -> str:
+    """The book's address over http and from disk."""
+    return request.getfixturevalue("http") if request.param == "http" else site.as_uri()

@@ -1,0 +1,67 @@
+"""Every page of the book as a reader with no network meets it, over http and from disk."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from browser import DESKTOP, PHONE, Visit
+from check_site import faults
+
+LARGEST_PAGE, LARGEST_SITE = 5e6, 60e6  # bytes; a page without what all pages share
+BROKEN = """() => ({
+  formulas: [...document.querySelectorAll("mjx-merror")].map((node) => node.textContent),
+  pictures: [...document.images].filter((image) => image.complete && !image.naturalWidth).map((image) => image.src),
+  unnamed: [...document.images].filter((image) => !image.alt && image.offsetParent).map((image) => image.src),
+})"""
+OVERHANG = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
+
+
+def test_page_was_built_whole(site: Path, page_name: str) -> None:
+    assert list(faults(page_name)) == []
+
+
+def test_page_is_quiet_and_complete(visit: Visit, address: str, page_name: str) -> None:
+    visit.open(f"{address}/{page_name}.html")
+    assert visit.external == []
+    assert visit.errors == []
+    assert visit.page.evaluate(BROKEN) == {"formulas": [], "pictures": [], "unnamed": []}
+
+
+def test_widgets_take_up_room(visit: Visit, http: str, page_name: str) -> None:
+    visit.open(f"{http}/{page_name}.html")
+    for place in visit.page.query_selector_all(".widget-subarea > *"):
+        box = place.bounding_box()
+        assert box is not None
+        assert box["height"] > 10
+
+
+def test_page_fits_a_phone(visit: Visit, http: str, page_name: str) -> None:
+    visit.page.set_viewport_size(PHONE)
+    visit.open(f"{http}/{page_name}.html")
+    assert visit.page.evaluate(OVERHANG) <= 1
+
+
+@pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_search_finds_a_page(visit: Visit, address: str, size: dict[str, int]) -> None:
+    visit.page.set_viewport_size(size)
+    visit.open(f"{address}/search.html?q=policy")
+    visit.page.wait_for_selector("#search-results ul.search li a")
+    assert visit.page.query_selector_all("#search-results ul.search li a[href*='book/intro.html']")
+    assert visit.external == []
+    assert visit.errors == []
+
+
+def test_first_page_leads_into_the_book(visit: Visit, address: str) -> None:
+    visit.page.goto(f"{address}/index.html")
+    visit.page.wait_for_url("**/book/intro.html")
+
+
+def test_page_is_light(site: Path, page_name: str) -> None:
+    built = site / f"{page_name}.html"
+    images = {tag for tag in site.glob("_images/*") if tag.name in built.read_text("utf-8")}
+    assert built.stat().st_size + sum(image.stat().st_size for image in images) <= LARGEST_PAGE
+
+
+def test_site_is_light(site: Path) -> None:
+    assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) <= LARGEST_SITE

@@ -1,0 +1,47 @@
+"""The animation player: named for every reader, and nothing fetched from elsewhere."""
+
+from __future__ import annotations
+
+import re
+
+import matplotlib as mpl
+import pytest
+
+mpl.use("agg")
+
+from matplotlib import pyplot as plt
+from matplotlib.animation import FuncAnimation
+
+from robonav.plots.player import player
+
+
+def moving_dot() -> FuncAnimation:
+    figure, axes = plt.subplots(figsize=(1, 1))
+    (dot,) = axes.plot([0], [0], "o")
+    return FuncAnimation(figure, lambda frame: dot.set_data([frame], [frame]), frames=2)
+
+
+def test_picture_slider_and_buttons_have_names():
+    page = player(moving_dot(), description='A "dot" moves.').data
+    assert re.search(r'<img alt="A &quot;dot&quot; moves." id="_anim_img', page)
+    assert re.search(r'<input[^>]*type="range"[^>]*aria-label="Frame"', page)
+    assert all("aria-label" in tag for tag in re.findall(r"<button[^>]*>", page))
+
+
+def test_nothing_comes_from_elsewhere():
+    assert not re.search(r'(src|href)="https?:', player(moving_dot(), description="A dot moves.").data)
+
+
+def test_no_figure_is_left_open():
+    player(moving_dot(), description="A dot moves.")
+    assert plt.get_fignums() == []
+
+
+def test_description_and_speed_are_checked():
+    animation = moving_dot()
+    with pytest.raises(ValueError, match="description must say"):
+        player(animation, description=" ")
+    with pytest.raises(ValueError, match="frames_per_second must be at least 1"):
+        player(animation, description="A dot moves.", frames_per_second=0)
+    animation._draw_was_started = True  # matplotlib warns of animations that are never drawn
+    plt.close("all")
