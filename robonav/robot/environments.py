@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
+from types import FrameType
 from typing import Any, ClassVar
 
 import gymnasium
@@ -219,6 +221,7 @@ class NavigationEnv(gymnasium.Env):
     def __init__(self, *, render_mode: str | None = None, max_episode_steps: int = MAX_STEPS, **settings: Any) -> None:
         self.render_mode = expect.one_of("render_mode", render_mode, [None, *self.metadata["render_modes"]])
         self.batch = NavigationVectorEnv(1, max_episode_steps=max_episode_steps, **settings)
+        self._max_episode_steps = max_episode_steps
         self.observation_space = self.batch.single_observation_space
         self.action_space = self.batch.single_action_space
         self._window: Any = None
@@ -230,8 +233,7 @@ class NavigationEnv(gymnasium.Env):
         super().reset(seed=seed)
         self.batch.seed(seed)
         self._np_random = self.batch.np_random
-        if self.spec is not None and self.spec.max_episode_steps is not None:
-            self.batch.max_episode_steps = self.spec.max_episode_steps
+        self.batch.max_episode_steps = _limit_of_callers(default=self._max_episode_steps)
         observation, info = self.batch.reset(options=options)
         if self.render_mode == "human":
             self.render()
@@ -263,6 +265,24 @@ class NavigationEnv(gymnasium.Env):
         if self._window is not None:
             self._window.close()
             self._window = None
+
+
+def _limit_of_callers(default: int) -> int:
+    """The steps allowed by a ``TimeLimit`` wrapper that is calling ``reset``, else the default.
+
+    ``gymnasium.make(..., max_episode_steps=5)`` tells the wrapper and not the environment, whose ``info`` is to say
+    "out of steps" when the wrapper truncates. So the one who calls is asked.
+    """
+    frame: FrameType | None = sys._getframe(2)
+    for _ in range(10):  # wrappers, each a frame or two, stand between the two
+        if frame is None:
+            break
+        caller = frame.f_locals.get("self")
+        if isinstance(caller, gymnasium.wrappers.TimeLimit):
+            limit: int = caller._max_episode_steps
+            return limit
+        frame = frame.f_back
+    return default
 
 
 def _first(observation: dict[str, Any]) -> dict[str, Any]:

@@ -264,7 +264,11 @@ def _sense_borders(size, x, y, heading, rays, ranges, walls):
 
     In a sector the nearest border point is a wall's nearest point or lies on one of the sector's rays.
     """
-    if min(min(x, size - x), min(y, size - y)) >= SENSOR_RANGE:
+    margin = min(min(x, size - x), min(y, size - y))
+    if margin >= SENSOR_RANGE:
+        return
+    if margin <= 0.0:  # it went through a wall, and has collided
+        ranges[:], walls[:] = 0.0, True
         return
     c, s = math.cos(heading), math.sin(heading)
     for distance, nx, ny in ((x, -1.0, 0.0), (size - x, 1.0, 0.0), (y, 0.0, -1.0), (size - y, 0.0, 1.0)):

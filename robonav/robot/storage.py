@@ -31,7 +31,7 @@ def load_worlds(path: str | Path) -> Worlds:
     ValueError : if the file is damaged, of another format, or its worlds are not valid.
     """
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
     except (ValueError, OSError, EOFError, KeyError, zipfile.BadZipFile) as error:
         if isinstance(error, FileNotFoundError):
