@@ -1,1 +1,42 @@
 """Chapter 3: learning from demonstration."""
+
+from .backpropagation import (
+    CROSS_ENTROPY,
+    SQUARED_ERROR,
+    Objective,
+    backpropagate,
+    cross_entropy_cost,
+    cross_entropy_gradient,
+    squared_error_cost,
+    squared_error_gradient,
+)
+from .history import Training, accuracy
+from .network import Network, propagate, random_network, sigmoid, sigmoid_slope, stacked
+from .training import fit, gradient_descent, lbfgs, one_hot
+from .weights import Weights, load_weights, save_weights
+
+__all__ = [
+    "CROSS_ENTROPY",
+    "SQUARED_ERROR",
+    "Network",
+    "Objective",
+    "Training",
+    "Weights",
+    "accuracy",
+    "backpropagate",
+    "cross_entropy_cost",
+    "cross_entropy_gradient",
+    "fit",
+    "gradient_descent",
+    "lbfgs",
+    "load_weights",
+    "one_hot",
+    "propagate",
+    "random_network",
+    "save_weights",
+    "sigmoid",
+    "sigmoid_slope",
+    "squared_error_cost",
+    "squared_error_gradient",
+    "stacked",
+]

@@ -1,0 +1,126 @@
+"""Networks, their training, and what they answer: Fig. 3.1-3.3 and 3.7."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LinearSegmentedColormap, to_rgba
+from numpy.typing import ArrayLike, NDArray
+
+from robonav import look
+from robonav.lfd.history import Training
+from robonav.lfd.network import Network
+from robonav.lfd.toys import EXTENT
+
+NO, YES = look.BLUE, look.ORANGE
+NEGATIVE, POSITIVE = look.VERMILION, look.BLUE
+ANSWERS = LinearSegmentedColormap.from_list(
+    "answers",
+    list(zip((0, 0.5, 0.5, 1), (to_rgba(NO, 0.45), to_rgba(NO, 0), to_rgba(YES, 0), to_rgba(YES, 0.5)), strict=True)),
+)
+
+
+def unit_positions(sizes: Sequence[int]) -> list[NDArray[np.float64]]:
+    """Where the units of each layer stand, (s[l] + 1, 2), the bias unit first, on top; the output layer has none."""
+    last = len(sizes) - 1
+    layers = []
+    for layer, size in enumerate(sizes):
+        count = size + (layer < last)
+        layers.append(np.column_stack([np.full(count, float(layer)), (count - 1) / 2 - np.arange(count)]))
+    return layers
+
+
+def draw_network(
+    axes: Axes,
+    sizes: Sequence[int],
+    *,
+    network: Network | None = None,
+    inputs: Sequence[str] | None = None,
+    outputs: Sequence[str] | None = None,
+) -> None:
+    """A network as circles and lines, bias units marked +1 (Fig. 3.1, 3.2, 3.3).
+
+    Parameters
+    ----------
+    axes : where to draw.
+    sizes : units of each layer, without bias units.
+    network : of these sizes; its lines are then as thick as their weights, blue where positive and red where negative.
+    inputs, outputs : names of the units of the first and the last layer; by default x and h.
+    """
+    layers = unit_positions(sizes)
+    for layer, (here, there) in enumerate(pairwise(layers)):
+        ends = there[1:] if layer + 2 < len(layers) else there
+        lines = [[start, end] for end in ends for start in here]
+        axes.add_collection(LineCollection(lines, zorder=1, **_line_style(network, layer)))
+    tallest = max(map(len, layers)) / 2
+    for layer, positions in enumerate(layers):
+        bias = layer + 1 < len(layers)
+        axes.scatter(positions[bias:, 0], positions[bias:, 1], 210, facecolor=look.SKY, edgecolor=look.INK, zorder=2)
+        if bias:
+            axes.scatter(positions[0, 0], positions[0, 1], 210, facecolor=look.OBSTACLE, edgecolor=look.INK, zorder=2)
+            axes.annotate("+1", positions[0], ha="center", va="center", fontsize=8, color="white", zorder=3)
+        axes.annotate(f"$L_{layer + 1}$", (layer, -tallest - 0.3), ha="center", va="top")
+    first = inputs or [f"$x_{{{unit + 1}}}$" for unit in range(sizes[0])]
+    last = outputs or [f"$h_{{{unit + 1}}}$" for unit in range(sizes[-1])]
+    for name, position in zip(first, layers[0][1:], strict=True):
+        axes.annotate(name, position, (-11, 0), textcoords="offset points", ha="right", va="center")
+    for name, position in zip(last, layers[-1], strict=True):
+        axes.annotate(name, position, (11, 0), textcoords="offset points", ha="left", va="center")
+    axes.set(xlim=(-0.7, len(sizes) - 0.3), ylim=(-tallest - 1, tallest + 0.1))
+    axes.axis("off")
+
+
+def _line_style(network: Network | None, layer: int) -> dict[str, Any]:
+    """Even grey lines, or lines that show the weights and, from the bias unit, the bias."""
+    if network is None:
+        return {"colors": look.INK, "linewidths": 0.7}
+    values = np.column_stack([network.biases[layer], network.weights[layer]]).ravel()
+    strength = np.abs(values) / max(np.abs(values).max(), 1e-12)
+    return {
+        "colors": np.where(values >= 0, POSITIVE, NEGATIVE),
+        "linewidths": 0.2 + 2.8 * strength,
+        "alpha": 0.15 + 0.85 * strength,
+    }
+
+
+def plot_costs(axes: Axes, trainings: Mapping[str, Training], *, colours: Mapping[str, str] | None = None) -> None:
+    """Cost against iterations, a named curve a training (Fig. 3.7)."""
+    for name, training in trainings.items():
+        axes.plot(training.costs, label=name, color=(colours or {}).get(name))
+    axes.set(xlabel="iteration", ylabel="cost $J$")
+    if len(trainings) > 1:
+        axes.legend()
+
+
+def plot_accuracies(axes: Axes, trainings: Mapping[str, Training], *, colours: Mapping[str, str] | None = None) -> None:
+    """Examples answered as labelled, in per cent, against iterations (Table 3.3)."""
+    for name, training in trainings.items():
+        axes.plot(100 * training.accuracies, label=name, color=(colours or {}).get(name))
+    axes.set(xlabel="iteration", ylabel="accuracy (%)")
+    if len(trainings) > 1:
+        axes.legend()
+
+
+def draw_answers(axes: Axes, field: ArrayLike, x: ArrayLike, y: ArrayLike) -> None:
+    """What a network answers over the square of the two-input problems, the examples, and the boundary at 1/2.
+
+    Parameters
+    ----------
+    axes : where to draw.
+    field : answers (R, R) from :func:`robonav.lfd.toys.field`.
+    x, y : the examples (m, 2) and (m, 1).
+    """
+    square = (-EXTENT, EXTENT, -EXTENT, EXTENT)
+    values, points, yes = np.asarray(field), np.asarray(x), np.asarray(y)[:, 0] > 0.5
+    axes.imshow(values, origin="lower", extent=square, cmap=ANSWERS, vmin=0, vmax=1, zorder=0)
+    if values.min() < 0.5 < values.max():
+        axes.contour(values, [0.5], origin="lower", extent=square, colors=look.INK, linewidths=1.8)
+    axes.scatter(points[~yes, 0], points[~yes, 1], 16, marker="o", color=NO, linewidths=0)
+    axes.scatter(points[yes, 0], points[yes, 1], 22, marker="x", color=YES, linewidths=1.4)
+    axes.set(xlabel="$x_1$", ylabel="$x_2$", aspect="equal")
+    axes.grid(False)
