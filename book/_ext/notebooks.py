@@ -66,6 +66,10 @@ def plain_role(match: re.Match[str]) -> str:
         return works if name.startswith("cite:t") else f"({works})"
     if name == "math":
         return f"${text}$"
+    if name == "thesis":
+        return ", ".join(f"({number.strip()})" for number in text.split(","))
+    if name == "name":
+        return f"`{text}`"
     shown = re.fullmatch(r"(.*?)\s*<[^>]*>", text, re.S)
     return shown[1] if shown else text
 

@@ -2,6 +2,8 @@
 
 An equation labelled ``eq-2.24`` is shown and referred to as (2.24), so that a reader can lay the thesis beside the
 book. Every other labelled equation is ours and is counted 1, 2, 3 down its page.
+
+The role ``{thesis}`2.24``` also gives (2.24), but needs no page that shows the equation: it is a link if there is one.
 """
 
 from __future__ import annotations
@@ -9,8 +11,12 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from docutils import nodes
+from sphinx.addnodes import pending_xref
 from sphinx.application import Sphinx
 from sphinx.domains.math import MathDomain
+from sphinx.environment import BuildEnvironment
+from sphinx.util.docutils import SphinxRole
 
 THESIS_LABEL = re.compile(r"eq-(\d+\.\d+)")
 
@@ -34,6 +40,29 @@ class ThesisMathDomain(MathDomain):
         self.equations[labelid] = (docname, number)
 
 
+class ThesisEquation(SphinxRole):
+    """The role ``{thesis}``: numbers of equations of the thesis, each in brackets."""
+
+    def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
+        found: list[nodes.Node] = []
+        for number in (part.strip() for part in self.text.split(",")):
+            reference = pending_xref(
+                "", refdomain="math", reftype="eq", reftarget=f"eq-{number}", refdoc=self.env.docname
+            )
+            reference += nodes.Text(f"({number})")
+            found += [nodes.Text(", "), reference] if found else [reference]
+        return found, []
+
+
+def leave_plain(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Element) -> nodes.Node | None:
+    """Leave the number of an equation that no page shows as plain text, where ``{thesis}`` made it."""
+    if node.get("refdomain") == "math" and thesis_number(node["reftarget"]) and isinstance(content, nodes.Text):
+        return content
+    return None
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     app.add_domain(ThesisMathDomain, override=True)
+    app.add_role("thesis", ThesisEquation())
+    app.connect("missing-reference", leave_plain)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

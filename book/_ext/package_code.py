@@ -1,7 +1,11 @@
-"""Show the very function that runs: ``{source} robonav.mdp.value_iteration``.
+"""The package's code on a page: shown with the directive ``{source}``, named with the role ``{name}``.
 
-The directive puts a function's or class's source on the page, read from the package as it is imported, so a page
-cannot show an old copy. The docstring is left out, since the page's text takes its place; ``:docstring:`` keeps it.
+``{source} robonav.mdp.value_iteration`` puts a function's or class's source on the page, read from the package as it is
+imported, so a page cannot show an old copy. The docstring is left out, since the page's text takes its place;
+``:docstring:`` keeps it.
+
+A name in the role must exist, or the build fails: ``{name}`robonav.mdp.FiniteMDP.discount```, or an argument,
+``{name}`robonav.robot.navigate(speed)```. The leading ``robonav.`` is not shown.
 """
 
 from __future__ import annotations
@@ -9,6 +13,7 @@ from __future__ import annotations
 import ast
 import importlib
 import inspect
+import re
 import textwrap
 from pathlib import Path
 from typing import Any, ClassVar
@@ -17,7 +22,9 @@ from docutils import nodes
 from docutils.parsers.rst import directives
 from sphinx.application import Sphinx
 from sphinx.directives.code import container_wrapper
-from sphinx.util.docutils import SphinxDirective
+from sphinx.util.docutils import SphinxDirective, SphinxRole
+
+NAME = re.compile(r"(?P<name>robonav(?:\.\w+)+)(?:\((?P<argument>\w+)\))?")
 
 
 def resolve(name: str) -> Any:
@@ -29,8 +36,9 @@ def resolve(name: str) -> Any:
         except ModuleNotFoundError:
             continue
         for attribute in parts[cut:]:
-            found = getattr(found, attribute)
-        return inspect.unwrap(getattr(found, "py_func", found))
+            fields = getattr(found, "__dataclass_fields__", {})
+            found = fields[attribute] if attribute in fields else getattr(found, attribute)
+        return inspect.unwrap(getattr(found, "py_func", found)) if callable(found) else found
     raise ImportError(f"no module in {name!r} can be imported")
 
 
@@ -68,6 +76,24 @@ class FunctionSource(SphinxDirective):
         return [container_wrapper(self, code, f"`{name}`")]
 
 
+class CodeName(SphinxRole):
+    """The role ``{name}``."""
+
+    def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
+        match = NAME.fullmatch(self.text)
+        try:
+            if match is None:
+                raise ValueError("not a dotted name")
+            found = resolve(match["name"])
+            if match["argument"] and match["argument"] not in inspect.signature(found).parameters:
+                raise ValueError(f"it has no argument {match['argument']}")
+        except (ImportError, AttributeError, TypeError, ValueError) as error:
+            message = self.inliner.reporter.warning(f"{self.text} is not in the package: {error}", line=self.lineno)
+            return [], [message]
+        return [nodes.literal(self.rawtext, self.text.removeprefix("robonav."))], []
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     app.add_directive("source", FunctionSource)
+    app.add_role("name", CodeName())
     return {"parallel_read_safe": True, "parallel_write_safe": True}
