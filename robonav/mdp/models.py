@@ -15,6 +15,8 @@ from robonav import expect
 
 from . import policies
 
+Arrays = tuple[NDArray[Any], NDArray[Any], NDArray[np.float64], NDArray[np.float64], float]
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FiniteMDP:
@@ -89,10 +91,16 @@ class FiniteMDP:
 
     @cached_property
     def rows(self) -> sp.csr_array:
-        """All transitions as one sparse matrix (A S, S); row a S + s holds T(s, a, .)."""
-        if self.is_sparse:
-            return sp.vstack(self.transitions, format="csr")
-        return sp.csr_array(self.transitions.reshape(-1, self.states))
+        """All transitions as one sparse matrix (S A, S); row s A + a holds T(s, a, .)."""
+        if not self.is_sparse:
+            return sp.csr_array(self.transitions.swapaxes(0, 1).reshape(-1, self.states))
+        by_action = sp.vstack(self.transitions, format="csr")
+        return by_action[np.arange(self.states * self.actions).reshape(self.actions, self.states).T.ravel()]
+
+    @cached_property
+    def arrays(self) -> Arrays:
+        """What the compiled sweeps take: see ``packed``."""
+        return packed(self.rows, self.rewards, self.discount)
 
     @cached_property
     def terminal(self) -> NDArray[np.bool_]:
@@ -103,17 +111,32 @@ class FiniteMDP:
     @cached_property
     def steps_to_end(self) -> NDArray[np.float64]:
         """Least number of steps (S,) in which a terminal state can be reached; infinite where none can."""
-        edges = self.rows.tocoo()
-        backward = sp.coo_array((np.ones(edges.nnz), (edges.col, edges.row % self.states)), 2 * (self.states,)).tocsr()
+        return self.way_out()[0]
+
+    def way_out(self, allowed: NDArray[np.bool_] | None = None) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+        """The way to the terminal states with the fewest steps that can succeed, using ``allowed`` (S, A) actions only.
+
+        Returns
+        -------
+        steps : (S,), infinite where no terminal state can be reached.
+        policy : (S,), whose every action may lead one step closer (0 where none does). Followed for ever, it ends
+            with probability 1 if all steps are finite: it is a proper policy.
+        """
+        pairs, reached = self.rows.nonzero()
+        if allowed is not None:
+            pairs, reached = pairs[allowed.ravel()[pairs]], reached[allowed.ravel()[pairs]]
+        shape = (self.states, self.rewards.size)
+        leading_to = sp.csr_array((np.ones(pairs.size, dtype=np.int8), (reached, pairs)), shape)
         steps = np.where(self.terminal, 0.0, np.inf)
+        policy = np.zeros(self.states, dtype=np.intp)
         frontier = np.flatnonzero(self.terminal)
-        distance = 0
         while frontier.size:
-            distance += 1
-            found = np.unique(backward[frontier].indices)
-            frontier = found[np.isinf(steps[found])]
-            steps[frontier] = distance
-        return steps
+            distance = steps[frontier[0]] + 1
+            found = np.unique(leading_to[frontier].indices)
+            found = found[np.isinf(steps[found // self.actions])]
+            frontier, first = np.unique(found // self.actions, return_index=True)
+            steps[frontier], policy[frontier] = distance, found[first] % self.actions
+        return steps, policy
 
     def backup(self, values: ArrayLike) -> NDArray[np.float64]:
         """Action values (S, A) one step ahead of ``values`` (S,): r(s, a) + gamma sum_s' T(s, a, s') V(s').
@@ -123,8 +146,8 @@ class FiniteMDP:
         v = np.asarray(values, dtype=float)
         if v.shape != (self.states,):
             raise ValueError(f"values must have shape ({self.states},), got {v.shape}")
-        ahead = (self.rows @ v).reshape(self.actions, -1) if self.is_sparse else self.transitions @ v
-        return self.rewards + self.discount * ahead.T
+        ahead = (self.rows @ v).reshape(self.rewards.shape) if self.is_sparse else (self.transitions @ v).T
+        return self.rewards + self.discount * ahead
 
     def greedy(self, values: ArrayLike) -> NDArray[np.intp]:
         """The greedy policy (S,) with regard to ``values`` (S,), Eq. (2.25); of equal actions the first."""
@@ -138,8 +161,9 @@ class FiniteMDP:
         chosen = policies.checked(policy, self.states, self.actions)
         state = np.arange(self.states)
         if chosen.ndim == 1:
-            return self.rows[chosen * self.states + state], self.rewards[state, chosen]
-        average = sp.hstack([sp.diags_array(weights) for weights in chosen.T], format="csr")
+            return self.rows[state * self.actions + chosen], self.rewards[state, chosen]
+        starts = np.arange(0, chosen.size + 1, self.actions)
+        average = sp.csr_array((chosen.ravel(), np.arange(chosen.size), starts), (self.states, chosen.size))
         return sp.csr_array(average @ self.rows), (chosen * self.rewards).sum(axis=1)
 
     def stopping_distance(self, tolerance: float) -> float:
@@ -151,6 +175,17 @@ class FiniteMDP:
         if self.discount == 0:
             return np.inf
         return tolerance if self.discount == 1 else tolerance * (1 - self.discount) / (2 * self.discount)
+
+
+def packed(rows: sp.csr_array, rewards: NDArray[np.float64], discount: float) -> Arrays:
+    """A model as the compiled sweeps take it: starts, successors, chances (see ``kernels``), rewards, discount.
+
+    ``rows`` is (S A, S), row s A + a holding T(s, a, .); ``rewards`` (S, A).
+    """
+    starts, successors = (part.view(f"u{part.itemsize}") for part in (rows.indptr, rows.indices))
+    fixed = rewards.view()
+    fixed.flags.writeable = False  # numba compiles for a read-only array anew: one kind only
+    return starts, successors, rows.data, fixed, discount
 
 
 def expected_rewards(transitions: Any, rewards: ArrayLike) -> NDArray[np.float64]:
@@ -199,7 +234,8 @@ def _checked_sparse(action: int, matrix: Any, transitions: Sequence[Any]) -> sp.
 
 def _check_rows(action: int, matrix: NDArray[np.float64] | sp.csr_array) -> None:
     """ValueError unless every row is a distribution."""
-    if (matrix.data if sp.issparse(matrix) else matrix).min(initial=0) < 0:
+    probabilities = matrix if isinstance(matrix, np.ndarray) else matrix.data
+    if probabilities.min(initial=0) < 0:
         raise ValueError(f"transitions must not hold negative probabilities, got one at action {action}")
     totals = np.asarray(matrix.sum(axis=1))
     state = int(abs(totals - 1).argmax())

@@ -13,6 +13,23 @@ from robonav import expect
 SUM_TOLERANCE = 1e-8  # how far the probabilities of one distribution may be from summing to one
 
 
+def deterministic(name: str, policy: ArrayLike, states: int, actions: int) -> NDArray[np.intp]:
+    """The policy as an integer array (S,).
+
+    Raises
+    ------
+    TypeError : if it does not hold whole numbers.
+    ValueError : if it has another shape, or an action does not exist.
+    """
+    if np.asarray(policy).dtype.kind not in "iu":
+        raise TypeError(f"{name} must hold whole numbers, one action a state, got {np.asarray(policy).dtype}")
+    actions_taken = expect.array(name, policy, shape=(states,), dtype=np.intp)
+    if not (actions_taken.min() >= 0 and actions_taken.max() < actions):
+        least, most = actions_taken.min(), actions_taken.max()
+        raise ValueError(f"{name} must hold actions from 0 to {actions - 1}, got {least} to {most}")
+    return actions_taken
+
+
 def checked(policy: ArrayLike, states: int, actions: int) -> NDArray:
     """The policy as an integer array (S,) or a float array (S, A).
 
@@ -21,20 +38,14 @@ def checked(policy: ArrayLike, states: int, actions: int) -> NDArray:
     TypeError : if it is no array of numbers, or of one dimension and not of whole numbers.
     ValueError : if its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
     """
-    given = expect.array("policy", policy, dtype=None)
-    if given.ndim == 1:
-        if given.dtype.kind not in "iu":
-            raise TypeError(f"policy must hold whole numbers, one action a state, got {given.dtype}")
-        given = expect.array("policy", given, shape=(states,), dtype=np.intp)
-        if states and not (given.min() >= 0 and given.max() < actions):
-            raise ValueError(f"policy must hold actions from 0 to {actions - 1}, got {given.min()} to {given.max()}")
-        return given
-    given = expect.array("policy", given, shape=(states, actions))
-    wrong = (given < 0).any(axis=1) | (abs(given.sum(axis=1) - 1) > SUM_TOLERANCE)
+    if np.ndim(policy) == 1:
+        return deterministic("policy", policy, states, actions)
+    chances = expect.array("policy", policy, shape=(states, actions))
+    wrong = (chances < 0).any(axis=1) | (abs(chances.sum(axis=1) - 1) > SUM_TOLERANCE)
     if wrong.any():
         state = int(wrong.argmax())
-        raise ValueError(f"policy must hold one distribution a state, got {given[state]} for state {state}")
-    return given
+        raise ValueError(f"policy must hold one distribution a state, got {chances[state]} for state {state}")
+    return chances
 
 
 def probabilities(policy: ArrayLike, states: int, actions: int) -> NDArray[np.float64]:

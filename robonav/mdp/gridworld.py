@@ -1,0 +1,211 @@
+"""Gridworlds drawn as text: walls, slipping, rewards, ends; as a model and as an environment that agree."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import ArrayLike, NDArray
+
+from robonav import expect
+
+from .models import FiniteMDP
+
+if TYPE_CHECKING:
+    from .environments import GridEnvironment
+
+UP, RIGHT, DOWN, LEFT = range(4)
+STEPS = np.array([(-1, 0), (0, 1), (1, 0), (0, -1)])  # rows and columns, in the order of the actions
+ARROWS = "↑→↓←"
+
+
+@dataclass(frozen=True)
+class Cell:
+    """What a symbol of the map stands for.
+
+    Attributes
+    ----------
+    reward : collected by each step that ends in such a cell, besides the reward of a step.
+    ends : whether arriving there ends the episode.
+    wall : whether nobody can be there.
+    starts : whether episodes start there.
+    slip : probability of slipping when leaving such a cell; the grid's own if not given.
+    """
+
+    reward: float = 0.0
+    ends: bool = False
+    wall: bool = False
+    starts: bool = False
+    slip: float | None = None
+
+
+LEGEND: Mapping[str, Cell] = MappingProxyType(
+    {
+        ".": Cell(),
+        "#": Cell(wall=True),
+        "S": Cell(starts=True),
+        "G": Cell(reward=1.0, ends=True),
+        "X": Cell(reward=-1.0, ends=True),
+        "~": Cell(slip=2 / 3),
+    }
+)
+
+
+@dataclass(frozen=True, eq=False)
+class GridWorld:
+    """A grid of cells between which one moves up, right, down and left (actions 0 to 3).
+
+    Parameters
+    ----------
+    text : one line a row, one symbol a cell; blanks between symbols are ignored. ``.`` free, ``#`` wall, ``S`` start,
+        ``G`` goal (reward 1, ends), ``X`` pit (reward -1, ends), ``~`` ice (slips with probability 2/3).
+    legend : further symbols, or other meanings of these.
+    slip : probability that a step goes off to the left or to the right of where it should, half each.
+    step_reward : reward of every step.
+
+    A step into a wall or off the grid stays where it is. States are numbered along the rows, walls left out.
+
+    Raises
+    ------
+    ValueError : if rows differ in length, a symbol has no meaning, no cell is free, or a probability is none.
+    """
+
+    text: str
+    legend: Mapping[str, Cell] = field(default_factory=dict, kw_only=True)
+    slip: float = field(default=0.0, kw_only=True)
+    step_reward: float = field(default=0.0, kw_only=True)
+
+    def __post_init__(self) -> None:
+        expect.real("slip", self.slip, at_least=0, at_most=1)
+        expect.real("step_reward", self.step_reward)
+        if len({len(row) for row in self.rows}) != 1:
+            raise ValueError(f"text must have rows of one length, got lengths {[len(row) for row in self.rows]}")
+        unknown = "".join(sorted(set("".join(self.rows)) - set(self.meanings)))
+        if unknown:
+            raise ValueError(f"text must use symbols of the legend, {' '.join(self.meanings)}, got {unknown}")
+        for symbol, cell in self.meanings.items():
+            expect.real(f"reward of {symbol!r}", cell.reward)
+            if cell.slip is not None:
+                expect.real(f"slip of {symbol!r}", cell.slip, at_least=0, at_most=1)
+        if not self.states:
+            raise ValueError("text must have a cell that is no wall, got walls only")
+
+    @cached_property
+    def meanings(self) -> Mapping[str, Cell]:
+        """Every symbol's meaning."""
+        return MappingProxyType({**LEGEND, **self.legend})
+
+    @cached_property
+    def rows(self) -> tuple[str, ...]:
+        """The symbols of each row, without blanks."""
+        lines = ("".join(line.split()) for line in self.text.splitlines())
+        return tuple(line for line in lines if line)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return len(self.rows), len(self.rows[0])
+
+    @cached_property
+    def numbers(self) -> NDArray[np.intp]:
+        """The state in each cell of the map (rows, columns); -1 in walls."""
+        free = ~self._of_symbols(lambda cell: cell.wall, bool)
+        return np.where(free, np.cumsum(free).reshape(free.shape) - 1, -1)
+
+    @cached_property
+    def cells(self) -> NDArray[np.intp]:
+        """Row and column of each state, (S, 2)."""
+        return np.argwhere(self.numbers >= 0)
+
+    @property
+    def states(self) -> int:
+        """Number of states S."""
+        return len(self.cells)
+
+    @cached_property
+    def terminal(self) -> NDArray[np.bool_]:
+        """Which states (S,) end an episode."""
+        return self._of_states(lambda cell: cell.ends, bool)
+
+    @cached_property
+    def start(self) -> NDArray[np.float64]:
+        """Where episodes start, (S,) probabilities: alike in all start cells, or in all that end nothing."""
+        starts = self._of_states(lambda cell: cell.starts, bool)
+        candidates = starts if starts.any() else ~self.terminal
+        return candidates / candidates.sum()
+
+    @cached_property
+    def cell_rewards(self) -> NDArray[np.float64]:
+        """Reward (S,) of a step that ends in each state, the reward of the step included."""
+        return self.step_reward + self._of_states(lambda cell: cell.reward, float)
+
+    @cached_property
+    def moves(self) -> NDArray[np.intp]:
+        """Where each action leads from each state, (S, 4), if it does not slip."""
+        bordered = np.pad(self.numbers, 1, constant_values=-1)
+        ahead = np.stack([bordered[tuple((self.cells + 1 + step).T)] for step in STEPS], axis=1)
+        return np.where(ahead >= 0, ahead, np.arange(self.states)[:, None])
+
+    @cached_property
+    def outcomes(self) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+        """The three outcomes of each action, (S, 4, 3) each: states reached (ahead, left, right), probabilities."""
+        slip = self._of_states(lambda cell: self.slip if cell.slip is None else cell.slip, float)
+        chances = np.stack([1 - slip, slip / 2, slip / 2], axis=1)[:, None].repeat(4, axis=1)
+        reached = self.moves[:, (np.arange(4)[:, None] + [0, -1, 1]) % 4]
+        reached[self.terminal] = np.flatnonzero(self.terminal)[:, None, None]
+        return reached, chances
+
+    def mdp(self, discount: float) -> FiniteMDP:
+        """The model of the grid, sparse; a step out of a terminal state leads back to it and earns nothing."""
+        reached, chances = self.outcomes
+        rewards = (chances * self.cell_rewards[reached]).sum(axis=2)
+        rewards[self.terminal] = 0
+        starts = np.arange(0, 3 * self.states + 1, 3, dtype=np.int32)
+        shape = (self.states, self.states)
+        transitions = [
+            sp.csr_array((chances[:, action].ravel(), reached[:, action].ravel().astype(np.int32), starts), shape)
+            for action in range(4)
+        ]
+        return FiniteMDP(transitions, rewards, discount)
+
+    def environment(self, *, render_mode: str | None = None) -> GridEnvironment:
+        """The grid as a Gymnasium environment with the same transitions and rewards as its model."""
+        from .environments import GridEnvironment
+
+        return GridEnvironment(self, render_mode=render_mode)
+
+    def on_map(self, numbers: ArrayLike, *, walls: float = np.nan) -> NDArray:
+        """One number a state, (..., S), laid out as the map, (..., rows, columns), with ``walls`` in the walls."""
+        given = np.asarray(numbers)
+        laid_out = np.full((*given.shape[:-1], *self.shape), walls, dtype=np.result_type(given, type(walls)))
+        laid_out[..., self.cells[:, 0], self.cells[:, 1]] = given
+        return laid_out
+
+    def _of_symbols(self, what: Callable[[Cell], float], dtype: type) -> NDArray:
+        """A property of each cell of the map, (rows, columns)."""
+        meaning = {symbol: what(cell) for symbol, cell in self.meanings.items()}
+        return np.array([[meaning[symbol] for symbol in row] for row in self.rows], dtype=dtype)
+
+    def _of_states(self, what: Callable[[Cell], float], dtype: type) -> NDArray:
+        """A property of each state, (S,)."""
+        return self._of_symbols(what, dtype)[tuple(self.cells.T)]
+
+
+def four_by_three(*, slip: float = 0.2, step_reward: float = -0.04) -> GridWorld:
+    """The 4x3 world of Russell and Norvig: an exit worth 1, one worth -1 beneath it, and a wall between."""
+    exits = {"+": Cell(reward=1.0, ends=True), "-": Cell(reward=-1.0, ends=True)}
+    return GridWorld(
+        """
+        . . . +
+        . # . -
+        S . . .
+        """,
+        legend=exits,
+        slip=slip,
+        step_reward=step_reward,
+    )

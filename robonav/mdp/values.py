@@ -1,0 +1,41 @@
+"""Value functions and Bellman operators: one equation of section 2.2.1 each."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from robonav import expect
+
+from .evaluation import policy_evaluation
+from .models import FiniteMDP
+
+
+def bellman_policy_operator(mdp: FiniteMDP, policy: ArrayLike, values: ArrayLike) -> NDArray[np.float64]:
+    """One evaluation sweep: r_pi + gamma T_pi V, (S,), the right-hand side of Eq. (2.6) and (2.14)."""
+    transitions, rewards = mdp.under(policy)
+    return rewards + mdp.discount * (transitions @ expect.array("values", values, shape=(mdp.states,)))
+
+
+def bellman_optimality_operator(mdp: FiniteMDP, values: ArrayLike) -> NDArray[np.float64]:
+    """One sweep of value iteration: max_a of the backup of ``values``, (S,).
+
+    This is Eq. (2.26). Eq. (2.13), which misses gamma and the expectation over s', means its fixed point.
+    """
+    return mdp.backup(values).max(axis=1)
+
+
+def action_values(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
+    """Q of a policy, (S, A): take a, then follow the policy, Eq. (2.7) and (2.15)."""
+    return mdp.backup(policy_evaluation(mdp, policy))
+
+
+def advantage(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
+    """How much better than the policy it is to take a once, then follow it: Q - V, (S, A), Eq. (2.8)."""
+    values = policy_evaluation(mdp, policy)
+    return mdp.backup(values) - values[:, None]
+
+
+def is_optimal(mdp: FiniteMDP, policy: ArrayLike, *, tolerance: float = 1e-9) -> bool:
+    """Whether no action has an advantage over the policy of more than ``tolerance`` (Theorem 2.2, Eq. (2.16))."""
+    return bool(advantage(mdp, policy).max() <= expect.real("tolerance", tolerance, at_least=0))
