@@ -33,7 +33,7 @@ METHODS: dict[str, str] = {
 
 # Figures are transparent and their ink is a mid grey, so that one file serves the light and the dark theme.
 INK = "#808080"
-STYLE: dict[str, Any] = {
+STYLE: Any = {
     "figure.facecolor": "none",
     "axes.facecolor": "none",
     "savefig.facecolor": "none",

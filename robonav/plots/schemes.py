@@ -1,0 +1,176 @@
+"""The three ways to learn a policy, as boxes and arrows (the thesis's Figures 2 to 4 of its summary)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from robonav import expect, look
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box of a scheme: its text in each language, the place of its centre on a grid, and its colour."""
+
+    texts: dict[str, str]
+    column: float
+    row: float
+    colour: str
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """An arrow between two boxes; ``bend`` moves it along their sides, ``shift`` its words from its middle."""
+
+    start: str
+    end: str
+    texts: dict[str, str]
+    bend: float = 0.0
+    shift: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """Boxes by name, and the arrows between them."""
+
+    boxes: dict[str, Box]
+    arrows: tuple[Arrow, ...]
+
+
+WIDTH, HEIGHT = 0.64, 0.54  # of a box, in cells of the grid
+
+SCHEMES: dict[str, Scheme] = {
+    "demonstration": Scheme(
+        {
+            "expert": Box({"en": "expert", "fr": "expert"}, 0, 0, look.ORANGE),
+            "data": Box({"en": "effective\nexamples", "fr": "exemples\nutiles"}, 1, 0, look.ORANGE),
+            "network": Box({"en": "neural\nnetwork", "fr": "réseau de\nneurones"}, 2, 0, look.BLUE),
+            "world": Box({"en": "unknown\nmap", "fr": "carte\ninconnue"}, 1, 1, look.GREY),
+            "policy": Box({"en": "policy", "fr": "politique"}, 2, 1, look.BLUE),
+        },
+        (
+            Arrow("expert", "data", {"en": "drives", "fr": "conduit"}),
+            Arrow("data", "network", {"en": "train", "fr": "entraînent"}),
+            Arrow("network", "policy", {"en": "becomes", "fr": "devient"}, shift=(0.24, 0)),
+            Arrow("world", "policy", {"en": "senses", "fr": "perçoit"}, bend=-0.25, shift=(0, 0.21)),
+            Arrow("policy", "world", {"en": "moves", "fr": "agit"}, bend=-0.25, shift=(0, -0.21)),
+        ),
+    ),
+    "reinforcement": Scheme(
+        {
+            "world": Box({"en": "map, new each\nepisode", "fr": "carte, nouvelle\nà chaque fois"}, 0, 0.5, look.GREY),
+            "policy": Box({"en": "stochastic\npolicy", "fr": "politique\nstochastique"}, 1, 0, look.GREEN),
+            "update": Box({"en": "Q-value\nupdate", "fr": "mise à jour\nde Q"}, 1, 1, look.GREEN),
+            "network": Box({"en": "neural\nnetwork", "fr": "réseau de\nneurones"}, 2, 0, look.GREEN),
+            "memory": Box({"en": "all pairs\nso far", "fr": "tout ce qui\nfut vécu"}, 2, 1, look.ORANGE),
+        },
+        (
+            Arrow("policy", "world", {"en": "action", "fr": "action"}, shift=(-0.16, 0.10)),
+            Arrow("world", "update", {"en": "state, reward", "fr": "état,\nrécompense"}, shift=(-0.22, -0.16)),
+            Arrow("update", "memory", {"en": "adds", "fr": "ajoute"}),
+            Arrow("memory", "network", {"en": "train", "fr": "entraîne"}, shift=(0.22, 0)),
+            Arrow("network", "policy", {"en": "values", "fr": "valeurs"}),
+        ),
+    ),
+    "inverse": Scheme(
+        {
+            "expert": Box({"en": "expert", "fr": "expert"}, 0, 0, look.ORANGE),
+            "refined": Box({"en": "refined\nexamples", "fr": "exemples\nraffinés"}, 1, 0, look.ORANGE),
+            "reward": Box({"en": "reward\nfunction", "fr": "fonction de\nrécompense"}, 2, 0, look.VERMILION),
+            "world": Box({"en": "map", "fr": "carte"}, 0, 1, look.GREY),
+            "policy": Box({"en": "neural\npolicy", "fr": "politique\nneuronale"}, 1, 1, look.VERMILION),
+            "update": Box({"en": "SARSA\nupdate", "fr": "mise à jour\nSARSA"}, 2, 1, look.VERMILION),
+        },
+        (
+            Arrow("expert", "refined", {"en": "drives", "fr": "conduit"}),
+            Arrow("refined", "reward", {"en": "margin", "fr": "marge"}),
+            Arrow("reward", "update", {"en": "scores", "fr": "note"}, shift=(0.20, 0)),
+            Arrow("update", "policy", {"en": "trains", "fr": "entraîne"}),
+            Arrow("policy", "reward", {"en": "compared", "fr": "comparée"}, shift=(-0.20, 0.04)),
+            Arrow("policy", "world", {"en": "moves", "fr": "agit"}, bend=-0.25, shift=(0, -0.21)),
+            Arrow("world", "policy", {"en": "senses", "fr": "perçoit"}, bend=-0.25, shift=(0, 0.21)),
+        ),
+    ),
+}
+
+
+def scheme(name: str, *, language: str = "en") -> Figure:
+    """Draw one of the schemes.
+
+    Parameters
+    ----------
+    name : ``demonstration``, ``reinforcement`` or ``inverse``.
+    language : ``en`` or ``fr``.
+
+    Raises
+    ------
+    ValueError : for another name or language.
+    """
+    from matplotlib import pyplot as plt
+
+    chosen = SCHEMES[expect.one_of("name", name, SCHEMES)]
+    expect.one_of("language", language, ("en", "fr"))
+    columns = max(box.column for box in chosen.boxes.values())
+    rows = max(box.row for box in chosen.boxes.values())
+    with plt.rc_context(look.STYLE):
+        figure, axes = plt.subplots(figsize=(2.15 * (columns + 1), 1.4 * (rows + 1)))
+        for box in chosen.boxes.values():
+            _draw_box(axes, box, language)
+        for arrow in chosen.arrows:
+            _draw_arrow(axes, chosen, arrow, language)
+        axes.set(xlim=(-0.5, columns + 0.5), ylim=(rows + 0.42, -0.42))
+        axes.axis("off")
+    return figure
+
+
+def _draw_box(axes: Axes, box: Box, language: str) -> None:
+    from matplotlib.patches import FancyBboxPatch
+
+    corner = (box.column - WIDTH / 2 + 0.06, box.row - HEIGHT / 2 + 0.06)
+    outline = FancyBboxPatch(
+        corner,
+        WIDTH - 0.12,
+        HEIGHT - 0.12,
+        boxstyle="round,pad=0.06",
+        edgecolor=box.colour,
+        facecolor="none",
+        linewidth=2,
+    )
+    axes.add_patch(outline)
+    axes.text(box.column, box.row, box.texts[language], ha="center", va="center", fontsize=10.5)
+
+
+def _draw_arrow(axes: Axes, drawn: Scheme, arrow: Arrow, language: str) -> None:
+    start, end = drawn.boxes[arrow.start], drawn.boxes[arrow.end]
+    (tail, head) = _edge(start, end, arrow.bend), _edge(end, start, -arrow.bend)
+    axes.annotate(
+        "",
+        head,
+        tail,
+        arrowprops={"arrowstyle": "-|>", "color": look.INK, "linewidth": 1.5, "shrinkA": 2, "shrinkB": 2},
+    )
+    middle = (
+        (tail[0] + head[0]) / 2 + arrow.shift[0],
+        (tail[1] + head[1]) / 2 - arrow.shift[1] - _lift(tail, head, arrow),
+    )
+    axes.text(*middle, arrow.texts[language], ha="center", va="center", fontsize=9, style="italic")
+
+
+def _edge(box: Box, other: Box, bend: float) -> tuple[float, float]:
+    """Where an arrow between two boxes meets the first; ``bend`` moves it along that side."""
+    across, down = other.column - box.column, other.row - box.row
+    if abs(across) * HEIGHT >= abs(down) * WIDTH:
+        side = 1 if across > 0 else -1
+        return box.column + side * WIDTH / 2, box.row + down * HEIGHT / 4 + side * bend * HEIGHT
+    side = 1 if down > 0 else -1
+    return box.column + across * WIDTH / 4, box.row + side * HEIGHT / 2
+
+
+def _lift(tail: tuple[float, float], head: tuple[float, float], arrow: Arrow) -> float:
+    """Words stand above a level arrow that has no place of its own for them."""
+    level = abs(tail[1] - head[1]) < 0.1
+    return 0.12 if level and arrow.shift == (0.0, 0.0) else 0.0

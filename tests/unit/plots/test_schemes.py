@@ -1,0 +1,43 @@
+"""The three schemes: every arrow joins two boxes, every word stands in both languages and inside the picture."""
+
+from __future__ import annotations
+
+import matplotlib as mpl
+import pytest
+
+mpl.use("agg")
+
+from matplotlib import pyplot as plt
+
+from robonav.plots.schemes import SCHEMES, scheme
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_every_word_is_drawn_inside_the_picture(name: str, language: str) -> None:
+    figure = scheme(name, language=language)
+    figure.canvas.draw()
+    chosen = SCHEMES[name]
+    words = {text.get_text() for text in figure.axes[0].texts} - {""}
+    assert words == {part.texts[language] for part in (*chosen.boxes.values(), *chosen.arrows)}
+    for text in figure.axes[0].texts:
+        box = text.get_window_extent()
+        if text.get_text():
+            assert box.x0 >= 0
+            assert box.y0 >= 0
+            assert box.x1 <= figure.bbox.x1
+            assert box.y1 <= figure.bbox.y1
+    plt.close(figure)
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_arrows_join_boxes_that_exist(name: str) -> None:
+    chosen = SCHEMES[name]
+    assert {end for arrow in chosen.arrows for end in (arrow.start, arrow.end)} == set(chosen.boxes)
+
+
+def test_unknown_scheme_and_language_are_refused() -> None:
+    with pytest.raises(ValueError, match="name must be one of demonstration, reinforcement, inverse, got 'x'"):
+        scheme("x")
+    with pytest.raises(ValueError, match="language must be one of en, fr, got 'de'"):
+        scheme("inverse", language="de")
