@@ -1,0 +1,54 @@
+"""What all widgets share: one front-end file made of several, one look, arrays packed for the page."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike
+
+from robonav import look
+from robonav.lfd.network import Network
+
+HERE = Path(__file__).parent
+PALETTE = {name: getattr(look, name) for name in dir(look) if name.isupper() and isinstance(getattr(look, name), str)}
+
+
+def front_end(*names: str) -> str:
+    """The JavaScript of a widget: the palette, ``shared.js`` and the named files as one module.
+
+    One text, because a module that imports another does not load from disk.
+    """
+    parts = [(HERE / f"{name}.js").read_text("utf-8") for name in ("shared", *names)]
+    return "\n".join([f"export const PALETTE = {json.dumps(PALETTE)};", *parts])
+
+
+def style(*names: str) -> str:
+    """The style sheet of a widget: ``shared.css`` and the named files."""
+    return "\n".join((HERE / f"{name}.css").read_text("utf-8") for name in ("shared", *names))
+
+
+def packed(array: ArrayLike, dtype: DTypeLike = np.float64) -> dict[str, Any]:
+    """An array as the page's ``unpack`` reads it: shape, type and bytes (little-endian, base 64)."""
+    values = np.ascontiguousarray(array, dtype=np.dtype(dtype).newbyteorder("<"))
+    data = base64.b64encode(values.tobytes()).decode("ascii")
+    return {"shape": list(values.shape), "dtype": np.dtype(dtype).name, "data": data}
+
+
+def packed_network(network: Network, dtype: DTypeLike = np.float64) -> dict[str, Any]:
+    """A network, or a stack of them, as the page's ``networkAt`` reads it."""
+    return {
+        "sizes": list(network.sizes),
+        "weights": [packed(weight, dtype) for weight in network.weights],
+        "biases": [packed(bias, dtype) for bias in network.biases],
+    }
+
+
+def spread_out(last: int, count: int) -> Sequence[int]:
+    """Some ``count`` of the iterations 0 to ``last``, close together at first, where most happens."""
+    steps = np.geomspace(1, last + 1, count) - 1
+    return sorted({*range(min(last, 5) + 1), *np.rint(steps).astype(int).tolist(), last})
