@@ -1,0 +1,32 @@
+"""The stochastic policy over action values, Eq. (5.10)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import softmax
+
+from robonav import expect
+
+Floats = NDArray[np.float64]
+
+
+def boltzmann(action_values: ArrayLike, eta: float) -> Floats:
+    """P(a | s) in proportion to exp(eta Q(s, a)), (..., A): Eq. (5.10).
+
+    eta = 0 takes every action alike; the larger eta, the surer the best one. Eq. (5.10) writes the sum over the
+    action values of the state taken; it runs over the actions. Chapter 4's temperature is 1 / eta.
+
+    Parameters
+    ----------
+    action_values : (..., A).
+    eta : at least 0.
+    """
+    q = expect.array("action_values", action_values)
+    return np.asarray(softmax(expect.real("eta", eta, at_least=0) * q, axis=-1))
+
+
+def drawn(cumulated: ArrayLike, rng: np.random.Generator) -> NDArray[np.int64]:
+    """One index (N,) from each row of cumulated probabilities (N, n)."""
+    sums = np.asarray(cumulated, dtype=float)
+    return np.asarray((rng.random(len(sums))[:, None] * sums[:, -1:] >= sums).sum(axis=1))

@@ -1,0 +1,75 @@
+"""Gridworlds with a known reward: the truth against which every method of chapter 5 is held."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from robonav.mdp import policies
+from robonav.mdp.evaluation import policy_evaluation
+from robonav.mdp.gridworld import Cell, GridWorld
+from robonav.mdp.planning import policy_iteration
+from robonav.nirl import FeaturedMDP
+
+TERRAIN = {"m": Cell(), "r": Cell(), "T": Cell(ends=True)}  # mud, road, target
+MAP = """
+    . . m m . . .
+    . r r r r r .
+    . r m m m r .
+    S r . m . r T
+    . r m . . r .
+    . . . m m . .
+"""
+KINDS = ".mrT"
+TRUTH = np.array([-0.3, -1.0, -0.05, 3.0])
+
+
+@dataclass(frozen=True)
+class Case:
+    """A task, its true reward, and the two policies between which a learned one is rated."""
+
+    grid: GridWorld
+    task: FeaturedMDP
+    truth: np.ndarray
+    expert: np.ndarray
+
+    def value(self, policy):
+        """What a policy is really worth from the start."""
+        return float(self.task.starts @ policy_evaluation(self.task.with_reward(self.truth), policy))
+
+    def loss(self, policy):
+        """What a policy loses, as a share of the gap between the expert's value and a random policy's."""
+        best = self.value(self.expert)
+        return (best - self.value(policy)) / (best - self.value(policies.uniform(self.task.states, self.task.actions)))
+
+    def best(self, weights):
+        """The best policy for a learned reward."""
+        return policy_iteration(self.task.with_reward(weights)).policy
+
+
+def case(text, kinds, truth, *, slip, discount):
+    grid = GridWorld(text, legend=TERRAIN, slip=slip)
+    symbols = np.array([grid.rows[row][column] for row, column in grid.cells])
+    symbols[symbols == "S"] = "."
+    phi = (symbols[:, None] == np.array(list(kinds))).astype(float)
+    task = FeaturedMDP.of_grid(grid, phi, discount)
+    expert = policy_iteration(task.with_reward(truth)).policy
+    return Case(grid, task, np.asarray(truth), expert)
+
+
+@pytest.fixture(scope="session")
+def terrain():
+    """Four kinds of ground, some slipping, a start, a target."""
+    return case(MAP, KINDS, TRUTH, slip=0.2, discount=0.9)
+
+
+@pytest.fixture(scope="session", params=range(4))
+def scattered(request):
+    """Grids of 5 x 5 cells in blocks, every cell a start, a random reward or none on each of 9 blocks."""
+    rng = np.random.default_rng(request.param)
+    grid = GridWorld("\n".join(["....."] * 5), slip=0.1)
+    blocks = grid.cells // 2
+    phi = np.eye(9)[blocks[:, 0] * 3 + blocks[:, 1]]
+    truth = rng.normal(size=9) * (rng.random(9) < 0.6)
+    task = FeaturedMDP.of_grid(grid, phi, 0.8)
+    return Case(grid, task, truth, policy_iteration(task.with_reward(truth)).policy)
