@@ -28,10 +28,14 @@ def uniforms(rng: np.random.Generator) -> Iterator[float]:
 
 
 def discounted_return(rewards: ArrayLike, discount: float) -> NDArray[np.float64]:
-    """What is still to come from each step on, (T,): ``G[t] = r[t] + discount * G[t + 1]`` (Eq. (2.3))."""
-    returns = np.array(rewards, dtype=float)
+    """What is still to come from each step on, (T,): ``G[t] = r[t] + discount * G[t + 1]``.
+
+    ``G[0]`` is the return of the whole run, Eqs. (2.3), (2.28), without discount Eq. (2.27).
+    """
+    returns: NDArray[np.float64] = expect.array("rewards", rewards, shape=("T",)).copy()
+    gamma = expect.real("discount", discount, at_least=0, at_most=1)
     for step in range(len(returns) - 2, -1, -1):
-        returns[step] += discount * returns[step + 1]
+        returns[step] += gamma * returns[step + 1]
     return returns
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -24,6 +24,7 @@ def test_epsilon_greedy_by_hand():
     )
 
 
+@settings(deadline=None)
 @given(VALUES, st.floats(0, 1))
 def test_epsilon_greedy_is_a_policy_that_favours_the_best(q, epsilon):
     policy = epsilon_greedy(q, epsilon)

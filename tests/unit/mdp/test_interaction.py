@@ -4,7 +4,7 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium import spaces
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robonav.mdp import discounted_return, rollouts
@@ -13,6 +13,7 @@ from robonav.mdp.interaction import chooser, count, number, numbered
 REWARDS = st.lists(st.floats(-10, 10), min_size=1, max_size=30)
 
 
+@settings(deadline=None)
 @given(REWARDS, st.floats(0, 1))
 def test_discounted_return_is_the_sum_of_its_definition(rewards, discount):
     expected = [

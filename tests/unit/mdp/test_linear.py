@@ -3,7 +3,7 @@
 import gymnasium as gym
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robonav.mdp import OneHot, Tiles, linear_q_learning, linear_sarsa, q_learning, rollouts, sarsa, with_constant
@@ -42,6 +42,7 @@ def test_the_constant_is_a_weight_like_the_others():
 TILES = Tiles(low=(0.0, 0.0), high=(1.0, 2.0), tiles=(4, 5), tilings=8, actions=3)
 
 
+@settings(deadline=None)
 @given(UNIT, st.floats(0, 2))
 def test_each_tiling_holds_the_state_in_one_tile(x, y):
     features = TILES((x, y))

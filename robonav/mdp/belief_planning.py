@@ -1,0 +1,148 @@
+"""Acting on beliefs: QMDP and point-based value iteration.
+
+The value of a belief is convex and, over a finite horizon, the largest of finitely many linear functions (Smallwood and
+Sondik 1973). Each such function is a vector of one value a state, with the action it stands for.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from robonav import expect
+from robonav.errors import ConvergenceWarning
+
+from .planning import value_iteration
+from .pomdp import POMDP, SAME, BeliefMDP
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class AlphaVectors:
+    """A policy over beliefs, and what it is thought to earn.
+
+    Attributes
+    ----------
+    vectors : (K, S).
+    actions : (K,) the action that goes with each.
+    iterations : backups of the whole set that were done.
+    """
+
+    vectors: Floats
+    actions: NDArray[np.int64]
+    iterations: int = 0
+
+    def value(self, belief: ArrayLike) -> Floats:
+        """Value (...) of one belief (S,) or many (..., S): the largest of the linear functions."""
+        return (np.asarray(belief) @ self.vectors.T).max(axis=-1)
+
+    def action(self, belief: ArrayLike) -> int:
+        """The action of the vector that is largest at a belief (S,)."""
+        return int(self.actions[(self.vectors @ np.asarray(belief)).argmax()])
+
+
+def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
+    """Act as if all doubt were gone after this one step (Littman, Cassandra and Kaelbling 1995).
+
+    One vector an action, Q*(., a) of the MDP underneath. Its values are an upper bound; its policy never takes an
+    action only to learn something, since it believes that it will know everything anyway.
+    """
+    values = value_iteration(pomdp.mdp, tolerance).values
+    return AlphaVectors(pomdp.mdp.backup(values).T.copy(), np.arange(pomdp.mdp.actions))
+
+
+def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
+    """Up to ``count`` beliefs (N, S) that can be reached from ``start``, as far apart as they come.
+
+    Each new one is the successor, by any action and observation, that is furthest (sum of absolute differences) from
+    those taken before; so the choice involves no chance. There are fewer where fewer can be reached.
+    """
+    expect.integer("count", count, at_least=1)
+    taken = [pomdp._belief(start)]
+    candidates, distances = np.empty((0, pomdp.mdp.states)), np.empty(0)
+    while len(taken) < count:
+        distances = np.minimum(distances, abs(candidates - taken[-1]).sum(axis=1))
+        new = np.concatenate([BeliefMDP(pomdp).successors(taken[-1], action)[0] for action in range(pomdp.mdp.actions)])
+        new_distances = np.min([abs(new - belief).sum(axis=1) for belief in taken], axis=0)
+        candidates, distances = np.concatenate([candidates, new]), np.concatenate([distances, new_distances])
+        furthest = int(distances.argmax())
+        if distances[furthest] <= SAME:
+            break
+        taken.append(candidates[furthest])
+        keep = distances > SAME
+        keep[furthest] = False
+        candidates, distances = candidates[keep], distances[keep]
+    return np.stack(taken)
+
+
+def point_based_value_iteration(
+    pomdp: POMDP, beliefs: ArrayLike, *, tolerance: float = 1e-6, max_iterations: int = 10_000
+) -> AlphaVectors:
+    """Value iteration at some beliefs only, one vector for each (Pineau, Gordon and Thrun 2003).
+
+    Starts below every value (the worst reward for ever), and keeps for each point the best vector found so far, so that
+    values rise and stay a lower bound of the true ones, everywhere. More points come closer.
+
+    Parameters
+    ----------
+    beliefs : (N, S) the points, such as :func:`spread_beliefs` finds.
+    tolerance : how far the points' values may still rise, in units of reward; positive. Stops when a backup lifts none
+        by more than ``tolerance * (1 - discount)``: rises shrink by the discount, so all that would follow stay below.
+    max_iterations : backups after which to give up.
+
+    Raises
+    ------
+    ValueError : if the discount is 1, with which there is nothing to start from.
+
+    Warns
+    -----
+    ConvergenceWarning : if values were still rising; says by how much.
+    """
+    if pomdp.mdp.discount == 1:
+        raise ValueError("point_based_value_iteration needs a discount below 1, got 1")
+    points = np.stack([pomdp._belief(b) for b in expect.array("beliefs", beliefs, shape=("N", pomdp.mdp.states))])
+    enough = expect.positive("tolerance", tolerance) * (1 - pomdp.mdp.discount)
+    expect.integer("max_iterations", max_iterations, at_least=1)
+    worst = pomdp.mdp.rewards.min() / (1 - pomdp.mdp.discount)
+    found = AlphaVectors(np.full((1, pomdp.mdp.states), worst), np.zeros(1, dtype=np.int64))
+    values, rise = found.value(points), np.inf
+    for iterations in range(1, max_iterations + 1):
+        found = best_at(points, found, backup(pomdp, points, found), iterations)
+        values, before = found.value(points), values
+        rise = float((values - before).max())
+        if rise <= enough:
+            return found
+    warnings.warn(
+        f"point_based_value_iteration stopped after {max_iterations} backups with a value still rising by {rise:.3g}",
+        ConvergenceWarning,
+        stacklevel=2,
+    )
+    return found
+
+
+def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
+    """The best vector at each of N points, one step ahead of those known.
+
+    For each action and observation the known vectors, which speak of the state s' that comes, are carried back to the
+    state s that is: g(s) = sum_s' T(s, a, s') Z(o, s', a) alpha(s'). Each point takes the best g for each observation.
+    """
+    mdp = pomdp.mdp
+    candidates = np.empty((mdp.actions, *points.shape))
+    for action in range(mdp.actions):
+        candidates[action] = mdp.rewards[:, action]
+        for likelihood in pomdp.observations[action].T:
+            carried = (mdp.transitions[action] @ (likelihood * known.vectors).T).T  # (K, S)
+            candidates[action] += mdp.discount * carried[(points @ carried.T).argmax(axis=1)]
+    best = np.einsum("ans,ns->na", candidates, points).argmax(axis=1)
+    return AlphaVectors(candidates[best, np.arange(len(points))], best)
+
+
+def best_at(points: Floats, old: AlphaVectors, new: AlphaVectors, iterations: int) -> AlphaVectors:
+    """Of two sets, the vectors that are best at some point; of equal ones the old."""
+    vectors, actions = np.concatenate([old.vectors, new.vectors]), np.concatenate([old.actions, new.actions])
+    kept = np.unique((points @ vectors.T).argmax(axis=1))
+    return AlphaVectors(vectors[kept], actions[kept], iterations)

@@ -1,0 +1,202 @@
+"""Where am I? A robot with a map, nine noisy ranges, or none, and a belief about its pose (sections 2.2.2, 2.5.1).
+
+The same Bayes filter as :class:`~robonav.mdp.POMDP`, for poses on a grid and observations that are real numbers. How a
+robot senses is not known here: the ranges that the map predicts come in as an array.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import logsumexp, ndtr
+
+from robonav import expect
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PoseGrid:
+    """Places and headings of a robot on a map of square cells.
+
+    Pose number ``(row * columns + column) * headings + h`` is the centre of a cell, heading ``h * 2 pi / headings``.
+
+    Attributes
+    ----------
+    free : (rows, columns) bools, where the robot can be; row 0 lies at y = 0, column 0 at x = 0.
+    cell : side of a cell in metres.
+    headings : how many directions are told apart; with 12, turns of 30 and 60 degrees lead from one to another.
+    """
+
+    free: NDArray[np.bool_]
+    cell: float = 1.0
+    headings: int = 12
+
+    def __post_init__(self) -> None:
+        free = expect.array("free", self.free, shape=("rows", "columns"), dtype=bool).copy()
+        if not free.any():
+            raise ValueError("free must have a cell where the robot can be, got none")
+        free.flags.writeable = False
+        object.__setattr__(self, "free", free)
+        object.__setattr__(self, "cell", expect.positive("cell", self.cell))
+        expect.integer("headings", self.headings, at_least=1)
+
+    @property
+    def states(self) -> int:
+        """S, the number of poses, those inside walls included."""
+        return self.free.size * self.headings
+
+    @cached_property
+    def poses(self) -> Floats:
+        """(S, 3) x and y in metres, heading in radians."""
+        row, column, heading = (part.ravel() for part in np.indices((*self.free.shape, self.headings)))
+        return np.column_stack(
+            [(column + 0.5) * self.cell, (row + 0.5) * self.cell, heading * 2 * np.pi / self.headings]
+        )
+
+    @cached_property
+    def possible(self) -> NDArray[np.bool_]:
+        """(S,) whether the pose is in a free cell."""
+        return np.repeat(self.free.ravel(), self.headings)
+
+    def uniform(self) -> Floats:
+        """The belief (S,) of a robot that only knows the map."""
+        return self.possible / self.possible.sum()
+
+    def around(self, poses: ArrayLike) -> sp.csr_array:
+        """Poses (N, 3) as mixtures of grid poses: weights (N, S), linear in x, y and heading, so that the mean is kept.
+
+        Where one of the eight corners is not free, or off the map, its share goes to the others; a pose with no free
+        corner gets an empty row.
+        """
+        given = expect.array("poses", poses, shape=("N", 3))
+        rows, columns = self.free.shape
+        scaled = given / [self.cell, self.cell, 2 * np.pi / self.headings] - [0.5, 0.5, 0]
+        low = np.floor(np.round(scaled, 9)).astype(int)
+        above = np.clip(scaled - low, 0, 1)
+        pose, state, weight = [], [], []
+        for corner in np.ndindex(2, 2, 2):
+            column, row, heading = (low + corner).T
+            share = np.where(corner, above, 1 - above).prod(axis=1)
+            inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns) & (share > 0)
+            inside[inside] = self.free[row[inside], column[inside]]
+            number = (row * columns + column) * self.headings + heading % self.headings
+            pose.append(np.flatnonzero(inside))
+            state.append(number[inside])
+            weight.append(share[inside])
+        coordinates = np.concatenate(pose), np.concatenate(state)
+        mixed = sp.coo_array((np.concatenate(weight), coordinates), (len(given), self.states)).tocsr()
+        totals = np.asarray(mixed.sum(axis=1))
+        return sp.csr_array(sp.diags_array(1 / np.where(totals > 0, totals, 1)) @ mixed)
+
+
+def pose_transitions(grid: PoseGrid, moves: ArrayLike, *, slip: ArrayLike | None = None) -> tuple[sp.csr_array, ...]:
+    """Transitions, A sparse matrices (S, S), of moves on a grid: turn, then go straight.
+
+    A move that would end in a wall does not happen: the robot turns, but stays where it is.
+
+    Parameters
+    ----------
+    moves : (A, 2) turn in radians, counter-clockwise, and distance in metres (negative: backward).
+    slip : (A, A) probabilities that one move (row) turns into another (prediction uncertainty, 2.5.1), or none.
+    """
+    steps = expect.array("moves", moves, shape=("A", 2))
+    meant = [_move(grid, turn, distance) for turn, distance in steps]
+    if slip is None:
+        return tuple(meant)
+    mixing = expect.array("slip", slip, shape=(len(steps), len(steps)))
+    if (mixing < 0).any() or not np.allclose(mixing.sum(axis=1), 1):
+        raise ValueError("slip must have rows of probabilities that sum to one")
+    return tuple(sp.csr_array(sum(share * meant[b] for b, share in enumerate(row) if share > 0)) for row in mixing)
+
+
+def _move(grid: PoseGrid, turn: float, distance: float) -> sp.csr_array:
+    """Transitions (S, S) of one move."""
+    turned = grid.poses + [0, 0, turn]
+    ahead = distance * np.column_stack([np.cos(turned[:, 2]), np.sin(turned[:, 2]), np.zeros(len(turned))])
+    gone, stayed = grid.around(turned + ahead), grid.around(turned)
+    blocked = np.asarray(gone.sum(axis=1)) == 0
+    nowhere = blocked & (np.asarray(stayed.sum(axis=1)) == 0)  # poses inside walls; nobody is there
+    return sp.csr_array(gone + sp.diags_array(blocked.astype(float)) @ stayed + sp.diags_array(nowhere.astype(float)))
+
+
+@dataclass(frozen=True)
+class RangeSensor:
+    """How far what a sensor reads is from what the map says.
+
+    Attributes
+    ----------
+    deviation : standard deviation in metres of a reading about the range predicted at the centre of a cell. To the
+        sensor's own noise add what half a cell and half a heading step can make: about half a cell.
+    reach : reading in metres of a sensor that sees nothing.
+    outliers : share of readings that have nothing to do with the map: half of them see nothing, half are even. Too
+        small a share makes beliefs too sure: near a corner half a heading step can change a reading by metres.
+    """
+
+    deviation: float = 0.7
+    reach: float = 10.0
+    outliers: float = 0.1
+
+    def __post_init__(self) -> None:
+        expect.positive("deviation", self.deviation)
+        expect.positive("reach", self.reach)
+        expect.real("outliers", self.outliers, at_least=0, at_most=1)
+
+    def log_likelihood(self, predicted: ArrayLike, measured: ArrayLike) -> Floats:
+        """Logarithm (...) of the density of the readings ``measured`` (n,) where ``predicted`` (..., n) is expected.
+
+        A reading short of ``reach`` has a normal density about the prediction; ``reach`` itself, which stands for all
+        that lies beyond, has the whole tail as its probability. The n sensors err independently.
+        """
+        seen = np.asarray(measured, dtype=float)
+        error = (seen - predicted) / self.deviation
+        beyond = seen >= self.reach
+        hit = np.where(beyond, ndtr(-error), np.exp(-(error**2) / 2) / (np.sqrt(2 * np.pi) * self.deviation))
+        stray = np.where(beyond, 0.5, 0.5 / self.reach)
+        with np.errstate(divide="ignore"):  # impossible readings have logarithm minus infinity
+            return np.log((1 - self.outliers) * hit + self.outliers * stray).sum(axis=-1)
+
+
+@dataclass(frozen=True, eq=False)
+class Localiser:
+    """The belief of a robot about its pose, kept by Bayes' rule (Eq. (2.18)).
+
+    Attributes
+    ----------
+    transitions : A sparse matrices (S, S), such as :func:`pose_transitions` makes.
+    predicted : (S, n) what the n sensors would read at each pose without noise.
+    sensor : how they err.
+    """
+
+    transitions: tuple[sp.csr_array, ...]
+    predicted: Floats
+    sensor: RangeSensor = RangeSensor()
+
+    def predict(self, belief: Floats, action: int) -> Floats:
+        """The belief (S,) after a move: all that a robot with no sensing has."""
+        return belief @ self.transitions[action]
+
+    def correct(self, belief: Floats, ranges: ArrayLike) -> Floats:
+        """The belief (S,) after readings (n,).
+
+        Raises
+        ------
+        ValueError : if the readings are impossible in every pose held possible (only with no outliers).
+        """
+        seen = expect.array("ranges", ranges, shape=self.predicted.shape[1:])
+        possible = np.flatnonzero(belief)
+        log = np.log(belief[possible]) + self.sensor.log_likelihood(self.predicted[possible], seen)
+        total = logsumexp(log)
+        if not np.isfinite(total):
+            raise ValueError("the ranges have probability zero in every pose that the belief holds possible")
+        corrected = np.zeros_like(belief)
+        corrected[possible] = np.exp(log - total)
+        return corrected / corrected.sum()
+
+    def update(self, belief: Floats, action: int, ranges: ArrayLike) -> Floats:
+        """The belief (S,) after a move and the readings (n,) that follow it."""
+        return self.correct(self.predict(belief, action), ranges)
