@@ -69,7 +69,8 @@ def iterative_policy_evaluation(
     """
     from . import kernels
 
-    enough = 2 * mdp.stopping_distance(expect.positive("tolerance", tolerance))
+    expect.positive("tolerance", tolerance)
+    enough = tolerance if mdp.discount == 1 else 2 * mdp.stopping_distance(tolerance)
     transitions, rewards = mdp.under(policy)
     chain = packed(transitions, rewards[:, None], mdp.discount)  # an MDP with one action
     values = starting_values("start", mdp, start)

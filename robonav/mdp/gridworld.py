@@ -92,8 +92,8 @@ class GridWorld:
             expect.real(f"reward of {symbol!r}", cell.reward)
             if cell.slip is not None:
                 expect.real(f"slip of {symbol!r}", cell.slip, at_least=0, at_most=1)
-        if not self.states:
-            raise ValueError("text must have a cell that is no wall, got walls only")
+        if self.terminal.all():
+            raise ValueError("text must have a cell that is no wall and ends nothing, got none")
 
     @cached_property
     def meanings(self) -> Mapping[str, Cell]:

@@ -125,45 +125,6 @@ def in_place_sweep(
 
 
 @compiled
-def prioritized_backups(
-    starts: Unsigned,
-    successors: Unsigned,
-    chances: Floats,
-    rewards: Floats,
-    discount: float,
-    into: Unsigned,
-    predecessors: Unsigned,
-    weights: Floats,
-    values: Floats,
-    urgency: Floats,
-    enough: float,
-    max_backups: int,
-) -> tuple[int, float]:
-    """Back up the most urgent state until none is more urgent than ``enough``; backups done, largest urgency left.
-
-    ``values`` and ``urgency`` change in place. ``heap`` is a binary heap of states, the most urgent on top, and
-    ``place`` says where in it each state is.
-    """
-    heap = np.argsort(-urgency)  # sorted, thus a heap
-    place = np.empty_like(heap)
-    place[heap] = np.arange(heap.size)
-    for backups in range(max_backups):
-        state = heap[0]
-        if urgency[state] <= enough:
-            return backups, urgency[state]
-        best, _ = best_action(state, starts, successors, chances, rewards, discount, values)
-        change = abs(best - values[state])
-        values[state] = best
-        urgency[state] = 0.0
-        sink(heap, place, urgency)
-        for k in range(into[np.uint64(state)], into[np.uint64(state + 1)]):
-            before = predecessors[k]
-            urgency[before] += discount * weights[k] * change
-            rise(heap, place, urgency, place[before])
-    return max_backups, urgency[heap[0]]
-
-
-@compiled
 def sink(heap: Actions, place: Actions, urgency: Floats) -> None:
     """Let the state on top of the heap sink to where it belongs."""
     state, at = heap[0], 0
@@ -190,3 +151,43 @@ def rise(heap: Actions, place: Actions, urgency: Floats, at: int) -> None:
         at = (at - 1) // 2
     heap[at] = state
     place[state] = at
+
+
+@compiled
+def prioritized_backups(
+    starts: Unsigned,
+    successors: Unsigned,
+    chances: Floats,
+    rewards: Floats,
+    discount: float,
+    into: Unsigned,
+    predecessors: Unsigned,
+    weights: Floats,
+    values: Floats,
+    urgency: Floats,
+    heap: Actions,
+    enough: float,
+    max_backups: int,
+) -> tuple[int, float]:
+    """Back up the most urgent state until none is more urgent than ``enough``; backups done, largest urgency left.
+
+    ``values`` and ``urgency`` change in place. ``heap`` is a binary heap of states, the most urgent on top (sorted is
+    a heap too); ``place`` says where in it each state is.
+    """
+    place = np.empty_like(heap)
+    for at in range(heap.size):
+        place[heap[at]] = at
+    backups = 0
+    while urgency[heap[0]] > enough and backups < max_backups:
+        state = heap[0]
+        best, _ = best_action(state, starts, successors, chances, rewards, discount, values)
+        change = abs(best - values[state])
+        values[state] = best
+        urgency[state] = 0.0
+        sink(heap, place, urgency)
+        for k in range(into[np.uint64(state)], into[np.uint64(state + 1)]):
+            before = predecessors[k]
+            urgency[before] += discount * weights[k] * change
+            rise(heap, place, urgency, place[before])
+        backups += 1
+    return backups, urgency[heap[0]]

@@ -130,7 +130,7 @@ def policy_iteration(
             warn_unfinished("policy_iteration", iterations, gain.max(), enough)
             break
         policy = np.where(gain > enough, q.argmax(axis=1), policy)
-    return Solution(values, policy, iterations, gain.max(), *stacked(history, chosen))
+    return Solution(values, policy, iterations, float(gain.max()), *stacked(history, chosen))
 
 
 def modified_policy_iteration(
@@ -164,7 +164,8 @@ def modified_policy_iteration(
     """
     from . import kernels
 
-    enough = 2 * mdp.stopping_distance(expect.positive("tolerance", tolerance))
+    expect.positive("tolerance", tolerance)
+    enough = tolerance if mdp.discount == 1 else 2 * mdp.stopping_distance(tolerance)
     expect.integer("sweeps", sweeps, at_least=0)
     values = _values_below(mdp) if start is None else starting_values("start", mdp, start)
     updated, policy = np.empty_like(values), np.empty(mdp.states, dtype=np.intp)
@@ -172,7 +173,7 @@ def modified_policy_iteration(
     for iterations in range(1, expect.integer("max_iterations", max_iterations, at_least=1) + 1):
         least, most = kernels.optimal_sweep(*mdp.arrays, values, updated, policy)
         values, updated = updated, values
-        distance = most - least if mdp.discount < 1 else 2 * max(-least, most)
+        distance = most - least if mdp.discount < 1 else max(-least, most)
         if record:
             chosen.append(policy.copy())
         if distance <= enough:

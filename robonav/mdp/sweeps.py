@@ -83,6 +83,7 @@ def prioritized_sweeping(
         *_predecessors(mdp),
         values,
         urgency,
+        np.argsort(-urgency),
         enough,
         expect.integer("max_backups", max_backups, at_least=1),
     )

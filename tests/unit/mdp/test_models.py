@@ -1,0 +1,163 @@
+"""The finite MDP: what it accepts, what it computes from its arrays, and Gymnasium's tables."""
+
+import gymnasium as gym
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robonav.mdp import FiniteMDP, expected_rewards, value_iteration
+
+
+def random_mdp(seed, *, states=6, actions=3, discount=0.9, sparse=False, spread=1.0):
+    """A dense random model; ``spread`` below 1 leaves few likely successors."""
+    rng = np.random.default_rng(seed)
+    transitions = rng.dirichlet(np.full(states, spread), size=(actions, states))
+    rewards = rng.normal(size=(states, actions))
+    return FiniteMDP([sp.csr_array(t) for t in transitions] if sparse else transitions, rewards, discount)
+
+
+def brute_backup(transitions, rewards, discount, values):
+    """Eq. (2.15) as it is written, sum by sum."""
+    actions, states, _ = transitions.shape
+    q = np.zeros((states, actions))
+    for s in range(states):
+        for a in range(actions):
+            q[s, a] = rewards[s, a] + discount * sum(transitions[a, s, t] * values[t] for t in range(states))
+    return q
+
+
+@given(st.integers(0, 10_000), st.booleans(), st.floats(0, 0.99))
+def test_backup_is_the_equation(seed, sparse, discount):
+    dense = random_mdp(seed, discount=discount)
+    mdp = random_mdp(seed, discount=discount, sparse=sparse)
+    values = np.random.default_rng(seed).normal(size=mdp.states)
+    expected = brute_backup(dense.transitions, dense.rewards, discount, values)
+    np.testing.assert_allclose(mdp.backup(values), expected, atol=1e-12)
+    assert (mdp.greedy(values) == expected.argmax(axis=1)).all()
+
+
+@given(st.integers(0, 10_000), st.booleans())
+def test_chain_of_a_policy_averages_over_its_actions(seed, sparse):
+    mdp = random_mdp(seed, sparse=sparse)
+    rng = np.random.default_rng(seed)
+    probabilities = rng.dirichlet(np.ones(mdp.actions), size=mdp.states)
+    dense = random_mdp(seed).transitions
+    transitions, rewards = mdp.under(probabilities)
+    np.testing.assert_allclose(transitions.toarray(), np.einsum("sa,ast->st", probabilities, dense), atol=1e-12)
+    np.testing.assert_allclose(rewards, (probabilities * mdp.rewards).sum(axis=1))
+    actions = rng.integers(mdp.actions, size=mdp.states)
+    transitions, rewards = mdp.under(actions)
+    np.testing.assert_array_equal(transitions.toarray(), dense[actions, np.arange(mdp.states)])
+    np.testing.assert_array_equal(rewards, mdp.rewards[np.arange(mdp.states), actions])
+
+
+@pytest.mark.parametrize("form", [sp.csr_matrix, sp.csr_array, sp.coo_array, sp.lil_matrix, sp.csc_array])
+def test_every_sparse_form_serves(form):
+    dense = random_mdp(3, spread=0.1).transitions
+    dense = np.where(dense < 1e-3, 0, dense)
+    dense /= dense.sum(axis=2, keepdims=True)
+    mdp = FiniteMDP([form(t) for t in dense], np.zeros((6, 3)), 0.9)
+    np.testing.assert_array_equal(mdp.rows.toarray(), dense.swapaxes(0, 1).reshape(-1, 6))
+    assert mdp.is_sparse
+    assert len(mdp.transitions) == mdp.actions == 3
+
+
+def test_wide_indices_serve_too():
+    narrow = random_mdp(4, sparse=True)
+    wide = [sp.csr_array((t.data, t.indices.astype(np.int64), t.indptr.astype(np.int64))) for t in narrow.transitions]
+    solution = value_iteration(FiniteMDP(wide, narrow.rewards, narrow.discount))
+    np.testing.assert_array_equal(solution.values, value_iteration(narrow).values)
+
+
+def test_later_changes_of_the_arrays_given_do_not_reach_it():
+    transitions, rewards = np.eye(2)[None].copy(), np.zeros((2, 1))
+    mdp = FiniteMDP(transitions, rewards, 0.5)
+    transitions[0] = 0.5
+    rewards[:] = 1
+    assert (mdp.transitions == np.eye(2)).all()
+    assert (mdp.rewards == 0).all()
+    with pytest.raises(ValueError, match="read-only"):
+        mdp.rewards[0, 0] = 1
+    with pytest.raises(ValueError, match="read-only"):
+        mdp.transitions[0, 0, 0] = 1
+
+
+HALF, STAY = np.full((1, 2, 2), 0.5), np.eye(2)[None]
+
+
+@pytest.mark.parametrize(
+    ("transitions", "rewards", "discount", "sentence"),
+    [
+        (0.9 * STAY, [[0], [0]], 0.9, r"must sum to 1 .* got 0.9 at action 0, state 0"),
+        ([sp.csr_array(STAY[0]), sp.csr_array([[1, 0], [0.5, 0.4]])], np.zeros((2, 2)), 0.9, "action 1, state 1"),
+        ([[[1.5, -0.5], [0, 1]]], [[0], [0]], 0.9, "negative probabilities"),
+        ([sp.csr_array([[1.5, -0.5], [0, 1]])], [[0], [0]], 0.9, "negative probabilities"),
+        (HALF, [[0, 0]], 0.9, r"rewards must have shape \(2, 1\), got \(1, 2\)"),
+        (HALF, [[np.nan], [0]], 0.9, "rewards must hold finite"),
+        ([[[np.inf, 0], [0, 1]]], [[0], [0]], 0.9, "transitions must hold finite"),
+        ([sp.csr_array([[np.nan, 0], [0, 1]])], [[0], [0]], 0.9, "transitions must hold finite"),
+        (np.eye(2), [[0], [0]], 0.9, r"transitions must have shape \(A, S, S\)"),
+        (np.ones((1, 2, 3)) / 3, [[0], [0]], 0.9, r"transitions must have shape \(A, S, S\), got \(1, 2, 3\)"),
+        ([sp.eye_array(2), sp.eye_array(3)], np.zeros((2, 2)), 0.9, r"got \(3, 3\) at action 1"),
+        (np.zeros((0, 2, 2)), np.zeros((2, 0)), 0.9, "at least one action"),
+        (HALF, [[0], [0]], 1.1, "discount must be at least 0 and at most 1, got 1.1"),
+        (HALF, [[0], [0]], np.nan, "discount must be finite"),
+        (HALF, [[0], [0]], 1, "state 0 unable"),
+        (STAY, [[0], [1]], 1, "terminal state .* got 1 with state 1 unable"),
+    ],
+)
+def test_wrong_models_are_refused_in_one_sentence(transitions, rewards, discount, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        FiniteMDP(transitions, rewards, discount)
+
+
+@pytest.mark.parametrize("transitions", [sp.eye_array(2), [sp.eye_array(2), np.eye(2)], "nonsense"])
+def test_wrong_types_are_refused(transitions):
+    with pytest.raises(TypeError, match="transitions must"):
+        FiniteMDP(transitions, np.zeros((2, 1)), 0.9)
+
+
+def test_terminal_states_and_the_way_to_them():
+    """A corridor 0 - 1 - 2 - 3 that ends at 0, and a room 4 that nobody leaves but where something is earned."""
+    left = np.eye(5)[[0, 0, 1, 2, 4]]
+    right = np.eye(5)[[0, 2, 3, 3, 4]]
+    rewards = np.zeros((5, 2))
+    rewards[4, 1] = 1
+    mdp = FiniteMDP([left, right], rewards, 0.9)
+    assert mdp.terminal.tolist() == [True, False, False, False, False]
+    assert mdp.steps_to_end.tolist() == [0, 1, 2, 3, np.inf]
+    steps, policy = mdp.way_out()
+    assert policy[1:4].tolist() == [0, 0, 0]
+    only_right = np.zeros((5, 2), dtype=bool)
+    only_right[:, 1] = True
+    steps, _ = mdp.way_out(only_right)
+    assert np.isinf(steps[1:]).all()
+
+
+def test_rewards_of_the_state_reached_are_averaged():
+    transitions = random_mdp(5).transitions
+    reached = np.random.default_rng(5).normal(size=transitions.shape)
+    expected = np.einsum("ast,ast->sa", transitions, reached)
+    np.testing.assert_allclose(expected_rewards(transitions, reached), expected)
+    np.testing.assert_allclose(expected_rewards([sp.csr_array(t) for t in transitions], reached), expected)
+
+
+def test_stopping_distance_at_both_ends():
+    mdp = random_mdp(0, discount=0.5)
+    assert mdp.stopping_distance(0.1) == pytest.approx(0.05)
+    assert random_mdp(0, discount=0).stopping_distance(0.1) == np.inf
+
+
+def test_tables_of_gymnasium_become_models():
+    mdp = FiniteMDP.from_gymnasium(gym.make("FrozenLake-v1", is_slippery=True), 0.9)
+    assert (mdp.states, mdp.actions) == (16, 4)
+    assert np.flatnonzero(mdp.terminal).tolist() == [5, 7, 11, 12, 15]
+    assert mdp.rewards[14, 2] == pytest.approx(1 / 3)  # right, from beside the goal
+    np.testing.assert_allclose(mdp.transitions[0].toarray()[0, [0, 4]], [2 / 3, 1 / 3])  # left, in the corner
+
+
+def test_an_environment_without_a_table_is_refused():
+    with pytest.raises(ValueError, match="publish its transitions"):
+        FiniteMDP.from_gymnasium(gym.make("CartPole-v1"), 0.9)
