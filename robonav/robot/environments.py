@@ -102,7 +102,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         render_mode: str | None = None,
     ) -> None:
         self.num_envs = expect.integer("num_envs", num_envs, at_least=1)
-        self.max_episode_steps = expect.integer("max_episode_steps", max_episode_steps, at_least=1)
+        expect.integer("max_episode_steps", max_episode_steps, at_least=1)
         if worlds is not None and len(worlds) == 0:
             raise ValueError("worlds must hold at least one world, got none")
         expect.integer("obstacles", obstacles, at_least=0)
@@ -118,7 +118,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         self.single_action_space = gymnasium.spaces.Discrete(6)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
-        self._robot: dict[str, Any] = {"speed": speed, "slip": slip, "noise": noise}
+        self._robot: dict[str, Any] = {"speed": speed, "slip": slip, "noise": noise, "max_steps": max_episode_steps}
         self.simulator = Simulator(self._next_worlds(np.arange(0)), **self._robot)  # empty until reset
         self._sensing = self.simulator.sense()
 
@@ -135,8 +135,9 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
             raise ValueError(f"options['worlds'] must hold {self.num_envs} worlds, got {len(given)}")
         start = self._next_worlds(np.arange(self.num_envs)) if given is None else given
         slots = max(start.slots, self.simulator.worlds.slots)
-        self.simulator = Simulator(start.with_slots(slots), **self._robot)
+        self.simulator = Simulator(start[:].with_slots(slots), **self._robot)  # a copy: restarts overwrite it
         self._sensing = self.simulator.sense()
+        self._ended = np.zeros(self.num_envs, dtype=np.bool_)
         return self._observation(), self._info(np.full(self.num_envs, -1))
 
     def seed(self, seed: int | Sequence[int | None] | None) -> None:
@@ -159,20 +160,19 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         if len(self.simulator) == 0:
             raise ValueError("step: call reset first")
         given = check_actions(actions, self.num_envs)
-        simulator, before = self.simulator, self._sensing
-        ended = np.flatnonzero(simulator.outcome != RUNNING)
+        simulator, before, fresh = self.simulator, self._sensing, self._ended
         reflexes = np.full(self.num_envs, -1) if self.reflex is None else self.reflex(before, simulator.speed)
-        reflexes[ended] = -1
+        reflexes[fresh] = -1
         simulator.step(np.where(reflexes < 0, given, reflexes))
-        late = (simulator.outcome == RUNNING) & (simulator.steps >= self.max_episode_steps)
-        simulator.outcome[late] = OUT_OF_STEPS
-        if len(ended):
-            simulator.restart(ended, self._next_worlds(ended))
+        if fresh.any():
+            index = np.flatnonzero(fresh)
+            simulator.restart(index, self._next_worlds(index))
         self._sensing = simulator.sense()
-        reward = np.asarray(self.reward(before, self._sensing, simulator.outcome), dtype=float).copy()
-        reward[ended] = 0.0
-        terminated = (simulator.outcome == ARRIVED) | (simulator.outcome == COLLIDED)
-        truncated = simulator.steps >= self.max_episode_steps
+        reward = np.array(self.reward(before, self._sensing, simulator.outcome), dtype=float)
+        reward[fresh] = 0.0
+        truncated = simulator.steps >= simulator.max_steps
+        self._ended = simulator.outcome != RUNNING
+        terminated = self._ended & (simulator.outcome != OUT_OF_STEPS)
         return self._observation(), reward, terminated, truncated, self._info(reflexes)
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
@@ -187,8 +187,8 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         """The next world of each of these robots, drawn from its own generator."""
         if self.worlds is not None:
             return self.worlds[[int(self._generators[i].integers(len(self.worlds))) for i in robots]]
-        keys = np.array([self._generators[i].integers(2**32, size=2, dtype=np.uint32) for i in robots])
-        return draw_worlds(keys.reshape(len(robots), 2), *self._drawn)
+        raw = np.array([self._generators[i].bit_generator.random_raw() for i in robots], dtype="<u8")
+        return draw_worlds(raw.view("<u4").reshape(-1, 2).astype(np.uint32), *self._drawn)
 
     def _observation(self) -> dict[str, Any]:
         read = self._sensing
@@ -206,7 +206,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
             "reflex": reflexes,
             "pose": self.simulator.poses.copy(),
         }
-        return values | {f"_{name}": everyone.copy() for name in values}
+        return values | {f"_{name}": everyone for name in values}
 
 
 class NavigationEnv(gymnasium.Env):
@@ -233,8 +233,8 @@ class NavigationEnv(gymnasium.Env):
         super().reset(seed=seed)
         self.batch.seed(seed)
         self._np_random = self.batch.np_random
-        self.batch.max_episode_steps = _limit_of_callers(default=self._max_episode_steps)
         observation, info = self.batch.reset(options=options)
+        self.batch.simulator.max_steps = _limit_of_callers(default=self._max_episode_steps)
         if self.render_mode == "human":
             self.render()
         return _first(observation), _first_info(info)

@@ -378,10 +378,10 @@ def drift(start, stop, kinds, shapes, speeds, keys, steps, size, centres, headin
 
 @compiled
 def step(
-    start, stop, kinds, shapes, speeds, keys, size, targets, slip, speed, commands, poses, centres, headings, steps,
-    outcome,
+    start, stop, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, commands, poses, centres, headings,
+    steps, outcome,
 ):  # fmt: skip
-    """One second in worlds ``start`` to ``stop``: turn, go; obstacles drift; did it arrive or collide?
+    """One second in worlds ``start`` to ``stop``: turn, go; obstacles drift; did it collide, arrive, run out of steps?
 
     A collision anywhere along the way counts. ``slip`` is (6, 6), or (0, 0) for none. Worlds whose outcome is no longer
     RUNNING stand still.
@@ -411,10 +411,35 @@ def step(
             outcome[i] = COLLIDED
         elif _micrometres(math.hypot(targets[i, 0] - x1, targets[i, 1] - y1)) <= ARRIVAL_DISTANCE:
             outcome[i] = ARRIVED
+        elif steps[i] >= max_steps:
+            outcome[i] = OUT_OF_STEPS
 
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Drawing worlds
+
+
+@compiled
+def _close_cells(kinds, shapes, centres, size, spare, closed):
+    """Mark the cells of a grid of whole metres that are nearer than ``spare`` to an obstacle or border."""
+    cells = len(closed)
+    closed[:] = True
+    inner = math.ceil(spare)
+    closed[inner : math.floor(size - spare) + 1, inner : math.floor(size - spare) + 1] = False
+    for m in range(len(kinds)):
+        if kinds[m] == NOTHING:
+            continue
+        c, s = math.cos(shapes[m, 2]), math.sin(shapes[m, 2])
+        reach = _reach(kinds[m], shapes[m, 0], shapes[m, 1]) + spare
+        for i in range(max(math.ceil(centres[m, 0] - reach), 0), min(math.floor(centres[m, 0] + reach) + 1, cells)):
+            for j in range(max(math.ceil(centres[m, 1] - reach), 0), min(math.floor(centres[m, 1] + reach) + 1, cells)):
+                dx, dy = i - centres[m, 0], j - centres[m, 1]
+                if kinds[m] == CIRCLE:
+                    near = dx * dx + dy * dy < reach * reach
+                else:
+                    near = _box_distance(c * dx + s * dy, c * dy - s * dx, shapes[m, 0], shapes[m, 1]) < spare
+                if near:
+                    closed[i, j] = True
 
 
 @compiled
@@ -424,18 +449,19 @@ def reachable(kinds, shapes, centres, size, x0, y0, x1, y1, spare):
     Depth first, steps towards the target first: the answer is that of a full flood, mostly after a few hundred cells.
     """
     cells = int(size) + 1
-    closed = np.zeros((cells, cells), dtype=np.bool_)
+    closed = np.empty((cells, cells), dtype=np.bool_)
+    _close_cells(kinds, shapes, centres, size, spare, closed)
     stack = np.empty((cells * cells, 2), dtype=np.int32)
+    i, j = math.floor(x0 + 0.5), math.floor(y0 + 0.5)
     goal_i, goal_j = math.floor(x1 + 0.5), math.floor(y1 + 0.5)
-    stack[0, 0], stack[0, 1] = math.floor(x0 + 0.5), math.floor(y0 + 0.5)
-    closed[stack[0, 0], stack[0, 1]] = True
+    if closed[i, j]:
+        return False
+    closed[i, j] = True
+    stack[0, 0], stack[0, 1] = i, j
     top = 1
     while top > 0:
         top -= 1
         i, j = stack[top, 0], stack[top, 1]
-        x, y = float(i), float(j)
-        if swept_clearance(kinds, shapes, centres, centres, size, x, y, x, y, spare) < spare:
-            continue
         if abs(i - goal_i) <= 1 and abs(j - goal_j) <= 1:
             return True
         di = 1 if goal_i >= i else -1
@@ -519,12 +545,8 @@ def draw_worlds(
 # ---------------------------------------------------------------------------------------------------------------------
 # Threads
 
-_WORTH_A_THREAD = 256  # worlds; below twice that, handing work over costs more than it saves
 _pool: ThreadPoolExecutor | None = None
-
-
-def _threads() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+_CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _forget_pool() -> None:
@@ -536,14 +558,17 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forget_pool)  # threads do not survive a fork
 
 
-def in_threads(kernel: Callable[..., None], worlds: int, *arguments: Any) -> None:
-    """Run ``kernel(start, stop, *arguments)`` over 0..worlds, large batches split over the machine's cores."""
+def in_threads(kernel: Callable[..., None], worlds: int, *arguments: Any, worth: int = 256) -> None:
+    """Run ``kernel(start, stop, *arguments)`` over 0..worlds, split over the machine's cores.
+
+    Fewer than ``worth`` worlds a thread are not worth handing over.
+    """
     global _pool
-    parts = min(_threads(), worlds // _WORTH_A_THREAD)
-    if parts <= 1:
+    if worlds < 2 * worth or _CORES == 1:
         kernel(0, worlds, *arguments)
         return
     if _pool is None:
-        _pool = ThreadPoolExecutor(_threads(), thread_name_prefix="robonav")
+        _pool = ThreadPoolExecutor(_CORES, thread_name_prefix="robonav")
+    parts = min(_CORES, worlds // worth)
     cuts = [worlds * k // parts for k in range(parts + 1)]
     list(_pool.map(lambda k: kernel(cuts[k], cuts[k + 1], *arguments), range(parts)))

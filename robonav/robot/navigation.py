@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import expect
 from ..progress import Progress
-from .kernels import OUT_OF_STEPS, RUNNING
+from .kernels import RUNNING
 from .simulator import OUTCOMES, Action, Reflex, Sensing, Simulator, check_actions
 from .worlds import Worlds
 
@@ -78,17 +78,13 @@ def navigate(
     """
     if not callable(policy):
         raise TypeError(f"policy must be callable as policy(sensing, rng), got {type(policy).__name__}")
-    expect.integer("max_steps", max_steps, at_least=1)
     rng = expect.generator("seed", seed)
-    simulator = Simulator(worlds, speed, slip=slip, noise=noise)
+    simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
     n = len(worlds)
     running = np.arange(n)
-    outcome = np.full(n, OUT_OF_STEPS, dtype=np.int8)
-    steps = np.full(n, max_steps, dtype=np.int64)
+    outcome, steps = np.zeros(n, dtype=np.int8), np.zeros(n, dtype=np.int64)
     track = [(running, simulator.poses.copy())]
-    for _ in range(max_steps):
-        if len(running) == 0:
-            break
+    while len(running):
         simulator.step(decide(policy, reflex, simulator.sense(), speed, rng))
         if record_paths:
             track.append((running, simulator.poses.copy()))

@@ -16,6 +16,7 @@ from .worlds import Worlds
 
 OUTCOMES = np.array(["running", "arrived", "collided", "out of steps"])
 NO_SLIP = np.zeros((0, 0))
+NEVER = 2**20  # steps: as far as the random numbers of a world count
 
 
 class Action(IntEnum):
@@ -89,8 +90,8 @@ def check_actions(actions: ArrayLike, n: int) -> NDArray[np.int64]:
         raise TypeError(f"action must be whole numbers 0 to 5, got {given.dtype}")
     if given.shape != (n,):
         raise ValueError(f"action must have shape ({n},), got {given.shape}")
-    if n and (given.min() < Action.F or given.max() > Action.B):
-        wrong = given[(given < Action.F) | (given > Action.B)][0]
+    if n and given.astype(np.uint64).max() > kernels.BACKWARD:  # what is negative becomes very large
+        wrong = given[(given < 0) | (given > kernels.BACKWARD)][0]
         raise ValueError(f"action must be one of F, L30, L60, R30, R60, B (0 to 5), got {wrong}")
     return given.astype(np.int64)
 
@@ -126,6 +127,7 @@ class Simulator:
     speed : of the robot in m/s, positive; a step is one second.
     slip : prediction uncertainty, section 2.5.1: (6, 6) probabilities that action a (row) turns into another; or None.
     noise : sensing uncertainty: standard deviation in metres of an error on every range that sees something.
+    max_steps : seconds after which a drive is out of steps.
 
     Attributes
     ----------
@@ -138,12 +140,19 @@ class Simulator:
     """
 
     def __init__(
-        self, worlds: Worlds, speed: float = 2.0, *, slip: ArrayLike | None = None, noise: float = 0.0
+        self,
+        worlds: Worlds,
+        speed: float = 2.0,
+        *,
+        slip: ArrayLike | None = None,
+        noise: float = 0.0,
+        max_steps: int = NEVER,
     ) -> None:
         self.worlds = worlds
         self.speed = expect.positive("speed", speed)
         self.slip = check_slip(slip)
         self.noise = expect.real("noise", noise, at_least=0)
+        self.max_steps = expect.integer("max_steps", max_steps, at_least=1)
         self.poses = worlds.start_poses
         self.centres = worlds.centres.copy()
         self.headings = worlds.headings.copy()
@@ -167,7 +176,7 @@ class Simulator:
         w = self.worlds
         kernels.in_threads(
             kernels.step, len(self), w.kinds, w.shapes, w.speeds, w.keys, w.size, w.targets, self.slip, self.speed,
-            commands, self.poses, self.centres, self.headings, self.steps, self.outcome,
+            self.max_steps, commands, self.poses, self.centres, self.headings, self.steps, self.outcome,
         )  # fmt: skip
 
     def keep(self, mask: NDArray[np.bool_]) -> None:

@@ -128,6 +128,8 @@ class Worlds:
     def with_slots(self, slots: int) -> Worlds:
         """The same worlds with empty places for obstacles added up to ``slots``."""
         more = slots - self.slots
+        if more == 0:
+            return self
         padded = self[:]
         for name in ("kinds", "shapes", "centres", "speeds", "headings"):
             value = getattr(self, name)
@@ -233,7 +235,7 @@ def draw_worlds(
     chosen, found = np.zeros((n, 4)), np.zeros(n, dtype=np.bool_)
     kernels.in_threads(
         kernels.draw_worlds, n, keys, obstacles, moving, *moving_speeds, size, ends["starts"], ends["targets"],
-        ATTEMPTS, kinds, shapes, centres, speeds, headings, chosen, found,
+        ATTEMPTS, kinds, shapes, centres, speeds, headings, chosen, found, worth=8,
     )  # fmt: skip
     if not found.all():
         raise ValueError(
