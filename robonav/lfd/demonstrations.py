@@ -1,0 +1,186 @@
+"""Demonstrations: what an expert's robot sensed, and what it did (section 3.4.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from robonav import expect
+from robonav.progress import Progress
+from robonav.robot import OUTCOMES, REFLEX, Action, Reflex, Sensing, Simulator, Worlds
+
+Floats = NDArray[np.float64]
+Actions = NDArray[np.int64]
+
+LEARNED = 5  # actions: F, L30, L60, R30, R60
+MAX_STEPS = 500
+_RUNNING, _OUT_OF_STEPS = 0, 3
+
+
+@dataclass(frozen=True, eq=False)
+class Demonstrations:
+    """K steps of D drives, one drive after the other; ``demonstrations[mask]`` picks steps.
+
+    Everything is kept raw, so that each chapter encodes it its own way.
+
+    Attributes
+    ----------
+    worlds : batch of D.
+    trajectory : (K,) the drive that each step belongs to, ascending.
+    sensing : K rows, as perceived before each action.
+    actions : (K,) what was executed; ``Action.TO_TARGET`` and ``Action.B`` where the robot's reflex acted.
+    poses : (K, 3) x, y, heading before each action.
+    speed : in m/s.
+    outcome : (D,) how each drive ended: "arrived", "collided" or "out of steps".
+
+    Raises
+    ------
+    ValueError : if shapes do not fit, or numbers lie outside their range.
+    """
+
+    worlds: Worlds
+    trajectory: Actions
+    sensing: Sensing
+    actions: Actions
+    poses: Floats
+    speed: float
+    outcome: NDArray[np.str_]
+
+    def __post_init__(self) -> None:
+        drives, steps = len(self.worlds), len(self.sensing)
+        wanted: dict[str, tuple[tuple[int, ...], Any]] = {
+            "trajectory": ((steps,), np.int64),
+            "actions": ((steps,), np.int64),
+            "poses": ((steps, 3), np.float64),
+            "outcome": ((drives,), np.str_),
+        }
+        for name, (shape, dtype) in wanted.items():
+            checked = expect.array(f"demonstrations: {name}", getattr(self, name), shape=shape, dtype=dtype)
+            object.__setattr__(self, name, checked)
+        object.__setattr__(self, "speed", expect.positive("demonstrations: speed", self.speed))
+        if steps and (np.diff(self.trajectory) < 0).any():
+            raise ValueError("demonstrations: trajectory must ascend, one drive after the other")
+        for name, values, most in (("trajectory", self.trajectory, drives - 1), ("actions", self.actions, max(Action))):
+            if steps and not 0 <= values.min() <= values.max() <= most:
+                raise ValueError(f"demonstrations: {name} must lie in 0..{most}, got {values.min()}..{values.max()}")
+        for outcome in np.unique(self.outcome):
+            expect.one_of("demonstrations: outcome", outcome, OUTCOMES[1:])
+
+    def __len__(self) -> int:
+        return len(self.actions)
+
+    def __getitem__(self, index: slice | NDArray[Any]) -> Demonstrations:
+        """Some of the steps, in their order; the worlds and outcomes stay."""
+        steps = {name: getattr(self, name)[index] for name in ("trajectory", "sensing", "actions", "poses")}
+        return replace(self, **steps)
+
+    @property
+    def effective(self) -> Demonstrations:
+        """The pairs to learn from: steps with something in range and one of the five learned actions."""
+        return self[~self.sensing.safe & (self.actions < LEARNED)]
+
+    @property
+    def lengths(self) -> Actions:
+        """Steps (D,) of each drive."""
+        return np.bincount(self.trajectory, minlength=len(self.worlds))
+
+    def drives(self, index: ArrayLike) -> Demonstrations:
+        """Whole drives alone, picked by indices or a mask and counted anew from 0."""
+        chosen = np.arange(len(self.worlds))[np.asarray(index)]
+        none = np.empty(0, np.int64)
+        rows = np.concatenate([none, *(np.flatnonzero(self.trajectory == drive) for drive in chosen)])
+        return replace(
+            self,
+            worlds=self.worlds[chosen],
+            trajectory=np.repeat(np.arange(len(chosen)), self.lengths[chosen]),
+            sensing=self.sensing[rows],
+            actions=self.actions[rows],
+            poses=self.poses[rows],
+            outcome=self.outcome[chosen],
+        )
+
+
+Expert = Callable[[Simulator, Actions], Actions]
+"""``expert(simulator, asked) -> actions (n,)``: what the robots ``asked`` (n,) of a simulator should do now."""
+
+
+def record(
+    expert: Expert,
+    worlds: Worlds,
+    *,
+    speed: float = 2.0,
+    slip: ArrayLike | None = None,
+    reflex: Reflex | None = REFLEX,
+    max_steps: int = MAX_STEPS,
+    progress: Progress | None = None,
+) -> Demonstrations:
+    """Let an expert drive one robot through each of D worlds, and keep what the robot sensed and did.
+
+    Parameters
+    ----------
+    expert : asked where the reflex does not decide.
+    worlds : batch of D.
+    speed : m/s, positive.
+    slip : (6, 6) probabilities that action a (row) turns into another; what is kept is what was executed.
+    reflex : what the robot does before the expert is asked; None leaves every step to the expert.
+    max_steps : seconds after which a drive is out of steps.
+
+    Raises
+    ------
+    ValueError : if an argument is out of bounds.
+    """
+    expect.integer("max_steps", max_steps, at_least=1)
+    simulator = Simulator(worlds, speed, slip=slip)
+    rows: list[tuple[Actions, Sensing, Actions, Floats]] = []
+    for _ in range(max_steps):
+        running = np.flatnonzero(simulator.outcome == _RUNNING)
+        if len(running) == 0:
+            break
+        sensing, poses = simulator.sense(), simulator.poses.copy()
+        commands = np.full(len(worlds), -1) if reflex is None else reflex(sensing, speed)
+        asked = running[commands[running] < 0]
+        commands[asked] = expert(simulator, asked)
+        simulator.step(commands)
+        commands[asked] = executed(poses[asked], simulator.poses[asked])
+        rows.append((running, sensing[running], commands[running], poses[running]))
+        if progress is not None:
+            progress(len(worlds) - len(running), len(worlds))
+    simulator.outcome[simulator.outcome == _RUNNING] = _OUT_OF_STEPS
+    return _by_drive(worlds, rows, speed, OUTCOMES[simulator.outcome])
+
+
+def executed(before: Floats, after: Floats) -> Actions:
+    """The actions (N,) that led from poses ``before`` to ``after`` (N, 3): by the turn, or B where it went back."""
+    turned = np.rint((after[:, 2] - before[:, 2]) / np.radians(30)).astype(int) % 12
+    actions = np.select(
+        [turned == 1, turned == 2, turned == 11, turned == 10], [Action.L30, Action.L60, Action.R30, Action.R60]
+    )
+    way = np.column_stack([np.cos(after[:, 2]), np.sin(after[:, 2])])
+    backward = ((after[:, :2] - before[:, :2]) * way).sum(axis=1) < 0
+    return np.where(backward, Action.B, actions)
+
+
+def _by_drive(
+    worlds: Worlds, rows: list[tuple[Actions, Sensing, Actions, Floats]], speed: float, outcome: NDArray[np.str_]
+) -> Demonstrations:
+    """Steps by drive from steps by time."""
+    owners, sensed, actions, poses = zip(*rows, strict=True) if rows else ((), (), (), ())
+    drives = np.concatenate([np.empty(0, np.int64), *owners])
+    order = np.argsort(drives, kind="stable")
+    columns = {
+        field.name: np.concatenate([getattr(Sensing.empty(0), field.name), *(getattr(s, field.name) for s in sensed)])
+        for field in fields(Sensing)
+    }
+    return Demonstrations(
+        worlds=worlds,
+        trajectory=drives[order],
+        sensing=Sensing(**columns)[order],
+        actions=np.concatenate([np.empty(0, np.int64), *actions])[order],
+        poses=np.concatenate([np.empty((0, 3)), *poses])[order],
+        speed=speed,
+        outcome=outcome,
+    )
