@@ -67,6 +67,12 @@ def test_gaps_are_zero_exactly_on_their_lines():
     assert trace.values[-1].tolist() == [1, 2]
 
 
+def test_an_action_that_ties_stays():
+    same = FiniteMDP(np.stack([np.full((4, 4), 0.25)] * 3), np.ones((4, 3)), 0.9)
+    start = np.array([2, 1, 0, 1])
+    assert (generalized_policy_iteration(same, start_policy=start).policies == start).all()
+
+
 def test_giving_up_warns(mdp):
     with pytest.warns(ConvergenceWarning, match="generalized_policy_iteration gave up after 2"):
         trace = generalized_policy_iteration(mdp, max_rounds=2)
