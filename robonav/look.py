@@ -11,10 +11,11 @@ from typing import Any
 BLUE, ORANGE, GREEN, VERMILION = "#0072B2", "#E69F00", "#009E73", "#D55E00"
 SKY, PURPLE, YELLOW, GREY = "#56B4E9", "#CC79A7", "#F0E442", "#7F7F7F"
 
-ROBOT, TARGET, OBSTACLE, MOVING = BLUE, VERMILION, "#5F6368", PURPLE
+ROBOT, TARGET, OBSTACLE, MOVING = BLUE, VERMILION, "#767B81", PURPLE
 
 METHODS: dict[str, str] = {
     "straight": GREY,
+    "freer side": "#A6761D",
     "A*": ORANGE,
     "grid A*": SKY,
     "lfd": BLUE,

@@ -10,7 +10,7 @@ from .encoding import (
     nnql_state,
 )
 from .kernels import ARRIVAL_DISTANCE, COLLISION_DISTANCE, SENSOR_RANGE
-from .navigation import REFLEX, Navigation, Policy, navigate, straight
+from .navigation import REFLEX, Navigation, Policy, freer_side, navigate, straight
 from .simulator import (
     OUTCOMES,
     Action,
@@ -46,6 +46,7 @@ __all__ = [
     "degree_of_danger",
     "draw_worlds",
     "format_world",
+    "freer_side",
     "lfd_state",
     "load_worlds",
     "make_world",

@@ -117,8 +117,18 @@ def decide(
 
 
 def straight(sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
-    """The policy that always goes forward: the yardstick beside every table."""
+    """The policy that always goes forward: the first yardstick beside every table."""
     return np.full(len(sensing), Action.F)
+
+
+def freer_side(sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
+    """A rule of three lines that has learned nothing: something near ahead, turn 60 degrees to the side with more room.
+
+    The second yardstick: what learning has to beat.
+    """
+    left, right = sensing.ranges[:, 1:3].min(axis=1), sensing.ranges[:, 7:9].min(axis=1)
+    turn = np.where(left > right, Action.L60, Action.R60)
+    return np.where(sensing.ranges[:, 0] < 6.0, turn, Action.F)
 
 
 def _paths(track: list[tuple[NDArray[np.int64], NDArray[np.float64]]], n: int) -> tuple[NDArray[np.float64], ...]:

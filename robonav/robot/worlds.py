@@ -86,18 +86,18 @@ class Worlds:
         if outside.any():
             where = self.centres[there][outside.any(axis=1)][0]
             raise ValueError(
-                f"worlds: obstacles must have their centre in the map, 0 to {self.size:g} m, got {tuple(where)}"
+                f"worlds: obstacles must have their centre in the map, 0 to {self.size:g} m, got {_point(where)}"
             )
 
     def _check_endpoints(self) -> None:
         for name, points in (("start", self.starts), ("target", self.targets)):
             if ((points < 0) | (points > self.size)).any():
                 bad = points[((points < 0) | (points > self.size)).any(axis=1)][0]
-                raise ValueError(f"worlds: {name} must lie in the map, 0 to {self.size:g} m, got {tuple(bad)}")
+                raise ValueError(f"worlds: {name} must lie in the map, 0 to {self.size:g} m, got {_point(bad)}")
             for i, gap in enumerate(clearance(self, points)):
                 if gap < kernels.COLLISION_DISTANCE:
                     raise ValueError(
-                        f"worlds: {name} {tuple(points[i])} of world {i} must be at least "
+                        f"worlds: {name} {_point(points[i])} of world {i} must be at least "
                         f"{kernels.COLLISION_DISTANCE:g} m clear of obstacles and borders, got {gap:.3g} m"
                     )
 
@@ -147,6 +147,10 @@ class Worlds:
         lengths = [np.round(part * 1e6).astype("<i8") for part in (self.shapes, self.centres, self.speeds)]
         parts = [self.kinds.astype("<i1"), *lengths, self.starts, self.targets, self.keys.astype("<u4")]
         return hashlib.sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in parts)).hexdigest()
+
+
+def _point(place: Floats) -> str:
+    return f"({place[0]:g}, {place[1]:g})"
 
 
 def clearance(worlds: Worlds, points: ArrayLike) -> Floats:
