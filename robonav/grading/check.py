@@ -1,0 +1,64 @@
+"""Check a function where it is, in a notebook: the same tests and the same words as the grader's, but no sandbox."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from robonav.grading import frames
+from robonav.grading.course import Course, Exercise
+from robonav.grading.grade import Unaccepted, exercise_grade
+from robonav.grading.parts import PUBLIC, generator, outcome, parts_of
+from robonav.grading.proxy import Answer
+from robonav.grading.reference import Case, Reference, reference
+
+
+def check(key: str, function: Callable[..., Any]) -> float:
+    """Check ``function`` as the answer to an exercise, by id or name; say how each part went.
+
+    Returns
+    -------
+    The points earned, which nbgrader takes as the score of a cell that ends with this call.
+    """
+    course = Course.around(Path.cwd())
+    result = graded(course, course.named(key), function, reference(course))
+    print(result["feedback"])
+    return float(result["points"] or 0)
+
+
+def graded(course: Course, exercise: Exercise, function: Callable[..., Any], known: Reference) -> dict[str, Any]:
+    """The exercise's entry in a grade, on the public cases."""
+    parts = []
+    for test, points in parts_of(course, exercise):
+        error = None
+        try:
+            name = test.__name__
+            test(Answer(Here(function), known, Case(exercise, name, 0, ())), generator(PUBLIC, name))
+        except Exception as raised:
+            error = raised
+        parts.append(outcome(test, points, error))
+    return exercise_grade(exercise, parts)
+
+
+class Here:
+    """In place of a sandbox: the function is called here, its arguments and its answer copied as frames would be."""
+
+    secret = False
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._function = function
+
+    def call(self, exercise: Exercise, arguments: Sequence[Any]) -> Any:
+        """As ``Session.call``."""
+        arguments = frames.decode(frames.encode(list(arguments)))
+        try:
+            return frames.decode(frames.encode(self._function(*arguments)))
+        except NotImplementedError:
+            raise Unaccepted("missing", "Not attempted.") from None
+        except frames.FrameError as error:
+            raise Unaccepted(
+                "error", f"The answer must be numbers, strings, lists, dicts or arrays, not {error}."
+            ) from None
+        except Exception as error:
+            raise Unaccepted("error", f"{type(error).__name__}: {error}.") from error

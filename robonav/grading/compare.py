@@ -1,0 +1,108 @@
+"""How a student's answer differs from the expected one, in a sentence; and how a call is shown in feedback."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+RELATIVE = 1e-5  # wide enough for an answer computed in single precision
+MOST_SHOWN = 300  # characters of an argument
+SCALED = 1e-6  # and for cancellation, against the largest number expected
+
+
+def difference(got: Any, expected: Any) -> str | None:
+    """What is wrong with ``got``, or None if it is right.
+
+    Numbers agree within a relative 1e-5 (or 1e-6 of the largest one expected); whole numbers and truth values exactly.
+    Lists serve as arrays and any dtype serves that holds the values; shapes must be the expected ones.
+    """
+    match expected:
+        case None | str():
+            return None if type(got) is type(expected) and got == expected else _unlike(expected, got)
+        case dict():
+            if not isinstance(got, dict) or set(got) != set(expected):
+                return _unlike(expected, got)
+            parts = [(f"[{key!r}]", got[key], value) for key, value in expected.items()]
+        case list() | tuple():
+            parts_came = isinstance(got, list | tuple) or (isinstance(got, np.ndarray) and got.ndim > 0)
+            if not parts_came or len(got) != len(expected):
+                return _unlike(expected, got)
+            parts = [(f"part {n}", got[n], value) for n, value in enumerate(expected)]
+        case _:
+            return _numbers_differ(got, np.asarray(expected))
+    for name, one, other in parts:
+        if found := difference(one, other):
+            return f"in {name} of the answer, {found}"
+    return None
+
+
+def as_numbers(value: Any) -> np.ndarray | None:
+    """An array of numbers or truth values from what a student may give for one, or None."""
+    try:
+        array = np.asarray(value)
+    except (ValueError, TypeError):  # a ragged list
+        return None
+    return array if array.dtype.kind in "biuf" else None
+
+
+def _numbers_differ(got: Any, expected: np.ndarray) -> str | None:
+    array = as_numbers(got)
+    if array is None or array.shape != expected.shape:
+        return _unlike(expected, got)
+    if expected.dtype.kind == "f":
+        finite = np.abs(expected[np.isfinite(expected)])
+        with np.errstate(all="ignore"):
+            close = np.isclose(array, expected, rtol=RELATIVE, atol=SCALED * finite.max(initial=0.0))
+    else:
+        close = array == expected
+    if close.all():
+        return None
+    place = np.argwhere(~close)[0].tolist() if close.ndim else []
+    where = f"at {place} " if place else ""
+    return f"{where}expected {_number(expected[tuple(place)])}, got {_number(array[tuple(place)])}"
+
+
+def _unlike(expected: Any, got: Any) -> str:
+    return f"expected {kind(expected)}, got {kind(got)}"
+
+
+def kind(value: Any) -> str:
+    """A value in a few words, without its numbers."""
+    match value:
+        case None:
+            return "None"
+        case str():
+            return "a string"
+        case dict():
+            return f"a dict of {len(value)}"
+        case tuple():
+            return f"{len(value)} parts"
+    array = as_numbers(value)
+    if array is None:
+        return f"a list of {len(value)}" if isinstance(value, list) else f"a {type(value).__name__}"
+    if array.ndim == 0:
+        return {"b": "a truth value", "f": "a number"}.get(array.dtype.kind, "a whole number")
+    return f"an array of shape {array.shape}"
+
+
+def call(name: str, arguments: tuple[Any, ...], *, numbers: bool) -> str:
+    """``name(...)`` as feedback shows it: with its small arguments, or with their shapes alone."""
+    return f"{name}({', '.join(_argument(argument, numbers) for argument in arguments)})"
+
+
+def _argument(value: Any, numbers: bool) -> str:
+    if not numbers:
+        return kind(value)
+    match value:
+        case np.ndarray():
+            text = np.array2string(value, precision=4, separator=", ", suppress_small=True).replace("\n", "")
+        case float():
+            text = f"{value:.6g}"
+        case _:
+            text = str(value)
+    return text if len(text) <= MOST_SHOWN else kind(value)
+
+
+def _number(value: Any) -> str:
+    return f"{value:.6g}" if np.asarray(value).dtype.kind == "f" else str(value)

@@ -1,0 +1,136 @@
+"""What a worker gives up before it runs a student's code: resources, system calls, files, its user.
+
+Each step is taken by the worker itself and cannot be undone by it. Linux on x86-64 and AArch64 has all of them;
+elsewhere a function does what the system offers. Standard library only: the file also runs in the sandbox.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import errno
+import os
+import platform
+import struct
+from collections.abc import Iterable, Mapping
+
+# Number of each refused call on (x86-64, AArch64). A worker computes: it starts no process, opens no connection, looks
+# into no other process and changes no mount. Calls that only x86-64 has are None on AArch64.
+REFUSED: dict[str, tuple[int, int | None]] = {
+    "fork": (57, None),
+    "vfork": (58, None),
+    "execve": (59, 221),
+    "execveat": (322, 281),
+    "ptrace": (101, 117),
+    "process_vm_readv": (310, 270),
+    "process_vm_writev": (311, 271),
+    "socket": (41, 198),
+    "socketpair": (53, 199),
+    "mount": (165, 40),
+    "umount2": (166, 39),
+    "pivot_root": (155, 41),
+    "chroot": (161, 51),
+    "setns": (308, 268),
+    "unshare": (272, 97),
+    "bpf": (321, 280),
+    "userfaultfd": (323, 282),
+    "perf_event_open": (298, 241),
+    "keyctl": (250, 219),
+    "add_key": (248, 217),
+    "request_key": (249, 218),
+    "io_uring_setup": (425, 425),
+    "kexec_load": (246, 104),
+    "init_module": (175, 105),
+    "finit_module": (313, 273),
+    "open_by_handle_at": (304, 265),
+}
+CLONE, CLONE3 = (56, 220), (435, 435)
+CLONE_THREAD = 0x10000
+MACHINES = {"x86_64": (0, 0xC000003E), "aarch64": (1, 0xC00000B7)}  # column above, audit architecture
+
+LOAD, EQUAL, AT_LEAST, HAS_BITS, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
+ALLOW, KILL, REFUSE = 0x7FFF0000, 0x80000000, 0x00050000  # a refusal carries the error number
+CALL, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # offsets in struct seccomp_data
+
+PR_SET_SECCOMP, PR_SET_NO_NEW_PRIVS, FILTER_MODE = 22, 38, 2
+LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
+READ, ALL_OF_IT = 0b1101, (1 << 13) - 1  # Landlock: execute, read a file, list a folder; all of its first version
+OF_A_FILE = 0b111  # execute, write, read: the rights that a file can have, the others being those of folders
+
+
+def limit(amounts: Mapping[str, int]) -> None:
+    """Set resource limits, soft and hard, by their names in ``resource`` without RLIMIT_, such as ``AS`` in bytes."""
+    if os.name != "posix":
+        return
+    import resource
+
+    for name, amount in amounts.items():
+        number = getattr(resource, f"RLIMIT_{name}")
+        hard = resource.getrlimit(number)[1]
+        if hard != resource.RLIM_INFINITY:
+            amount = min(amount, hard)
+        resource.setrlimit(number, (amount, amount))
+
+
+def filter_program(machine: str) -> bytes:
+    """The seccomp filter as classic BPF: refuse what is ``REFUSED`` and new processes, allow threads and the rest."""
+    column, architecture = MACHINES[machine]
+
+    def step(code: int, value: int, then: int = 0, otherwise: int = 0) -> bytes:
+        return struct.pack("=HBBI", code, then, otherwise, value)
+
+    refuse = step(RETURN, REFUSE | errno.EPERM)
+    program = [step(LOAD, ARCHITECTURE), step(EQUAL, architecture, then=1), step(RETURN, KILL), step(LOAD, CALL)]
+    if machine == "x86_64":
+        program += [step(AT_LEAST, 0x40000000, otherwise=1), refuse]  # the 32-bit ABI, another table of numbers
+    for numbers in REFUSED.values():
+        if (number := numbers[column]) is not None:
+            program += [step(EQUAL, number, otherwise=1), refuse]
+    # The flags of clone3 lie behind a pointer; without it the C library falls back on clone, whose flags we see.
+    program += [step(EQUAL, CLONE3[column], otherwise=1), step(RETURN, REFUSE | errno.ENOSYS)]
+    program += [step(EQUAL, CLONE[column], otherwise=3), step(LOAD, FIRST_ARGUMENT)]
+    program += [step(HAS_BITS, CLONE_THREAD, then=1), refuse, step(RETURN, ALLOW)]
+    return b"".join(program)
+
+
+def filter_calls() -> bool:
+    """Refuse system calls from here on; whether this machine could."""
+    if platform.system() != "Linux" or platform.machine() not in MACHINES:
+        return False
+    program = filter_program(platform.machine())
+    buffer = ctypes.create_string_buffer(program, len(program))
+    described = struct.pack("@HP", len(program) // 8, ctypes.addressof(buffer))
+    _gain_nothing()
+    return ctypes.CDLL(None).prctl(PR_SET_SECCOMP, FILTER_MODE, described, 0, 0) == 0
+
+
+def restrict_files(readable: Iterable[str], writable: Iterable[str]) -> bool:
+    """Let this process see these folders and files and no others (Landlock); whether this kernel could."""
+    call = ctypes.CDLL(None, use_errno=True).syscall
+    rules = call(LANDLOCK_CREATE, struct.pack("=Q", ALL_OF_IT), ctypes.c_size_t(8), 0)
+    if rules < 0:
+        return False
+    for paths, rights in ((readable, READ), (writable, ALL_OF_IT)):
+        for path in paths:
+            if not os.path.exists(path):
+                continue
+            descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
+            allowed = rights if os.path.isdir(path) else rights & OF_A_FILE
+            call(LANDLOCK_ADD, rules, 1, struct.pack("=Qi", allowed, descriptor), 0)
+            os.close(descriptor)
+    _gain_nothing()
+    done = call(LANDLOCK_RESTRICT, rules, 0)
+    os.close(rules)
+    return done == 0
+
+
+def become(user: int) -> None:
+    """Change to a user and group that own nothing; root only."""
+    os.setgroups([])
+    os.setresgid(user, user, user)
+    os.setresuid(user, user, user)
+    _gain_nothing()
+
+
+def _gain_nothing() -> None:
+    if ctypes.CDLL(None).prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0:
+        raise OSError("the kernel cannot promise that no privileges are gained")

@@ -1,0 +1,107 @@
+"""The course: where its folders are, and the manifest that fixes each exercise's id, points and place."""
+
+from __future__ import annotations
+
+import importlib.util
+import tomllib
+import types
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+
+from robonav import expect
+
+DIFFICULTIES = ("warm-up", "exercise", "project")
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """One exercise: ``2.1`` is the function ``name`` in ``ch2/name.py``, worth ``points``."""
+
+    id: str
+    name: str
+    title: str
+    points: int
+    difficulty: str
+    minutes: int
+
+    def __post_init__(self) -> None:
+        expect.integer(f"points of exercise {self.id}", self.points, at_least=1)
+        expect.integer(f"minutes of exercise {self.id}", self.minutes, at_least=1)
+        expect.one_of(f"difficulty of exercise {self.id}", self.difficulty, DIFFICULTIES)
+
+    @property
+    def chapter(self) -> str:
+        """``ch2`` for exercise 2.1."""
+        return f"ch{self.id.partition('.')[0]}"
+
+    @property
+    def file(self) -> str:
+        """Where a submission has it."""
+        return f"{self.chapter}/{self.name}.py"
+
+
+@dataclass(frozen=True)
+class Course:
+    """The folders of a checkout, or of what students got, which has no ``solutions``."""
+
+    root: Path
+
+    @classmethod
+    def around(cls, *starts: Path) -> Course:
+        """The course that one of these folders, or the checkout of this package, lies in."""
+        for start in (*starts, Path(__file__).parent):
+            for folder in (start.resolve(), *start.resolve().parents):
+                if (folder / "tests/exercises/manifest.toml").is_file():
+                    return cls(folder)
+        raise ValueError("no exercises found: go to the folder that holds tests/exercises")
+
+    @property
+    def tests(self) -> Path:
+        return self.root / "tests/exercises"
+
+    @property
+    def solutions(self) -> Path:
+        return self.root / "solutions"
+
+    @property
+    def stubs(self) -> Path:
+        return self.root / "exercises"
+
+    @property
+    def recorded(self) -> Path:
+        return self.tests / "recorded"
+
+    @cached_property
+    def exercises(self) -> Mapping[str, Exercise]:
+        """All exercises by id, in the manifest's order."""
+        with (self.tests / "manifest.toml").open("rb") as file:
+            listed = [Exercise(**entry) for entry in tomllib.load(file)["exercise"]]
+        found = {exercise.id: exercise for exercise in listed}
+        if len(found) < len(listed) or len({exercise.name for exercise in listed}) < len(listed):
+            raise ValueError("every exercise in the manifest must have an id and a name of its own")
+        return found
+
+    def chapters(self) -> Iterator[tuple[str, list[Exercise]]]:
+        """Each chapter with its exercises."""
+        for chapter in sorted({exercise.chapter for exercise in self.exercises.values()}):
+            yield chapter, [exercise for exercise in self.exercises.values() if exercise.chapter == chapter]
+
+    def named(self, key: str) -> Exercise:
+        """The exercise with this id or name."""
+        for exercise in self.exercises.values():
+            if key in (exercise.id, exercise.name):
+                return exercise
+        raise ValueError(f"no exercise {key!r}: there are {', '.join(self.exercises)}")
+
+
+@cache
+def trusted(path: Path) -> types.ModuleType:
+    """One of the course's own files as a module: a solution, or a chapter's tests."""
+    spec = importlib.util.spec_from_file_location(f"robonav_course_{path.parent.name}_{path.stem}", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

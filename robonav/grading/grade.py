@@ -1,0 +1,90 @@
+"""Points, states and feedback: from the parts of an exercise to the grade of a submission."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from robonav.grading.course import Exercise
+
+State = Literal["correct", "partial", "wrong", "error", "timeout", "memory", "missing", "grader-fault"]
+STATES: tuple[State, ...] = ("correct", "partial", "wrong", "error", "timeout", "memory", "missing", "grader-fault")
+FAULT = "The grader failed here, which is not your doing: this exercise will be graded again."
+MOST_FEEDBACK = 4_000
+
+
+class Unaccepted(Exception):
+    """An answer that earns no points for a part: its state, and what the student is told."""
+
+    def __init__(self, state: State, feedback: str) -> None:
+        super().__init__(feedback)
+        self.state: State = state
+        self.feedback = feedback
+
+
+@dataclass(frozen=True)
+class Part:
+    """How one part of an exercise went; ``points`` of it count if its state is correct."""
+
+    name: str
+    points: int
+    state: State
+    feedback: str
+
+
+def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
+    """The entry of one exercise in a grade; its points are None where the grader failed in any part."""
+    missing = exercise.points - sum(part.points for part in parts)
+    if missing > 0:
+        parts = [*parts, Part("parts that were not run", missing, "grader-fault", FAULT)]
+    return {
+        "id": exercise.id,
+        "points": None
+        if _any(parts, "grader-fault")
+        else sum(part.points for part in parts if part.state == "correct"),
+        "max_points": exercise.points,
+        "state": _state(parts),
+        "feedback": printable("\n".join(map(_line, parts))),
+    }
+
+
+def grade(exercises: Sequence[Mapping[str, Any]], tier: str) -> dict[str, Any]:
+    """The grade of a submission; exercises to be graded again count as no points yet."""
+    return {
+        "points": sum(entry["points"] or 0 for entry in exercises),
+        "max_points": sum(entry["max_points"] for entry in exercises),
+        "tier": tier,
+        "exercises": list(exercises),
+    }
+
+
+def fault_grade(exercises: Iterable[Exercise], tier: str) -> dict[str, Any]:
+    """The grade where the grader itself did not get as far as a grade."""
+    return grade([exercise_grade(exercise, []) for exercise in exercises], tier)
+
+
+def printable(text: str) -> str:
+    """Text that every file and terminal takes: a student's error messages may hold anything."""
+    kept = "".join(c if c == "\n" or c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text[:MOST_FEEDBACK])
+    return kept.encode("utf-8", "replace").decode()
+
+
+def _any(parts: Sequence[Part], state: State) -> bool:
+    return any(part.state == state for part in parts)
+
+
+def _state(parts: Sequence[Part]) -> State:
+    """The grader's fault above all, then all or some points; else the state of the first part."""
+    if _any(parts, "grader-fault"):
+        return "grader-fault"
+    if all(part.state == "correct" for part in parts):
+        return "correct"
+    return "partial" if _any(parts, "correct") else parts[0].state
+
+
+def _line(part: Part) -> str:
+    earned = part.points if part.state == "correct" else 0
+    mark = "✓" if earned else "✗"
+    feedback = "" if part.state == "correct" else f" {part.feedback}"
+    return f"{mark} {earned}/{part.points} {part.name}{feedback}"

@@ -1,0 +1,67 @@
+"""Which tier of sandbox this machine has: each is tried with a submission that tries what it must not."""
+
+from __future__ import annotations
+
+import functools
+
+from robonav.grading import sandbox
+from robonav.grading.sandbox import Limits
+
+TIERS = ("official", "restricted", "practice")
+
+CANARY = b'''
+def canary(path):
+    """What succeeded of everything that must not."""
+    import os, resource, socket
+    import decimal, fractions, random  # modules of the standard library must be there
+
+    def limits():
+        resource.setrlimit(resource.RLIMIT_AS, (1 << 62, 1 << 62))
+
+    def parents():
+        os.kill(os.getppid(), 0) if os.getppid() not in (0, 1, 2) else os.listdir("/proc/1/root/home")
+
+    attempts = {
+        "reads": lambda: open(path),
+        "forks": os.fork,
+        "connects": socket.socket,
+        "writes": lambda: open("/var/tmp/robonav-canary", "w"),
+        "raises its limits": limits,
+        "looks into the host": lambda: os.listdir("/proc/self/root/proc"),
+    }
+    succeeded = []
+    for name, attempt in attempts.items():
+        try:
+            attempt()
+        except (OSError, ValueError):
+            continue
+        succeeded.append(name)
+    return succeeded
+'''
+
+
+@functools.cache
+def fault(tier: str, python: str = sandbox.PYTHON) -> str | None:
+    """Why the tier cannot be relied on here, or None if it can."""
+    try:
+        worker = sandbox.start(tier, {"canary.py": CANARY}, Limits(), python=python)
+    except sandbox.SandboxFault as error:
+        return str(error)
+    try:
+        worker.ask({"id": 1, "do": "load", "chapter": "", "name": "canary"}, sandbox.START_SECONDS)
+        reply = worker.ask({"id": 2, "do": "call", "args": [__file__]}, sandbox.START_SECONDS)
+    except (sandbox.TimedOut, EOFError, sandbox.Garbled) as error:
+        return f"the {tier} sandbox does not answer: {error!r}"
+    finally:
+        worker.kill()
+    if tier == "practice" and "value" in reply:
+        return None
+    return None if reply == {"id": 2, "value": []} else f"the {tier} sandbox lets out: {reply}"
+
+
+def best() -> str:
+    """The strictest tier that works here."""
+    for tier in TIERS:
+        if fault(tier) is None:
+            return tier
+    raise sandbox.SandboxFault("; ".join(str(fault(tier)) for tier in TIERS))

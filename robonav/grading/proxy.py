@@ -1,0 +1,190 @@
+"""What a test holds in place of the student's function: calls go to the sandbox, every judgement is made here."""
+
+from __future__ import annotations
+
+import builtins
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from robonav.grading import compare, sandbox
+from robonav.grading.course import Exercise
+from robonav.grading.grade import Unaccepted
+from robonav.grading.reference import Case, Reference
+from robonav.grading.sandbox import Garbled, Limits, TimedOut, Worker
+from robonav.grading.submission import Refused, Submission
+
+
+class Calls(Protocol):
+    """Something that calls a student's function."""
+
+    secret: bool
+
+    def call(self, exercise: Exercise, arguments: Sequence[Any]) -> Any: ...
+
+
+class Session:
+    """One submission in one sandbox, which is started when first needed and again after it had to be killed."""
+
+    def __init__(
+        self, submission: Submission | Refused, tier: str, *, limits: Limits | None = None, secret: bool = False
+    ) -> None:
+        self.tier = tier
+        self.secret = secret
+        self._files = submission.files if isinstance(submission, Submission) else {}
+        self._refused = submission if isinstance(submission, Refused) else None
+        self._limits = limits or Limits()
+        self._worker: Worker | None = None
+        self._serving: Exercise | None = None
+        self._failed: dict[str, Unaccepted] = {}  # by exercise: a file that hangs when it is read does so once
+        self._left: dict[str, float] = {}  # seconds by exercise
+        self._asked = 0
+
+    def call(self, exercise: Exercise, arguments: Sequence[Any]) -> Any:
+        """What the student's function answers, as plain values.
+
+        Raises
+        ------
+        Unaccepted : if it answers with an error, too late, or not at all.
+        SandboxFault : if the sandbox itself fails.
+        """
+        if self._refused:
+            raise Unaccepted("error", f"The submission was refused: {self._refused}.")
+        if exercise.id in self._failed:
+            raise self._failed[exercise.id]
+        self._serve(exercise)
+        return self._ask(exercise, {"do": "call", "args": list(arguments)})
+
+    def close(self) -> None:
+        """End the sandbox."""
+        if self._worker is not None:
+            self._worker.kill()
+        self._worker = self._serving = None
+
+    def _serve(self, exercise: Exercise) -> None:
+        """Have the student's function ready, in a process that has run no other exercise."""
+        if self._serving == exercise:
+            return
+        self._dismiss()
+        if self._worker is None:
+            self._worker = sandbox.start(self.tier, self._files, self._limits)
+        self._serving = exercise
+        try:
+            self._ask(exercise, {"do": "load", "chapter": exercise.chapter, "name": exercise.name})
+        except Unaccepted as failure:
+            self._failed[exercise.id] = failure
+            raise
+
+    def _dismiss(self) -> None:
+        """End the child of the exercise before; the sandbox with it, unless all goes as it should."""
+        if self._worker is None or self._serving is None:
+            return
+        self._serving = None
+        try:
+            ended = self._worker.forks and self._worker.ask({"do": "end"}, 1.0) == {"ended": 0}
+        except (TimedOut, EOFError, Garbled):
+            ended = False
+        if not ended:
+            self.close()
+
+    def _ask(self, exercise: Exercise, request: dict[str, Any]) -> Any:
+        assert self._worker is not None
+        self._asked += 1
+        left = self._left.setdefault(exercise.id, self._limits.exercise_seconds)
+        seconds = min(self._limits.call_seconds, left)
+        start = time.monotonic()
+        try:
+            reply = self._worker.ask({"id": self._asked, **request}, seconds)
+        except TimedOut:
+            self.close()
+            raise Unaccepted("timeout", f"No answer came within {seconds:.1f} seconds.") from None
+        except EOFError:
+            self.close()
+            raise Unaccepted("error", "Your code ended the process it ran in.") from None
+        except Garbled as error:
+            self.close()
+            raise Unaccepted("error", f"What came back is no answer: {error}.") from None
+        finally:
+            self._left[exercise.id] = left - (time.monotonic() - start)
+        match reply:
+            case {"id": self._asked, "value": value, **rest} if not rest:
+                return value
+            case {"id": self._asked, "raised": {"kind": str(kind), "message": str(message), "where": where}}:
+                raise self._raised(kind, message, where)
+            case {"ended": int(status)}:
+                self._serving = None
+                raise _ended(status)
+        self.close()
+        raise Unaccepted("error", "What came back is no answer to what was asked.")
+
+    def _raised(self, kind: str, message: str, where: Any) -> Unaccepted:
+        """A student's error; with secret cases it says nothing in the student's own words, which could carry a case."""
+        place = ""
+        if isinstance(where, list) and len(where) == 2 and where[0] in self._files and isinstance(where[1], int):
+            place = f" ({where[0]}, line {where[1]})"
+        if kind == "NotImplementedError":
+            return Unaccepted("missing", "Not attempted.")
+        if kind == "MemoryError":
+            return Unaccepted("memory", f"Your code needs more memory than there is{place}.")
+        if self.secret:
+            known = isinstance(getattr(builtins, kind, None), type)
+            return Unaccepted(
+                "error", f"{kind if known else 'An error of your own'}{place}; try robonav check at home."
+            )
+        if kind == "FrameError":
+            return Unaccepted("error", f"The answer must be numbers, strings, lists, dicts or arrays, not {message}.")
+        return Unaccepted("error", f"{kind}: {message}{place}.")
+
+
+def _ended(status: int) -> Unaccepted:
+    if status == -9:
+        return Unaccepted("memory", "Your code was stopped by the system, for its memory or its processor time.")
+    if status < 0:
+        return Unaccepted("error", f"Your code crashed the process it ran in (signal {-status}).")
+    return Unaccepted("error", f"Your code ended the process it ran in (exit code {status}).")
+
+
+@dataclass
+class Answer:
+    """The student's function in one part of an exercise."""
+
+    session: Calls
+    reference: Reference
+    case: Case  # the part; its number counts the comparisons made
+
+    def agrees(self, *arguments: Any) -> Any:
+        """Call the function and compare with the reference; the answer, for further checks."""
+        case = replace(self.case, arguments=arguments)
+        self.case = replace(self.case, number=self.case.number + 1)
+        expected = self.reference.expected(case)
+        got = self.value(*arguments)
+        if problem := compare.difference(got, expected):
+            hint = self.reference.hint(case, got)
+            raise Unaccepted("wrong", f"{self._called(arguments)}: {problem}." + (f" Hint: {hint}" if hint else ""))
+        return got
+
+    def value(self, *arguments: Any) -> Any:
+        """Call the function; its answer as it came, of any plain kind."""
+        return self.session.call(self.case.exercise, arguments)
+
+    def array(self, *arguments: Any, shape: tuple[int, ...]) -> np.ndarray:
+        """Call the function; its answer as an array of finite floats of this shape."""
+        got = self.value(*arguments)
+        array = compare.as_numbers(got)
+        if array is None or array.shape != shape:
+            wanted = f"an array of shape {shape}" if shape else "a number"
+            raise Unaccepted("wrong", f"{self._called(arguments)}: expected {wanted}, got {compare.kind(got)}.")
+        if not np.isfinite(array).all():
+            raise Unaccepted("wrong", f"{self._called(arguments)}: the answer holds NaN or infinity.")
+        return array.astype(float)
+
+    def check(self, holds: bool, arguments: Sequence[Any], sentence: str) -> None:
+        """A property of the answer to these arguments; ``sentence`` says what should hold."""
+        if not holds:
+            raise Unaccepted("wrong", f"{self._called(arguments)}: {sentence}")
+
+    def _called(self, arguments: Sequence[Any]) -> str:
+        return compare.call(self.case.exercise.name, tuple(arguments), numbers=not self.session.secret)

@@ -1,0 +1,135 @@
+"""The right answer to a case, and which known mistake a wrong one is.
+
+The grader computes both from ``solutions/``: ``ch2/backup.py`` holds the solution, and ``wrong/ch2/backup.py`` one
+function for each known mistake, whose docstring is the hint. Students have no ``solutions/``; their copy of the tests
+holds the answers recorded on the public cases instead, so that the same checks run at home.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+
+from robonav.files import whole
+from robonav.grading import compare, frames
+from robonav.grading.course import Course, Exercise, trusted
+
+
+@dataclass(frozen=True)
+class Case:
+    """The ``number``-th comparison of a part of an exercise, and the arguments of its call."""
+
+    exercise: Exercise
+    part: str
+    number: int
+    arguments: tuple[Any, ...]
+
+
+class Reference(Protocol):
+    """What a grader asks."""
+
+    def expected(self, case: Case) -> Any: ...
+
+    def hint(self, case: Case, got: Any) -> str | None:
+        """The hint for the known mistake that answers just this, or for each of them, if there is one."""
+
+
+@dataclass(frozen=True)
+class Solutions:
+    """Answers computed by the solutions."""
+
+    course: Course
+
+    def expected(self, case: Case) -> Any:
+        return solution(self.course, case.exercise)(*case.arguments)
+
+    def hint(self, case: Case, got: Any) -> str | None:
+        return _hints(self.mistakes(case), got)
+
+    def mistakes(self, case: Case) -> Iterator[tuple[str, Any]]:
+        """Each known mistake's hint and its answer to the case, where it differs from the right one."""
+        right = self.expected(case)
+        for function in mistakes(self.course, case.exercise).values():
+            try:
+                with np.errstate(all="ignore"):
+                    value = function(*case.arguments)
+            except Exception:  # some mistakes end in an error
+                continue
+            if compare.difference(value, right) is not None:
+                yield inspect.getdoc(function) or "", value
+
+
+class Recorder:
+    """Answers by the solutions, written down for ``Recorded``."""
+
+    def __init__(self, course: Course) -> None:
+        self._solutions = Solutions(course)
+        self._cases: dict[str, dict[str, list[Any]]] = {}
+
+    def expected(self, case: Case) -> Any:
+        right = self._solutions.expected(case)
+        mistakes = [list(mistake) for mistake in self._solutions.mistakes(case)]
+        of_exercise = self._cases.setdefault(case.exercise.name, {})
+        of_exercise.setdefault(case.part, []).append([list(case.arguments), right, mistakes])
+        return right
+
+    def hint(self, case: Case, got: Any) -> str | None:
+        return self._solutions.hint(case, got)
+
+    def write(self, folder: Path) -> None:
+        """One file of frames for each exercise."""
+        for name, parts in self._cases.items():
+            with whole(folder / f"{name}.frame") as file:
+                file.write(frames.encode(parts))
+
+
+class Recorded:
+    """Answers recorded on the public cases."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._cases: dict[str, Any] = {}
+
+    def expected(self, case: Case) -> Any:
+        return self._entry(case)[1]
+
+    def hint(self, case: Case, got: Any) -> str | None:
+        return _hints(self._entry(case)[2], got)
+
+    def _entry(self, case: Case) -> Any:
+        name = case.exercise.name
+        if name not in self._cases:
+            self._cases[name] = frames.decode((self._folder / f"{name}.frame").read_bytes())
+        try:
+            entry = self._cases[name][case.part][case.number]
+        except (KeyError, IndexError):
+            entry = [None, None, []]
+        if compare.difference(list(case.arguments), entry[0]) is not None:
+            raise RuntimeError("the recorded answers are to other cases: numpy draws differently here; try numpy 2")
+        return entry
+
+
+def _hints(mistakes: Iterable[Sequence[Any]], got: Any) -> str | None:
+    return " Or: ".join(hint for hint, value in mistakes if compare.difference(got, value) is None) or None
+
+
+def reference(course: Course) -> Reference:
+    """Answers by the solutions where they are, by record elsewhere."""
+    return Solutions(course) if course.solutions.is_dir() else Recorded(course.recorded)
+
+
+def solution(course: Course, exercise: Exercise) -> Callable[..., Any]:
+    """The solution's function."""
+    return getattr(trusted(course.solutions / exercise.file), exercise.name)
+
+
+def mistakes(course: Course, exercise: Exercise) -> dict[str, Callable[..., Any]]:
+    """The known wrong answers by name."""
+    module = trusted(course.solutions / "wrong" / exercise.file)
+    functions = inspect.getmembers(module, inspect.isfunction)
+    return {name: function for name, function in functions if not name.startswith("_")}

@@ -1,0 +1,124 @@
+"""One grading run within pytest: fixtures for the parts, states from their outcomes, the grade at the end."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Generator
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from robonav.files import whole
+from robonav.grading import probe, submission
+from robonav.grading.course import Course, Exercise
+from robonav.grading.grade import Part, exercise_grade, grade
+from robonav.grading.parts import PUBLIC, generator, outcome
+from robonav.grading.plugin import SECRET
+from robonav.grading.proxy import Answer, Session
+from robonav.grading.reference import Case, Recorder, reference
+from robonav.grading.submission import Refused
+
+
+class Run:
+    """Registered as a plugin when a submission is given."""
+
+    def __init__(self, config: pytest.Config) -> None:
+        paths = [Path(argument.partition("::")[0]) for argument in config.args]
+        try:
+            self.course = Course.around(*paths)
+            taken = _taken(Path(config.getoption("submission")))
+        except ValueError as error:
+            raise pytest.UsageError(str(error)) from None
+        secret = _secret(config.getoption("secret"))
+        tier = config.getoption("tier") or probe.best()
+        if secret and tier == "practice":
+            raise pytest.UsageError(f"no marks in the practice tier: {probe.fault('official')}")
+        self.seed = secret or PUBLIC
+        self.session = Session(taken, tier, secret=bool(secret))
+        self.reference = Recorder(self.course) if config.getoption("record_answers") else reference(self.course)
+        self.parts: dict[str, list[Part]] = {}
+        if config.getoption("grade_json"):
+            Path(config.getoption("grade_json")).unlink(missing_ok=True)
+        if self.course.tests in [path.resolve() for path in paths] and not config.option.keyword:
+            self.parts = {id: [] for id in self.course.exercises}
+
+    @pytest.fixture
+    def answer(self, request: pytest.FixtureRequest) -> Answer:
+        """The student's function."""
+        return Answer(self.session, self.reference, Case(self._exercise(request.node)[0], request.node.name, 0, ()))
+
+    @pytest.fixture
+    def rng(self, request: pytest.FixtureRequest) -> np.random.Generator:
+        """Random numbers of this part's own, from the secret or the public seed."""
+        return generator(self.seed, request.node.name)
+
+    def _exercise(self, item: pytest.Item) -> tuple[Exercise, int]:
+        marker = item.get_closest_marker("part")
+        if marker is None:
+            raise pytest.UsageError(f"{item.nodeid} must say which exercise it is a part of")
+        return self.course.exercises[marker.args[0]], marker.kwargs["points"]
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Let ``-k`` find exercises by name and id."""
+        for item in items:
+            exercise, _ = self._exercise(item)
+            item.extra_keyword_matches.update({exercise.id, exercise.name})
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_makereport(
+        self, item: pytest.Item, call: pytest.CallInfo[None]
+    ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+        report = yield
+        if call.when == "call" or call.excinfo is not None:
+            exercise, points = self._exercise(item)
+            test = cast(pytest.Function, item).function
+            part = outcome(test, points, call.excinfo.value if call.excinfo else None)
+            self.parts.setdefault(exercise.id, []).append(part)
+            if part.state not in ("correct", "grader-fault"):
+                report.longrepr = part.feedback  # nothing of the trusted side's traceback
+        return report
+
+    def pytest_sessionfinish(self, session: pytest.Session, exitstatus: int) -> None:
+        self.session.close()
+        if session.config.getoption("grade_json") and exitstatus in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
+            with whole(session.config.getoption("grade_json")) as file:
+                file.write(json.dumps(self.grade(), indent=1, ensure_ascii=False).encode())
+        if isinstance(self.reference, Recorder):
+            self.reference.write(Path(session.config.getoption("record_answers")))
+
+    def grade(self) -> dict[str, Any]:
+        """The grade of all exercises that were to be graded."""
+        exercises = self.course.exercises
+        graded = [exercise_grade(exercises[id], parts) for id, parts in self.parts.items()]
+        return grade(sorted(graded, key=lambda entry: list(exercises).index(entry["id"])), self.session.tier)
+
+    def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
+        result = self.grade()
+        terminalreporter.section(f"{result['points']} of {result['max_points']} points ({result['tier']} sandbox)")
+        for entry in result["exercises"]:
+            points = "?" if entry["points"] is None else entry["points"]
+            title = self.course.exercises[entry["id"]].title
+            terminalreporter.line(f"{entry['id']}  {points}/{entry['max_points']}  {entry['state']:12}  {title}")
+
+
+def _taken(path: Path) -> submission.Submission | Refused:
+    try:
+        return submission.read(path)
+    except Refused as refused:
+        return refused
+
+
+def _secret(path: str | None) -> bytes:
+    if path is None:
+        return os.environ.get(SECRET, "").encode()
+    try:
+        content = Path(path).read_bytes().strip()
+    except OSError as error:
+        raise pytest.UsageError(f"the secret cannot be read: {error}") from None
+    if not content:
+        raise pytest.UsageError(f"the secret in {path} is empty")
+    return content

@@ -1,0 +1,278 @@
+"""Three tiers of sandbox, from namespaces to a plain process, and the worker that runs in one.
+
+========== ============================================ ==========================================================
+official   Linux with bubblewrap                        own user, process, network and mount namespaces
+restricted Linux as root where namespaces are refused   another user, Landlock, no new privileges
+practice   anywhere                                     a process and a deadline; no mark is given from it
+========== ============================================ ==========================================================
+
+In all three the worker limits its resources, and on Linux refuses itself new processes and sockets (``confine``).
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+import queue
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO, cast
+
+import numpy as np
+
+from robonav.grading import frames
+
+START_SECONDS = 60.0  # for the worker's own start, before any of the student's code
+STAGED = ("confine", "frames", "notebook", "supervisor", "worker")  # the files of this folder that the sandbox holds
+LOADER = ("/lib", "/lib64", "/usr/lib", "/usr/lib64", "/etc/ld.so.cache")  # shared libraries of the interpreter
+NOBODY = "65534"
+USERS = range(2_000_000, 4_000_000)  # for the restricted tier; systems hand out none of these
+ENVIRONMENT = {"LANG": "C.UTF-8", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+PYTHON = os.path.realpath(getattr(sys, "_base_executable", sys.executable))  # outside any virtual environment
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a submission may use: seconds of wall clock, bytes of memory and of one written file, open files."""
+
+    call_seconds: float = 10.0
+    exercise_seconds: float = 20.0
+    memory: int = 1 << 30
+    written: int = 16 << 20
+    files: int = 64
+
+    def resources(self) -> dict[str, int]:
+        """The same as the system's resource limits; the processor time is that of one exercise."""
+        seconds = int(self.exercise_seconds) + 1
+        return {"AS": self.memory, "CPU": seconds, "FSIZE": self.written, "NOFILE": self.files, "CORE": 0}
+
+
+class SandboxFault(RuntimeError):
+    """The sandbox itself did not work: no fault of the submission."""
+
+
+class TimedOut(Exception):
+    """No answer came within the deadline; the sandbox is gone."""
+
+
+class Garbled(Exception):
+    """What came from the sandbox is no frame; the message says why."""
+
+
+class Worker:
+    """A worker in its sandbox; it is asked one thing at a time."""
+
+    def __init__(self, process: subprocess.Popen[bytes], end: Callable[[], None], *, forks: bool) -> None:
+        self._process, self._end, self.forks = process, end, forks
+        self._requests, self._replies = cast(BinaryIO, process.stdin), cast(BinaryIO, process.stdout)
+        self._exchanging: threading.Thread | None = None
+
+    def ask(self, request: Any, seconds: float) -> Any:
+        """The worker's next frame after this request.
+
+        Raises
+        ------
+        TimedOut : if it did not come whole within ``seconds``; the sandbox has then been killed.
+        EOFError : if the worker hung up.
+        Garbled : if what came is no frame.
+        FrameError : if the request cannot be one.
+        """
+        frame = frames.encode(request)
+        answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._exchanging = threading.Thread(target=self._exchange, args=(frame, answers), daemon=True)
+        self._exchanging.start()
+        try:
+            answer = answers.get(timeout=max(seconds, 0.0))
+        except queue.Empty:
+            self.kill()
+            raise TimedOut from None
+        if isinstance(answer, BaseException):
+            raise answer
+        return answer
+
+    def _exchange(self, frame: bytes, answers: queue.SimpleQueue[Any]) -> None:
+        try:
+            self._requests.write(frame)
+            self._requests.flush()
+            answers.put(frames.read(self._replies))
+        except OSError:
+            answers.put(EOFError("the worker hung up"))
+        except frames.FrameError as error:
+            answers.put(Garbled(str(error)))
+        except BaseException as error:
+            answers.put(error)
+
+    def kill(self) -> None:
+        """End everything in the sandbox, at once; harmless where it has ended."""
+        self._end()
+        self._process.wait()
+        if self._exchanging is not None:
+            self._exchanging.join(1.0)
+            if self._exchanging.is_alive():  # in the practice tier something may escape and hold the stream: leave it
+                return
+        for stream in (self._requests, self._replies):
+            with suppress(OSError):
+                stream.close()
+
+
+def start(tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str = PYTHON) -> Worker:
+    """A worker in a sandbox of this tier that holds these files and has run none of them yet.
+
+    Raises
+    ------
+    SandboxFault : if it does not start.
+    """
+    try:
+        worker = {"official": _official, "restricted": _restricted, "practice": _practice}[tier](python, limits)
+    except OSError as error:
+        raise SandboxFault(f"the {tier} sandbox cannot be started: {error}") from error
+    contents = {name: np.frombuffer(content, np.uint8) for name, content in files.items()}
+    resources = limits.resources() if worker.forks else {}
+    try:
+        answer = worker.ask({"files": contents, "limits": resources, "fork": worker.forks}, START_SECONDS)
+    except (TimedOut, EOFError, Garbled) as error:
+        answer = error
+    if answer != "ready":
+        worker.kill()
+        raise SandboxFault(f"the {tier} sandbox did not start its worker: {answer!r}")
+    return worker
+
+
+def _official(python: str, limits: Limits) -> Worker:
+    process = _spawn([*_bubblewrap(python, limits.written), "--", *_python(python, "/grader", "worker.main()")])
+    return Worker(process, process.kill, forks=True)
+
+
+def _restricted(python: str, limits: Limits) -> Worker:
+    if os.name != "posix" or os.geteuid() != 0:
+        raise OSError("only root can give the worker another user")
+    user, folder = random.SystemRandom().choice(USERS), tempfile.mkdtemp()
+    os.chown(folder, user, user)
+    reader, lifeline = os.pipe()
+    readable = [*LOADER, *_interpreter(python), *_numpy(), _stage(), "/dev/urandom"]
+    code = f"supervisor.supervise({user}, {reader}, {readable!r}, {folder!r})"
+    process = _spawn(_python(python, _stage(), code), folder=folder, keep=[reader])
+    os.close(reader)
+
+    def end() -> None:
+        nonlocal lifeline
+        if lifeline >= 0:
+            os.close(lifeline)
+            lifeline = -1
+        process.wait()
+        shutil.rmtree(folder, ignore_errors=True)
+
+    return Worker(process, end, forks=True)
+
+
+def _practice(python: str, limits: Limits) -> Worker:
+    folder = tempfile.mkdtemp()
+    process = _spawn(_python(python, _stage(), "worker.main()"), folder=folder)
+
+    def end() -> None:
+        if os.name == "posix":
+            with suppress(ProcessLookupError, PermissionError):
+                os.killpg(process.pid, signal.SIGKILL)
+        process.kill()
+        process.wait()
+        shutil.rmtree(folder, ignore_errors=True)
+
+    return Worker(process, end, forks=sys.platform == "linux")
+
+
+def _spawn(command: Sequence[str], *, folder: str | None = None, keep: Sequence[int] = ()) -> subprocess.Popen[bytes]:
+    environment = ENVIRONMENT if os.name == "posix" else {**os.environ, **ENVIRONMENT}
+    return subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        cwd=folder,
+        env=environment,
+        pass_fds=keep,
+        start_new_session=True,
+    )
+
+
+def _python(python: str, stage: str, code: str) -> list[str]:
+    """A command that runs ``code`` with the staged files and numpy in reach, and no site-packages."""
+    path = [stage, *{os.path.dirname(folder) for folder in _numpy()}]
+    return [python, "-I", "-S", "-B", "-c", f"import sys; sys.path += {path!r}\n"
+            f"from robonav.grading import supervisor, worker\n{code}"]  # fmt: skip
+
+
+def _bubblewrap(python: str, writable: int) -> list[str]:
+    """The sandbox's own file system: libraries, interpreter, numpy and worker, all read-only, and a small /tmp."""
+    command = ["bwrap", "--unshare-all", "--unshare-user", "--die-with-parent", "--cap-drop", "ALL"]
+    command += ["--uid", NOBODY, "--gid", NOBODY, "--hostname", "sandbox"]
+    if _bubblewrap_can("--disable-userns"):
+        command += ["--disable-userns"]
+    for path in LOADER:
+        command += ["--symlink", os.readlink(path), path] if os.path.islink(path) else ["--ro-bind-try", path, path]
+    for path in _interpreter(python):
+        command += ["--ro-bind", path, path]
+    for path in _package_folders(python):
+        command += ["--perms", "0555", "--size", "4096", "--tmpfs", path]
+    for path in _numpy():
+        command += ["--ro-bind", path, path]
+    command += ["--ro-bind", _stage(), "/grader", "--dev", "/dev", "--size", str(writable), "--tmpfs", "/tmp"]
+    for path in ("/", "/dev", *_package_folders(python)):
+        command += ["--remount-ro", path]
+    return [*command, "--chdir", "/tmp"]
+
+
+@functools.cache
+def _bubblewrap_can(option: str) -> bool:
+    return option in subprocess.run(["bwrap", "--help"], capture_output=True, text=True).stdout
+
+
+@functools.cache
+def _interpreter(python: str) -> list[str]:
+    """The interpreter, its standard library and its shared library."""
+    code = "import os, sys; print(sys.base_prefix, os.path.dirname(os.__file__), sep='\\n')"
+    answer = subprocess.run([python, "-I", "-S", "-c", code], capture_output=True, text=True, check=True).stdout
+    prefix, library = answer.splitlines()
+    return [python, library, *map(str, Path(prefix).glob("lib/libpython*.so*"))]
+
+
+def _numpy() -> list[str]:
+    folder = Path(np.__file__).parent
+    beside = folder.parent / "numpy.libs"
+    return [str(folder), *([str(beside)] if beside.is_dir() else [])]
+
+
+@functools.cache
+def _package_folders(python: str) -> list[str]:
+    """Folders of installed packages that lie within what the sandbox shows; robonav itself may be in one of them."""
+    shown = {
+        Path(path) for path in (*LOADER, *_interpreter(python)) if os.path.isdir(path) and not os.path.islink(path)
+    }
+    patterns = ("python3*/site-packages", "python3*/dist-packages", "site-packages", "dist-packages")
+    found = {folder for root in shown for pattern in patterns for folder in root.glob(pattern)}
+    return sorted(str(folder) for folder in found)
+
+
+@functools.cache
+def _staged() -> tempfile.TemporaryDirectory[str]:
+    folder = tempfile.TemporaryDirectory(prefix="robonav-grader-")
+    package = Path(folder.name, "robonav", "grading")
+    package.mkdir(parents=True)
+    for name in STAGED:
+        shutil.copy(Path(__file__).with_name(f"{name}.py"), package)
+    for path in [folder.name, *map(str, Path(folder.name).rglob("*"))]:
+        os.chmod(path, 0o755)
+    return folder
+
+
+def _stage() -> str:
+    """A folder with copies of the files that the sandbox needs and nothing else of this package."""
+    return _staged().name

@@ -1,0 +1,124 @@
+"""A submission as the grader takes it: the bytes of its Python files and notebooks, which only the worker looks into.
+
+A folder, a zip, a notebook or a Python file. Links are refused, as are paths that leave the submission; everything else
+that is no ``.py`` or ``.ipynb`` is left where it is.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+import zipfile
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+KINDS = (".py", ".ipynb")
+MOST_FILES, MOST_BYTES, MOST_ZIPPED = 200, 8 << 20, 32 << 20
+PASSED_OVER = {"__pycache__", "__MACOSX", "venv", "site-packages", "node_modules"}  # and every hidden folder
+
+
+class Refused(ValueError):
+    """The submission itself cannot be taken; the message says why."""
+
+
+@dataclass(frozen=True)
+class Submission:
+    """Contents by name, such as ``ch2/backup.py``."""
+
+    files: dict[str, bytes]
+
+    @property
+    def digest(self) -> str:
+        """A fingerprint of all names and contents."""
+        digest = hashlib.sha256()
+        for name, content in sorted(self.files.items()):
+            digest.update(f"{len(name)} {name} {len(content)} ".encode() + content)
+        return digest.hexdigest()
+
+
+def read(path: str | Path) -> Submission:
+    """The submission at ``path``.
+
+    Raises
+    ------
+    ValueError : if nothing is there that could be one.
+    Refused : if it holds a link, a path that leaves it, or too much.
+    """
+    path = Path(path)
+    if path.is_symlink():
+        raise Refused(f"{path.name} is a link")
+    if path.is_dir():
+        packed = _only_zip(path)
+        entries = _from_zip(packed) if packed else _from_folder(path)
+    elif path.is_file() and path.suffix == ".zip":
+        entries = _from_zip(path)
+    elif path.is_file() and path.suffix in KINDS:
+        entries = iter([(path.name, _content(path))])
+    else:
+        raise ValueError(f"a submission must be a folder, a zip, a notebook or a Python file, got {path}")
+    files: dict[str, bytes] = {}
+    for name, content in entries:
+        files[name] = content
+        if len(files) > MOST_FILES or sum(map(len, files.values())) > MOST_BYTES:
+            raise Refused(f"more than {MOST_FILES} files or {MOST_BYTES >> 20} MB of Python files and notebooks")
+    return Submission(files)
+
+
+def _only_zip(folder: Path) -> Path | None:
+    """The zip that is all a folder holds, as learning platforms hand it over."""
+    entries = [entry for entry in folder.iterdir() if not entry.name.startswith(".")]
+    return entries[0] if len(entries) == 1 and entries[0].suffix == ".zip" and entries[0].is_file() else None
+
+
+def _from_folder(folder: Path) -> Iterator[tuple[str, bytes]]:
+    for place, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if _is_taken(PurePosixPath(name)))
+        for name in sorted(names):
+            path = Path(place, name)
+            if path.suffix in KINDS and _is_taken(PurePosixPath(name)):
+                yield _checked(path.relative_to(folder).as_posix()), _content(path)
+
+
+def _from_zip(path: Path) -> Iterator[tuple[str, bytes]]:
+    if path.is_symlink() or path.stat().st_size > MOST_ZIPPED:
+        raise Refused(f"{path.name} is a link, or larger than {MOST_ZIPPED >> 20} MB")
+    try:
+        with zipfile.ZipFile(path) as archive:
+            for entry in archive.infolist():
+                inside = PurePosixPath(entry.filename)
+                if entry.is_dir() or inside.suffix not in KINDS or not _is_taken(inside):
+                    continue
+                if stat.S_ISLNK(entry.external_attr >> 16):
+                    raise Refused(f"{_checked(entry.filename)} is a link")
+                with archive.open(entry) as file:  # the size that the zip declares may be a lie
+                    yield _checked(entry.filename), file.read(MOST_BYTES + 1)
+    except (zipfile.BadZipFile, RuntimeError, NotImplementedError, OSError, EOFError, ValueError, zlib.error) as error:
+        raise error if isinstance(error, Refused) else Refused(f"the zip cannot be read: {error}") from None
+
+
+def _content(path: Path) -> bytes:
+    """A regular file's bytes; a link, a pipe or a device is refused before it is opened."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
+    except OSError as error:
+        raise Refused(f"{path.name} is a link or cannot be read: {error.strerror}") from None
+    with os.fdopen(descriptor, "rb") as file:
+        if path.is_symlink() or not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise Refused(f"{path.name} is no plain file")
+        return file.read(MOST_BYTES + 1)
+
+
+def _is_taken(path: PurePosixPath) -> bool:
+    return not any(part in PASSED_OVER or (part.startswith(".") and part != "..") for part in path.parts)
+
+
+def _checked(name: str) -> str:
+    """A name that stays inside the submission and can be written anywhere."""
+    path = PurePosixPath(name)
+    inside = not path.is_absolute() and ".." not in path.parts and "\\" not in name and ":" not in name
+    if not (inside and name.isprintable() and len(name) <= 200):
+        raise Refused(f"{name!r} is no name of a file within the submission")
+    return path.as_posix()

@@ -1,0 +1,42 @@
+"""The restricted tier's guard: stays root, runs the worker as a user that owns nothing, and ends all that user has.
+
+Started by ``sandbox`` on Linux as root where namespaces are refused. It ends when the worker ends or when the grader's
+end of the lifeline closes, so that nothing outlives a grader that was killed.
+"""
+
+from __future__ import annotations
+
+import os
+import select
+import signal
+from collections.abc import Sequence
+from contextlib import suppress
+
+from robonav.grading import confine, worker
+
+
+def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) -> None:
+    """Run the worker as ``user`` with only ``readable`` and ``folder`` in sight; return when all is over."""
+    if (child := os.fork()) == 0:
+        try:
+            os.close(lifeline)
+            confine.become(user)
+            if confine.restrict_files(readable, [folder, os.devnull]):
+                worker.main()
+        finally:
+            os._exit(0)
+    os.close(0)
+    os.close(1)
+    select.select([lifeline, os.pidfd_open(child)], [], [])
+    _end_all_of(user)
+    os.waitpid(child, 0)
+
+
+def _end_all_of(user: int) -> None:
+    """Kill every process of the user at once, the killer among them: none can fork its way out of one system call."""
+    if (killer := os.fork()) == 0:
+        os.setresuid(user, user, user)
+        with suppress(ProcessLookupError):
+            os.kill(-1, signal.SIGKILL)
+        os._exit(0)
+    os.waitpid(killer, 0)

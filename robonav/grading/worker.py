@@ -1,0 +1,159 @@
+"""The worker: runs a student's code in the sandbox and answers the grader's calls, one frame for one.
+
+The grader sends the submission's files once; the worker writes them to its folder and says ``ready``. Then, for each
+exercise, the grader asks to ``load`` a function, to ``call`` it any number of times, and to ``end``. Where the system
+can fork, every exercise runs in a child of its own, so that one that dies or spoils numpy leaves the next untouched,
+and numpy is imported once. Nothing here is worth stealing: a child knows the arguments of its calls and no answer.
+"""
+
+from __future__ import annotations
+
+import importlib.abc
+import os
+import sys
+import traceback
+import types
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from robonav.grading import confine, frames, notebook
+
+ALLOWED = {"numpy", *sys.stdlib_module_names}
+MOST_TEXT = 2_000  # characters of an error message
+
+
+class Gate(importlib.abc.MetaPathFinder):
+    """Refuses, in a clear sentence, modules that the graded code cannot have."""
+
+    def __init__(self, own: set[str]) -> None:
+        self.allowed = ALLOWED | own
+
+    def find_spec(self, name: str, path: Sequence[str] | None = None, target: Any = None) -> None:
+        top = name.partition(".")[0]
+        if top == "robonav":
+            raise ModuleNotFoundError("robonav is out of reach here: the exercise asks for your own answer", name=name)
+        if top not in self.allowed:
+            raise ModuleNotFoundError(f"{top} is out of reach here: use Python's standard library and numpy", name=name)
+
+
+def main() -> None:
+    """Serve the grader on the standard streams until it hangs up."""
+    requests, replies = _take_streams()
+    opening = frames.read(requests)
+    for name, content in opening["files"].items():
+        _write(Path(name), content.tobytes())
+    _close_the_gate({part.removesuffix(".py") for name in opening["files"] for part in name.split("/")})
+    confine.limit(opening["limits"])
+    frames.write(replies, "ready")
+    serve = _serve_in_child if opening["fork"] else _serve
+    try:
+        while True:
+            serve(requests, replies, frames.read(requests))
+    except (EOFError, BrokenPipeError):
+        return
+
+
+def _take_streams() -> tuple[BinaryIO, BinaryIO]:
+    """The standard streams for frames alone; what a student's code prints goes nowhere."""
+    requests, replies = os.fdopen(os.dup(0), "rb", buffering=0), os.fdopen(os.dup(1), "wb")
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for stream in (0, 1, 2):
+        os.dup2(nowhere, stream)
+    return requests, replies
+
+
+def _write(path: Path, content: bytes) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    except OSError:  # a zip may hold both "a" and "a/b": what cannot be written is not there
+        return
+
+
+def _close_the_gate(own: set[str]) -> None:
+    for name in [name for name in sys.modules if name.partition(".")[0] == "robonav"]:
+        del sys.modules[name]
+    sys.meta_path.insert(0, Gate(own))
+
+
+def _serve_in_child(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> None:
+    if (child := os.fork()) == 0:
+        status = 1
+        try:
+            confine.filter_calls()
+            _serve(requests, replies, request)
+            status = 0
+        finally:
+            os._exit(status)
+    _, status = os.waitpid(child, 0)
+    frames.write(replies, {"ended": os.waitstatus_to_exitcode(status)})
+
+
+def _serve(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> None:
+    """Answer requests until one says ``end``."""
+    functions: dict[str, Any] = {}
+    while request["do"] != "end":
+        reply = {"id": request["id"], **_answer(request, functions)}
+        try:
+            frame = frames.encode(reply)
+        except BaseException as error:  # what the student returned may do anything when it is looked at
+            frame = frames.encode({"id": request["id"], "raised": _described(error)})
+        replies.write(frame)
+        replies.flush()
+        request = frames.read(requests)
+
+
+def _answer(request: dict[str, Any], functions: dict[str, Any]) -> dict[str, Any]:
+    try:
+        if request["do"] == "load":
+            functions["f"] = _load(Path.cwd(), request["chapter"], request["name"])
+            return {"value": None}
+        return {"value": functions["f"](*request["args"])}
+    except BaseException as error:  # SystemExit and its kin too: a student's code does not end the worker politely
+        return {"raised": _described(error)}
+
+
+def _load(folder: Path, chapter: str, name: str) -> Any:
+    """The function ``name`` of ``chapter/name.py``, of ``name.py`` elsewhere, or else of a notebook that has it."""
+    files = [path for path in sorted(folder.rglob("*.py")) if path.stem == name]
+    if files:
+        path = min(files, key=lambda path: (path.parent.name != chapter, len(path.parts)))
+        return _function(_run(name, path, path.read_bytes()), name)
+    unreadable = None
+    for path in sorted(folder.rglob("*.ipynb")):
+        try:
+            tree = notebook.definitions(path.read_bytes())
+        except ValueError as error:
+            unreadable = ValueError(f"{path.name}: {error}")
+            continue
+        if any(getattr(node, "name", None) == name for node in tree.body):
+            return _function(_run(name, path, tree), name)
+    raise unreadable or NotImplementedError(f"no file or notebook defines {name}")
+
+
+def _function(module: types.ModuleType, name: str) -> Any:
+    if not hasattr(module, name):
+        raise AttributeError(f"{module.__file__} defines no {name}")
+    return getattr(module, name)
+
+
+def _run(name: str, path: Path, source: Any) -> types.ModuleType:
+    module = types.ModuleType(name)
+    module.__file__ = str(path.relative_to(Path.cwd()))
+    sys.modules[name] = module
+    sys.path += [str(path.parent), str(Path.cwd())]  # last: a student's random.py does not stand in for Python's
+    exec(compile(source, str(path), "exec"), module.__dict__)
+    return module
+
+
+def _described(error: BaseException) -> dict[str, Any]:
+    """The kind of an error, its message, and the last line of the student's own on the way to it."""
+    try:
+        message = str(error)[:MOST_TEXT].encode("utf-8", "replace").decode()
+    except BaseException:
+        message = ""
+    own = str(Path.cwd()) + os.sep
+    steps = [step for step in traceback.extract_tb(error.__traceback__) if step.filename.startswith(own)]
+    where = [steps[-1].filename.removeprefix(own), steps[-1].lineno or 0] if steps else None
+    return {"kind": type(error).__name__, "message": message, "where": where}

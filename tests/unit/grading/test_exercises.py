@@ -1,0 +1,123 @@
+"""Every exercise: its solution scores full, however written; its known mistakes score less and get their hints."""
+
+import inspect
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robonav.grading.check import graded
+from robonav.grading.course import Course, trusted
+from robonav.grading.parts import parts_of
+from robonav.grading.reference import Solutions, mistakes, solution
+
+COURSE = Course.around(Path(__file__).parent)
+EXERCISES = list(COURSE.exercises.values())
+MISTAKES = [
+    pytest.param(exercise, function, id=f"{exercise.name}-{name}")
+    for exercise in EXERCISES
+    for name, function in mistakes(COURSE, exercise).items()
+]
+
+
+@pytest.fixture(params=EXERCISES, ids=lambda exercise: exercise.name)
+def exercise(request):
+    return request.param
+
+
+def grade(exercise, function):
+    return graded(COURSE, exercise, function, Solutions(COURSE))
+
+
+def as_lists(value):
+    """The same answer in Python's own numbers and lists."""
+    if isinstance(value, tuple | list):
+        return [as_lists(part) for part in value]
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+
+
+def as_singles(value):
+    """The same answer in single precision, whole numbers in 32 bits."""
+    if isinstance(value, tuple | list):
+        return tuple(as_singles(part) for part in value)
+    kinds = {"f": np.float32, "i": np.int32, "b": np.int8}
+    return np.asarray(value).astype(kinds[np.asarray(value).dtype.kind])
+
+
+def test_the_parts_share_out_the_points(exercise):
+    assert sum(points for _, points in parts_of(COURSE, exercise)) == exercise.points
+
+
+@pytest.mark.parametrize("way", [lambda answer: answer, as_lists, as_singles], ids=["plain", "lists", "singles"])
+def test_the_solution_scores_full(exercise, way):
+    function = solution(COURSE, exercise)
+    result = grade(exercise, lambda *arguments: way(function(*arguments)))
+    assert result["state"] == "correct", result["feedback"]
+    assert result["points"] == exercise.points
+
+
+def test_another_way_to_write_it_scores_full(exercise):
+    result = grade(exercise, getattr(trusted(COURSE.solutions / "otherwise" / exercise.file), exercise.name))
+    assert result["state"] == "correct", result["feedback"]
+
+
+@pytest.mark.parametrize(("exercise", "mistake"), MISTAKES)
+def test_a_known_mistake_scores_less_and_gets_its_hint(exercise, mistake):
+    result = grade(exercise, mistake)
+    assert result["state"] in ("partial", "wrong", "error")
+    assert result["points"] < exercise.points
+    assert inspect.getdoc(mistake) in result["feedback"]
+
+
+def test_every_exercise_knows_some_mistakes(exercise):
+    assert len(mistakes(COURSE, exercise)) >= 3
+
+
+@pytest.mark.parametrize(
+    "nonsense",
+    [None, 0, -1.5, float("nan"), True, "text", [], [[1], [1, 2]], {}, {"a": 1}, (), np.zeros(0), np.zeros((1, 1, 1))],
+    ids=repr,
+)
+def test_nonsense_scores_little_and_never_blames_the_grader(exercise, nonsense):
+    result = grade(exercise, lambda *arguments: nonsense)
+    assert result["state"] in ("wrong", "partial", "error")
+    assert result["points"] < exercise.points / 2
+
+
+def test_answers_of_the_right_shape_are_not_enough(exercise):
+    """NaN, zeros and a far too large number in every place of the right answer."""
+    function = solution(COURSE, exercise)
+
+    def spoiled(fill):
+        def spoil(value):
+            if isinstance(value, tuple | list):
+                return [spoil(part) for part in value]
+            return np.full(np.shape(value), fill)
+
+        return lambda *arguments: spoil(function(*arguments))
+
+    for fill in (np.nan, 1e300, 2**62):
+        result = grade(exercise, spoiled(fill))
+        assert result["state"] in ("wrong", "partial")
+        assert result["points"] < exercise.points / 2
+
+
+def test_an_axis_too_many_is_wrong_though_it_would_broadcast(exercise):
+    function = solution(COURSE, exercise)
+
+    def widened(value):
+        return [widened(part) for part in value] if isinstance(value, tuple) else np.asarray(value)[..., None]
+
+    assert grade(exercise, lambda *arguments: widened(function(*arguments)))["points"] == 0
+
+
+def test_the_solution_leaves_its_arguments_alone(exercise):
+    function = solution(COURSE, exercise)
+
+    def watched(*arguments):
+        before = repr(arguments)
+        answer = function(*arguments)
+        assert repr(arguments) == before
+        return answer
+
+    assert grade(exercise, watched)["state"] == "correct"
