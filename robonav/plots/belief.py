@@ -1,0 +1,173 @@
+"""Beliefs: over the cells of a corridor, over poses on a map, and what each is worth (Fig. 2.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap, to_rgba
+from matplotlib.patches import FancyArrowPatch, Rectangle
+from numpy.typing import ArrayLike
+
+from robonav import look
+from robonav.mdp import AlphaVectors, PoseGrid
+
+SURE = LinearSegmentedColormap.from_list("sure", [to_rgba(look.SKY, 0), to_rgba(look.SKY, 1), to_rgba(look.BLUE, 1)])
+
+
+def draw_belief(axes: Axes, belief: ArrayLike, cells: str, *, state: int | None = None) -> None:
+    """A belief over a corridor's cells as bars; below them the corridor, its doors filled, the robot as a triangle.
+
+    Parameters
+    ----------
+    belief : (S,).
+    cells : one letter a cell, ``D`` where there is a door.
+    state : the cell where the robot truly is; not shown if left out.
+    """
+    b = np.asarray(belief, dtype=float)
+    axes.bar(np.arange(len(b)), b, width=0.9, color=look.BLUE)
+    for place, letter in enumerate(cells):
+        axes.add_patch(
+            Rectangle(
+                (place - 0.45, -0.13),
+                0.9,
+                0.1,
+                facecolor=look.ORANGE if letter == "D" else "none",
+                edgecolor=look.INK,
+                linewidth=0.6,
+            )
+        )
+    if state is not None:
+        axes.plot(state, -0.08, marker="^", color=look.VERMILION, markersize=7)
+    axes.set(ylim=(-0.16, 1.0), xlim=(-0.6, len(b) - 0.4), xticks=np.arange(len(b)), yticks=[0, 0.5, 1])
+    axes.grid(axis="x", visible=False)
+
+
+def draw_values_of_beliefs(axes: Axes, values: AlphaVectors, names: Sequence[str]) -> None:
+    """The value of a belief about two states: the upper edge of straight lines, one a vector.
+
+    Parameters
+    ----------
+    values : with vectors (K, 2); the horizontal axis is the belief in the first state.
+    names : of the actions.
+    """
+    colours = (look.BLUE, look.ORANGE, look.GREEN, look.PURPLE, look.SKY)
+    belief = np.linspace(0, 1, 501)
+    both = np.stack([belief, 1 - belief], axis=1)
+    lines = both @ values.vectors.T
+    edge = lines.max(axis=1)
+    shown = set()
+    for k, action in enumerate(values.actions.tolist()):
+        label = names[action] if action not in shown else None
+        shown.add(action)
+        axes.plot(belief, lines[:, k], color=colours[action], linewidth=0.8, alpha=0.7)
+        best = np.where(lines[:, k] >= edge - 1e-9, edge, np.nan)
+        axes.plot(belief, best, color=colours[action], linewidth=3.5, label=label)
+    margin = 0.1 * np.ptp(edge)
+    axes.set(ylim=(edge.min() - 3 * margin, edge.max() + margin), xlim=(0, 1))
+    axes.legend()
+
+
+def draw_pose_belief(
+    axes: Axes, grid: PoseGrid, belief: ArrayLike, *, pose: ArrayLike | None = None, arrows: int = 12
+) -> None:
+    """A belief about the pose: each cell as dark as its share, an arrow for each of the likeliest poses.
+
+    Parameters
+    ----------
+    grid : of poses; cells that are not free are drawn as walls.
+    belief : (S,).
+    pose : true x, y, heading; not shown if left out.
+    arrows : how many of the likeliest poses to point out.
+    """
+    b = np.asarray(belief, dtype=float)
+    rows, columns = grid.free.shape
+    extent = (0, columns * grid.cell, 0, rows * grid.cell)
+    share = b.reshape(rows, columns, -1).sum(axis=2)
+    axes.imshow(np.sqrt(share / share.max()), cmap=SURE, extent=extent, origin="lower", interpolation="nearest")
+    walls = np.where(grid.free[..., None], to_rgba(look.OBSTACLE, 0), to_rgba(look.OBSTACLE, 0.9))
+    axes.imshow(walls, extent=extent, origin="lower", interpolation="nearest")
+    likely = np.argsort(b)[::-1][:arrows]
+    for x, y, heading in grid.poses[likely[b[likely] > 0.02 * b.max()]]:
+        ahead = 2.5 * grid.cell * np.array([np.cos(heading), np.sin(heading)])
+        axes.add_patch(
+            FancyArrowPatch((x, y), (x + ahead[0], y + ahead[1]), arrowstyle="->", mutation_scale=8, color=look.ORANGE)
+        )
+    if pose is not None:
+        draw_robot(axes, pose, size=1.3 * grid.cell)
+    axes.set(xlim=extent[:2], ylim=extent[2:], aspect="equal", xticks=[], yticks=[])
+    axes.grid(False)
+    axes.spines[:].set_visible(False)
+
+
+def draw_robot(axes: Axes, pose: ArrayLike, *, size: float = 1.5) -> None:
+    """The robot where it truly is: a triangle that points ahead."""
+    x, y, heading = np.asarray(pose, dtype=float)
+    corners = heading + np.array([0, 2.4, -2.4])
+    axes.fill(x + size * np.cos(corners), y + size * np.sin(corners), color=look.VERMILION, zorder=5)
+
+
+def plot_uncertainty(axes: Axes, entropies: Mapping[str, ArrayLike]) -> None:
+    """Entropy of a belief in bits after each step, one line a name."""
+    for colour, (name, bits) in zip((look.BLUE, look.ORANGE, look.GREEN, look.GREY), entropies.items(), strict=False):
+        axes.plot(np.arange(len(np.asarray(bits))), np.asarray(bits), "o-", color=colour, markersize=3, label=name)
+    axes.set(xlabel="step", ylabel="uncertainty in bits", ylim=(0, None))
+    axes.legend()
+
+
+def draw_pomdp(axes: Axes) -> None:
+    """States, observations, beliefs, actions and rewards over time, and what depends on what (Fig. 2.3)."""
+    rows = {"action": 3.0, "belief": 2.0, "observation": 1.0, "state": 0.0, "reward": -1.0}
+    names = {"action": "a", "belief": "b", "observation": "o", "state": "s", "reward": "r"}
+    colours = {
+        "action": look.ORANGE,
+        "belief": look.BLUE,
+        "observation": look.GREEN,
+        "state": look.GREY,
+        "reward": look.VERMILION,
+    }
+    times = ("t-1", "t", "t+1")
+
+    def node(kind: str, time: int) -> tuple[float, float]:
+        return 2.6 * time + (0.9 if kind in ("action", "reward") else 0.0), rows[kind]
+
+    arrows: list[tuple[tuple[str, int], tuple[str, int]]] = []
+    for time in range(len(times)):
+        arrows += [(("state", time), ("observation", time)), (("observation", time), ("belief", time))]
+        arrows += [(("belief", time), ("action", time)), (("state", time), ("reward", time))]
+        arrows += [(("action", time), ("reward", time))]
+        if time + 1 < len(times):
+            arrows += [(("state", time), ("state", time + 1)), (("belief", time), ("belief", time + 1))]
+            arrows += [(("action", time), ("state", time + 1)), (("action", time), ("belief", time + 1))]
+    for start, end in arrows:
+        bent = 0.22 if start[0] == "action" and end[0] == "reward" else 0.0
+        axes.add_patch(
+            FancyArrowPatch(
+                node(*start),
+                node(*end),
+                arrowstyle="-|>",
+                mutation_scale=10,
+                color=look.INK,
+                linewidth=0.9,
+                shrinkA=13,
+                shrinkB=13,
+                connectionstyle=f"arc3,rad={-bent}",
+            )
+        )
+    for kind, letter in names.items():
+        for time, index in enumerate(times):
+            x, y = node(kind, time)
+            hidden = kind == "state"
+            axes.plot(
+                x, y, "o", markersize=24, markerfacecolor=to_rgba(colours[kind], 0.25), markeredgecolor=colours[kind],
+                markeredgewidth=1.5, linestyle="none",
+            )  # fmt: skip
+            axes.annotate(f"${letter}_{{{index}}}$", (x, y), ha="center", va="center")
+            if hidden and time == 0:
+                axes.annotate("hidden", (x - 0.75, y), ha="center", va="center", style="italic")
+        first = node(kind, 0)[0]
+        if kind != "state":
+            axes.annotate(kind, (first - 0.75, rows[kind]), ha="center", va="center", style="italic")
+    axes.set(xlim=(-1.4, 6.8), ylim=(-1.5, 3.5), aspect="equal")
+    axes.axis("off")

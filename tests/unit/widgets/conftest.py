@@ -1,0 +1,32 @@
+"""Node, for a widget's JavaScript."""
+
+import json
+import shutil
+import subprocess
+
+import pytest
+
+from robonav.widgets.shared import front_end
+
+
+@pytest.fixture
+def node(tmp_path):
+    """Run a few lines of JavaScript with a widget's exports and some data at hand; gives back what they return."""
+    program = shutil.which("node")
+    if program is None:
+        pytest.skip("Node is not installed")
+
+    def run(widget, body, data):
+        (tmp_path / "widget.mjs").write_text(front_end(widget), "utf-8")
+        (tmp_path / "data.json").write_text(json.dumps(data), "utf-8")
+        (tmp_path / "run.mjs").write_text(
+            'import * as page from "./widget.mjs"; import { readFileSync } from "node:fs";\n'
+            'const data = JSON.parse(readFileSync(new URL("data.json", import.meta.url)));\n'
+            f"const result = (() => {{ {body} }})();\nconsole.log(JSON.stringify(result));",
+            "utf-8",
+        )
+        done = subprocess.run([program, tmp_path / "run.mjs"], capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)
+
+    return run
