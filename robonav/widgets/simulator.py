@@ -1,0 +1,46 @@
+"""Worlds and policies as the page's simulator (``simulator.js``) takes them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from robonav.lfd.policy import NetworkPolicy
+from robonav.robot import Worlds
+from robonav.robot.kernels import CIRCLE
+
+from .shared import packed_network
+
+
+def page_world(world: Worlds) -> dict[str, Any]:
+    """The first world of a batch: lengths in metres, angles in radians."""
+    obstacles = [
+        {
+            "circle": bool(world.kinds[0, m] == CIRCLE),
+            "x": float(world.centres[0, m, 0]),
+            "y": float(world.centres[0, m, 1]),
+            "a": float(world.shapes[0, m, 0]),
+            "b": float(world.shapes[0, m, 1]),
+            "turned": float(world.shapes[0, m, 2]),
+            "speed": float(world.speeds[0, m]),
+            "heading": float(world.headings[0, m]),
+        }
+        for m in np.flatnonzero(world.kinds[0])
+    ]
+    return {
+        "size": world.size,
+        "start": world.starts[0].tolist(),
+        "target": world.targets[0].tolist(),
+        "key": world.keys[0].tolist(),
+        "obstacles": obstacles,
+    }
+
+
+def page_policy(policy: NetworkPolicy) -> dict[str, Any]:
+    """A network's policy: its weights, and how what is sensed becomes inputs."""
+    encoder = policy.encoder
+    return {
+        "network": packed_network(policy.network),
+        "encoder": {"sensors": list(encoder.sensors), "walls": encoder.walls, "target": encoder.target},
+    }
