@@ -1,8 +1,8 @@
 # make book, make test, make lab: each makes .venv itself, once. Needs Python 3.11 or later and make.
 #
-#   PYTHON        the interpreter that .venv is made from
+#   PYTHON   the interpreter that .venv is made from
 #   PIP_OPTIONS   passed to every pip install, for instance an extra index with PyTorch's CPU builds
-#   PYTEST_OPTIONS passed to pytest
+#   PYTEST_OPTIONS, LAB_OPTIONS   passed to pytest and to JupyterLab
 
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
@@ -11,6 +11,7 @@ SHELL := bash
 PYTHON ?= python3
 PIP_OPTIONS ?=
 PYTEST_OPTIONS ?=
+LAB_OPTIONS ?=
 
 BIN := .venv/bin
 INSTALLED := .venv/.installed
@@ -38,14 +39,21 @@ book: $(INSTALLED)
 	$(BIN)/jupyter-book build . -W --keep-going -n --all
 	$(BIN)/python book/_ext/check_site.py
 
+# One thread a process: pytest runs as many processes as there are cores.
 test: $(INSTALLED)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
-	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
+	@command -v chromium chromium-browser google-chrome >/dev/null || echo "Chromium is missing: tests in a browser are skipped"
+	@command -v bwrap >/dev/null || echo "bubblewrap is missing: tests of the strongest sandbox are skipped"
+	@command -v node >/dev/null || echo "Node is missing: tests of the widgets' JavaScript are skipped"
+	@test -e _build/html/index.html || echo "The book is not built: tests of its pages are skipped; run make book first"
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto -rs $(PYTEST_OPTIONS)
 
+# On copies in plain Markdown: playing with one changes no page of the book.
 lab: $(INSTALLED)
-	$(BIN)/jupyter lab --notebook-dir=book
+	$(BIN)/python book/_ext/notebooks.py _build/lab
+	$(BIN)/jupyter lab --notebook-dir=_build/lab $(LAB_OPTIONS)
 
 # A fresh environment, so that nothing installed by hand slips in; versions only, so that the file serves every index.
 lock:

@@ -2,20 +2,28 @@
 
 Pages are written in MyST, which a plain Jupyter shows as raw text in places; the notebook that is handed out is
 therefore put into plain Markdown, with equation numbers kept and solutions left out.
+
+Run as a program, ``notebooks.py FOLDER`` writes all of them into a folder, numbered in the order of the book. One that
+is already there is replaced only if its page is newer, and then kept beside the new one.
 """
 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import jupytext
 import nbformat
+import yaml
+from check_site import pages
 from docutils import nodes
 from sphinx.application import Sphinx
 from thesis_numbers import thesis_number
+
+ROOT = Path(__file__).resolve().parents[2]
 
 FENCE = re.compile(
     r"^(?P<fence>`{3,}|:{3,})\{(?P<name>[\w:.-]+)\} *(?P<title>[^\n]*)\n(?P<body>.*?)^(?P=fence)[ \t]*$", re.M | re.S
@@ -108,6 +116,24 @@ def offer(app: Sphinx, page: str, template: str, context: dict[str, Any], doctre
     context["ipynb_source"] = f"{page}.ipynb"
 
 
+def write_all(folder: Path) -> None:
+    """Write the notebooks of the book into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    listed = [ROOT / f"{page}.md" for page in pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8")))]
+    sources = [source for source in listed if source.read_text("utf-8").startswith("---\njupytext:")]
+    for number, source in enumerate(sources, start=1):
+        target = folder / f"{number:02d}-{source.stem}.ipynb"
+        if target.exists():
+            if target.stat().st_mtime > source.stat().st_mtime:
+                continue
+            target.rename(target.with_suffix(".before.ipynb"))
+        nbformat.write(notebook_of(source), target)
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     app.connect("html-page-context", offer, priority=400)  # before the theme gathers its buttons
     return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+if __name__ == "__main__":
+    write_all(Path(sys.argv[1]))

@@ -32,12 +32,10 @@ class ThesisMathDomain(MathDomain):
 
     def note_equation(self, docname: str, labelid: str, location: Any = None) -> None:
         number = thesis_number(labelid)
-        if number is None:
-            super().note_equation(docname, labelid, location)
-            return
-        if labelid in self.equations:
-            raise ValueError(f"{docname}: equation {number} is already on page {self.equations[labelid][0]}")
-        self.equations[labelid] = (docname, number)
+        if number is None or labelid in self.equations:
+            super().note_equation(docname, labelid, location)  # which warns of a label that is used twice
+        else:
+            self.equations[labelid] = (docname, number)
 
 
 class ThesisEquation(SphinxRole):

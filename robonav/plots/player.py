@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import html
 import re
-from typing import TYPE_CHECKING
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from robonav import expect
 
@@ -36,9 +38,23 @@ def player(animation: Animation, *, description: str, frames_per_second: int = 8
     expect.integer("frames_per_second", frames_per_second, at_least=1)
     if not description.strip():
         raise ValueError("description must say what the animation shows, got an empty text")
-    page = animation.to_jshtml(fps=frames_per_second, default_mode="loop" if loop else "once")
+    page = _frames(animation, frames_per_second, "loop" if loop else "once")
     plt.close("all")  # else the notebook shows the last frame once more
     page = _ICON_FONT.sub("", page)
     page = page.replace('<img id="_anim_img', f'<img alt="{html.escape(description)}" id="_anim_img')
     page = page.replace('type="range" class="anim-slider"', 'type="range" aria-label="Frame" class="anim-slider"')
     return HTML(_BUTTON_TITLE.sub(r'<button title="\1" aria-label="\1"', page))
+
+
+def _frames(animation: Animation, frames_per_second: int, mode: str) -> str:
+    """matplotlib's own page for an animation, with frames that let the page's background through."""
+    from matplotlib.animation import HTMLWriter
+
+    class Transparent(HTMLWriter):
+        def grab_frame(self, **options: Any) -> None:
+            super().grab_frame(**{**options, "facecolor": "none"})  # matplotlib would lay it on white
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "animation.html")
+        animation.save(str(path), writer=Transparent(fps=frames_per_second, embed_frames=True, default_mode=mode))
+        return path.read_text("utf-8")

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import re
 
 import matplotlib as mpl
+import numpy as np
 import pytest
 
 mpl.use("agg")
@@ -26,6 +29,15 @@ def test_picture_slider_and_buttons_have_names():
     assert re.search(r'<img alt="A &quot;dot&quot; moves." id="_anim_img', page)
     assert re.search(r'<input[^>]*type="range"[^>]*aria-label="Frame"', page)
     assert all("aria-label" in tag for tag in re.findall(r"<button[^>]*>", page))
+
+
+def test_frames_let_the_page_through():
+    page = player(moving_dot(), description="A dot moves.").data
+    frames = re.findall(r'"data:image/png;base64,(.*?)"', page, re.DOTALL)
+    assert len(frames) == 2
+    for frame in frames:
+        pixels = plt.imread(io.BytesIO(base64.b64decode(frame.replace("\\", ""))))
+        assert np.isclose(pixels[0, 0, 3], 0)
 
 
 def test_nothing_comes_from_elsewhere():
