@@ -125,7 +125,8 @@ class Course:
             while not course.over:
                 successor, reward, terminated = course.step(action)
 
-    An episode is over when the environment ends it or cuts it off, or after ``max_steps``.
+    An episode is over when the environment ends it or cuts it off, or after ``max_steps``. With ``record`` the states
+    that it passed stay in ``walks``.
     """
 
     def __init__(
@@ -135,6 +136,7 @@ class Course:
         *,
         max_steps: int,
         rng: np.random.Generator,
+        record: bool = False,
         progress: Progress | None = None,
     ) -> None:
         self.total = expect.integer("episodes", episodes, at_least=1)
@@ -142,10 +144,12 @@ class Course:
         self.number = 0
         self.returns: list[float] = []
         self.lengths: list[int] = []
+        self.walks: list[list[Any]] = []
         self.over = True
         self._step: Callable[[int], tuple[Any, Any, bool, bool, Any]] = env.step
         self._reset = env.reset
         self._env_seed = int(rng.integers(LARGEST_SEED))
+        self._record = record
         self._progress = progress
 
     def episodes(self) -> Iterator[Any]:
@@ -153,10 +157,12 @@ class Course:
         for number in range(self.total):
             self.number = number
             state, _ = self._reset(seed=self._env_seed if number == 0 else None)
-            self.over, self._earned, self._steps = False, 0.0, 0
+            self.over, self._earned, self._walk = False, 0.0, [state]
             yield state
             self.returns.append(self._earned)
-            self.lengths.append(self._steps)
+            self.lengths.append(len(self._walk) - 1)
+            if self._record:
+                self.walks.append(self._walk)
             if self._progress is not None:
                 self._progress(number + 1, self.total)
 
@@ -164,8 +170,8 @@ class Course:
         """Take an action: the next state, the reward, and whether that state is terminal (cut off is not terminal)."""
         state, reward, terminated, truncated, _ = self._step(action)
         self._earned += reward
-        self._steps += 1
-        self.over = terminated or truncated or self._steps >= self.max_steps
+        self._walk.append(state)
+        self.over = terminated or truncated or len(self._walk) > self.max_steps
         return state, reward, terminated
 
     def walk(self, state: int, choose: Callable[[int], int]) -> Episode:

@@ -111,7 +111,7 @@ def monte_carlo_control(
     expect.one_of("visit", visit, ("first", "every"))
     rate = harmonic_decay() if learning_rate is None else learning_rate
     table = QTable(sizes(env), initial=initial, learning_rate=rate, record=record)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
+    course = Course(env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress)
     choose, q = EpsilonGreedy(epsilon, rng), table.q
     for start in course.episodes():
         choose.begin(course.number)

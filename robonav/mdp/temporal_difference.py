@@ -28,6 +28,7 @@ class Learned:
     returns : (episodes,) rewards of each training episode, summed without discount.
     lengths : (episodes,) its steps.
     history : (episodes + 1, S, A) ``q`` before the first episode and after each, if recorded.
+    walks : the states passed in each episode, (steps + 1,), if recorded.
     """
 
     q: NDArray[np.float64]
@@ -35,6 +36,7 @@ class Learned:
     returns: NDArray[np.float64]
     lengths: NDArray[np.int64]
     history: NDArray[np.float64] | None = None
+    walks: tuple[NDArray[np.int64], ...] | None = None
 
     @cached_property
     def policy(self) -> NDArray[np.int64]:
@@ -88,9 +90,13 @@ class QTable:
 
     def learned(self, course: Course) -> Learned:
         """All of it as arrays."""
-        history = None if self._history is None else np.stack(self._history)
         return Learned(
-            np.array(self.q), np.array(self.visits), np.array(course.returns), np.array(course.lengths), history
+            np.array(self.q),
+            np.array(self.visits),
+            np.array(course.returns),
+            np.array(course.lengths),
+            None if self._history is None else np.stack(self._history),
+            None if self._history is None else tuple(map(np.array, course.walks)),
         )
 
 
@@ -122,12 +128,12 @@ def q_learning(
     max_steps : steps after which an episode is cut off, whatever the environment says. The last state is then not
         taken for a terminal one: its value still counts.
     seed : number or generator, for the environment and for the choices.
-    record : keep ``history``, a copy of ``q`` for every episode.
+    record : keep ``history``, a copy of ``q`` for every episode, and ``walks``.
     progress : called as ``progress(episodes done, episodes)``.
 
     Returns
     -------
-    Learned with ``q`` (S, A), ``visits``, ``returns``, ``lengths``, and ``history`` if recorded.
+    Learned with ``q`` (S, A), ``visits``, ``returns``, ``lengths``, and ``history`` and ``walks`` if recorded.
 
     Raises
     ------
@@ -137,7 +143,7 @@ def q_learning(
     env, rng = numbered(env), expect.generator("seed", seed)
     discount = expect.real("discount", discount, at_least=0, at_most=1)
     table = QTable(sizes(env), initial=initial, learning_rate=learning_rate, record=record)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
+    course = Course(env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress)
     choose, q = EpsilonGreedy(epsilon, rng), table.q
     for state in course.episodes():
         choose.begin(course.number)
@@ -172,7 +178,7 @@ def sarsa(
     env, rng = numbered(env), expect.generator("seed", seed)
     discount = expect.real("discount", discount, at_least=0, at_most=1)
     table = QTable(sizes(env), initial=initial, learning_rate=learning_rate, record=record)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
+    course = Course(env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress)
     choose, q = EpsilonGreedy(epsilon, rng), table.q
     for state in course.episodes():
         choose.begin(course.number)
@@ -208,7 +214,7 @@ def expected_sarsa(
     env, rng = numbered(env), expect.generator("seed", seed)
     discount = expect.real("discount", discount, at_least=0, at_most=1)
     table = QTable(sizes(env), initial=initial, learning_rate=learning_rate, record=record)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
+    course = Course(env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress)
     choose, q = EpsilonGreedy(epsilon, rng), table.q
     for state in course.episodes():
         choose.begin(course.number)

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LinearSegmentedColormap, to_rgba
 from matplotlib.patches import Rectangle
 from numpy.typing import ArrayLike
 
@@ -21,10 +20,6 @@ COLOURS: dict[str, str] = {
     "planned": look.GREY,
 }
 
-WORTH = LinearSegmentedColormap.from_list(
-    "worth", [to_rgba(look.VERMILION, 0.5), to_rgba(look.INK, 0.0), to_rgba(look.GREEN, 0.6)]
-)
-
 
 def colour_of(name: str, place: int) -> str:
     """A method's own colour; for any other name one of the palette, by its place."""
@@ -32,7 +27,7 @@ def colour_of(name: str, place: int) -> str:
     return COLOURS.get(name, others[place % len(others)])
 
 
-def plot_curves(
+def plot_runs(
     axes: Axes, curves: Mapping[str, ArrayLike], *, x: ArrayLike | None = None, window: int = 1, band: float = 80.0
 ) -> None:
     """The mean over seeds of some numbers a training, and the band that holds the middle ``band`` per cent of them.
@@ -93,31 +88,6 @@ def draw_walks(
     axes.spines[:].set_visible(False)
     if walks:
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
-
-
-def draw_action_values(axes: Axes, shape: tuple[int, int], q: ArrayLike, *, forbidden: Sequence[int] = ()) -> None:
-    """The best action's value as a colour and the action as an arrow, in every cell of a grid.
-
-    Parameters
-    ----------
-    shape : rows and columns.
-    q : (S, 4) action values; the actions are up, right, down, left, as in CliffWalking.
-    forbidden : cells to leave out, as the cliff and the goal.
-    """
-    values = np.asarray(q, dtype=float)
-    rows, columns = shape
-    shown = np.ma.masked_array(values.max(axis=1), np.isin(np.arange(rows * columns), forbidden)).reshape(shape)
-    axes.imshow(shown, cmap=WORTH, extent=(0, columns, rows, 0))
-    for cell in set(range(rows * columns)) - set(forbidden):
-        row, column = divmod(cell, columns)
-        if np.ptp(values[cell]) > 0:
-            across, down = ((0.0, -0.3), (0.3, 0.0), (0.0, 0.3), (-0.3, 0.0))[int(values[cell].argmax())]
-            x, y = column + 0.5, row + 0.5
-            arrow = {"arrowstyle": "->", "color": look.INK}
-            axes.annotate("", (x + across, y + down), (x - across, y - down), arrowprops=arrow)
-    axes.set(xticks=[], yticks=[])
-    axes.grid(False)
-    axes.spines[:].set_visible(False)
 
 
 def plot_estimates(axes: Axes, names: Sequence[str], truth: ArrayLike, estimates: Mapping[str, ArrayLike]) -> None:

@@ -228,6 +228,8 @@ def test_the_record_begins_with_the_start_and_ends_with_the_result(learn):
     assert (learned.history[0] == 0.25).all()
     np.testing.assert_array_equal(learned.history[-1], learned.q)
     assert learned.visits.sum() == learned.lengths.sum()
+    assert [len(walk) - 1 for walk in learned.walks] == learned.lengths.tolist()
+    assert {(walk[0], walk[-1]) for walk in learned.walks} == {(2, 4)}
     assert learned.returns.shape == learned.lengths.shape == (30,)
     np.testing.assert_array_equal(learned.policy, learned.q.argmax(axis=1))
     np.testing.assert_array_equal(learned.values, learned.q.max(axis=1))
