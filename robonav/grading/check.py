@@ -10,7 +10,7 @@ from robonav.grading import frames
 from robonav.grading.course import Course, Exercise
 from robonav.grading.grade import Unaccepted, exercise_grade
 from robonav.grading.parts import PUBLIC, generator, outcome, parts_of
-from robonav.grading.proxy import Answer
+from robonav.grading.proxy import Answer, Calls
 from robonav.grading.reference import Case, Reference, reference
 
 
@@ -22,19 +22,20 @@ def check(key: str, function: Callable[..., Any]) -> float:
     The points earned, which nbgrader takes as the score of a cell that ends with this call.
     """
     course = Course.around(Path.cwd())
-    result = graded(course, course.named(key), function, reference(course))
+    result = graded(course, course.named(key), Here(function), reference(course))
     print(result["feedback"])
     return float(result["points"] or 0)
 
 
-def graded(course: Course, exercise: Exercise, function: Callable[..., Any], known: Reference) -> dict[str, Any]:
-    """The exercise's entry in a grade, on the public cases."""
+def graded(
+    course: Course, exercise: Exercise, calls: Calls, known: Reference, *, seed: bytes = PUBLIC
+) -> dict[str, Any]:
+    """The exercise's entry in a grade, on the cases of this seed."""
     parts = []
     for test, points in parts_of(course, exercise):
-        error = None
+        name, error = test.__name__, None
         try:
-            name = test.__name__
-            test(Answer(Here(function), known, Case(exercise, name, 0, ())), generator(PUBLIC, name))
+            test(Answer(calls, known, Case(exercise, name, 0, ())), generator(seed, name))
         except Exception as raised:
             error = raised
         parts.append(outcome(test, points, error))

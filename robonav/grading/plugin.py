@@ -28,7 +28,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--secret", metavar="FILE", help=f"draw the cases from its content, not the public ones; or ${SECRET}"
     )
     group.addoption("--tier", choices=["official", "restricted", "practice"], help="the sandbox; the best by default")
-    group.addoption("--record-answers", metavar="DIR", help="write the reference's answers there")
+    group.addoption(
+        "--exercise", metavar="ID", action="append", default=[], help="grade this one only; may be repeated"
+    )
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)

@@ -18,16 +18,13 @@ def canary(path):
     def limits():
         resource.setrlimit(resource.RLIMIT_AS, (1 << 62, 1 << 62))
 
-    def parents():
-        os.kill(os.getppid(), 0) if os.getppid() not in (0, 1, 2) else os.listdir("/proc/1/root/home")
-
     attempts = {
         "reads": lambda: open(path),
         "forks": os.fork,
         "connects": socket.socket,
         "writes": lambda: open("/var/tmp/robonav-canary", "w"),
         "raises its limits": limits,
-        "looks into the host": lambda: os.listdir("/proc/self/root/proc"),
+        "sees the host's processes": lambda: os.listdir("/proc"),
     }
     succeeded = []
     for name, attempt in attempts.items():
@@ -41,7 +38,7 @@ def canary(path):
 
 
 @functools.cache
-def fault(tier: str, python: str = sandbox.PYTHON) -> str | None:
+def fault(tier: str, python: str | None = None) -> str | None:
     """Why the tier cannot be relied on here, or None if it can."""
     try:
         worker = sandbox.start(tier, {"canary.py": CANARY}, Limits(), python=python)

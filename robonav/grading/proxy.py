@@ -30,13 +30,20 @@ class Session:
     """One submission in one sandbox, which is started when first needed and again after it had to be killed."""
 
     def __init__(
-        self, submission: Submission | Refused, tier: str, *, limits: Limits | None = None, secret: bool = False
+        self,
+        submission: Submission | Refused,
+        tier: str,
+        *,
+        limits: Limits | None = None,
+        secret: bool = False,
+        python: str | None = None,
     ) -> None:
         self.tier = tier
         self.secret = secret
         self._files = submission.files if isinstance(submission, Submission) else {}
         self._refused = submission if isinstance(submission, Refused) else None
         self._limits = limits or Limits()
+        self._python = python
         self._worker: Worker | None = None
         self._serving: Exercise | None = None
         self._failed: dict[str, Unaccepted] = {}  # by exercise: a file that hangs when it is read does so once
@@ -69,14 +76,22 @@ class Session:
         if self._serving == exercise:
             return
         self._dismiss()
-        if self._worker is None:
-            self._worker = sandbox.start(self.tier, self._files, self._limits)
-        self._serving = exercise
+        used = self._worker is not None
         try:
-            self._ask(exercise, {"do": "load", "chapter": exercise.chapter, "name": exercise.name})
+            self._load(exercise)
         except Unaccepted as failure:
+            spoiled = used and self._worker is None and failure.state == "error"
+            if spoiled:  # by the exercise before, it may be: this one has a right to a sandbox of its own
+                self._load(exercise)
+                return
             self._failed[exercise.id] = failure
             raise
+
+    def _load(self, exercise: Exercise) -> None:
+        if self._worker is None:
+            self._worker = sandbox.start(self.tier, self._files, self._limits, python=self._python)
+        self._serving = exercise
+        self._ask(exercise, {"do": "load", "chapter": exercise.chapter, "name": exercise.name})
 
     def _dismiss(self) -> None:
         """End the child of the exercise before; the sandbox with it, unless all goes as it should."""

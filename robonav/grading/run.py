@@ -18,7 +18,7 @@ from robonav.grading.grade import Part, exercise_grade, grade
 from robonav.grading.parts import PUBLIC, generator, outcome
 from robonav.grading.plugin import SECRET
 from robonav.grading.proxy import Answer, Session
-from robonav.grading.reference import Case, Recorder, reference
+from robonav.grading.reference import Case, reference
 from robonav.grading.submission import Refused
 
 
@@ -29,7 +29,8 @@ class Run:
         paths = [Path(argument.partition("::")[0]) for argument in config.args]
         try:
             self.course = Course.around(*paths)
-            taken = _taken(Path(config.getoption("submission")))
+            self.only = {self.course.named(key).id for key in config.getoption("exercise")}
+            taken = _taken(Path(config.getoption("submission")), self.course)
         except ValueError as error:
             raise pytest.UsageError(str(error)) from None
         secret = _secret(config.getoption("secret"))
@@ -38,12 +39,12 @@ class Run:
             raise pytest.UsageError(f"no marks in the practice tier: {probe.fault('official')}")
         self.seed = secret or PUBLIC
         self.session = Session(taken, tier, secret=bool(secret))
-        self.reference = Recorder(self.course) if config.getoption("record_answers") else reference(self.course)
+        self.reference = reference(self.course)
         self.parts: dict[str, list[Part]] = {}
         if config.getoption("grade_json"):
             Path(config.getoption("grade_json")).unlink(missing_ok=True)
         if self.course.tests in [path.resolve() for path in paths] and not config.option.keyword:
-            self.parts = {id: [] for id in self.course.exercises}
+            self.parts = {id: [] for id in self.course.exercises if not self.only or id in self.only}
 
     @pytest.fixture
     def answer(self, request: pytest.FixtureRequest) -> Answer:
@@ -63,10 +64,11 @@ class Run:
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        """Let ``-k`` find exercises by name and id."""
+        """Keep the exercises that were asked for, and let ``-k`` find them by name and id."""
         for item in items:
             exercise, _ = self._exercise(item)
             item.extra_keyword_matches.update({exercise.id, exercise.name})
+        items[:] = [item for item in items if not self.only or self._exercise(item)[0].id in self.only]
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_makereport(
@@ -87,8 +89,6 @@ class Run:
         if session.config.getoption("grade_json") and exitstatus in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
             with whole(session.config.getoption("grade_json")) as file:
                 file.write(json.dumps(self.grade(), indent=1, ensure_ascii=False).encode())
-        if isinstance(self.reference, Recorder):
-            self.reference.write(Path(session.config.getoption("record_answers")))
 
     def grade(self) -> dict[str, Any]:
         """The grade of all exercises that were to be graded."""
@@ -105,9 +105,10 @@ class Run:
             terminalreporter.line(f"{entry['id']}  {points}/{entry['max_points']}  {entry['state']:12}  {title}")
 
 
-def _taken(path: Path) -> submission.Submission | Refused:
+def _taken(path: Path, course: Course) -> submission.Submission | Refused:
+    stubs = {path.read_bytes() for path in course.stubs.glob("ch*/*.py")}
     try:
-        return submission.read(path)
+        return submission.read(path).without(stubs)
     except Refused as refused:
         return refused
 

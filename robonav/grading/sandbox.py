@@ -124,7 +124,7 @@ class Worker:
                 stream.close()
 
 
-def start(tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str = PYTHON) -> Worker:
+def start(tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str | None = None) -> Worker:
     """A worker in a sandbox of this tier that holds these files and has run none of them yet.
 
     Raises
@@ -132,7 +132,9 @@ def start(tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str 
     SandboxFault : if it does not start.
     """
     try:
-        worker = {"official": _official, "restricted": _restricted, "practice": _practice}[tier](python, limits)
+        worker = {"official": _official, "restricted": _restricted, "practice": _practice}[tier](
+            python or PYTHON, limits
+        )
     except OSError as error:
         raise SandboxFault(f"the {tier} sandbox cannot be started: {error}") from error
     contents = {name: np.frombuffer(content, np.uint8) for name, content in files.items()}

@@ -1,19 +1,21 @@
 """The worker: runs a student's code in the sandbox and answers the grader's calls, one frame for one.
 
-The grader sends the submission's files once; the worker writes them to its folder and says ``ready``. Then, for each
-exercise, the grader asks to ``load`` a function, to ``call`` it any number of times, and to ``end``. Where the system
-can fork, every exercise runs in a child of its own, so that one that dies or spoils numpy leaves the next untouched,
-and numpy is imported once. Nothing here is worth stealing: a child knows the arguments of its calls and no answer.
+The grader sends the submission's files once, and the worker says ``ready``. Then, for each exercise, the grader asks
+to ``load`` a function, to ``call`` it any number of times, and to ``end``. Each exercise finds the files anew in a
+folder of its own and, where the system can fork, runs in a child of its own: one that dies or spoils what it can reach
+leaves the next untouched, and numpy is imported once. Nothing here is worth stealing: a child knows the arguments of
+its calls and no answer.
 """
 
 from __future__ import annotations
 
+import errno
 import importlib.abc
 import os
 import sys
 import traceback
 import types
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -41,15 +43,17 @@ def main() -> None:
     """Serve the grader on the standard streams until it hangs up."""
     requests, replies = _take_streams()
     opening = frames.read(requests)
-    for name, content in opening["files"].items():
-        _write(Path(name), content.tobytes())
-    _close_the_gate({part.removesuffix(".py") for name in opening["files"] for part in name.split("/")})
+    files = {name: content.tobytes() for name, content in opening["files"].items()}
+    _close_the_gate({part.removesuffix(".py") for name in files for part in name.split("/")})
     confine.limit(opening["limits"])
     frames.write(replies, "ready")
     serve = _serve_in_child if opening["fork"] else _serve
+    home = Path.cwd()
     try:
         while True:
-            serve(requests, replies, frames.read(requests))
+            request = frames.read(requests)
+            os.chdir(_unpacked(home, files))
+            serve(requests, replies, request)
     except (EOFError, BrokenPipeError):
         return
 
@@ -63,12 +67,27 @@ def _take_streams() -> tuple[BinaryIO, BinaryIO]:
     return requests, replies
 
 
-def _write(path: Path, content: bytes) -> None:
+def _unpacked(home: Path, files: Mapping[str, bytes]) -> Path:
+    """The files in a new folder, all older ones gone; its name cannot be guessed, and so not be taken before."""
+    for place, folders, names in os.walk(home, topdown=False):
+        for name in names:
+            _tried(os.unlink, os.path.join(place, name))
+        for name in folders:
+            _tried(os.rmdir, os.path.join(place, name))
+    folder = home / os.urandom(8).hex()
+    for name, content in files.items():
+        _tried((folder / name).parent.mkdir, parents=True, exist_ok=True)
+        _tried((folder / name).write_bytes, content)
+    return folder
+
+
+def _tried(do: Callable[..., Any], *arguments: Any, **options: Any) -> None:
+    """Do it if it can be done (a zip may hold both "a" and "a/b"); without space nothing can."""
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
-    except OSError:  # a zip may hold both "a" and "a/b": what cannot be written is not there
-        return
+        do(*arguments, **options)
+    except OSError as error:
+        if error.errno == errno.ENOSPC:
+            raise
 
 
 def _close_the_gate(own: set[str]) -> None:

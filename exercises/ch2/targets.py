@@ -1,0 +1,36 @@
+# Exercise 2.5: Three targets for the same step. 5 points, exercise, about 20 minutes.
+# Check it with: robonav check 2.5
+"""Q-learning, SARSA and expected SARSA differ in one number: what they take the next state to be worth. Compute the
+three targets $r + \\gamma \\cdot (\\text{worth of } s')$ for a batch of recorded steps, with nothing to come after
+the last step of an episode. Expected SARSA takes the mean over the $\\varepsilon$-greedy policy: with probability
+$\\varepsilon$ any of the $A$ actions, each alike, otherwise a best one, all best ones alike.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def targets(
+    q: NDArray[np.float64],
+    rewards: NDArray[np.float64],
+    next_states: NDArray[np.int64],
+    next_actions: NDArray[np.int64],
+    terminated: NDArray[np.bool_],
+    discount: float,
+    epsilon: float,
+) -> NDArray[np.float64]:
+    """Targets of Q-learning, SARSA and expected SARSA.
+
+    Parameters
+    ----------
+    q : (S, A), action values so far.
+    rewards : (N,), reward of each step.
+    next_states, next_actions : (N,), the state each step led to and the action taken there.
+    terminated : (N,), whether the episode ended with the step.
+    discount, epsilon : discount factor and exploration, both in [0, 1].
+
+    Returns
+    -------
+    (3, N), the targets of Q-learning in the first row, of SARSA in the second, of expected SARSA in the third.
+    """
+    raise NotImplementedError("targets is yours to write")

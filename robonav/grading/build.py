@@ -1,0 +1,181 @@
+"""What students and instructors get, made from the one source of each exercise, ``solutions/chN/name.py``.
+
+Students get the file with its solution cut out, a notebook of each chapter, and a zip with the tests to check
+themselves by; nbgrader gets a notebook that still holds the solutions. Everything is written from the source and never
+edited: ``outdated`` says what differs.
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+import zipfile
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from robonav.files import whole
+from robonav.grading.check import Here, graded
+from robonav.grading.course import Course, Exercise
+from robonav.grading.reference import Recorder, solution
+
+SOLUTION = re.compile(r"^( *)### BEGIN SOLUTION\n.*?^ *### END SOLUTION\n", re.MULTILINE | re.DOTALL)
+LONG_AGO = (2015, 1, 1, 0, 0, 0)  # the date of every file in a zip, so that the same content makes the same zip
+
+
+def stub(source: str, name: str) -> str:
+    """The source with its solution cut out.
+
+    Raises
+    ------
+    ValueError : if the source of ``name`` has no solution between ``### BEGIN SOLUTION`` and ``### END SOLUTION``.
+    """
+    cut, found = SOLUTION.subn(rf'\1raise NotImplementedError("{name} is yours to write")\n', source)
+    if not found or "### " in cut:
+        raise ValueError(f"{name} must have its solution between ### BEGIN SOLUTION and ### END SOLUTION")
+    return cut
+
+
+def question(source: str) -> str:
+    """What the exercise asks, in MyST Markdown: the source's docstring."""
+    return ast.get_docstring(ast.parse(source)) or ""
+
+
+def code(source: str) -> str:
+    """The source without its docstring."""
+    first = ast.parse(source).body[0]
+    return "".join(source.splitlines(keepends=True)[first.end_lineno :]).strip() + "\n"
+
+
+def built(course: Course) -> dict[str, str]:
+    """Every generated file's text by its path from the course's root."""
+    files = {"exercises/README.md": _readme(course)}
+    for chapter, exercises in course.chapters():
+        sources = {exercise: (course.solutions / exercise.file).read_text() for exercise in exercises}
+        stubs = {exercise: stub(source, exercise.name) for exercise, source in sources.items()}
+        for exercise, text in stubs.items():
+            files[f"exercises/{exercise.file}"] = f"{_heading(exercise)}\n{text}"
+        files[f"exercises/{chapter}.ipynb"] = _notebook(chapter, stubs)
+        files[f"solutions/nbgrader/source/{chapter}/{chapter}.ipynb"] = _notebook(chapter, sources)
+    return files
+
+
+def outdated(course: Course) -> list[str]:
+    """Generated files that are missing, differ from their source, or have none any more."""
+    files = built(course)
+    present = {path.relative_to(course.root).as_posix() for path in _generated(course)}
+    differ = [name for name in files if name in present and (course.root / name).read_text() != files[name]]
+    return sorted({*differ, *(set(files) ^ present)})
+
+
+def build(course: Course) -> list[str]:
+    """Write what is outdated, remove what has no source any more; the names of both."""
+    files = built(course)
+    changed = outdated(course)
+    for name in changed:
+        if name in files:
+            with whole(course.root / name) as file:
+                file.write(files[name].encode())
+        else:
+            (course.root / name).unlink()
+    return changed
+
+
+def students_zip(course: Course, path: Path) -> None:
+    """A zip for a learning platform: stubs, notebooks, and tests with the answers to the public cases alone."""
+    tests = [course.tests / name for name in ("manifest.toml", "pytest.ini")] + sorted(course.tests.glob("test_*.py"))
+    with (
+        TemporaryDirectory() as folder,
+        whole(path) as file,
+        zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive,
+    ):
+        recorder = Recorder(course)
+        for exercise in course.exercises.values():
+            if (result := graded(course, exercise, Here(solution(course, exercise)), recorder))["state"] != "correct":
+                raise ValueError(f"the solution of {exercise.id} does not pass: {result['feedback']}")
+        recorder.write(Path(folder))
+        content = {name: text.encode() for name, text in built(course).items() if name.startswith("exercises/")}
+        content |= {test.relative_to(course.root).as_posix(): test.read_bytes() for test in tests}
+        content |= {
+            f"tests/exercises/recorded/{path.name}": path.read_bytes() for path in sorted(Path(folder).iterdir())
+        }
+        for name, text in content.items():
+            archive.writestr(zipfile.ZipInfo(f"robonav-exercises/{name}", LONG_AGO), text)
+
+
+def _generated(course: Course) -> Iterator[Path]:
+    for folder, kinds in ((course.stubs, (".py", ".ipynb", ".md")), (course.solutions / "nbgrader", (".ipynb",))):
+        for path in folder.rglob("*"):
+            if path.suffix in kinds and not any(part.startswith((".", "__")) for part in path.parts[-2:]):
+                yield path
+
+
+def _heading(exercise: Exercise) -> str:
+    return (
+        f"# Exercise {exercise.id}: {exercise.title}. {exercise.points} points, {exercise.difficulty}, "
+        f"about {exercise.minutes} minutes.\n# Check it with: robonav check {exercise.id}"
+    )
+
+
+def _readme(course: Course) -> str:
+    rows = [
+        f"| {e.id} | `{e.file}` | {e.title} | {e.difficulty} | {e.minutes} min | {e.points} |"
+        for e in course.exercises.values()
+    ]
+    head = ["| exercise | file | title | kind | time | points |", "|---|---|---|---|---|---|"]
+    return "\n".join(
+        [
+            "# Exercises",
+            "",
+            "Each file asks for one function; its docstring says what goes in and what comes out. Write it there, or",
+            "in the chapter's notebook, with Python's standard library and numpy, and check it one folder up:",
+            "",
+            "```bash",
+            "robonav check 2.1        # one exercise",
+            "robonav check            # all of them",
+            "```",
+            "",
+            *head,
+            *rows,
+            "",
+            "These files are generated from the solutions; do not edit them in the book's own repository.",
+            "",
+        ]
+    )
+
+
+def _notebook(chapter: str, sources: Mapping[Exercise, str]) -> str:
+    """A chapter's exercises as one notebook, with the cell metadata that nbgrader reads."""
+    number = chapter.removeprefix("ch")
+    cells = [
+        _markdown("title", f"# Exercises of chapter {number}\n\nRun a cell with `check` to see how you are doing.")
+    ]
+    for exercise, source in sources.items():
+        key = exercise.id.replace(".", "-")
+        about = f"{exercise.points} points, {exercise.difficulty}, about {exercise.minutes} minutes"
+        text = f"## Exercise {exercise.id}: {exercise.title}\n\n*{about}*\n\n{question(source)}"
+        check = f'from robonav.grading.check import check\n\ncheck("{exercise.id}", {exercise.name})'
+        cells += [
+            _markdown(f"question-{key}", text),
+            _code(f"answer-{key}", code(source).rstrip(), solution=True, locked=False, grade=False),
+            _code(f"check-{key}", check, solution=False, locked=True, grade=True, points=exercise.points),
+        ]
+    kernel = {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}}
+    notebook = {"cells": cells, "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}
+    return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
+
+
+def _markdown(key: str, text: str) -> dict[str, Any]:
+    return {"cell_type": "markdown", "id": key, "metadata": {}, "source": _lines(text)}
+
+
+def _code(key: str, text: str, **grading: Any) -> dict[str, Any]:
+    metadata = {"nbgrader": {"grade_id": key, "schema_version": 3, "task": False, "cell_type": "code", **grading}}
+    head = {"cell_type": "code", "execution_count": None, "id": key}
+    return {**head, "metadata": metadata, "outputs": [], "source": _lines(text)}
+
+
+def _lines(text: str) -> Sequence[str]:
+    return text.splitlines(keepends=True)
