@@ -38,22 +38,25 @@ class ThesisMathDomain(MathDomain):
             self.equations[labelid] = (docname, number)
 
 
+def equation_reference(number: str, docname: str) -> nodes.Node:
+    """The number in brackets, a link if a page shows the equation."""
+    target = {"refdomain": "math", "reftype": "eq", "reftarget": f"eq-{number}", "refdoc": docname}
+    return pending_xref("", nodes.Text(f"({number})"), **target)
+
+
 class ThesisEquation(SphinxRole):
     """The role ``{thesis}``: numbers of equations of the thesis, each in brackets."""
 
     def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
         found: list[nodes.Node] = []
         for number in (part.strip() for part in self.text.split(",")):
-            reference = pending_xref(
-                "", refdomain="math", reftype="eq", reftarget=f"eq-{number}", refdoc=self.env.docname
-            )
-            reference += nodes.Text(f"({number})")
+            reference = equation_reference(number, self.env.docname)
             found += [nodes.Text(", "), reference] if found else [reference]
         return found, []
 
 
 def leave_plain(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Element) -> nodes.Node | None:
-    """Leave the number of an equation that no page shows as plain text, where ``{thesis}`` made it."""
+    """Leave the number of an equation that no page shows as plain text, but not for the strict role ``{eq}``."""
     if node.get("refdomain") == "math" and thesis_number(node["reftarget"]) and isinstance(content, nodes.Text):
         return content
     return None

@@ -1,0 +1,195 @@
+"""The book's own Sphinx extensions and checks, without a built book."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import check_site
+import nbformat
+import notebooks
+import package_code
+import package_digest
+import pytest
+import thesis_index
+from thesis_numbers import thesis_number
+
+
+def test_thesis_numbers_are_read_from_labels() -> None:
+    assert thesis_number("eq-2.24") == "2.24"
+    assert thesis_number("eq-own") is None
+    assert thesis_number("my-eq-2.24") is None
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("(2.24)", {(2, 24)}),
+        ("(2.29), (4.1)", {(2, 29), (4, 1)}),
+        ("(3.23)-(3.25) and (3.27)", {(3, 23), (3, 24), (3, 25), (3, 27)}),
+        ("3.1 to 3.3", {(3, 1), (3, 2), (3, 3)}),
+        ("8", {(8,)}),
+    ],
+)
+def test_lists_and_ranges_of_numbers(text: str, expected: set[tuple[int, ...]]) -> None:
+    assert thesis_index.numbers(text) == expected
+
+
+def test_citations_are_found_in_docstrings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = tmp_path / "robonav"
+    package.mkdir()
+    (package / "chapter.py").write_text(
+        'def one():\n    """By Eq. (2.10) and (2.9), Algorithm 2; Fig. 3.10."""\n\n\n'
+        'class Two:\n    """Nothing."""\n\n    def three(self):\n        """Eqs. (2.9), (4.1)."""\n\n'
+        '    def _hidden(self):\n        """Eq. (2.9)."""\n'
+    )
+    monkeypatch.setattr(thesis_index, "PACKAGE", package)
+    one, three = "robonav.chapter.one", "robonav.chapter.Two.three"
+    assert thesis_index.cited("equations") == {(2, 9): [one, three], (2, 10): [one], (4, 1): [three]}
+    assert list(thesis_index.cited("equations")) == [(2, 9), (2, 10), (4, 1)]
+    assert thesis_index.cited("algorithms") == {(2,): [one]}
+    assert thesis_index.cited("figures") == {(3, 10): [one]}
+
+
+def test_docstring_is_cut_and_the_code_stays() -> None:
+    source = '@cache\ndef f(x):\n    """Twice x.\n\n    More.\n    """\n\n    y = 2 * x\n    return y\n'
+    assert package_code.without_docstring(source) == "@cache\ndef f(x):\n    y = 2 * x\n    return y\n"
+    bare = "def f(x):\n    return x\n"
+    assert package_code.without_docstring(bare) == bare
+
+
+def test_names_are_resolved_through_modules_classes_and_fields() -> None:
+    import robonav.look
+    from robonav.plots.schemes import Box
+
+    assert package_code.resolve("robonav.look.STYLE") is robonav.look.STYLE
+    assert package_code.resolve("robonav.plots.schemes.Box") is Box
+    assert package_code.resolve("robonav.plots.schemes.Box.texts").name == "texts"
+    with pytest.raises(AttributeError):
+        package_code.resolve("robonav.look.NOTHING")
+
+
+MYST = """(here)=
+Text {cite:p}`ng2000,abbeel2004` and {cite:t}`xia2015`: see
+{eq}`eq-2.24`, {thesis}`2.1, 2.2`, {doc}`the notes <notation>`.
+
+$$V = r$$ (eq-2.26)
+
+```{math}
+:label: own
+a = b
+```
+
+:::{admonition} Mind
+:class: tip
+A *word* {term}`policy`.
+:::
+
+```{figure} picture.png
+:alt: A robot.
+Its caption.
+```
+
+```{solution} exercise
+Secret.
+```
+
+```{source} robonav.expect.positive
+```
+"""
+
+
+def test_pages_become_plain_markdown() -> None:
+    plain = notebooks.plain(MYST)
+    assert "Text (Ng 2000; Abbeel 2004) and Xia 2015: see\n(2.24), (2.1), (2.2), the notes." in plain
+    assert "$$\nV = r \\tag{2.26}\n$$" in plain
+    assert "$$\na = b\n$$" in plain
+    assert "> **Admonition Mind**\n>\n> A *word* policy." in plain
+    assert "![A robot.](picture.png)\n\nIts caption." in plain
+    assert "robonav.expect.positive??" in plain
+    for left_over in ("Secret", "{", ":::", ":alt:", ":class:", "(here)="):
+        assert left_over not in plain.replace("\\tag{2.26}", "")
+
+
+PAGE = """---
+jupytext:
+  text_representation: {extension: .md, format_name: myst}
+kernelspec: {display_name: Python 3, language: python, name: python3}
+---
+
+# Title
+
+```{code-cell} ipython3
+1 + 1
+```
+"""
+
+
+def test_notebooks_are_valid_reproducible_and_without_outputs(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    page.write_text(PAGE)
+    notebook = notebooks.notebook_of(page)
+    nbformat.validate(notebook)
+    assert [cell.cell_type for cell in notebook.cells] == ["markdown", "code"]
+    assert notebook.cells[1].source == "1 + 1"
+    assert notebook.cells[1].outputs == []
+    assert notebook == notebooks.notebook_of(page)
+
+
+def test_a_notebook_that_was_changed_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "_toc.yml").write_text("root: page\n")
+    (tmp_path / "page.md").write_text(PAGE)
+    monkeypatch.setattr(notebooks, "ROOT", tmp_path)
+    target = tmp_path / "lab" / "01-page.ipynb"
+    notebooks.write_all(target.parent)
+    target.write_text("mine")
+    notebooks.write_all(target.parent)
+    assert target.read_text() == "mine"
+    newer = target.stat().st_mtime + 10
+    monkeypatch.setattr(notebooks, "notebook_of", lambda source: nbformat.v4.new_notebook())
+    os.utime(tmp_path / "page.md", (newer, newer))
+    notebooks.write_all(target.parent)
+    assert target.read_text() != "mine"
+    assert (target.parent / "01-page.before.ipynb").read_text() == "mine"
+
+
+def test_digest_sees_code_and_names_but_not_byte_code(tmp_path: Path) -> None:
+    (tmp_path / "a.py").write_text("x = 1")
+    first = package_digest.digest_of(tmp_path)
+    (tmp_path / "__pycache__").mkdir()
+    (tmp_path / "__pycache__" / "a.pyc").write_bytes(b"x")
+    assert package_digest.digest_of(tmp_path) == first
+    (tmp_path / "a.py").rename(tmp_path / "b.py")
+    second = package_digest.digest_of(tmp_path)
+    (tmp_path / "b.py").write_text("x = 2")
+    assert len({first, second, package_digest.digest_of(tmp_path)}) == 3
+
+
+@pytest.mark.parametrize(
+    ("article", "fault"),
+    [
+        ("word " * 200, None),
+        ("word " * 20, "holds fewer than 400 characters"),
+        ("word " * 200 + "Traceback (most recent call last)", "shows a failed cell"),
+        ("word " * 200 + '<div class="system-message">', "shows a directive or role that did not parse"),
+        ("word " * 200 + "<code>{eq}</code>", "shows an unresolved reference"),
+    ],
+)
+def test_a_page_that_failed_is_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, article: str, fault: str | None
+) -> None:
+    monkeypatch.setattr(check_site, "SITE", tmp_path)
+    (tmp_path / "page.html").write_text(f"<html><article>{article}</article></html>")
+    assert list(check_site.faults("page")) == ([fault] if fault else [])
+    assert list(check_site.faults("other")) == ["was not built"]
+
+
+def test_every_page_of_a_table_of_contents_is_listed() -> None:
+    contents = {
+        "root": "a",
+        "parts": [
+            {"caption": "P", "chapters": [{"file": "b", "sections": [{"file": "c"}]}]},
+            {"chapters": [{"file": "d"}, {"url": "e"}]},
+        ],
+    }
+    assert list(check_site.pages(contents)) == ["a", "b", "c", "d"]
