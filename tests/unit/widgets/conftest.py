@@ -11,13 +11,14 @@ from robonav.widgets.shared import front_end
 
 @pytest.fixture
 def node(tmp_path):
-    """Run a few lines of JavaScript with a widget's exports and some data at hand; gives back what they return."""
+    """Run a few lines of JavaScript with the exports of a widget, or of several files, and some data at hand."""
     program = shutil.which("node")
     if program is None:
         pytest.skip("Node is not installed")
 
     def run(widget, body, data):
-        (tmp_path / "widget.mjs").write_text(front_end(widget), "utf-8")
+        names = (widget,) if isinstance(widget, str) else widget
+        (tmp_path / "widget.mjs").write_text(front_end(*names), "utf-8")
         (tmp_path / "data.json").write_text(json.dumps(data), "utf-8")
         (tmp_path / "run.mjs").write_text(
             'import * as page from "./widget.mjs"; import { readFileSync } from "node:fs";\n'

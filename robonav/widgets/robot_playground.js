@@ -1,0 +1,406 @@
+// Robot playground: the simulator in the reader's hands. Move things, pick who drives, or drive yourself.
+
+const ME = "you, with the arrow keys";
+const PACES = [1, 2, 3, 5, 8, 12, 20, 40]; // steps a second
+const KEYS = { ArrowUp: 0, ArrowLeft: 1, ArrowRight: 3, ArrowDown: 5 };
+const HARD_LEFT = 2;
+const HARD_RIGHT = 4;
+const PIXELS = 520;
+const MARGIN = 14;
+
+const copy = (world) => ({ ...world, start: [...world.start], target: [...world.target], obstacles: world.obstacles.map((o) => ({ ...o })) });
+const between = (a, b, t) => a + (b - a) * t;
+const metres = (value) => Number(value.toFixed(1));
+
+/** What a policy of the list does: its action and, for a network, what it computed on the way. */
+function driver(policy) {
+  if (policy.rule) return (sensing) => ({ action: RULES[policy.rule](sensing) });
+  const network = networks(policy.network)();
+  return (sensing) => consult({ network, encoder: policy.encoder }, sensing);
+}
+
+// ---- The drive: state and steps, no drawing -------------------------------------------------------------------------
+
+/** A drive that can be stepped, reset and edited. */
+export function makeDrive(first, speed) {
+  const drive = { base: copy(first), speed };
+  drive.reset = () => {
+    Object.assign(drive, { world: copy(drive.base), pose: startPose(drive.base), step: 0, outcome: "running", steps: [] });
+    drive.before = { pose: drive.pose, obstacles: drive.world.obstacles };
+    drive.path = [drive.pose];
+    drive.sensing = sense(drive.world, drive.pose);
+  };
+  /** One step; `chosen` is the policy's action, which the reflexes may overrule. */
+  drive.go = (chosen, reflexes = true) => {
+    if (drive.outcome !== "running") return;
+    const own = reflexes ? reflex(drive.sensing, drive.speed) : -1;
+    const action = own < 0 ? chosen : own;
+    drive.steps.push({ pose: drive.pose, sensing: drive.sensing, action });
+    drive.before = { pose: drive.pose, obstacles: drive.world.obstacles };
+    const { world, pose, outcome } = advance(drive.world, drive.pose, drive.step, action, drive.speed);
+    Object.assign(drive, { world, pose, outcome, step: drive.step + 1 });
+    drive.path.push(pose);
+    drive.sensing = sense(world, pose);
+  };
+  /** Change the world now and for the next start. */
+  drive.edit = (change) => {
+    change(drive.base);
+    if (drive.step === 0) drive.reset();
+    else {
+      change(drive.world);
+      drive.before = { pose: drive.pose, obstacles: drive.world.obstacles };
+      drive.sensing = sense(drive.world, drive.pose);
+    }
+  };
+  drive.reset();
+  return drive;
+}
+
+// ---- The map --------------------------------------------------------------------------------------------------------
+
+function map({ drive, selected, grabbed, moved }) {
+  const canvas = h("canvas", { width: PIXELS, height: PIXELS, tabindex: 0, role: "application", class: "map" });
+  const pen = canvas.getContext("2d");
+  const scale = () => (PIXELS - 2 * MARGIN) / drive().world.size;
+  const toX = (x) => MARGIN + x * scale();
+  const toY = (y) => PIXELS - MARGIN - y * scale();
+
+  const place = (event) => {
+    const box = canvas.getBoundingClientRect();
+    const [px, py] = [((event.clientX - box.left) / box.width) * PIXELS, ((event.clientY - box.top) / box.height) * PIXELS];
+    return [(px - MARGIN) / scale(), (PIXELS - MARGIN - py) / scale()];
+  };
+  const thingAt = ([x, y]) => {
+    const { world, pose } = drive();
+    if (Math.hypot(x - pose.x, y - pose.y) < 4) return "robot";
+    if (Math.hypot(x - world.target[0], y - world.target[1]) < 4) return "target";
+    const distances = world.obstacles.map((o) => Math.hypot(x - o.x, y - o.y) - Math.max(o.a, o.b, 2));
+    const nearest = distances.indexOf(Math.min(...distances));
+    return nearest >= 0 && distances[nearest] <= 0 ? nearest : null;
+  };
+  let dragging = null;
+  canvas.addEventListener("pointerdown", (event) => {
+    dragging = thingAt(place(event));
+    if (dragging === null) return;
+    grabbed(dragging);
+    canvas.setPointerCapture(event.pointerId);
+    event.preventDefault();
+  });
+  canvas.addEventListener("pointermove", (event) => dragging !== null && moved(dragging, place(event)));
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (dragging = null));
+
+  const outline = (o, x, y) => {
+    pen.beginPath();
+    if (o.circle) pen.arc(toX(x), toY(y), o.a * scale(), 0, 2 * Math.PI);
+    else {
+      const [c, s] = [Math.cos(o.turned), Math.sin(o.turned)];
+      for (const [i, j] of [[1, 1], [-1, 1], [-1, -1], [1, -1]]) {
+        pen.lineTo(toX(x + c * o.a * i - s * o.b * j), toY(y + s * o.a * i + c * o.b * j));
+      }
+      pen.closePath();
+    }
+  };
+  const sectors = ({ x, y, heading }, ranges) => {
+    const half = ROBOT.sector / 2;
+    ranges.forEach((distance, k) => {
+      const middle = heading + k * ROBOT.sector;
+      pen.beginPath();
+      pen.moveTo(toX(x), toY(y));
+      pen.arc(toX(x), toY(y), Math.max(distance, 0) * scale(), -(middle - half), -(middle + half), true);
+      pen.closePath();
+      const near = distance < ROBOT.range;
+      pen.globalAlpha = near ? 0.4 : 0.18;
+      pen.fillStyle = near ? PALETTE.ORANGE : PALETTE.SKY;
+      pen.fill();
+      pen.globalAlpha = 0.7;
+      pen.strokeStyle = PALETTE.BLUE;
+      pen.lineWidth = 0.7;
+      pen.stroke();
+    });
+    pen.globalAlpha = 1;
+  };
+  const triangle = ({ x, y, heading }) => {
+    pen.beginPath();
+    for (const angle of [0, 2.5, -2.5]) pen.lineTo(toX(x + 2.2 * Math.cos(heading + angle)), toY(y + 2.2 * Math.sin(heading + angle)));
+    pen.closePath();
+    pen.fillStyle = PALETTE.ROBOT;
+    pen.fill();
+  };
+
+  /** The moment at part t of the way from the last step's beginning to now. */
+  const draw = (t) => {
+    const { world, pose, before, path, sensing, outcome } = drive();
+    const dense = Math.min(window.devicePixelRatio || 1, 2);
+    if (canvas.width !== PIXELS * dense) canvas.width = canvas.height = PIXELS * dense;
+    pen.setTransform(dense, 0, 0, dense, 0, 0);
+    pen.clearRect(0, 0, PIXELS, PIXELS);
+    pen.strokeStyle = PALETTE.OBSTACLE;
+    pen.lineWidth = 2;
+    pen.strokeRect(toX(0), toY(world.size), world.size * scale(), world.size * scale());
+    world.obstacles.forEach((o, m) => {
+      const old = before.obstacles[m] ?? o;
+      outline(o, between(old.x, o.x, t), between(old.y, o.y, t));
+      pen.fillStyle = o.speed > 0 ? PALETTE.MOVING : PALETTE.OBSTACLE;
+      pen.fill();
+      if (selected() === m) {
+        pen.strokeStyle = PALETTE.ORANGE;
+        pen.lineWidth = 3;
+        pen.stroke();
+      }
+    });
+    pen.fillStyle = PALETTE.ROBOT;
+    pen.fillRect(toX(world.start[0]) - 4, toY(world.start[1]) - 4, 8, 8);
+    pen.strokeStyle = PALETTE.TARGET;
+    pen.lineWidth = selected() === "target" ? 4 : 2.5;
+    pen.beginPath();
+    pen.arc(toX(world.target[0]), toY(world.target[1]), ROBOT.arrival * scale(), 0, 2 * Math.PI);
+    pen.stroke();
+    const turn = Math.atan2(Math.sin(pose.heading - before.pose.heading), Math.cos(pose.heading - before.pose.heading));
+    const now = { x: between(before.pose.x, pose.x, t), y: between(before.pose.y, pose.y, t), heading: before.pose.heading + turn * Math.min(1, 3 * t) };
+    if (t >= 1) sectors(pose, sensing.ranges);
+    else sectors(now, sense({ ...world, obstacles: world.obstacles.map((o, m) => ({ ...o, x: between((before.obstacles[m] ?? o).x, o.x, t), y: between((before.obstacles[m] ?? o).y, o.y, t) })) }, now).ranges);
+    pen.strokeStyle = outcome === "collided" ? PALETTE.VERMILION : PALETTE.BLUE;
+    pen.lineWidth = 1.8;
+    pen.beginPath();
+    path.slice(0, -1).forEach(({ x, y }) => pen.lineTo(toX(x), toY(y)));
+    pen.lineTo(toX(now.x), toY(now.y));
+    pen.stroke();
+    triangle(now);
+  };
+  return { canvas, draw };
+}
+
+// ---- What stands beside it ------------------------------------------------------------------------------------------
+
+/** The nine readings as a table. */
+function readings() {
+  const rows = Array.from({ length: ROBOT.sensors }, (_, k) => {
+    const cells = [h("td", {}), h("td", {}), h("td", {})];
+    return { element: h("tr", {}, h("th", { scope: "row" }, String(k + 1)), ...cells), cells };
+  });
+  const element = h("table", { class: "readings" },
+    h("caption", {}, "What the sensors read"),
+    h("thead", {}, h("tr", {}, ...["sensor", "range (m)", "danger", "sees"].map((text) => h("th", { scope: "col" }, text)))),
+    h("tbody", {}, ...rows.map((row) => row.element)));
+  const show = ({ ranges, walls }) => rows.forEach(({ cells }, k) => {
+    const near = ranges[k] < ROBOT.range;
+    cells[0].textContent = ranges[k].toFixed(2);
+    cells[1].textContent = String(degreeOfDanger(ranges[k]));
+    cells[2].textContent = near ? (walls[k] ? "wall" : "obstacle") : "nothing";
+  });
+  return { element, show };
+}
+
+/** Fields that say and change where the chosen thing is: the keyboard's way to drag. */
+function inspector({ drive, selected, select, changed, removed }) {
+  const list = h("select", { "aria-label": "Thing to change", change: () => select(list.value === "robot" || list.value === "target" ? list.value : Number(list.value)) });
+  const fields = h("span", { class: "fields" });
+  const field = (label, value, step, set) => h("label", {}, h("span", {}, label),
+    h("input", { type: "number", step, value, change: (event) => Number.isFinite(event.target.valueAsNumber) && changed(() => set(event.target.valueAsNumber)) }));
+  const show = () => {
+    const { world, pose, base } = drive();
+    const name = selected();
+    const options = [["robot", "robot (start)"], ["target", "target"], ...world.obstacles.map((o, m) => [String(m), `${o.circle ? "circle" : "rectangle"} ${m + 1}`])];
+    list.replaceChildren(...options.map(([value, text]) => h("option", { value, selected: value === String(name) }, text)));
+    const edit = (act) => (value) => drive().edit((w) => act(w, value));
+    const at = (find) => [
+      field("x (m)", metres(find(world)[0]), 1, edit((w, v) => (find(w)[0] = v))),
+      field("y (m)", metres(find(world)[1]), 1, edit((w, v) => (find(w)[1] = v)))];
+    if (name === "target") fields.replaceChildren(...at((w) => w.target));
+    else if (name === "robot") fields.replaceChildren(...at((w) => w.start));
+    else {
+      const o = world.obstacles[name];
+      const put = (property) => edit((w, v) => (w.obstacles[name][property] = v));
+      const size = (property) => edit((w, v) => (w.obstacles[name][property] = Math.max(0.5, v / (o.circle ? 1 : 2))));
+      fields.replaceChildren(
+        field("x (m)", metres(o.x), 1, put("x")), field("y (m)", metres(o.y), 1, put("y")),
+        ...(o.circle ? [field("radius (m)", metres(o.a), 0.5, size("a"))] : [
+          field("length (m)", metres(2 * o.a), 0.5, size("a")), field("width (m)", metres(2 * o.b), 0.5, size("b")),
+          field("turned (°)", Math.round((o.turned * 180) / Math.PI), 10, edit((w, v) => (w.obstacles[name].turned = (v * Math.PI) / 180)))]),
+        field("speed (m/s)", metres(o.speed), 0.1, edit((w, v) => (w.obstacles[name].speed = Math.max(0, Math.min(v, 2))))),
+        h("button", { type: "button", click: () => removed(name) }, "Remove"));
+    }
+  };
+  return { element: h("fieldset", { class: "inspector" }, h("legend", {}, "Change a thing (or drag it in the map)"), list, fields), show };
+}
+
+function render({ model, el }) {
+  const { worlds, policies, speeds } = model.get("data");
+  const names = [...policies.map(({ name }) => name), ME];
+  const drivers = policies.map(driver);
+  let drive = makeDrive(worlds[0].world, 2);
+  let [policy, selected, pace, running, t, last, frame] = [0, "robot", 4, false, 1, 0, 0];
+  const mine = () => policy === policies.length;
+
+  const status = h("p", { class: "status", role: "status" });
+  const values = h("div", { class: "values" });
+  const table = readings();
+  const picture = h("div", {});
+  const pictures = policies.map(({ network, encoder }) => network && networkPicture(network.sizes, {
+    inputs: Array.from({ length: network.sizes[0] }, (_, j) => (j < encoder.sensors.length ? String(encoder.sensors[j]) : "")),
+    outputs: ROBOT.actions.slice(0, network.sizes.at(-1)),
+    label: "The network that drives: inputs, hidden units, and a value for each action",
+  }));
+
+  const choose = (name) => {
+    selected = name;
+    inspect.show();
+    paint();
+  };
+  const board = map({
+    drive: () => drive, selected: () => selected, grabbed: choose,
+    moved: (name, [x, y]) => {
+      const { size } = drive.world;
+      const [px, py] = [Math.min(Math.max(x, 0), size), Math.min(Math.max(y, 0), size)];
+      if (name === "robot") {
+        if (drive.step > 0) return;
+        drive.edit((w) => (w.start = [px, py]));
+      } else if (name === "target") drive.edit((w) => (w.target = [px, py]));
+      else drive.edit((w) => Object.assign(w.obstacles[name], { x: px, y: py }));
+      refresh();
+    },
+  });
+  const inspect = inspector({
+    drive: () => drive, selected: () => selected, select: choose,
+    changed: (act) => { act(); refresh(); },
+    removed: (name) => {
+      drive.edit((w) => w.obstacles.splice(name, 1));
+      selected = "robot";
+      refresh();
+    },
+  });
+
+  const paint = () => board.draw(t);
+  /** Everything but the map, which is drawn for itself many times a second. */
+  function refresh() {
+    const { sensing, outcome, step, speed } = drive;
+    table.show(sensing);
+    const own = reflex(sensing, speed);
+    const thought = mine() ? null : drivers[policy](sensing);
+    if (thought?.z) {
+      values.replaceChildren(...[...thought.z].map((z, k) => h("span", { class: k === thought.action ? "chosen" : "" }, `${ROBOT.actions[k]} ${sigmoid(z).toFixed(2)}`)));
+      pictures[policy].show(networks(policies[policy].network)(), thought.activations);
+    } else values.replaceChildren(h("span", {}, mine() ? "arrow keys: ahead, left and right 30°, back; with Shift 60°" : "a rule, no network"));
+    const will = own === ROBOT.toTarget ? "nothing in range: its reflex turns it to the target" : own === ROBOT.backward ? "blocked ahead: its reflex steps back"
+      : thought ? `it takes ${ROBOT.actions[thought.action]}` : "it waits for your key";
+    const ended = { arrived: `Arrived after ${step} s.`, collided: `Collided after ${step} s.` }[outcome];
+    status.textContent = ended ?? `${step} s, target in sector ${sensing.region}${sensing.seen ? ", seen" : ""}; ${will}.`;
+    board.canvas.setAttribute("aria-label", `Map, ${drive.world.obstacles.length} obstacles. Robot at ${metres(drive.pose.x)}, ${metres(drive.pose.y)}. ${status.textContent}`);
+    save.disabled = drive.steps.length === 0;
+    paint();
+  }
+  const act = (chosen) => {
+    if (t < 1) t = 1;
+    drive.go(chosen ?? 0);
+    t = running || mine() ? 0 : 1;
+    if (drive.outcome !== "running") pause();
+    refresh();
+    if (t < 1) wake();
+  };
+  const next = () => act(mine() ? 0 : drivers[policy](drive.sensing).action);
+  function tick(time) {
+    frame = 0;
+    t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * PACES[pace]);
+    last = time;
+    if (t >= 1 && running && !mine()) next();
+    paint();
+    if (t < 1 || running) wake();
+  }
+  const wake = () => {
+    if (frame) return;
+    last = performance.now();
+    frame = requestAnimationFrame(tick);
+  };
+  const pause = () => {
+    running = false;
+    play.textContent = "Drive";
+  };
+  const play = h("button", { type: "button", class: "main", click: () => {
+    if (running) return pause();
+    if (drive.outcome !== "running") drive.reset();
+    running = true;
+    play.textContent = "Pause";
+    refresh();
+    return wake();
+  } }, "Drive");
+  const reset = () => {
+    pause();
+    drive.reset();
+    t = 1;
+    refresh();
+    inspect.show();
+  };
+  const save = h("button", { type: "button", click: () => saveFile("my-drive.npz", demonstrationFile(drive)) }, "Download this drive");
+  const note = h("span", { role: "status" });
+  const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights to drive with", change: async () => {
+    const [file] = upload.files;
+    if (!file) return;
+    try {
+      const own = { ...weightsFromFile(await file.arrayBuffer()), name: file.name };
+      policies.push(own);
+      drivers.push(driver(own));
+      pictures.push(networkPicture(own.network.sizes, { inputs: own.network.sizes[0] ? Array(own.network.sizes[0]).fill("") : [], outputs: ROBOT.actions.slice(0, own.network.sizes.at(-1)), label: "Your network" }));
+      names.splice(names.length - 1, 0, file.name);
+      who.element.querySelector("select").replaceChildren(...names.map((name) => h("option", {}, name)));
+      pick(policies.length - 1);
+      note.textContent = `${file.name} drives now.`;
+    } catch (error) {
+      note.textContent = error.message;
+    }
+  } });
+
+  const pick = (index) => {
+    policy = index;
+    who.move(index);
+    picture.replaceChildren(...(pictures[index] ? [pictures[index].element] : []));
+    play.hidden = mine();
+    pause();
+    refresh();
+    if (mine()) board.canvas.focus();
+  };
+  const who = choice({ label: "who drives", options: names, change: pick });
+  const where = choice({ label: "world", options: worlds.map(({ name }) => name), change: (index) => {
+    drive = makeDrive(worlds[index].world, drive.speed);
+    selected = "robot";
+    reset();
+  } });
+  const fast = choice({ label: "speed", options: speeds.map((speed) => `${speed} m/s`), value: speeds.indexOf(2), change: (index) => { drive.speed = speeds[index]; refresh(); } });
+  const rate = slider({ label: "steps a second", count: PACES.length, value: pace, text: (step) => String(PACES[step]), change: (step) => (pace = step) });
+  const add = (circle) => () => {
+    const { size } = drive.world;
+    drive.edit((w) => w.obstacles.push({ circle, x: size / 2, y: size / 2, a: 3, b: circle ? 0 : 2, turned: 0, speed: 0, heading: 0.7 }));
+    choose(drive.world.obstacles.length - 1);
+    refresh();
+  };
+  board.canvas.addEventListener("keydown", (event) => {
+    if (!(event.key in KEYS)) return;
+    event.preventDefault();
+    if (!mine()) pick(policies.length);
+    const action = event.shiftKey && event.key === "ArrowLeft" ? HARD_LEFT : event.shiftKey && event.key === "ArrowRight" ? HARD_RIGHT : KEYS[event.key];
+    if (drive.outcome === "running") act(action);
+  });
+  const wheel = h("div", { class: "wheel", role: "group", "aria-label": "Drive yourself, a step at a time" },
+    ...[["L60", 2], ["L30", 1], ["F", 0], ["R30", 3], ["R60", 4], ["B", 5]].map(([name, action]) =>
+      h("button", { type: "button", click: () => { if (!mine()) pick(policies.length); act(action); } }, name)));
+
+  el.classList.add("robonav");
+  el.replaceChildren(
+    h("div", { class: "row" }, where.element, who.element, fast.element),
+    h("div", { class: "row" },
+      h("div", { class: "grow" }, board.canvas,
+        h("div", { class: "row tools" }, play, h("button", { type: "button", click: () => { pause(); next(); } }, "One step"), h("button", { type: "button", click: reset }, "Back to the start"), rate.element),
+        wheel, status),
+      h("div", { class: "grow side" }, h("p", { class: "label" }, "What the driver thinks of each action"), values, picture, table.element)),
+    h("div", { class: "row tools" },
+      h("button", { type: "button", click: add(true) }, "Add a circle"), h("button", { type: "button", click: add(false) }, "Add a rectangle"), save,
+      h("label", { class: "file" }, h("span", {}, "drive with weights of your own"), upload), note),
+    inspect.element);
+  pick(0);
+  inspect.show();
+  return () => {
+    pause();
+    cancelAnimationFrame(frame);
+  };
+}
+
+export default { render };
