@@ -9,6 +9,8 @@ is already there is replaced only if its page is newer, and then kept beside the
 
 from __future__ import annotations
 
+import base64
+import mimetypes
 import re
 import sys
 from collections.abc import Callable
@@ -32,6 +34,7 @@ OPTIONS = re.compile(r"\A(?::[\w-]+:[^\n]*\n)+|\A---\n.*?\n---\n", re.S)
 DOLLARS = re.compile(r"^\$\$(?P<body>.*?)\$\$ *\((?P<label>[^()\n]+)\)[ \t]*$", re.M | re.S)
 ROLE = re.compile(r"\{(?P<name>[\w:.-]+)\}`(?P<text>[^`]+)`")
 TARGET = re.compile(r"^\([\w:. -]+\)=\n", re.M)
+PICTURE = re.compile(r"(?P<start>!\[[^\]]*\]\()(?P<path>[^):\s]+)\)")
 KEY = re.compile(r"([a-z]+)(\d{4})[a-z]?")
 LEFT_OUT = ("solution", "solution-start", "solution-end", "exercise-end", "bibliography", "contents")
 
@@ -95,6 +98,16 @@ def plain(markdown: str) -> str:
     return markdown
 
 
+def attach_pictures(cell: nbformat.NotebookNode, folder: Path) -> None:
+    """Put the page's own pictures into the cell, since the notebook travels without them."""
+    for path in {match["path"] for match in PICTURE.finditer(cell.source)}:
+        picture = folder / path
+        kind = mimetypes.guess_type(picture.name)[0] or "application/octet-stream"
+        content = base64.b64encode(picture.read_bytes()).decode()
+        cell.setdefault("attachments", {})[picture.name] = {kind: content}
+    cell.source = PICTURE.sub(lambda match: f"{match['start']}attachment:{Path(match['path']).name})", cell.source)
+
+
 def notebook_of(source: Path) -> nbformat.NotebookNode:
     """The notebook of one page, without outputs."""
     notebook = jupytext.read(source)
@@ -102,6 +115,7 @@ def notebook_of(source: Path) -> nbformat.NotebookNode:
         cell["id"] = f"cell-{index}"
         if cell.cell_type == "markdown":
             cell.source = plain(cell.source)
+            attach_pictures(cell, source.parent)
     notebook.metadata.pop("jupytext", None)
     return notebook
 

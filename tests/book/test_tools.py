@@ -119,6 +119,8 @@ kernelspec: {display_name: Python 3, language: python, name: python3}
 
 # Title
 
+![A dot.](dot.png)
+
 ```{code-cell} ipython3
 1 + 1
 ```
@@ -128,17 +130,20 @@ kernelspec: {display_name: Python 3, language: python, name: python3}
 def test_notebooks_are_valid_reproducible_and_without_outputs(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text(PAGE)
+    (tmp_path / "dot.png").write_bytes(b"dot")
     notebook = notebooks.notebook_of(page)
     nbformat.validate(notebook)
     assert [cell.cell_type for cell in notebook.cells] == ["markdown", "code"]
     assert notebook.cells[1].source == "1 + 1"
     assert notebook.cells[1].outputs == []
+    assert "![A dot.](attachment:dot.png)" in notebook.cells[0].source
+    assert notebook.cells[0].attachments == {"dot.png": {"image/png": "ZG90"}}
     assert notebook == notebooks.notebook_of(page)
 
 
 def test_a_notebook_that_was_changed_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "_toc.yml").write_text("root: page\n")
-    (tmp_path / "page.md").write_text(PAGE)
+    (tmp_path / "page.md").write_text(PAGE.replace("![A dot.](dot.png)", ""))
     monkeypatch.setattr(notebooks, "ROOT", tmp_path)
     target = tmp_path / "lab" / "01-page.ipynb"
     notebooks.write_all(target.parent)
