@@ -38,6 +38,14 @@ def backpropagate(network: Network, a: list[Array], delta: Array) -> Network:
     return Network(tuple(reversed(weights)), tuple(reversed(biases)))
 
 
+def mean_gradient(network: Network, total: Network, m: int, *, decay: float) -> Network:
+    """The gradient, Eq. (3.9), from the sums over m examples; the weights decay, the biases do not."""
+    return Network(
+        tuple(dw / m + decay * w for dw, w in zip(total.weights, network.weights, strict=True)),
+        tuple(db / m for db in total.biases),
+    )
+
+
 def squared_error_cost(network: Network, x: ArrayLike, y: ArrayLike, *, regularisation: float = 0.0) -> float:
     """Half the squared error, averaged over the examples, plus lambda / 2 times the squared weights: Eq. (3.6), (3.7).
 
@@ -58,7 +66,7 @@ def squared_error_gradient(network: Network, x: ArrayLike, y: ArrayLike, *, regu
     inputs, labels = examples(network, x, y)
     a = network.activations(inputs)
     delta = -(labels - a[-1]) * sigmoid_slope(a[-1])  # Eq. (3.13)
-    return _mean(network, backpropagate(network, a, delta), len(inputs), decay=_decay(regularisation))
+    return mean_gradient(network, backpropagate(network, a, delta), len(inputs), decay=_decay(regularisation))
 
 
 def cross_entropy_cost(network: Network, x: ArrayLike, y: ArrayLike, *, regularisation: float = 0.0) -> float:
@@ -81,7 +89,9 @@ def cross_entropy_gradient(network: Network, x: ArrayLike, y: ArrayLike, *, regu
     inputs, labels = examples(network, x, y)
     a = network.activations(inputs)
     delta = a[-1] - labels  # Eq. (3.23): the slope of the sigmoid cancels
-    return _mean(network, backpropagate(network, a, delta), len(inputs), decay=_decay(regularisation) / len(inputs))
+    return mean_gradient(
+        network, backpropagate(network, a, delta), len(inputs), decay=_decay(regularisation) / len(inputs)
+    )
 
 
 @dataclass(frozen=True)
@@ -112,14 +122,6 @@ def examples(network: Network, x: ArrayLike, y: ArrayLike) -> tuple[Array, Array
     if labels.min() < 0 or labels.max() > 1:
         raise ValueError(f"y must lie in [0, 1], got values from {labels.min():g} to {labels.max():g}")
     return inputs, labels
-
-
-def _mean(network: Network, total: Network, m: int, *, decay: float) -> Network:
-    """Eq. (3.9): sums over m examples as means, with the decay of the weights, not of the biases."""
-    return Network(
-        tuple(dw / m + decay * w for dw, w in zip(total.weights, network.weights, strict=True)),
-        tuple(db / m for db in total.biases),
-    )
 
 
 def _squared_weights(network: Network) -> float:

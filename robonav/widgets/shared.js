@@ -98,7 +98,7 @@ export function slider({ label, count, value = 0, text, change }) {
 
 /** A labelled list to choose one of. */
 export function choice({ label, options, value = 0, change }) {
-  const select = h("select", { change: () => change(select.selectedIndex) });
+  const select = h("select", { "aria-label": label, change: () => change(select.selectedIndex) });
   options.forEach((option) => select.append(h("option", {}, option)));
   select.selectedIndex = value;
   return { element: h("label", {}, h("span", {}, label), select), move: (index) => (select.selectedIndex = index) };
