@@ -1,0 +1,112 @@
+"""What a step was worth: state properties, Eq. (4.6), and the reward of Table 4.1, made exclusive and total."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robonav.robot import Sensing
+from robonav.robot.kernels import ARRIVED, COLLIDED
+
+COZY_DISTANCE = 5.0
+"""d_cozy of Eq. (4.6) in metres, and d_warn of Table 4.1 with it: the border of degree of danger 4."""
+
+
+class Property(IntEnum):
+    """What a state is to the robot, Eq. (4.6)."""
+
+    SAFE = 0  # nothing in sensor range
+    COZY = 1  # something in range, none of it closer than d_cozy
+    DANGEROUS = 2  # something closer than d_cozy
+    WINNING = 3  # arrived
+    FAILURE = 4  # collided
+
+
+def state_property(sensing: Sensing, outcome: NDArray[np.int8] | None = None) -> NDArray[np.int64]:
+    """The property of N states, Eq. (4.6), its borders made exclusive: a distance of d_cozy is cozy, d_bou safe.
+
+    Parameters
+    ----------
+    sensing : N rows.
+    outcome : codes (N,) of the simulator, which sees collisions along the way; by default all are running.
+
+    Returns
+    -------
+    Codes (N,) of :class:`Property`.
+    """
+    near = np.where(sensing.ranges.min(axis=1) < COZY_DISTANCE, Property.DANGEROUS, Property.COZY)
+    properties = np.where(sensing.safe, Property.SAFE, near)
+    if outcome is not None:
+        properties[outcome == ARRIVED] = Property.WINNING
+        properties[outcome == COLLIDED] = Property.FAILURE
+    return properties
+
+
+class Row(NamedTuple):
+    """One row of the reward table: from which states, to which, on what condition, how much."""
+
+    before: str
+    after: str
+    condition: str
+    reward: float
+
+
+TABLE = (
+    Row("any", "winning", "", 1.0),
+    Row("any", "failure", "", -1.0),
+    Row("any", "safe", "", 0.0),
+    Row("safe", "cozy or dangerous", "", 0.0),
+    Row("dangerous", "cozy", "", 0.5),
+    Row("cozy", "dangerous", "", 0.0),
+    Row("cozy", "cozy", "not a metre nearer", 0.6),
+    Row("cozy", "cozy", "1 m nearer", 0.0),
+    Row("cozy", "cozy", "2 m nearer or more", -0.2),
+    Row("dangerous", "dangerous", "not a metre nearer", 0.4),
+    Row("dangerous", "dangerous", "1 m nearer", -0.2),
+    Row("dangerous", "dangerous", "2 m nearer", -0.5),
+    Row("dangerous", "dangerous", "3 m nearer or more", -1.0),
+)
+"""Table 4.1 as we read it: of these rows exactly one holds for any step. "Nearer" is by how many whole metres the
+least range shrank."""
+
+REWARDS = np.array([row.reward for row in TABLE])
+
+
+def reward_row(before: Sensing, after: Sensing, outcome: NDArray[np.int8]) -> NDArray[np.int64]:
+    """Which row (N,) of ``TABLE`` holds for a step.
+
+    Parameters
+    ----------
+    before, after : what N robots sensed before and after the step.
+    outcome : codes (N,) of the simulator after the step.
+    """
+    was, now = state_property(before), state_property(after, outcome)
+    nearer = np.floor(before.ranges.min(axis=1) - after.ranges.min(axis=1)).astype(
+        int
+    )  # d_min of t - 1 less d_min of t
+    row = np.where(now == Property.DANGEROUS, 9 + np.clip(nearer, 0, 3), 6 + np.clip(nearer, 0, 2))
+    row[(was == Property.COZY) & (now == Property.DANGEROUS)] = 5
+    row[(was == Property.DANGEROUS) & (now == Property.COZY)] = 4
+    row[was == Property.SAFE] = 3
+    row[now == Property.SAFE] = 2
+    row[now == Property.FAILURE] = 1
+    row[now == Property.WINNING] = 0
+    return row
+
+
+def reward(before: Sensing, after: Sensing, outcome: NDArray[np.int8]) -> NDArray[np.float64]:
+    """The reward r (N,) of Table 4.1: what :class:`robonav.robot.environments.NavigationEnv` takes as ``reward``.
+
+    Parameters
+    ----------
+    before, after : what N robots sensed before and after the step.
+    outcome : codes (N,) of the simulator after the step: running, arrived, collided, out of steps.
+
+    Returns
+    -------
+    Rewards (N,) in -1..1, one of ``TABLE`` each.
+    """
+    return REWARDS[reward_row(before, after, outcome)]

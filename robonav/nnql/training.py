@@ -1,0 +1,168 @@
+"""From seeds to trained networks: the frame in which every method of this chapter trains."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robonav import expect
+from robonav.lfd.network import Network, random_network, stacked
+from robonav.lfd.policy import NetworkPolicy
+from robonav.progress import Progress
+from robonav.robot import OUTCOMES, Encoder
+
+from .checkpoints import load_checkpoint, save_checkpoint
+from .exploration import Span, check_span
+from .learners import Learner
+from .networks import CompiledNetworks, Networks, TorchNetworks, network_of
+from .practice import ACTIONS, INITIAL, Course, Diary, Practice, chance
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Training:
+    """S trained networks and how their training went, over E episodes.
+
+    Attributes
+    ----------
+    method : "nnql", "online", "nfq" or "dqn".
+    seeds : (S,) whole numbers.
+    network : stack (S,) of what was learned.
+    encoder : how what is sensed becomes the networks' inputs.
+    outcomes : (S, E) "arrived", "collided" or "out of steps".
+    steps, decisions : (S, E) seconds an episode took, and in how many of them the policy decided.
+    returns : (S, E) sums of the rewards of these decisions.
+    settings : of the method, by name.
+    history : stack (S, E + 1) of the networks after 0, 1, ... E episodes, if recorded.
+    paths : for each seed, for each episode, poses (steps + 1, 3), if recorded.
+    """
+
+    method: str
+    seeds: tuple[int, ...]
+    network: Network
+    encoder: Encoder
+    outcomes: NDArray[np.str_]
+    steps: NDArray[np.int64]
+    decisions: NDArray[np.int64]
+    returns: Array
+    settings: dict[str, Any]
+    history: Network | None = None
+    paths: tuple[tuple[Array, ...], ...] | None = None
+
+    @property
+    def successes(self) -> NDArray[np.bool_]:
+        """(S, E) whether the robot arrived."""
+        return self.outcomes == "arrived"
+
+    @cached_property
+    def policies(self) -> tuple[NetworkPolicy, ...]:
+        """The greedy policy (Algorithm 9) of each seed."""
+        return tuple(NetworkPolicy(self.network[row], self.encoder) for row in range(len(self.seeds)))
+
+
+class Common(TypedDict, total=False):
+    """What every method takes.
+
+    Attributes
+    ----------
+    course : what is practised.
+    hidden : units of the hidden layer.
+    device : "cpu" for compiled kernels, or a device that torch has, such as "cuda".
+    record : keep the networks and the paths of every episode.
+    checkpoint : file to save to as training goes on, and to go on from if it is there.
+    every : episodes between two savings.
+    progress : called as ``progress(episodes done, S * E)``.
+    """
+
+    course: Course
+    hidden: int
+    device: str
+    record: bool
+    checkpoint: str | Path | None
+    every: int
+    progress: Progress | None
+
+
+def school(
+    method: str,
+    make_learner: Callable[[Networks, tuple[int, ...], Course], Learner],
+    seeds: int | Sequence[int],
+    episodes: int,
+    *,
+    temperature: Span,
+    settings: dict[str, Any],
+    course: Course | None = None,
+    hidden: int = 8,
+    device: str = "cpu",
+    record: bool = False,
+    checkpoint: str | Path | None = None,
+    every: int = 50,
+    progress: Progress | None = None,
+) -> Training:
+    """Train S networks by one method; see :class:`Common` for what is not said here.
+
+    Parameters
+    ----------
+    method : its name.
+    make_learner : from S networks with random weights, S seeds and the course, what learns.
+    seeds : S, for the seeds 0 to S - 1; or the seeds themselves.
+    episodes : E.
+    temperature : T of the Boltzmann policy, from the first episode to the last.
+    settings : of the method, kept with the result; a checkpoint of others is refused.
+
+    Raises
+    ------
+    ValueError, TypeError : if an argument is out of bounds, or a checkpoint is of another training.
+    """
+    course = course or Course()
+    numbers = check_seeds(seeds)
+    expect.integer("episodes", episodes, at_least=1)
+    expect.integer("every", every, at_least=1)
+    sizes = (course.encoder.size, expect.integer("hidden", hidden, at_least=1), ACTIONS)
+    settings = {"temperature": check_span("temperature", temperature), "hidden": hidden, **settings}
+    start = stacked([random_network(sizes, seed=chance(seed, INITIAL)) for seed in numbers])
+    networks: Networks = CompiledNetworks(start) if device == "cpu" else TorchNetworks(start, device)
+    learner, diary = make_learner(networks, numbers, course), Diary(len(numbers), episodes, record=record)
+    identity = {"method": method, "seeds": numbers, "episodes": episodes, "course": course, "settings": settings}
+    done = 0
+    if checkpoint is not None:
+        if record:
+            raise ValueError("record must be False with a checkpoint, which does not hold the history")
+        done = load_checkpoint(checkpoint, identity, learner, diary)
+    while done < episodes:
+        last = episodes if checkpoint is None else min(done + every, episodes)
+        Practice(learner, course, numbers, episodes, temperature, diary, first=done, last=last).run(progress)
+        done = last
+        if checkpoint is not None:
+            save_checkpoint(checkpoint, identity, learner, diary, done)
+    return _training(method, numbers, learner, course, diary, settings)
+
+
+def _training(
+    method: str, seeds: tuple[int, ...], learner: Learner, course: Course, diary: Diary, settings: dict[str, Any]
+) -> Training:
+    network, history, paths = network_of(learner.networks.arrays()), None, None
+    if diary.record:
+        history = stacked([stacked([*past, network[row]]) for row, past in enumerate(diary.networks)])
+        paths = tuple(tuple(drives) for drives in diary.paths)
+    return Training(
+        method, seeds, network, course.encoder, OUTCOMES[diary.outcomes], diary.steps, diary.decisions, diary.returns,
+        settings, history, paths,
+    )  # fmt: skip
+
+
+def check_seeds(seeds: int | Sequence[int]) -> tuple[int, ...]:
+    """Seeds (S,), all different: 0 to S - 1 for a number S, or those given."""
+    if isinstance(seeds, int | np.integer):
+        return tuple(range(expect.integer("seeds", seeds, at_least=1)))
+    numbers = tuple(expect.integer("seeds", seed, at_least=0) for seed in seeds)
+    if not numbers or len(set(numbers)) < len(numbers):
+        raise ValueError(f"seeds must be at least one, and all different, got {list(numbers)}")
+    return numbers

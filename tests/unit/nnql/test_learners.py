@@ -1,0 +1,261 @@
+"""What each method makes of its steps: against a plain loop, and on a small problem whose values are known."""
+
+import numpy as np
+import pytest
+from scipy.special import expit
+
+from robonav.lfd.backpropagation import cross_entropy_gradient
+from robonav.lfd.network import Network, random_network, stacked
+from robonav.mdp import FiniteMDP, value_iteration
+from robonav.nnql.deep import Replaying
+from robonav.nnql.fitted import Fitting, rprop
+from robonav.nnql.learners import Accumulating, Learner, Steps
+from robonav.nnql.memory import Memory
+from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of
+
+GAMMA = 0.7
+END = 3  # a corridor of states 0 to 3: action 0 goes left, 1 right; 3 is the end and worth 1
+
+
+def corridor_values():
+    """Q* (3, 2) of the corridor."""
+    transitions, rewards = np.zeros((2, 4, 4)), np.zeros((4, 2))
+    for state in range(END):
+        transitions[0, state, max(state - 1, 0)] = transitions[1, state, state + 1] = 1
+    transitions[:, END, END] = 1
+    rewards[END - 1, 1] = 1
+    mdp = FiniteMDP(transitions, rewards, GAMMA)
+    return mdp.backup(value_iteration(mdp, tolerance=1e-9).values)[:END]
+
+
+def corridor_steps(learner, n, seeds=2, seed=0):
+    """Random steps in the corridor, one of each seed at a time."""
+    rng, rows = np.random.default_rng(seed), np.arange(seeds)
+    for k in range(n):
+        state, action = rng.integers(END, size=seeds), rng.integers(2, size=seeds)
+        reached = np.where(action == 1, state + 1, np.maximum(state - 1, 0))
+        inputs, after = np.eye(4)[state], np.eye(4)[reached]
+        done = reached == END
+        values = learner.values(rows, inputs)
+        yield rows, Steps(inputs, values, action, done.astype(float), after, done, np.full(seeds, k / n))
+
+
+def networks(sizes=(4, 8, 2), seeds=2):
+    return CompiledNetworks(stacked([random_network(sizes, seed=k) for k in range(seeds)]))
+
+
+def learned_values(learner):
+    return np.stack([learner.values(np.full(END, row), np.eye(4)[:END]) for row in range(2)])
+
+
+def test_nfq_converges_to_the_known_values():
+    learner = Fitting(networks(), (2, 4), gamma=GAMMA, collect=1, sweeps=6, epochs=120, tolerance=1e-6)
+    for rows, steps in corridor_steps(learner, 60):
+        learner.observe(rows, steps)
+    learner.close(np.arange(2), np.array([1, 1]))
+    np.testing.assert_allclose(learned_values(learner), [corridor_values()] * 2, atol=0.02)
+
+
+def test_dqn_converges_to_the_known_values():
+    learner = Replaying(networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=16, refresh=50)
+    for rows, steps in corridor_steps(learner, 500):
+        learner.observe(rows, steps)
+    np.testing.assert_allclose(learned_values(learner), [corridor_values()] * 2, atol=0.04)
+
+
+def test_online_learning_converges_to_the_known_values():
+    settings = {"pairs": 1, "alpha": (0.8, 0.1), "rate": (1.0, 0.1), "rescale": "clip", "passes": 4, "tolerance": 0}
+    learner = Accumulating(networks(), (2, 3000, 4, 2), gamma=GAMMA, **settings)
+    for rows, steps in corridor_steps(learner, 3000):
+        learner.observe(rows, steps)
+    np.testing.assert_allclose(learned_values(learner), [corridor_values()] * 2, atol=0.04)
+
+
+def random_steps(n, inputs=6, actions=3, seed=3):
+    rng = np.random.default_rng(seed)
+    for k in range(n):
+        yield (
+            rng.random(inputs), int(rng.integers(actions)), float(rng.uniform(-1, 1)), rng.random(inputs),
+            bool(rng.random() < 0.2), k / n,
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize("pairs", [1, 4, 100])
+def test_accumulated_training_is_a_plain_loop(pairs):
+    """Algorithm 8, lines 9 to 16, for one robot: chapter 3's network and gradient, one pair after the other."""
+    network = random_network((6, 8, 3), seed=5)
+    learner = Accumulating(
+        CompiledNetworks(stacked([network])), (1, 50, 6, 3), pairs=pairs, alpha=(0.8, 0.1), gamma=GAMMA,
+        rate=(0.3, 0.05), rescale="clip", passes=2, tolerance=0.0,
+    )  # fmt: skip
+    gathered = []
+    for k, (x, action, reward, reached, terminal, fraction) in enumerate(random_steps(40)):
+        if k == 25:  # a new episode
+            learner.close(np.array([0]), np.array([1]))
+            gathered = []
+        rows, one = np.array([0]), np.array([fraction])
+        values = learner.values(rows, x[None])
+        np.testing.assert_allclose(values[0], network.forward(x), rtol=1e-9)
+        learner.observe(
+            rows,
+            Steps(x[None], values, np.array([action]), np.array([reward]), reached[None], np.array([terminal]), one),
+        )
+        target = network.forward(x)
+        following = 0 if terminal else network.forward(reached).max()
+        target[action] += 0.8 * (0.1 / 0.8) ** fraction * (reward + GAMMA * following - target[action])
+        gathered.append((x, np.clip(target, 0, 1)))
+        rate = 0.3 * (0.05 / 0.3) ** fraction
+        for _ in range(2):
+            for x_i, y_i in gathered[-pairs:]:
+                slope = cross_entropy_gradient(network, x_i[None], y_i[None])
+                network = Network(
+                    tuple(w - rate * d for w, d in zip(network.weights, slope.weights, strict=True)),
+                    tuple(b - rate * d for b, d in zip(network.biases, slope.biases, strict=True)),
+                )
+    ours = network_of(learner.networks.arrays())
+    for mine, theirs in zip((*ours.weights, *ours.biases), (*network.weights, *network.biases), strict=True):
+        np.testing.assert_allclose(mine[0], theirs, rtol=1e-8, atol=1e-10)
+
+
+def test_stored_targets_stay_as_they_were_computed():
+    learner = Accumulating(
+        networks(), (2, 9, 4, 2), pairs=9, alpha=0.8, gamma=GAMMA, rate=0.3, rescale="clip", passes=1, tolerance=0
+    )
+    kept = []
+    for rows, steps in corridor_steps(learner, 9):
+        learner.observe(rows, steps)
+        kept.append(learner.targets[:, learner.count[0] - 1].copy())
+    np.testing.assert_array_equal(learner.targets, np.stack(kept, axis=1))
+
+
+def test_a_learner_that_does_not_learn():
+    learner = Learner(networks())
+    before = learner.networks.arrays()
+    for rows, steps in corridor_steps(learner, 3):
+        np.testing.assert_allclose(steps.values, expit(learner.networks.logits(rows, steps.inputs)))
+        learner.observe(rows, steps)
+    for mine, theirs in zip(before, learner.networks.arrays(), strict=True):
+        np.testing.assert_array_equal(mine, theirs)
+
+
+def test_nfq_fits_only_every_so_many_episodes():
+    learner = Fitting(networks(), (2, 4), gamma=GAMMA, collect=3, sweeps=1, epochs=5, tolerance=0)
+    for rows, steps in corridor_steps(learner, 5):
+        learner.observe(rows, steps)
+    before = learner.networks.arrays()
+    learner.close(np.array([0, 1]), np.array([1, 2]))
+    for mine, theirs in zip(before, learner.networks.arrays(), strict=True):
+        np.testing.assert_array_equal(mine, theirs)
+    learner.close(np.array([1]), np.array([3]))
+    w1, w1_now = before[0], learner.networks.arrays()[0]
+    np.testing.assert_array_equal(w1_now[0], w1[0])
+    assert (w1_now[1] != w1[1]).any()
+
+
+def test_rprop_is_that_of_torch():
+    import torch
+
+    rng = torch.Generator().manual_seed(0)
+    mine = torch.randn(20, generator=rng, dtype=torch.float64)
+    theirs = mine.clone().requires_grad_()
+    size, before = torch.full_like(mine, 0.01), torch.zeros_like(mine)
+    optimiser = torch.optim.Rprop([theirs], lr=0.01)
+    curvature = torch.rand(20, generator=rng, dtype=torch.float64) * 5
+    for _ in range(60):
+        mine -= rprop(curvature * mine, size, before)
+        optimiser.zero_grad()
+        (curvature * theirs**2 / 2).sum().backward()
+        optimiser.step()
+        np.testing.assert_allclose(mine, theirs.detach(), rtol=1e-12, atol=1e-15)
+    assert mine.abs().max() < 0.05
+
+
+def double_target(learner, reached):
+    """The network's choice, valued by the target network."""
+    best = learner.values(np.zeros(len(reached), int), reached).argmax(axis=1)
+    w1, b1, w2, b2 = (tensor[0].numpy() for tensor in learner.target)
+    return (expit(reached @ w1 + b1) @ w2 + b2)[np.arange(len(reached)), best]
+
+
+def test_dqn_makes_one_step_of_adam_on_the_double_estimate():
+    import torch
+
+    learner = Replaying(networks(seeds=1), (0,), 4, gamma=GAMMA, rate=0.01, batch=1, refresh=1000)
+    for target in learner.target:
+        target += 0.3 * torch.randn(target.shape, generator=torch.Generator().manual_seed(1), dtype=torch.float64)
+    x, reached = np.eye(4)[[0]], np.eye(4)[[1]]
+    wanted = 0.2 + GAMMA * double_target(learner, reached)[0]
+    leaves = [tensor[0].clone().requires_grad_() for tensor in learner.networks.tensors()]
+    w1, b1, w2, b2 = leaves
+    q = torch.sigmoid(torch.tensor(x[0]) @ w1 + b1) @ w2 + b2
+    adam = torch.optim.Adam(leaves, lr=0.01)
+    torch.nn.functional.smooth_l1_loss(q[1], torch.tensor(wanted)).backward()
+    adam.step()
+    values, zero = learner.values(np.array([0]), x), np.zeros(1)
+    step = Steps(x, values, np.array([1]), np.array([0.2]), reached, np.array([False]), zero)
+    learner.observe(np.array([0]), step)
+    for ours, theirs in zip(learner.networks.arrays(), leaves, strict=True):
+        np.testing.assert_allclose(ours[0], theirs.detach().numpy(), rtol=1e-6, atol=1e-9)
+
+
+def test_the_target_network_stands_still_between_refreshes():
+    learner = Replaying(networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=2, refresh=5)
+    stood = 0
+    for k, (rows, steps) in enumerate(corridor_steps(learner, 12)):
+        before = learner.target[0].clone()
+        learner.observe(rows, steps)
+        updates = k + 1 - 2 + 1
+        if updates > 0 and updates % 5 == 0:
+            assert (learner.target[0] == learner.networks.tensors()[0]).all()
+        else:
+            assert (learner.target[0] == before).all()
+            stood += 1
+    assert stood == 10
+
+
+@pytest.mark.parametrize("kind", ["accumulating", "fitting", "replaying"])
+def test_torch_learns_what_the_compiled_kernels_learn(kind):
+    """The same numbers from tensors, which may lie on any device."""
+
+    def make(stack):
+        if kind == "accumulating":
+            return Accumulating(
+                stack,
+                (2, 40, 4, 2),
+                pairs=40,
+                alpha=0.8,
+                gamma=GAMMA,
+                rate=0.3,
+                rescale="clip",
+                passes=2,
+                tolerance=1e-3,
+            )
+        if kind == "fitting":
+            return Fitting(stack, (2, 4), gamma=GAMMA, collect=1, sweeps=2, epochs=20, tolerance=0)
+        return Replaying(stack, (0, 1), 4, gamma=GAMMA, rate=0.01, batch=4, refresh=10)
+
+    start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
+    both = [make(CompiledNetworks(start)), make(TorchNetworks(start, "cpu"))]
+    for learner in both:
+        for rows, steps in corridor_steps(learner, 40):
+            learner.observe(rows, steps)
+        learner.close(np.arange(2), np.array([1, 1]))
+    for mine, theirs in zip(*(learner.networks.arrays() for learner in both), strict=True):
+        np.testing.assert_allclose(mine, theirs, rtol=1e-7, atol=1e-9)
+
+
+def test_memory_grows_and_comes_back():
+    memory, rng = Memory(2, 3), np.random.default_rng(0)
+    kept = []
+    for _ in range(1500):
+        x = rng.random((1, 3))
+        memory.append(np.array([1]), Steps(x, x, np.array([1]), np.array([0.5]), x + 1, np.array([False]), np.zeros(1)))
+        kept.append(x[0])
+    other = Memory(2, 3)
+    other.restore(memory.state())
+    for one in (memory, other):
+        assert one.count.tolist() == [0, 1500]
+        np.testing.assert_array_equal(one.inputs[1, :1500], kept)
+        np.testing.assert_array_equal(one.reached[1, :1500], np.array(kept) + 1)
+    other.append(np.array([1]), Steps(x, x, np.array([1]), np.array([0.5]), x, np.array([True]), np.zeros(1)))
+    assert other.terminal[1, 1500]

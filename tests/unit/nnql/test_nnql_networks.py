@@ -1,0 +1,108 @@
+"""Stacked networks against chapter 3's network, its backpropagation, and a plain loop."""
+
+import numpy as np
+import pytest
+
+from robonav.lfd.backpropagation import cross_entropy_gradient
+from robonav.lfd.network import Network, random_network, stacked
+from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of, parameters_of
+from robonav.nnql.targets import cross_entropy
+
+SIZES = (24, 8, 5)
+
+
+def stack(n=4, seed=0):
+    return stacked([random_network(SIZES, seed=seed + k) for k in range(n)])
+
+
+def on_torch(network):
+    return TorchNetworks(network, "cpu")
+
+
+def pairs(networks, length=12, seed=1):
+    """Examples with as many zeros as sensing has, and targets in [0, 1]."""
+    rng = np.random.default_rng(seed)
+    x = rng.random((networks, length, SIZES[0])) * (rng.random((networks, length, SIZES[0])) < 0.4)
+    return x, rng.random((networks, length, SIZES[-1]))
+
+
+def plain_descent(network: Network, x, y, rate, passes, tolerance):
+    """Eq. (4.12), example by example, with chapter 3's gradient; stops when the mean cost settles."""
+    before, done = np.inf, 0
+    for _ in range(passes):
+        cost = 0.0
+        for one, label in zip(x, y, strict=True):
+            cost += cross_entropy(label, network.logits(one)) / len(x)
+            slope = cross_entropy_gradient(network, one[None], label[None])
+            network = Network(
+                tuple(w - rate * d for w, d in zip(network.weights, slope.weights, strict=True)),
+                tuple(b - rate * d for b, d in zip(network.biases, slope.biases, strict=True)),
+            )
+        done += 1
+        if abs(before - cost) < tolerance:
+            break
+        before = cost
+    return network, done
+
+
+def assert_close(networks, expected, **tolerance):
+    for ours, theirs in zip(networks.arrays(), parameters_of(expected), strict=True):
+        np.testing.assert_allclose(ours, theirs, **tolerance)
+
+
+@pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
+def test_logits_are_those_of_chapter_3(make):
+    network, (x, _) = stack(), pairs(3, 1)
+    rows = np.array([3, 0, 2])
+    z = make(network).logits(rows, x[:, 0])
+    for k, row in enumerate(rows):
+        np.testing.assert_allclose(z[k], network[int(row)].logits(x[k, 0]), rtol=1e-12)
+
+
+@pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
+@pytest.mark.parametrize(("passes", "tolerance"), [(1, 0.0), (3, 0.0), (50, 0.02)])
+def test_descent_is_a_plain_loop_over_the_pairs(make, passes, tolerance):
+    network, (x, y) = stack(), pairs(4)
+    networks, rows = make(network), np.array([0, 2, 3])
+    first, last, rate = np.array([0, 5, 3]), np.array([12, 12, 4]), np.array([0.3, 0.1, 0.5])
+    networks.descend(rows, x, y, first, last, rate=rate, passes=passes, tolerance=tolerance)
+    expected, took = [network[0], network[1], network[2], network[3]], []
+    for k, row in enumerate(rows):
+        own = slice(first[k], last[k])
+        expected[row], done = plain_descent(network[int(row)], x[row, own], y[row, own], rate[k], passes, tolerance)
+        took.append(done)
+    assert_close(networks, stacked(expected), rtol=1e-9, atol=1e-12)
+    if tolerance:
+        assert len(set(took)) > 1  # they settled, each in its own time
+        assert max(took) < passes
+
+
+def test_no_network_hears_of_another():
+    network, (x, y) = stack(), pairs(4)
+    together, rows, zero = CompiledNetworks(network), np.arange(4), np.zeros(4, int)
+    arguments = {"rate": np.full(4, 0.3), "passes": 3, "tolerance": 1e-4}
+    together.descend(rows, x, y, zero, zero + 12, **arguments)
+    for row in range(4):
+        alone = CompiledNetworks(stacked([network[row]]))
+        arguments["rate"] = np.array([0.3])
+        alone.descend(np.array([0]), x[row : row + 1], y[row : row + 1], zero[:1], zero[:1] + 12, **arguments)
+        for ours, theirs in zip(together.arrays(), alone.arrays(), strict=True):
+            np.testing.assert_array_equal(ours[row], theirs[0])
+
+
+@pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
+def test_parameters_are_copied_in_and_out(make):
+    network = stack()
+    networks = make(network)
+    networks.arrays()[0][:] = 0
+    assert_close(networks, network)
+    networks.tensors()[0].zero_()
+    assert (networks.arrays()[0] == 0).all()
+    assert (network.weights[0] != 0).all()
+
+
+def test_there_and_back():
+    network = stack()
+    again = network_of(parameters_of(network))
+    for ours, theirs in zip((*again.weights, *again.biases), (*network.weights, *network.biases), strict=True):
+        np.testing.assert_array_equal(ours, theirs)
