@@ -14,7 +14,7 @@ from .network import Array, Network, sigmoid_slope
 
 
 def backpropagate(network: Network, a: list[Array], delta: Array) -> Network:
-    """Carry the errors of the output layer back through the network: Eq. (3.14), (3.15).
+    """Carry the errors of the output layer back through the network: Eq. (3.14), (3.15); by unit, Eq. (3.11), (3.12).
 
     Summed over the examples, this is also Eq. (3.24)-(3.26). The bias unit of a hidden layer has no incoming weights,
     hence no error of its own (the thesis lets j start at 0 in Eq. (3.24)).
@@ -62,7 +62,7 @@ def squared_error_cost(network: Network, x: ArrayLike, y: ArrayLike, *, regulari
 
 
 def squared_error_gradient(network: Network, x: ArrayLike, y: ArrayLike, *, regularisation: float = 0.0) -> Network:
-    """The gradient of :func:`squared_error_cost`, Eq. (3.9), by backpropagation, Eq. (3.13)-(3.15)."""
+    """The gradient of :func:`squared_error_cost`, Eq. (3.9), by backpropagation; its errors start with Eq. (3.10), (3.13)."""
     inputs, labels = examples(network, x, y)
     a = network.activations(inputs)
     delta = -(labels - a[-1]) * sigmoid_slope(a[-1])  # Eq. (3.13)

@@ -60,7 +60,8 @@ class Network:
     """A fully connected network with sigmoid units, or a stack of networks of one shape.
 
     The weights of layer ``l`` carry its activations to layer ``l + 1``, as in the thesis: ``weights[0]`` is
-    :math:`W^{(1)}`, and entry ``[i, j]`` joins unit ``j`` to unit ``i`` of the next layer. Leading dimensions, the
+    :math:`W^{(1)}`, and entry ``[i, j]`` joins unit ``j`` to unit ``i`` of the next layer. (Eq. (3.18) writes the bias
+    as a column 0 of the same matrix.) Leading dimensions, the
     same for every array, stack networks: over seeds, or over the iterations of a training.
 
     Parameters
@@ -127,7 +128,7 @@ class Network:
         return self._propagate(x)[1]
 
     def forward(self, x: ArrayLike) -> Array:
-        """The hypothesis ``h(x)``, Eq. (3.1), (3.2): outputs (..., m, s[-1]) between 0 and 1."""
+        """The hypothesis ``h(x)``, Eq. (3.1), (3.2), (3.19)-(3.21): outputs (..., m, s[-1]) between 0 and 1."""
         return self._propagate(x)[0][-1]
 
     def decide(self, x: ArrayLike) -> NDArray[np.intp]:

@@ -36,7 +36,7 @@ def gradient_descent(
     record: bool = False,
     progress: Progress | None = None,
 ) -> Training:
-    """Batch gradient descent, Eq. (3.8), (3.16): all examples, one step against the gradient, and again.
+    """Batch gradient descent, Eq. (3.8), (3.16), (3.28): all examples, one step against the gradient, and again.
 
     Parameters
     ----------
