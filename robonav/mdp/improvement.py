@@ -109,3 +109,25 @@ def _traced(mdp: FiniteMDP, rows: list[tuple[NDArray[np.float64], NDArray[np.int
     values, chosen, improves = (np.stack(column) for column in zip(*rows, strict=True))
     evaluation_gap, greedy_gap = np.array(gaps).T
     return Trace(values, chosen, improves[1:], evaluation_gap, greedy_gap)
+
+
+def shortfalls(
+    mdp: FiniteMDP, values: ArrayLike, chosen: ArrayLike, *, best: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """How far each step of a history is from the best: (n,) for its values, (n,) for its policy.
+
+    Parameters
+    ----------
+    values : (n, S), such as a recorded ``Solution.history``.
+    chosen : (n, S), the policies that go with them.
+    best : (S,), the optimal values.
+
+    Returns
+    -------
+    largest difference of the values of each step from the best, and the most that its policy loses in any state.
+    """
+    optimum = expect.array("best", best, shape=(mdp.states,))
+    held = expect.array("values", values, shape=("n", mdp.states))
+    kept = expect.array("chosen", chosen, shape=held.shape, dtype=np.intp)
+    loss = [(optimum - policy_evaluation(mdp, policy)).max() for policy in kept]
+    return abs(held - optimum).max(axis=1), np.array(loss)
