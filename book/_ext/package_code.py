@@ -28,18 +28,18 @@ NAME = re.compile(r"(?P<name>robonav(?:\.\w+)+)(?:\((?P<argument>\w+)\))?")
 
 
 def resolve(name: str) -> Any:
-    """The object of a dotted name: module first, then attributes."""
-    parts = name.split(".")
-    for cut in range(len(parts), 0, -1):
-        try:
-            found = importlib.import_module(".".join(parts[:cut]))
-        except ModuleNotFoundError:
-            continue
-        for attribute in parts[cut:]:
-            fields = getattr(found, "__dataclass_fields__", {})
-            found = fields[attribute] if attribute in fields else getattr(found, attribute)
-        return inspect.unwrap(getattr(found, "py_func", found)) if callable(found) else found
-    raise ImportError(f"no module in {name!r} can be imported")
+    """The object of a dotted name: an attribute where there is one, as Python has it, else a module."""
+    package, *parts = name.split(".")
+    found: Any = importlib.import_module(package)
+    for part in parts:
+        fields = getattr(found, "__dataclass_fields__", {})
+        if part in fields:
+            found = fields[part]
+        elif inspect.ismodule(found) and not hasattr(found, part):
+            found = importlib.import_module(f"{found.__name__}.{part}")
+        else:
+            found = getattr(found, part)
+    return inspect.unwrap(getattr(found, "py_func", found)) if callable(found) else found
 
 
 def without_docstring(source: str) -> str:

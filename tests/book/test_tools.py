@@ -65,8 +65,10 @@ def test_names_are_resolved_through_modules_classes_and_fields() -> None:
     assert package_code.resolve("robonav.look.STYLE") is robonav.look.STYLE
     assert package_code.resolve("robonav.plots.schemes.Box") is Box
     assert package_code.resolve("robonav.plots.schemes.Box.texts").name == "texts"
-    with pytest.raises(AttributeError):
+    with pytest.raises(ImportError):
         package_code.resolve("robonav.look.NOTHING")
+    with pytest.raises(AttributeError):
+        package_code.resolve("robonav.plots.schemes.Box.nothing")
 
 
 MYST = """(here)=
