@@ -66,9 +66,8 @@ def check(
     wanted = [argument for key in keys or [] for argument in ("--exercise", course.named(key).id)]
     with TemporaryDirectory() as folder:
         report = Path(folder, "grade.json")
-        run = command(
-            [str(course.tests), "--submission", str(submission or course.stubs), "--grade-json", str(report), *wanted]
-        )
+        arguments = [str(course.tests), "--submission", str(submission or course.stubs), "--grade-json", str(report)]
+        run = command(course.tests, [*arguments, *wanted])
         done = subprocess.run(run, env=environment(), capture_output=True, text=True)
         if not report.is_file():
             raise ValueError(f"the check did not run: {(done.stderr or done.stdout).strip()}")
@@ -76,6 +75,107 @@ def check(
     _tell(course, grade, everything=bool(keys))
     if any(entry["state"] != "correct" for entry in grade["exercises"]):
         raise typer.Exit(1)
+
+
+@app.command()
+def grade(
+    folder: Annotated[Path, typer.Argument(help="A folder with one folder, zip or notebook for each student.")],
+    out: Annotated[Path, typer.Option(help="Where grades, feedback and the overview go.")],
+    secret: Annotated[
+        Path | None, typer.Option(help="Draw the cases from this file's content; or set ROBONAV_SECRET.")
+    ] = None,
+    student: Annotated[list[str] | None, typer.Option(help="Grade this one again; may be repeated.")] = None,
+    exercise: Annotated[list[str] | None, typer.Option(help="Grade only this again; may be repeated.")] = None,
+    jobs: Annotated[int, typer.Option(help="How many at once; -1 for one a processor.")] = -1,
+    scheduler: Annotated[str | None, typer.Option(help="Address of a Dask scheduler to send the work to.")] = None,
+    practice: Annotated[
+        bool, typer.Option("--practice", help="Go on where there is no sandbox; gives no marks.")
+    ] = False,
+) -> None:
+    """Grade a class. Run it again after it was cut: what is graded stays."""
+    from robonav import progress
+    from robonav.grading import probe
+    from robonav.grading.classroom import Marking, grade_class
+    from robonav.grading.course import Course
+    from robonav.grading.parts import secret_from
+
+    course = Course.around(Path(__file__).parent, Path.cwd())
+    ids = [course.named(key).id for key in exercise or []]
+    marking = Marking(course, probe.best(), secret_from(secret))
+    if marking.tier == "practice" and not practice:
+        raise ValueError(f"there is no sandbox here, only --practice: {probe.fault('official')}")
+    with progress.bar("grading") as shown:
+        grade_class(marking, folder, out, again=student or [], ids=ids, jobs=jobs, scheduler=scheduler, progress=shown)
+    print(f"{out / 'index.html'}")
+
+
+@app.command()
+def reproduce(
+    name: Annotated[str, typer.Argument(help="all, or a name such as table-3.2 or figure-4.6; see --list.")] = "",
+    out: Annotated[Path, typer.Option(help="Folder for results and figures.")] = Path("results"),
+    json_file: Annotated[Path | None, typer.Option("--json", help="Also write what each case came to here.")] = None,
+    scale: Annotated[str, typer.Option(help="quick, or thesis for the thesis's own number of runs.")] = "quick",
+    backend: Annotated[str, typer.Option(help="joblib for this machine, or dask.")] = "joblib",
+    scheduler: Annotated[str | None, typer.Option(help="Address of a Dask scheduler.")] = None,
+    jobs: Annotated[int, typer.Option(help="Processes on this machine; -1 for one a core.")] = -1,
+    show: Annotated[bool, typer.Option("--list", help="Only list what can be reproduced.")] = False,
+) -> None:
+    """Run a table or figure of the thesis again; cut and started anew, it goes on where it was."""
+    from robonav import experiments, progress
+    from robonav.experiments.report import as_json, as_text
+
+    if show or not name:
+        for known in experiments.names():
+            print(f"{known:20} {experiments.experiment(known).title}")
+        return
+    chosen = [experiments.experiment(one) for one in (experiments.names() if name == "all" else [name])]
+    done = []
+    for experiment in chosen:
+        with progress.bar(experiment.name) as shown:
+            done.append(
+                experiments.reproduce(
+                    experiment, out, scale=scale, backend=backend, scheduler=scheduler, jobs=jobs, progress=shown
+                )
+            )
+        print(as_text(done[-1]))
+    if json_file is not None:
+        _write_json(json_file, as_json(done))
+
+
+@app.command()
+def navigate(
+    method: Annotated[str, typer.Option(help="A method by name, or a file: .safetensors or .py; see --list.")] = "",
+    obstacles: Annotated[int, typer.Option(help="Standing obstacles.")] = 10,
+    moving: Annotated[int, typer.Option(help="Moving obstacles on top.")] = 0,
+    speed: Annotated[float, typer.Option(help="Of the robot, in m/s.")] = 2.0,
+    worlds: Annotated[int, typer.Option(help="How many new worlds.")] = 200,
+    seed: Annotated[int, typer.Option(help="Of the worlds.")] = 0,
+    json_file: Annotated[Path | None, typer.Option("--json", help="Also write the result here.")] = None,
+    show: Annotated[bool, typer.Option("--list", help="Only list the methods.")] = False,
+) -> None:
+    """Drive a method through new worlds."""
+    from robonav import expect
+    from robonav.experiments import methods
+
+    if show or not method:
+        print("\n".join(methods.methods()))
+        return
+    expect.integer("worlds", worlds, at_least=1)
+    result = methods.drive(method, obstacles=obstacles, moving=moving, speed=speed, worlds=worlds, seed=seed)
+    rate, (low, high) = result["success"], result["interval"]
+    print(
+        f"{method}: {100 * rate:.1f} % of {worlds} worlds arrive (95 % interval {100 * low:.1f} to {100 * high:.1f}), "
+        f"{result['outcomes']['collided']} collide, {result['outcomes']['out of steps']} run out of steps"
+    )
+    if json_file is not None:
+        _write_json(json_file, result)
+
+
+def _write_json(path: Path, content: Any) -> None:
+    from robonav import files
+
+    with files.whole(path) as file:
+        file.write((json.dumps(content, indent=2) + "\n").encode())
 
 
 def _tell(course: Any, grade: dict[str, Any], *, everything: bool) -> None:

@@ -16,7 +16,6 @@ from pathlib import Path
 import pytest
 
 KEPT = ("HOME", "LANG", "LC_ALL", "PATH", "ROBONAV_SECRET", "SYSTEMROOT", "TERM", "TMPDIR", "TEMP")
-SECRET = "ROBONAV_SECRET"
 CLEAN = "ROBONAV_GRADER_IS_CLEAN"
 
 
@@ -24,9 +23,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("robonav", "grading a submission to the book's exercises")
     group.addoption("--submission", metavar="PATH", help="the folder, zip or notebook to grade")
     group.addoption("--grade-json", metavar="FILE", help="write points, states and feedback there")
-    group.addoption(
-        "--secret", metavar="FILE", help=f"draw the cases from its content, not the public ones; or ${SECRET}"
-    )
+    group.addoption("--secret", metavar="FILE", help="draw the cases from its content; or set ROBONAV_SECRET")
     group.addoption("--tier", choices=["official", "restricted", "practice"], help="the sandbox; the best by default")
     group.addoption(
         "--exercise", metavar="ID", action="append", default=[], help="grade this one only; may be repeated"
@@ -36,19 +33,21 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_load_initial_conftests(early_config: pytest.Config) -> Generator[None]:
     """Before anything else is read that lies about: start again in a clean environment, unless this is one."""
-    if early_config.known_args_namespace.submission and CLEAN not in os.environ:
-        arguments = early_config.invocation_params.args
-        raise SystemExit(subprocess.run(command(arguments, Path.cwd()), env=environment()).returncode)
+    known = early_config.known_args_namespace
+    if known.submission and CLEAN not in os.environ:
+        from robonav.grading.course import Course
+
+        # The tests named on the command line, or this package's own: a submission may bring tests along.
+        tests = Course.around(*[Path(name.partition("::")[0]) for name in known.file_or_dir]).tests
+        arguments = [*early_config.invocation_params.args, *([] if known.file_or_dir else [str(tests)])]
+        raise SystemExit(subprocess.run(command(tests, arguments), env=environment()).returncode)
     return (yield)
 
 
-def command(arguments: Sequence[str], *starts: Path) -> list[str]:
-    """Pytest on the course around ``starts``, reading neither configuration nor plugins of anybody else's."""
-    from robonav.grading.course import Course
-
-    tests = str(Course.around(*starts).tests)
-    isolated = [sys.executable, "-I", "-m", "pytest", "-c", os.path.join(tests, "pytest.ini")]
-    return [*isolated, "--rootdir", tests, "--confcutdir", tests, *arguments]
+def command(tests: Path, arguments: Sequence[str]) -> list[str]:
+    """Pytest in the course's own configuration, reading neither configuration nor plugins of anybody else's."""
+    isolated = [sys.executable, "-I", "-m", "pytest", "-c", str(tests / "pytest.ini")]
+    return [*isolated, "--rootdir", str(tests), "--confcutdir", str(tests), *arguments]
 
 
 def environment() -> dict[str, str]:

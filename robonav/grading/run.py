@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Generator
 from pathlib import Path
 from typing import Any, cast
@@ -15,25 +14,25 @@ from robonav.files import whole
 from robonav.grading import probe, submission
 from robonav.grading.course import Course, Exercise
 from robonav.grading.grade import Part, exercise_grade, grade
-from robonav.grading.parts import PUBLIC, generator, outcome
-from robonav.grading.plugin import SECRET
+from robonav.grading.parts import PUBLIC, generator, outcome, secret_from
 from robonav.grading.proxy import Answer, Session
 from robonav.grading.reference import Case, reference
-from robonav.grading.submission import Refused
 
 
 class Run:
     """Registered as a plugin when a submission is given."""
 
     def __init__(self, config: pytest.Config) -> None:
+        if config.getoption("grade_json"):
+            Path(config.getoption("grade_json")).unlink(missing_ok=True)
         paths = [Path(argument.partition("::")[0]) for argument in config.args]
         try:
             self.course = Course.around(*paths)
             self.only = {self.course.named(key).id for key in config.getoption("exercise")}
-            taken = _taken(Path(config.getoption("submission")), self.course)
+            taken = submission.taken(Path(config.getoption("submission")), self.course.handed_out())
+            secret = secret_from(config.getoption("secret"))
         except ValueError as error:
             raise pytest.UsageError(str(error)) from None
-        secret = _secret(config.getoption("secret"))
         tier = config.getoption("tier") or probe.best()
         if secret and tier == "practice":
             raise pytest.UsageError(f"no marks in the practice tier: {probe.fault('official')}")
@@ -41,8 +40,6 @@ class Run:
         self.session = Session(taken, tier, secret=bool(secret))
         self.reference = reference(self.course)
         self.parts: dict[str, list[Part]] = {}
-        if config.getoption("grade_json"):
-            Path(config.getoption("grade_json")).unlink(missing_ok=True)
         if self.course.tests in [path.resolve() for path in paths] and not config.option.keyword:
             self.parts = {id: [] for id in self.course.exercises if not self.only or id in self.only}
 
@@ -103,23 +100,3 @@ class Run:
             points = "?" if entry["points"] is None else entry["points"]
             title = self.course.exercises[entry["id"]].title
             terminalreporter.line(f"{entry['id']}  {points}/{entry['max_points']}  {entry['state']:12}  {title}")
-
-
-def _taken(path: Path, course: Course) -> submission.Submission | Refused:
-    stubs = {path.read_bytes() for path in course.stubs.glob("ch*/*.py")}
-    try:
-        return submission.read(path).without(stubs)
-    except Refused as refused:
-        return refused
-
-
-def _secret(path: str | None) -> bytes:
-    if path is None:
-        return os.environ.get(SECRET, "").encode()
-    try:
-        content = Path(path).read_bytes().strip()
-    except OSError as error:
-        raise pytest.UsageError(f"the secret cannot be read: {error}") from None
-    if not content:
-        raise pytest.UsageError(f"the secret in {path} is empty")
-    return content

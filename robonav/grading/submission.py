@@ -71,6 +71,14 @@ def read(path: str | Path) -> Submission:
     return Submission(files)
 
 
+def taken(path: str | Path, handed_out: Collection[bytes]) -> Submission | Refused:
+    """The submission at ``path`` without untouched stubs, or why it is refused."""
+    try:
+        return read(path).without(handed_out)
+    except Refused as refused:
+        return refused
+
+
 def _unix(content: bytes) -> bytes:
     return content.replace(b"\r\n", b"\n")
 

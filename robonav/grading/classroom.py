@@ -1,0 +1,192 @@
+"""A class graded: many submissions, several at once, each written down whole before the next counts as done.
+
+``OUT/students/NAME/`` holds a student's grade, feedback page, Gradescope's ``results.json`` and JUnit XML; ``OUT``
+itself the gradebook and an overview. A run that was cut is run again: grades that are there stay, except those of a
+changed submission, of changed tests, or where the grader failed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from robonav.grading import report, submission
+from robonav.grading.check import graded
+from robonav.grading.course import Course
+from robonav.grading.grade import fault_grade, grade
+from robonav.grading.parts import PUBLIC
+from robonav.grading.proxy import Session
+from robonav.grading.reference import reference
+from robonav.grading.submission import Refused, Submission
+from robonav.progress import Progress
+
+
+@dataclass(frozen=True)
+class Marking:
+    """How submissions are marked; the same for a whole class."""
+
+    course: Course
+    tier: str
+    secret: bytes = b""
+
+    def key(self) -> str:
+        """A fingerprint of all that a grade depends on besides the submission."""
+        digest = hashlib.sha256(hashlib.sha256(self.secret).digest() + self.tier.encode())
+        for folder, pattern in (
+            (self.course.tests, "*"),
+            (self.course.solutions, "**/*.py"),
+            (Path(__file__).parent, "*.py"),
+        ):
+            for path in sorted(folder.glob(pattern)):
+                if path.is_file():
+                    digest.update(path.name.encode() + path.read_bytes())
+        return digest.hexdigest()
+
+
+def mark(marking: Marking, taken: Submission | Refused, ids: Collection[str] = ()) -> dict[str, Any]:
+    """The grade of one submission, or of these exercises of it: the same as by ``pytest tests/exercises``."""
+    course = marking.course
+    exercises = [exercise for exercise in course.exercises.values() if not ids or exercise.id in ids]
+    session, known = Session(taken, marking.tier, secret=bool(marking.secret)), reference(course)
+    try:
+        seed = marking.secret or PUBLIC
+        return grade([graded(course, exercise, session, known, seed=seed) for exercise in exercises], marking.tier)
+    except Exception:  # whatever it is, it is not the student's doing
+        return fault_grade(exercises, marking.tier)
+    finally:
+        session.close()
+
+
+def students(folder: Path) -> dict[str, Path]:
+    """Each student's submission by name: the folders, zips and notebooks in ``folder``.
+
+    Raises
+    ------
+    ValueError : if there is none, or two have the same name.
+    """
+    if not folder.is_dir():
+        raise ValueError(f"the class must be a folder of submissions, got {folder}")
+    found: dict[str, Path] = {}
+    for path in sorted(folder.iterdir()):
+        if path.name.startswith(".") or not (path.is_dir() or path.suffix in (".zip", *submission.KINDS)):
+            continue
+        name = path.name if path.is_dir() else path.stem
+        if name in found:
+            raise ValueError(f"{found[name].name} and {path.name} are both submissions of {name}")
+        found[name] = path
+    if not found:
+        raise ValueError(f"no folder, zip or notebook in {folder}")
+    return found
+
+
+def grade_class(
+    marking: Marking,
+    folder: Path,
+    out: Path,
+    *,
+    again: Collection[str] = (),
+    ids: Collection[str] = (),
+    jobs: int = -1,
+    scheduler: str | None = None,
+    progress: Progress | None = None,
+) -> None:
+    """Grade every submission in ``folder`` that is not graded yet, and write all reports to ``out``.
+
+    Parameters
+    ----------
+    again : students to grade again, graded or not.
+    ids : exercises to grade again, for ``again`` or else for all; their other exercises keep their grades.
+    jobs : how many at once; -1 for one a processor.
+    scheduler : address of a Dask scheduler to send the work to, whose workers see this course at the same path.
+    progress : called as ``progress(done, total)``.
+    """
+    submissions = students(folder)
+    for name in set(again) - set(submissions):
+        raise ValueError(f"no submission of {name} in {folder}")
+    with _alone(out):
+        key, handed_out = marking.key(), marking.course.handed_out()
+        tasks = []
+        for name, path in submissions.items():
+            taken = submission.taken(path, handed_out)
+            entry = {"student": name, "submission": _digest(taken), "marking": key}
+            old = _written(out, entry)
+            chosen = name in again if again else bool(ids)
+            if old is None or chosen:
+                tasks.append((entry, taken, old, ids if chosen and old else ()))
+        for done, record in enumerate(_marked(marking, tasks, jobs, scheduler), start=1):
+            report.write_student(out / "students" / record["student"], record, marking.course)
+            if progress is not None:
+                progress(done, len(tasks))
+        report.write_class(out, list(submissions), marking.course)
+
+
+Task = tuple[dict[str, str], Submission | Refused, dict[str, Any] | None, Collection[str]]
+
+
+def _marked(marking: Marking, tasks: Sequence[Task], jobs: int, scheduler: str | None) -> Iterator[dict[str, Any]]:
+    """The records of all tasks, as they are done."""
+    if scheduler is None:
+        from joblib import Parallel, delayed
+
+        yield from Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)(
+            delayed(_record)(marking, *task) for task in tasks
+        )
+        return
+    try:
+        from distributed import Client, as_completed
+    except ImportError:
+        raise ValueError("a scheduler needs dask: pip install distributed") from None
+    with Client(scheduler) as client:
+        futures = [client.submit(_record, marking, *task, pure=False) for task in tasks]
+        for future in as_completed(futures):
+            yield future.result()
+
+
+def _record(
+    marking: Marking,
+    entry: dict[str, str],
+    taken: Submission | Refused,
+    old: dict[str, Any] | None,
+    ids: Collection[str],
+) -> dict[str, Any]:
+    """A student's grade with what it was graded from; exercises that were not asked for keep their old entries."""
+    new = mark(marking, taken, ids)
+    if old is not None and ids:
+        fresh = {graded["id"]: graded for graded in new["exercises"]}
+        new = grade([fresh.get(kept["id"], kept) for kept in old["exercises"]], marking.tier)
+    return {**entry, **new}
+
+
+def _digest(taken: Submission | Refused) -> str:
+    return taken.digest if isinstance(taken, Submission) else f"refused: {taken}"
+
+
+def _written(out: Path, entry: dict[str, str]) -> dict[str, Any] | None:
+    """The grade that is there, if it is of this submission by this marking and whole."""
+    try:
+        record = json.loads((out / "students" / entry["student"] / "grade.json").read_bytes())
+    except (OSError, ValueError):
+        return None
+    same = all(record.get(name) == value for name, value in entry.items())
+    return record if same and all(graded["state"] != "grader-fault" for graded in record["exercises"]) else None
+
+
+@contextmanager
+def _alone(out: Path) -> Iterator[None]:
+    """No two runs into the same folder at once; a run that died leaves no trace of that."""
+    out.mkdir(parents=True, exist_ok=True)
+    with (out / ".lock").open("w") as file:
+        try:
+            import fcntl
+
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except ImportError:  # Windows
+            pass
+        except OSError:
+            raise ValueError(f"another run is grading into {out}") from None
+        yield

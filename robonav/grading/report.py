@@ -1,0 +1,123 @@
+"""Grades written for those who read them: students, instructors, and the platforms in between."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from robonav.files import whole
+from robonav.grading.course import Course
+from robonav.grading.grade import STATES
+from robonav.look import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW
+
+COLOURS = dict(zip(STATES, (GREEN, SKY, ORANGE, VERMILION, PURPLE, YELLOW, GREY, BLUE), strict=True))
+
+
+def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
+    """All files of one student; the grade itself last, so that where it is, the others are."""
+    _write(folder / "feedback.html", _page("feedback.html", record=record, course=course))
+    _write(folder / "results.json", _json(gradescope(record, course)))
+    _write(folder / "junit.xml", junit(record, course))
+    _write(folder / "grade.json", _json(record))
+
+
+def write_class(out: Path, names: Sequence[str], course: Course) -> None:
+    """The gradebook and the overview of the students named, from their grades."""
+    rows, counts, earned, totals = [], {id: Counter[str]() for id in course.exercises}, Counter[str](), []
+    for name in names:
+        record = json.loads((out / "students" / name / "grade.json").read_bytes())
+        entries = {entry["id"]: entry for entry in record["exercises"]}
+        again = [id for id, entry in entries.items() if entry["points"] is None]
+        points = [entries[id]["points"] if id in entries else None for id in course.exercises]
+        rows.append([name, record["points"], record["max_points"], record["tier"], " ".join(again), *points])
+        totals.append(record["points"])
+        for id, entry in entries.items():
+            counts[id][entry["state"]] += 1
+            earned[id] += entry["points"] or 0
+    _write(out / "gradebook.csv", gradebook(rows, course))
+    shares = {id: earned[id] / (course.exercises[id].points * max(len(rows), 1)) for id in course.exercises}
+    page = _page(
+        "overview.html", rows=rows, counts=counts, shares=shares, totals=totals, course=course, colours=COLOURS,
+        folders=[f"students/{name}/feedback.html" for name in names],
+    )  # fmt: skip
+    _write(out / "index.html", page)
+
+
+def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
+    """``results.json`` as Gradescope reads it; points that are to be graded again are said to be."""
+    tests = [
+        {
+            "number": entry["id"],
+            "name": course.exercises[entry["id"]].title,
+            "score": entry["points"] or 0,
+            "max_score": entry["max_points"],
+            "status": "passed" if entry["state"] == "correct" else "failed",
+            "output": entry["feedback"],
+            "visibility": "visible",
+        }
+        for entry in record["exercises"]
+    ]
+    again = [entry["id"] for entry in record["exercises"] if entry["points"] is None]
+    output = f"To be graded again, the grader failed: {', '.join(again)}." if again else ""
+    return {"score": record["points"], "output": output, "stdout_visibility": "hidden", "tests": tests}
+
+
+def junit(record: dict[str, Any], course: Course) -> str:
+    """JUnit XML: one case an exercise, a failure for lost points, an error for a fault of the grader."""
+    cases = record["exercises"]
+    suite = ElementTree.Element(
+        "testsuite",
+        name=str(record["student"]),
+        tests=str(len(cases)),
+        failures=str(sum(entry["state"] not in ("correct", "grader-fault") for entry in cases)),
+        errors=str(sum(entry["state"] == "grader-fault" for entry in cases)),
+    )
+    for entry in cases:
+        exercise = course.exercises[entry["id"]]
+        case = ElementTree.SubElement(
+            suite, "testcase", classname=exercise.chapter, name=f"{exercise.id} {exercise.title}"
+        )
+        if entry["state"] != "correct":
+            kind = "error" if entry["state"] == "grader-fault" else "failure"
+            found = ElementTree.SubElement(case, kind, message=entry["state"], type=entry["state"])
+            found.text = entry["feedback"]
+    return ElementTree.tostring(suite, encoding="unicode", xml_declaration=True)
+
+
+def gradebook(rows: Sequence[Sequence[Any]], course: Course) -> str:
+    """One line a student; no cell can be taken for a formula."""
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(["student", "points", "max_points", "tier", "grade_again", *course.exercises])
+    writer.writerows([[_cell(value) for value in row] for row in rows])
+    return text.getvalue()
+
+
+def _cell(value: Any) -> Any:
+    """Text that begins like a formula is marked as text, as spreadsheets have it."""
+    return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value
+
+
+def _page(name: str, **content: Any) -> str:
+    import jinja2
+
+    folder = Path(__file__).with_name("templates")
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True
+    )
+    return environment.get_template(name).render(**content)
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, indent=1, ensure_ascii=False) + "\n"
+
+
+def _write(path: Path, text: str) -> None:
+    with whole(path) as file:
+        file.write(text.encode())
