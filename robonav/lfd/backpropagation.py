@@ -62,7 +62,7 @@ def squared_error_cost(network: Network, x: ArrayLike, y: ArrayLike, *, regulari
 
 
 def squared_error_gradient(network: Network, x: ArrayLike, y: ArrayLike, *, regularisation: float = 0.0) -> Network:
-    """The gradient of :func:`squared_error_cost`, Eq. (3.9), by backpropagation; its errors start with Eq. (3.10), (3.13)."""
+    """The gradient of :func:`squared_error_cost`, Eq. (3.9), by backpropagation from Eq. (3.10), (3.13) on."""
     inputs, labels = examples(network, x, y)
     a = network.activations(inputs)
     delta = -(labels - a[-1]) * sigmoid_slope(a[-1])  # Eq. (3.13)

@@ -11,7 +11,7 @@ from torch.nn.functional import binary_cross_entropy_with_logits
 from .history import State, answered
 from .network import Array, Network, propagate
 
-MEMORY = 20  # pairs of steps and gradient changes that stand for the curvature
+MEMORY = 10  # pairs of steps and gradient changes that stand for the curvature
 LINE_SEARCH = 25  # evaluations a line search may take
 FLAT = 1e-9  # largest entry of a gradient that counts as zero
 
