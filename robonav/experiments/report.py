@@ -1,0 +1,59 @@
+"""Results for people and for programs: a table of text, and a dictionary for JSON."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+from .experiment import Results
+from .statistics import Summary
+
+
+def scalars(results: Results) -> list[str]:
+    """The metrics with one number a run."""
+    series = {row.metric for row in results.rows if row.step > 0}
+    return sorted({row.metric for row in results.rows} - series)
+
+
+def as_text(results: Results) -> str:
+    """Title and one line a case: mean, interval, best and worst of each metric, the thesis's number beside it."""
+    experiment = results.experiment
+    lines = [f"{experiment.name}: {experiment.title} ({results.scale}, {experiment.seeds[results.scale]} runs a case)"]
+    for place, case in enumerate(experiment.cases):
+        said = ", ".join(f"{key} {value}" for key, value in case.items())
+        for metric in scalars(results):
+            thesis = experiment.thesis.get(metric, [None] * len(experiment.cases))[place]
+            beside = "" if thesis is None else f"; thesis {thesis:g}"
+            lines.append(f"  {said}: {metric} {_said(results.summary(metric, place))}{beside}")
+    return "\n".join(lines)
+
+
+def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
+    """Every experiment with its cases, each metric's summary and the thesis's number; NaN becomes null."""
+    return [
+        {
+            "name": results.experiment.name,
+            "title": results.experiment.title,
+            "scale": results.scale,
+            "cases": [
+                {
+                    "case": dict(case),
+                    "metrics": {metric: _plain(results.summary(metric, place)) for metric in scalars(results)},
+                    "thesis": {metric: numbers[place] for metric, numbers in results.experiment.thesis.items()},
+                }
+                for place, case in enumerate(results.experiment.cases)
+            ],
+        }
+        for results in several
+    ]
+
+
+def _said(summary: Summary) -> str:
+    interval = "" if math.isnan(summary.low) else f" [{summary.low:.4g}, {summary.high:.4g}]"
+    return f"{summary.mean:.4g}{interval}, worst {summary.worst:.4g}, best {summary.best:.4g}"
+
+
+def _plain(summary: Summary) -> dict[str, Any]:
+    return {key: None if isinstance(v, float) and math.isnan(v) else v for key, v in asdict(summary).items()}

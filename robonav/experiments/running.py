@@ -1,0 +1,125 @@
+"""Running experiments: on this machine's cores or a cluster, cut and resumed, always with the same numbers."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from robonav import expect
+from robonav.progress import Progress
+
+from .experiment import SCALES, Experiment, Results, Row, rows_of
+from .store import load_run, run_file, save_results, save_run, save_timing
+
+BACKENDS = ("joblib", "dask")
+RETRIES = 3
+
+Unit = tuple[int, int]  # case, seed
+Done = tuple[Unit, list[Row], float]
+
+
+def reproduce(
+    experiment: Experiment,
+    out: str | Path,
+    *,
+    scale: str = "quick",
+    backend: str = "joblib",
+    scheduler: str | None = None,
+    jobs: int = -1,
+    progress: Progress | None = None,
+) -> Results:
+    """Run what is not yet run, and write ``NAME.csv``, ``NAME.json``, ``NAME.machine.json`` and the figure.
+
+    Finished runs stay in ``out/.runs``: an experiment that was cut goes on where it was. The numbers depend on neither
+    backend nor number of workers nor interruptions.
+
+    Parameters
+    ----------
+    out : folder for the results.
+    scale : "quick" or "thesis".
+    backend, scheduler : "joblib" for this machine, or "dask" with the address of a Dask scheduler.
+    jobs : processes of joblib; -1 for one a core.
+    progress : called with runs done and runs in all.
+
+    Raises
+    ------
+    ValueError : for an unknown scale or backend, or dask without a scheduler.
+    """
+    expect.one_of("scale", scale, SCALES)
+    expect.one_of("backend", backend, BACKENDS)
+    if backend == "dask" and scheduler is None:
+        raise ValueError("scheduler must be the address of a Dask scheduler, such as tcp://host:8786, got none")
+    folder = Path(out)
+    units = [(case, seed) for case in range(len(experiment.cases)) for seed in range(experiment.seeds[scale])]
+    kept = {unit: load_run(run_file(folder, experiment, scale, *unit)) for unit in units}
+    finished = {unit: run for unit, run in kept.items() if run is not None}
+    waiting = [unit for unit in units if unit not in finished]
+    began = time.perf_counter()
+    if progress is not None:
+        progress(len(finished), len(units))
+    done = _on_cluster(experiment, waiting, scale, scheduler) if scheduler else _here(experiment, waiting, scale, jobs)
+    for unit, rows, seconds in done:
+        save_run(run_file(folder, experiment, scale, *unit), rows, seconds)
+        finished[unit] = rows, seconds
+        if progress is not None:
+            progress(len(finished), len(units))
+    results = Results(experiment, scale, tuple(row for unit in units for row in finished[unit][0]))
+    save_results(folder, results)
+    spent = {"seconds in all runs": sum(seconds for _, seconds in finished.values())}
+    save_timing(folder, experiment, spent | {"seconds on the clock": time.perf_counter() - began})
+    _save_figure(folder, results)
+    return results
+
+
+def run_unit(experiment: Experiment, unit: Unit, scale: str) -> Done:
+    """One run, on one thread: sums come out the same however many cores there are."""
+    from threadpoolctl import threadpool_limits
+
+    case, seed = unit
+    began = time.perf_counter()
+    torch = sys.modules.get("torch")
+    threads = torch.get_num_threads() if torch else 0
+    with threadpool_limits(1):
+        if torch:
+            torch.set_num_threads(1)
+        try:
+            numbers = experiment.run(experiment.cases[case], seed, scale)
+        finally:
+            if torch:
+                torch.set_num_threads(threads)
+    return unit, rows_of(case, seed, numbers), time.perf_counter() - began
+
+
+def _here(experiment: Experiment, units: Sequence[Unit], scale: str, jobs: int) -> Iterator[Done]:
+    """Runs on this machine, as they finish."""
+    from joblib import Parallel, delayed
+
+    work = (delayed(run_unit)(experiment, unit, scale) for unit in units)
+    yield from Parallel(n_jobs=jobs, return_as="generator_unordered")(work)
+
+
+def _on_cluster(experiment: Experiment, units: Sequence[Unit], scale: str, scheduler: str | None) -> Iterator[Done]:
+    """Runs on a Dask cluster, as they finish; a worker that dies has its run done again by another."""
+    from dask.distributed import Client, as_completed
+
+    with Client(scheduler) as client:
+        futures = [client.submit(run_unit, experiment, unit, scale, pure=False, retries=RETRIES) for unit in units]
+        for future in as_completed(futures):
+            yield future.result()
+
+
+def _save_figure(folder: Path, results: Results) -> None:
+    """``NAME.svg`` and ``NAME.png``, if the experiment has a figure; the same results give the same bytes."""
+    if results.experiment.draw is None:
+        return
+    import matplotlib as mpl
+
+    from robonav import files, look
+
+    with mpl.rc_context(look.STYLE | {"svg.hashsalt": results.experiment.name}):
+        figure = results.experiment.draw(results)
+        for kind, extra in (("svg", {"Date": None}), ("png", {"Software": None})):
+            with files.whole(folder / f"{results.experiment.name}.{kind}") as file:
+                figure.savefig(file, format=kind, metadata=extra)

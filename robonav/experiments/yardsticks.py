@@ -1,0 +1,47 @@
+"""What a robot does that has learned nothing: the numbers that every table is held against."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from robonav.robot import freer_side, navigate, random_worlds, straight
+
+from .experiment import Case, Experiment, Results
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+RULES = {"straight": straight, "freer side": freer_side}
+SEED = 9_000  # of the worlds; run k drives through those of SEED + k
+WORLDS = {"quick": 100, "thesis": 1000}
+
+
+def drive(case: Case, seed: int, scale: str) -> dict[str, float]:
+    """Success and collisions in per cent of one batch of worlds."""
+    worlds = random_worlds(WORLDS[scale], int(case["standing"]), int(case["moving"]), seed=SEED + seed)
+    drives = navigate(RULES[str(case["rule"])], worlds, float(case["speed"]))
+    return {"success": 100 * drives.success.mean(), "collision": 100 * drives.collision.mean()}
+
+
+def draw(results: Results) -> Figure:
+    """Success of both rules against the number of obstacles, at 2 m/s."""
+    from robonav.plots.experiments import draw_bars
+
+    return draw_bars(results, "success", "drives that arrive (%)")
+
+
+YARDSTICKS = Experiment(
+    name="yardsticks",
+    title="Robots that have learned nothing: straight on, and a rule of three lines",
+    cases=[
+        {"rule": rule, "standing": standing, "moving": moving, "speed": speed}
+        for rule in RULES
+        for standing, moving, speed in ((10, 0, 2.0), (10, 0, 2.5), (20, 0, 2.0), (30, 0, 2.0), (10, 10, 2.0))
+    ],
+    run=drive,
+    seeds={"quick": 5, "thesis": 25},
+    draw=draw,
+    settings={"worlds a run": WORLDS, "first seed of the worlds": SEED},
+)
+
+EXPERIMENTS = (YARDSTICKS,)

@@ -1,0 +1,63 @@
+"""Results of experiments as figures: bars with intervals, bands over seeds, the thesis's numbers beside ours."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+
+from robonav import look
+
+if TYPE_CHECKING:
+    from robonav.experiments.experiment import Results
+
+OURS, THESIS = look.BLUE, look.ORANGE
+
+
+def case_labels(results: Results) -> list[str]:
+    """One label a case: what varies among the cases, in order."""
+    cases = results.experiment.cases
+    varied = [key for key in cases[0] if len({case[key] for case in cases}) > 1] or list(cases[0])
+    return [", ".join(f"{case[key]}" if isinstance(case[key], str) else f"{key} {case[key]}" for key in varied)
+            for case in cases]  # fmt: skip
+
+
+def draw_bars(results: Results, metric: str, label: str) -> Figure:
+    """One bar a case with its 95 % interval over seeds; a diamond where the thesis has a number."""
+    cases = range(len(results.experiment.cases))
+    figure, axes = plt.subplots(figsize=(7, 0.42 * len(cases) + 1.2))
+    thesis = results.experiment.thesis.get(metric, [None] * len(cases))
+    for case in cases:
+        summary = results.summary(metric, case)
+        axes.barh(case, summary.mean, height=0.62, color=OURS, alpha=0.85)
+        if not math.isnan(summary.low):
+            axes.plot([summary.low, summary.high], [case, case], color=look.INK, linewidth=2.5)
+        number = thesis[case]
+        if number is not None:
+            axes.plot(number, case, marker="D", color=THESIS, markersize=7)
+    axes.set(yticks=list(cases), yticklabels=case_labels(results), xlabel=label)
+    if any(number is not None for number in thesis):
+        axes.plot([], [], "D", color=THESIS, label="thesis")
+        axes.plot([], [], color=OURS, linewidth=6, label="ours, 95 % interval over seeds")
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
+    axes.invert_yaxis()
+    axes.grid(axis="y", visible=False)
+    return figure
+
+
+def draw_bands(results: Results, metric: str, x_label: str, y_label: str) -> Figure:
+    """A curve a case: the mean over seeds of a metric with a number a step, and a band from the worst to the best."""
+    figure, axes = plt.subplots(figsize=(7, 4))
+    colours = [look.BLUE, look.VERMILION, look.GREEN, look.ORANGE, look.PURPLE, look.SKY]
+    for case, name in enumerate(case_labels(results)):
+        runs = results.values(metric, case)
+        steps = np.arange(1, runs.shape[1] + 1)
+        colour = colours[case % len(colours)]
+        axes.plot(steps, runs.mean(axis=0), color=colour, label=name)
+        axes.fill_between(steps, runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.15, linewidth=0)
+    axes.set(xlabel=x_label, ylabel=y_label)
+    axes.legend()
+    return figure
