@@ -120,7 +120,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._robot: dict[str, Any] = {"speed": speed, "slip": slip, "noise": noise, "max_steps": max_episode_steps}
         self.simulator = Simulator(self._next_worlds(np.arange(0)), **self._robot)  # empty until reset
-        self._sensing = self.simulator.sense()
+        self.sensing = self.simulator.sense()
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
@@ -136,7 +136,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         start = self._next_worlds(np.arange(self.num_envs)) if given is None else given
         slots = max(start.slots, self.simulator.worlds.slots)
         self.simulator = Simulator(start[:].with_slots(slots), **self._robot)  # a copy: restarts overwrite it
-        self._sensing = self.simulator.sense()
+        self.sensing = self.simulator.sense()
         self._ended = np.zeros(self.num_envs, dtype=np.bool_)
         return self._observation(), self._info(np.full(self.num_envs, -1))
 
@@ -157,23 +157,31 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         self, actions: ArrayLike
     ) -> tuple[dict[str, Any], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """One second for all; see the class for what happens after the end of an episode."""
+        reward, terminated, truncated, reflexes = self.advance(actions)
+        return self._observation(), reward, terminated, truncated, self._info(reflexes)
+
+    def advance(
+        self, actions: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], NDArray[np.int64]]:
+        """A step without its observation and info: rewards, terminated, truncated, reflexes, each (N,)."""
         if len(self.simulator) == 0:
             raise ValueError("step: call reset first")
-        given = check_actions(actions, self.num_envs)
-        simulator, before, fresh = self.simulator, self._sensing, self._ended
+        commands = check_actions(actions, self.num_envs)
+        simulator, before, fresh = self.simulator, self.sensing, self._ended
+        some_fresh = fresh.any()
         reflexes = np.full(self.num_envs, -1) if self.reflex is None else self.reflex(before, simulator.speed)
-        reflexes[fresh] = -1
-        simulator.step(np.where(reflexes < 0, given, reflexes))
-        if fresh.any():
+        if some_fresh:
+            reflexes[fresh] = -1
+        simulator.step(np.where(reflexes < 0, commands, reflexes))
+        if some_fresh:
             index = np.flatnonzero(fresh)
             simulator.restart(index, self._next_worlds(index))
-        self._sensing = simulator.sense()
-        reward = np.array(self.reward(before, self._sensing, simulator.outcome), dtype=float)
+        self.sensing = simulator.sense()
+        reward = np.array(self.reward(before, self.sensing, simulator.outcome), dtype=float)
         reward[fresh] = 0.0
-        truncated = simulator.steps >= simulator.max_steps
         self._ended = simulator.outcome != RUNNING
         terminated = self._ended & (simulator.outcome != OUT_OF_STEPS)
-        return self._observation(), reward, terminated, truncated, self._info(reflexes)
+        return reward, terminated, simulator.steps >= simulator.max_steps, reflexes
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """A picture (H, W, 3) of every world, if ``render_mode`` is "rgb_array"."""
@@ -191,7 +199,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         return draw_worlds(raw.view("<u4").reshape(-1, 2).astype(np.uint32), *self._drawn)
 
     def _observation(self) -> dict[str, Any]:
-        read = self._sensing
+        read = self.sensing
         return {
             "ranges": read.ranges,
             "walls": read.walls.view(np.int8),
@@ -233,20 +241,37 @@ class NavigationEnv(gymnasium.Env):
         super().reset(seed=seed)
         self.batch.seed(seed)
         self._np_random = self.batch.np_random
-        observation, info = self.batch.reset(options=options)
+        self.batch.reset(options=options)
         self.batch.simulator.max_steps = _limit_of_callers(default=self._max_episode_steps)
         if self.render_mode == "human":
             self.render()
-        return _first(observation), _first_info(info)
+        return self._observation(), self._info(-1)
 
     def step(self, action: int) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
         """One second; ValueError or TypeError for an action that is not 0 to 5."""
         if len(self.batch.simulator) and self.batch.simulator.outcome[0] != RUNNING:
             raise ValueError("step: the episode has ended; call reset first")
-        observation, reward, terminated, truncated, info = self.batch.step(np.asarray(action).reshape(1))
+        reward, terminated, truncated, reflexes = self.batch.advance(np.asarray(action).reshape(1))
         if self.render_mode == "human":
             self.render()
-        return _first(observation), float(reward[0]), bool(terminated[0]), bool(truncated[0]), _first_info(info)
+        return self._observation(), float(reward[0]), bool(terminated[0]), bool(truncated[0]), self._info(reflexes[0])
+
+    def _observation(self) -> dict[str, Any]:
+        read = self.batch.sensing
+        return {
+            "ranges": read.ranges[0],
+            "walls": read.walls[0].view(np.int8),
+            "target_region": read.target_region[0],
+            "target_seen": np.int64(read.target_seen[0]),
+        }
+
+    def _info(self, reflex: int) -> dict[str, Any]:
+        simulator = self.batch.simulator
+        return {
+            "outcome": _OUTCOME_NAMES[simulator.outcome[0]],
+            "reflex": int(reflex),
+            "pose": simulator.poses[0].copy(),
+        }
 
     def render(self) -> NDArray[np.uint8] | None:
         """A picture (H, W, 3), or a window that shows it."""
@@ -283,15 +308,3 @@ def _limit_of_callers(default: int) -> int:
             return limit
         frame = frame.f_back
     return default
-
-
-def _first(observation: dict[str, Any]) -> dict[str, Any]:
-    return {name: value[0] for name, value in observation.items()}
-
-
-def _first_info(info: dict[str, Any]) -> dict[str, Any]:
-    return {
-        "outcome": str(info["outcome"][0]),
-        "reflex": int(info["reflex"][0]),
-        "pose": info["pose"][0],
-    }
