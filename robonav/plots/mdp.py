@@ -214,24 +214,6 @@ def plot_trace(axes: Axes, trace: Trace, *, least: float = 1e-8) -> None:
     axes.legend()
 
 
-def plot_curves(axes: Axes, curves: Mapping[str, ArrayLike], *, x: Mapping[str, ArrayLike] | None = None) -> None:
-    """Something that shrinks, on a logarithmic scale, one curve a planner.
-
-    Parameters
-    ----------
-    curves : (n,) by name; zeros end a curve.
-    x : (n,) by name, where they stand; 0, 1, ... if left out.
-    """
-    others = [look.SKY, look.YELLOW, look.GREY]
-    for name, curve in curves.items():
-        y = np.asarray(curve, dtype=float)
-        at = np.arange(len(y)) if x is None else np.asarray(x[name])
-        colour = PLANNERS.get(name) or others.pop(0)
-        axes.plot(at, np.where(y > 0, y, np.nan), color=colour, label=name)
-    axes.set(yscale="log")
-    axes.legend()
-
-
 def draw_value_plane(
     axes: Axes, cloud: ArrayLike, paths: Mapping[str, ArrayLike], *, corners: ArrayLike, best: ArrayLike
 ) -> None:

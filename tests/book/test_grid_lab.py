@@ -1,0 +1,179 @@
+"""The grid lab of the page on dynamic programming, used as a reader would, and its numbers compared with Python's."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from browser import DESKTOP, PHONE, Visit
+from playwright.sync_api import Locator
+
+from robonav import mdp
+from robonav.widgets.grid_lab import grid_lab, replay
+from robonav.widgets.shared import front_end
+
+EXITS = {"+": mdp.Cell(reward=1, ends=True), "-": mdp.Cell(reward=-1, ends=True)}
+TWO_ROOMS = """
+    S . . # . . .
+    . . . # . X .
+    . # . . . . .
+    . # X . # . .
+    . . . . # . G
+"""
+
+
+@pytest.fixture(params=["desktop", "phone"])
+def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Locator]:
+    """The lab on the opened page: served to a desktop, or from disk on a phone."""
+    desktop = request.param == "desktop"
+    visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
+    visit.open(f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/dynamic-programming.html")
+    found = visit.page.locator(".grid-lab")
+    found.wait_for()
+    yield found
+    assert visit.errors == []
+
+
+def choose(lab: Locator, *options: str) -> None:
+    for label, option in zip(("map", "discount", "slip", "cost of a step"), options, strict=True):
+        lab.get_by_label(label, exact=True).select_option(option)
+
+
+def track(lab: Locator) -> Locator:
+    return lab.get_by_label("step", exact=True).and_(lab.locator("input"))
+
+
+def shown(lab: Locator, which: int) -> tuple[list[float], list[int]]:
+    """The values and arrows of one picture, ends left out."""
+    texts = lab.locator("figure").nth(which).locator('svg text[text-anchor="middle"]').all_text_contents()
+    values = [float(text.replace("−", "-")) for text in texts if "." in text]
+    turns = (
+        lab.locator("figure")
+        .nth(which)
+        .locator("svg path[transform]")
+        .evaluate_all(
+            "(paths) => paths.map((path) => Number(/rotate\\((\\d+)\\)/.exec(path.getAttribute('transform'))[1]))"
+        )
+    )
+    return values, [turn // 90 for turn in turns]
+
+
+@pytest.mark.parametrize(
+    ("name", "discount", "slip", "cost", "frame"),
+    [("two rooms", "0.9", "0.2", "0.04", 3), ("two rooms", "0.99", "0.5", "0.3", 20), ("4 x 3", "0.5", "0", "0", 2)],
+)
+def test_every_setting_shows_its_own_sweeps_and_policies(lab, name, discount, slip, cost, frame):
+    choose(lab, name, discount, slip, cost)
+    track(lab).evaluate("(input, at) => { input.value = at; input.dispatchEvent(new Event('input')); }", frame)
+    settings = {"slip": float(slip), "step_reward": -float(cost)}
+    grid = mdp.four_by_three(**settings) if name == "4 x 3" else mdp.GridWorld(TWO_ROOMS, legend=EXITS, **settings)
+    model = grid.mdp(float(discount))
+    swept = mdp.value_iteration(model, 0.02, record=True)
+    iterated = mdp.policy_iteration(model, start=np.zeros(model.states, dtype=int), record=True)
+    for which, (history, policies) in enumerate(
+        ((swept.history, swept.policies), (iterated.history, iterated.policies))
+    ):
+        at = min(frame, len(history) - 1)
+        values, arrows = shown(lab, which)
+        np.testing.assert_allclose(values, history[at][~grid.terminal], atol=0.0051)
+        assert arrows == policies[at][~grid.terminal].tolist()
+        said = lab.locator("figure .told").nth(which).inner_text()
+        assert said.startswith(f"{('sweep', 'policy')[which]} {at}: ")
+
+
+def test_time_moves_by_button_keyboard_and_play(lab):
+    said = lab.locator("figure .told").first
+
+    def step() -> int:
+        return int(re.match(r"sweep (\d+)", said.inner_text())[1])
+
+    assert step() == 0
+    lab.get_by_label("One on").click()
+    track(lab).press("ArrowRight")
+    assert step() == 2
+    lab.get_by_label("One back").click()
+    assert step() == 1
+    lab.get_by_label("Play").click()
+    lab.page.wait_for_function("(node) => !node.textContent.startsWith('sweep 1:')", arg=said.element_handle())
+    lab.get_by_label("Pause").click()
+    stopped = step()
+    lab.page.wait_for_timeout(800)
+    assert step() == stopped
+    track(lab).press("End")
+    assert "arrows optimal" in said.inner_text()
+    lab.get_by_label("To the start").click()
+    assert step() == 0
+
+
+def test_the_mark_follows_touch_and_arrow_keys(lab):
+    status = lab.locator(".status").first
+    assert status.inner_text().startswith("Row 1, column 1: ")
+    grids = lab.get_by_role("group", name="Grids")
+    grids.focus()
+    for key in ("ArrowRight", "ArrowRight", "ArrowRight", "ArrowDown"):  # over the wall in between
+        lab.page.keyboard.press(key)
+    assert status.inner_text().startswith("Row 2, column 5: ")
+    lab.locator("figure").nth(1).locator("rect.cell").last.click()
+    assert status.inner_text() == "Row 5, column 7: the episode ends here, with reward 1."
+    lab.page.keyboard.press("ArrowDown")
+    assert status.inner_text().startswith("Row 5, column 7")
+
+
+def test_a_map_of_ones_own_is_offered_only_where_a_kernel_can_solve_it(lab):
+    assert lab.get_by_text("Draw a map of your own").is_hidden()
+
+
+def test_pictures_say_what_they_show(lab):
+    for picture in lab.locator("figure svg").all():
+        assert re.match(r"(value|policy) iteration: (sweep|policy) 0: values", picture.get_attribute("aria-label"))
+    assert lab.evaluate("(element) => element.scrollWidth <= element.clientWidth")
+
+
+WITH_A_KERNEL = """async ([module, data, solved]) => {
+  const page = await import(URL.createObjectURL(new Blob([module], { type: "text/javascript" })));
+  const place = document.body.appendChild(document.createElement("div"));
+  place.id = "with-kernel";
+  let hear = () => {};
+  const solve = ({ text }) => (text.includes("?") ? { error: "no ?" } : solved);
+  const answers = { kernel: () => ({ kernel: true }), solve };
+  const model = {
+    get: () => data,
+    on: (_, listener) => { hear = listener; },
+    send: (message) => queueMicrotask(() => hear(answers[message.ask](message))),
+  };
+  page.default.render({ model, el: place });
+}"""
+
+
+def test_with_a_kernel_a_map_of_ones_own_is_solved(visit, http):
+    """The page's side of it, with answers as Python gives them; Python's side is tested without a browser."""
+    visit.open(f"{http}/book/glossary.html")
+
+    def solve(grid, choices=()):
+        swept = mdp.value_iteration(grid.mdp(0.9), record=True)
+        steps = [f"sweep {k}" for k in range(len(swept.history))]
+        return {"sweeps": replay(grid.mdp(0.9), swept.history, swept.policies, best=swept.values, steps=steps)}
+
+    given, drawn = mdp.GridWorld("S.G"), mdp.GridWorld("S..\n.#G")
+    widget = grid_lab({"map": given}, {}, {("map",): solve(given)}, solve=solve)
+    answers: list[dict] = []
+    widget.send = answers.append
+    widget._answer(widget, {"ask": "solve", "text": drawn.text, "choices": []}, [])
+    visit.page.evaluate(WITH_A_KERNEL, [front_end("grid_lab"), widget.data, answers[0]])
+    lab = visit.page.locator("#with-kernel")
+    lab.get_by_text("Draw a map of your own").click()
+    editor = lab.locator("textarea")
+    assert editor.input_value() == "S.G"
+    editor.fill("S.?")
+    lab.get_by_role("button", name="Solve").click()
+    lab.get_by_text("no ?").wait_for()
+    editor.fill(drawn.text)
+    lab.get_by_role("button", name="Solve").click()
+    lab.locator("rect.cell").nth(4).wait_for()
+    track(lab).press("End")
+    values, arrows = shown(lab, 0)
+    np.testing.assert_allclose(values, mdp.value_iteration(drawn.mdp(0.9)).values[:4], atol=0.0051)
+    assert arrows[2] == 2
