@@ -16,7 +16,7 @@ from .monte_carlo import monte_carlo_control, monte_carlo_prediction
 from .planning import Solution, modified_policy_iteration, policy_iteration, value_iteration
 from .policies import greedy_actions, greedy_mixture
 from .pomdp import POMDP, BeliefMDP, BeliefWalk, bayes, belief_walk, entropy, without_sensing
-from .small_pomdps import corridor, tiger
+from .small_pomdps import corridor, fork, tiger
 from .sweeps import in_place_value_iteration, prioritized_sweeping
 from .temporal_difference import Learned, Predicted, expected_sarsa, q_learning, sarsa, td_prediction
 from .values import action_values, advantage, bellman_optimality_operator, bellman_policy_operator, is_optimal
@@ -59,6 +59,7 @@ __all__ = [
     "expected_rewards",
     "expected_sarsa",
     "exponential_decay",
+    "fork",
     "four_by_three",
     "generalized_policy_iteration",
     "greedy_actions",

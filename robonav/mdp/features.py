@@ -21,7 +21,9 @@ Features = Callable[[Any], NDArray[np.float64]]
 
 def for_each_action(state_features: NDArray[np.float64], actions: int) -> NDArray[np.float64]:
     """State features (d,) with their own weights for each action: (A, A * d), zero but for the action's block."""
-    return np.kron(np.eye(actions), state_features).astype(float)
+    blocks = np.zeros((actions, actions, len(state_features)))
+    blocks[np.arange(actions), np.arange(actions)] = state_features
+    return blocks.reshape(actions, -1)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Two small worlds that cannot be seen directly: the tiger behind a door, a corridor with doors."""
+"""Small worlds that cannot be seen directly: the tiger behind a door, a corridor with doors, a way that forks."""
 
 from __future__ import annotations
 
@@ -64,3 +64,19 @@ def corridor(
     seen = np.where(door, accuracy, 1 - accuracy)
     observations = np.stack([1 - seen, seen], axis=1)
     return POMDP(FiniteMDP(transitions, np.zeros((len(cells), 3)), discount), np.stack([observations] * 3))
+
+
+def fork(*, sign_cost: float = 1.0, discount: float = 0.9) -> POMDP:
+    """A way that forks, with a target at one end and a trap at the other; a sign tells which, at a price.
+
+    States: the target is left (0) or right (1), or all is over (2). Actions: wait (0) costs nothing and tells nothing;
+    read the sign (1) costs ``sign_cost``; going left (2) or right (3) brings 10 where the target is and -10 where it is
+    not, and ends it. Observations: target left (0), right (1), nothing (2).
+    """
+    expect.real("sign_cost", sign_cost, at_least=0)
+    stay, end = np.eye(3), np.tile([0.0, 0.0, 1.0], (3, 1))
+    rewards = [[0.0, -sign_cost, 10.0, -10.0], [0.0, -sign_cost, -10.0, 10.0], [0.0, 0.0, 0.0, 0.0]]
+    nothing, clear = np.tile([0.0, 0.0, 1.0], (3, 1)), np.eye(3)
+    return POMDP(
+        FiniteMDP(np.stack([stay, stay, end, end]), rewards, discount), np.stack([nothing, clear, nothing, nothing])
+    )

@@ -12,6 +12,7 @@ from robonav.mdp import (
     BeliefMDP,
     FiniteMDP,
     belief_walk,
+    fork,
     point_based_value_iteration,
     qmdp,
     spread_beliefs,
@@ -86,23 +87,23 @@ def test_qmdp_listens_for_another_reason_and_promises_too_much():
     assert (optimist.value(beliefs) > exact.value(beliefs)).all()
 
 
-def needs_a_look(discount=0.9):
-    """Where the prize is is known only to one who pays for a look. States: prize left, prize right, done."""
-    stay, end = np.eye(3), np.tile([0.0, 0.0, 1.0], (3, 1))
-    rewards = [[-1.0, 10.0, -10.0, 0.0], [-1.0, -10.0, 10.0, 0.0], [0.0, 0.0, 0.0, 0.0]]  # look, left, right, leave
-    blank, clear = np.tile([0.0, 0.0, 1.0], (3, 1)), np.eye(3)
-    return POMDP(FiniteMDP(np.stack([stay, end, end, stay]), rewards, discount), np.stack([clear, blank, blank, blank]))
-
-
 def test_qmdp_never_pays_for_a_look():
-    """Waiting costs nothing and, so it believes, tells as much as a look: QMDP waits for ever."""
-    pomdp = needs_a_look()
+    """Waiting costs nothing and, so it believes, tells as much as the sign: QMDP waits for ever."""
+    pomdp = fork()
     doubt = [0.5, 0.5, 0.0]
-    assert qmdp(pomdp).action(doubt) == 3
-    policy = point_based_value_iteration(pomdp, spread_beliefs(pomdp, doubt, 10))
-    assert policy.action(doubt) == 0
-    assert policy.value(doubt) == pytest.approx(-1 + 0.9 * 10)
+    assert qmdp(pomdp).action(doubt) == 0
     assert belief_walk(pomdp, qmdp(pomdp).action, 20, belief=doubt, seed=0).rewards.sum() == 0
+    policy = point_based_value_iteration(pomdp, spread_beliefs(pomdp, doubt, 10))
+    assert policy.value(doubt) == pytest.approx(-1 + 0.9 * 10)
+    for seed in range(5):
+        run = belief_walk(pomdp, policy.action, 2, belief=doubt, seed=seed)
+        assert run.actions.tolist() == [1, 2 + run.states[0]]
+        assert run.rewards.tolist() == [-1, 10]
+
+
+def test_a_sign_that_costs_too_much_is_not_read():
+    policy = point_based_value_iteration(fork(sign_cost=9.5), spread_beliefs(fork(), [0.5, 0.5, 0.0], 10))
+    assert policy.value([0.5, 0.5, 0.0]) == pytest.approx(0, abs=1e-5)
 
 
 def random_pomdp(seed, discount=0.6):
