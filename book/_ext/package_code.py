@@ -4,8 +4,8 @@
 imported, so a page cannot show an old copy. The docstring is left out, since the page's text takes its place;
 ``:docstring:`` keeps it.
 
-A name in the role must exist, or the build fails: ``{name}`robonav.mdp.FiniteMDP.discount```, or an argument,
-``{name}`robonav.robot.navigate(speed)```. The leading ``robonav.`` is not shown.
+A name in the role is a link into the reference and must exist, or the build fails: ``{name}`robonav.robot.Worlds```, or
+an argument, ``{name}`robonav.robot.navigate(speed)```. The leading ``robonav.`` is not shown.
 """
 
 from __future__ import annotations
@@ -20,9 +20,12 @@ from typing import Any, ClassVar
 
 from docutils import nodes
 from docutils.parsers.rst import directives
+from sphinx.addnodes import pending_xref
 from sphinx.application import Sphinx
 from sphinx.directives.code import container_wrapper
+from sphinx.environment import BuildEnvironment
 from sphinx.util.docutils import SphinxDirective, SphinxRole
+from sphinx.util.nodes import make_refnode
 
 NAME = re.compile(r"(?P<name>robonav(?:\.\w+)+)(?:\((?P<argument>\w+)\))?")
 
@@ -76,6 +79,26 @@ class FunctionSource(SphinxDirective):
         return [container_wrapper(self, code, f"`{name}`")]
 
 
+def code_reference(name: str, shown: str, docname: str) -> nodes.Node:
+    """A name as code, a link to where the reference explains it or what it belongs to."""
+    target = {"refdomain": "py", "reftype": "obj", "reftarget": name, "refdoc": docname}
+    return pending_xref("", nodes.literal("", shown), **target)
+
+
+def link_to_owner(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Element) -> nodes.Node | None:
+    """Link a field or a part that has no entry of its own to its owner's; without one, leave it plain."""
+    if node.get("refdomain") != "py" or node.get("reftype") != "obj":
+        return None
+    name: str = node["reftarget"]
+    objects = env.get_domain("py").data["objects"]
+    while name and name not in objects:
+        name = name.rpartition(".")[0]
+    if not name:
+        return content
+    found = objects[name]
+    return make_refnode(app.builder, node["refdoc"], found.docname, found.node_id, content, name)
+
+
 class CodeName(SphinxRole):
     """The role ``{name}``."""
 
@@ -90,10 +113,11 @@ class CodeName(SphinxRole):
         except (ImportError, AttributeError, TypeError, ValueError) as error:
             message = self.inliner.reporter.warning(f"{self.text} is not in the package: {error}", line=self.lineno)
             return [], [message]
-        return [nodes.literal(self.rawtext, self.text.removeprefix("robonav."))], []
+        return [code_reference(match["name"], self.text.removeprefix("robonav."), self.env.docname)], []
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
     app.add_directive("source", FunctionSource)
     app.add_role("name", CodeName())
+    app.connect("missing-reference", link_to_owner)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from docutils import nodes
 from docutils.parsers.rst import directives
+from package_code import code_reference
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 from thesis_numbers import equation_reference
@@ -91,7 +92,7 @@ class ThesisIndex(SphinxDirective):
         for parts, names in cited(kind).items():
             number = ".".join(map(str, parts))
             shown = nodes.Text(f"{title.capitalize()} {number}")
-            code = [nodes.literal("", name.removeprefix("robonav.")) for name in names]
+            code = [code_reference(name, name.removeprefix("robonav."), self.env.docname) for name in names]
             body += _row(
                 [equation_reference(number, self.env.docname) if kind == "equations" else shown],
                 [part for name in code for part in (name, nodes.Text(", "))][:-1],

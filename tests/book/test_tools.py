@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
+import inspect
 import os
+from enum import Enum
 from pathlib import Path
 
 import check_site
@@ -11,6 +14,7 @@ import notebooks
 import package_code
 import package_digest
 import pytest
+import reference
 import thesis_index
 from thesis_numbers import thesis_number
 
@@ -69,6 +73,67 @@ def test_names_are_resolved_through_modules_classes_and_fields() -> None:
         package_code.resolve("robonav.look.NOTHING")
     with pytest.raises(AttributeError):
         package_code.resolve("robonav.plots.schemes.Box.nothing")
+
+
+def test_docstrings_become_lists_under_bold_titles() -> None:
+    docstring = """Values of ``mdp`` (Eq. (2.26)); see :func:`~robonav.mdp.plan`.
+
+    Parameters
+    ----------
+    mdp, env : one of both,
+        with S states.
+    *rest : more.
+
+    Raises
+    ------
+    ValueError : if it must.
+    """
+    assert reference.markdown(docstring) == (
+        "Values of ``mdp`` (Eq. (2.26)); see `robonav.mdp.plan`.\n\n"
+        "**Parameters**\n\n- `mdp`, `env`: one of both,\n  with S states.\n- `*rest`: more.\n\n"
+        "**Raises**\n\n- `ValueError`: if it must."
+    )
+
+
+def test_signatures_have_names_and_defaults_but_no_types() -> None:
+    def drive(self: int, worlds: list[int], *, speed: float = 2.0) -> None: ...
+
+    assert reference.signature("drive", drive) == "drive(worlds, *, speed=2.0)"
+    assert reference.signature("Way", Enum("Way", ["LEFT", "RIGHT"])) == "Way: LEFT, RIGHT"
+
+
+def test_methods_are_those_a_class_defines_and_documents() -> None:
+    class Base:
+        def inherited(self) -> None:
+            """From above."""
+
+    class Robot(Base):
+        def go(self) -> None:
+            """Go."""
+
+        @property
+        def place(self) -> int:
+            """Where."""
+            return 0
+
+        @classmethod
+        def new(cls) -> None:
+            """Make one."""
+
+        def bare(self) -> None: ...
+
+        def _hidden(self) -> None:
+            """Hide."""
+
+    assert [name for name, _ in reference.methods(Robot)] == ["go", "place", "new"]
+
+
+@pytest.mark.parametrize("chapter", ["mdp", "robot", "lfd", "nnql", "nirl"])
+def test_everything_public_is_documented(chapter: str) -> None:
+    module = importlib.import_module(f"robonav.{chapter}")
+    public = [getattr(module, name) for name in module.__all__]
+    called = [found for found in public if inspect.isclass(found) or inspect.isroutine(found)]
+    assert [found.__name__ for found in called if not reference.own_docstring(found)] == []
 
 
 MYST = """(here)=

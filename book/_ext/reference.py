@@ -1,0 +1,130 @@
+"""The package's reference, made from its docstrings: ``{reference} robonav.mdp``.
+
+Lists what a subpackage offers (its ``__all__``): constants with their values, then functions and classes with signature
+and docstring, each under a heading of its own. The role ``{name}`` and the index of equations link here.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+import inspect
+import re
+from collections.abc import Iterator
+from enum import Enum, EnumType
+from textwrap import shorten
+from typing import Any
+
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.domains.python import PythonDomain
+from sphinx.util.docutils import SphinxDirective
+
+VALUES = bool | int | float | str | tuple | Enum
+UNDERLINED = re.compile(r"^(?P<title>\w[\w ]*)\n-{3,}$", re.MULTILINE)
+ITEM = re.compile(r"^(?P<names>[*\w][\w*, ]*) : (?P<text>.*(?:\n[ \t]+.*|\n(?=\n[ \t]))*)", re.MULTILINE)
+ROLE = re.compile(r":\w+:`~?([^`]+)`")
+
+
+def markdown(docstring: str) -> str:
+    """A docstring in Markdown: section titles in bold, what they list as a list with names as code."""
+    text = ROLE.sub(r"`\1`", inspect.cleandoc(docstring))
+    text = ITEM.sub(lambda match: f"- {_code(match['names'])}: {_indented(match['text'])}", text)
+    return UNDERLINED.sub(r"**\g<title>**\n", text)
+
+
+def _code(names: str) -> str:
+    return ", ".join(f"`{name.strip()}`" for name in names.split(","))
+
+
+def _indented(text: str) -> str:
+    first, *rest = text.splitlines()
+    return "\n".join([first, *("  " + line.strip() for line in rest)])
+
+
+def signature(name: str, found: Any) -> str:
+    """How to call something: names and defaults, without types, which the docstring tells in words."""
+    if isinstance(found, EnumType):
+        return f"{name}: {', '.join(found.__members__)}"
+    try:
+        called = inspect.signature(found)
+    except (TypeError, ValueError):
+        return name
+    bare = [
+        parameter.replace(annotation=inspect.Parameter.empty)
+        for parameter in called.parameters.values()
+        if parameter.name != "self"
+    ]
+    return f"{name}{called.replace(parameters=bare, return_annotation=inspect.Signature.empty)}"
+
+
+def methods(found: Any) -> Iterator[tuple[str, Any]]:
+    """The public methods and properties that a class defines itself, in the order of its source."""
+    for name, member in vars(found).items():
+        function = member.fget if isinstance(member, property) else getattr(member, "__func__", member)
+        if not name.startswith("_") and inspect.isfunction(function) and function.__doc__:
+            yield name, member
+
+
+def own_docstring(found: Any) -> str:
+    """The docstring, unless it is what ``dataclass`` or another class put there."""
+    written = found.__doc__ or ""
+    generated = dataclasses.is_dataclass(found) and written.startswith(f"{getattr(found, '__name__', '')}(")
+    return "" if generated else written
+
+
+class Reference(SphinxDirective):
+    """The directive ``{reference}``."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        module = importlib.import_module(self.arguments[0])
+        named = [(name, getattr(module, name)) for name in module.__all__]
+        callables = [(name, found) for name, found in named if inspect.isclass(found) or inspect.isroutine(found)]
+        constants = [(name, found) for name, found in named if isinstance(found, VALUES)]
+        made: list[nodes.Node] = self.constants(constants) if constants else []
+        return made + [self.entry(f"{module.__name__}.{name}", name, found) for name, found in callables]
+
+    def constants(self, named: list[tuple[str, Any]]) -> list[nodes.Node]:
+        """The constants and their values, long ones cut; type aliases and tables are for the eyes of the code alone."""
+        lines = [f"- `{name} = {shorten(repr(found), 80)}`" for name, found in named]
+        return self.parse_text_to_nodes("\n".join(lines))
+
+    def entry(self, path: str, name: str, found: Any) -> nodes.section:
+        """One function or class: heading, signature, docstring, methods."""
+        section = nodes.section(ids=[path], names=[path])
+        section += nodes.title("", "", nodes.literal("", name))
+        kind = "class" if inspect.isclass(found) else "function"
+        self.note(path, kind, path, f"{found.__module__}.{found.__qualname__}")
+        section += self.code(signature(name, found))
+        section += self.parse_text_to_nodes(markdown(own_docstring(found)))
+        for method, member in methods(found) if kind == "class" else ():
+            section += self.method(path, name, method, member)
+        return section
+
+    def method(self, path: str, owner: str, name: str, member: Any) -> nodes.Node:
+        """One method of a class, set apart below it."""
+        function = member.fget if isinstance(member, property) else getattr(member, "__func__", member)
+        block = nodes.container(ids=[f"{path}.{name}"], classes=["reference-method"])
+        self.note(f"{path}.{name}", "method", f"{path}.{name}", f"{function.__module__}.{function.__qualname__}")
+        shown = f"{owner}.{name}"
+        block += self.code(shown if isinstance(member, property) else signature(shown, function))
+        block += self.parse_text_to_nodes(markdown(function.__doc__ or ""))
+        return block
+
+    def code(self, text: str) -> nodes.literal_block:
+        return nodes.literal_block(text, text, language="python", classes=["reference-signature"])
+
+    def note(self, path: str, kind: str, anchor: str, definition: str) -> None:
+        """Make the name known to links, under its public path and the one of its definition."""
+        domain = self.env.get_domain("py")
+        assert isinstance(domain, PythonDomain)
+        domain.note_object(path, kind, anchor, location=self.get_location())
+        if definition not in domain.objects:
+            domain.note_object(definition, kind, anchor, aliased=True, location=self.get_location())
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.add_directive("reference", Reference)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
