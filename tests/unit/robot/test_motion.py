@@ -158,6 +158,16 @@ def test_moving_obstacles_never_leave_and_go_at_their_speed():
     assert (steps.max(axis=1)[:, 3:] > 0.3).all()
 
 
+def test_moving_obstacles_keep_a_heading_until_they_draw_another():
+    worlds = random_worlds(40, obstacles=0, moving=10, seed=14)
+    moves = np.diff(obstacle_tracks(worlds, 200), axis=1)
+    headings = np.arctan2(moves[..., 1], moves[..., 0])
+    turned = np.abs(np.exp(1j * np.diff(headings, axis=1)) - 1) > 1e-6
+    assert 0.09 < turned.mean() < 0.14  # a tenth draw a new heading, and some bounce
+    kept = np.abs(np.exp(1j * (headings[:, -1] - headings[:, 0])) - 1) < 1e-6
+    assert kept.mean() < 0.02
+
+
 def test_the_simulator_moves_obstacles_as_their_tracks_say_and_resets_them():
     worlds = random_worlds(5, obstacles=2, moving=4, seed=10)
     tracks = obstacle_tracks(worlds, 30)
