@@ -16,7 +16,7 @@ LAB_OPTIONS ?=
 BIN := .venv/bin
 INSTALLED := .venv/.installed
 TORCH := $(shell grep '^torch==' requirements.lock)
-EXTRAS := book,lab,grading,tests,benchmarks
+EXTRAS := book,lab,grading,cluster,tests,benchmarks
 
 .PHONY: help book test lab lock clean
 help:
