@@ -20,6 +20,7 @@ from robonav.files import whole
 from robonav.grading.check import Here, graded
 from robonav.grading.course import Course, Exercise
 from robonav.grading.reference import Recorder, solution
+from robonav.grading.worker import STUB
 
 SOLUTION = re.compile(r"^( *)### BEGIN SOLUTION\n.*?^ *### END SOLUTION\n", re.MULTILINE | re.DOTALL)
 LONG_AGO = (2015, 1, 1, 0, 0, 0)  # the date of every file in a zip, so that the same content makes the same zip
@@ -32,7 +33,7 @@ def stub(source: str, name: str) -> str:
     ------
     ValueError : if the source of ``name`` has no solution between ``### BEGIN SOLUTION`` and ``### END SOLUTION``.
     """
-    cut, found = SOLUTION.subn(rf'\1raise NotImplementedError("{name} is yours to write")\n', source)
+    cut, found = SOLUTION.subn(rf"\1{STUB.format(name=name)}\n", source)
     if not found or "### " in cut:
         raise ValueError(f"{name} must have its solution between ### BEGIN SOLUTION and ### END SOLUTION")
     return cut

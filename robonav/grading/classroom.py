@@ -109,10 +109,9 @@ def grade_class(
     for name in set(again) - set(submissions):
         raise ValueError(f"no submission of {name} in {folder}")
     with _alone(out):
-        key, handed_out = marking.key(), marking.course.handed_out()
-        tasks = []
+        key, tasks = marking.key(), []
         for name, path in submissions.items():
-            taken = submission.taken(path, handed_out)
+            taken = submission.taken(path)
             entry = {"student": name, "submission": _digest(taken), "marking": key}
             old = _written(out, entry)
             chosen = name in again if again else bool(ids)

@@ -83,10 +83,6 @@ class Course:
             raise ValueError("every exercise in the manifest must have an id and a name of its own")
         return found
 
-    def handed_out(self) -> set[bytes]:
-        """The stubs as students got them."""
-        return {path.read_bytes() for path in self.stubs.glob("ch*/*.py")}
-
     def chapters(self) -> Iterator[tuple[str, list[Exercise]]]:
         """Each chapter with its exercises."""
         for chapter in sorted({exercise.chapter for exercise in self.exercises.values()}):

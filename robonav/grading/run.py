@@ -29,7 +29,7 @@ class Run:
         try:
             self.course = Course.around(*paths)
             self.only = {self.course.named(key).id for key in config.getoption("exercise")}
-            taken = submission.taken(Path(config.getoption("submission")), self.course.handed_out())
+            taken = submission.taken(config.getoption("submission"))
             secret = secret_from(config.getoption("secret"))
         except ValueError as error:
             raise pytest.UsageError(str(error)) from None

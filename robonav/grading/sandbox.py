@@ -135,7 +135,7 @@ def start(tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str 
         worker = {"official": _official, "restricted": _restricted, "practice": _practice}[tier](
             python or PYTHON, limits
         )
-    except OSError as error:
+    except (OSError, subprocess.SubprocessError) as error:
         raise SandboxFault(f"the {tier} sandbox cannot be started: {error}") from error
     contents = {name: np.frombuffer(content, np.uint8) for name, content in files.items()}
     resources = limits.resources() if worker.forks else {}

@@ -11,7 +11,7 @@ import os
 import stat
 import zipfile
 import zlib
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
@@ -37,10 +37,6 @@ class Submission:
         for name, content in sorted(self.files.items()):
             digest.update(f"{len(name)} {name} {len(content)} ".encode() + content)
         return digest.hexdigest()
-
-    def without(self, untouched: Collection[bytes]) -> Submission:
-        """The same without files that are as they were handed out: a stub does not hide a notebook's answer."""
-        return Submission({name: content for name, content in self.files.items() if _unix(content) not in untouched})
 
 
 def read(path: str | Path) -> Submission:
@@ -71,16 +67,12 @@ def read(path: str | Path) -> Submission:
     return Submission(files)
 
 
-def taken(path: str | Path, handed_out: Collection[bytes]) -> Submission | Refused:
-    """The submission at ``path`` without untouched stubs, or why it is refused."""
+def taken(path: str | Path) -> Submission | Refused:
+    """The submission at ``path``, or why it is refused."""
     try:
-        return read(path).without(handed_out)
+        return read(path)
     except Refused as refused:
         return refused
-
-
-def _unix(content: bytes) -> bytes:
-    return content.replace(b"\r\n", b"\n")
 
 
 def _only_zip(folder: Path) -> Path | None:

@@ -21,6 +21,7 @@ from typing import Any, BinaryIO
 
 from robonav.grading import confine, frames, notebook
 
+STUB = 'raise NotImplementedError("{name} is yours to write")'  # what stands in a file before the student writes it
 ALLOWED = {"numpy", *sys.stdlib_module_names}
 MOST_TEXT = 2_000  # characters of an error message
 
@@ -75,6 +76,7 @@ def _unpacked(home: Path, files: Mapping[str, bytes]) -> Path:
         for name in folders:
             _tried(os.rmdir, os.path.join(place, name))
     folder = home / os.urandom(8).hex()
+    folder.mkdir()
     for name, content in files.items():
         _tried((folder / name).parent.mkdir, parents=True, exist_ok=True)
         _tried((folder / name).write_bytes, content)
@@ -136,9 +138,10 @@ def _answer(request: dict[str, Any], functions: dict[str, Any]) -> dict[str, Any
 def _load(folder: Path, chapter: str, name: str) -> Any:
     """The function ``name`` of ``chapter/name.py``, of ``name.py`` elsewhere, or else of a notebook that has it."""
     files = [path for path in sorted(folder.rglob("*.py")) if path.stem == name]
-    if files:
-        path = min(files, key=lambda path: (path.parent.name != chapter, len(path.parts)))
-        return _function(_run(name, path, path.read_bytes()), name)
+    files.sort(key=lambda path: (path.parent.name != chapter, len(path.parts)))
+    for path in files:
+        if STUB.format(name=name).encode() not in (source := path.read_bytes()):
+            return _function(_run(name, path, source), name)
     unreadable = None
     for path in sorted(folder.rglob("*.ipynb")):
         try:

@@ -1,0 +1,160 @@
+"""One source: what students and nbgrader get, and the commands that make it and check by it."""
+
+import ast
+import json
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from robonav.grading import build
+from robonav.grading.course import Course
+from robonav.grading.notebook import definitions
+
+COURSE = Course.around(Path(__file__).parent)
+ROBONAV = str(Path(sys.executable).with_name("robonav"))
+SOURCE = '''"""Add one."""
+
+
+def add(x: int) -> int:
+    """The next number."""
+    ### BEGIN SOLUTION
+    return x + 1
+    ### END SOLUTION
+'''
+
+
+def test_a_stub_has_everything_but_the_solution():
+    stub = build.stub(SOURCE, "add")
+    assert "x + 1" not in stub
+    assert stub.startswith(SOURCE.partition("    ### BEGIN")[0])
+    with pytest.raises(NotImplementedError, match="add is yours to write"):
+        exec(stub + "add(1)", {})
+
+
+@pytest.mark.parametrize(
+    "source", ["def add(x): pass", SOURCE.replace("    ### END SOLUTION\n", ""), SOURCE + "### END SOLUTION\n"]
+)
+def test_a_source_without_marks_is_named(source):
+    with pytest.raises(ValueError, match="add must have its solution between"):
+        build.stub(source, "add")
+
+
+def test_what_is_in_the_repository_is_up_to_date():
+    assert build.outdated(COURSE) == []
+
+
+@pytest.mark.parametrize("exercise", COURSE.exercises.values(), ids=lambda exercise: exercise.name)
+def test_every_stub_has_a_signature_with_types_and_says_its_shapes(exercise):
+    text = (COURSE.stubs / exercise.file).read_text()
+    (function,) = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)]
+    assert function.name == exercise.name
+    assert function.returns is not None
+    assert all(argument.annotation for argument in function.args.args)
+    said = ast.get_docstring(function)
+    assert "Parameters" in said
+    assert "Returns" in said
+    assert all(f"{argument.arg}" in said for argument in function.args.args)
+    assert len(ast.get_docstring(ast.parse(text))) > 150
+    assert "SOLUTION" not in text
+
+
+def test_the_manifest_has_six_exercises_a_chapter_of_every_kind():
+    for chapter, exercises in COURSE.chapters():
+        assert len(exercises) >= 6, chapter
+        assert {exercise.difficulty for exercise in exercises} == {"warm-up", "exercise", "project"}
+
+
+@pytest.mark.parametrize("chapter", [chapter for chapter, _ in COURSE.chapters()])
+def test_notebooks_are_valid_and_carry_what_nbgrader_reads(chapter):
+    handed_out = nbformat.read(COURSE.stubs / f"{chapter}.ipynb", as_version=4)
+    source = nbformat.read(COURSE.solutions / f"nbgrader/source/{chapter}/{chapter}.ipynb", as_version=4)
+    for notebook in (handed_out, source):
+        nbformat.validate(notebook)
+        graded = [cell.metadata.nbgrader for cell in notebook.cells if cell.cell_type == "code"]
+        assert len({meta.grade_id for meta in graded}) == len(graded)
+        points = sum(meta.points for meta in graded if meta.grade)
+        assert points == sum(e.points for e in COURSE.exercises.values() if e.chapter == chapter)
+        assert all(meta.solution != meta.grade and meta.schema_version == 3 for meta in graded)
+    assert "BEGIN SOLUTION" not in json.dumps(handed_out)
+    assert json.dumps(source).count("BEGIN SOLUTION") == len(source.cells) // 3
+    taken = definitions((COURSE.stubs / f"{chapter}.ipynb").read_bytes())
+    names = {node.name for node in taken.body if isinstance(node, ast.FunctionDef)}
+    assert names == {e.name for e in COURSE.exercises.values() if e.chapter == chapter}
+
+
+def test_building_writes_what_differs_and_removes_what_has_no_source(tmp_path):
+    for folder in ("solutions", "tests/exercises", "exercises"):
+        subprocess.run(["cp", "-r", "--parents", folder, tmp_path], cwd=COURSE.root, check=True)
+    (tmp_path / "exercises/ch2/improve.py").write_text("spoiled")
+    (tmp_path / "exercises/ch2/old.py").write_text("")
+    (tmp_path / "exercises/ch2.ipynb").unlink()
+    stale = ["exercises/ch2.ipynb", "exercises/ch2/improve.py", "exercises/ch2/old.py"]
+    check = subprocess.run([ROBONAV, "exercises", "build", "--check"], cwd=tmp_path, capture_output=True, text=True)
+    assert check.returncode == 1
+    assert [line for line in check.stdout.splitlines() if "out of date" in line] == [
+        f"out of date: {name}" for name in stale
+    ]
+    assert build.build(Course(tmp_path)) == stale
+    assert build.outdated(Course(tmp_path)) == []
+    assert not (tmp_path / "exercises/ch2/old.py").exists()
+
+
+def test_a_student_with_the_zip_alone_checks_an_answer(tmp_path):
+    build.students_zip(COURSE, tmp_path / "students.zip")
+    build.students_zip(COURSE, tmp_path / "again.zip")
+    assert (tmp_path / "students.zip").read_bytes() == (tmp_path / "again.zip").read_bytes()
+    with zipfile.ZipFile(tmp_path / "students.zip") as archive:
+        assert not [name for name in archive.namelist() if "solution" in name]
+        assert not [name for name in archive.namelist() if b"### BEGIN" in archive.read(name)]
+        archive.extractall(tmp_path)
+    home = tmp_path / "robonav-exercises"
+
+    def check(*arguments):
+        done = subprocess.run([ROBONAV, "check", *arguments], cwd=home, capture_output=True, text=True, timeout=120)
+        return done.returncode, done.stdout + done.stderr
+
+    code, said = check("2.2")
+    assert (code, "Not begun yet: write improve in exercises/ch2/improve.py" in said) == (1, True)
+    answer = (COURSE.solutions / "ch2/improve.py").read_text()
+    (home / "exercises/ch2/improve.py").write_text(answer.replace("> tolerance", "> 0"))
+    code, said = check("2.2")
+    assert code == 1
+    assert "3 of 4 points" in said
+    assert "A gain no larger than the tolerance is not worth a change" in said
+    (home / "exercises/ch2/improve.py").write_text(answer)
+    code, said = check("improve")
+    assert code == 0, said
+    assert "4 of 4 points" in said
+    assert "Well done" in said
+
+
+def test_a_cell_of_the_notebook_checks_an_answer(capsys):
+    from robonav.grading.check import check
+    from robonav.grading.reference import solution
+
+    assert check("2.2", solution(COURSE, COURSE.named("2.2"))) == 4
+    assert check("improve", lambda q, policy, tolerance: q.argmax(axis=1)) == 1
+    said = capsys.readouterr().out
+    assert "✓ 1/1 Takes the best action where it is clearly better." in said
+    assert "Hint: This takes a best action always." in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["check", "9.9"], "no exercise '9.9'"),
+        (["grade", "/nowhere", "--out", "/tmp/never", "--practice"], "must be a folder of submissions"),
+        (["grade", ".", "--out", "/tmp/never", "--secret", "/nowhere"], "the secret cannot be read"),
+        (["check", "--submission", "/nowhere"], "must be a folder, a zip"),
+    ],
+)
+def test_a_wrong_input_is_one_line_and_code_2(arguments, sentence):
+    done = subprocess.run([ROBONAV, *arguments], capture_output=True, text=True, cwd=COURSE.root)
+    assert done.returncode == 2
+    assert sentence in done.stderr
+    assert "Traceback" not in done.stderr
+    assert done.stderr.strip().splitlines()[-1].startswith("robonav: ")

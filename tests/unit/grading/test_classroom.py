@@ -1,0 +1,228 @@
+"""A class: what is graded stays, what is written can be read, and a cut run loses nothing."""
+
+import csv
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from robonav.grading import classroom, probe
+from robonav.grading.classroom import Marking, grade_class, mark, students
+from robonav.grading.course import Course
+from robonav.grading.submission import Submission
+
+COURSE = Course.around(Path(__file__).parent)
+OFFICIAL = Marking(COURSE, "official")
+HERE = Marking(COURSE, "practice")
+PASSES = (COURSE.solutions / "ch2/improve.py").read_text()
+NAMES = ["anna", "=1+1", "<b>bo</b>", "carl", "döra", "eve"]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Six students: full points in 2.2, a name that is a formula, one that is markup, an attack, a zip, nothing."""
+    place = tmp_path / "class"
+    place.mkdir()
+    for name, text in {"anna": PASSES, "=1+1": PASSES.replace(">", "<"), "carl": "import os\nos._exit(0)"}.items():
+        (place / name / "ch2").mkdir(parents=True)
+        (place / name / "ch2/improve.py").write_text(text)
+    (place / "<b>bo<").mkdir()
+    (place / "<b>bo<" / "b>").mkdir()
+    (place / "eve").mkdir()
+    with zipfile.ZipFile(place / "döra.zip", "w") as archive:
+        archive.writestr("ch2/improve.py", PASSES)
+    (place / "<b>bo<" / "improve.py").write_text("def improve(*a): raise ValueError('<script>alert(1)</script>')")
+    (place / ".DS_Store").write_text("")
+    (place / "readme.txt").write_text("")
+    return place
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """Marking without a sandbox: one point for each file, and a log of who was marked."""
+    marked = []
+
+    def count(marking, taken, ids=()):
+        marked.append((len(taken.files), tuple(ids)))
+        exercises = [exercise for exercise in COURSE.exercises.values() if not ids or exercise.id in ids]
+        entries = [
+            {
+                "id": e.id,
+                "points": len(taken.files),
+                "max_points": e.points,
+                "state": "partial",
+                "feedback": str(len(marked)),
+            }
+            for e in exercises
+        ]
+        return {"points": 0, "max_points": 44, "tier": marking.tier, "exercises": entries}
+
+    monkeypatch.setattr(classroom, "mark", count)
+    return marked
+
+
+def records(out):
+    return {path.parent.name: json.loads(path.read_text()) for path in out.glob("students/*/grade.json")}
+
+
+def test_a_class_is_graded_and_written_down_for_everyone(folder, tmp_path):
+    if fault := probe.fault("official"):
+        pytest.skip(fault)
+    out, seen = tmp_path / "out", []
+    grade_class(OFFICIAL, folder, out, jobs=2, progress=lambda done, total: seen.append((done, total)))
+    assert seen == [(n, 6) for n in range(1, 7)]
+    graded = records(out)
+    assert {name: record["points"] for name, record in graded.items()} == {
+        "anna": 4, "=1+1": 0, "<b>bo<": 0, "carl": 0, "döra": 4, "eve": 0,
+    }  # fmt: skip
+    states = {name: record["exercises"][1]["state"] for name, record in graded.items()}
+    assert (states["carl"], states["<b>bo<"], states["eve"]) == ("error", "error", "missing")
+
+    with (out / "gradebook.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["student"] for row in rows] == ["<b>bo<", "'=1+1", "anna", "carl", "döra", "eve"]
+    assert [row["points"] for row in rows] == ["0", "0", "4", "0", "4", "0"]
+    assert rows[2]["2.2"] == "4"
+
+    overview = (out / "index.html").read_text()
+    assert "<b>bo" not in overview
+    assert "&lt;b&gt;bo" in overview
+    assert "students/anna/feedback.html" in overview
+    assert "students/%3D1%2B1/feedback.html" in overview
+    feedback = (out / "students" / "<b>bo<" / "feedback.html").read_text()
+    assert "<script>" not in feedback
+    assert "&lt;script&gt;" in feedback
+
+    results = json.loads((out / "students/anna/results.json").read_text())
+    assert results["score"] == 4
+    assert sum(test["score"] for test in results["tests"]) == 4
+    assert sum(test["max_score"] for test in results["tests"]) == graded["anna"]["max_points"]
+    suite = ElementTree.parse(out / "students/anna/junit.xml").getroot()
+    assert suite.get("failures") == str(len(COURSE.exercises) - 1)
+    assert len(suite.findall("testcase/failure")) == len(COURSE.exercises) - 1
+
+
+def test_what_is_graded_stays_and_what_changed_is_graded_again(folder, tmp_path, quick):
+    out = tmp_path / "out"
+    grade_class(HERE, folder, out, jobs=1)
+    assert len(quick) == 6
+    grade_class(HERE, folder, out, jobs=1)
+    assert len(quick) == 6
+    (folder / "eve/improve.py").write_text("")
+    (out / "students/anna/grade.json").write_text("{")
+    shutil.rmtree(out / "students/carl")
+    grade_class(HERE, folder, out, jobs=1)
+    assert len(quick) == 9
+    grade_class(Marking(COURSE, "practice", b"another secret"), folder, out, jobs=1)
+    assert len(quick) == 15
+
+
+def test_a_fault_of_the_grader_is_graded_again(folder, tmp_path, quick, monkeypatch):
+    out, honest = tmp_path / "out", classroom.mark
+
+    def fails_for_anna(marking, taken, ids=()):
+        grade = honest(marking, taken, ids)
+        if PASSES.encode() in taken.files.values():
+            grade["exercises"][0] |= {"points": None, "state": "grader-fault"}
+        return grade
+
+    monkeypatch.setattr(classroom, "mark", fails_for_anna)
+    grade_class(HERE, folder, out, jobs=1)
+    assert "2.1" in (out / "gradebook.csv").read_text().splitlines()[3]
+    assert "To be graded again" in (out / "students/anna/feedback.html").read_text()
+    assert "2.1" in json.loads((out / "students/anna/results.json").read_text())["output"]
+    assert ElementTree.parse(out / "students/anna/junit.xml").getroot().get("errors") == "1"
+    monkeypatch.setattr(classroom, "mark", honest)
+    grade_class(HERE, folder, out, jobs=1)
+    assert len(quick) == 6 + 2
+
+
+def test_one_student_or_one_exercise_again(folder, tmp_path, quick):
+    out = tmp_path / "out"
+    grade_class(HERE, folder, out, jobs=1)
+    before = records(out)
+    grade_class(HERE, folder, out, jobs=1, again=["carl"])
+    assert len(quick) == 7
+    grade_class(HERE, folder, out, jobs=1, ids=["2.3"])
+    assert len(quick) == 13
+    assert {ids for _, ids in quick[7:]} == {("2.3",)}
+    after = records(out)
+    for name, record in after.items():
+        changed = [
+            new["id"] for new, old in zip(record["exercises"], before[name]["exercises"], strict=True) if new != old
+        ]
+        assert changed == (list(COURSE.exercises) if name == "carl" else ["2.3"])
+    grade_class(HERE, folder, out, jobs=1, again=["anna"], ids=["2.1"])
+    assert quick[13:] == [(1, ("2.1",))]
+
+
+def test_a_class_must_be_one(tmp_path):
+    with pytest.raises(ValueError, match="must be a folder"):
+        students(tmp_path / "nowhere")
+    with pytest.raises(ValueError, match="no folder, zip or notebook"):
+        students(tmp_path)
+    (tmp_path / "anna").mkdir()
+    (tmp_path / "anna.zip").write_text("")
+    with pytest.raises(ValueError, match="both submissions of anna"):
+        students(tmp_path)
+
+
+def test_an_unknown_student_is_named(folder, tmp_path):
+    with pytest.raises(ValueError, match="no submission of zoe"):
+        grade_class(HERE, folder, tmp_path / "out", again=["zoe"])
+
+
+def test_two_runs_do_not_meet(folder, tmp_path):
+    with classroom._alone(tmp_path / "out"), pytest.raises(ValueError, match="another run"):
+        grade_class(HERE, folder, tmp_path / "out")
+
+
+def test_an_exception_in_the_grader_is_a_fault_not_a_crash(monkeypatch):
+    def broken(*args, **options):
+        raise OSError("no space left")
+
+    monkeypatch.setattr(classroom, "graded", broken)
+    grade = mark(HERE, Submission({}))
+    assert {entry["state"] for entry in grade["exercises"]} == {"grader-fault"}
+    assert {entry["points"] for entry in grade["exercises"]} == {None}
+
+
+def written(out):
+    return {str(path.relative_to(out)): path.read_bytes() for path in out.rglob("*") if path.is_file()}
+
+
+def test_a_run_killed_twenty_times_ends_as_one_that_was_not(folder, tmp_path):
+    """SIGKILL at random moments; no grade changes once it is there, and the end is byte for byte the same."""
+    if fault := probe.fault("official"):
+        pytest.skip(fault)
+    command = [str(Path(sys.executable).with_name("robonav")), "grade", str(folder), "--jobs", "2", "--out"]
+    whole, cut = tmp_path / "whole", tmp_path / "cut"
+    begin = time.monotonic()
+    subprocess.run([*command, str(whole)], check=True, capture_output=True, timeout=120)
+    usual, moments = time.monotonic() - begin, random.Random(1)
+    seen, finished = {}, 0
+    for kill in range(20):
+        process = subprocess.Popen([*command, str(cut)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            process.wait(moments.uniform(0.2, 0.8) * usual)
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        graded = {path: path.stat().st_mtime_ns for path in cut.glob("students/*/grade.json")}
+        assert all(graded.get(path) == time_ns for path, time_ns in seen.items()), f"graded again after kill {kill}"
+        seen = graded
+        if process.returncode == 0 and (finished := finished + 1) < 4:  # start over while there are kills left
+            shutil.rmtree(cut)
+            seen = {}
+    subprocess.run([*command, str(cut)], check=True, capture_output=True, timeout=120)
+    assert written(cut) == written(whole)
+    assert not [name for name in os.listdir(cut / "students") if name.startswith(".")]

@@ -1,0 +1,83 @@
+"""Comparing answers: what counts as the same, and what is said where it is not."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from robonav.grading.compare import call, difference
+
+FLOATS = hnp.arrays(
+    float, hnp.array_shapes(max_dims=3), elements=st.floats(-(2.0**20), 2.0**20, width=32, allow_subnormal=False)
+)
+
+
+@given(FLOATS)
+def test_the_same_numbers_in_any_dress_agree(array):
+    for dress in (array, array.tolist(), array.astype(np.float32), [*array], np.asfortranarray(array)):
+        assert difference(dress, array) is None
+
+
+@given(FLOATS, st.data())
+def test_a_changed_number_is_found_where_it_is(array, data):
+    place = tuple(data.draw(st.integers(0, n - 1)) for n in array.shape)
+    changed = array.copy()
+    changed[place] += 1 + np.abs(array).max() / 100
+    assert str(list(place)) in difference(changed, array)
+
+
+@pytest.mark.parametrize(
+    ("got", "expected", "says"),
+    [
+        (None, np.zeros(3), "expected an array of shape (3,), got None"),
+        ([1, 2], np.zeros(3), "expected an array of shape (3,), got an array of shape (2,)"),
+        ([[1], [1, 2]], np.zeros(3), "got a list of 2"),
+        (["1", "2", "3"], np.zeros(3), "got a list of 3"),
+        (np.zeros((3, 1)), np.zeros(3), "got an array of shape (3, 1)"),
+        ([0, float("nan"), 0], np.zeros(3), "at [1] expected 0, got nan"),
+        ([0, 1.5, 0], np.zeros(3, int), "at [1] expected 0, got 1.5"),
+        (2, np.array([True]), "expected an array of shape (1,), got a whole number"),
+        ([2], np.array([True]), "at [0] expected True, got 2"),
+        (1.0, 2.0, "expected 2, got 1"),
+        ((1, 2), (1, 2, 3), "expected 3 parts, got 2 parts"),
+        ((np.zeros(2), 1), (np.zeros(2), 2), "in part 1 of the answer, expected 2, got 1"),
+        (np.zeros(2), {"a": 1}, "expected a dict of 1, got an array of shape (2,)"),
+        ({"a": 2}, {"a": 1}, "in ['a'] of the answer, expected 1, got 2"),
+        ("no", "yes", "expected a string, got a string"),
+        (1, None, "expected None, got a whole number"),
+        ([1e308, -1e308], np.array([-1e308, 1e308]), "at [0] expected -1e+308, got 1e+308"),
+        ([2**64 - 1], np.array([-1]), "at [0] expected -1, got 18446744073709551615"),
+    ],
+)
+def test_a_difference_is_a_sentence(got, expected, says):
+    assert says in difference(got, expected)
+
+
+@pytest.mark.parametrize(
+    ("got", "expected"),
+    [
+        ([1.0, 2.0], np.array([1, 2])),
+        ([1, 0], np.array([True, False])),
+        (np.array([[1, 2], [3, 4]]), (np.array([1, 2]), np.array([3, 4]))),
+        ([0.1 + 0.2], np.array([0.3])),
+        (np.array(5), 5),
+        ([np.inf, -np.inf], np.array([np.inf, -np.inf])),
+        ([1e6, 1e-3], np.array([1e6, 0.0])),
+    ],
+)
+def test_these_agree(got, expected):
+    assert difference(got, expected) is None
+
+
+def test_a_small_number_among_small_ones_counts():
+    assert difference([2e-9], np.array([1e-9])) is not None
+
+
+def test_a_call_shows_small_arguments_or_only_their_kinds():
+    arguments = (np.array([1.5, 2.0]), 0.25, [1, 2], np.zeros(1000), {"key": "word"})
+    assert call("f", arguments, numbers=True).startswith("f([1.5, 2. ], 0.25, [1, 2], an array of shape (1000,), {")
+    hidden = call("f", arguments, numbers=False)
+    assert (
+        hidden == "f(an array of shape (2,), a number, an array of shape (2,), an array of shape (1000,), a dict of 1)"
+    )

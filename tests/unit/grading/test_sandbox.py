@@ -1,0 +1,216 @@
+"""The sandbox's own promises, tier by tier; attacks on it are in test_attacks."""
+
+import os
+import struct
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from robonav.grading import confine, probe, sandbox
+from robonav.grading.sandbox import Limits, SandboxFault, TimedOut
+
+ECHO = {"ch2/echo.py": b"def echo(*values): return values"}
+LOAD = {"id": 1, "do": "load", "chapter": "ch2", "name": "echo"}
+
+
+def probed():
+    """Tiers that can run here, the official one always, with an interpreter that each can read."""
+    yield "official", None
+    yield "practice", None
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        yield from [
+            ("restricted", python) for python in (None, "/usr/bin/python3") if not probe.fault("restricted", python)
+        ][:1]
+
+
+@pytest.fixture(params=list(probed()), ids=lambda param: param[0])
+def start(request):
+    tier, python = request.param
+    if fault := probe.fault(tier, python):
+        pytest.skip(fault)
+    workers = []
+
+    def starter(files=ECHO, limits=None):
+        workers.append(sandbox.start(tier, files, limits or Limits(), python=python))
+        return workers[-1]
+
+    yield starter
+    for worker in workers:
+        worker.kill()
+
+
+def loaded(worker, source=None):
+    assert worker.ask(LOAD, 30) == {"id": 1, "value": None}
+    return worker
+
+
+def ask(worker, *arguments, seconds=30.0):
+    return worker.ask({"id": 2, "do": "call", "args": list(arguments)}, seconds)
+
+
+def test_values_cross_unchanged(start):
+    worker = loaded(start())
+    reply = ask(worker, 1, [2.5, "three"], np.arange(4, dtype=np.int16), {"five": (None, True)})
+    one, two, array, five = reply["value"]
+    assert (one, two, five) == (1, [2.5, "three"], {"five": (None, True)})
+    assert array.dtype == np.int16
+
+
+def test_every_exercise_has_a_process_of_its_own(start):
+    source = (
+        b"import os, builtins\nn = getattr(builtins, 'n', 0) + 1\nbuiltins.n = n\ndef echo(): return n, os.getpid()"
+    )
+    worker = start({"ch2/echo.py": source})
+    seen = []
+    for _ in range(3):
+        seen.append(ask(loaded(worker))["value"])
+        assert worker.ask({"do": "end"}, 30) == {"ended": 0}
+    assert [n for n, _ in seen] == [1, 1, 1]
+
+
+def test_a_deadline_ends_everything_at_once(start):
+    worker = loaded(start({"ch2/echo.py": b"def echo():\n    while True: pass"}))
+    begin = time.monotonic()
+    with pytest.raises(TimedOut):
+        ask(worker, seconds=0.3)
+    assert time.monotonic() - begin < 5
+    assert worker._process.poll() is not None
+
+
+def test_memory_files_and_their_number_are_limited(start):
+    source = b"""
+def echo(what):
+    if what == "memory":
+        return len(bytearray(900 << 20))
+    if what == "size":
+        with open("large", "wb") as file:
+            for _ in range(32): file.write(b"x" * (1 << 20)); file.flush()
+    if what == "number":
+        files = [open(f"file{n}", "w") for n in range(200)]
+"""
+    limits = Limits(memory=600 << 20)
+    worker = loaded(start({"ch2/echo.py": source}, limits))
+    assert ask(worker, "memory")["raised"]["kind"] == "MemoryError"
+    assert ask(worker, "number")["raised"]["kind"] == "OSError"
+    assert ask(worker, "size").get("raised", {"kind": "OSError"})["kind"] == "OSError"
+
+
+def test_what_is_printed_goes_nowhere(start):
+    worker = loaded(
+        start(
+            {"ch2/echo.py": b"import os\nprint('x' * 10**6)\ndef echo():\n    os.write(1, b'y' * 10**6)\n    return 1"}
+        )
+    )
+    assert ask(worker) == {"id": 2, "value": 1}
+
+
+def test_one_processor_is_enough_for_numpy(start):
+    source = b"""
+import os, numpy as np
+def echo(): return os.environ["OPENBLAS_NUM_THREADS"], float((np.eye(300) @ np.eye(300)).sum())
+"""
+    assert ask(loaded(start({"ch2/echo.py": source})))["value"] == ("1", 300.0)
+
+
+def test_a_module_out_of_reach_is_named(start):
+    for module, says in (("robonav.mdp", "the exercise asks for your own"), ("scipy", "standard library and numpy")):
+        worker = start({"ch2/echo.py": f"import {module}\ndef echo(): pass".encode()})
+        raised = worker.ask(LOAD, 30)["raised"]
+        assert raised["kind"] == "ModuleNotFoundError"
+        assert says in raised["message"]
+        assert raised["where"] == ["ch2/echo.py", 1]
+
+
+def test_a_submission_may_be_several_files(start):
+    files = {
+        "ch2/echo.py": b"from shared import twice\nimport helpers.more\ndef echo(x): return twice(x) + helpers.more.one"
+    }
+    files |= {
+        "shared.py": b"def twice(x): return 2 * x",
+        "helpers/more.py": b"one = 1",
+        "random.py": b"raise SystemExit",
+    }
+    assert ask(loaded(start(files)), 4)["value"] == 9
+
+
+def test_a_request_that_is_no_frame_is_our_own_fault(start):
+    worker = loaded(start())
+    with pytest.raises(ValueError, match="a value of type object"):
+        ask(worker, object())
+
+
+def test_without_fork_one_process_serves_one_exercise(monkeypatch):
+    """As on macOS and Windows."""
+    monkeypatch.setattr(sandbox.sys, "platform", "darwin")
+    worker = sandbox.start("practice", ECHO, Limits())
+    assert not worker.forks
+    assert ask(loaded(worker), 1)["value"] == (1,)
+    worker.kill()
+
+
+@pytest.mark.parametrize("tier", ["official", "restricted", "practice"])
+def test_an_interpreter_that_is_none_is_a_fault_of_the_sandbox(tier):
+    with pytest.raises(SandboxFault):
+        sandbox.start(tier, ECHO, Limits(), python="/bin/false")
+
+
+def test_the_probe_finds_a_sandbox_that_leaks(monkeypatch):
+    """A practice worker that is passed off as the official tier does what it must not."""
+    monkeypatch.setattr(sandbox, "_official", sandbox._practice)
+    probe.fault.cache_clear()
+    assert "lets out" in probe.fault("official")
+    probe.fault.cache_clear()
+
+
+def test_importing_the_grader_is_light():
+    code = "import sys, robonav.grading.run, robonav.grading.classroom; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert not {"torch", "numba", "matplotlib"} & set(loaded)
+
+
+def run_filter(program, machine, call, first_argument=0):
+    """A small interpreter of classic BPF: what the kernel would do with a system call."""
+    data = {0: call, 4: confine.MACHINES[machine][1], 16: first_argument}
+    steps = [struct.unpack_from("=HBBI", program, at) for at in range(0, len(program), 8)]
+    at = accumulator = 0
+    while True:
+        code, then, otherwise, value = steps[at]
+        match code:
+            case confine.LOAD:
+                accumulator = data[value]
+            case confine.RETURN:
+                return value
+            case _:
+                tests = {confine.EQUAL: accumulator == value, confine.AT_LEAST: accumulator >= value}
+                tests[confine.HAS_BITS] = bool(accumulator & value)
+                at += then if tests[code] else otherwise
+        at += 1
+
+
+@pytest.mark.parametrize("machine", list(confine.MACHINES))
+def test_the_filter_refuses_what_it_lists_and_nothing_else(machine):
+    program, column = confine.filter_program(machine), confine.MACHINES[machine][0]
+    refused = {numbers[column] for numbers in confine.REFUSED.values()} - {None}
+    clone, clone3 = confine.CLONE[column], confine.CLONE3[column]
+    for call in range(460):
+        result = run_filter(program, machine, call)
+        if call in refused | {clone}:
+            assert result == confine.REFUSE | 1, call
+        elif call == clone3:
+            assert result == confine.REFUSE | 38
+        else:
+            assert result == confine.ALLOW, call
+    assert run_filter(program, machine, clone, confine.CLONE_THREAD | 0x3D0F00) == confine.ALLOW
+    if machine == "x86_64":
+        assert run_filter(program, machine, 0x40000000 + 59) == confine.REFUSE | 1
+
+
+def test_another_architecture_is_killed():
+    program = confine.filter_program("x86_64")
+    wrong = {**confine.MACHINES, "x86_64": (0, 0x40000003)}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(confine, "MACHINES", wrong)
+        assert run_filter(program, "x86_64", 0) == confine.KILL

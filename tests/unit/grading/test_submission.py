@@ -1,0 +1,108 @@
+"""What is taken of a submission, and what is refused."""
+
+import os
+import zipfile
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robonav.grading import submission
+from robonav.grading.submission import Refused, Submission, read, taken
+
+
+def zipped(folder, entries, name="work.zip"):
+    with zipfile.ZipFile(folder / name, "w", zipfile.ZIP_DEFLATED) as archive:
+        for entry, content in entries:
+            archive.writestr(entry, content)
+    return folder / name
+
+
+def test_a_folder_gives_its_python_files_and_notebooks_alone(tmp_path):
+    for name in ("ch2/a.py", "ch2.ipynb", "data.csv", ".git/b.py", "__pycache__/c.py", "venv/lib/d.py", ".hidden.py"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(name)
+    assert read(tmp_path).files == {"ch2/a.py": b"ch2/a.py", "ch2.ipynb": b"ch2.ipynb"}
+
+
+def test_a_zip_gives_the_same(tmp_path):
+    path = zipped(tmp_path, [("x/ch2/a.py", "a"), ("x/", ""), ("__MACOSX/x/._a.py", "?"), ("x/data.bin", "d")])
+    assert read(path).files == {"x/ch2/a.py": b"a"}
+
+
+def test_names_and_contents_make_the_digest():
+    digests = {Submission(files).digest for files in ({}, {"a.py": b""}, {"b.py": b""}, {"a.py": b"b"}, {"a.pyb": b""})}
+    assert len(digests) == 5
+    assert Submission({"a.py": b"1", "b.py": b"2"}).digest == Submission({"b.py": b"2", "a.py": b"1"}).digest
+
+
+def test_a_link_to_a_file_is_refused_and_a_linked_folder_is_not_entered(tmp_path):
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "outside/a.py").write_text("secret")
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in/b.py").write_text("mine")
+    (tmp_path / "in/more").symlink_to(tmp_path / "outside")
+    assert set(read(tmp_path / "in").files) == {"b.py"}
+    (tmp_path / "in/c.py").symlink_to(tmp_path / "outside/a.py")
+    with pytest.raises(Refused, match="link"):
+        read(tmp_path / "in")
+    (tmp_path / "whole").symlink_to(tmp_path / "outside")
+    with pytest.raises(Refused, match="link"):
+        read(tmp_path / "whole")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names here")
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "a.py")
+    with pytest.raises(Refused, match="no plain file"):
+        read(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "name", ["../a.py", "/etc/a.py", "x/../../a.py", "C:\\a.py", "C:a.py", "x\\..\\a.py", "a\nb.py"]
+)
+def test_a_zip_that_leaves_its_folder_is_refused(tmp_path, name):
+    entry = zipfile.ZipInfo("placeholder")
+    entry.filename = name
+    with pytest.raises(Refused):
+        read(zipped(tmp_path, [(entry, "x")]))
+
+
+def test_a_link_in_a_zip_is_refused(tmp_path):
+    entry = zipfile.ZipInfo("a.py")
+    entry.external_attr = 0o120777 << 16
+    with pytest.raises(Refused, match="link"):
+        read(zipped(tmp_path, [(entry, "/etc/passwd")]))
+
+
+def test_too_much_is_refused_before_it_is_held(tmp_path):
+    bomb = zipped(tmp_path, [("a.py", b"0" * (200 << 20))])
+    assert bomb.stat().st_size < 1 << 20
+    with pytest.raises(Refused, match="more than"):
+        read(bomb)
+    with pytest.raises(Refused, match="more than"):
+        read(zipped(tmp_path, [(f"{n}.py", "") for n in range(submission.MOST_FILES + 1)], "many.zip"))
+
+
+@pytest.mark.parametrize("content", [b"", b"no zip", b"PK\x03\x04" + b"\0" * 40])
+def test_a_broken_zip_is_refused(tmp_path, content):
+    (tmp_path / "a.zip").write_bytes(content)
+    assert isinstance(taken(tmp_path / "a.zip"), Refused)
+
+
+@given(st.data())
+def test_a_damaged_zip_is_read_or_refused(tmp_path_factory, data):
+    path = zipped(tmp_path_factory.mktemp("zip"), [("ch2/a.py", "x = 1\n" * 50), ("b.ipynb", "{}")])
+    content = bytearray(path.read_bytes())
+    for _ in range(data.draw(st.integers(1, 5))):
+        content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
+    path.write_bytes(content)
+    assert isinstance(taken(path), Submission | Refused)
+
+
+def test_what_is_no_submission_is_named(tmp_path):
+    with pytest.raises(ValueError, match="must be a folder, a zip, a notebook or a Python file"):
+        read(tmp_path / "nothing")
+    (tmp_path / "essay.docx").write_text("")
+    with pytest.raises(ValueError, match=r"essay\.docx"):
+        read(tmp_path / "essay.docx")
