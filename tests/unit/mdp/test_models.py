@@ -4,7 +4,7 @@ import gymnasium as gym
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robonav.mdp import FiniteMDP, expected_rewards, value_iteration
@@ -28,6 +28,7 @@ def brute_backup(transitions, rewards, discount, values):
     return q
 
 
+@settings(deadline=None)
 @given(st.integers(0, 10_000), st.booleans(), st.floats(0, 0.99))
 def test_backup_is_the_equation(seed, sparse, discount):
     dense = random_mdp(seed, discount=discount)
@@ -38,6 +39,7 @@ def test_backup_is_the_equation(seed, sparse, discount):
     assert (mdp.greedy(values) == expected.argmax(axis=1)).all()
 
 
+@settings(deadline=None)
 @given(st.integers(0, 10_000), st.booleans())
 def test_chain_of_a_policy_averages_over_its_actions(seed, sparse):
     mdp = random_mdp(seed, sparse=sparse)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robonav.mdp import greedy_actions, greedy_mixture, policies
@@ -31,6 +31,7 @@ def test_what_is_no_policy_is_refused(policy, error, sentence):
         policies.checked(policy, 2, 3)
 
 
+@settings(deadline=None)
 @given(st.integers(0, 1000))
 def test_greedy_actions_are_those_within_the_tolerance(seed):
     q = np.random.default_rng(seed).normal(size=(5, 4)).round(1)
