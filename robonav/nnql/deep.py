@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 from functools import partial
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from robonav import expect
 
 from .exploration import Span
-from .fitted import torch_logits
 from .learners import Learner, Steps
 from .memory import Memory
 from .networks import Array, Networks, Rows
 from .practice import REPLAYING, Course, chance
 from .training import Common, Training, school
-
-if TYPE_CHECKING:
-    import torch
 
 _MOMENTS = (0.9, 0.999)  # Adam's, as Kingma and Ba (2015) have them
 
@@ -30,7 +27,7 @@ class Replaying(Learner):
 
     Parameters
     ----------
-    networks : of S seeds.
+    networks, target : of S seeds; ``target`` is a copy, which stands still between refreshes.
     seeds : (S,).
     inputs : n.
     gamma : discount.
@@ -42,6 +39,7 @@ class Replaying(Learner):
     def __init__(
         self,
         networks: Networks,
+        target: Networks,
         seeds: tuple[int, ...],
         inputs: int,
         *,
@@ -51,86 +49,88 @@ class Replaying(Learner):
         refresh: int,
     ) -> None:
         super().__init__(networks)
-        import torch
-
-        self.seeds, self.memory = seeds, Memory(len(seeds), inputs)
+        self.target, self.seeds = target, seeds
         self.gamma, self.rate, self.batch, self.refresh = gamma, rate, batch, refresh
-        self.target = [tensor.clone() for tensor in networks.tensors()]
-        self.first, self.second = ([torch.zeros_like(tensor) for tensor in self.target] for _ in range(2))
+        self.memory = Memory(len(seeds), inputs)
+        self.first, self.second = (np.zeros_like(networks.parameters()) for _ in range(2))
+        self.episodes = np.zeros(len(seeds), np.int64)
+        self.draws = [chance(seed, REPLAYING, 0) for seed in seeds]
 
     def values(self, rows: Rows, x: Array) -> Array:
-        return self.networks.logits(rows, x)
+        return self.networks.logits(rows, x[:, None])[:, 0]
 
     def observe(self, rows: Rows, steps: Steps) -> None:
         self.memory.append(rows, steps)
         ready = rows[self.memory.count[rows] >= self.batch]
         if len(ready):
-            self._update(ready)
             updates = self.memory.count[ready] - self.batch + 1
-            for live, target in zip(self.networks.tensors(), self.target, strict=True):
-                due = ready[updates % self.refresh == 0]
-                target[due] = live[due]
+            self._update(ready, updates)
+            due = ready[updates % self.refresh == 0]
+            if len(due):
+                self.target.load(due, self.networks.parameters()[due])
 
-    def _update(self, rows: Rows) -> None:
-        """One step of Adam on a batch of each of ``rows``."""
-        import torch
+    def close(self, rows: Rows, episodes: Rows) -> None:
+        """Draw anew, so that training can go on from here without knowing what was drawn before."""
+        self.episodes[rows] = episodes
+        for row in rows:
+            self.draws[row] = chance(self.seeds[row], REPLAYING, int(self.episodes[row]))
 
-        live = self.networks.tensors()
-        leaves = [tensor[rows].requires_grad_() for tensor in live]
-        x, actions, rewards, reached, terminal = self._draw(rows, live[0].device)
-        with torch.no_grad():
-            best = torch_logits(leaves, reached).argmax(dim=2, keepdim=True)
-            frozen = torch_logits([tensor[rows] for tensor in self.target], reached)
-            goal = rewards + self.gamma * frozen.gather(2, best)[..., 0] * ~terminal
-        q = torch_logits(leaves, x).gather(2, actions[..., None])[..., 0]
-        error = torch.nn.functional.smooth_l1_loss(q, goal, reduction="none").mean(dim=1).sum()
-        slopes = torch.autograd.grad(error, leaves)
-        number = torch.as_tensor(self.memory.count[rows] - self.batch + 1.0, device=live[0].device)
-        for tensor, slope, first, second in zip(live, slopes, self.first, self.second, strict=True):
-            tensor[rows] -= self.rate * _adam(slope, first, second, rows, number)
-
-    def _draw(self, rows: Rows, device: torch.device) -> tuple[torch.Tensor, ...]:
-        """A batch of steps of each of ``rows``: inputs, actions, rewards, inputs reached, terminal; (K, batch, ...)."""
-        import torch
-
-        memory = self.memory
-        counts = [int(count) for count in memory.count[rows]]
-        drawn = [
-            chance(self.seeds[row], REPLAYING, count).integers(count, size=self.batch)
-            for row, count in zip(rows, counts, strict=True)
-        ]
-        at = (rows[:, None], np.array(drawn))
-        parts = (memory.inputs, memory.actions, memory.rewards, memory.reached, memory.terminal)
-        return tuple(torch.as_tensor(part[at], device=device) for part in parts)
+    def _update(self, rows: Rows, number: NDArray[np.int64]) -> None:
+        """Update ``number`` (K,) of each of ``rows`` (K,): a step of Adam on a batch of its own."""
+        drawn = [self.draws[row].integers(self.memory.count[row], size=self.batch) for row in rows]
+        x, actions, rewards, reached, terminal = self.memory.draw(rows, np.array(drawn))
+        following = double_estimate(self.networks, self.target, rows, reached)
+        targets = rewards + self.gamma * np.where(terminal, 0.0, following)
+        slope, _ = self.networks.slopes(rows, x, actions, targets, linear=True)
+        step, self.first[rows], self.second[rows] = adam(slope, self.first[rows], self.second[rows], number[:, None])
+        self.networks.subtract(rows, self.rate * step)
 
     def state(self) -> dict[str, NDArray]:
-        groups = {"target": self.target, "first": self.first, "second": self.second}
-        more = {f"{name}.{k}": t.cpu().numpy().copy() for name, group in groups.items() for k, t in enumerate(group)}
+        more = {"target": self.target.parameters()}
+        more |= {name: getattr(self, name).copy() for name in ("first", "second", "episodes")}
         return super().state() | self.memory.state() | more
 
     def restore(self, state: dict[str, NDArray]) -> None:
-        import torch
-
         super().restore(state)
         self.memory.restore(state)
-        for name, group in (("target", self.target), ("first", self.first), ("second", self.second)):
-            for k, tensor in enumerate(group):
-                tensor.copy_(torch.from_numpy(state[f"{name}.{k}"]))
+        everyone = np.arange(len(self.seeds))
+        self.target.load(everyone, state["target"])
+        self.first, self.second = state["first"].copy(), state["second"].copy()
+        self.close(everyone, state["episodes"])
 
 
-def _adam(
-    slope: torch.Tensor, first: torch.Tensor, second: torch.Tensor, rows: Rows, number: torch.Tensor
-) -> torch.Tensor:
-    """The direction of Adam (Kingma and Ba 2015, Algorithm 1) for ``rows`` at their step ``number``.
+def double_estimate(networks: Networks, target: Networks, rows: Rows, x: Array) -> Array:
+    """What states are worth (K, m) by two networks: one chooses the action, the other says its value.
 
-    torch.optim.Adam would move the moments of every network, also of those that do not learn just now.
+    A single network that does both takes the maximum of its own errors, and overestimates.
+
+    Parameters
+    ----------
+    networks, target : the one that chooses and the one that values.
+    rows : (K,) which of them.
+    x : inputs (K, m, n).
     """
-    (a, b), shape = _MOMENTS, (-1, *[1] * (slope.ndim - 1))
-    first[rows] = a * first[rows] + (1 - a) * slope
-    second[rows] = b * second[rows] + (1 - b) * slope**2
-    mean = first[rows] / (1 - a**number).reshape(shape)
-    spread = second[rows] / (1 - b**number).reshape(shape)
-    return mean / (spread.sqrt() + 1e-8)
+    best = networks.logits(rows, x).argmax(axis=2)
+    worth: Array = np.take_along_axis(target.logits(rows, x), best[..., None], axis=2)[..., 0]
+    return worth
+
+
+def adam(slope: Array, first: Array, second: Array, number: ArrayLike) -> tuple[Array, Array, Array]:
+    """The direction of Adam (Kingma and Ba 2015, Algorithm 1).
+
+    Parameters
+    ----------
+    slope : (...) of the cost.
+    first, second : (...) moments before this step.
+    number : of this step, from 1 on; broadcasts with the slope.
+
+    Returns
+    -------
+    What to take off the parameters, times the rate; both moments after this step.
+    """
+    (a, b), count = _MOMENTS, np.asarray(number, dtype=float)
+    first, second = a * first + (1 - a) * slope, b * second + (1 - b) * slope**2
+    return first / (1 - a**count) / (np.sqrt(second / (1 - b**count)) + 1e-8), first, second
 
 
 def dqn(
@@ -176,4 +176,4 @@ def dqn(
 
 
 def _replaying(networks: Networks, seeds: tuple[int, ...], course: Course, *, settings: dict[str, Any]) -> Replaying:
-    return Replaying(networks, seeds, course.encoder.size, **settings)
+    return Replaying(networks, deepcopy(networks), seeds, course.encoder.size, **settings)

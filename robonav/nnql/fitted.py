@@ -4,23 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import expit
 
 from robonav import expect
 
 from .exploration import Span
 from .learners import Learner, Steps
 from .memory import Memory
-from .networks import Networks, Rows, torch_propagate
+from .networks import Array, Networks, Rows
 from .practice import Course
+from .targets import clip
 from .training import Common, Training, school
-
-if TYPE_CHECKING:
-    import torch
-
 
 _GROW, _SHRINK, _FIRST_STEP, _SIZES = 1.2, 0.5, 0.01, (1e-6, 50.0)  # of Rprop, as its authors have them
 
@@ -58,20 +56,15 @@ class Fitting(Learner):
 
     def close(self, rows: Rows, episodes: Rows) -> None:
         for row in rows[(episodes % self.collect == 0) & (self.memory.count[rows] > 0)]:
-            self._refit(int(row))
+            self._refit(np.array([row]))
 
-    def _refit(self, row: int) -> None:
-        """Fit network ``row`` to its memory, ``sweeps`` times over."""
-        import torch
-
-        own = [tensor[row] for tensor in self.networks.tensors()]
-        memory, device, kept = self.memory, own[0].device, slice(0, int(self.memory.count[row]))
-        parts = (memory.inputs, memory.actions, memory.rewards, memory.reached, memory.terminal)
-        x, actions, rewards, reached, terminal = (torch.as_tensor(part[row, kept], device=device) for part in parts)
+    def _refit(self, row: Rows) -> None:
+        """Fit one network to its memory, ``sweeps`` times over."""
+        x, actions, rewards, reached, terminal = self.memory.all_of(row)
         for _ in range(self.sweeps):
-            following = torch_logits(own, reached).max(dim=1).values.sigmoid() * ~terminal
-            targets = (rewards + self.gamma * following).clamp(0, 1)
-            fit(own, x, actions, targets, epochs=self.epochs, tolerance=self.tolerance)
+            following = expit(self.networks.logits(row, reached).max(axis=2))
+            targets = clip(rewards + self.gamma * np.where(terminal, 0.0, following))
+            fit(self.networks, row, x, actions, targets, epochs=self.epochs, tolerance=self.tolerance)
 
     def state(self) -> dict[str, NDArray]:
         return super().state() | self.memory.state()
@@ -81,58 +74,37 @@ class Fitting(Learner):
         self.memory.restore(state)
 
 
-def torch_logits(parameters: list[torch.Tensor], x: torch.Tensor) -> torch.Tensor:
-    """Logits (..., m, A) of networks with parameters ``w1, b1, w2, b2`` for inputs (..., m, n)."""
-    w1, b1, w2, b2 = parameters
-    _, z = torch_propagate([w1, w2], [b1, b2], x)
-    return z
-
-
 def fit(
-    parameters: list[torch.Tensor],
-    x: torch.Tensor,
-    actions: torch.Tensor,
-    targets: torch.Tensor,
+    networks: Networks,
+    rows: Rows,
+    x: Array,
+    actions: NDArray[np.int64],
+    targets: Array,
     *,
     epochs: int,
     tolerance: float,
-) -> float:
-    """Fit one network, in place, to the values of the actions taken, by Rprop (Riedmiller and Braun 1993).
+) -> None:
+    """Fit networks to the values of the actions taken, by Rprop on the whole batch.
 
     Parameters
     ----------
-    parameters : ``w1`` (n, H), ``b1`` (H,), ``w2`` (H, A), ``b2`` (A,).
-    x : inputs (m, n).
-    actions, targets : (m,) taken, and what their values should be, in [0, 1]. Other outputs are left free.
+    rows : (K,) which networks.
+    x : inputs (K, m, n).
+    actions, targets : (K, m) taken, and what their values should be, in [0, 1]. Other outputs are left free.
     epochs : at most.
-    tolerance : ends when the mean cross-entropy moves by less in an epoch.
-
-    Returns
-    -------
-    The mean cross-entropy before the last epoch.
+    tolerance : ends when no mean cross-entropy moves by more in an epoch.
     """
-    import torch
-
-    leaves = [parameter.clone().requires_grad_() for parameter in parameters]
-    sizes = [torch.full_like(leaf, _FIRST_STEP) for leaf in leaves]
-    before = [torch.zeros_like(leaf) for leaf in leaves]
-    cost = torch.nn.functional.binary_cross_entropy_with_logits
-    last = now = np.inf
+    last, size, before = np.full(len(rows), np.inf), np.array(_FIRST_STEP), np.array(0.0)
     for _ in range(epochs):
-        error = cost(torch_logits(leaves, x).gather(1, actions[:, None])[:, 0], targets)
-        slopes = torch.autograd.grad(error, leaves)
-        with torch.no_grad():
-            for leaf, slope, size, old in zip(leaves, slopes, sizes, before, strict=True):
-                leaf -= rprop(slope, size, old)
-        last, now = now, error.item()
-        if abs(last - now) < tolerance:
+        slope, cost = networks.slopes(rows, x, actions, targets, linear=False)
+        step, size, before = rprop(slope, size, before)
+        networks.subtract(rows, step)
+        if (np.abs(last - cost) < tolerance).all():
             break
-    for parameter, leaf in zip(parameters, leaves, strict=True):
-        parameter.copy_(leaf.detach())
-    return now
+        last = cost
 
 
-def rprop(slope: torch.Tensor, size: torch.Tensor, before: torch.Tensor) -> torch.Tensor:
+def rprop(slope: Array, size: Array, before: Array) -> tuple[Array, Array, Array]:
     """One step of Rprop (Riedmiller and Braun 1993): only the signs of the slopes count.
 
     A parameter's step grows while its slope keeps its sign. Where the sign turned, a minimum was jumped over: the
@@ -140,19 +112,19 @@ def rprop(slope: torch.Tensor, size: torch.Tensor, before: torch.Tensor) -> torc
 
     Parameters
     ----------
-    slope : of the cost.
-    size : of the last step, positive; changed in place.
-    before : the slope before, 0 where the parameter waited; changed in place.
+    slope : (...) of the cost.
+    size : (...) of the last step, positive; or one number for all.
+    before : (...) the slope before, 0 where the parameter waited or at the first step.
 
     Returns
     -------
-    What to take off the parameters.
+    What to take off the parameters; ``size`` and ``before`` for the next step.
     """
     turned = slope * before
-    longer, shorter = (turned > 0).to(slope), (turned < 0).to(slope)
-    size.mul_(1 + (_GROW - 1) * longer + (_SHRINK - 1) * shorter).clamp_(*_SIZES)
-    before.copy_(slope * (1 - shorter))
-    return before.sign() * size
+    factor = np.where(turned > 0, _GROW, np.where(turned < 0, _SHRINK, 1.0))
+    size = np.clip(size * factor, *_SIZES)
+    slope = np.where(turned < 0, 0.0, slope)
+    return np.sign(slope) * size, size, slope
 
 
 def nfq(

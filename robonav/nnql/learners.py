@@ -45,8 +45,8 @@ class Learner:
         self.networks = networks
 
     def values(self, rows: Rows, x: Array) -> Array:
-        """Q-values (K, A) by the networks ``rows`` (K,) for inputs ``x`` (K, n)."""
-        q: Array = expit(self.networks.logits(rows, x))
+        """Q-values (K, A) by the networks ``rows`` (K,), each for one input of ``x`` (K, n)."""
+        q: Array = expit(self.networks.logits(rows, x[:, None])[:, 0])
         return q
 
     def observe(self, rows: Rows, steps: Steps) -> None:
@@ -57,14 +57,11 @@ class Learner:
 
     def state(self) -> dict[str, NDArray]:
         """Copies, by name, of all arrays that training goes on from between episodes."""
-        return dict(zip(("w1", "b1", "w2", "b2"), self.networks.arrays(), strict=True))
+        return {"parameters": self.networks.parameters()}
 
     def restore(self, state: dict[str, NDArray]) -> None:
         """Go on from a :meth:`state`."""
-        import torch
-
-        for tensor, name in zip(self.networks.tensors(), ("w1", "b1", "w2", "b2"), strict=True):
-            tensor.copy_(torch.from_numpy(state[name]))
+        self.networks.load(np.arange(len(state["parameters"])), state["parameters"])
 
 
 class Accumulating(Learner):

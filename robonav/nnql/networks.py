@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,134 +16,179 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.int64]
-Arrays = tuple[Array, Array, Array, Array]
 
 
 class Networks(Protocol):
     """What training needs of S networks with n inputs, one hidden layer and A outputs, wherever their numbers lie."""
 
     def logits(self, rows: Rows, x: Array) -> Array:
-        """Logits (K, A) by the networks ``rows`` (K,), each for its own input of ``x`` (K, n)."""
+        """Logits (K, m, A) by the networks ``rows`` (K,), each for m inputs of its own: ``x`` (K, m, n)."""
 
     def descend(
         self, rows: Rows, x: Array, y: Array, first: Rows, last: Rows, *, rate: Array, passes: int, tolerance: float
     ) -> None:
         """Stochastic gradient descent on the cross-entropy, Eq. (4.11) and (4.12), for the networks ``rows`` (K,).
 
-        Network ``rows[k]`` goes through the examples ``first[k]`` to ``last[k]`` of its memory, rows of ``x``
-        (S, L, n) and ``y`` (S, L, A), one at a time with step ``rate[k]``: at most ``passes`` times, and until the
-        mean cost moves by less than ``tolerance`` from one pass to the next.
+        Network ``rows[k]`` goes through the pairs ``first[k]`` to ``last[k]`` of its memory, rows of ``x`` (S, L, n)
+        and ``y`` (S, L, A), one at a time with step ``rate[k]``: at most ``passes`` times, and until the mean cost
+        moves by less than ``tolerance`` from one pass to the next.
         """
 
-    def tensors(self) -> list[torch.Tensor]:
-        """The parameters themselves: weights (S, from, to) and biases (S, to), layer by layer."""
+    def slopes(
+        self, rows: Rows, x: Array, actions: NDArray[np.int64], targets: Array, *, linear: bool
+    ) -> tuple[Array, Array]:
+        """Slopes (K, P) by the parameters, and costs (K,), of m examples of each of ``rows`` (K,).
 
-    def arrays(self) -> Arrays:
-        """A copy of the parameters, in the same order."""
+        Only the outputs of ``actions`` (K, m) for inputs ``x`` (K, m, n) are to be as ``targets`` (K, m). The cost is
+        the mean cross-entropy of sigmoid outputs, or the mean Huber loss of ``linear`` ones.
+        """
+
+    def subtract(self, rows: Rows, steps: Array) -> None:
+        """Take ``steps`` (K, P) off the parameters of ``rows`` (K,)."""
+
+    def parameters(self) -> Array:
+        """All parameters (S, P), copied; :func:`packed` says in which order."""
+
+    def load(self, rows: Rows, parameters: Array) -> None:
+        """Give ``rows`` (K,) these parameters (K, P)."""
 
 
 class CompiledNetworks:
-    """:class:`Networks` in NumPy arrays, run by compiled kernels."""
+    """:class:`Networks` in a NumPy array, run by compiled kernels."""
 
     def __init__(self, network: Network) -> None:
-        self.parameters = parameters_of(network)
+        self._parameters, self._outputs = packed(network), network.sizes[-1]
 
     def logits(self, rows: Rows, x: Array) -> Array:
-        z = np.empty((len(rows), self.parameters[-1].shape[-1]))
-        kernels.logits(rows, *self.parameters, x, z)
+        z = np.empty((*x.shape[:2], self._outputs))
+        kernels.logits(self._parameters, rows, x, z)
         return z
 
     def descend(
         self, rows: Rows, x: Array, y: Array, first: Rows, last: Rows, *, rate: Array, passes: int, tolerance: float
     ) -> None:
-        kernels.descend(rows, *self.parameters, x, y, first, last, rate, passes, tolerance)
+        kernels.descend(self._parameters, rows, x, y, first, last, rate, passes, tolerance)
 
-    def tensors(self) -> list[torch.Tensor]:
-        import torch
+    def slopes(
+        self, rows: Rows, x: Array, actions: NDArray[np.int64], targets: Array, *, linear: bool
+    ) -> tuple[Array, Array]:
+        slope, costs = np.empty((len(rows), self._parameters.shape[1])), np.empty(len(rows))
+        kernels.slopes(self._parameters, rows, x, actions, targets, self._outputs, linear, slope, costs)
+        return slope, costs
 
-        return [torch.from_numpy(array) for array in self.parameters]
+    def subtract(self, rows: Rows, steps: Array) -> None:
+        self._parameters[rows] -= steps
 
-    def arrays(self) -> Arrays:
-        w1, b1, w2, b2 = (array.copy() for array in self.parameters)
-        return w1, b1, w2, b2
+    def parameters(self) -> Array:
+        return self._parameters.copy()
+
+    def load(self, rows: Rows, parameters: Array) -> None:
+        self._parameters[rows] = parameters
 
 
 class TorchNetworks:
-    """:class:`Networks` in torch tensors, on whatever device torch has: the same steps, to rounding."""
+    """:class:`Networks` in a torch tensor, on whatever device torch has: the same steps, to rounding."""
 
     def __init__(self, network: Network, device: str) -> None:
         import torch
 
-        self.parameters = [torch.tensor(array, device=device) for array in parameters_of(network)]
+        self._parameters = torch.tensor(packed(network), device=device)
+        self._sizes = network.sizes
 
     def logits(self, rows: Rows, x: Array) -> Array:
-
-        w1, b1, w2, b2 = (tensor[rows] for tensor in self.parameters)
-        _, z = torch_propagate([w1, w2], [b1, b2], self._here(x)[:, None])
-        return z[:, 0].cpu().numpy()
+        _, z = self._propagate(rows, self._here(x))
+        return z.cpu().numpy()
 
     def descend(
         self, rows: Rows, x: Array, y: Array, first: Rows, last: Rows, *, rate: Array, passes: int, tolerance: float
     ) -> None:
-
-        going, before = np.arange(len(rows)), np.full(len(rows), np.inf)
-        counts = last - first
+        going, before, counts = np.arange(len(rows)), np.full(len(rows), np.inf), last - first
         for _ in range(passes):
             cost = np.zeros(len(rows))
             for step in range(int(counts[going].max(initial=0))):
                 k = going[step < counts[going]]
                 at = (rows[k], first[k] + step)
-                cost[k] += self._step(rows[k], self._here(x[at]), self._here(y[at]), self._here(rate[k]))
+                cost[k] += self._step(rows[k], self._here(x[at]), self._here(y[at]), rate[k])
             cost /= np.maximum(counts, 1)
             going = going[np.abs(before - cost)[going] >= tolerance]
             before = cost
 
-    def _step(self, rows: Rows, x: torch.Tensor, y: torch.Tensor, rate: torch.Tensor) -> Array:
+    def _step(self, rows: Rows, x: torch.Tensor, y: torch.Tensor, rate: Array) -> Array:
         """One step of Eq. (4.12) for each of ``rows``; the costs (K,) before it."""
         import torch
 
-        w1, b1, w2, b2 = (tensor[rows] for tensor in self.parameters)
-        (_, hidden, q), z = torch_propagate([w1, w2], [b1, b2], x[:, None])
-        h = hidden[:, 0]
-        d2 = q[:, 0] - y
-        d1 = (w2 @ d2[..., None])[..., 0] * h * (1 - h)
-        steps = (x[:, :, None] * d1[:, None], d1, h[:, :, None] * d2[:, None], d2)
-        for tensor, step in zip(self.parameters, steps, strict=True):
-            tensor[rows] -= rate.reshape(-1, *[1] * (step.ndim - 1)) * step
-        z = z[:, 0]
-        return (torch.nn.functional.softplus(z) - y * z).sum(dim=1).cpu().numpy()
+        (_, hidden, q), z = self._propagate(rows, x[:, None])
+        self._parameters[rows] -= self._here(rate)[:, None] * self._back(rows, x[:, None], hidden, q - y[:, None])
+        return (torch.nn.functional.softplus(z[:, 0]) - y * z[:, 0]).sum(dim=1).cpu().numpy()
 
-    def _here(self, array: Array) -> torch.Tensor:
+    def slopes(
+        self, rows: Rows, x: Array, actions: NDArray[np.int64], targets: Array, *, linear: bool
+    ) -> tuple[Array, Array]:
         import torch
 
-        return torch.as_tensor(array, device=self.parameters[0].device)
+        inputs, taken, wanted = self._here(x), self._here(actions)[..., None], self._here(targets)[..., None]
+        (_, hidden, q), z = self._propagate(rows, inputs)
+        answer, logit = (z if linear else q).gather(2, taken), z.gather(2, taken)
+        huber = torch.nn.functional.huber_loss(answer, wanted, reduction="none")
+        costs = huber if linear else torch.nn.functional.softplus(logit) - wanted * logit
+        error = (answer - wanted).clamp(-1, 1) / x.shape[1]
+        slope = self._back(rows, inputs, hidden, torch.zeros_like(z).scatter(2, taken, error))
+        return slope.cpu().numpy(), costs.mean(dim=(1, 2)).cpu().numpy()
 
-    def tensors(self) -> list[torch.Tensor]:
-        return self.parameters
+    def _back(self, rows: Rows, x: torch.Tensor, hidden: torch.Tensor, d2: torch.Tensor) -> torch.Tensor:
+        """Backpropagation, Eq. (3.14), (3.15): slopes (K, P) from the errors ``d2`` (K, m, A) of the outputs."""
+        import torch
 
-    def arrays(self) -> Arrays:
-        w1, b1, w2, b2 = (tensor.cpu().numpy().copy() for tensor in self.parameters)
-        return w1, b1, w2, b2
+        _, _, w2, _ = self._unpacked(rows)
+        d1 = d2 @ w2.mT * hidden * (1 - hidden)
+        parts = (x.mT @ d1, d1.sum(dim=1), hidden.mT @ d2, d2.sum(dim=1))
+        return torch.cat([part.flatten(1) for part in parts], dim=1)
+
+    def subtract(self, rows: Rows, steps: Array) -> None:
+        self._parameters[rows] -= self._here(steps)
+
+    def parameters(self) -> Array:
+        return self._parameters.cpu().numpy().copy()
+
+    def load(self, rows: Rows, parameters: Array) -> None:
+        self._parameters[rows] = self._here(parameters)
+
+    def _propagate(self, rows: Rows, x: torch.Tensor) -> tuple[list[torch.Tensor], torch.Tensor]:
+        import torch
+
+        w1, b1, w2, b2 = self._unpacked(rows)
+        return propagate([w1.mT, w2.mT], [b1, b2], x, torch.sigmoid)
+
+    def _unpacked(self, rows: Rows) -> tuple[torch.Tensor, ...]:
+        n, h, a = self._sizes
+        w1, b1, w2, b2 = self._parameters[rows].split([n * h, h, h * a, a], dim=1)
+        return w1.reshape(-1, n, h), b1, w2.reshape(-1, h, a), b2
+
+    def _here(self, array: NDArray) -> torch.Tensor:
+        import torch
+
+        return torch.as_tensor(array, device=self._parameters.device)
 
 
-def parameters_of(network: Network) -> Arrays:
-    """A stack (S,) of networks as ``w1`` (S, n, H), ``b1`` (S, H), ``w2`` (S, H, A), ``b2`` (S, A), copied.
+def packed(network: Network) -> Array:
+    """A stack (S,) of networks as rows (S, P): w1 (n, H), b1 (H,), w2 (H, A), b2 (A,), one after the other.
 
     Weights lie transposed, with the unit they come from first: inner loops then run along memory.
     """
-    w1, w2 = (np.ascontiguousarray(weight.swapaxes(-1, -2)) for weight in network.weights)
-    b1, b2 = (bias.copy() for bias in network.biases)
-    return w1, b1, w2, b2
+    pairs = zip(network.weights, network.biases, strict=True)
+    parts = [part for weight, bias in pairs for part in (weight.swapaxes(-1, -2), bias)]
+    return np.concatenate([part.reshape(len(part), -1) for part in parts], axis=1)
 
 
-def network_of(arrays: Arrays) -> Network:
-    """The network, or stack of networks, with these parameters: the other way."""
-    w1, b1, w2, b2 = arrays
-    return Network((w1.swapaxes(-1, -2), w2.swapaxes(-1, -2)), (b1, b2))
+def network_of(parameters: Array, sizes: tuple[int, ...]) -> Network:
+    """The networks of rows of parameters (..., P), in a stack (...): :func:`packed` undone.
 
-
-def torch_propagate(weights: list[Any], biases: list[Any], x: Any) -> tuple[list[Any], Any]:
-    """:func:`robonav.lfd.network.propagate` in torch, for weights (..., from, to)."""
-    import torch
-
-    return propagate([weight.swapaxes(-1, -2) for weight in weights], biases, x, torch.sigmoid)
+    Parameters
+    ----------
+    sizes : n, H, A.
+    """
+    n, h, a = sizes
+    stack = parameters.shape[:-1]
+    w1, b1, w2, b2 = np.split(parameters, np.cumsum([n * h, h, h * a]), axis=-1)
+    weights = w1.reshape(*stack, n, h).swapaxes(-1, -2), w2.reshape(*stack, h, a).swapaxes(-1, -2)
+    return Network(weights, (b1, b2))

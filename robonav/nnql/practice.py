@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robonav import expect
-from robonav.lfd.network import Network
 from robonav.progress import Progress
 from robonav.robot import NNQL_SENSORS, REFLEX, Encoder, Sensing, Simulator, Worlds, draw_worlds, world_keys
 from robonav.robot.environments import Reward
@@ -21,7 +20,7 @@ from robonav.robot.kernels import ARRIVED, COLLIDED, OUT_OF_STEPS, RUNNING
 
 from .exploration import Span, boltzmann, choose, falling
 from .learners import Learner, Steps
-from .networks import Array, Rows, network_of
+from .networks import Array, Rows
 from .rewards import reward
 
 STARTS = ((10.0, 10.0), (90.0, 10.0))
@@ -80,7 +79,7 @@ class Diary:
     steps, decisions : seconds driven, and how many of them the policy decided.
     returns : sums of the rewards of these.
     paths : poses (steps + 1, 3) of every episode, for each seed, if recorded.
-    networks : parameters after 0, 1, ... episodes, for each seed, if recorded; .
+    parameters : of the network (P,) when an episode began, for each seed, if recorded.
     """
 
     def __init__(self, seeds: int, episodes: int, *, record: bool = False) -> None:
@@ -91,7 +90,7 @@ class Diary:
         self.returns = np.zeros(shape)
         self.record = record
         self.paths: list[list[Array]] = [[] for _ in range(seeds)]
-        self.networks: list[list[Network]] = [[] for _ in range(seeds)]
+        self.parameters: list[list[Array]] = [[] for _ in range(seeds)]
 
 
 class Practice:
@@ -206,8 +205,7 @@ class Practice:
         if self.diary.record:
             for row in rows:
                 self.tracks[row] = [self.simulator.poses[row].copy()]
-                w1, b1, w2, b2 = (array[row] for array in self.learner.networks.arrays())
-                self.diary.networks[row].append(network_of((w1, b1, w2, b2)))
+                self.diary.parameters[row].append(self.learner.networks.parameters()[row])
 
     def _note(self, rows: Rows) -> None:
         """Write down how the episodes of ``rows`` went."""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robonav.robot import Sensing
-from robonav.robot.kernels import ARRIVED, COLLIDED
+from robonav.robot.kernels import ARRIVED, COLLIDED, SENSOR_RANGE
 
 COZY_DISTANCE = 5.0
 """d_cozy of Eq. (4.6) in metres, and d_warn of Table 4.1 with it: the border of degree of danger 4."""
@@ -25,6 +25,9 @@ class Property(IntEnum):
     FAILURE = 4  # collided
 
 
+SAFE, COZY, DANGEROUS, WINNING, FAILURE = map(int, Property)  # members of an enumeration are slow to look up
+
+
 def state_property(sensing: Sensing, outcome: NDArray[np.int8] | None = None) -> NDArray[np.int64]:
     """The property of N states, Eq. (4.6), its borders made exclusive: a distance of d_cozy is cozy, d_bou safe.
 
@@ -37,11 +40,14 @@ def state_property(sensing: Sensing, outcome: NDArray[np.int8] | None = None) ->
     -------
     Codes (N,) of :class:`Property`.
     """
-    near = np.where(sensing.ranges.min(axis=1) < COZY_DISTANCE, Property.DANGEROUS, Property.COZY)
-    properties = np.where(sensing.safe, Property.SAFE, near)
+    return _property(sensing.ranges.min(axis=1), outcome)
+
+
+def _property(nearest: NDArray[np.float64], outcome: NDArray[np.int8] | None) -> NDArray[np.int64]:
+    properties = np.where(nearest < COZY_DISTANCE, DANGEROUS, np.where(nearest < SENSOR_RANGE, COZY, SAFE))
     if outcome is not None:
-        properties[outcome == ARRIVED] = Property.WINNING
-        properties[outcome == COLLIDED] = Property.FAILURE
+        properties[outcome == ARRIVED] = WINNING
+        properties[outcome == COLLIDED] = FAILURE
     return properties
 
 
@@ -75,26 +81,28 @@ least range shrank."""
 REWARDS = np.array([row.reward for row in TABLE])
 
 
-def reward_row(before: Sensing, after: Sensing, outcome: NDArray[np.int8]) -> NDArray[np.int64]:
-    """Which row (N,) of ``TABLE`` holds for a step.
+def _rows() -> NDArray[np.int64]:
+    """Which row of ``TABLE`` holds (3, 5, 4): by property before, property after, whole metres nearer up to 3."""
+    rows = np.empty((3, 5, 4), dtype=np.int64)
+    rows[COZY, COZY] = [6, 7, 8, 8]
+    rows[DANGEROUS, DANGEROUS] = [9, 10, 11, 12]
+    rows[COZY, DANGEROUS] = 5
+    rows[DANGEROUS, COZY] = 4
+    rows[SAFE] = 3
+    rows[:, SAFE] = 2
+    rows[:, FAILURE] = 1
+    rows[:, WINNING] = 0
+    return rows
 
-    Parameters
-    ----------
-    before, after : what N robots sensed before and after the step.
-    outcome : codes (N,) of the simulator after the step.
-    """
-    was, now = state_property(before), state_property(after, outcome)
-    nearer = np.floor(before.ranges.min(axis=1) - after.ranges.min(axis=1)).astype(
-        int
-    )  # d_min of t - 1 less d_min of t
-    row = np.where(now == Property.DANGEROUS, 9 + np.clip(nearer, 0, 3), 6 + np.clip(nearer, 0, 2))
-    row[(was == Property.COZY) & (now == Property.DANGEROUS)] = 5
-    row[(was == Property.DANGEROUS) & (now == Property.COZY)] = 4
-    row[was == Property.SAFE] = 3
-    row[now == Property.SAFE] = 2
-    row[now == Property.FAILURE] = 1
-    row[now == Property.WINNING] = 0
-    return row
+
+ROWS = _rows()
+
+
+def reward_row(before: Sensing, after: Sensing, outcome: NDArray[np.int8]) -> NDArray[np.int64]:
+    """Which row (N,) of ``TABLE`` holds for a step; parameters as in :func:`reward`."""
+    was, now = before.ranges.min(axis=1), after.ranges.min(axis=1)  # d_min of t - 1 and of t
+    nearer = np.floor(was - now).astype(np.int64).clip(0, 3)
+    return ROWS[_property(was, None), _property(now, outcome), nearer]
 
 
 def reward(before: Sensing, after: Sensing, outcome: NDArray[np.int8]) -> NDArray[np.float64]:

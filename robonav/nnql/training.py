@@ -142,16 +142,24 @@ def school(
         done = last
         if checkpoint is not None:
             save_checkpoint(checkpoint, identity, learner, diary, done)
-    return _training(method, numbers, learner, course, diary, settings)
+    return _training(method, numbers, learner, course, sizes, diary, settings)
 
 
 def _training(
-    method: str, seeds: tuple[int, ...], learner: Learner, course: Course, diary: Diary, settings: dict[str, Any]
+    method: str,
+    seeds: tuple[int, ...],
+    learner: Learner,
+    course: Course,
+    sizes: tuple[int, ...],
+    diary: Diary,
+    settings: dict[str, Any],
 ) -> Training:
-    network, history, paths = network_of(learner.networks.arrays()), None, None
+    parameters = learner.networks.parameters()
+    history, paths = None, None
     if diary.record:
-        history = stacked([stacked([*past, network[row]]) for row, past in enumerate(diary.networks)])
-        paths = tuple(tuple(drives) for drives in diary.paths)
+        past = np.array([[*begun, parameters[row]] for row, begun in enumerate(diary.parameters)])
+        history, paths = network_of(past, sizes), tuple(tuple(drives) for drives in diary.paths)
+    network = network_of(parameters, sizes)
     return Training(
         method, seeds, network, course.encoder, OUTCOMES[diary.outcomes], diary.steps, diary.decisions, diary.returns,
         settings, history, paths,

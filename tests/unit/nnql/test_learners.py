@@ -7,11 +7,11 @@ from scipy.special import expit
 from robonav.lfd.backpropagation import cross_entropy_gradient
 from robonav.lfd.network import Network, random_network, stacked
 from robonav.mdp import FiniteMDP, value_iteration
-from robonav.nnql.deep import Replaying
+from robonav.nnql.deep import Replaying, adam
 from robonav.nnql.fitted import Fitting, rprop
 from robonav.nnql.learners import Accumulating, Learner, Steps
 from robonav.nnql.memory import Memory
-from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of
+from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of, packed
 
 GAMMA = 0.7
 END = 3  # a corridor of states 0 to 3: action 0 goes left, 1 right; 3 is the end and worth 1
@@ -49,7 +49,7 @@ def learned_values(learner):
 
 
 def test_nfq_converges_to_the_known_values():
-    learner = Fitting(networks(), (2, 4), gamma=GAMMA, collect=1, sweeps=6, epochs=120, tolerance=1e-6)
+    learner = Fitting(networks(), (2, 4), gamma=GAMMA, collect=1, sweeps=12, epochs=300, tolerance=1e-9)
     for rows, steps in corridor_steps(learner, 60):
         learner.observe(rows, steps)
     learner.close(np.arange(2), np.array([1, 1]))
@@ -57,8 +57,8 @@ def test_nfq_converges_to_the_known_values():
 
 
 def test_dqn_converges_to_the_known_values():
-    learner = Replaying(networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=16, refresh=50)
-    for rows, steps in corridor_steps(learner, 500):
+    learner = Replaying(networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=16, refresh=50)
+    for rows, steps in corridor_steps(learner, 900):
         learner.observe(rows, steps)
     np.testing.assert_allclose(learned_values(learner), [corridor_values()] * 2, atol=0.04)
 
@@ -112,9 +112,7 @@ def test_accumulated_training_is_a_plain_loop(pairs):
                     tuple(w - rate * d for w, d in zip(network.weights, slope.weights, strict=True)),
                     tuple(b - rate * d for b, d in zip(network.biases, slope.biases, strict=True)),
                 )
-    ours = network_of(learner.networks.arrays())
-    for mine, theirs in zip((*ours.weights, *ours.biases), (*network.weights, *network.biases), strict=True):
-        np.testing.assert_allclose(mine[0], theirs, rtol=1e-8, atol=1e-10)
+    np.testing.assert_allclose(learner.networks.parameters(), packed(stacked([network])), rtol=1e-8, atol=1e-10)
 
 
 def test_stored_targets_stay_as_they_were_computed():
@@ -130,118 +128,113 @@ def test_stored_targets_stay_as_they_were_computed():
 
 def test_a_learner_that_does_not_learn():
     learner = Learner(networks())
-    before = learner.networks.arrays()
+    before = learner.networks.parameters()
     for rows, steps in corridor_steps(learner, 3):
-        np.testing.assert_allclose(steps.values, expit(learner.networks.logits(rows, steps.inputs)))
+        z = np.stack([network_of(before, (4, 8, 2))[k].logits(steps.inputs[k]) for k in range(2)])
+        np.testing.assert_allclose(steps.values, expit(z))
         learner.observe(rows, steps)
-    for mine, theirs in zip(before, learner.networks.arrays(), strict=True):
-        np.testing.assert_array_equal(mine, theirs)
+    np.testing.assert_array_equal(learner.networks.parameters(), before)
 
 
 def test_nfq_fits_only_every_so_many_episodes():
     learner = Fitting(networks(), (2, 4), gamma=GAMMA, collect=3, sweeps=1, epochs=5, tolerance=0)
     for rows, steps in corridor_steps(learner, 5):
         learner.observe(rows, steps)
-    before = learner.networks.arrays()
+    before = learner.networks.parameters()
     learner.close(np.array([0, 1]), np.array([1, 2]))
-    for mine, theirs in zip(before, learner.networks.arrays(), strict=True):
-        np.testing.assert_array_equal(mine, theirs)
+    np.testing.assert_array_equal(learner.networks.parameters(), before)
     learner.close(np.array([1]), np.array([3]))
-    w1, w1_now = before[0], learner.networks.arrays()[0]
-    np.testing.assert_array_equal(w1_now[0], w1[0])
-    assert (w1_now[1] != w1[1]).any()
+    np.testing.assert_array_equal(learner.networks.parameters()[0], before[0])
+    assert (learner.networks.parameters()[1] != before[1]).any()
 
 
 def test_rprop_is_that_of_torch():
     import torch
 
-    rng = torch.Generator().manual_seed(0)
-    mine = torch.randn(20, generator=rng, dtype=torch.float64)
-    theirs = mine.clone().requires_grad_()
-    size, before = torch.full_like(mine, 0.01), torch.zeros_like(mine)
+    rng = np.random.default_rng(0)
+    mine, curvature = rng.standard_normal(20), 5 * rng.random(20)
+    theirs = torch.tensor(mine, requires_grad=True)
     optimiser = torch.optim.Rprop([theirs], lr=0.01)
-    curvature = torch.rand(20, generator=rng, dtype=torch.float64) * 5
+    size, before = np.array(0.01), np.array(0.0)
     for _ in range(60):
-        mine -= rprop(curvature * mine, size, before)
+        step, size, before = rprop(curvature * mine, size, before)
+        mine = mine - step
         optimiser.zero_grad()
-        (curvature * theirs**2 / 2).sum().backward()
+        (torch.tensor(curvature) * theirs**2 / 2).sum().backward()
         optimiser.step()
         np.testing.assert_allclose(mine, theirs.detach(), rtol=1e-12, atol=1e-15)
-    assert mine.abs().max() < 0.05
+    assert np.abs(mine).max() < 0.05
 
 
-def double_target(learner, reached):
-    """The network's choice, valued by the target network."""
-    best = learner.values(np.zeros(len(reached), int), reached).argmax(axis=1)
-    w1, b1, w2, b2 = (tensor[0].numpy() for tensor in learner.target)
-    return (expit(reached @ w1 + b1) @ w2 + b2)[np.arange(len(reached)), best]
-
-
-def test_dqn_makes_one_step_of_adam_on_the_double_estimate():
+def test_adam_is_that_of_torch():
     import torch
 
-    learner = Replaying(networks(seeds=1), (0,), 4, gamma=GAMMA, rate=0.01, batch=1, refresh=1000)
-    for target in learner.target:
-        target += 0.3 * torch.randn(target.shape, generator=torch.Generator().manual_seed(1), dtype=torch.float64)
+    rng = np.random.default_rng(0)
+    mine, curvature = rng.standard_normal(20), 5 * rng.random(20)
+    theirs = torch.tensor(mine, requires_grad=True)
+    optimiser = torch.optim.Adam([theirs], lr=0.01)
+    first = second = np.zeros(20)
+    for k in range(30):
+        step, first, second = adam(curvature * mine, first, second, k + 1)
+        mine = mine - 0.01 * step
+        optimiser.zero_grad()
+        (torch.tensor(curvature) * theirs**2 / 2).sum().backward()
+        optimiser.step()
+        np.testing.assert_allclose(mine, theirs.detach(), rtol=1e-12, atol=1e-15)
+
+
+def test_dqn_learns_from_the_double_estimate():
+    """One update on one step: the network chooses the next action, the target network values it."""
+    learner = Replaying(networks(seeds=1), networks(seeds=1), (0,), 4, gamma=GAMMA, rate=0.01, batch=1, refresh=1000)
+    rng, zero = np.random.default_rng(1), np.array([0])
+    learner.target.load(zero, learner.target.parameters() + 0.5 * rng.standard_normal((1, 58)))
     x, reached = np.eye(4)[[0]], np.eye(4)[[1]]
-    wanted = 0.2 + GAMMA * double_target(learner, reached)[0]
-    leaves = [tensor[0].clone().requires_grad_() for tensor in learner.networks.tensors()]
-    w1, b1, w2, b2 = leaves
-    q = torch.sigmoid(torch.tensor(x[0]) @ w1 + b1) @ w2 + b2
-    adam = torch.optim.Adam(leaves, lr=0.01)
-    torch.nn.functional.smooth_l1_loss(q[1], torch.tensor(wanted)).backward()
-    adam.step()
-    values, zero = learner.values(np.array([0]), x), np.zeros(1)
-    step = Steps(x, values, np.array([1]), np.array([0.2]), reached, np.array([False]), zero)
-    learner.observe(np.array([0]), step)
-    for ours, theirs in zip(learner.networks.arrays(), leaves, strict=True):
-        np.testing.assert_allclose(ours[0], theirs.detach().numpy(), rtol=1e-6, atol=1e-9)
+    own, target = (network_of(n.parameters(), (4, 8, 2))[0] for n in (learner.networks, learner.target))
+    wanted = 0.2 + GAMMA * target.logits(reached[0])[own.logits(reached[0]).argmax()]
+    before, action = learner.networks.parameters(), np.array([[1]])
+    slope, _ = learner.networks.slopes(zero, x[None], action, np.array([[wanted]]), linear=True)
+    values = learner.values(zero, x)
+    learner.observe(zero, Steps(x, values, action[0], np.array([0.2]), reached, np.array([False]), np.zeros(1)))
+    step, _, _ = adam(slope, np.zeros(58), np.zeros(58), 1)
+    np.testing.assert_allclose(learner.networks.parameters(), before - 0.01 * step, rtol=1e-12)
 
 
 def test_the_target_network_stands_still_between_refreshes():
-    learner = Replaying(networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=2, refresh=5)
+    learner = Replaying(networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=2, refresh=5)
     stood = 0
     for k, (rows, steps) in enumerate(corridor_steps(learner, 12)):
-        before = learner.target[0].clone()
+        before = learner.target.parameters()
         learner.observe(rows, steps)
         updates = k + 1 - 2 + 1
         if updates > 0 and updates % 5 == 0:
-            assert (learner.target[0] == learner.networks.tensors()[0]).all()
+            np.testing.assert_array_equal(learner.target.parameters(), learner.networks.parameters())
         else:
-            assert (learner.target[0] == before).all()
+            np.testing.assert_array_equal(learner.target.parameters(), before)
             stood += 1
     assert stood == 10
 
 
 @pytest.mark.parametrize("kind", ["accumulating", "fitting", "replaying"])
 def test_torch_learns_what_the_compiled_kernels_learn(kind):
-    """The same numbers from tensors, which may lie on any device."""
+    """The same numbers from a tensor, which may lie on any device."""
 
-    def make(stack):
+    def make(one, other):
         if kind == "accumulating":
             return Accumulating(
-                stack,
-                (2, 40, 4, 2),
-                pairs=40,
-                alpha=0.8,
-                gamma=GAMMA,
-                rate=0.3,
-                rescale="clip",
-                passes=2,
-                tolerance=1e-3,
+                one, (2, 40, 4, 2), pairs=40, alpha=0.8, gamma=GAMMA, rate=0.3, rescale="clip", passes=2, tolerance=1e-3
             )
         if kind == "fitting":
-            return Fitting(stack, (2, 4), gamma=GAMMA, collect=1, sweeps=2, epochs=20, tolerance=0)
-        return Replaying(stack, (0, 1), 4, gamma=GAMMA, rate=0.01, batch=4, refresh=10)
+            return Fitting(one, (2, 4), gamma=GAMMA, collect=1, sweeps=2, epochs=20, tolerance=0)
+        return Replaying(one, other, (0, 1), 4, gamma=GAMMA, rate=0.01, batch=4, refresh=10)
 
     start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
-    both = [make(CompiledNetworks(start)), make(TorchNetworks(start, "cpu"))]
+    backends = (CompiledNetworks, lambda network: TorchNetworks(network, "cpu"))
+    both = [make(backend(start), backend(start)) for backend in backends]
     for learner in both:
         for rows, steps in corridor_steps(learner, 40):
             learner.observe(rows, steps)
         learner.close(np.arange(2), np.array([1, 1]))
-    for mine, theirs in zip(*(learner.networks.arrays() for learner in both), strict=True):
-        np.testing.assert_allclose(mine, theirs, rtol=1e-7, atol=1e-9)
+    np.testing.assert_allclose(*(learner.networks.parameters() for learner in both), rtol=1e-7, atol=1e-9)
 
 
 def test_memory_grows_and_comes_back():

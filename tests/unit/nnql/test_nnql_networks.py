@@ -5,7 +5,7 @@ import pytest
 
 from robonav.lfd.backpropagation import cross_entropy_gradient
 from robonav.lfd.network import Network, random_network, stacked
-from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of, parameters_of
+from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of, packed
 from robonav.nnql.targets import cross_entropy
 
 SIZES = (24, 8, 5)
@@ -45,18 +45,13 @@ def plain_descent(network: Network, x, y, rate, passes, tolerance):
     return network, done
 
 
-def assert_close(networks, expected, **tolerance):
-    for ours, theirs in zip(networks.arrays(), parameters_of(expected), strict=True):
-        np.testing.assert_allclose(ours, theirs, **tolerance)
-
-
 @pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
 def test_logits_are_those_of_chapter_3(make):
-    network, (x, _) = stack(), pairs(3, 1)
+    network, (x, _) = stack(), pairs(3)
     rows = np.array([3, 0, 2])
-    z = make(network).logits(rows, x[:, 0])
+    z = make(network).logits(rows, x)
     for k, row in enumerate(rows):
-        np.testing.assert_allclose(z[k], network[int(row)].logits(x[k, 0]), rtol=1e-12)
+        np.testing.assert_allclose(z[k], network[int(row)].logits(x[k]), rtol=1e-12)
 
 
 @pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
@@ -71,7 +66,7 @@ def test_descent_is_a_plain_loop_over_the_pairs(make, passes, tolerance):
         own = slice(first[k], last[k])
         expected[row], done = plain_descent(network[int(row)], x[row, own], y[row, own], rate[k], passes, tolerance)
         took.append(done)
-    assert_close(networks, stacked(expected), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(networks.parameters(), packed(stacked(expected)), rtol=1e-9, atol=1e-12)
     if tolerance:
         assert len(set(took)) > 1  # they settled, each in its own time
         assert max(took) < passes
@@ -86,23 +81,47 @@ def test_no_network_hears_of_another():
         alone = CompiledNetworks(stacked([network[row]]))
         arguments["rate"] = np.array([0.3])
         alone.descend(np.array([0]), x[row : row + 1], y[row : row + 1], zero[:1], zero[:1] + 12, **arguments)
-        for ours, theirs in zip(together.arrays(), alone.arrays(), strict=True):
-            np.testing.assert_array_equal(ours[row], theirs[0])
+        np.testing.assert_array_equal(together.parameters()[row], alone.parameters()[0])
+
+
+@pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
+@pytest.mark.parametrize("linear", [False, True])
+def test_slopes_are_those_that_torch_derives(make, linear):
+    import torch
+
+    network, (x, _) = stack(), pairs(3)
+    rng = np.random.default_rng(4)
+    actions, targets = rng.integers(5, size=(3, 12)), 4 * rng.random((3, 12)) - 2 if linear else rng.random((3, 12))
+    rows = np.array([1, 3, 0])
+    slopes, costs = make(network).slopes(rows, x, actions, targets, linear=linear)
+    for k, row in enumerate(rows):
+        leaves = [torch.tensor(a, requires_grad=True) for a in (*network[int(row)].weights, *network[int(row)].biases)]
+        w1, w2, b1, b2 = leaves
+        z = torch.sigmoid(torch.tensor(x[k]) @ w1.T + b1) @ w2.T + b2
+        taken = z.gather(1, torch.tensor(actions[k])[:, None])[:, 0]
+        loss = torch.nn.functional.huber_loss if linear else torch.nn.functional.binary_cross_entropy_with_logits
+        cost = loss(taken, torch.tensor(targets[k]))
+        d1, d2, c1, c2 = torch.autograd.grad(cost, leaves)
+        wanted = torch.cat([part.flatten() for part in (d1.T, c1, d2.T, c2)])
+        np.testing.assert_allclose(slopes[k], wanted, rtol=1e-9, atol=1e-14)
+        np.testing.assert_allclose(costs[k], cost.item(), rtol=1e-12)
 
 
 @pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
 def test_parameters_are_copied_in_and_out(make):
     network = stack()
-    networks = make(network)
-    networks.arrays()[0][:] = 0
-    assert_close(networks, network)
-    networks.tensors()[0].zero_()
-    assert (networks.arrays()[0] == 0).all()
-    assert (network.weights[0] != 0).all()
+    networks, rows = make(network), np.array([2, 0])
+    networks.parameters()[:] = 0
+    np.testing.assert_array_equal(networks.parameters(), packed(network))
+    networks.subtract(rows, packed(network)[rows])
+    np.testing.assert_array_equal(networks.parameters()[rows], 0)
+    networks.load(rows, packed(network)[rows])
+    np.testing.assert_array_equal(networks.parameters(), packed(network))
 
 
 def test_there_and_back():
     network = stack()
-    again = network_of(parameters_of(network))
+    again = network_of(packed(network), SIZES)
     for ours, theirs in zip((*again.weights, *again.biases), (*network.weights, *network.biases), strict=True):
         np.testing.assert_array_equal(ours, theirs)
+    np.testing.assert_array_equal(network_of(packed(network)[2], SIZES).weights[1], network.weights[1][2])

@@ -1,0 +1,133 @@
+"""Rewards, exploration and learning curves of chapter 4 (Fig. 4.2 to 4.7)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
+from numpy.typing import ArrayLike
+
+from robonav import look
+from robonav.nnql import boltzmann
+from robonav.nnql.rewards import COZY_DISTANCE, REWARDS, reward_row
+from robonav.robot import SENSOR_RANGE, Action, Sensing
+from robonav.robot.kernels import RUNNING
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+
+ACTIONS = [Action(a).name for a in range(5)]
+GOOD_AND_BAD = LinearSegmentedColormap.from_list("good and bad", [look.VERMILION, "#9A9A9A40", look.BLUE])
+ACTION_COLOURS = (look.BLUE, look.GREEN, look.SKY, look.ORANGE, look.VERMILION)
+
+
+def draw_rewards(axes: Axes) -> None:
+    """The reward of a step by the least range before and after it, where the episode goes on (Table 4.1)."""
+    distance = (np.arange(400) + 0.5) / 400 * (SENSOR_RANGE + 1)
+    before, after = np.meshgrid(distance, distance)
+    row = reward_row(_seen(before), _seen(after), np.full(before.size, RUNNING, np.int8))
+    extent = (0, SENSOR_RANGE + 1, 0, SENSOR_RANGE + 1)
+    image = axes.imshow(
+        REWARDS[row].reshape(before.shape), extent=extent, origin="lower", cmap=GOOD_AND_BAD, vmin=-1, vmax=1
+    )
+    for border in (COZY_DISTANCE, SENSOR_RANGE):
+        axes.axvline(border, color=look.INK, linewidth=0.6)
+        axes.axhline(border, color=look.INK, linewidth=0.6)
+    for place, name in ((2.5, "dangerous"), (7.5, "cozy"), (10.5, "safe")):
+        axes.annotate(name, (place, 11.1), ha="center", fontsize=8, annotation_clip=False)
+        axes.annotate(name, (11.1, place), va="center", fontsize=8, rotation=-90, annotation_clip=False)
+    axes.set(xlabel="least range before the step (m)", ylabel="after it (m)")
+    axes.grid(False)
+    axes.figure.colorbar(image, ax=axes, label="reward", pad=0.12)
+
+
+def _seen(nearest: ArrayLike) -> Sensing:
+    """Robots whose least range is given; beyond the sensors' range, nothing."""
+    ranges = np.minimum(np.ravel(nearest), SENSOR_RANGE)[:, None] + np.zeros(9)
+    n = len(ranges)
+    return Sensing(ranges, np.zeros((n, 9), bool), np.ones(n, int), np.zeros(n, bool))
+
+
+def draw_boltzmann(axes: Axes, q: ArrayLike, *, coldest: float = 0.01, hottest: float = 10.0) -> None:
+    """How likely each action is at temperatures from cold to hot, for Q-values (5,)."""
+    temperatures = np.geomspace(coldest, hottest, 200)
+    shares = boltzmann(np.tile(np.asarray(q, dtype=float), (200, 1)), temperatures)
+    for name, value, share, colour in zip(ACTIONS, np.asarray(q), shares.T, ACTION_COLOURS, strict=True):
+        axes.plot(temperatures, share, color=colour, label=f"{name}, Q = {value:g}")
+    axes.set(xscale="log", xlabel="temperature $T$", ylabel="probability", ylim=(0, 1))
+    axes.legend()
+
+
+def animate_boltzmann(q: ArrayLike, temperatures: Sequence[float]) -> FuncAnimation:
+    """Bars of the actions' probabilities while the temperature falls."""
+    from matplotlib import pyplot as plt
+    from matplotlib.animation import FuncAnimation
+
+    figure, axes = plt.subplots(figsize=(5, 2.6))
+
+    def draw(frame: int) -> list:
+        axes.clear()
+        axes.bar(ACTIONS, boltzmann(q, temperatures[frame]), color=ACTION_COLOURS)
+        axes.set(ylim=(0, 1), ylabel="probability", title=f"$T$ = {temperatures[frame]:.2g}")
+        return []
+
+    return FuncAnimation(figure, draw, frames=len(temperatures), interval=200)
+
+
+def blocks(successes: ArrayLike, size: int = 30) -> np.ndarray:
+    """Successes (S, E) counted in blocks of ``size`` episodes: (S, E / size); what is left over is dropped."""
+    arrived = np.asarray(successes)
+    seeds, episodes = arrived.shape
+    count: np.ndarray = arrived[:, : episodes // size * size].reshape(seeds, -1, size).sum(axis=2)
+    return count
+
+
+def draw_learning(axes: Axes, counts: Mapping[str, ArrayLike], *, size: int = 30) -> None:
+    """Successful episodes in every ``size``: mean over seeds, and a standard deviation around it (Fig. 4.4, 4.6).
+
+    Parameters
+    ----------
+    counts : (S, blocks) by method.
+    """
+    for name, given in counts.items():
+        runs = np.atleast_2d(np.asarray(given, dtype=float))
+        ends = size * np.arange(1, runs.shape[1] + 1)
+        mean, spread = runs.mean(axis=0), runs.std(axis=0)
+        colour = look.METHODS.get(name, look.BLUE)
+        axes.fill_between(ends, mean - spread, mean + spread, color=colour, alpha=0.18, linewidth=0)
+        axes.plot(ends, mean, color=colour, marker=".", label=name)
+    axes.set(xlabel="episode", ylabel=f"successes in {size} episodes", ylim=(0, size + 1))
+    axes.legend()
+
+
+def draw_weight_changes(axes: Axes, changes: Mapping[str, ArrayLike], *, colour: str = look.BLUE) -> None:
+    """What the weights of one layer changed by in each episode (E,), summed in one way or another (Fig. 4.3)."""
+    for (name, values), shade in zip(changes.items(), (1.0, 0.4), strict=False):
+        axes.plot(np.arange(1, len(np.asarray(values)) + 1), values, color=colour, alpha=shade, linewidth=1, label=name)
+    axes.axhline(0, color=look.INK, linewidth=0.6)
+    axes.set(xlabel="episode")
+    axes.legend()
+
+
+def draw_rates(axes: Axes, rates: Mapping[str, ArrayLike], *, thesis: Mapping[str, float] | None = None) -> None:
+    """Success of every seed as a dot, their mean as a line, the thesis's mean as a diamond; all in per cent.
+
+    Parameters
+    ----------
+    rates : (S,) by name of a method or of anything else.
+    thesis : its mean, by the same names, where it has one.
+    """
+    for row, (name, values) in enumerate(rates.items()):
+        dots = np.sort(np.asarray(values, dtype=float))
+        colour = look.METHODS.get(name, look.BLUE)
+        height = row + 0.22 * np.sin(2.4 * np.arange(len(dots)))  # apart from one another, the same every time
+        axes.plot(dots, height, ".", color=colour, alpha=0.6, markersize=5)
+        axes.plot([dots.mean()] * 2, [row - 0.35, row + 0.35], color=colour, linewidth=2.5)
+        if thesis and name in thesis:
+            axes.plot(thesis[name], row, "D", color=look.INK, markersize=6, fillstyle="none")
+    axes.set(yticks=range(len(rates)), yticklabels=list(rates), xlabel="drives that arrive (%)")
+    axes.invert_yaxis()
+    axes.grid(axis="y", visible=False)
