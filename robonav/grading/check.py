@@ -11,7 +11,7 @@ from robonav.grading.course import Course, Exercise
 from robonav.grading.grade import Unaccepted, exercise_grade
 from robonav.grading.parts import PUBLIC, generator, outcome, parts_of
 from robonav.grading.proxy import Answer, Calls
-from robonav.grading.reference import Case, Reference, reference
+from robonav.grading.reference import Reference, reference
 
 
 def check(key: str, function: Callable[..., Any]) -> float:
@@ -35,7 +35,7 @@ def graded(
     for test, points in parts_of(course, exercise):
         name, error = test.__name__, None
         try:
-            test(Answer(calls, known, Case(exercise, name, 0, ())), generator(seed, name))
+            test(Answer(calls, known, exercise, name), generator(seed, name))
         except Exception as raised:
             error = raised
         parts.append(outcome(test, points, error))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import builtins
+import itertools
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -162,44 +163,49 @@ def _ended(status: int) -> Unaccepted:
     return Unaccepted("error", f"Your code ended the process it ran in (exit code {status}).")
 
 
-@dataclass
 class Answer:
-    """The student's function in one part of an exercise."""
+    """The student's function in one part of an exercise.
 
-    session: Calls
-    reference: Reference
-    case: Case  # the part; its number counts the comparisons made
+    Attributes
+    ----------
+    expected : the reference's answer to the last call.
+    """
+
+    def __init__(self, calls: Calls, reference: Reference, exercise: Exercise, part: str) -> None:
+        self._calls, self._reference, self._exercise = calls, reference, exercise
+        self._cases = (Case(exercise, part, number) for number in itertools.count())
+        self._case: Case
+        self._got: Any = None
+        self.expected: Any = None
 
     def agrees(self, *arguments: Any) -> Any:
-        """Call the function and compare with the reference; the answer, for further checks."""
-        case = replace(self.case, arguments=arguments)
-        self.case = replace(self.case, number=self.case.number + 1)
-        expected = self.reference.expected(case)
-        got = self.value(*arguments)
-        if problem := compare.difference(got, expected):
-            hint = self.reference.hint(case, got)
-            raise Unaccepted("wrong", f"{self._called(arguments)}: {problem}." + (f" Hint: {hint}" if hint else ""))
-        return got
-
-    def value(self, *arguments: Any) -> Any:
-        """Call the function; its answer as it came, of any plain kind."""
-        return self.session.call(self.case.exercise, arguments)
+        """Call the function and compare its answer with the reference's; the answer, for further checks."""
+        self._call(arguments)
+        if problem := compare.difference(self._got, self.expected):
+            raise self._wrong(problem)
+        return self._got
 
     def array(self, *arguments: Any, shape: tuple[int, ...]) -> np.ndarray:
         """Call the function; its answer as an array of finite floats of this shape."""
-        got = self.value(*arguments)
-        array = compare.as_numbers(got)
+        self._call(arguments)
+        array = compare.as_numbers(self._got)
         if array is None or array.shape != shape:
-            wanted = f"an array of shape {shape}" if shape else "a number"
-            raise Unaccepted("wrong", f"{self._called(arguments)}: expected {wanted}, got {compare.kind(got)}.")
+            raise self._wrong(f"expected {compare.kind(np.zeros(shape))}, got {compare.kind(self._got)}")
         if not np.isfinite(array).all():
-            raise Unaccepted("wrong", f"{self._called(arguments)}: the answer holds NaN or infinity.")
+            raise self._wrong("the answer holds NaN or infinity")
         return array.astype(float)
 
-    def check(self, holds: bool, arguments: Sequence[Any], sentence: str) -> None:
-        """A property of the answer to these arguments; ``sentence`` says what should hold."""
+    def check(self, holds: bool, otherwise: str) -> None:
+        """A property of the last answer; ``otherwise`` says what is wrong where it does not hold."""
         if not holds:
-            raise Unaccepted("wrong", f"{self._called(arguments)}: {sentence}")
+            raise self._wrong(otherwise)
 
-    def _called(self, arguments: Sequence[Any]) -> str:
-        return compare.call(self.case.exercise.name, tuple(arguments), numbers=not self.session.secret)
+    def _call(self, arguments: tuple[Any, ...]) -> None:
+        self._case = replace(next(self._cases), arguments=arguments)
+        self.expected = self._reference.expected(self._case)
+        self._got = self._calls.call(self._exercise, arguments)
+
+    def _wrong(self, problem: str) -> Unaccepted:
+        called = compare.call(self._exercise.name, self._case.arguments, numbers=not self._calls.secret)
+        hint = self._reference.hint(self._case, self._got)
+        return Unaccepted("wrong", f"{called}: {problem}." + (f" Hint: {hint}" if hint else ""))

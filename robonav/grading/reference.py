@@ -22,12 +22,12 @@ from robonav.grading.course import Course, Exercise, trusted
 
 @dataclass(frozen=True)
 class Case:
-    """The ``number``-th comparison of a part of an exercise, and the arguments of its call."""
+    """The ``number``-th call in a part of an exercise, and its arguments."""
 
     exercise: Exercise
     part: str
     number: int
-    arguments: tuple[Any, ...]
+    arguments: tuple[Any, ...] = ()
 
 
 class Reference(Protocol):

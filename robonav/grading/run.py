@@ -16,7 +16,7 @@ from robonav.grading.course import Course, Exercise
 from robonav.grading.grade import Part, exercise_grade, grade
 from robonav.grading.parts import PUBLIC, generator, outcome, secret_from
 from robonav.grading.proxy import Answer, Session
-from robonav.grading.reference import Case, reference
+from robonav.grading.reference import reference
 
 
 class Run:
@@ -46,7 +46,7 @@ class Run:
     @pytest.fixture
     def answer(self, request: pytest.FixtureRequest) -> Answer:
         """The student's function."""
-        return Answer(self.session, self.reference, Case(self._exercise(request.node)[0], request.node.name, 0, ()))
+        return Answer(self.session, self.reference, self._exercise(request.node)[0], request.node.name)
 
     @pytest.fixture
     def rng(self, request: pytest.FixtureRequest) -> np.random.Generator:

@@ -89,7 +89,7 @@ def test_bounds_enclose_the_optimum(answer, rng):
         for _ in range(4):
             lower, upper = answer.agrees(previous, values, discount)
             enclosed = np.all(np.asarray(lower) <= optimum + 1e-6) and np.all(optimum <= np.asarray(upper) + 1e-6)
-            answer.check(enclosed, (previous, values, discount), "the optimal values lie outside of the bounds.")
+            answer.check(enclosed, "the optimal values lie outside of the bounds")
             previous, values = values, sweep(values)
 
 
@@ -131,9 +131,8 @@ def test_track_stays_a_belief(answer, rng):
     """Ends with probabilities that sum to one, and with the belief itself after no step at all."""
     for length in (0, 30):
         *world, length = a_run(rng, 5, 3, length)
-        run = (*world, rng.integers(-1, 3, size=length))
-        belief = answer.array(*run, shape=(5,))
-        answer.check(abs(belief.sum() - 1) < 1e-4 and bool((belief >= 0).all()), run, "this is no belief.")
+        belief = answer.array(*world, rng.integers(-1, 3, size=length), shape=(5,))
+        answer.check(abs(belief.sum() - 1) < 1e-4 and bool((belief >= 0).all()), "this is no belief")
     *world, _ = a_run(rng, 5, 3, 0)
     answer.agrees(*world, np.zeros(0, dtype=int))
 

@@ -1,0 +1,46 @@
+"""Backpropagation through the network of exercise 3.1: one hidden layer or more of hyperbolic tangents, softmax at the
+end, and the mean cross-entropy with weight decay on everything but the biases,
+
+$$J = -\\frac{1}{m} \\sum_{i=1}^{m} \\log p_{y_i}(x_i) + \\frac{\\lambda}{2 m} \\sum_l \\lVert W^{(l)} \\rVert^2.$$
+
+Two things change against the chapter: the slope of a hidden unit is $1 - h^2$, and the thesis's Eq. (3.27) has
+$\\lambda$ where its Eq. (3.22) gives $\\lambda / m$. A good answer agrees with the slope measured by changing a
+weight a little.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def gradients(
+    weights: list[NDArray[np.float64]], inputs: NDArray[np.float64], labels: NDArray[np.int64], decay: float
+) -> list[NDArray[np.float64]]:
+    """Derivatives of the cost by every weight.
+
+    Parameters
+    ----------
+    weights : one array a layer, (units, units before + 1), the bias in column 0; two layers or more.
+    inputs : (M, n), one state a row, without the bias unit.
+    labels : (M,), the index of the right output.
+    decay : the lambda above, at least 0.
+
+    Returns
+    -------
+    A list of arrays with the shapes of ``weights``.
+    """
+    ### BEGIN SOLUTION
+    activations = [inputs]
+    for layer in weights[:-1]:
+        activations.append(np.tanh(layer[:, 0] + activations[-1] @ layer[:, 1:].T))
+    z = weights[-1][:, 0] + activations[-1] @ weights[-1][:, 1:].T
+    e = np.exp(z - z.max(axis=1, keepdims=True))
+    delta = e / e.sum(axis=1, keepdims=True)
+    delta[np.arange(len(labels)), labels] -= 1
+    slopes = []
+    for layer, a in zip(weights[::-1], activations[::-1]):
+        slope = np.column_stack([delta.sum(axis=0), delta.T @ a])
+        slope[:, 1:] += decay * layer[:, 1:]
+        slopes.insert(0, slope / len(inputs))
+        delta = delta @ layer[:, 1:] * (1 - a**2)
+    return slopes
+    ### END SOLUTION

@@ -1,0 +1,55 @@
+"""Known mistakes in 3.6; a function's docstring is its hint."""
+
+import numpy as np
+
+
+def _gathered(
+    states, labels, visited, advice, capacity, *, renew=True, replace=True, heed=True, oldest=True, unique=True
+):
+    kept = [(tuple(state), label) for state, label in zip(states.tolist(), labels.tolist())]
+    for state, label in zip(map(tuple, visited.tolist()), advice.tolist()):
+        if heed and label < 0:
+            continue
+        places = [n for n, (known, _) in enumerate(kept) if known == state] if unique else []
+        if places and not replace:
+            continue
+        if places and not renew:
+            kept[places[0]] = (state, label)
+            continue
+        for place in reversed(places):
+            del kept[place]
+        kept.append((state, label))
+    kept = kept[-capacity:] if oldest else kept[:capacity]
+    return np.array([s for s, _ in kept], dtype=int).reshape(-1, states.shape[1]), np.array(
+        [n for _, n in kept], dtype=int
+    )
+
+
+def only_the_new(states, labels, visited, advice, capacity):
+    """The data of earlier rounds stay: that is what keeps the learner from forgetting them."""
+    return _gathered(states[:0], labels[:0], visited, advice, capacity)
+
+
+def learns_from_silence(states, labels, visited, advice, capacity):
+    """Advice of -1 is none: such a state teaches nothing."""
+    return _gathered(states, labels, visited, advice, capacity, heed=False)
+
+
+def first_advice_stays(states, labels, visited, advice, capacity):
+    """The newest advice on a state replaces what was said before."""
+    return _gathered(states, labels, visited, advice, capacity, replace=False)
+
+
+def keeps_both(states, labels, visited, advice, capacity):
+    """A state is in the data once: its old pair goes when there is new advice."""
+    return _gathered(states, labels, visited, advice, capacity, unique=False)
+
+
+def keeps_its_place(states, labels, visited, advice, capacity):
+    """A state with new advice counts as new: it moves to the end."""
+    return _gathered(states, labels, visited, advice, capacity, renew=False)
+
+
+def newest_go(states, labels, visited, advice, capacity):
+    """When there are too many, the oldest pairs go."""
+    return _gathered(states, labels, visited, advice, capacity, oldest=False)

@@ -1,0 +1,44 @@
+"""Known mistakes in 3.5; a function's docstring is its hint."""
+
+import numpy as np
+
+
+def _thinned(states, actions, with_action=True):
+    same = (states[1:] == states[:-1]).all(axis=1)
+    if with_action:
+        same &= actions[1:] == actions[:-1]
+    kept = np.concatenate([[True], ~same])[: len(states)]
+    return states[kept], actions[kept]
+
+
+def any_number(states, actions):
+    """The target's region is never zero: look at the nine degrees of danger alone."""
+    near = (states > 0).any(axis=1)
+    return _thinned(states[near], actions[near])
+
+
+def keeps_repeats(states, actions):
+    """Of equal pairs one right after another only the first is kept."""
+    near = (states[:, :9] > 0).any(axis=1)
+    return states[near], actions[near]
+
+
+def keeps_repeats_apart(states, actions):
+    """Take the safe pairs out first: two equal effective pairs with only safe ones between them follow one another."""
+    states, actions = _thinned(states, actions)
+    near = (states[:, :9] > 0).any(axis=1)
+    return states[near], actions[near]
+
+
+def never_again(states, actions):
+    """A pair that comes again later, after another one, is kept."""
+    near = (states[:, :9] > 0).any(axis=1)
+    pairs = np.column_stack([states[near], actions[near]])
+    _, first = np.unique(pairs, axis=0, return_index=True)
+    return states[near][np.sort(first)], actions[near][np.sort(first)]
+
+
+def forgets_the_action(states, actions):
+    """The same state with another action is another pair."""
+    near = (states[:, :9] > 0).any(axis=1)
+    return _thinned(states[near], actions[near], with_action=False)

@@ -1,0 +1,55 @@
+"""Known mistakes in 3.1; a function's docstring is its hint."""
+
+import numpy as np
+
+
+def _z(weights, inputs, squash=np.tanh, column=0):
+    a = inputs
+    for number, layer in enumerate(weights):
+        others = layer[:, 1:] if column == 0 else layer[:, :-1]
+        z = (layer[:, column] if column is not None else 0) + a @ others.T
+        a = squash(z) if number < len(weights) - 1 else z
+    return a
+
+
+def _softmax(z):
+    e = np.exp(z - z.max(axis=1, keepdims=True))
+    return e / e.sum(axis=1, keepdims=True)
+
+
+def no_bias(weights, inputs):
+    """Column 0 holds the biases: add them, they stand for a unit that is always one."""
+    return _softmax(_z([np.hstack([0 * layer[:, :1], layer[:, 1:]]) for layer in weights], inputs))
+
+
+def bias_last(weights, inputs):
+    """The bias is in the first column, not in the last."""
+    return _softmax(_z(weights, inputs, column=-1))
+
+
+def sigmoid_hidden(weights, inputs):
+    """The hidden units take the hyperbolic tangent here, not the sigmoid."""
+    return _softmax(_z(weights, inputs, squash=lambda z: 0.5 * (1 + np.tanh(z / 2))))
+
+
+def sigmoid_outputs(weights, inputs):
+    """Sigmoids at the output need not sum to one; the softmax compares the outputs with one another."""
+    return 0.5 * (1 + np.tanh(_z(weights, inputs) / 2))
+
+
+def over_the_batch(weights, inputs):
+    """The softmax is taken over the outputs of one state, not over the states."""
+    z = _z(weights, inputs)
+    e = np.exp(z - z.max(axis=0))
+    return e / e.sum(axis=0)
+
+
+def squashed_twice(weights, inputs):
+    """The last layer's sums go into the softmax as they are, without the hyperbolic tangent."""
+    return _softmax(np.tanh(_z(weights, inputs)))
+
+
+def overflows(weights, inputs):
+    """The exponential of a large number overflows: subtract the largest one in each row first, nothing else changes."""
+    e = np.exp(_z(weights, inputs))
+    return e / e.sum(axis=1, keepdims=True)

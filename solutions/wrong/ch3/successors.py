@@ -1,0 +1,57 @@
+"""Known mistakes in 3.4; a function's docstring is its hint."""
+
+import numpy as np
+
+
+def _expanded(pose, speed, turn_cost, centres, radii, size, margin, *, signs=1, first=True, whole=True, border=True,
+              signed=False, keep=True, wrap=True):  # fmt: skip
+    rows, start = [], pose[:2]
+    for action, degrees in enumerate((0, 30, 60, -30, -60)):
+        turn = signs * np.radians(degrees)
+        heading = pose[2] + turn
+        going = heading if first else pose[2]
+        way = speed * np.array([np.cos(going), np.sin(going)])
+        end = start + way
+        along = np.clip((centres - start) @ way / speed**2, 0, 1) if whole else np.ones(len(centres))
+        gaps = np.hypot(*(centres - start - along[:, None] * way).T) - radii
+        room = margin if keep else 0.0
+        inside = min(*start, *end) >= room and max(*start, *end) <= size - room
+        if np.all(gaps >= room) and (inside or not border):
+            heading = (heading + np.pi) % (2 * np.pi) - np.pi if wrap else heading
+            rows.append([action, *end, heading, speed + turn_cost * (turn if signed else abs(turn))])
+    return np.array(rows).reshape(-1, 5)
+
+
+def goes_first(*arguments):
+    """The robot turns first and goes then, in the new direction."""
+    return _expanded(*arguments, first=False)
+
+
+def right_is_left(*arguments):
+    """Left is counter-clockwise: a left turn adds to the heading."""
+    return _expanded(*arguments, signs=-1)
+
+
+def only_the_end(*arguments):
+    """A step can jump over an obstacle: what counts is the least distance along the whole step, not at its end."""
+    return _expanded(*arguments, whole=False)
+
+
+def no_borders(*arguments):
+    """The borders of the map are obstacles as well."""
+    return _expanded(*arguments, border=False)
+
+
+def no_margin(*arguments):
+    """Not touching is not enough: the step must keep the margin."""
+    return _expanded(*arguments, keep=False)
+
+
+def left_pays_right(*arguments):
+    """A turn to the right costs as much as one to the left."""
+    return _expanded(*arguments, signed=True)
+
+
+def heading_runs_away(*arguments):
+    """Bring the heading back to within pi of zero."""
+    return _expanded(*arguments, wrap=False)
