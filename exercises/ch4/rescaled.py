@@ -1,0 +1,40 @@
+# Exercise 4.3: Q-values on a network's scale. 5 points, exercise, about 30 minutes.
+# Check it with: robonav check 4.3
+"""A network with sigmoids at its outputs answers between 0 and 1; Q-values go where the rewards take them. The chapter
+clips them, or shifts and divides each row. A third way: where rewards lie between $r_{min}$ and $r_{max}$, no
+Q-value can leave $[r_{min}, r_{max}] / (1 - \\gamma)$. Read the network's outputs as values on that scale, from 0
+for the least to 1 for the greatest; make the Q-learning step of Eq. (4.9) there, for the action taken alone; and
+give the targets on the network's scale again. What still leaves it, by a reward that was out of its bounds, is
+clipped.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def rescaled(
+    outputs: NDArray[np.float64],
+    actions: NDArray[np.int64],
+    rewards: NDArray[np.float64],
+    next_outputs: NDArray[np.float64],
+    ended: NDArray[np.bool_],
+    bounds: tuple[float, float],
+    discount: float,
+    rate: float,
+) -> NDArray[np.float64]:
+    """Targets for the network.
+
+    Parameters
+    ----------
+    outputs, next_outputs : (N, A), the network's answers in [0, 1] before and after each step.
+    actions, rewards : (N,), action and reward of each step.
+    ended : (N,), whether the episode ended with it: what follows is then worth exactly 0 as a Q-value.
+    bounds : the least and the greatest reward.
+    discount : discount factor in [0, 1).
+    rate : learning rate of Q-learning in [0, 1].
+
+    Returns
+    -------
+    (N, A) in [0, 1]: the outputs, moved where an action was taken.
+    """
+    raise NotImplementedError("rescaled is yours to write")

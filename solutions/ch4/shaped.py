@@ -1,0 +1,33 @@
+"""A reward table like the chapter's is easily gamed: a robot that is paid for every step away from an obstacle may
+dance to and fro before it. Ng, Harada and Russell (1999) found the one safe way to add advice. Give every state a
+potential $\\Phi(s)$, and add $\\gamma \\Phi(s') - \\Phi(s)$ to the reward of each step; nothing is to come after
+the last step, so the potential counts as zero there. Over a whole episode the additions cancel but for the start,
+and the best policy stays the best. Shape the rewards of an episode.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def shaped(
+    rewards: NDArray[np.float64], potentials: NDArray[np.float64], ended: bool, discount: float
+) -> NDArray[np.float64]:
+    """The rewards with the advice added.
+
+    Parameters
+    ----------
+    rewards : (T,), reward of each step.
+    potentials : (T + 1,), potential of the state before each step, and after the last.
+    ended : whether the episode ended with the last step; if it was only cut off, the last state keeps its potential.
+    discount : discount factor in [0, 1].
+
+    Returns
+    -------
+    (T,), the shaped rewards.
+    """
+    ### BEGIN SOLUTION
+    following = potentials[1:].copy()
+    if ended:
+        following[-1:] = 0.0
+    return rewards + discount * following - potentials[:-1]
+    ### END SOLUTION

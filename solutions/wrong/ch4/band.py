@@ -1,0 +1,46 @@
+"""Known mistakes in 4.7; a function's docstring is its hint."""
+
+import numpy as np
+
+
+def _counts(successes, block):
+    blocks = successes.shape[1] // block
+    return successes[:, : blocks * block].reshape(len(successes), blocks, block).sum(axis=2)
+
+
+def spread_of_seeds(successes, block, draws):
+    """This is where single seeds lie, not how well their mean is known: resample the mean."""
+    counts = _counts(successes, block)
+    return counts.mean(axis=0), np.percentile(counts, [2.5, 97.5], axis=0)
+
+
+def same_for_all_blocks(successes, block, draws):
+    """Every block has an interval of its own: average each resample over its seeds only."""
+    counts = _counts(successes, block)
+    ends = np.percentile(counts[draws].mean(axis=(1, 2)), [2.5, 97.5])
+    return counts.mean(axis=0), np.repeat(ends[:, None], counts.shape[1], axis=1)
+
+
+def fractions(successes, block, draws):
+    """Count the successes in a block; do not divide by its length."""
+    counts = _counts(successes, block) / block
+    return counts.mean(axis=0), np.percentile(counts[draws].mean(axis=1), [2.5, 97.5], axis=0)
+
+
+def sums_over_seeds(successes, block, draws):
+    """Take the mean over the seeds, not their sum."""
+    counts = _counts(successes, block)
+    return counts.sum(axis=0), np.percentile(counts[draws].sum(axis=1), [2.5, 97.5], axis=0)
+
+
+def wide_as_ninety(successes, block, draws):
+    """A 95 % interval leaves out 2.5 % at either end."""
+    counts = _counts(successes, block)
+    return counts.mean(axis=0), np.percentile(counts[draws].mean(axis=1), [5, 95], axis=0)
+
+
+def strides(successes, block, draws):
+    """A block is made of episodes that follow one another."""
+    blocks = successes.shape[1] // block
+    counts = successes[:, : blocks * block].reshape(len(successes), block, blocks).sum(axis=1)
+    return counts.mean(axis=0), np.percentile(counts[draws].mean(axis=1), [2.5, 97.5], axis=0)
