@@ -47,7 +47,7 @@ def entropy(belief: ArrayLike) -> float:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class POMDP:
-    """A finite MDP whose state is not seen: <S, A, T, O, Z, R>.
+    """A finite MDP whose state is not seen: <S, A, T, O, Z, R>. A belief about it is an array (S,), Eq. (2.17).
 
     Attributes
     ----------

@@ -88,8 +88,9 @@ def draw_pose_belief(
     axes.imshow(np.sqrt(share / share.max()), cmap=SURE, extent=extent, origin="lower", interpolation="nearest")
     walls = np.where(grid.free[..., None], to_rgba(look.OBSTACLE, 0), to_rgba(look.OBSTACLE, 0.9))
     axes.imshow(walls, extent=extent, origin="lower", interpolation="nearest")
-    border = {"facecolor": "none", "edgecolor": look.OBSTACLE, "linewidth": 1.5}
-    axes.add_patch(Rectangle((0, 0), extent[1], extent[3], clip_on=False, **border))
+    axes.add_patch(
+        Rectangle((0, 0), extent[1], extent[3], clip_on=False, facecolor="none", edgecolor=look.OBSTACLE, linewidth=1.5)
+    )
     likely = np.argsort(b)[::-1][:arrows]
     for x, y, heading in grid.poses[likely[b[likely] > 0.02 * b.max()]]:
         ahead = 2.5 * grid.cell * np.array([np.cos(heading), np.sin(heading)])
