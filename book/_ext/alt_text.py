@@ -1,4 +1,6 @@
-"""Warn about every picture without an alternative text; the build turns warnings into failure.
+"""Warn about every picture without an alternative text, and every cell that promises a picture and shows none.
+
+The build turns warnings into failure.
 
 For a cell's figure the text stands in the cell's metadata, as ``mystnb: {image: {alt: ...}}``; for a picture of the
 page itself in ``![the text](file)`` or in the ``:alt:`` option of its directive.
@@ -23,6 +25,10 @@ def lint(app: Sphinx, doctree: nodes.document) -> None:
     for image in doctree.findall(nodes.image):
         if not image.get("alt", "").strip():
             LOGGER.warning("picture without alternative text: %s", image.get("uri"), location=image)
+    for cell in doctree.findall(nodes.container):
+        promised = cell.get("cell_metadata", {}).get("mystnb", {}).keys() & {"image", "figure"}
+        if promised and not any(cell.findall(nodes.image)) and not any(cell.findall(nodes.raw)):
+            LOGGER.warning("cell has a text for a picture but shows none", location=cell)
     for raw in doctree.findall(nodes.raw):
         shown = SCRIPT.sub("", raw.astext()) if raw.get("format") == "html" else ""
         for tag in IMAGE_TAG.findall(shown):

@@ -9,7 +9,6 @@ from robonav import expect, look
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -41,6 +40,7 @@ class Scheme:
     arrows: tuple[Arrow, ...]
 
 
+SIZE = (6.45, 2.8)
 WIDTH, HEIGHT = 0.64, 0.54  # of a box, in cells of the grid
 
 SCHEMES: dict[str, Scheme] = {
@@ -98,11 +98,12 @@ SCHEMES: dict[str, Scheme] = {
 }
 
 
-def scheme(name: str, *, language: str = "en") -> Figure:
-    """Draw one of the schemes.
+def draw_scheme(axes: Axes, name: str, *, language: str = "en") -> None:
+    """One of the schemes; ``SIZE`` is a good size for its figure, in inches.
 
     Parameters
     ----------
+    axes : where to draw; its frame and ticks go.
     name : ``demonstration``, ``reinforcement`` or ``inverse``.
     language : ``en`` or ``fr``.
 
@@ -110,21 +111,14 @@ def scheme(name: str, *, language: str = "en") -> Figure:
     ------
     ValueError : for another name or language.
     """
-    from matplotlib import pyplot as plt
-
-    chosen = SCHEMES[expect.one_of("name", name, SCHEMES)]
+    drawn = SCHEMES[expect.one_of("name", name, SCHEMES)]
     expect.one_of("language", language, ("en", "fr"))
-    columns = max(box.column for box in chosen.boxes.values())
-    rows = max(box.row for box in chosen.boxes.values())
-    with plt.rc_context(look.STYLE):
-        figure, axes = plt.subplots(figsize=(2.15 * (columns + 1), 1.4 * (rows + 1)))
-        for box in chosen.boxes.values():
-            _draw_box(axes, box, language)
-        for arrow in chosen.arrows:
-            _draw_arrow(axes, chosen, arrow, language)
-        axes.set(xlim=(-0.5, columns + 0.5), ylim=(rows + 0.42, -0.42))
-        axes.axis("off")
-    return figure
+    for box in drawn.boxes.values():
+        _draw_box(axes, box, language)
+    for arrow in drawn.arrows:
+        _draw_arrow(axes, drawn, arrow, language)
+    axes.set(xlim=(-0.5, 2.5), ylim=(1.42, -0.42))
+    axes.axis("off")
 
 
 def _draw_box(axes: Axes, box: Box, language: str) -> None:

@@ -9,18 +9,21 @@ mpl.use("agg")
 
 from matplotlib import pyplot as plt
 
-from robonav.plots.schemes import SCHEMES, scheme
+from robonav import look
+from robonav.plots.schemes import SCHEMES, SIZE, draw_scheme
 
 
 @pytest.mark.parametrize("name", SCHEMES)
 @pytest.mark.parametrize("language", ["en", "fr"])
 def test_every_word_is_drawn_inside_the_picture(name: str, language: str) -> None:
-    figure = scheme(name, language=language)
-    figure.canvas.draw()
+    with plt.rc_context(look.STYLE):
+        figure, axes = plt.subplots(figsize=SIZE)
+        draw_scheme(axes, name, language=language)
+        figure.canvas.draw()
     chosen = SCHEMES[name]
-    words = {text.get_text() for text in figure.axes[0].texts} - {""}
+    words = {text.get_text() for text in axes.texts} - {""}
     assert words == {part.texts[language] for part in (*chosen.boxes.values(), *chosen.arrows)}
-    for text in figure.axes[0].texts:
+    for text in axes.texts:
         box = text.get_window_extent()
         if text.get_text():
             assert box.x0 >= 0
@@ -38,6 +41,7 @@ def test_arrows_join_boxes_that_exist(name: str) -> None:
 
 def test_unknown_scheme_and_language_are_refused() -> None:
     with pytest.raises(ValueError, match="name must be one of demonstration, reinforcement, inverse, got 'x'"):
-        scheme("x")
+        draw_scheme(plt.figure().add_subplot(), "x")
     with pytest.raises(ValueError, match="language must be one of en, fr, got 'de'"):
-        scheme("inverse", language="de")
+        draw_scheme(plt.figure().add_subplot(), "inverse", language="de")
+    plt.close("all")
