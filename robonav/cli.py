@@ -123,6 +123,7 @@ def reproduce(
     """Run a table or figure of the thesis again; cut and started anew, it goes on where it was."""
     from robonav import experiments, progress
     from robonav.experiments.report import as_json, as_text
+    from robonav.plots.experiments import save_figure
 
     if show or not name:
         for known in experiments.names():
@@ -137,6 +138,7 @@ def reproduce(
                     experiment, out, scale=scale, backend=backend, scheduler=scheduler, jobs=jobs, progress=shown
                 )
             )
+        save_figure(done[-1], out)
         print(as_text(done[-1]))
     if json_file is not None:
         _write_json(json_file, as_json(done))

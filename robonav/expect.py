@@ -73,7 +73,7 @@ def array(
             isinstance(want, str) or want == got for want, got in zip(shape, result.shape, strict=True)
         )
         if not fits:
-            wanted = ", ".join(map(str, shape))
+            wanted = ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "")
             raise ValueError(f"{name} must have shape ({wanted}), got {result.shape}")
     if result.dtype.kind == "f" and not np.isfinite(result).all():
         raise ValueError(f"{name} must hold finite numbers only, got NaN or infinity")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,9 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from robonav import expect
 
 from .statistics import Summary, summarise
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Case = Mapping[str, str | float | int]
 """One setting of what an experiment varies, such as ``{"method": "nnql", "obstacles": 10}``."""
@@ -35,7 +32,6 @@ class Experiment:
         decide them.
     seeds : number of runs of each case, by scale: "quick" (under a minute in all), "thesis" (its number, or more).
     thesis : what the thesis has: metric to one number a case, None where it has none.
-    draw : results to a figure.
     settings : what else a reader needs to know, for the metadata.
     """
 
@@ -45,7 +41,6 @@ class Experiment:
     run: Callable[[Case, int, str], Mapping[str, ArrayLike]]
     seeds: Mapping[str, int]
     thesis: Mapping[str, Sequence[float | None]] = field(default_factory=dict)
-    draw: Callable[[Results], Figure] | None = None
     settings: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

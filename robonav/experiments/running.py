@@ -30,7 +30,7 @@ def reproduce(
     jobs: int = -1,
     progress: Progress | None = None,
 ) -> Results:
-    """Run what is not yet run, and write ``NAME.csv``, ``NAME.json``, ``NAME.machine.json`` and the figure.
+    """Run what is not yet run, and write ``NAME.csv``, ``NAME.json`` and ``NAME.machine.json``.
 
     Finished runs stay in ``out/.runs``: an experiment that was cut goes on where it was. The numbers depend on neither
     backend nor number of workers nor interruptions.
@@ -69,7 +69,6 @@ def reproduce(
     save_results(folder, results)
     spent = {"seconds in all runs": sum(seconds for _, seconds in finished.values())}
     save_timing(folder, experiment, spent | {"seconds on the clock": time.perf_counter() - began})
-    _save_figure(folder, results)
     return results
 
 
@@ -108,18 +107,3 @@ def _on_cluster(experiment: Experiment, units: Sequence[Unit], scale: str, sched
         futures = [client.submit(run_unit, experiment, unit, scale, pure=False, retries=RETRIES) for unit in units]
         for future in as_completed(futures):
             yield future.result()
-
-
-def _save_figure(folder: Path, results: Results) -> None:
-    """``NAME.svg`` and ``NAME.png``, if the experiment has a figure; the same results give the same bytes."""
-    if results.experiment.draw is None:
-        return
-    import matplotlib as mpl
-
-    from robonav import files, look
-
-    with mpl.rc_context(look.STYLE | {"svg.hashsalt": results.experiment.name}):
-        figure = results.experiment.draw(results)
-        for kind, extra in (("svg", {"Date": None}), ("png", {"Software": None})):
-            with files.whole(folder / f"{results.experiment.name}.{kind}") as file:
-                figure.savefig(file, format=kind, metadata=extra)

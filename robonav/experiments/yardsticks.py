@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from robonav.robot import freer_side, navigate, random_worlds, straight
 
-from .experiment import Case, Experiment, Results
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from .experiment import Case, Experiment
 
 RULES = {"straight": straight, "freer side": freer_side}
 SEED = 9_000  # of the worlds; run k drives through those of SEED + k
@@ -23,13 +18,6 @@ def drive(case: Case, seed: int, scale: str) -> dict[str, float]:
     return {"success": 100 * drives.success.mean(), "collision": 100 * drives.collision.mean()}
 
 
-def draw(results: Results) -> Figure:
-    """Success of both rules against the number of obstacles, at 2 m/s."""
-    from robonav.plots.experiments import draw_bars
-
-    return draw_bars(results, "success", "drives that arrive (%)")
-
-
 YARDSTICKS = Experiment(
     name="yardsticks",
     title="Robots that have learned nothing: straight on, and a rule of three lines",
@@ -40,7 +28,6 @@ YARDSTICKS = Experiment(
     ],
     run=drive,
     seeds={"quick": 5, "thesis": 25},
-    draw=draw,
     settings={"worlds a run": WORLDS, "first seed of the worlds": SEED},
 )
 

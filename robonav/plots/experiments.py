@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from robonav import look
-
-if TYPE_CHECKING:
-    from robonav.experiments.experiment import Results
+from robonav import files, look
+from robonav.experiments import Results
 
 OURS, THESIS = look.BLUE, look.ORANGE
 
@@ -61,3 +62,22 @@ def draw_bands(results: Results, metric: str, x_label: str, y_label: str) -> Fig
     axes.set(xlabel=x_label, ylabel=y_label)
     axes.legend()
     return figure
+
+
+DRAWN: dict[str, Callable[[Results], Figure]] = {
+    "yardsticks": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+}
+"""How each experiment is drawn, by its name."""
+
+
+def save_figure(results: Results, folder: Path) -> None:
+    """Write ``NAME.svg`` and ``NAME.png``, if the experiment has a figure; the same results give the same bytes."""
+    name = results.experiment.name
+    if name not in DRAWN:
+        return
+    with mpl.rc_context(look.STYLE | {"svg.hashsalt": name}):
+        figure = DRAWN[name](results)
+        for kind, silent in (("svg", "Date"), ("png", "Software")):
+            with files.whole(folder / f"{name}.{kind}") as file:
+                figure.savefig(file, format=kind, metadata={silent: None})
+        plt.close(figure)
