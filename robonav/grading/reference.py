@@ -7,6 +7,8 @@ holds the answers recorded on the public cases instead, so that the same checks 
 
 from __future__ import annotations
 
+import functools
+import hashlib
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -29,6 +31,10 @@ class Case:
     number: int
     arguments: tuple[Any, ...] = ()
 
+    def key(self) -> bytes:
+        """The same for the same exercise and arguments."""
+        return hashlib.sha256(self.exercise.id.encode() + frames.encode(self.arguments)).digest()
+
 
 class Reference(Protocol):
     """What a grader asks."""
@@ -39,20 +45,31 @@ class Reference(Protocol):
         """The hint for the known mistake that answers just this, or for each of them, if there is one."""
 
 
-@dataclass(frozen=True)
 class Solutions:
-    """Answers computed by the solutions."""
+    """Answers computed by the solutions, once for each case: a class is asked the same ones over and over."""
 
-    course: Course
+    def __init__(self, course: Course) -> None:
+        self.course = course
+        self._right: dict[bytes, Any] = {}
+        self._wrong: dict[bytes, list[tuple[str, Any]]] = {}
 
     def expected(self, case: Case) -> Any:
-        return solution(self.course, case.exercise)(*case.arguments)
+        key = case.key()
+        if key not in self._right:
+            self._right[key] = solution(self.course, case.exercise)(*case.arguments)
+        return self._right[key]
 
     def hint(self, case: Case, got: Any) -> str | None:
         return _hints(self.mistakes(case), got)
 
-    def mistakes(self, case: Case) -> Iterator[tuple[str, Any]]:
+    def mistakes(self, case: Case) -> list[tuple[str, Any]]:
         """Each known mistake's hint and its answer to the case, where it differs from the right one."""
+        key = case.key()
+        if key not in self._wrong:
+            self._wrong[key] = list(self._mistakes(case))
+        return self._wrong[key]
+
+    def _mistakes(self, case: Case) -> Iterator[tuple[str, Any]]:
         right = self.expected(case)
         for function in mistakes(self.course, case.exercise).values():
             try:
@@ -118,6 +135,7 @@ def _hints(mistakes: Iterable[Sequence[Any]], got: Any) -> str | None:
     return " Or: ".join(hint for hint, value in mistakes if compare.difference(got, value) is None) or None
 
 
+@functools.cache
 def reference(course: Course) -> Reference:
     """Answers by the solutions where they are, by record elsewhere."""
     return Solutions(course) if course.solutions.is_dir() else Recorded(course.recorded)

@@ -1,0 +1,30 @@
+# Exercise 5.3: One step of projection. 4 points, exercise, about 20 minutes.
+# Check it with: robonav check 5.3
+"""Apprenticeship learning by projection keeps one point, the mixture of the policies found so far that is nearest to
+the expert, and moves it towards each new policy. Features have different units, so measure distances after dividing
+every feature by a scale of its own. Find the point nearest to the expert on the *segment* between the mixture and
+the new policy, and the new policy's share in it. If the two are the same point, nothing moves.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def projected(
+    mixture: NDArray[np.float64],
+    found: NDArray[np.float64],
+    expert: NDArray[np.float64],
+    scale: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], float]:
+    """The mixture after a new policy was found.
+
+    Parameters
+    ----------
+    mixture, found, expert : (k,), feature expectations of the mixture so far, of the new policy, and of the expert.
+    scale : (k,), what each feature is divided by before distances are taken, positive.
+
+    Returns
+    -------
+    (k,) feature expectations of the new mixture, in the features' own units, and the new policy's share in it, 0 to 1.
+    """
+    raise NotImplementedError("projected is yours to write")

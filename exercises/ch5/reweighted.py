@@ -1,0 +1,29 @@
+# Exercise 5.5: Samples of another policy. 6 points, exercise, about 30 minutes.
+# Check it with: robonav check 5.5
+"""Relative-entropy IRL estimates feature expectations under a policy it has no samples of, from samples of another, by
+weights $p(\\tau) / q(\\tau)$. A few huge weights can decide everything. Make the estimate robust. Scale the weights
+so that their mean is one; cut off what is larger than a given most; scale them to sum to one; average the features.
+Say, too, how many samples it is worth: the effective sample size $1 / \\sum w_i^2$ of those last weights. Only
+logarithms of the probabilities are given, and they are far from zero.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def reweighted(
+    log_p: NDArray[np.float64], log_q: NDArray[np.float64], features: NDArray[np.float64], most: float
+) -> tuple[NDArray[np.float64], float]:
+    """Estimate under p from samples of q.
+
+    Parameters
+    ----------
+    log_p, log_q : (N,), logarithm of each sample's probability under the one policy and the other, up to a constant.
+    features : (N, k), each sample's features.
+    most : largest weight to keep, where the mean weight is one; at least 1.
+
+    Returns
+    -------
+    (k,) the estimate, and the effective sample size.
+    """
+    raise NotImplementedError("reweighted is yours to write")

@@ -1,0 +1,41 @@
+"""On a slippery road what the expert did is not always what it meant. The chapter's Eq. (5.12) takes the most frequent
+action in a state. Do better where you know how actions slip: from $P(\\text{done} \\mid \\text{meant})$ and a prior
+over what an expert means, find for each state the action that was most likely meant, given all that was done there.
+A state may have been seen a thousand times: the product of as many probabilities is zero for a computer, whatever
+was meant.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def intended(
+    states: NDArray[np.int64],
+    done: NDArray[np.int64],
+    slip: NDArray[np.float64],
+    prior: NDArray[np.float64],
+    size: int,
+) -> NDArray[np.int64]:
+    """The action most likely meant in each state.
+
+    Parameters
+    ----------
+    states, done : (N,), state and action of each step that was recorded.
+    slip : (A, A), probability that an action (column) is done when one (row) was meant; may hold zeros.
+    prior : (A,), probability that the expert means each action; may hold zeros.
+    size : number of states S.
+
+    Returns
+    -------
+    (S,), the action most likely meant, the lowest index among equals, and -1 for a state that was never seen. What was
+    done in a state could always have been meant.
+    """
+    ### BEGIN SOLUTION
+    with np.errstate(divide="ignore"):
+        log_slip, log_prior = np.log(slip), np.log(prior)
+    meant = np.full(size, -1)
+    for state in np.unique(states):
+        log_posterior = log_prior + log_slip[:, done[states == state]].sum(axis=1)
+        meant[state] = np.argmax(log_posterior)
+    return meant
+    ### END SOLUTION
