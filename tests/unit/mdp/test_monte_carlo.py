@@ -87,7 +87,7 @@ def test_a_constant_rate_weighs_new_returns_more():
 
 def test_blackjack_is_learned_better_than_by_chance():
     table = gym.make("Blackjack-v1", sab=True)
-    learned = monte_carlo_control(table, 20_000, discount=1.0, seed=0)
+    learned = monte_carlo_control(table, 8_000, discount=1.0, seed=0)
     hold, hit = learned.q.reshape(32, 11, 2, 2)[20, 1:, 0].T
     assert (hold > hit).all()  # at twenty nobody draws a card
 
