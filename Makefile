@@ -36,6 +36,7 @@ $(INSTALLED): requirements.lock pyproject.toml
 	touch $@
 
 book: $(INSTALLED)
+	$(BIN)/python book/_ext/execute_notebooks.py
 	$(BIN)/jupyter-book build . -W --keep-going -n --all
 	$(BIN)/python book/_ext/check_site.py
 

@@ -130,12 +130,16 @@ def offer(app: Sphinx, page: str, template: str, context: dict[str, Any], doctre
     context["ipynb_source"] = f"{page}.ipynb"
 
 
+def notebook_pages() -> list[Path]:
+    """The sources of the book's notebook pages, in its order."""
+    listed = [ROOT / f"{page}.md" for page in pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8")))]
+    return [source for source in listed if source.read_text("utf-8").startswith("---\njupytext:")]
+
+
 def write_all(folder: Path) -> None:
     """Write the notebooks of the book into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    listed = [ROOT / f"{page}.md" for page in pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8")))]
-    sources = [source for source in listed if source.read_text("utf-8").startswith("---\njupytext:")]
-    for number, source in enumerate(sources, start=1):
+    for number, source in enumerate(notebook_pages(), start=1):
         target = folder / f"{number:02d}-{source.stem}.ipynb"
         if target.exists():
             if target.stat().st_mtime > source.stat().st_mtime:

@@ -29,15 +29,21 @@ def digest_of(folder: Path) -> str:
     return total.hexdigest()[:12]
 
 
-def choose_cache(app: Sphinx, config: Config) -> None:
-    """Point the notebook cache at the folder of this digest, and drop those that nobody used for a day."""
-    config.package_digest = digest_of(ROOT / "robonav")
-    chosen = CACHES / config.package_digest
+def prepared_cache() -> Path:
+    """The folder for notebooks executed with the package as it is; those that nobody used for a day are dropped."""
+    chosen = CACHES / digest_of(ROOT / "robonav")
     chosen.mkdir(parents=True, exist_ok=True)
     os.utime(chosen)
     for other in CACHES.iterdir():
         if other.stat().st_mtime < time.time() - A_DAY:
             shutil.rmtree(other)
+    return chosen
+
+
+def choose_cache(app: Sphinx, config: Config) -> None:
+    """Point the notebook cache at the folder of this digest."""
+    chosen = prepared_cache()
+    config.package_digest = chosen.name
     config.nb_execution_cache_path = str(chosen)
 
 
