@@ -45,7 +45,7 @@ def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
         else sum(part.points for part in parts if part.state == "correct"),
         "max_points": exercise.points,
         "state": _state(parts),
-        "feedback": printable("\n".join(map(_line, parts))),
+        "feedback": "Not attempted." if _state(parts) == "missing" else printable("\n".join(map(_line, parts))),
     }
 
 
@@ -84,7 +84,8 @@ def _state(parts: Sequence[Part]) -> State:
 
 
 def _line(part: Part) -> str:
+    """A part's points and name, and below what went wrong."""
     earned = part.points if part.state == "correct" else 0
     mark = "✓" if earned else "✗"
-    feedback = "" if part.state == "correct" else f" {part.feedback}"
-    return f"{mark} {earned}/{part.points} {part.name}{feedback}"
+    details = "" if part.state == "correct" else "".join(f"\n    {line}" for line in part.feedback.splitlines())
+    return f"{mark} {earned}/{part.points} {part.name}{details}"

@@ -110,6 +110,8 @@ class Session:
         assert self._worker is not None
         self._asked += 1
         left = self._left.setdefault(exercise.id, self._limits.exercise_seconds)
+        if left <= 0:
+            raise Unaccepted("timeout", f"The {self._limits.exercise_seconds:g} seconds for this exercise are used up.")
         seconds = min(self._limits.call_seconds, left)
         start = time.monotonic()
         try:
@@ -207,5 +209,5 @@ class Answer:
 
     def _wrong(self, problem: str) -> Unaccepted:
         called = compare.call(self._exercise.name, self._case.arguments, numbers=not self._calls.secret)
-        hint = self._reference.hint(self._case, self._got)
-        return Unaccepted("wrong", f"{called}: {problem}." + (f" Hint: {hint}" if hint else ""))
+        hints = [f"Hint: {hint}" for hint in self._reference.hints(self._case, self._got)]
+        return Unaccepted("wrong", "\n".join([called, f"{problem[0].upper()}{problem[1:]}.", *hints]))

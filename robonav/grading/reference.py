@@ -41,8 +41,8 @@ class Reference(Protocol):
 
     def expected(self, case: Case) -> Any: ...
 
-    def hint(self, case: Case, got: Any) -> str | None:
-        """The hint for the known mistake that answers just this, or for each of them, if there is one."""
+    def hints(self, case: Case, got: Any) -> list[str]:
+        """The hints for the known mistakes that answer just this."""
 
 
 class Solutions:
@@ -59,7 +59,7 @@ class Solutions:
             self._right[key] = solution(self.course, case.exercise)(*case.arguments)
         return self._right[key]
 
-    def hint(self, case: Case, got: Any) -> str | None:
+    def hints(self, case: Case, got: Any) -> list[str]:
         return _hints(self.mistakes(case), got)
 
     def mistakes(self, case: Case) -> list[tuple[str, Any]]:
@@ -95,8 +95,8 @@ class Recorder:
         of_exercise.setdefault(case.part, []).append([list(case.arguments), right, mistakes])
         return right
 
-    def hint(self, case: Case, got: Any) -> str | None:
-        return self._solutions.hint(case, got)
+    def hints(self, case: Case, got: Any) -> list[str]:
+        return self._solutions.hints(case, got)
 
     def write(self, folder: Path) -> None:
         """One file of frames for each exercise."""
@@ -115,7 +115,7 @@ class Recorded:
     def expected(self, case: Case) -> Any:
         return self._entry(case)[1]
 
-    def hint(self, case: Case, got: Any) -> str | None:
+    def hints(self, case: Case, got: Any) -> list[str]:
         return _hints(self._entry(case)[2], got)
 
     def _entry(self, case: Case) -> Any:
@@ -131,8 +131,8 @@ class Recorded:
         return entry
 
 
-def _hints(mistakes: Iterable[Sequence[Any]], got: Any) -> str | None:
-    return " Or: ".join(hint for hint, value in mistakes if compare.difference(got, value) is None) or None
+def _hints(mistakes: Iterable[Sequence[Any]], got: Any) -> list[str]:
+    return [hint for hint, value in mistakes if compare.difference(got, value) is None]
 
 
 @functools.cache

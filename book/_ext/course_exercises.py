@@ -1,0 +1,74 @@
+"""The exercises on a page: the directive ``{course-exercises}``, with a chapter such as ``ch2``.
+
+Each exercise shows its question and the file that students fill in, from ``exercises/``. In the instructors' build,
+``make book SOLUTIONS=1``, its solution and the known mistakes with their hints follow behind a fold; in any other build
+they are nowhere.
+"""
+
+from __future__ import annotations
+
+import inspect
+import os
+
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+from robonav.grading.build import code, question
+from robonav.grading.course import Course, Exercise
+from robonav.grading.reference import mistakes
+
+
+class CourseExercises(SphinxDirective):
+    """The directive ``{course-exercises}``."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        course = Course.around()
+        chosen = [exercise for exercise in course.exercises.values() if exercise.chapter == self.arguments[0]]
+        if not chosen:
+            raise self.error(f"no chapter {self.arguments[0]} in the manifest")
+        self.env.note_dependency(str(course.tests / "manifest.toml"))
+        text = "\n".join(self._exercise(course, exercise) for exercise in chosen)
+        return self.parse_text_to_nodes(text, allow_section_headings=True)
+
+    def _exercise(self, course: Course, exercise: Exercise) -> str:
+        """One exercise in MyST Markdown."""
+        stub = course.stubs / exercise.file
+        self.env.note_dependency(str(stub))
+        key = f"exercise-{exercise.id.replace('.', '-')}"
+        about = f"{exercise.difficulty}, about {exercise.minutes} minutes, {exercise.points} points"
+        source = stub.read_text()
+        asked = f"*{about[0].upper()}{about[1:]}.*\n\n{question(source)}"
+        parts = [
+            f"({key})=\n## {exercise.id} {exercise.title}",
+            f"`````{{exercise}} {exercise.id}\n:label: {key}-question\n:nonumber:\n\n{asked}\n`````",
+            f"````{{code-block}} python\n:caption: exercises/{exercise.file}\n\n{code(source)}````",
+        ]
+        if self.config.course_solutions:
+            parts.append(self._solution(course, exercise))
+        return "\n\n".join(parts) + "\n"
+
+    def _solution(self, course: Course, exercise: Exercise) -> str:
+        for path in (course.solutions / exercise.file, course.solutions / "wrong" / exercise.file):
+            self.env.note_dependency(str(path))
+        lines = [
+            line for line in code((course.solutions / exercise.file).read_text()).splitlines() if "### " not in line
+        ]
+        hints = [
+            f"- `{name}`: {' '.join((inspect.getdoc(function) or '').split())}"
+            for name, function in mistakes(course, exercise).items()
+        ]
+        solved = "````{code-block} python\n" + "\n".join(lines) + "\n````"
+        return (
+            f"`````{{dropdown}} Solution, for instructors\n{solved}\n\nKnown mistakes:\n\n"
+            + "\n".join(hints)
+            + "\n`````"
+        )
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.add_config_value("course_solutions", os.environ.get("SOLUTIONS") == "1", "env")
+    app.add_directive("course-exercises", CourseExercises)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

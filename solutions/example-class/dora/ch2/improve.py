@@ -1,0 +1,2 @@
+def improve(q, policy, tolerance):
+    return q.argmax(axis=1)
