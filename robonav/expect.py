@@ -26,7 +26,10 @@ def real(
     """A finite real number within the bounds; TypeError or ValueError otherwise."""
     if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a number, got {value!r}")
-    number = float(value)
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
     if not math.isfinite(number):
         raise ValueError(f"{name} must be finite, got {value!r}")
     bounds = []
@@ -63,9 +66,16 @@ def integer(name: str, value: Any, *, at_least: int | None = None, at_most: int 
 def array(
     name: str, value: ArrayLike, *, shape: Sequence[int | str] | None = None, dtype: DTypeLike = float
 ) -> NDArray[Any]:
-    """An array of finite numbers of the given shape; a letter in ``shape`` stands for any length."""
+    """An array of finite numbers of the given shape; a letter in ``shape`` stands for any length.
+
+    No value is changed on the way to ``dtype``: 1.7 is no whole number, 300 no 8-bit one.
+    """
     try:
-        result: NDArray[Any] = np.asarray(value, dtype=dtype)
+        given = np.asarray(value)
+        if np.dtype(dtype).kind in "biuf" and given.size and given.dtype.kind not in "biuf":
+            raise TypeError
+        with np.errstate(invalid="ignore"):
+            result: NDArray[Any] = given.astype(dtype, copy=False)
     except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{name} must be an array of numbers, got {type(value).__name__}") from None
     if shape is not None:
@@ -75,9 +85,19 @@ def array(
         if not fits:
             wanted = ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "")
             raise ValueError(f"{name} must have shape ({wanted}), got {result.shape}")
-    if result.dtype.kind == "f" and not np.isfinite(result).all():
+    if given.dtype.kind == "f" and not np.isfinite(given).all():
         raise ValueError(f"{name} must hold finite numbers only, got NaN or infinity")
+    if result.dtype.kind in "iu" and not (result == given).all():
+        limits = np.iinfo(result.dtype)
+        raise ValueError(f"{name} must hold whole numbers from {limits.min} to {limits.max}")
     return result
+
+
+def instance(name: str, value: Any, kind: type) -> Any:
+    """A value of this kind; TypeError otherwise."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} must be {kind.__name__}, got {type(value).__name__}")
+    return value
 
 
 def one_of(name: str, value: Any, choices: Iterable[Any]) -> Any:

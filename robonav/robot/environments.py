@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from .. import expect
 from .kernels import ARRIVED, COLLIDED, OUT_OF_STEPS, RUNNING, SENSOR_RANGE, SENSORS
 from .navigation import REFLEX
-from .simulator import OUTCOMES, Reflex, Sensing, Simulator, check_actions
-from .worlds import MOVING_SPEEDS, START, TARGET, Worlds, draw_worlds
+from .simulator import NEVER, OUTCOMES, Reflex, Sensing, Simulator, check_actions
+from .worlds import MOVING_SPEEDS, SIZE, START, TARGET, Worlds, check_drawing, draw_worlds
 
 MAX_STEPS = 500
 _OUTCOME_NAMES = OUTCOMES.astype(object)
@@ -102,11 +102,12 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         render_mode: str | None = None,
     ) -> None:
         self.num_envs = expect.integer("num_envs", num_envs, at_least=1)
-        expect.integer("max_episode_steps", max_episode_steps, at_least=1)
-        if worlds is not None and len(worlds) == 0:
+        expect.integer("max_episode_steps", max_episode_steps, at_least=1, at_most=NEVER)
+        if worlds is not None and len(expect.instance("worlds", worlds, Worlds)) == 0:
             raise ValueError("worlds must hold at least one world, got none")
-        expect.integer("obstacles", obstacles, at_least=0)
-        expect.integer("moving", moving, at_least=0)
+        check_drawing(obstacles, moving, starts, targets, moving_speeds, SIZE)
+        if reflex is not None and not callable(reflex):
+            raise TypeError(f"reflex must be callable as reflex(sensing, speed), or None, got {reflex!r}")
         if not callable(reward):
             raise TypeError(f"reward must be callable as reward(before, after, outcome), got {type(reward).__name__}")
         self.render_mode = expect.one_of("render_mode", render_mode, [None, *self.metadata["render_modes"]])
@@ -130,28 +131,34 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         ``options={"worlds": ...}`` puts the robots into N given worlds.
         """
         self.seed(seed)
+        for option in expect.instance("options", options or {}, dict):
+            expect.one_of("options", option, ["worlds"])
         given = (options or {}).get("worlds")
-        if given is not None and len(given) != self.num_envs:
+        if given is not None and len(expect.instance("options['worlds']", given, Worlds)) != self.num_envs:
             raise ValueError(f"options['worlds'] must hold {self.num_envs} worlds, got {len(given)}")
         start = self._next_worlds(np.arange(self.num_envs)) if given is None else given
         slots = max(start.slots, self.simulator.worlds.slots)
-        self.simulator = Simulator(start[:].with_slots(slots), **self._robot)  # a copy: restarts overwrite it
+        self.simulator = Simulator(start.with_slots(slots), **self._robot)
         self.sensing = self.simulator.sense()
         self._ended = np.zeros(self.num_envs, dtype=np.bool_)
         return self._observation(), self._info(np.full(self.num_envs, -1))
 
     def seed(self, seed: int | Sequence[int | None] | None) -> None:
         """Give every robot its generator: from seed + i, from its own seed, or, the first time, by chance."""
-        if seed is None or isinstance(seed, int | np.integer):
-            seeds: list[int | None] = [None if seed is None else int(seed) + i for i in range(self.num_envs)]
+        seeds: list[int | None]
+        if isinstance(seed, Sequence):
+            seeds = [None if own is None else expect.integer("seed", own, at_least=0) for own in seed]
+        elif seed is None:
+            seeds = [None] * self.num_envs
         else:
-            seeds = list(seed)
+            first = expect.integer("seed", seed, at_least=0)
+            seeds = [first + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed must be a number or one for each of {self.num_envs} robots, got {len(seeds)}")
         for i, own in enumerate(seeds):
             if own is not None or self._np_random is None:
                 self._generators[i], _ = seeding.np_random(own)
-        self._np_random = self._generators[0]
+        self._np_random, self._np_random_seed = self._generators[0], seeds[0]
 
     def step(
         self, actions: ArrayLike
@@ -166,7 +173,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         """A step without its observation and info: rewards, terminated, truncated, reflexes, each (N,)."""
         if len(self.simulator) == 0:
             raise ValueError("step: call reset first")
-        commands = check_actions(actions, self.num_envs)
+        commands = check_actions(actions, (self.num_envs,))
         simulator, before, fresh = self.simulator, self.sensing, self._ended
         some_fresh = fresh.any()
         reflexes = np.full(self.num_envs, -1) if self.reflex is None else self.reflex(before, simulator.speed)
@@ -178,6 +185,8 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
             simulator.restart(index, self._next_worlds(index))
         self.sensing = simulator.sense()
         reward = np.array(self.reward(before, self.sensing, simulator.outcome), dtype=float)
+        if reward.shape != (self.num_envs,):
+            raise ValueError(f"reward must give an array of shape ({self.num_envs},), got {reward.shape}")
         reward[fresh] = 0.0
         self._ended = simulator.outcome != RUNNING
         terminated = self._ended & (simulator.outcome != OUT_OF_STEPS)
@@ -187,6 +196,8 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         """A picture (H, W, 3) of every world, if ``render_mode`` is "rgb_array"."""
         if self.render_mode is None:
             return None
+        if len(self.simulator) == 0:
+            raise ValueError("render: call reset first")
         from .drawing import picture
 
         return tuple(picture(self.simulator, i) for i in range(self.num_envs))
@@ -201,9 +212,9 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
     def _observation(self) -> dict[str, Any]:
         read = self.sensing
         return {
-            "ranges": read.ranges,
-            "walls": read.walls.view(np.int8),
-            "target_region": read.target_region,
+            "ranges": read.ranges.copy(),  # the reader's to change
+            "walls": read.walls.astype(np.int8),
+            "target_region": read.target_region.copy(),
             "target_seen": read.target_seen.astype(np.int64),
         }
 
@@ -251,7 +262,7 @@ class NavigationEnv(gymnasium.Env):
         """One second; ValueError or TypeError for an action that is not 0 to 5."""
         if len(self.batch.simulator) and self.batch.simulator.outcome[0] != RUNNING:
             raise ValueError("step: the episode has ended; call reset first")
-        reward, terminated, truncated, reflexes = self.batch.advance(np.asarray(action).reshape(1))
+        reward, terminated, truncated, reflexes = self.batch.advance(check_actions(action, ())[None])
         if self.render_mode == "human":
             self.render()
         return self._observation(), float(reward[0]), bool(terminated[0]), bool(truncated[0]), self._info(reflexes[0])
@@ -259,8 +270,8 @@ class NavigationEnv(gymnasium.Env):
     def _observation(self) -> dict[str, Any]:
         read = self.batch.sensing
         return {
-            "ranges": read.ranges[0],
-            "walls": read.walls[0].view(np.int8),
+            "ranges": read.ranges[0].copy(),  # the reader's to change
+            "walls": read.walls[0].astype(np.int8),
             "target_region": read.target_region[0],
             "target_seen": np.int64(read.target_seen[0]),
         }

@@ -78,6 +78,8 @@ def navigate(
     """
     if not callable(policy):
         raise TypeError(f"policy must be callable as policy(sensing, rng), got {type(policy).__name__}")
+    if reflex is not None and not callable(reflex):
+        raise TypeError(f"reflex must be callable as reflex(sensing, speed), or None, got {reflex!r}")
     rng = expect.generator("seed", seed)
     simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
     n = len(worlds)
@@ -108,11 +110,11 @@ def decide(
 ) -> NDArray[np.int64]:
     """Commands (N,): the reflex's, and the policy's where the reflex leaves it the choice."""
     if reflex is None:
-        return check_actions(policy(sensing, rng), len(sensing))
+        return check_actions(policy(sensing, rng), (len(sensing),))
     commands = reflex(sensing, speed)
     asked = commands < 0
     if asked.any():
-        commands[asked] = check_actions(policy(sensing[asked], rng), int(asked.sum()))
+        commands[asked] = check_actions(policy(sensing[asked], rng), (int(asked.sum()),))
     return commands
 
 

@@ -16,7 +16,7 @@ from .worlds import Worlds
 
 OUTCOMES = np.array(["running", "arrived", "collided", "out of steps"])
 NO_SLIP = np.zeros((0, 0))
-NEVER = 2**20  # steps: as far as the random numbers of a world count
+NEVER = 2**19  # steps: as far as the random numbers of a world count
 
 
 class Action(IntEnum):
@@ -83,15 +83,18 @@ class Reflex:
         return commands
 
 
-def check_actions(actions: ArrayLike, n: int) -> NDArray[np.int64]:
-    """Actions (n,) as whole numbers 0..5; TypeError or ValueError for anything else."""
-    given = np.asarray(actions)
+def check_actions(actions: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.int64]:
+    """Actions of this shape as whole numbers 0..5; TypeError or ValueError for anything else."""
+    try:
+        given = np.asarray(actions)
+    except ValueError:
+        raise TypeError("action must be whole numbers 0 to 5, got lists of several lengths") from None
     if given.dtype.kind not in "iu":
         raise TypeError(f"action must be whole numbers 0 to 5, got {given.dtype}")
-    if given.shape != (n,):
-        raise ValueError(f"action must have shape ({n},), got {given.shape}")
-    if n and given.astype(np.uint64).max() > kernels.BACKWARD:  # what is negative becomes very large
-        wrong = given[(given < 0) | (given > kernels.BACKWARD)][0]
+    if given.shape != shape:
+        raise ValueError(f"action must have shape {shape}, got {given.shape}")
+    if given.size and given.astype(np.uint64).max() > kernels.BACKWARD:  # what is negative becomes very large
+        wrong = given[(given < 0) | (given > kernels.BACKWARD)].flat[0]
         raise ValueError(f"action must be one of F, L30, L60, R30, R60, B (0 to 5), got {wrong}")
     return given.astype(np.int64)
 
@@ -148,11 +151,12 @@ class Simulator:
         noise: float = 0.0,
         max_steps: int = NEVER,
     ) -> None:
-        self.worlds = worlds
+        self.worlds = expect.instance("worlds", worlds, Worlds)
         self.speed = expect.positive("speed", speed)
         self.slip = check_slip(slip)
         self.noise = expect.real("noise", noise, at_least=0)
-        self.max_steps = expect.integer("max_steps", max_steps, at_least=1)
+        self.max_steps = expect.integer("max_steps", max_steps, at_least=1, at_most=NEVER)
+        self._owns_worlds = False
         self.poses = worlds.start_poses
         self.centres = worlds.centres.copy()
         self.headings = worlds.headings.copy()
@@ -172,7 +176,15 @@ class Simulator:
         return read
 
     def step(self, commands: NDArray[np.int64]) -> None:
-        """One second for every robot still running; ``commands`` (N,) of ``Action``."""
+        """One second for every robot still running; ``commands`` (N,) of ``Action``.
+
+        Raises
+        ------
+        ValueError : if the commands are not N whole numbers 0 to 6.
+        """
+        fits = isinstance(commands, np.ndarray) and commands.dtype == np.int64 and commands.shape == self.outcome.shape
+        if not fits or (commands.astype(np.uint64) > Action.TO_TARGET).any():
+            raise ValueError(f"commands must be an array of {len(self)} whole numbers 0 to 6, got {commands!r}")
         w = self.worlds
         kernels.in_threads(
             kernels.step, len(self), w.kinds, w.shapes, w.speeds, w.keys, w.size, w.targets, self.slip, self.speed,
@@ -187,6 +199,12 @@ class Simulator:
 
     def restart(self, index: NDArray[np.int64], worlds: Worlds) -> None:
         """Put the robots ``index`` (K,) at the start of K new worlds, of no more obstacle slots than the old."""
+        if worlds.size != self.worlds.size:
+            raise ValueError(
+                f"worlds must have the map size of those they replace, {self.worlds.size:g} m, got {worlds.size:g} m"
+            )
+        if not self._owns_worlds:  # those handed in stay as they are
+            self.worlds, self._owns_worlds = self.worlds[:], True
         worlds = worlds.with_slots(self.worlds.slots)
         for name in ("kinds", "shapes", "centres", "speeds", "headings", "starts", "targets", "keys"):
             getattr(self.worlds, name)[index] = getattr(worlds, name)
@@ -212,7 +230,8 @@ def sense(worlds: Worlds, poses: ArrayLike, *, noise: float = 0.0) -> Sensing:
 
 def obstacle_tracks(worlds: Worlds, steps: int) -> NDArray[np.float64]:
     """Where the obstacles are (N, steps + 1, M, 2) over time: the robot does not move them."""
-    expect.integer("steps", steps, at_least=0)
+    expect.instance("worlds", worlds, Worlds)
+    expect.integer("steps", steps, at_least=0, at_most=NEVER)
     centres, headings = worlds.centres.copy(), worlds.headings.copy()
     track = [centres.copy()]
     for step in range(steps):

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import zipfile
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .. import files
+from .. import expect, files
 from . import kernels
 from .worlds import SIZE, START, TARGET, Worlds
 
@@ -18,6 +17,7 @@ FORMAT = "robonav worlds 1"
 
 def save_worlds(path: str | Path, worlds: Worlds) -> None:
     """Write a batch as npz (format "robonav worlds 1": the fields of ``Worlds`` by name)."""
+    expect.instance("worlds", worlds, Worlds)
     arrays: dict[str, Any] = {field.name: getattr(worlds, field.name) for field in fields(Worlds)}
     with files.whole(path) as file:
         np.savez_compressed(file, format=np.array(FORMAT), **arrays)
@@ -33,21 +33,22 @@ def load_worlds(path: str | Path) -> Worlds:
     try:
         with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
-    except (ValueError, OSError, EOFError, KeyError, zipfile.BadZipFile) as error:
-        if isinstance(error, FileNotFoundError):
-            raise
+    except FileNotFoundError:
+        raise
+    except Exception:  # a damaged archive can end in almost any of them
         raise ValueError(f"path must be a file of worlds, but {path} is damaged or of another kind") from None
     if str(arrays.pop("format", "")) != FORMAT:
         raise ValueError(f"path must be a file in the format {FORMAT!r}, but {path} is not")
     missing = {field.name for field in fields(Worlds)} ^ set(arrays)
     if missing:
         raise ValueError(f"path must hold the fields of Worlds, but {path} differs in {', '.join(sorted(missing))}")
-    return Worlds(**{name: array.item() if name == "size" else array for name, array in arrays.items()})
+    size = expect.array("size", arrays.pop("size"), shape=()).item()
+    return Worlds(**arrays, size=size)
 
 
 def format_world(worlds: Worlds) -> str:
-    """One world (a batch of one) as text, which :func:`parse_world` reads back."""
-    if len(worlds) != 1:
+    """One world (a batch of one) as text, which :func:`parse_world` reads back to the last bits of its angles."""
+    if len(expect.instance("worlds", worlds, Worlds)) != 1:
         raise ValueError(f"worlds must be a batch of one, got {len(worlds)}")
     start, target, key = worlds.starts[0], worlds.targets[0], worlds.keys[0]
     lines = [
@@ -88,16 +89,17 @@ def parse_world(text: str) -> Worlds:
     ValueError : naming the line that cannot be read, or if the world is not valid.
     """
     header: dict[str, list[float]] = {"size": [SIZE], "start": [*START], "target": [*TARGET], "key": [0, 0]}
-    rows = []
-    for number, line in enumerate(text.splitlines(), start=1):
+    rows, seen = [], set()
+    for number, line in enumerate(expect.instance("text", text, str).splitlines(), start=1):
         words = line.partition("#")[0].split()
         if not words:
             continue
         try:
             if words[0] in header:
                 values = [float(word) for word in words[1:]]
-                if len(values) != len(header[words[0]]):
+                if len(values) != len(header[words[0]]) or words[0] in seen:
                     raise ValueError
+                seen.add(words[0])
                 header[words[0]] = values
             else:
                 rows.append(_parse_obstacle(words))
@@ -136,6 +138,8 @@ def _parse_obstacle(words: list[str]) -> tuple[float, ...]:
         if name in values or len(rest) < lengths[name]:
             raise ValueError
         values[name] = [float(rest.pop(0)) for _ in range(lengths[name])]
+    if "towards" in values and "speed" not in values:
+        raise ValueError
     speed, towards = values.get("speed", [0.0])[0], np.radians(values.get("towards", [0.0])[0])
     if kind == "circle":
         return kernels.CIRCLE, x, y, values["radius"][0], 0.0, 0.0, speed, towards

@@ -16,6 +16,9 @@ from . import kernels
 SIZE = 100.0
 START, TARGET = (10.0, 10.0), (90.0, 90.0)
 MOVING_SPEEDS = (0.4, 0.9)  # slower than the slowest robot, which goes 1 m/s
+FASTEST = 4.0  # m/s that an obstacle may have: the robot's own greatest speed
+LARGEST_MAP = 1000.0
+MOST_WORLDS = 10_000_000
 ATTEMPTS = 1000
 
 Floats = NDArray[np.float64]
@@ -65,7 +68,7 @@ class Worlds:
         }
         for name, (shape, dtype) in wanted.items():
             checked = expect.array(f"worlds: {name}", getattr(self, name), shape=shape, dtype=dtype)
-            object.__setattr__(self, name, np.ascontiguousarray(checked))
+            object.__setattr__(self, name, np.array(checked, order="C"))
         object.__setattr__(self, "size", expect.positive("worlds: size", self.size))
         expect.integer("worlds: obstacle slots", m, at_most=kernels.MAX_OBSTACLES)
         self._check_obstacles()
@@ -80,6 +83,8 @@ class Worlds:
             raise ValueError(f"worlds: radius must be positive, got {self.shapes[circles][:, 0].min():g}")
         if (self.shapes[rectangles][:, :2] <= 0).any():
             raise ValueError(f"worlds: sides must be positive, got {2 * self.shapes[rectangles][:, :2].min():g}")
+        if self.shapes[circles][:, 1:].any():
+            raise ValueError("worlds: shapes of circles must be a radius, 0 and 0")
         if (self.speeds[there] < 0).any():
             raise ValueError(f"worlds: obstacle speed must be at least 0, got {self.speeds[there].min():g}")
         outside = (self.centres[there] < 0) | (self.centres[there] > self.size)
@@ -87,6 +92,17 @@ class Worlds:
             where = self.centres[there][outside.any(axis=1)][0]
             raise ValueError(
                 f"worlds: obstacles must have their centre in the map, 0 to {self.size:g} m, got {_point(where)}"
+            )
+
+        reach = np.where(circles, self.shapes[..., 0], np.hypot(self.shapes[..., 0], self.shapes[..., 1]))
+        moving = there & (self.speeds > 0)
+        near = np.minimum(self.centres, self.size - self.centres).min(axis=-1)
+        if (moving & (near < reach)).any():
+            where = self.centres[moving & (near < reach)][0]
+            raise ValueError(f"worlds: moving obstacles must lie wholly in the map, got one at {_point(where)}")
+        if (moving & (self.speeds > FASTEST)).any():
+            raise ValueError(
+                f"worlds: obstacle speed must be at most {FASTEST:g} m/s, got {self.speeds[moving].max():g}"
             )
 
     def _check_endpoints(self) -> None:
@@ -105,15 +121,18 @@ class Worlds:
         return len(self.kinds)
 
     def __getitem__(self, index: int | slice | ArrayLike) -> Worlds:
-        """Worlds picked by a slice, indices or a mask; one whole number gives a batch of one."""
-        if isinstance(index, int | np.integer):
-            if not -len(self) <= index < len(self):
-                raise IndexError(f"world {index} of a batch of {len(self)}")
-            index = [int(index)]
+        """Worlds picked by a slice, indices or a mask, copied; one whole number gives a batch of one."""
+        if not isinstance(index, slice) and (isinstance(index, bool | tuple) or np.ndim(index) > 1):
+            raise TypeError(f"worlds are picked by a whole number, a slice, a list or a mask, got {index!r}")
+        if not isinstance(index, slice) and np.ndim(index) == 0:
+            number = expect.integer("world", index)
+            if not -len(self) <= number < len(self):
+                raise IndexError(f"world {number} of a batch of {len(self)}")
+            index = [number]
         picked = Worlds.__new__(Worlds)  # rows of a checked batch need no second check
         for field in fields(self):
             value = getattr(self, field.name)
-            kept = value if field.name == "size" else np.ascontiguousarray(value[index])
+            kept = value if field.name == "size" else np.array(value[index], order="C")
             object.__setattr__(picked, field.name, kept)
         return picked
 
@@ -144,8 +163,9 @@ class Worlds:
 
     def digest(self) -> str:
         """SHA-256 of the worlds to the micrometre: equal for equal worlds on any machine."""
-        lengths = [np.round(part * 1e6).astype("<i8") for part in (self.shapes, self.centres, self.speeds)]
-        parts = [self.kinds.astype("<i1"), *lengths, self.starts, self.targets, self.keys.astype("<u4")]
+        lengths = (self.shapes, self.centres, self.speeds, self.headings, self.starts, self.targets, self.size)
+        parts = [np.round(np.asarray(part) * 1e6).astype("<i8") for part in lengths]
+        parts += [self.kinds.astype("<i1"), self.keys.astype("<u4")]
         return hashlib.sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in parts)).hexdigest()
 
 
@@ -155,6 +175,7 @@ def _point(place: Floats) -> str:
 
 def clearance(worlds: Worlds, points: ArrayLike) -> Floats:
     """Distance (N,) in metres from one point of each world (N, 2) to its nearest obstacle or border."""
+    expect.instance("worlds", worlds, Worlds)
     places = expect.array("points", points, shape=(len(worlds), 2))
     return np.array(
         [
@@ -205,15 +226,36 @@ def random_worlds(
     ------
     ValueError : if an argument is out of bounds, or no solvable map was found in 1000 draws.
     """
-    expect.integer("n", n, at_least=0)
-    expect.integer("obstacles", obstacles, at_least=0)
-    expect.integer("moving", moving, at_least=0)
-    expect.integer("obstacles + moving", obstacles + moving, at_most=kernels.MAX_OBSTACLES)
-    slowest, fastest = (expect.real("moving_speeds", v, at_least=0) for v in moving_speeds)
+    expect.integer("n", n, at_least=0, at_most=MOST_WORLDS)
+    check_drawing(obstacles, moving, starts, targets, moving_speeds, size)
     if isinstance(seed, np.random.Generator):
         seed = int(seed.integers(2**63))
     keys = world_keys(n, expect.integer("seed", seed, at_least=0))
-    return draw_worlds(keys, obstacles, moving, starts, targets, (slowest, fastest), size)
+    return draw_worlds(keys, obstacles, moving, starts, targets, moving_speeds, size)
+
+
+def check_drawing(
+    obstacles: int,
+    moving: int,
+    starts: Sequence[tuple[float, float]],
+    targets: Sequence[tuple[float, float]],
+    moving_speeds: tuple[float, float],
+    size: float,
+) -> None:
+    """Refuse settings from which no worlds can be drawn, see :func:`random_worlds`."""
+    expect.integer("obstacles", obstacles, at_least=0)
+    expect.integer("moving", moving, at_least=0)
+    expect.integer("obstacles + moving", obstacles + moving, at_most=kernels.MAX_OBSTACLES)
+    expect.real("size", size, at_least=30, at_most=LARGEST_MAP)
+    for name, points in (("starts", starts), ("targets", targets)):
+        ends = expect.array(name, points, shape=("number", 2))
+        if len(ends) == 0 or (ends < kernels.SPARE).any() or (ends > size - kernels.SPARE).any():
+            raise ValueError(f"{name} must be points in the map, {kernels.SPARE:g} m or more from its borders")
+    slowest, fastest = expect.array("moving_speeds", moving_speeds, shape=(2,))
+    if not 0 <= slowest <= fastest <= FASTEST:
+        raise ValueError(
+            f"moving_speeds must be the least and the greatest, from 0 to {FASTEST:g} m/s, got {slowest:g}, {fastest:g}"
+        )
 
 
 def draw_worlds(
@@ -227,19 +269,14 @@ def draw_worlds(
 ) -> Worlds:
     """The worlds (N) that belong to ``keys`` (N, 2); see :func:`random_worlds`."""
     n, m = len(keys), obstacles + moving
-    size = expect.real("size", size, at_least=30)
-    ends = {}
-    for name, points in (("starts", starts), ("targets", targets)):
-        ends[name] = expect.array(name, points, shape=("number", 2))
-        if len(ends[name]) == 0 or (ends[name] < kernels.SPARE).any() or (ends[name] > size - kernels.SPARE).any():
-            raise ValueError(f"{name} must be points in the map, {kernels.SPARE:g} m or more from its borders")
     kinds = np.zeros((n, m), dtype=np.int8)
     shapes, centres = np.zeros((n, m, 3)), np.zeros((n, m, 2))
     speeds, headings = np.zeros((n, m)), np.zeros((n, m))
     chosen, found = np.zeros((n, 4)), np.zeros(n, dtype=np.bool_)
     kernels.in_threads(
-        kernels.draw_worlds, n, keys, obstacles, moving, *moving_speeds, size, ends["starts"], ends["targets"],
-        ATTEMPTS, kinds, shapes, centres, speeds, headings, chosen, found, worth=8,
+        kernels.draw_worlds, n, keys, obstacles, moving, float(moving_speeds[0]), float(moving_speeds[1]), float(size),
+        np.array(starts, dtype=float), np.array(targets, dtype=float), ATTEMPTS, kinds, shapes, centres, speeds,
+        headings, chosen, found, worth=8,
     )  # fmt: skip
     if not found.all():
         raise ValueError(
@@ -247,7 +284,7 @@ def draw_worlds(
             f"{moving} moving obstacles in {size:g} m gave no solvable map; take fewer"
         )
     drawn = Worlds.__new__(Worlds)  # right by construction: the checks would cost more than the drawing
-    values = (kinds, shapes, centres, speeds, headings, chosen[:, :2].copy(), chosen[:, 2:].copy(), keys, size)
+    values = (kinds, shapes, centres, speeds, headings, chosen[:, :2].copy(), chosen[:, 2:].copy(), keys, float(size))
     for field, value in zip(fields(Worlds), values, strict=True):
         object.__setattr__(drawn, field.name, value)
     return drawn
@@ -269,8 +306,10 @@ def make_world(
     circles : (x, y, radius) each, in metres.
     rectangles : (x, y, length, width, angle) each, in metres and degrees.
     """
-    rows = [(kernels.CIRCLE, x, y, radius, 0.0, 0.0) for x, y, radius in circles]
-    rows += [(kernels.RECTANGLE, x, y, a / 2, b / 2, np.radians(turned)) for x, y, a, b, turned in rectangles]
+    round_ones: Any = expect.array("circles", circles, shape=("number", 3)) if len(circles) else []
+    square_ones: Any = expect.array("rectangles", rectangles, shape=("number", 5)) if len(rectangles) else []
+    rows = [(kernels.CIRCLE, x, y, radius, 0.0, 0.0) for x, y, radius in round_ones]
+    rows += [(kernels.RECTANGLE, x, y, a / 2, b / 2, np.radians(turned)) for x, y, a, b, turned in square_ones]
     table = np.array(rows, dtype=float).reshape(len(rows), 6)
     return Worlds(
         kinds=table[None, :, 0].astype(np.int8),
@@ -280,15 +319,17 @@ def make_world(
         headings=np.zeros((1, len(rows))),
         starts=np.array([start], dtype=float),
         targets=np.array([target], dtype=float),
-        keys=np.array([key], dtype=np.uint32),
+        keys=expect.array("key", [key], shape=(1, 2), dtype=np.uint32),
         size=size,
     )
 
 
 def concatenate(batches: Sequence[Worlds]) -> Worlds:
     """One batch of several of the same map size; missing obstacle slots stay empty."""
-    if not batches:
+    if len(batches) == 0:
         raise ValueError("batches must hold at least one batch of worlds")
+    for batch in batches:
+        expect.instance("batches", batch, Worlds)
     if len({batch.size for batch in batches}) > 1:
         raise ValueError(f"batches must have one map size, got {sorted({batch.size for batch in batches})}")
     slots = max(batch.slots for batch in batches)

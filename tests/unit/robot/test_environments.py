@@ -211,3 +211,79 @@ def test_stepping_out_of_turn_is_refused():
     env.step(0)
     with pytest.raises(ValueError, match="the episode has ended"):
         env.step(0)
+
+
+def test_given_worlds_stay_as_they_are():
+    worlds = random_worlds(4, 10, 3, seed=1)
+    before = worlds.digest()
+    env = NavigationVectorEnv(4, max_episode_steps=3, moving=3)
+    env.reset(seed=0, options={"worlds": worlds})
+    for _ in range(10):
+        env.step(np.zeros(4, int))
+    assert worlds.digest() == before
+
+
+def test_worlds_of_another_size_are_not_mixed_in():
+    small = random_worlds(2, 0, seed=1, size=40, starts=[(5, 5)], targets=[(35, 35)])
+    env = NavigationVectorEnv(2, max_episode_steps=1, obstacles=5)
+    env.reset(seed=0, options={"worlds": small})
+    env.step(np.zeros(2, int))
+    with pytest.raises(ValueError, match="worlds must have the map size of those they replace, 40 m, got 100 m"):
+        env.step(np.zeros(2, int))
+    assert env.simulator.worlds.size == 40
+
+
+@pytest.mark.parametrize("vector", [False, True])
+def test_what_a_reader_does_to_an_observation_changes_nothing(vector):
+    def poses(spoil):
+        env = NavigationVectorEnv(1, obstacles=25) if vector else NavigationEnv(obstacles=25)
+        observation, info = env.reset(seed=3)
+        seen = []
+        for _ in range(20):
+            if spoil:
+                observation["ranges"] *= 0
+                observation["walls"][...] = 1
+            observation, _, terminated, _, info = env.step(np.zeros(1, int) if vector else 0)
+            seen.append(np.ravel(info["pose"]))
+            if np.all(terminated):
+                break
+        return np.array(seen)
+
+    np.testing.assert_array_equal(poses(spoil=True), poses(spoil=False))
+
+
+@pytest.mark.parametrize(
+    ("settings", "error", "message"),
+    [
+        ({"obstacles": 20_000}, ValueError, r"obstacles \+ moving must be at most"),
+        ({"moving_speeds": ("a", "b")}, TypeError, "moving_speeds must be an array of numbers"),
+        ({"moving_speeds": (1,)}, ValueError, r"moving_speeds must have shape \(2,\)"),
+        ({"moving_speeds": (0.9, 0.4)}, ValueError, "moving_speeds must be the least and the greatest"),
+        ({"starts": 5}, ValueError, "starts must have shape"),
+        ({"worlds": "x"}, TypeError, "worlds must be Worlds, got str"),
+        ({"reflex": False}, TypeError, "reflex must be callable"),
+        ({"max_episode_steps": 10**30}, ValueError, "max_episode_steps must be at most"),
+    ],
+)
+def test_settings_that_would_fail_later_are_refused_at_once(settings, error, message):
+    with pytest.raises(error, match=message):
+        NavigationEnv(**settings)
+
+
+def test_bad_rewards_options_and_seeds_are_refused_with_a_sentence():
+    env = NavigationVectorEnv(3, reward=lambda before, after, outcome: 0.0)
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match=r"reward must give an array of shape \(3,\)"):
+        env.step(np.zeros(3, int))
+    with pytest.raises(ValueError, match="options must be one of worlds, got 'world'"):
+        env.reset(options={"world": 1})
+    with pytest.raises(TypeError, match=r"options\['worlds'\] must be Worlds"):
+        env.reset(options={"worlds": "x"})
+    with pytest.raises(TypeError, match="seed must be a whole number"):
+        env.reset(seed=1.5)
+    with pytest.raises(TypeError, match="lists of several lengths"):
+        env.step([[1], [1, 2], 3])
+    env.reset(seed=7)
+    assert env.np_random_seed == 7
+    with pytest.raises(ValueError, match="render: call reset first"):
+        NavigationVectorEnv(2, render_mode="rgb_array").render()

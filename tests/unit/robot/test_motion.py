@@ -309,3 +309,18 @@ def test_bad_settings_are_refused_with_a_sentence(settings, error, message):
 def test_bad_policies_are_refused_with_a_sentence(policy, error, message):
     with pytest.raises(error, match=message):
         navigate(policy, parse_world("circle 50 50 radius 3"))
+
+
+@pytest.mark.parametrize(
+    "commands", [np.array([99, 99]), np.array([-7, 0]), np.array([0]), np.array([0.0, 0.0]), [0, 0]]
+)
+def test_the_simulator_refuses_commands_it_does_not_know(commands):
+    with pytest.raises(ValueError, match="commands must be an array of 2 whole numbers 0 to 6"):
+        Simulator(random_worlds(2, seed=0)).step(commands)
+
+
+def test_a_simulator_that_restarts_leaves_the_worlds_it_was_given():
+    worlds = random_worlds(3, 5, seed=0)
+    before = worlds.digest()
+    Simulator(worlds).restart(np.arange(2), random_worlds(2, 5, seed=1))
+    assert worlds.digest() == before

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import ndimage
@@ -22,8 +24,8 @@ from robonav.robot import (
 from robonav.robot.kernels import CIRCLE, RECTANGLE, reachable
 
 FROZEN_DIGESTS = [
-    "e24aecd980024742a2b59abda98d8dd45e3122d4b2be1a7f264958bcc6fdc031",
-    "efde9f1c9bcd0cde0fee2a0ea92f93ba132676a65e1850f22678a80e740f98ec",
+    "e7423afab328a43eb6f57bbb310c7f93bd050907c3767dd95178730c6e80b9bc",
+    "43cba8b67a9cf7d721b34197fb151ce2b693269a05f0ef5505e372ff2529eab7",
 ]
 
 
@@ -161,7 +163,7 @@ def test_text_that_cannot_be_read_names_the_line(line):
         ([(50, 50, -1)], {}, "radius must be positive"),
         ([(10, 10, 2)], {}, "start .* must be at least 1 m clear"),
         ([(90, 92, 2)], {}, "target .* must be at least 1 m clear"),
-        ([(np.nan, 10, 2)], {}, "centres must hold finite numbers"),
+        ([(np.nan, 10, 2)], {}, "circles must hold finite numbers"),
         ([(150, 50, 2)], {}, "obstacles must have their centre in the map"),
         ([], {"start": (-5, 5)}, "start must lie in the map"),
     ],
@@ -226,3 +228,64 @@ def test_shapes_that_do_not_fit_are_refused():
         Worlds(
             good.kinds, good.shapes, good.centres, good.speeds[:1], good.headings, good.starts, good.targets, good.keys
         )
+
+
+def test_a_file_with_any_byte_changed_is_read_or_refused_with_a_sentence(tmp_path):
+    path = tmp_path / "worlds.npz"
+    save_worlds(path, random_worlds(2, 3, 1, seed=5))
+    content = path.read_bytes()
+    rng = np.random.default_rng(0)
+    refused = 0
+    for at in rng.choice(len(content), 400, replace=False):
+        path.write_bytes(content[:at] + bytes([content[at] ^ int(rng.integers(1, 256))]) + content[at + 1 :])
+        try:
+            load_worlds(path)
+        except ValueError:
+            refused += 1
+    assert refused > 200
+
+
+def test_the_digest_sees_everything():
+    worlds = random_worlds(1, 2, 2, seed=5)
+    for name in ("headings", "speeds", "centres", "starts"):
+        changed = replace(worlds, **{name: getattr(worlds, name) + 0.001 * (getattr(worlds, name) != 0)})
+        assert changed.digest() != worlds.digest(), name
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"kinds": [[1.7]]}, "kinds must hold whole numbers"),
+        ({"kinds": [[257]]}, "kinds must hold whole numbers"),
+        ({"keys": [[-1, 0]]}, "keys must hold whole numbers"),
+        ({"shapes": [[[3, -50, 0]]]}, "shapes of circles must be a radius, 0 and 0"),
+        ({"speeds": [[500.0]]}, "obstacle speed must be at most 4"),
+        ({"speeds": [[0.5]], "centres": [[[50.0, 2.0]]]}, "moving obstacles must lie wholly in the map"),
+    ],
+)
+def test_values_are_not_bent_into_shape(change, message):
+    world = make_world(circles=[(50, 50, 3)])
+    with pytest.raises(ValueError, match=message):
+        replace(world, **change)
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "message"),
+    [
+        (lambda: make_world(circles=[(1, 2)]), ValueError, r"circles must have shape \(number, 3\)"),
+        (lambda: make_world(circles=[("a", 2, 3)]), TypeError, "circles must be an array of numbers"),
+        (lambda: make_world(key=(-1, 0)), ValueError, "key must hold whole numbers"),
+        (lambda: make_world(size=10**400), ValueError, "size must be finite"),
+        (lambda: parse_world("start 10 10\nstart 20 20"), ValueError, "line 2 of the world"),
+        (lambda: parse_world("circle 50 50 radius 3 towards 90"), ValueError, "line 1 of the world"),
+        (lambda: parse_world(5), TypeError, "text must be str"),
+        (lambda: navigate(straight, "x"), TypeError, "worlds must be Worlds"),
+        (lambda: concatenate(["x"]), TypeError, "batches must be Worlds"),
+        (lambda: save_worlds("nowhere", None), TypeError, "worlds must be Worlds"),
+        (lambda: random_worlds(1, seed=0)[(0, 1)], TypeError, "worlds are picked by"),
+        (lambda: random_worlds(10**30, seed=0), ValueError, "n must be at most"),
+    ],
+)
+def test_wrong_things_at_every_door_get_a_sentence(call, error, message):
+    with pytest.raises(error, match=message):
+        call()
