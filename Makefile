@@ -29,7 +29,7 @@ help:
 # PyTorch first: left to the resolver it may choose another build, gigabytes larger.
 $(INSTALLED): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "robonav needs Python 3.11 or later; set PYTHON=")'
-	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/python -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv --clear .venv
 	$(BIN)/python -m pip install --quiet $(PIP_OPTIONS) '$(TORCH)'
 	$(BIN)/python -m pip install --quiet $(PIP_OPTIONS) -r requirements.lock
 	$(BIN)/python -m pip install --quiet --no-deps --editable .

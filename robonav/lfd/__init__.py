@@ -17,6 +17,7 @@ from .imitation import labelled_states, learn_policy
 from .network import Network, propagate, random_network, sigmoid, sigmoid_slope, stacked
 from .planning import GridPlan, Plan, plan, plan_on_grid
 from .policy import NetworkPolicy
+from .storage import load_demonstrations, save_demonstrations
 from .training import fit, gradient_descent, lbfgs, one_hot
 from .weights import Weights, load_weights, save_weights
 
@@ -43,6 +44,7 @@ __all__ = [
     "labelled_states",
     "lbfgs",
     "learn_policy",
+    "load_demonstrations",
     "load_weights",
     "one_hot",
     "plan",
@@ -50,6 +52,7 @@ __all__ = [
     "propagate",
     "random_network",
     "record",
+    "save_demonstrations",
     "save_weights",
     "sigmoid",
     "sigmoid_slope",

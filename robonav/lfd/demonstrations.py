@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav import expect
 from robonav.progress import Progress
-from robonav.robot import OUTCOMES, REFLEX, Action, Reflex, Sensing, Simulator, Worlds
+from robonav.robot import OUTCOMES, REFLEX, Action, Reflex, Sensing, Simulator, Worlds, concatenate
 
 Floats = NDArray[np.float64]
 Actions = NDArray[np.int64]
@@ -115,6 +115,7 @@ def record(
     speed: float = 2.0,
     slip: ArrayLike | None = None,
     reflex: Reflex | None = REFLEX,
+    labels: Expert | None = None,
     max_steps: int = MAX_STEPS,
     progress: Progress | None = None,
 ) -> Demonstrations:
@@ -127,6 +128,7 @@ def record(
     speed : m/s, positive.
     slip : (6, 6) probabilities that action a (row) turns into another; what is kept is what was executed.
     reflex : what the robot does before the expert is asked; None leaves every step to the expert.
+    labels : another expert, who is asked the same and not obeyed; what it says is kept as the action.
     max_steps : seconds after which a drive is out of steps.
 
     Raises
@@ -143,14 +145,39 @@ def record(
         sensing, poses = simulator.sense(), simulator.poses.copy()
         commands = np.full(len(worlds), -1) if reflex is None else reflex(sensing, speed)
         asked = running[commands[running] < 0]
-        commands[asked] = expert(simulator, asked)
+        commands[simulator.outcome != _RUNNING] = Action.F  # these stand still, whatever they are told
+        if len(asked) > 0:
+            advice = labels(simulator, asked) if labels is not None else None
+            commands[asked] = expert(simulator, asked)
         simulator.step(commands)
-        commands[asked] = executed(poses[asked], simulator.poses[asked])
+        if len(asked) > 0:
+            commands[asked] = executed(poses[asked], simulator.poses[asked]) if advice is None else advice
         rows.append((running, sensing[running], commands[running], poses[running]))
         if progress is not None:
             progress(len(worlds) - len(running), len(worlds))
     simulator.outcome[simulator.outcome == _RUNNING] = _OUT_OF_STEPS
     return _by_drive(worlds, rows, speed, OUTCOMES[simulator.outcome])
+
+
+def join(sets: Sequence[Demonstrations]) -> Demonstrations:
+    """Several sets of demonstrations as one, their drives counted on.
+
+    Raises
+    ------
+    ValueError : if there is no set, or speeds or map sizes differ.
+    """
+    if not sets or len({each.speed for each in sets}) > 1:
+        raise ValueError(f"sets must be at least one, of one speed, got {[each.speed for each in sets]}")
+    before = np.cumsum([0, *(len(each.worlds) for each in sets)])
+    return Demonstrations(
+        worlds=concatenate([each.worlds for each in sets]),
+        trajectory=np.concatenate([each.trajectory + n for each, n in zip(sets, before[:-1], strict=True)]),
+        sensing=_sensings([each.sensing for each in sets]),
+        actions=np.concatenate([each.actions for each in sets]),
+        poses=np.concatenate([each.poses for each in sets]),
+        speed=sets[0].speed,
+        outcome=np.concatenate([each.outcome for each in sets]),
+    )
 
 
 def executed(before: Floats, after: Floats) -> Actions:
@@ -164,23 +191,25 @@ def executed(before: Floats, after: Floats) -> Actions:
     return np.where(backward, Action.B, actions)
 
 
+def _sensings(parts: Sequence[Sensing]) -> Sensing:
+    """Rows of several as one."""
+    return Sensing(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Sensing)))
+
+
 def _by_drive(
     worlds: Worlds, rows: list[tuple[Actions, Sensing, Actions, Floats]], speed: float, outcome: NDArray[np.str_]
 ) -> Demonstrations:
     """Steps by drive from steps by time."""
-    owners, sensed, actions, poses = zip(*rows, strict=True) if rows else ((), (), (), ())
-    drives = np.concatenate([np.empty(0, np.int64), *owners])
+    nothing = np.empty(0, np.int64), Sensing.empty(0), np.empty(0, np.int64), np.empty((0, 3))
+    owners, sensed, actions, poses = zip(nothing, *rows, strict=True)
+    drives = np.concatenate(owners)
     order = np.argsort(drives, kind="stable")
-    columns = {
-        field.name: np.concatenate([getattr(Sensing.empty(0), field.name), *(getattr(s, field.name) for s in sensed)])
-        for field in fields(Sensing)
-    }
     return Demonstrations(
         worlds=worlds,
         trajectory=drives[order],
-        sensing=Sensing(**columns)[order],
-        actions=np.concatenate([np.empty(0, np.int64), *actions])[order],
-        poses=np.concatenate([np.empty((0, 3)), *poses])[order],
+        sensing=_sensings(sensed)[order],
+        actions=np.concatenate(actions)[order],
+        poses=np.concatenate(poses)[order],
         speed=speed,
         outcome=outcome,
     )

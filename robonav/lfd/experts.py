@@ -15,16 +15,15 @@ from . import kernels
 from .demonstrations import Actions, Demonstrations, record
 
 MARGIN = 2.0  # metres, as every drawn map has them to spare
-CAUTION = 2.0  # what is learned depends on nothing as much as on the distance that the expert keeps
+CAUTION = 3.0  # what is learned depends on nothing as much as on the distance that the expert keeps
 SHRINK = 0.5  # metres that the margin gives way by, where it leaves no path
-CELL = 1.0
 LIMIT = 100_000  # expanded nodes: many times what a path takes
 
 _NOBODY = np.empty((0, 3))
 
 
 @dataclass
-class _Way:
+class Way:
     """A plan that a robot is following: its poses and actions, and how far it is."""
 
     poses: NDArray[np.float64]
@@ -44,12 +43,17 @@ class ComputerExpert:
     margin : distance in metres that plans keep from obstacles and borders; where that leaves no path it gives way by
         half a metre at a time.
     caution : how much they shun what is in sensor range, see :func:`plan`.
+
+    Notes
+    -----
+    Poses of one heading less than a step apart count as one node. Finer cells give shorter plans with more and smaller
+    turns, which are harder to learn from.
     """
 
     def __init__(self, margin: float = MARGIN, caution: float = CAUTION) -> None:
         self.margin = expect.real("margin", margin, at_least=COLLISION_DISTANCE)
         self.caution = expect.real("caution", caution, at_least=0)
-        self._ways: dict[int, _Way] = {}
+        self._ways: dict[int, Way] = {}
 
     def __call__(self, simulator: Simulator, asked: Actions) -> Actions:
         """The next actions (n,) of the robots ``asked`` (n,)."""
@@ -58,21 +62,21 @@ class ComputerExpert:
     def _next(self, simulator: Simulator, robot: int) -> int:
         way = self._ways.get(robot)
         if way is None or not way.follows(simulator.poses[robot]) or simulator.worlds.speeds[robot].any():
-            way = self._ways[robot] = self._plan(simulator, robot)
+            way = self._ways[robot] = self.way(simulator, robot)
         way.done += 1
         return int(way.actions[way.done - 1])
 
-    def _plan(self, simulator: Simulator, robot: int) -> _Way:
-        """A way with the largest margin that leaves one; straight on if none does."""
+    def way(self, simulator: Simulator, robot: int) -> Way:
+        """A way for one robot from where it is, as wide as there is one; a single step straight on if there is none."""
         world = simulator.worlds
         for margin in np.append(np.arange(self.margin, COLLISION_DISTANCE, -SHRINK), COLLISION_DISTANCE):
             found, poses, actions, _ = kernels.search_actions(
                 world.kinds[robot], world.shapes[robot], simulator.centres[robot], world.size, simulator.poses[robot],
-                world.targets[robot], simulator.speed, margin, self.caution, CELL, LIMIT, False, _NOBODY,
+                world.targets[robot], simulator.speed, margin, self.caution, simulator.speed, LIMIT, False, _NOBODY,
             )  # fmt: skip
             if found:
-                return _Way(poses, actions)
-        return _Way(simulator.poses[robot][None], np.zeros(1, dtype=np.int64))
+                return Way(poses, actions)
+        return Way(simulator.poses[robot][None], np.zeros(1, dtype=np.int64))
 
 
 def demonstrate(

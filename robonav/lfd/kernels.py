@@ -53,7 +53,8 @@ def search_actions(kinds, shapes, centres, size, pose, target, speed, margin, ca
     ----------
     pose : (3,) where to start. target : (2,).
     speed : length of a step. margin : clearance that each step keeps, at least.
-    caution : how much dearer a metre gets, added to G, that ends ``margin`` from something; fades out to sensor range.
+    caution : how much is added to G a metre, at an obstacle; it fades, with the square of the distance, out to sensor
+        range. Taken at the middle of the cell in which the step ends.
     cell : side of the cells, in metres.
     limit : nodes to expand at most.
     visited : (limit, 3) gets the poses expanded, in their order, if ``record``.
@@ -73,7 +74,9 @@ def search_actions(kinds, shapes, centres, size, pose, target, speed, margin, ca
     for h in range(HEADINGS):
         heading = pose[2] + math.radians(30.0 * h)
         ways[h, 0], ways[h, 1] = speed * math.cos(heading), speed * math.sin(heading)
-    berth = SENSOR_RANGE if caution > 0.0 else margin + speed  # no more than this need be known of the clearance
+    far_enough = margin + speed + cell  # clearance of a square, beyond which no step that ends there is too near
+    berth = SENSOR_RANGE if caution > 0.0 else far_enough  # no more of it need be known
+    clear = np.full(cells * cells, -1.0)  # at the middle of each square, worked out when first needed
 
     start = (min(int(pose[0] / cell), cells - 1) * cells + min(int(pose[1] / cell), cells - 1)) * HEADINGS
     places[start, 0], places[start, 1], costs[start], parents[start] = pose[0], pose[1], 0.0, NONE
@@ -97,18 +100,20 @@ def search_actions(kinds, shapes, centres, size, pose, target, speed, margin, ca
             x1, y1 = x + ways[turned, 0], y + ways[turned, 1]
             if not (0.0 < x1 < size and 0.0 < y1 < size):
                 continue
-            neighbour = (int(x1 / cell) * cells + int(y1 / cell)) * HEADINGS + turned
+            square = int(x1 / cell) * cells + int(y1 / cell)
+            neighbour = square * HEADINGS + turned
             if closed[neighbour] or costs[neighbour] <= costs[node] + speed:
                 continue
-            clear = swept_clearance(kinds, shapes, centres, centres, size, x1, y1, x1, y1, berth)
-            if clear < margin + speed:  # one that ends farther off cannot have passed too near
-                clear = min(clear, swept_clearance(kinds, shapes, centres, centres, size, x, y, x1, y1, clear))
-            if clear < margin:
-                continue
+            if clear[square] < 0.0:
+                cx, cy = (int(x1 / cell) + 0.5) * cell, (int(y1 / cell) + 0.5) * cell
+                clear[square] = swept_clearance(kinds, shapes, centres, centres, size, cx, cy, cx, cy, berth)
             tentative = costs[node] + speed
             if caution > 0.0:
-                tentative += speed * caution * ((berth - clear) / (berth - margin)) ** 2
+                tentative += speed * caution * (1.0 - clear[square] / berth) ** 2
             if costs[neighbour] <= tentative:
+                continue
+            sure = clear[square] >= far_enough
+            if not sure and swept_clearance(kinds, shapes, centres, centres, size, x, y, x1, y1, margin) < margin:
                 continue
             places[neighbour, 0], places[neighbour, 1] = x1, y1
             costs[neighbour], parents[neighbour] = tentative, node

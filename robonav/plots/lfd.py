@@ -25,9 +25,8 @@ def draw_search(axes: Axes, world: Worlds, made: Plan | GridPlan, *, colour: str
     """A plan as stars and what its search visited as dots, light for early and dark for late (Fig. 3.4)."""
     draw_world(axes, world)
     if made.visited is not None:
-        axes.scatter(
-            *made.visited[:, :2].T, c=np.arange(len(made.visited)), cmap=VISITED, s=1.5, linewidths=0, rasterized=True
-        )
+        x, y = made.visited[:, 0], made.visited[:, 1]
+        axes.scatter(x, y, c=np.arange(len(x)), cmap=VISITED, s=1.5, linewidths=0, rasterized=True)
     axes.plot(*made.points.T, marker="*", markersize=4, linewidth=0.8, color=colour)
 
 

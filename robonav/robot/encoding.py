@@ -95,7 +95,8 @@ class Encoder:
     target: str = "sine-cosine"
 
     def __post_init__(self) -> None:
-        _columns(self.sensors)
+        _columns(expect.instance("sensors", self.sensors, tuple))
+        expect.instance("walls", self.walls, bool)
         expect.one_of("target", self.target, TARGET_ENCODINGS)
 
     @property

@@ -64,9 +64,9 @@ def test_a_plan_is_made_where_the_last_was_left():
     class Counting(ComputerExpert):
         plans = 0
 
-        def _plan(self, simulator, robot):
+        def way(self, simulator, robot):
             self.plans += 1
-            return super()._plan(simulator, robot)
+            return super().way(simulator, robot)
 
     worlds = random_worlds(4, 10, seed=5)
     steady, slipping = Counting(), Counting()

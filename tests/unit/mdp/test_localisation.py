@@ -121,7 +121,7 @@ def test_readings_that_fit_nowhere_are_an_error_that_says_so():
     localiser = Localiser(pose_transitions(grid, MOVES), np.array([[1.0], [2.0]]), RangeSensor(1e-3, outliers=0.0))
     with pytest.raises(ValueError, match="the ranges have probability zero"):
         localiser.correct(np.array([1.0, 0.0]), [9.0])
-    with pytest.raises(ValueError, match=r"ranges must have shape \(1\)"):
+    with pytest.raises(ValueError, match=r"ranges must have shape \(1,\)"):
         localiser.correct(np.array([1.0, 0.0]), [9.0, 9.0])
 
 
