@@ -14,7 +14,7 @@ from .neural import nnql, online
 from .practice import STARTS, TARGETS, Course
 from .rewards import COZY_DISTANCE, Property, reward, state_property
 from .targets import clip, cross_entropy, q_targets, shift
-from .training import Training
+from .training import Training, weight_changes
 
 METHODS: dict[str, Callable[..., Training]] = {"nnql": nnql, "online": online, "nfq": nfq, "dqn": dqn}
 
@@ -58,4 +58,5 @@ __all__ = [
     "shift",
     "state_property",
     "train",
+    "weight_changes",
 ]

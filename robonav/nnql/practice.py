@@ -16,7 +16,7 @@ from robonav import expect
 from robonav.progress import Progress
 from robonav.robot import NNQL_SENSORS, REFLEX, Encoder, Sensing, Simulator, Worlds, draw_worlds, world_keys
 from robonav.robot.environments import Reward
-from robonav.robot.kernels import ARRIVED, COLLIDED, OUT_OF_STEPS, RUNNING
+from robonav.robot.kernels import ARRIVED, COLLIDED, RUNNING
 
 from .exploration import Span, boltzmann, choose, falling
 from .learners import Learner, Steps
@@ -56,7 +56,7 @@ class Course:
     max_steps: int = 400
     starts: Sequence[tuple[float, float]] = STARTS
     targets: Sequence[tuple[float, float]] = TARGETS
-    encoder: Encoder = field(default_factory=lambda: Encoder(NNQL_SENSORS, walls=True, target="one-hot"))
+    encoder: Encoder = field(default_factory=lambda: Encoder(NNQL_SENSORS, walls=True, target="number"))
     reward: Reward = reward
     reflex: Callable[[Sensing, float], NDArray[np.int64]] = REFLEX
 
@@ -125,7 +125,7 @@ class Practice:
         self.tracks: list[list[Array]] = [[] for _ in seeds]
         self.worlds = course.worlds(seeds, first, last)
         everyone = np.arange(len(seeds))
-        self.simulator = Simulator(self._worlds_of(everyone), course.speed)
+        self.simulator = Simulator(self._worlds_of(everyone), course.speed, max_steps=course.max_steps)
         self._begin(everyone)
 
     def run(self, progress: Progress | None = None) -> None:
@@ -146,7 +146,7 @@ class Practice:
             asked = running & (commands < 0)
             if 2 * asked.sum() >= running.sum():
                 return np.flatnonzero(asked)
-            self._move(np.flatnonzero(running & ~asked), commands)
+            self._move(np.flatnonzero(running & ~asked), commands.clip(0))
 
     def _decide(self, rows: Rows) -> None:
         """One step of ``rows`` by their policy: lines 9 to 16 of Algorithm 8."""
@@ -174,8 +174,6 @@ class Practice:
         simulator.outcome[waiting] = WAITING
         simulator.step(commands)
         simulator.outcome[waiting] = RUNNING
-        late = (simulator.outcome == RUNNING) & (simulator.steps >= self.course.max_steps)
-        simulator.outcome[late] = OUT_OF_STEPS
         self.sensing = simulator.sense()
         if self.diary.record:
             for row in rows:

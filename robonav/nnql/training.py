@@ -166,6 +166,21 @@ def _training(
     )  # fmt: skip
 
 
+def weight_changes(history: Network, *, absolute: bool = False) -> Array:
+    """What the weights of each layer changed by in each episode, summed, biases included: (S, E, layers) (Fig. 4.3).
+
+    Parameters
+    ----------
+    history : stack (S, E + 1), see :class:`Training`.
+    absolute : sum sizes instead of signed changes, which can cancel.
+    """
+    sums = []
+    for weight, bias in zip(history.weights, history.biases, strict=True):
+        moved = np.diff(np.concatenate([weight, bias[..., None]], axis=-1), axis=1)
+        sums.append((np.abs(moved) if absolute else moved).sum(axis=(-2, -1)))
+    return np.stack(sums, axis=-1)
+
+
 def check_seeds(seeds: int | Sequence[int]) -> tuple[int, ...]:
     """Seeds (S,), all different: 0 to S - 1 for a number S, or those given."""
     if isinstance(seeds, int | np.integer):

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from robonav.nnql import METHODS, Course, nnql, train
+from robonav.nnql import METHODS, Course, nnql, train, weight_changes
 from robonav.nnql.checkpoints import load_checkpoint
 from robonav.nnql.practice import STARTS, TARGETS
 from robonav.robot import NNQL_SENSORS, Encoder, navigate, random_worlds
@@ -100,6 +100,17 @@ def test_history_and_paths_when_asked_for():
     for row in range(2):
         assert [len(path) - 1 for path in training.paths[row]] == training.steps[row].tolist()
     same(training, nnql(2, 6), 1, 1)
+
+
+def test_weight_changes_add_up_over_a_training():
+    training = nnql(2, 6, record=True)
+    signed, absolute = (weight_changes(training.history, absolute=kind) for kind in (False, True))
+    assert signed.shape == absolute.shape == (2, 6, 2)
+    for layer in range(2):
+        w, b = training.history.weights[layer], training.history.biases[layer]
+        whole = (w[:, -1] - w[:, 0]).sum(axis=(1, 2)) + (b[:, -1] - b[:, 0]).sum(axis=1)
+        np.testing.assert_allclose(signed[:, :, layer].sum(axis=1), whole)
+    assert (absolute >= np.abs(signed)).all()
 
 
 def test_episodes_have_their_bounds_and_their_decisions():
