@@ -1,120 +1,172 @@
-"""Chapter 4 again: Table 4.2, Table 4.3 with Fig. 4.6, and what the thesis does not have: tuning, denser maps, ablations.
-
-A run is one training seed: it trains a network and drives its greedy policy through new worlds. Worlds to tune on, worlds
-to test on and worlds to train in never meet, and neither do the seeds that methods are tuned and tested with.
-"""
+"""Chapter 4 again: Table 4.2 and 4.3, Fig. 4.3, 4.4 and 4.6, moving obstacles (Fig. 4.7) and denser maps."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from robonav.nnql import METHODS, STARTS, TARGETS, Course, Training
-from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, freer_side, navigate, random_worlds, straight
+from robonav.lfd import NetworkPolicy
+from robonav.nnql import METHODS, boltzmann, choose, weight_changes
+from robonav.robot import Policy, Sensing, freer_side, straight
 
 from .experiment import Case, Experiment
+from .nnql_course import EPISODES, NAVIGATIONS, SPEED, TEST_WORLDS, Numbers, blocks, driven, new_worlds
+from .nnql_tuning import trained, trial_settings
 
 RESULTS = Path(__file__).parent / "results"
-"""Where the results of the thesis's scale are kept, which the pages show."""
+"""What these experiments gave at the thesis's scale: the pages show it."""
 
-EPISODES = {"quick": 60, "thesis": 300}
-NAVIGATIONS = {"quick": 100, "thesis": 1000}
-SPEED = 2.5
-BLOCK = 30  # episodes that Fig. 4.4 and 4.6 count successes in
-TEST_WORLDS, TUNING_WORLDS = 40_000, 41_000  # seeds: run k drives through the worlds of seed + k
-TUNING_SEEDS = 10_000  # run k of a trial trains with this seed + k
+CHOSEN = {"nnql": 0, "online": 0, "nfq": 0, "dqn": 0}
+"""The best trial of each method."""
 
-Numbers = dict[str, ArrayLike]
+DENSE = {
+    "gamma": 0.7, "alpha": (0.4, 0.05), "rate": (0.3, 0.05), "temperature": (0.9, 0.05), "passes": 1, "rescale": "clip",
+    "target": "sine-cosine",
+}  # fmt: skip
+"""For 20 obstacles: both learning rates fall, and the target's sector has no break."""
 
-
-def course(obstacles: int = 10, *, target: str = "one-hot", moving: int = 0, speed: float = SPEED) -> Course:
-    """The conditions of section 4.5 with the target's sector written in one way or another."""
-    return Course(obstacles, moving, speed, encoder=Encoder(NNQL_SENSORS, walls=True, target=target))
+RULES: dict[str, Policy] = {"straight": straight, "freer side": freer_side}
+COLD = 0.02  # temperature of a policy that is all but greedy
 
 
-def new_worlds(n: int, seed: int, obstacles: int = 10, moving: int = 0) -> Worlds:
-    """Worlds to drive in, with the starts and targets of section 4.5."""
-    return random_worlds(n, obstacles, moving, seed=seed, starts=STARTS, targets=TARGETS)
+def settings(method: str) -> dict[str, Any]:
+    """What was chosen for a method, see :data:`robonav.experiments.nnql_tuning.SPACE`."""
+    return dict(trial_settings(method, CHOSEN[method]))
 
 
-def driven(policy: Policy, worlds: Worlds, speed: float = SPEED) -> Numbers:
-    """How many of some drives arrive, collide and run out of steps, in per cent (Algorithm 9)."""
-    drives = navigate(policy, worlds, speed, Course().max_steps)
-    arrived, collided = 100 * drives.success.mean(), 100 * drives.collision.mean()
-    return {"success": arrived, "collision": collided, "out of steps": 100 - arrived - collided}
+def cold(policy: NetworkPolicy, temperature: float = COLD) -> Policy:
+    """The Boltzmann policy, Eq. (4.7), of a network's values: cold, it is greedy but where two values are close."""
+
+    def drawn(sensing: Sensing, rng: np.random.Generator) -> np.ndarray:
+        values = policy.network.forward(policy.encoder(sensing))
+        return choose(boltzmann(values, temperature), rng.random(len(sensing)))
+
+    return drawn
 
 
-# ---------------------------------------------------------------------------------------------------------------------
-# Tuning: the same number of trials for every method
+def compare(case: Case, seed: int, scale: str) -> Numbers:
+    """Table 4.3: one seed of a method with its chosen settings; or a rule, which learns nothing."""
+    method, worlds = str(case["method"]), new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed)
+    if method in RULES:
+        return driven(RULES[method], worlds)
+    return driven(trained(method, seed, EPISODES[scale], settings(method)).policies[0], worlds)
 
-TRIALS = 16
-_NEURAL = {
-    "alpha": [0.8, (0.8, 0.1), (0.4, 0.05)],
-    "rate": [0.3, (0.3, 0.05), 0.1],
-    "passes": [1, 3],
-    "rescale": ["clip", "shift"],
+
+def learn(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 4.4 and 4.6: successful episodes in every 30."""
+    training = trained(str(case["method"]), seed, EPISODES[scale], settings(str(case["method"])))
+    won = training.successes[0]
+    return {"successes": blocks(won[None])[0], "of the first 100": won[:100].sum(), "of the last 100": won[-100:].sum()}
+
+
+def change(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 4.3: what the weights of a layer changed by in each episode."""
+    training = trained("nnql", seed, EPISODES[scale], settings("nnql"), record=True)
+    assert training.history is not None
+    changes = weight_changes(training.history, absolute=case["sum"] == "absolute")[0]
+    return {"first layer": changes[:, 0], "second layer": changes[:, 1]}
+
+
+def at_speed(case: Case, seed: int, scale: str) -> Numbers:
+    """Table 4.2: a robot that learned at one speed, 2.5 m/s or the same, drives at another."""
+    speed = float(case["speed"])
+    training = trained(
+        "nnql", seed, EPISODES[scale], settings("nnql"), speed=SPEED if case["learned at"] == "2.5 m/s" else speed
+    )
+    return driven(training.policies[0], new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed), speed)
+
+
+def among_movers(case: Case, seed: int, scale: str) -> Numbers:
+    """Standing and moving obstacles (Fig. 4.7), for a robot that learned among standing ones; beside a rule."""
+    worlds = new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed, int(case["standing"]), int(case["moving"]))
+    if case["method"] in RULES:
+        return driven(RULES[str(case["method"])], worlds)
+    return driven(trained("nnql", seed, EPISODES[scale], settings("nnql")).policies[0], worlds)
+
+
+def in_dense_maps(case: Case, seed: int, scale: str) -> Numbers:
+    """Twenty obstacles: training with the thesis's settings or ours, of 300 episodes or 600; greedy, and cold."""
+    options = trial_settings("nnql", 0) if case["settings"] == "the thesis's" else DENSE
+    episodes = int(case["episodes"]) * EPISODES[scale] // EPISODES["thesis"]
+    policy = trained("nnql", seed, episodes, options, obstacles=20).policies[0]
+    worlds = new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed, 20)
+    return driven(policy, worlds) | {f"success, {COLD:g} warm": driven(cold(policy), worlds)["success"]}
+
+
+_ABOUT = {
+    "episodes": EPISODES,
+    "drives a run": NAVIGATIONS,
+    "first seed of the worlds": TEST_WORLDS,
+    "settings": {method: trial_settings(method, trial) for method, trial in CHOSEN.items()},
 }
-_SHARED = {
-    "gamma": [0.6, 0.7, 0.8, 0.9],
-    "target": ["number", "one-hot", "sine-cosine"],
-    "temperature": [(0.9, 0.1), (0.9, 0.05), (0.9, 0.03)],
-}
-SPACE: dict[str, dict[str, list[Any]]] = {
-    "nnql": _NEURAL | _SHARED,
-    "online": _NEURAL | _SHARED,
-    "nfq": {"collect": [5, 10, 20], "fitting": [(5, 100), (10, 50), (20, 30)]} | _SHARED,
-    "dqn": {"rate": [0.001, 0.003, 0.01], "refresh": [100, 300, 1000], "batch": [32, 64]} | _SHARED,
-}
-"""What a trial draws from, evenly and setting by setting; ``fitting`` is sweeps and epochs."""
+_SEEDS = {"quick": 2, "thesis": 50}
 
-OWN = {"gamma": 0.7, "target": "number", "temperature": (0.9, 0.1)}
-FIRST: dict[str, dict[str, Any]] = {
-    "nnql": OWN | {"alpha": 0.8, "rate": 0.3, "passes": 1, "rescale": "clip"},
-    "online": OWN | {"alpha": 0.8, "rate": 0.3, "passes": 1, "rescale": "clip"},
-    "nfq": OWN | {"collect": 10, "fitting": (5, 100)},
-    "dqn": OWN | {"rate": 0.003, "refresh": 300, "batch": 32},
-}
-"""Trial 0: what the thesis has, where it has anything."""
-
-
-def trial_settings(method: str, trial: int) -> dict[str, Any]:
-    """The settings of a trial; NNQL and online learning, which share a space, get the same ones."""
-    if trial == 0:
-        return FIRST[method]
-    rng = np.random.default_rng([TUNING_SEEDS, trial])
-    return {name: choices[int(rng.integers(len(choices)))] for name, choices in SPACE[method].items()}
-
-
-def trained(method: str, seed: int, episodes: int, settings: Mapping[str, Any], obstacles: int = 10) -> Training:
-    """One seed of a method with settings such as :func:`trial_settings` gives."""
-    options = {name: tuple(value) if isinstance(value, list) else value for name, value in settings.items()}
-    where = course(obstacles, target=options.pop("target"))
-    if "fitting" in options:
-        options["sweeps"], options["epochs"] = options.pop("fitting")
-    return METHODS[method]([seed], episodes, course=where, **options)
-
-
-def tune(case: Case, seed: int, scale: str) -> Numbers:
-    """One seed of one trial, on tuning worlds."""
-    settings = json.loads(str(case["settings"]))
-    training = trained(str(case["method"]), TUNING_SEEDS + seed, EPISODES[scale], settings)
-    return driven(training.policies[0], new_worlds(NAVIGATIONS[scale] // 2, TUNING_WORLDS + seed))
-
-
-TUNING = Experiment(
-    name="nnql-tuning",
-    title="Trials from which the settings of chapter 4's methods were chosen, as many for each",
+TABLE_4_2 = Experiment(
+    name="table-4.2",
+    title="NNQL at six speeds, learned at 2.5 m/s or at the same speed",
     cases=[
-        {"method": method, "trial": trial, "settings": json.dumps(trial_settings(method, trial), sort_keys=True)}
-        for method in METHODS
-        for trial in range(TRIALS)
+        {"speed": speed, "learned at": learned}
+        for learned in ("2.5 m/s", "the same")
+        for speed in (1.5, 2, 2.5, 3, 3.5, 4)
     ],
-    run=tune,
-    seeds={"quick": 1, "thesis": 8},
-    settings={"episodes": EPISODES, "drives a run": {scale: n // 2 for scale, n in NAVIGATIONS.items()}},
+    run=at_speed,
+    seeds=_SEEDS,
+    settings=_ABOUT,
 )
+TABLE_4_3 = Experiment(
+    name="table-4.3",
+    title="NNQL, online Q-learning, NFQ, DQN, and two rules that learn nothing: success in new maps",
+    cases=[{"method": method} for method in (*METHODS, *RULES)],
+    run=compare,
+    seeds=_SEEDS,
+    thesis={"success": [98, 56, 87, None, None, None]},
+    settings=_ABOUT,
+)
+FIGURE_4_3 = Experiment(
+    name="figure-4.3",
+    title="What the weights change by in each episode",
+    cases=[{"sum": "signed"}, {"sum": "absolute"}],
+    run=change,
+    seeds={"quick": 1, "thesis": 16},
+    settings=_ABOUT,
+)
+FIGURE_4_4 = Experiment(
+    name="figure-4.4",
+    title="Successful episodes in every 30, NNQL",
+    cases=[{"method": "nnql"}],
+    run=learn,
+    seeds=_SEEDS,
+    settings=_ABOUT,
+)
+FIGURE_4_6 = Experiment(
+    name="figure-4.6",
+    title="Successful episodes in every 30, four methods",
+    cases=[{"method": method} for method in METHODS],
+    run=learn,
+    seeds=_SEEDS,
+    settings=_ABOUT,
+)
+FIGURE_4_7 = Experiment(
+    name="figure-4.7",
+    title="NNQL, learned among standing obstacles, and a rule among moving ones",
+    cases=[
+        {"method": method, "standing": standing, "moving": moving}
+        for method in ("nnql", "freer side")
+        for standing, moving in ((10, 0), (5, 5), (0, 10), (10, 10))
+    ],
+    run=among_movers,
+    seeds=_SEEDS,
+    settings=_ABOUT,
+)
+TWENTY = Experiment(
+    name="nnql-20-obstacles",
+    title="NNQL with 20 obstacles: the thesis's settings, and learning rates that fall",
+    cases=[{"settings": which, "episodes": n} for which in ("the thesis's", "ours") for n in (300, 600)],
+    run=in_dense_maps,
+    seeds={"quick": 1, "thesis": 24},
+    settings=_ABOUT | {"settings": {"the thesis's": trial_settings("nnql", 0), "ours": DENSE}},
+)
+
+EXPERIMENTS = (TABLE_4_2, TABLE_4_3, FIGURE_4_3, FIGURE_4_4, FIGURE_4_6, FIGURE_4_7, TWENTY)

@@ -24,9 +24,3 @@ def boltzmann(action_values: ArrayLike, eta: float) -> Floats:
     """
     q = expect.array("action_values", action_values)
     return np.asarray(softmax(expect.real("eta", eta, at_least=0) * q, axis=-1))
-
-
-def drawn(cumulated: ArrayLike, rng: np.random.Generator) -> NDArray[np.int64]:
-    """One index (N,) from each row of cumulated probabilities (N, n)."""
-    sums = np.asarray(cumulated, dtype=float)
-    return np.asarray((rng.random(len(sums))[:, None] * sums[:, -1:] >= sums).sum(axis=1))

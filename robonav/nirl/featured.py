@@ -12,8 +12,7 @@ from robonav import expect
 from robonav.mdp import policies
 from robonav.mdp.gridworld import GridWorld
 from robonav.mdp.models import FiniteMDP
-
-from .boltzmann import drawn
+from robonav.nnql.exploration import choose
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -76,9 +75,10 @@ class FeaturedMDP:
         return self.features.shape[1]
 
     @cached_property
-    def _thresholds(self) -> Floats:
-        """(S, A, S) cumulated transition probabilities, to draw from."""
-        return np.cumsum(self.transitions, axis=2).swapaxes(0, 1)
+    def terminal(self) -> NDArray[np.bool_]:
+        """Which states (S,) end an episode: absorbing under every action, without a feature."""
+        staying = self.transitions.diagonal(axis1=1, axis2=2)
+        return (staying > 1 - policies.SUM_TOLERANCE).all(axis=0) & (self.features == 0).all(axis=(1, 2))
 
     def with_reward(self, weights: ArrayLike) -> FiniteMDP:
         """The finite MDP whose reward is r(s, a) = theta . f(s, a), Eq. (5.2), for weights (K,)."""
@@ -89,14 +89,14 @@ class FeaturedMDP:
         """Follow a policy, (S,) actions or (S, A) probabilities, for ``steps`` steps, ``walks`` times over."""
         rng = expect.generator("seed", seed)
         n = expect.integer("walks", walks, at_least=0)
-        choices = np.cumsum(policies.probabilities(policy, self.states, self.actions), axis=1)
+        chances = policies.probabilities(policy, self.states, self.actions)
         states = np.empty((n, expect.integer("steps", steps, at_least=1)), dtype=np.int64)
         actions = np.empty_like(states)
-        here = drawn(np.broadcast_to(np.cumsum(self.starts), (n, self.states)), rng)
+        here = rng.choice(self.states, n, p=self.starts)
         for step in range(steps):
-            action = drawn(choices[here], rng)
+            action = choose(chances[here], rng.random(n))
             states[:, step], actions[:, step] = here, action
-            here = drawn(self._thresholds[here, action], rng)
+            here = choose(self.transitions[action, here], rng.random(n))
         return Walks(states, actions)
 
 

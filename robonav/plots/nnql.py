@@ -13,8 +13,10 @@ from numpy.typing import ArrayLike
 from robonav import look
 from robonav.nnql import boltzmann
 from robonav.nnql.rewards import COZY_DISTANCE, REWARDS, reward_row
-from robonav.robot import SENSOR_RANGE, Action, Sensing
+from robonav.robot import SENSOR_RANGE, Action, Sensing, Worlds
 from robonav.robot.kernels import RUNNING
+
+from .robot import draw_drives
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -77,14 +79,6 @@ def animate_boltzmann(q: ArrayLike, temperatures: Sequence[float]) -> FuncAnimat
     return FuncAnimation(figure, draw, frames=len(temperatures), interval=200)
 
 
-def blocks(successes: ArrayLike, size: int = 30) -> np.ndarray:
-    """Successes (S, E) counted in blocks of ``size`` episodes: (S, E / size); what is left over is dropped."""
-    arrived = np.asarray(successes)
-    seeds, episodes = arrived.shape
-    count: np.ndarray = arrived[:, : episodes // size * size].reshape(seeds, -1, size).sum(axis=2)
-    return count
-
-
 def draw_learning(axes: Axes, counts: Mapping[str, ArrayLike], *, size: int = 30) -> None:
     """Successful episodes in every ``size``: mean over seeds, and a standard deviation around it (Fig. 4.4, 4.6).
 
@@ -110,6 +104,24 @@ def draw_weight_changes(axes: Axes, changes: Mapping[str, ArrayLike], *, colour:
     axes.axhline(0, color=look.INK, linewidth=0.6)
     axes.set(xlabel="episode")
     axes.legend()
+
+
+def animate_learning(
+    world: Worlds, paths: Sequence[ArrayLike], titles: Sequence[str], *, colour: str = look.ROBOT
+) -> FuncAnimation:
+    """One world, driven again and again: a path (steps + 1, 3) and a title a frame."""
+    from matplotlib import pyplot as plt
+    from matplotlib.animation import FuncAnimation
+
+    figure, axes = plt.subplots(figsize=(4.4, 4.6))
+
+    def draw(frame: int) -> list:
+        axes.clear()
+        draw_drives(axes, world, [paths[frame]], colour=colour)
+        axes.set(title=titles[frame], xlabel="", ylabel="")
+        return []
+
+    return FuncAnimation(figure, draw, frames=len(paths), interval=500)
 
 
 def draw_rates(axes: Axes, rates: Mapping[str, ArrayLike], *, thesis: Mapping[str, float] | None = None) -> None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -24,6 +24,7 @@ def test_each_action_has_its_own_block():
     np.testing.assert_array_equal(chosen_block([[1.0, 2.0]], [2], 3), blocks[:, 2])
 
 
+@settings(deadline=None)
 @given(arrays(float, (4, 3), elements=st.floats(-5, 5)), arrays(np.int64, 4, elements=st.integers(0, 4)))
 def test_a_reward_over_blocks_is_linear_in_the_state_for_each_action(phi, chosen):
     theta = np.arange(15.0).reshape(5, 3)

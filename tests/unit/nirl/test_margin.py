@@ -68,6 +68,7 @@ def test_an_expert_no_better_than_itself():
         widest_margin([1.0], np.empty((0, 1)))
 
 
+@settings(deadline=None)
 @given(*[arrays(float, 3, elements=st.floats(-3, 3))] * 3)
 def test_projection_is_the_nearest_point_between(mean, found, expert):
     reached = project(mean, found, expert)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.optimize import check_grad
@@ -20,6 +20,7 @@ from robonav.nirl import (
 )
 
 
+@settings(deadline=None)
 @given(arrays(float, 5, elements=st.floats(-100, 100)), st.floats(1e-3, 10))
 def test_soft_maximum_lies_just_above_the_hard_one(q, temperature):
     soft = soft_maximum(q, temperature)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -34,6 +34,7 @@ def test_states_of_several_numbers():
     assert refined.actions.tolist() == [2, 2, 2, 4]
 
 
+@settings(deadline=None)
 @given(arrays(np.int64, 30, elements=st.integers(0, 4)), arrays(np.int64, 30, elements=st.integers(0, 4)))
 def test_refined_demonstrations_are_consistent_and_stay_so(states, shown):
     once = most_frequent(states, shown, 5)
@@ -59,6 +60,7 @@ def test_boltzmann_by_hand():
     np.testing.assert_allclose(boltzmann([[0.3, 5.0, -9.0]], 0.0), [[1 / 3] * 3])
 
 
+@settings(deadline=None)
 @given(arrays(float, (2, 5), elements=st.floats(-50, 50)), st.floats(0, 1000))
 def test_boltzmann_is_a_distribution_that_ranks_like_its_values(q, eta):
     chances = boltzmann(q, eta)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.optimize import approx_fprime
@@ -18,6 +18,7 @@ EXPERT = np.array([0.5, -0.4, 0.2])
 THETAS = arrays(float, 3, elements=st.floats(-3, 3).map(lambda x: round(x, 3)))
 
 
+@settings(deadline=None)
 @given(THETAS, THETAS)
 def test_two_weights_give_two_gradients(one, other):
     """The regression that matters: weights that cancel would give the same gradient for every theta."""
@@ -26,6 +27,7 @@ def test_two_weights_give_two_gradients(one, other):
     assert np.allclose(apart, 0, atol=1e-12) == (np.linalg.norm(one - other) < 1e-9)
 
 
+@settings(deadline=None)
 @given(THETAS.filter(lambda theta: (abs(theta) > 1e-2).all()))
 def test_the_gradient_is_that_of_the_dual(theta):
     slack = np.array([0.1, 0.0, 0.3])

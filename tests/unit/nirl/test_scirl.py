@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.optimize import approx_fprime
@@ -22,6 +22,7 @@ MU = RNG.normal(size=(40, 3, 4))
 SHOWN = RNG.integers(0, 3, 40)
 
 
+@settings(deadline=None)
 @given(arrays(float, 4, elements=st.floats(-2, 2)), st.floats(0, 1))
 def test_the_subgradient_is_that_of_the_cost(theta, ridge):
     def at(weights):
@@ -38,7 +39,7 @@ def test_a_separable_case_is_separated():
     rng = np.random.default_rng(3)
     mu, theta = rng.normal(size=(200, 4, 5)), rng.normal(size=5)
     shown = (mu @ theta).argmax(axis=1)
-    learned = structured_classification(mu, shown, ridge=1e-5)
+    learned = structured_classification(mu, shown)
     assert ((mu @ learned.weights).argmax(axis=1) == shown).mean() > 0.97
     assert learned.costs[-1] < 0.5 * learned.costs[0]
 
@@ -88,7 +89,7 @@ def noisy(case, slips=0.25):
 def test_scirl_with_exact_expectations(terrain):
     mu = feature_expectations(terrain.task, terrain.expert)
     living = ~terrain.grid.terminal
-    learned = structured_classification(mu[living], terrain.expert[living], ridge=1e-4)
+    learned = structured_classification(mu[living], terrain.expert[living])
     assert terrain.loss(terrain.best(learned.weights)) < 0.05
 
 
@@ -97,7 +98,7 @@ def test_scirl_with_lstd_mu(terrain):
     mu = lstd(terrain, 500, noisy(terrain), 3)
     states = np.unique(terrain.task.walk(noisy(terrain), 500, 40, seed=3).states)
     states = states[~terrain.grid.terminal[states]]
-    learned = structured_classification(mu[states], terrain.expert[states], ridge=1e-4)
+    learned = structured_classification(mu[states], terrain.expert[states])
     assert terrain.loss(terrain.best(learned.weights)) < 0.05
 
 
@@ -109,24 +110,26 @@ def test_scirl_with_monte_carlo(terrain):
     mu = average_by(pairs, discounted_to_go(features, drawn.trajectory, task.discount), task.states * 4)
     mu = mu.reshape(task.states, 4, -1)
     seen = np.isfinite(mu).all(axis=(1, 2)) & ~terrain.grid.terminal
-    learned = structured_classification(mu[seen], terrain.expert[seen], ridge=1e-4)
+    learned = structured_classification(mu[seen], terrain.expert[seen])
     assert terrain.loss(terrain.best(learned.weights)) < 0.05
 
 
 def test_scirl_with_the_heuristic(scattered):
-    """From what was shown alone. The heuristic suits an expert that goes somewhere good and stays."""
+    """From what was shown alone. The heuristic suits an expert that goes somewhere good and stays.
+
+    Any reward that is good everywhere separates it: the ridge chooses among those.
+    """
     task, drawn = scattered.task, scattered.task.walk(scattered.expert, 40, 30, seed=4)
     features = task.features[drawn.states, drawn.actions].reshape(drawn.states.size, -1)
+    shown = drawn.actions.ravel()
     to_go = discounted_to_go(features, drawn.trajectory, task.discount)
-    learned = structured_classification(
-        shown_only(to_go, drawn.actions.ravel(), 4, task.discount), drawn.actions.ravel()
-    )
+    learned = structured_classification(shown_only(to_go, shown, 4, task.discount), shown, ridge=1e-2)
     assert scattered.loss(scattered.best(learned.weights)) < 0.05
 
 
 def test_random_rewards(scattered):
     mu = feature_expectations(scattered.task, scattered.expert)
-    learned = structured_classification(mu, scattered.expert, ridge=1e-5, iterations=5000)
+    learned = structured_classification(mu, scattered.expert)
     assert scattered.loss(scattered.best(learned.weights)) < 0.05
 
 

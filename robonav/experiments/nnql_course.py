@@ -1,0 +1,48 @@
+"""The conditions of section 4.5, which all experiments of chapter 4 share.
+
+A run is one training seed: it trains a network and drives its greedy policy through new worlds. Worlds to train in, to
+tune on and to test on never meet.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robonav.nnql import STARTS, TARGETS, Course
+from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
+
+EPISODES = {"quick": 60, "thesis": 300}
+NAVIGATIONS = {"quick": 100, "thesis": 1000}
+SPEED = 2.5
+TEST_WORLDS = 40_000  # run k drives through the worlds of this seed + k
+BLOCK = 30  # episodes that Fig. 4.4 and 4.6 count successes in
+
+Numbers = dict[str, ArrayLike]
+
+
+def course(*, target: str = "number", **changes: Any) -> Course:
+    """What section 4.5 trains on, with the target's sector written in one way or another."""
+    return Course(**({"encoder": Encoder(NNQL_SENSORS, walls=True, target=target)} | changes))
+
+
+def new_worlds(n: int, seed: int, obstacles: int = 10, moving: int = 0) -> Worlds:
+    """Worlds to drive in, with the starts and targets of section 4.5."""
+    return random_worlds(n, obstacles, moving, seed=seed, starts=STARTS, targets=TARGETS)
+
+
+def driven(policy: Policy, worlds: Worlds, speed: float = SPEED) -> Numbers:
+    """How many drives arrive, collide and run out of steps, in per cent (Algorithm 9)."""
+    drives = navigate(policy, worlds, speed, Course().max_steps)
+    arrived, collided = 100 * drives.success.mean(), 100 * drives.collision.mean()
+    return {"success": arrived, "collision": collided, "out of steps": 100 - arrived - collided}
+
+
+def blocks(successes: ArrayLike, size: int = BLOCK) -> np.ndarray:
+    """Successes (S, E) counted in blocks of ``size`` episodes: (S, E / size); what is left over is dropped."""
+    arrived = np.asarray(successes)
+    seeds, episodes = arrived.shape
+    counts: np.ndarray = arrived[:, : episodes // size * size].reshape(seeds, -1, size).sum(axis=2)
+    return counts

@@ -1,0 +1,99 @@
+"""How the settings of chapter 4's methods were chosen: the same number of trials for each, on worlds kept for that."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from robonav.nnql import METHODS, Training
+
+from .experiment import Case, Experiment, Results
+from .nnql_course import EPISODES, NAVIGATIONS, Numbers, course, driven, new_worlds
+
+TRIALS = 16
+TUNING_WORLDS = 41_000  # run k drives through the worlds of this seed + k; tables take others
+TUNING_SEEDS = 10_000  # run k trains with this seed + k; tables take others
+
+_NEURAL: dict[str, list[Any]] = {
+    "alpha": [0.8, (0.8, 0.1), (0.4, 0.05)],
+    "rate": [0.3, (0.3, 0.05), 0.1],
+    "passes": [1, 3],
+    "rescale": ["clip", "shift"],
+}
+_SHARED: dict[str, list[Any]] = {
+    "gamma": [0.6, 0.7, 0.8, 0.9],
+    "target": ["number", "one-hot", "sine-cosine"],
+    "temperature": [(0.9, 0.1), (0.9, 0.05), (0.9, 0.03)],
+}
+_NFQ: dict[str, list[Any]] = {"collect": [5, 10, 20], "fitting": [(5, 100), (10, 50), (20, 30)]}
+_DQN: dict[str, list[Any]] = {"rate": [0.001, 0.003, 0.01], "refresh": [100, 300, 1000], "batch": [32, 64]}
+SPACE: dict[str, dict[str, list[Any]]] = {
+    "nnql": _NEURAL | _SHARED,
+    "online": _NEURAL | _SHARED,
+    "nfq": _NFQ | _SHARED,
+    "dqn": _DQN | _SHARED,
+}
+"""What a trial draws from, evenly and setting by setting; ``fitting`` is sweeps and epochs."""
+
+_OWN = {"gamma": 0.7, "target": "number", "temperature": (0.9, 0.1)}
+FIRST: dict[str, dict[str, Any]] = {
+    "nnql": _OWN | {"alpha": 0.8, "rate": 0.3, "passes": 1, "rescale": "clip"},
+    "online": _OWN | {"alpha": 0.8, "rate": 0.3, "passes": 1, "rescale": "clip"},
+    "nfq": _OWN | {"collect": 10, "fitting": (5, 100)},
+    "dqn": _OWN | {"rate": 0.003, "refresh": 300, "batch": 32},
+}
+"""Trial 0: what the thesis has, where it has anything."""
+
+
+def trial_settings(method: str, trial: int) -> dict[str, Any]:
+    """The settings of a trial; NNQL and online learning, which share a space, get the same ones."""
+    if trial == 0:
+        return FIRST[method]
+    rng = np.random.default_rng([TUNING_SEEDS, trial])
+    return {name: choices[int(rng.integers(len(choices)))] for name, choices in SPACE[method].items()}
+
+
+def trained(method: str, seed: int, episodes: int, settings: Mapping[str, Any], **changes: Any) -> Training:
+    """One seed of a method with settings such as :func:`trial_settings` gives, or their JSON.
+
+    ``changes`` are what is not as in section 4.5, see :class:`robonav.nnql.Course`; and ``record``.
+    """
+    options: dict[str, Any] = {name: tuple(v) if isinstance(v, list) else v for name, v in settings.items()}
+    record = bool(changes.pop("record", False))
+    where = course(target=options.pop("target"), **changes)
+    if "fitting" in options:
+        options["sweeps"], options["epochs"] = options.pop("fitting")
+    return METHODS[method]([seed], episodes, course=where, record=record, **options)
+
+
+def tune(case: Case, seed: int, scale: str) -> Numbers:
+    """One seed of one trial, on tuning worlds."""
+    settings = json.loads(str(case["settings"]))
+    training = trained(str(case["method"]), TUNING_SEEDS + seed, EPISODES[scale], settings)
+    return driven(training.policies[0], new_worlds(NAVIGATIONS[scale] // 2, TUNING_WORLDS + seed))
+
+
+TUNING = Experiment(
+    name="nnql-tuning",
+    title="Trials from which the settings of chapter 4's methods were chosen, as many for each",
+    cases=[
+        {"method": method, "trial": trial, "settings": json.dumps(trial_settings(method, trial), sort_keys=True)}
+        for method in METHODS
+        for trial in range(TRIALS)
+    ],
+    run=tune,
+    seeds={"quick": 1, "thesis": 4},
+    settings={"episodes": EPISODES, "drives a run": {scale: n // 2 for scale, n in NAVIGATIONS.items()}},
+)
+
+
+def best_trials(results: Results) -> dict[str, int]:
+    """For each method the trial with the greatest mean success over seeds."""
+    means = np.array([results.summary("success", case).mean for case in range(len(TUNING.cases))])
+    return dict(zip(METHODS, means.reshape(len(METHODS), TRIALS).argmax(axis=1).tolist(), strict=True))
+
+
+EXPERIMENTS = (TUNING,)

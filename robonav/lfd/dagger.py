@@ -1,0 +1,99 @@
+"""Dataset aggregation: ask the expert about the states that the learner gets into (Ross, Gordon and Bagnell 2011)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from robonav import expect
+from robonav.progress import Progress
+from robonav.robot import Encoder, Policy, Simulator, Worlds
+
+from .demonstrations import Actions, Demonstrations, Expert, join, record
+from .experts import ComputerExpert
+from .imitation import learn_policy
+from .policy import NetworkPolicy
+
+
+@dataclass(frozen=True, eq=False)
+class Aggregation:
+    """What DAgger went through, round by round; round 0 is plain cloning.
+
+    Attributes
+    ----------
+    policies : one a round; the last is the result.
+    demonstrations : what each of them has learned from, everything so far.
+    """
+
+    policies: tuple[NetworkPolicy, ...]
+    demonstrations: tuple[Demonstrations, ...]
+
+    @property
+    def policy(self) -> NetworkPolicy:
+        """The last."""
+        return self.policies[-1]
+
+
+def advised(
+    policy: Policy, worlds: Worlds, *, expert: Expert | None = None, speed: float = 2.0, seed: int = 0
+) -> Demonstrations:
+    """Let a policy drive in D worlds, and write down what an expert would have done instead.
+
+    The ``actions`` of what is returned are the expert's, the states are the policy's. Where a reflex decides, nobody
+    is asked.
+
+    Parameters
+    ----------
+    policy : drives.
+    worlds : batch of D.
+    expert : gives the labels; by default the computer expert, who plans anew in each state.
+    speed : m/s.
+    seed : of the generator handed to the policy.
+    """
+    rng = expect.generator("seed", seed)
+
+    def drives(simulator: Simulator, asked: Actions) -> Actions:
+        return np.asarray(policy(simulator.sense()[asked], rng), dtype=np.int64)
+
+    return record(drives, worlds, speed=speed, labels=expert or ComputerExpert())
+
+
+def dagger(
+    demonstrations: Demonstrations,
+    rounds: Sequence[Worlds],
+    *,
+    expert: Callable[[], Expert] = ComputerExpert,
+    hidden: int = 8,
+    regularisation: float = 1.0,
+    iterations: int = 300,
+    seed: int = 0,
+    encoder: Encoder | None = None,
+    progress: Progress | None = None,
+) -> Aggregation:
+    """Clone the demonstrations, drive, have the expert label the states met, learn from everything; again.
+
+    Parameters
+    ----------
+    demonstrations : to begin with.
+    rounds : worlds to drive in, one batch a round.
+    expert : makes the one who labels.
+    hidden, regularisation, iterations, seed, encoder : as in :func:`learn_policy`.
+
+    Raises
+    ------
+    ValueError : as :func:`learn_policy`.
+    """
+
+    def learned(gathered: Demonstrations) -> NetworkPolicy:
+        return learn_policy(gathered, hidden, regularisation, iterations, seed, encoder=encoder)
+
+    gathered, policies = [demonstrations], [learned(demonstrations)]
+    for number, worlds in enumerate(rounds, start=1):
+        met = advised(policies[-1], worlds, expert=expert(), speed=demonstrations.speed, seed=seed)
+        gathered.append(join([gathered[-1], met]))
+        policies.append(learned(gathered[-1]))
+        if progress is not None:
+            progress(number, len(rounds))
+    return Aggregation(tuple(policies), tuple(gathered))
