@@ -135,7 +135,7 @@ def test_an_observation_that_cannot_be_is_an_error_that_says_so():
     [
         ([0.5, 0.6], 0, 0, "belief must be a distribution over the 2 states, got sum 1.1"),
         ([1.5, -0.5], 0, 0, "belief must be a distribution"),
-        ([1.0], 0, 0, r"belief must have shape \(2\)"),
+        ([1.0], 0, 0, r"belief must have shape \(2,\)"),
         ([0.5, np.nan], 0, 0, "belief must hold finite numbers"),
         ([0.5, 0.5], 3, 0, "action must be at most 2, got 3"),
         ([0.5, 0.5], 0, 2, "observation must be at most 1, got 2"),
