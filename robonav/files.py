@@ -9,6 +9,14 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
+PARTIAL = ".partial-"
+
+
+def sweep(folder: str | Path) -> None:
+    """Remove the temporary files that writers below ``folder`` left when they were killed; none may be writing."""
+    for path in Path(folder).rglob(f".*{PARTIAL}*"):
+        path.unlink(missing_ok=True)
+
 
 @contextmanager
 def whole(path: str | Path) -> Iterator[BinaryIO]:
@@ -19,7 +27,7 @@ def whole(path: str | Path) -> Iterator[BinaryIO]:
     """
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
-    descriptor, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    descriptor, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}{PARTIAL}")
     try:
         with os.fdopen(descriptor, "wb") as file:
             yield file

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from robonav import files
 from robonav.grading import report, submission
 from robonav.grading.check import graded
 from robonav.grading.course import Course
@@ -109,6 +110,7 @@ def grade_class(
     for name in set(again) - set(submissions):
         raise ValueError(f"no submission of {name} in {folder}")
     with _alone(out):
+        files.sweep(out)
         key, tasks = marking.key(), []
         for name, path in submissions.items():
             taken = submission.taken(path)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import math
 import struct
+from collections.abc import Callable
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -69,9 +70,13 @@ def write(stream: BinaryIO, value: Any) -> None:
 
 def read(stream: BinaryIO) -> Any:
     """Receive one frame; EOFError where the stream has ended before it."""
-    prefix = _exactly(stream, PREFIX.size)
-    sizes = _check_sizes(*PREFIX.unpack(prefix))
-    return decode(prefix + _exactly(stream, sum(sizes)))
+    return receive(lambda size: _exactly(stream, size))
+
+
+def receive(exactly: Callable[[int], bytes]) -> Any:
+    """Receive one frame by a function that gives so many bytes; no more are asked for than a frame may have."""
+    prefix = exactly(PREFIX.size)
+    return decode(prefix + exactly(sum(_check_sizes(*PREFIX.unpack(prefix)))))
 
 
 def _exactly(stream: BinaryIO, size: int) -> bytes:

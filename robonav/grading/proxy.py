@@ -69,7 +69,7 @@ class Session:
     def close(self) -> None:
         """End the sandbox."""
         if self._worker is not None:
-            self._worker.kill()
+            self._worker.end()
         self._worker = self._serving = None
 
     def _serve(self, exercise: Exercise) -> None:

@@ -13,14 +13,15 @@ from __future__ import annotations
 
 import functools
 import os
-import queue
 import random
+import select
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -34,6 +35,8 @@ from robonav.grading import frames
 START_SECONDS = 60.0  # for the worker's own start, before any of the student's code
 STAGED = ("confine", "frames", "notebook", "supervisor", "worker")  # the files of this folder that the sandbox holds
 LOADER = ("/lib", "/lib64", "/usr/lib", "/usr/lib64", "/etc/ld.so.cache")  # shared libraries of the interpreter
+CHUNK = 1 << 16  # bytes moved at once
+HOME = "/submission"  # the one place where it can write in the official tier; not /tmp, where an environment may lie
 NOBODY = "65534"
 USERS = range(2_000_000, 4_000_000)  # for the restricted tier; systems hand out none of these
 ENVIRONMENT = {"LANG": "C.UTF-8", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
@@ -74,7 +77,9 @@ class Worker:
     def __init__(self, process: subprocess.Popen[bytes], end: Callable[[], None], *, forks: bool) -> None:
         self._process, self._end, self.forks = process, end, forks
         self._requests, self._replies = cast(BinaryIO, process.stdin), cast(BinaryIO, process.stdout)
-        self._exchanging: threading.Thread | None = None
+        if os.name == "posix":
+            os.set_blocking(self._requests.fileno(), False)
+            os.set_blocking(self._replies.fileno(), False)
 
     def ask(self, request: Any, seconds: float) -> Any:
         """The worker's next frame after this request.
@@ -87,38 +92,76 @@ class Worker:
         FrameError : if the request cannot be one.
         """
         frame = frames.encode(request)
-        answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
-        self._exchanging = threading.Thread(target=self._exchange, args=(frame, answers), daemon=True)
-        self._exchanging.start()
         try:
-            answer = answers.get(timeout=max(seconds, 0.0))
-        except queue.Empty:
-            self.kill()
-            raise TimedOut from None
-        if isinstance(answer, BaseException):
-            raise answer
-        return answer
-
-    def _exchange(self, frame: bytes, answers: queue.SimpleQueue[Any]) -> None:
-        try:
-            self._requests.write(frame)
-            self._requests.flush()
-            answers.put(frames.read(self._replies))
-        except OSError:
-            answers.put(EOFError("the worker hung up"))
+            return self._exchange(frame, seconds) if os.name == "posix" else self._exchange_watched(frame, seconds)
         except frames.FrameError as error:
-            answers.put(Garbled(str(error)))
-        except BaseException as error:
-            answers.put(error)
+            raise Garbled(str(error)) from None
+        except TimedOut:
+            self.kill()
+            raise
+        except OSError:
+            raise EOFError("the worker hung up") from None
+
+    def _exchange(self, frame: bytes, seconds: float) -> Any:
+        """Send and receive against one deadline, however slowly bytes drip."""
+        deadline = time.monotonic() + seconds
+        requests, replies = self._requests.fileno(), self._replies.fileno()
+
+        def wait(reading: Sequence[int], writing: Sequence[int]) -> None:
+            left = deadline - time.monotonic()
+            if left <= 0 or not any(select.select(reading, writing, [], left)):
+                raise TimedOut
+
+        def exactly(size: int) -> bytes:
+            received = bytearray()
+            while len(received) < size:
+                wait([replies], [])
+                if not (part := os.read(replies, min(size - len(received), CHUNK))):
+                    raise EOFError("the worker hung up")
+                received += part
+            return bytes(received)
+
+        rest = memoryview(frame)
+        while rest:
+            wait([], [requests])
+            with suppress(BlockingIOError):
+                rest = rest[os.write(requests, rest[:CHUNK]) :]
+        return frames.receive(exactly)
+
+    def _exchange_watched(self, frame: bytes, seconds: float) -> Any:
+        """The same where a pipe cannot be waited for: a watchdog kills the worker, and the stream ends."""
+        struck = threading.Event()
+
+        def strike() -> None:
+            struck.set()
+            self._end()
+
+        watchdog = threading.Timer(seconds, strike)
+        watchdog.start()
+        rest = memoryview(frame)
+        try:
+            while rest:
+                rest = rest[self._requests.write(rest) :]
+            return frames.read(self._replies)
+        except (OSError, EOFError):
+            if struck.is_set():
+                raise TimedOut from None
+            raise
+        finally:
+            watchdog.cancel()
+
+    def end(self) -> None:
+        """Hang up: the worker ends by itself, and is killed if it does not at once."""
+        with suppress(OSError):
+            self._requests.close()
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(0.5)
+        self.kill()
 
     def kill(self) -> None:
         """End everything in the sandbox, at once; harmless where it has ended."""
         self._end()
         self._process.wait()
-        if self._exchanging is not None:
-            self._exchanging.join(1.0)
-            if self._exchanging.is_alive():  # in the practice tier something may escape and hold the stream: leave it
-                return
         for stream in (self._requests, self._replies):
             with suppress(OSError):
                 stream.close()
@@ -195,6 +238,7 @@ def _spawn(command: Sequence[str], *, folder: str | None = None, keep: Sequence[
     environment = ENVIRONMENT if os.name == "posix" else {**os.environ, **ENVIRONMENT}
     return subprocess.Popen(
         command,
+        bufsize=0,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
@@ -213,7 +257,7 @@ def _python(python: str, stage: str, code: str) -> list[str]:
 
 
 def _bubblewrap(python: str, writable: int) -> list[str]:
-    """The sandbox's own file system: libraries, interpreter, numpy and worker, all read-only, and a small /tmp."""
+    """The sandbox's own file system: libraries, interpreter, numpy and worker, all read-only, and a small HOME."""
     command = ["bwrap", "--unshare-all", "--unshare-user", "--die-with-parent", "--cap-drop", "ALL"]
     command += ["--uid", NOBODY, "--gid", NOBODY, "--hostname", "sandbox"]
     if _bubblewrap_can("--disable-userns"):
@@ -226,10 +270,10 @@ def _bubblewrap(python: str, writable: int) -> list[str]:
         command += ["--perms", "0555", "--size", "4096", "--tmpfs", path]
     for path in _numpy():
         command += ["--ro-bind", path, path]
-    command += ["--ro-bind", _stage(), "/grader", "--dev", "/dev", "--size", str(writable), "--tmpfs", "/tmp"]
+    command += ["--ro-bind", _stage(), "/grader", "--dev", "/dev", "--size", str(writable), "--tmpfs", HOME]
     for path in ("/", "/dev", *_package_folders(python)):
         command += ["--remount-ro", path]
-    return [*command, "--chdir", "/tmp"]
+    return [*command, "--chdir", HOME]
 
 
 @functools.cache

@@ -56,7 +56,7 @@ def main() -> None:
             os.chdir(_unpacked(home, files))
             serve(requests, replies, request)
     except (EOFError, BrokenPipeError):
-        return
+        os._exit(0)  # there is nothing to tidy up
 
 
 def _take_streams() -> tuple[BinaryIO, BinaryIO]:

@@ -21,8 +21,8 @@ from robonav.grading.submission import Submission
 
 COURSE = Course.around(Path(__file__).parent)
 ATTACKED, HONEST = COURSE.named("improve"), COURSE.named("bounds")
-LIMITS = Limits(call_seconds=1.0, exercise_seconds=1.0, memory=512 << 20)
-SLACK = 8.0  # seconds for starting two sandboxes on a busy machine
+LIMITS = Limits(call_seconds=2.0, exercise_seconds=4.0, memory=512 << 20)
+SLACK = 15.0  # seconds for starting two sandboxes on a busy machine
 
 SENDS = """
     import os, struct, json

@@ -196,6 +196,44 @@ def test_an_exception_in_the_grader_is_a_fault_not_a_crash(monkeypatch):
     assert {entry["points"] for entry in grade["exercises"]} == {None}
 
 
+def documented():
+    """The points that the instructors' page gives for the example class."""
+    page = (COURSE.root / "book/instructors.md").read_text()
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("| ")]
+    return {row[0]: [int(points) for points in row[1:5]] for row in rows if len(row) == 6 and row[1].isdigit()}
+
+
+def test_the_example_class_gets_the_documented_results(tmp_path):
+    if fault := probe.fault("official"):
+        pytest.skip(fault)
+    grade_class(OFFICIAL, COURSE.solutions / "example-class", tmp_path, jobs=2)
+    found = {}
+    for name, record in records(tmp_path).items():
+        points = {entry["id"]: entry["points"] for entry in record["exercises"]}
+        found[name] = [points["2.1"], points["2.2"], points["2.3"], record["points"]]
+    assert len(found) == 7
+    assert found == documented()
+
+
+def test_what_gradescope_runs_writes_what_gradescope_reads(tmp_path):
+    if fault := probe.fault("official"):
+        pytest.skip(fault)
+    (tmp_path / "venv").symlink_to(Path(sys.executable).parents[1])
+    (tmp_path / "source").mkdir()
+    (tmp_path / "source/secret").write_text("a word")
+    shutil.copytree(COURSE.solutions / "example-class/ada", tmp_path / "submission")
+    subprocess.run(
+        [COURSE.solutions / "gradescope/run_autograder"],
+        env={**os.environ, "AUTOGRADER_ROOT": str(tmp_path)},
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
+    results = json.loads((tmp_path / "results/results.json").read_text())
+    assert results["score"] == 12
+    assert [test["number"] for test in results["tests"]] == list(COURSE.exercises)
+
+
 def written(out):
     return {str(path.relative_to(out)): path.read_bytes() for path in out.rglob("*") if path.is_file()}
 

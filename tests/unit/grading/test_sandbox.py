@@ -142,6 +142,18 @@ def test_a_request_that_is_no_frame_is_our_own_fault(start):
         ask(worker, object())
 
 
+def test_where_pipes_cannot_be_waited_for_a_watchdog_keeps_the_deadline(monkeypatch):
+    """As on Windows."""
+    worker = sandbox.start("practice", {"ch2/echo.py": b"import time\ndef echo(s): time.sleep(s); return s"}, Limits())
+    monkeypatch.setattr(worker, "_exchange", worker._exchange_watched)
+    for stream in (worker._requests, worker._replies):
+        os.set_blocking(stream.fileno(), True)
+    assert ask(loaded(worker), 0)["value"] == 0
+    with pytest.raises(TimedOut):
+        ask(worker, 60, seconds=0.3)
+    assert worker._process.poll() is not None
+
+
 def test_without_fork_one_process_serves_one_exercise(monkeypatch):
     """As on macOS and Windows."""
     monkeypatch.setattr(sandbox.sys, "platform", "darwin")
