@@ -114,7 +114,7 @@ class SampledDescent:
             return Improved(network, np.nan)
         rewards = (1 - self.discount) * into_unit(rewards_of(weights, steps))
         ends = np.where(steps.failed[steps.trajectory], *self.ends)
-        w1, w2 = (np.ascontiguousarray(weight.T) for weight in network.weights)
+        w1, w2 = (weight.T.copy(order="C") for weight in network.weights)
         b1, b2 = (bias.copy() for bias in network.biases)
         order = rng.integers(len(steps), size=self.samples)
         start, end = self.rate

@@ -1,0 +1,171 @@
+"""The methods of Table 5.2 on the robot: what is kept of a drive, errors, and that they run and repeat."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from robonav.lfd.demonstrations import LEARNED
+from robonav.lfd.experts import demonstrate
+from robonav.nirl import (
+    ENCODER,
+    METHODS,
+    NEUTRAL,
+    RobotCourse,
+    SampledDescent,
+    by_heuristic,
+    by_lstd,
+    chosen_block,
+    from_everywhere,
+    from_start,
+    learn,
+    learn_under,
+    most_frequent,
+    shown_steps,
+)
+from robonav.nirl.courses import drive
+from robonav.nirl.methods import prepared, random_segments, segments
+from robonav.robot import Simulator, navigate, random_worlds
+
+SMALL = {"improve": SampledDescent(samples=500), "iterations": 3}
+COURSE = RobotCourse(trajectories=3, obstacles=10)
+
+
+@pytest.fixture(scope="module")
+def demonstrations():
+    return demonstrate(random_worlds(4, 20, seed=5))
+
+
+def always(action):
+    return lambda inputs: np.eye(LEARNED)[np.full(len(inputs), action)]
+
+
+@pytest.mark.parametrize("action", [0, 1])
+def test_a_practice_drive_is_a_drive(action):
+    """The same policy ends alike in practice and in ``navigate``."""
+    worlds = random_worlds(40, 20, seed=3)
+    driven = navigate(lambda sensing, rng: np.full(len(sensing), action), worlds, max_steps=200)
+    steps = drive(Simulator(worlds, 2.0), always(action), ENCODER, 200, np.random.default_rng(0))
+    np.testing.assert_array_equal(steps.failed, driven.collision)
+    np.testing.assert_array_equal(steps.arrived, driven.success)
+    assert (steps.actions == action).all()
+    assert (np.diff(steps.trajectory) >= 0).all()
+    same = np.diff(steps.trajectory) == 0
+    assert (np.diff(steps.when)[same] > 0).all()
+    np.testing.assert_array_less(steps.when, driven.steps[steps.trajectory])
+
+
+def test_experts_and_learners_are_seen_alike(demonstrations):
+    """An expert's decisions are its effective pairs, with the seconds at which they were made."""
+    shown = shown_steps(demonstrations)
+    pairs = demonstrations.effective
+    np.testing.assert_array_equal(shown.actions, pairs.actions)
+    np.testing.assert_array_equal(shown.inputs, ENCODER(pairs.sensing))
+    first = np.searchsorted(demonstrations.trajectory, shown.trajectory)
+    np.testing.assert_array_equal(demonstrations.poses[first + shown.when], pairs.poses)
+    assert shown.arrived.all()
+
+
+def test_segments_stop_after_their_horizon(demonstrations):
+    shown = shown_steps(demonstrations)
+    found = segments(shown, LEARNED, 0.65, 3)
+    block = chosen_block(shown.features, shown.actions, LEARNED)
+    for t in range(len(shown) - 3):
+        inside = [block[t + k] * 0.65**k for k in range(3) if shown.trajectory[t + k] == shown.trajectory[t]]
+        np.testing.assert_allclose(found[t], sum(inside), atol=1e-9)
+
+
+def test_random_segments_begin_where_the_expert_decided(demonstrations):
+    rng = np.random.default_rng(0)
+    steps = random_segments(demonstrations, RobotCourse(), 50, 4, rng)
+    assert (np.bincount(steps.trajectory) <= 4).all()
+    begun = steps.inputs[np.flatnonzero(np.diff(steps.trajectory, prepend=-1))]
+    known = {tuple(row) for row in shown_steps(demonstrations).inputs.round(9)}
+    assert all(tuple(row) in known for row in begun.round(9))
+
+
+@pytest.mark.parametrize("estimate", [by_lstd, by_heuristic])
+def test_expectations_of_the_experts_actions_are_known(demonstrations, estimate):
+    shown = shown_steps(demonstrations)
+    mu = estimate(shown, LEARNED, 0.65)
+    assert mu.shape == (len(shown), LEARNED, LEARNED * (ENCODER.size + 1))
+    assert np.isfinite(mu).all()
+
+
+def test_two_kinds_of_expectations(demonstrations):
+    shown = shown_steps(demonstrations)
+    start, everywhere = (f(shown, LEARNED, 0.65) for f in (from_start, from_everywhere))
+    constants = (np.arange(1, LEARNED + 1) * (ENCODER.size + 1)) - 1
+    assert start[constants].sum() == pytest.approx(1 / 0.35, rel=1e-3)  # a constant feature adds up to 1 / (1 - gamma)
+    assert everywhere[constants].sum() < 1 / 0.35
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_method_learns_and_repeats(demonstrations, method):
+    settings = dict(SMALL, course=COURSE) | ({"guesses": 3} if method == "apprenticeship" else {})
+    one, same = (learn(demonstrations, method, seed=1, **settings) for _ in range(2))
+    assert one.reward_weights.shape == (LEARNED, ENCODER.size + 1)
+    np.testing.assert_array_equal(one.policy.network.weights[0], same.policy.network.weights[0])
+    np.testing.assert_array_equal(one.reward_weights, same.reward_weights)
+    assert len(one.history.costs) == 3
+    assert np.isfinite(one.history.costs).all()
+    assert navigate(one.policy, random_worlds(3, 10, seed=0), max_steps=20).outcome.shape == (3,)
+
+
+def test_one_trajectory_is_enough(demonstrations):
+    assert np.isfinite(
+        learn(demonstrations[demonstrations.trajectory == 0], seed=0, course=COURSE, **SMALL).reward_weights
+    ).all()
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_an_action_never_shown(demonstrations, method):
+    lefts = demonstrations[~np.isin(demonstrations.actions, [3, 4])]
+    settings = dict(SMALL, course=COURSE) | ({"guesses": 3} if method == "apprenticeship" else {})
+    learned = learn(lefts, method, seed=0, **settings)
+    assert np.isfinite(learned.reward_weights).all()
+    assert np.isfinite(learned.history.balanced).all()
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_nothing_to_learn_from_gets_a_sentence(demonstrations, method):
+    nothing = demonstrations[:0]
+    with pytest.raises(ValueError, match=r"must hold an effective pair.*got none in 0 steps"):
+        learn(nothing, method, seed=0)
+    safe = demonstrations[demonstrations.sensing.safe]
+    with pytest.raises(ValueError, match=rf"must hold an effective pair.*got none in {len(safe)} steps"):
+        learn(safe, method, seed=0)
+
+
+def test_another_method_gets_a_sentence(demonstrations):
+    with pytest.raises(ValueError, match="method must be one of nirl, apprenticeship, relative_entropy, scirl"):
+        learn(demonstrations, "magic")
+
+
+def test_refinement_makes_demonstrations_consistent(demonstrations):
+    """The same sensing with two actions: the rarer one goes."""
+    pairs = demonstrations.effective
+    thrice = np.repeat(np.arange(5), 3)
+    actions = np.where(np.arange(15) % 3 == 0, (pairs.actions[thrice] + 1) % 5, pairs.actions[thrice])
+    doubled = replace(
+        pairs[np.zeros(0, int)],
+        trajectory=np.zeros(15, int),
+        sensing=pairs.sensing[thrice],
+        actions=actions,
+        poses=pairs.poses[thrice],
+    )
+    refined = prepared(doubled, RobotCourse(), most_frequent)
+    states, counts = np.unique(refined.inputs, axis=0, return_counts=True)
+    for state in states:
+        assert len(set(refined.actions[(refined.inputs == state).all(axis=1)])) == 1
+    assert counts.sum() == 15
+
+
+def test_a_reward_can_be_taken_elsewhere(demonstrations):
+    theta = np.zeros((LEARNED, ENCODER.size + 1))
+    learned = learn_under(demonstrations, theta, course=replace(COURSE, speed=1.0), seed=0, iterations=2)
+    assert (learned.reward_weights == 0).all()
+    neutral = SampledDescent(ends=NEUTRAL, samples=2000)
+    idle = learn_under(demonstrations, theta, course=COURSE, seed=0, iterations=2, improve=neutral)
+    outputs = idle.history.networks[-1].forward(shown_steps(demonstrations).inputs)
+    assert abs(outputs - 0.5).mean() < 0.1
