@@ -90,7 +90,7 @@ CIRCLES = Experiment(
     title="What makes a robot circle: one choice at a time",
     cases=[{"what": what, "choice": choice} for what, choices in VARIATIONS.items() for choice in choices],
     run=vary,
-    seeds={"quick": 1, "thesis": 16},
+    seeds={"quick": 1, "thesis": 12},
     settings={
         "episodes": EPISODES,
         "drives a run": NAVIGATIONS,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -59,14 +60,26 @@ def trial_settings(method: str, trial: int) -> dict[str, Any]:
 def trained(method: str, seed: int, episodes: int, settings: Mapping[str, Any], **changes: Any) -> Training:
     """One seed of a method with settings such as :func:`trial_settings` gives, or their JSON.
 
-    ``changes`` are what is not as in section 4.5, see :class:`robonav.nnql.Course`; and ``record``.
+    ``changes`` are what is not as in section 4.5, see :class:`robonav.nnql.Course`; and ``record``. What was trained
+    once in a process is not trained again: several tables look at the same networks.
     """
-    options: dict[str, Any] = {name: tuple(v) if isinstance(v, list) else v for name, v in settings.items()}
-    record = bool(changes.pop("record", False))
-    where = course(target=options.pop("target"), **changes)
+    return _trained(method, seed, episodes, json.dumps(settings, sort_keys=True), tuple(sorted(changes.items())))
+
+
+@lru_cache(maxsize=256)
+def _trained(method: str, seed: int, episodes: int, settings: str, changes: tuple[tuple[str, Any], ...]) -> Training:
+    options: dict[str, Any] = {name: _span(value) for name, value in json.loads(settings).items()}
+    of_course = dict(changes)
+    record = bool(of_course.pop("record", False))
+    where = course(target=options.pop("target"), **of_course)
     if "fitting" in options:
         options["sweeps"], options["epochs"] = options.pop("fitting")
     return METHODS[method]([seed], episodes, course=where, record=record, **options)
+
+
+def _span(value: Any) -> Any:
+    """JSON has no tuples."""
+    return tuple(value) if isinstance(value, list) else value
 
 
 def tune(case: Case, seed: int, scale: str) -> Numbers:

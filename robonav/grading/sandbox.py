@@ -48,7 +48,7 @@ class Limits:
     """What a submission may use: seconds of wall clock, bytes of memory and of one written file, open files."""
 
     call_seconds: float = 5.0
-    exercise_seconds: float = 10.0
+    exercise_seconds: float = 30.0
     memory: int = 1 << 30
     written: int = 16 << 20
     files: int = 64

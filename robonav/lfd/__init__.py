@@ -10,10 +10,13 @@ from .backpropagation import (
     squared_error_cost,
     squared_error_gradient,
 )
-from .demonstrations import Demonstrations, Expert, record
+from .dagger import Aggregation, advised, dagger
+from .demonstrations import Demonstrations, Expert, join, record
 from .experts import ComputerExpert, demonstrate
 from .history import Training, accuracy
+from .human import PathFollower, demonstrate_by_hand, path_clearance, sketch, smooth_path
 from .imitation import labelled_states, learn_policy
+from .neighbours import NeighbourPolicy, learn_neighbours
 from .network import Network, propagate, random_network, sigmoid, sigmoid_slope, stacked
 from .planning import GridPlan, Plan, plan, plan_on_grid
 from .policy import NetworkPolicy
@@ -24,29 +27,38 @@ from .weights import Weights, load_weights, save_weights
 __all__ = [
     "CROSS_ENTROPY",
     "SQUARED_ERROR",
+    "Aggregation",
     "ComputerExpert",
     "Demonstrations",
     "Expert",
     "GridPlan",
+    "NeighbourPolicy",
     "Network",
     "NetworkPolicy",
     "Objective",
+    "PathFollower",
     "Plan",
     "Training",
     "Weights",
     "accuracy",
+    "advised",
     "backpropagate",
     "cross_entropy_cost",
     "cross_entropy_gradient",
+    "dagger",
     "demonstrate",
+    "demonstrate_by_hand",
     "fit",
     "gradient_descent",
+    "join",
     "labelled_states",
     "lbfgs",
+    "learn_neighbours",
     "learn_policy",
     "load_demonstrations",
     "load_weights",
     "one_hot",
+    "path_clearance",
     "plan",
     "plan_on_grid",
     "propagate",
@@ -56,6 +68,8 @@ __all__ = [
     "save_weights",
     "sigmoid",
     "sigmoid_slope",
+    "sketch",
+    "smooth_path",
     "squared_error_cost",
     "squared_error_gradient",
     "stacked",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from .demonstrations import Actions, Demonstrations, Expert, join, record
 from .experts import ComputerExpert
 from .imitation import learn_policy
 from .policy import NetworkPolicy
+
+TEMPERATURE = 0.4
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +72,7 @@ def dagger(
     iterations: int = 300,
     seed: int = 0,
     encoder: Encoder | None = None,
+    temperature: float = TEMPERATURE,
     progress: Progress | None = None,
 ) -> Aggregation:
     """Clone the demonstrations, drive, have the expert label the states met, learn from everything; again.
@@ -80,6 +83,8 @@ def dagger(
     rounds : worlds to drive in, one batch a round.
     expert : makes the one who labels.
     hidden, regularisation, iterations, seed, encoder : as in :func:`learn_policy`.
+    temperature : of the policies, see :class:`NetworkPolicy`. The states that a learner meets by itself ask for more
+        different answers than an expert's drives, and at 0 more policies go round in circles.
 
     Raises
     ------
@@ -87,7 +92,8 @@ def dagger(
     """
 
     def learned(gathered: Demonstrations) -> NetworkPolicy:
-        return learn_policy(gathered, hidden, regularisation, iterations, seed, encoder=encoder)
+        policy = learn_policy(gathered, hidden, regularisation, iterations, seed, encoder=encoder)
+        return replace(policy, temperature=temperature)
 
     gathered, policies = [demonstrations], [learned(demonstrations)]
     for number, worlds in enumerate(rounds, start=1):

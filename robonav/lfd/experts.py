@@ -14,10 +14,9 @@ from robonav.robot import COLLISION_DISTANCE, Simulator, Worlds
 from . import kernels
 from .demonstrations import Actions, Demonstrations, record
 
-MARGIN = 2.0  # metres, as every drawn map has them to spare
-CAUTION = 3.0  # what is learned depends on nothing as much as on the distance that the expert keeps
+MARGIN, CAUTION = 3.0, 2.0  # what is learned depends on nothing as much as on the distance that the expert keeps
 SHRINK = 0.5  # metres that the margin gives way by, where it leaves no path
-LIMIT = 100_000  # expanded nodes: many times what a path takes
+LIMIT = 50_000  # nodes to expand: many times what a path takes
 
 _NOBODY = np.empty((0, 3))
 

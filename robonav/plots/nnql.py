@@ -143,3 +143,33 @@ def draw_rates(axes: Axes, rates: Mapping[str, ArrayLike], *, thesis: Mapping[st
     axes.set(yticks=range(len(rates)), yticklabels=list(rates), xlabel="drives that arrive (%)")
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
+
+
+def draw_trials(axes: Axes, means: Mapping[str, ArrayLike]) -> None:
+    """Mean success of every trial (trials,) by method, sorted; the first trial, with the thesis's settings, a cross."""
+    for place, (name, values) in enumerate(means.items()):
+        rates = np.asarray(values, dtype=float)
+        order = np.argsort(rates)
+        across = place + 0.7 * (np.arange(len(rates)) / max(len(rates) - 1, 1) - 0.5)
+        colour = look.METHODS.get(name, look.BLUE)
+        axes.plot(across, rates[order], ".", color=colour, markersize=8)
+        first = int(np.flatnonzero(order == 0)[0])
+        axes.plot(across[first], rates[0], "x", color=look.INK, markersize=9)
+    axes.set(xticks=range(len(means)), xticklabels=list(means), ylabel="success (%)", ylim=(0, 102))
+    axes.grid(axis="x", visible=False)
+
+
+def draw_endings(axes: Axes, endings: Mapping[str, tuple[float, float, float]]) -> None:
+    """How drives end, one bar a label: arrived, out of steps and collided, in per cent."""
+    left = np.zeros(len(endings))
+    rates = np.array(list(endings.values())).reshape(-1, 3)
+    kinds = (("arrived", look.GREEN), ("out of steps", look.ORANGE), ("collided", look.VERMILION))
+    for (label, colour), width in zip(kinds, rates.T, strict=True):
+        axes.barh(range(len(endings)), width, left=left, color=colour, label=label, height=0.65)
+        left += width
+    for row, rate in enumerate(rates[:, 0]):
+        axes.annotate(f"{rate:.1f} %", (101, row), va="center", annotation_clip=False)
+    axes.set(yticks=range(len(endings)), yticklabels=list(endings), xlim=(0, 100), xlabel="drives (%)")
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
+    axes.invert_yaxis()
+    axes.grid(axis="y", visible=False)

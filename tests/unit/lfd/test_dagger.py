@@ -1,0 +1,133 @@
+"""DAgger, and the nearest neighbours: what stands beside the cloned network."""
+
+import numpy as np
+import pytest
+
+from robonav.lfd import (
+    ComputerExpert,
+    NetworkPolicy,
+    advised,
+    dagger,
+    demonstrate,
+    join,
+    learn_neighbours,
+    learn_policy,
+)
+from robonav.robot import REFLEX, Encoder, navigate, random_worlds, straight
+
+
+@pytest.fixture(scope="module")
+def shown():
+    return demonstrate(random_worlds(10, 20, seed=70))
+
+
+@pytest.fixture(scope="module")
+def gone_straight():
+    return advised(straight, random_worlds(12, 20, seed=71))
+
+
+def test_the_policy_drives_and_the_expert_advises(gone_straight):
+    drives = navigate(straight, gone_straight.worlds, record_paths=True)
+    assert gone_straight.outcome.tolist() == drives.outcome.tolist()
+    assert np.array_equal(gone_straight.poses, np.concatenate([path[:-1] for path in drives.paths]))
+    assert (gone_straight.effective.actions != 0).any()
+
+
+def test_advice_is_the_first_action_of_a_plan_from_here(gone_straight):
+    asked = np.flatnonzero(REFLEX(gone_straight.sensing, 2.0) < 0)
+    rng = np.random.default_rng(1)
+    for row in rng.choice(asked, 12, replace=False):
+        world = gone_straight.worlds[int(gone_straight.trajectory[row])]
+
+        class Here:
+            worlds, poses, centres, speed = world, gone_straight.poses[row][None], world.centres, 2.0
+
+        own = ComputerExpert()(Here, np.array([0]))[0]
+        followed = row - 1 >= 0 and gone_straight.trajectory[row - 1] == gone_straight.trajectory[row]
+        assert gone_straight.actions[row] == own or (followed and gone_straight.actions[row - 1] == 0)
+
+
+def test_joined_sets(shown, gone_straight):
+    both = join([shown, gone_straight])
+    assert len(both) == len(shown) + len(gone_straight)
+    assert both.lengths.tolist() == [*shown.lengths, *gone_straight.lengths]
+    back = both.drives(np.arange(len(shown.worlds), len(both.worlds)))
+    assert np.array_equal(back.poses, gone_straight.poses)
+    assert np.array_equal(back.sensing.walls, gone_straight.sensing.walls)
+    assert back.worlds.digest() == gone_straight.worlds.digest()
+    for sets in ([], [shown, demonstrate(random_worlds(1, 0, seed=1), speed=1.0)]):
+        with pytest.raises(ValueError, match="sets must be at least one, of one speed"):
+            join(sets)
+
+
+def test_a_round_of_dagger_beats_cloning_little(shown):
+    few = shown.drives(range(3))
+    unseen = random_worlds(300, 20, seed=73)
+    gathered = dagger(few, [random_worlds(15, 20, seed=74)], seed=1, iterations=100)
+    cloned, mended = (navigate(policy, unseen).success.mean() for policy in gathered.policies)
+    assert mended > cloned + 0.05
+    assert mended > 0.9
+    assert gathered.policy is gathered.policies[-1]
+    assert len(gathered.demonstrations[1]) > len(gathered.demonstrations[0]) == len(few)
+
+
+def test_dagger_is_reproducible(shown):
+    rounds = [random_worlds(4, 10, seed=75)]
+    one, same = (dagger(shown, rounds, seed=3, iterations=30) for _ in range(2))
+    assert np.array_equal(one.policy.network.weights[0], same.policy.network.weights[0])
+    assert np.array_equal(one.demonstrations[1].actions, same.demonstrations[1].actions)
+
+
+def test_round_zero_is_the_clone(shown):
+    clone = learn_policy(shown, seed=4, iterations=30)
+    begun = dagger(shown, [], seed=4, iterations=30, temperature=0.0)
+    assert np.array_equal(begun.policy.network.weights[1], clone.network.weights[1])
+
+
+def test_temperature(shown):
+    policy = learn_policy(shown, iterations=50)
+    sensing = shown.effective.sensing[:20]
+    z = policy.logits(sensing)
+    warm = NetworkPolicy(policy.network, policy.encoder, temperature=0.7)
+    rng = np.random.default_rng(5)
+    drawn = np.stack([warm(sensing, rng) for _ in range(4000)])
+    chances = np.exp((z - z.max(axis=1, keepdims=True)) / 0.7)
+    chances /= chances.sum(axis=1, keepdims=True)
+    counted = (drawn[:, :, None] == np.arange(5)).mean(axis=0)
+    assert np.abs(counted - chances).max() < 0.04
+    with pytest.raises(ValueError, match="temperature must be at least 0"):
+        NetworkPolicy(policy.network, policy.encoder, temperature=-1)
+
+
+def test_the_nearest_neighbour_knows_its_own_examples(shown):
+    one = learn_neighbours(shown, k=1, encoder=Encoder(target="one-hot"))
+    pairs = shown.effective
+    x = one.encoder(pairs.sensing)
+    answers = one(pairs.sensing, np.random.default_rng(0))
+    alone = (x[:, None] == x).all(axis=2).sum(axis=1) == 1
+    assert alone.sum() > 20
+    assert np.array_equal(answers[alone], pairs.actions[alone])
+
+
+@pytest.mark.parametrize("k", [1, 3, 6])
+def test_neighbours_vote(shown, k):
+    policy = learn_neighbours(shown, k=k)
+    other = demonstrate(random_worlds(2, 20, seed=77)).effective.sensing
+    x = policy.encoder(other)
+    distance = np.linalg.norm(x[:, None] - policy.states, axis=2)
+    for row, answer in enumerate(policy(other, np.random.default_rng(0))):
+        nearest = distance[row].argsort(kind="stable")
+        if distance[row][nearest[k - 1]] == pytest.approx(distance[row][nearest[k]], abs=1e-12):
+            continue  # a tie about who is among the k
+        votes = np.bincount(policy.actions[nearest[:k]], minlength=5)
+        assert votes[answer] == votes.max()
+
+
+def test_neighbours_beat_going_straight(shown):
+    unseen = random_worlds(200, 20, seed=78)
+    assert navigate(learn_neighbours(shown), unseen).success.mean() > navigate(straight, unseen).success.mean() + 0.2
+
+
+def test_too_many_neighbours(shown):
+    with pytest.raises(ValueError, match="k must be at most"):
+        learn_neighbours(shown, k=10**6)

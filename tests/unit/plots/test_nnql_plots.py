@@ -1,0 +1,84 @@
+"""Chapter 4's drawings show the numbers they were given."""
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from robonav import look
+from robonav.plots import nnql as draw
+from robonav.robot import random_worlds
+
+mpl.use("Agg")
+
+
+@pytest.fixture
+def axes():
+    with mpl.rc_context(look.STYLE):
+        figure, axes = plt.subplots()
+        yield axes
+        figure.canvas.draw()
+        plt.close(figure)
+
+
+def test_rewards_by_distance_before_and_after(axes):
+    draw.draw_rewards(axes)
+    shown = axes.images[0].get_array()
+    at = {(b, a): shown[int(a / 11 * 400), int(b / 11 * 400)] for b, a in ((7, 7), (3, 3), (4.5, 1.2), (3, 6), (7, 3))}
+    assert at == {(7, 7): 0.6, (3, 3): 0.4, (4.5, 1.2): -1.0, (3, 6): 0.5, (7, 3): 0.0}
+
+
+def test_boltzmann_curves_start_greedy_and_end_even(axes):
+    draw.draw_boltzmann(axes, [0.9, 0.8, 0.5, 0.3, 0.1], coldest=1e-4, hottest=1e4)
+    ends = np.array([line.get_ydata()[[0, -1]] for line in axes.lines])
+    np.testing.assert_allclose(ends[:, 0], [1, 0, 0, 0, 0], atol=1e-9)
+    np.testing.assert_allclose(ends[:, 1], 0.2, atol=1e-4)
+
+
+def test_learning_curves_have_mean_and_band(axes):
+    draw.draw_learning(axes, {"nnql": [[10, 20], [20, 30]], "online": [[1, 2]]})
+    np.testing.assert_array_equal(axes.lines[0].get_xdata(), [30, 60])
+    np.testing.assert_array_equal(axes.lines[0].get_ydata(), [15, 25])
+    assert axes.lines[0].get_color() == look.METHODS["nnql"]
+
+
+def test_rates_show_every_seed_their_mean_and_the_thesis(axes):
+    draw.draw_rates(axes, {"nnql": [90, 100], "online": [50, 60]}, thesis={"nnql": 98})
+    dots, mean, diamond = axes.lines[:3]
+    np.testing.assert_array_equal(dots.get_xdata(), [90, 100])
+    np.testing.assert_array_equal(mean.get_xdata(), [95, 95])
+    np.testing.assert_array_equal(diamond.get_xdata(), [98])
+
+
+def test_trials_are_sorted_and_the_first_is_marked(axes):
+    draw.draw_trials(axes, {"nnql": [50.0, 90.0, 20.0]})
+    dots, cross = axes.lines
+    np.testing.assert_array_equal(dots.get_ydata(), [20, 50, 90])
+    assert cross.get_ydata() == [50.0]
+    np.testing.assert_allclose(cross.get_xdata(), dots.get_xdata()[1])
+
+
+def test_endings_fill_their_bars(axes):
+    draw.draw_endings(axes, {"a": (90.0, 7.0, 3.0), "b": (50.0, 0.0, 50.0)})
+    widths = np.array([[bar.get_width() for bar in group] for group in axes.containers])
+    np.testing.assert_array_equal(widths.sum(axis=0), 100)
+    assert [text.get_text() for text in axes.texts] == ["90.0 %", "50.0 %"]
+
+
+def test_weight_changes(axes):
+    draw.draw_weight_changes(axes, {"signed": [1.0, -2.0], "absolute": [1.0, 2.0]})
+    np.testing.assert_array_equal(axes.lines[0].get_ydata(), [1, -2])
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["signed", "absolute"]
+
+
+def test_animations_have_a_frame_for_each():
+    world = random_worlds(1, 3, seed=1)
+    paths = [np.zeros((2, 3)) + 10, np.zeros((4, 3)) + 20]
+    for film, frames in (
+        (draw.animate_boltzmann(np.arange(5) / 5, [0.9, 0.5, 0.1]), 3),
+        (draw.animate_learning(world, paths, ["one", "two"]), 2),
+    ):
+        assert len(list(film.new_saved_frame_seq())) == frames
+        film._func(frames - 1)
+        film._draw_was_started = True  # else matplotlib warns that nobody watched it
+    plt.close("all")
