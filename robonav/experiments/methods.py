@@ -66,7 +66,7 @@ def _shipped() -> dict[str, Path]:
 
 def _from_weights(path: Path) -> NetworkPolicy:
     weights = load_weights(path)
-    return NetworkPolicy(weights.network, weights.encoder)
+    return NetworkPolicy(weights.network, weights.encoder, weights.temperature)
 
 
 def _from_code(path: Path) -> Policy:

@@ -12,7 +12,7 @@ import numpy as np
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save
 
-from robonav import __version__, files
+from robonav import __version__, expect, files
 from robonav.robot.encoding import Encoder
 
 from .network import Array, Network
@@ -30,20 +30,23 @@ class Weights:
     method : how it was trained: ``"lfd"``, ``"nnql"``, ...
     encoder : how raw sensing becomes the network's inputs.
     made : anything else that it takes to train it again (seed, number of demonstrations, ...), as JSON knows it.
+    temperature : at which the policy draws its actions, see :class:`NetworkPolicy`; 0 leaves nothing to chance.
     version : of robonav, when it was trained.
 
     Raises
     ------
-    ValueError : if the encoder gives another number of inputs than the network takes.
+    ValueError : if the encoder gives another number of inputs than the network takes, or the temperature is negative.
     """
 
     network: Network
     method: str
     encoder: Encoder
     made: Mapping[str, Any] = field(default_factory=dict)
+    temperature: float = 0.0
     version: str = __version__
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "temperature", expect.real("temperature", self.temperature, at_least=0))
         given, taken = self.encoder.size, self.network.sizes[0]
         if given != taken:
             raise ValueError(f"network must take the {given} inputs its encoder gives, got one of {taken}")
@@ -66,6 +69,7 @@ def save_weights(path: str | Path, weights: Weights) -> None:
         "method": weights.method,
         "encoder": asdict(weights.encoder),
         "made": dict(weights.made),
+        "temperature": weights.temperature,
         "version": weights.version,
     }
     try:
@@ -97,7 +101,7 @@ def load_weights(path: str | Path) -> Weights:
         network = _network(tensors)
         encoder = about["encoder"]
         encoder = Encoder(tuple(encoder["sensors"]), encoder["walls"], encoder["target"])
-        return Weights(network, about["method"], encoder, about["made"], about["version"])
+        return Weights(network, about["method"], encoder, about["made"], about["temperature"], about["version"])
     except (KeyError, TypeError, ValueError) as error:
         raise ValueError(f"{name} does not hold a network and its encoder: {error}") from None
 
@@ -123,7 +127,7 @@ def _about(name: str, note: str | None) -> dict[str, Any]:
         raise ValueError(f"{name} was not written by robonav: its note cannot be read") from None
     if written != FORMAT:
         raise ValueError(f"{name} has the format {written!r}, expected {FORMAT!r}")
-    kinds = {"method": str, "encoder": dict, "made": dict, "version": str}
+    kinds = {"method": str, "encoder": dict, "made": dict, "temperature": (int, float), "version": str}
     wrong = [key for key, kind in kinds.items() if not isinstance(about.get(key), kind)]
     if wrong:
         raise ValueError(f"{name} does not say its {', '.join(wrong)}")

@@ -33,8 +33,10 @@ def test_a_readers_own_code_and_weights(tmp_path):
     (tmp_path / "own.py").write_text(OWN)
     assert callable(method(str(tmp_path / "own.py")))
     encoder = Encoder()
-    save_weights(tmp_path / "own.safetensors", Weights(random_network((encoder.size, 5), seed=0), "own", encoder))
-    assert method(str(tmp_path / "own.safetensors")).encoder == encoder
+    weights = Weights(random_network((encoder.size, 5), seed=0), "own", encoder, temperature=0.4)
+    save_weights(tmp_path / "own.safetensors", weights)
+    policy = method(str(tmp_path / "own.safetensors"))
+    assert (policy.encoder, policy.temperature) == (encoder, 0.4)
 
 
 @pytest.mark.parametrize(

@@ -20,12 +20,13 @@ MADE = {"seed": 3, "demonstrations": 25, "speed": 2.0, "note": "margin 5 m"}
 @pytest.mark.parametrize(("encoder", "hidden"), [(ELEVEN, (8,)), (SIXTEEN, (8,)), (Encoder(), ()), (ELEVEN, (4, 4))])
 def test_weights_go_through_a_file_unchanged(tmp_path, encoder, hidden):
     network = random_network((encoder.size, *hidden, 5), seed=0)
-    save_weights(tmp_path / "w.safetensors", Weights(network, "lfd", encoder, MADE))
+    save_weights(tmp_path / "w.safetensors", Weights(network, "lfd", encoder, MADE, temperature=0.4))
     loaded = load_weights(tmp_path / "w.safetensors")
     again = loaded.network
     for ours, theirs in zip(network.weights + network.biases, again.weights + again.biases, strict=True):
         np.testing.assert_array_equal(ours, theirs)
     assert (loaded.method, loaded.encoder, loaded.made, loaded.version) == ("lfd", encoder, MADE, __version__)
+    assert loaded.temperature == 0.4
 
 
 def test_a_stack_goes_through_a_file_too(tmp_path):
@@ -47,6 +48,12 @@ def test_the_same_weights_give_the_same_small_file(tmp_path):
     assert len(first) < 3000
 
 
+@pytest.mark.parametrize("temperature", [-0.1, float("nan")])
+def test_a_temperature_that_is_none_is_refused(temperature):
+    with pytest.raises(ValueError, match="temperature must be"):
+        Weights(random_network((11, 2), seed=0), "lfd", ELEVEN, temperature=temperature)
+
+
 def test_what_json_does_not_know_is_refused_before_anything_is_written(tmp_path):
     with pytest.raises(TypeError, match="made must hold only what JSON knows"):
         save_weights(tmp_path / "w", Weights(random_network((11, 2), seed=0), "lfd", ELEVEN, {"seed": np.int64(3)}))
@@ -58,6 +65,7 @@ ENCODER = {"sensors": list(range(1, 10)), "walls": False, "target": "number"}
 
 def note(**change):
     about = {"format": "robonav weights 1", "method": "lfd", "encoder": ENCODER, "made": {}, "version": "0.1.0"}
+    about["temperature"] = 0
     return {"robonav": json.dumps(about | change)}
 
 
@@ -73,6 +81,9 @@ GOOD = {"weights.1": np.ones((2, 11)), "biases.1": np.ones(2)}
         (GOOD, {"robonav": "[" * 100_000}, "its note cannot be read"),
         (GOOD, note(format="robonav weights 2"), "has the format 'robonav weights 2', expected 'robonav weights 1'"),
         (GOOD, note(method=3, made=[]), "does not say its method, made"),
+        (GOOD, note(temperature=None), "does not say its temperature"),
+        (GOOD, note(temperature=-1), "temperature must be at least 0"),
+        (GOOD, note(temperature=True), "temperature must be a number"),
         ({"weights.1": np.ones((2, 11))}, note(), "does not hold a network"),
         (GOOD | {"more": np.ones(1)}, note(), "does not hold a network"),
         ({"weights.1": np.ones((2, 11)), "biases.1": np.ones(3)}, note(), r"biases\[0\] must have shape \(2,\)"),
