@@ -10,9 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 from robonav import expect
 from robonav.progress import Progress
 from robonav.robot import COLLISION_DISTANCE, Simulator, Worlds
+from robonav.robot.worlds import LARGEST_MAP
 
 from . import kernels
 from .demonstrations import Actions, Demonstrations, record
+from .planning import plan
 
 MARGIN, CAUTION = 3.0, 2.0  # what is learned depends on nothing as much as on the distance that the expert keeps
 SHRINK = 0.5  # metres that the margin gives way by, where it leaves no path
@@ -50,7 +52,7 @@ class ComputerExpert:
     """
 
     def __init__(self, margin: float = MARGIN, caution: float = CAUTION) -> None:
-        self.margin = expect.real("margin", margin, at_least=COLLISION_DISTANCE)
+        self.margin = expect.real("margin", margin, at_least=COLLISION_DISTANCE, at_most=LARGEST_MAP / 2)
         self.caution = expect.real("caution", caution, at_least=0)
         self._ways: dict[int, Way] = {}
 
@@ -101,6 +103,12 @@ def demonstrate(
 
     Raises
     ------
-    ValueError : if an argument is out of bounds.
+    TypeError : if ``worlds`` are no worlds, or an argument is no number.
+    ValueError : if an argument is out of bounds, or the expert failed in a world where there is no way to the target.
     """
-    return record(ComputerExpert(margin, caution), worlds, speed=speed, slip=slip, progress=progress)
+    expect.real("margin", margin, at_most=expect.instance("worlds", worlds, Worlds).size / 2)
+    shown = record(ComputerExpert(margin, caution), worlds, speed=speed, slip=slip, progress=progress)
+    for lost in np.flatnonzero((shown.outcome != "arrived") & ~worlds.speeds.any(axis=1)):
+        if not plan(worlds[lost], speed=speed, margin=COLLISION_DISTANCE).found:
+            raise ValueError(f"worlds[{lost}] must have a way from start to target at {speed:g} m/s, and has none")
+    return shown

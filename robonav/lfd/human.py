@@ -112,7 +112,8 @@ def demonstrate_by_hand(
     ValueError : if key points are not one set a world, or their path comes nearer than 1 m to an obstacle or border;
         the message says where.
     """
-    if len(key_points) != len(worlds):
+    expect.instance("worlds", worlds, Worlds)
+    if len(expect.instance("key_points", key_points, Sequence)) != len(worlds):
         raise ValueError(f"key_points must be one set a world, {len(worlds)}, got {len(key_points)}")
     paths = [smooth_path(between_ends(world, points)) for world, points in zip(worlds, key_points, strict=True)]
     for number, (world, path) in enumerate(zip(worlds, paths, strict=True)):
@@ -147,6 +148,7 @@ def sketch(worlds: Worlds, *, seed: int, shake: float = 1.0) -> list[Floats]:
     ------
     ValueError : if an argument is out of bounds.
     """
+    expect.instance("worlds", worlds, Worlds)
     expect.integer("seed", seed, at_least=0)
     expect.real("shake", shake, at_least=0)
     return [_sketch(world, np.random.default_rng([seed, i]), shake) for i, world in enumerate(worlds)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from robonav import expect
 from robonav.progress import Progress
 from robonav.robot import Encoder
 
@@ -18,12 +19,14 @@ def labelled_states(demonstrations: Demonstrations, encoder: Encoder | None = No
 
     Raises
     ------
+    TypeError : if these are no demonstrations, or no encoder.
     ValueError : if there is no effective pair.
     """
-    pairs = demonstrations.effective
+    encoder = Encoder() if encoder is None else expect.instance("encoder", encoder, Encoder)
+    pairs = expect.instance("demonstrations", demonstrations, Demonstrations).effective
     if len(pairs) == 0:
         raise ValueError("demonstrations must hold an effective pair: a step with something in range, got none")
-    return (encoder or Encoder())(pairs.sensing), one_hot(pairs.actions, LEARNED)
+    return encoder(pairs.sensing), one_hot(pairs.actions, LEARNED)
 
 
 def learn_policy(
@@ -50,6 +53,7 @@ def learn_policy(
 
     Raises
     ------
+    TypeError : if these are no demonstrations, or an argument is of another type.
     ValueError : if there is no effective pair, or an argument lies outside its range.
     """
     encoder = encoder or Encoder()

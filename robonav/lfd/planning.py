@@ -82,7 +82,7 @@ def plan(
     ----------
     world : batch of one; its obstacles are taken as they stand at the start.
     speed : length of a step in metres; the robot turns, then goes one second.
-    margin : distance in metres that every step keeps from obstacles and borders.
+    margin : distance in metres that every step keeps from obstacles and borders, at most half the map's side.
     caution : how much dearer a metre counts in G at that distance: 1 + caution of its price, and the less the farther
         off obstacles and borders are, up to sensor range. 0 is the thesis's G.
     pose : (3,) x, y, heading to start from; by default the world's start, facing the target.
@@ -96,15 +96,18 @@ def plan(
 
     Raises
     ------
+    TypeError : if ``world`` is no world, or an argument no number.
     ValueError : if ``world`` is not one world, ``pose`` not in it, or an argument out of bounds.
     """
-    start = world.start_poses[0] if pose is None else expect.array("pose", pose, shape=(3,))
+    _one_world(world)
+    start = world.start_poses[0] if pose is None else _in_map("pose", pose, 3, world)
+    margin, cell = _lengths(world, margin, cell)
     speed = expect.positive("speed", speed)
     caution = expect.real("caution", caution, at_least=0)
     limit = min(expect.integer("limit", limit, at_least=1), kernels.HEADINGS * _nodes(world, cell))
     visited = np.empty((limit if record else 0, 3))
     found, poses, actions, expanded = kernels.search_actions(
-        *_setting(world, start, margin), start, world.targets[0], speed, margin, caution, cell, limit, record, visited
+        *_map(world), start, world.targets[0], speed, margin, caution, cell, limit, record, visited
     )
     points, headings, length = poses[:, :2], poses[:, 2], speed * len(actions)
     return Plan(found, points, headings, actions, length, expanded, visited[:expanded] if record else None)
@@ -132,27 +135,44 @@ def plan_on_grid(
 
     Raises
     ------
-    ValueError : as :func:`plan`.
+    TypeError, ValueError : as :func:`plan`.
     """
-    begin = world.starts[0] if start is None else expect.array("start", start, shape=(2,))
+    _one_world(world)
+    begin = world.starts[0] if start is None else _in_map("start", start, 2, world)
+    margin, cell = _lengths(world, margin, cell)
     visited = np.empty((_nodes(world, cell) if record else 0, 2))
-    found, points, expanded = kernels.search_grid(
-        *_setting(world, begin, margin), begin, world.targets[0], margin, cell, record, visited
-    )
+    found, points, expanded = kernels.search_grid(*_map(world), begin, world.targets[0], margin, cell, record, visited)
     length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
     return GridPlan(found, points, length, expanded, visited[:expanded] if record else None)
 
 
-def _setting(world: Worlds, start: Floats, margin: float) -> tuple[NDArray[np.int8], Floats, Floats, float]:
-    """Obstacles and size of the one world to plan in."""
-    if len(world) != 1:
+def _one_world(world: Worlds) -> None:
+    """Refuse anything but a batch of one."""
+    if len(expect.instance("world", world, Worlds)) != 1:
         raise ValueError(f"world must be one world, got a batch of {len(world)}")
-    if (start[:2] < 0).any() or (start[:2] > world.size).any():
-        raise ValueError(f"the start must lie in the map, 0 to {world.size:g} m, got {tuple(map(float, start[:2]))}")
-    expect.positive("margin", margin)
+
+
+def _in_map(name: str, place: ArrayLike, numbers: int, world: Worlds) -> Floats:
+    """A place (2,) or pose (3,) whose x and y lie in the map."""
+    given = expect.array(name, place, shape=(numbers,))
+    if (given[:2] < 0).any() or (given[:2] > world.size).any():
+        raise ValueError(f"{name} must lie in the map, 0 to {world.size:g} m, got {tuple(map(float, given[:2]))}")
+    return given
+
+
+def _lengths(world: Worlds, margin: float, cell: float) -> tuple[float, float]:
+    """Margin and side of the cells, within what the map's size allows."""
+    return (
+        expect.real("margin", margin, above=0, at_most=world.size / 2),
+        expect.real("cell", cell, at_least=FINEST * world.size, at_most=world.size),
+    )
+
+
+def _map(world: Worlds) -> tuple[NDArray[np.int8], Floats, Floats, float]:
+    """Obstacles and size of the one world to plan in."""
     return world.kinds[0], world.shapes[0], world.centres[0], world.size
 
 
 def _nodes(world: Worlds, cell: float) -> int:
     """The most positions that cells of this side tell apart."""
-    return (int(world.size / expect.real("cell", cell, at_least=FINEST * world.size)) + 1) ** 2
+    return (int(world.size / cell) + 1) ** 2

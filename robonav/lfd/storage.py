@@ -42,6 +42,7 @@ _WORLDS = tuple(field.name for field in fields(Worlds))
 
 def save_demonstrations(path: str | Path, demonstrations: Demonstrations) -> None:
     """Write demonstrations as npz, in the format of this module; whole or not at all."""
+    expect.instance("demonstrations", demonstrations, Demonstrations)
     arrays: dict[str, Any] = {name: getattr(demonstrations, name) for name in _STEPS}
     arrays |= {name: getattr(demonstrations.sensing, name) for name in _SENSED}
     arrays |= {f"worlds.{name}": getattr(demonstrations.worlds, name) for name in _WORLDS}

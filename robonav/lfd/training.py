@@ -14,6 +14,8 @@ from .backpropagation import SQUARED_ERROR, Objective, examples
 from .history import State, Training, accuracy, follow
 from .network import Array, Network, random_network
 
+MOST_ITERATIONS = 100_000  # minutes of work; more is a slip of the pen
+
 
 def one_hot(actions: ArrayLike, count: int) -> Array:
     """Labels (m, count) with a 1 at each example's action, 0 elsewhere (section 3.4.1)."""
@@ -44,7 +46,7 @@ def gradient_descent(
     x : inputs (m, s[0]).
     y : labels (m, s[-1]) in [0, 1].
     rate : the learning rate alpha, positive; too large, and the cost rises or jumps about.
-    iterations : steps to take.
+    iterations : steps to take, at most 100,000.
     regularisation : lambda, at least 0.
     objective : ``SQUARED_ERROR``, Eq. (3.7), or ``CROSS_ENTROPY``, Eq. (3.22).
     record : keep the network of every iteration.
@@ -55,7 +57,7 @@ def gradient_descent(
     ValueError : if shapes do not fit, an argument lies outside its range, or the weights grow out of all bounds.
     """
     alpha = expect.positive("rate", rate)
-    steps = expect.integer("iterations", iterations, at_least=0)
+    steps = expect.integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
 
     def state(current: Network) -> State:
         return State(current, objective.cost(current, x, y, regularisation=regularisation), accuracy(current, x, y))
@@ -91,7 +93,7 @@ def lbfgs(
     """
     inputs, labels = examples(network, x, y)
     decay = expect.real("regularisation", regularisation, at_least=0)
-    steps = expect.integer("iterations", iterations, at_least=0)
+    steps = expect.integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
     from .quasi_newton import minimise  # brings torch, which planning can do without
 
     iterates = minimise(network, inputs, labels, regularisation=decay, iterations=steps)
@@ -117,7 +119,7 @@ def fit(
     y : labels (m, K) in [0, 1], such as :func:`one_hot` actions.
     hidden : units of the hidden layer, or of several; () for none.
     regularisation : lambda, at least 0.
-    iterations : of L-BFGS, at most.
+    iterations : of L-BFGS, at most; itself at most 100,000.
     seed : of the initial weights.
     record : keep the network of every iteration.
     progress : called as ``progress(done, iterations)``.

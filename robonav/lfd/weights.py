@@ -127,7 +127,7 @@ def _about(name: str, note: str | None) -> dict[str, Any]:
         raise ValueError(f"{name} was not written by robonav: its note cannot be read") from None
     if written != FORMAT:
         raise ValueError(f"{name} has the format {written!r}, expected {FORMAT!r}")
-    kinds = {"method": str, "encoder": dict, "made": dict, "temperature": (int, float), "version": str}
+    kinds: dict[str, Any] = {"method": str, "encoder": dict, "made": dict, "temperature": (int, float), "version": str}
     wrong = [key for key, kind in kinds.items() if not isinstance(about.get(key), kind)]
     if wrong:
         raise ValueError(f"{name} does not say its {', '.join(wrong)}")

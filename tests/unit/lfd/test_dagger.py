@@ -23,7 +23,7 @@ def shown():
 
 @pytest.fixture(scope="module")
 def gone_straight():
-    return advised(straight, random_worlds(12, 20, seed=71))
+    return advised(straight, random_worlds(6, 20, seed=71))
 
 
 def test_the_policy_drives_and_the_expert_advises(gone_straight):

@@ -5,7 +5,7 @@ import pytest
 
 from robonav.lfd import ComputerExpert, Demonstrations, demonstrate, record
 from robonav.lfd.demonstrations import executed
-from robonav.robot import REFLEX, Action, Simulator, concatenate, neighbour_slip, random_worlds, sense
+from robonav.robot import REFLEX, Action, Simulator, concatenate, make_world, neighbour_slip, random_worlds, sense
 
 
 @pytest.fixture(scope="module")
@@ -142,3 +142,24 @@ def test_sensing_is_raw(shown):
     rows = np.flatnonzero(shown.trajectory == 2)
     worlds = concatenate([shown.worlds[2]] * len(rows))
     assert np.array_equal(sense(worlds, shown.poses[rows]).ranges, shown.sensing.ranges[rows])
+
+
+def test_a_world_without_a_way_is_named():
+    walled = make_world(rectangles=[(50, 50, 6, 96, 0)])
+    with pytest.raises(ValueError, match=r"worlds\[1\] must have a way from start to target at 2 m/s, and has none"):
+        demonstrate(concatenate([make_world(), walled]))
+
+
+@pytest.mark.parametrize(
+    ("worlds", "options", "error", "message"),
+    [
+        ("x", {}, TypeError, "worlds must be Worlds, got str"),
+        (make_world(), {"margin": 51}, ValueError, "margin must be at most 50, got 51"),
+        (make_world(), {"margin": 0.5}, ValueError, "margin must be at least 1"),
+        (make_world(), {"margin": "wide"}, TypeError, "margin must be a number, got 'wide'"),
+        (make_world(), {"speed": "fast"}, TypeError, "speed must be a number, got 'fast'"),
+    ],
+)
+def test_wrong_arguments_get_a_sentence(worlds, options, error, message):
+    with pytest.raises(error, match=message):
+        demonstrate(worlds, **options)

@@ -3,7 +3,18 @@
 import numpy as np
 import pytest
 
-from robonav.lfd import NetworkPolicy, demonstrate, labelled_states, learn_policy, random_network
+from robonav.lfd import (
+    NetworkPolicy,
+    dagger,
+    demonstrate,
+    demonstrate_by_hand,
+    labelled_states,
+    learn_neighbours,
+    learn_policy,
+    random_network,
+    save_demonstrations,
+    sketch,
+)
 from robonav.robot import Encoder, Sensing, lfd_state, navigate, random_worlds, straight
 
 
@@ -67,3 +78,36 @@ def test_a_network_that_does_not_fit_is_refused():
 def test_nothing_to_learn_from():
     with pytest.raises(ValueError, match="must hold an effective pair"):
         learn_policy(demonstrate(random_worlds(0, 5, seed=1)))
+
+
+@pytest.mark.parametrize("learn", [labelled_states, learn_policy, learn_neighbours, lambda shown: dagger(shown, [])])
+def test_only_demonstrations_are_learned_from(learn):
+    with pytest.raises(TypeError, match="demonstrations must be Demonstrations, got str"):
+        learn("x")
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"iterations": 10**9}, ValueError, "iterations must be at most 100000, got 1000000000"),
+        ({"iterations": 2.5}, TypeError, "iterations must be a whole number, got 2.5"),
+        ({"hidden": 0}, ValueError, "hidden must be at least 1"),
+        ({"hidden": "x"}, TypeError, "hidden must be a whole number, got 'x'"),
+        ({"encoder": "number"}, TypeError, "encoder must be Encoder, got str"),
+        ({"seed": "x"}, TypeError, "seed must be a whole number"),
+        ({"regularisation": -1}, ValueError, "regularisation must be at least 0"),
+    ],
+)
+def test_wrong_arguments_get_a_sentence(shown, options, error, message):
+    with pytest.raises(error, match=message):
+        learn_policy(shown, **options)
+
+
+def test_wrong_types_at_the_other_doors(tmp_path):
+    with pytest.raises(TypeError, match="worlds must be Worlds, got str"):
+        sketch("x", seed=1)
+    with pytest.raises(TypeError, match="worlds must be Worlds, got str"):
+        demonstrate_by_hand("x", [])
+    with pytest.raises(TypeError, match="demonstrations must be Demonstrations, got str"):
+        save_demonstrations(tmp_path / "d.npz", "x")
+    assert not list(tmp_path.iterdir())

@@ -183,13 +183,15 @@ def test_any_plan_arrives_clear(seed, speed, margin):
     ("argument", "value", "message"),
     [
         ("margin", 0, "margin must be greater than 0"),
+        ("margin", 51, "margin must be greater than 0 and at most 50"),
         ("speed", 0, "speed must be greater than 0"),
         ("speed", math.nan, "speed must be finite"),
         ("caution", -1, "caution must be at least 0"),
         ("cell", 0, "cell must be at least 0.2"),
+        ("cell", 1e9, "cell must be at least 0.2 and at most 100"),
         ("limit", 0, "limit must be at least 1"),
         ("pose", (1, 2), "pose must have shape"),
-        ("pose", (-1, 2, 0), "must lie in the map"),
+        ("pose", (-1, 2, 0), r"pose must lie in the map, 0 to 100 m, got \(-1.0, 2.0\)"),
     ],
 )
 def test_wrong_arguments_get_a_sentence(argument, value, message):
@@ -197,9 +199,28 @@ def test_wrong_arguments_get_a_sentence(argument, value, message):
         plan(random_worlds(1, 2, seed=1), **{argument: value})
 
 
-def test_one_world_at_a_time():
+@pytest.mark.parametrize(
+    ("argument", "value", "message"),
+    [
+        ("cell", 0, "cell must be at least 0.2"),
+        ("cell", -1, "cell must be at least 0.2"),
+        ("cell", math.nan, "cell must be finite"),
+        ("margin", 51, "margin must be greater than 0 and at most 50"),
+        ("start", (1, 2, 0), "start must have shape"),
+        ("start", (1, 200), "start must lie in the map"),
+    ],
+)
+def test_wrong_arguments_of_the_grid_get_a_sentence(argument, value, message):
+    with pytest.raises(ValueError, match=message):
+        plan_on_grid(random_worlds(1, 2, seed=1), **{argument: value})
+
+
+@pytest.mark.parametrize("planner", [plan, plan_on_grid])
+def test_one_world_at_a_time(planner):
     with pytest.raises(ValueError, match="world must be one world, got a batch of 2"):
-        plan(random_worlds(2, 2, seed=1))
+        planner(random_worlds(2, 2, seed=1))
+    with pytest.raises(TypeError, match="world must be Worlds, got str"):
+        planner("x")
 
 
 def test_compiled_searches_are_kept_with_the_simulators_digest(monkeypatch):
