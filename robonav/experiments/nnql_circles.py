@@ -15,8 +15,8 @@ from robonav.robot import NNQL_SENSORS, Encoder, Sensing, nnql_state
 from robonav.robot.environments import Reward, arrival_or_collision
 
 from .experiment import Case, Experiment
-from .nnql import COLD, cold, settings
-from .nnql_course import EPISODES, NAVIGATIONS, TEST_WORLDS, Numbers, course, driven, new_worlds
+from .nnql import settings
+from .nnql_course import COLD, EPISODES, NAVIGATIONS, TEST_WORLDS, Numbers, course, judged, new_worlds
 
 Array = NDArray[np.float64]
 
@@ -80,9 +80,8 @@ def vary(case: Case, seed: int, scale: str) -> Numbers:
     options = settings("nnql") | VARIATIONS[str(case["what"])][str(case["choice"])]
     of_course = {name: options.pop(name) for name in ("reward", "encoder", "target") if name in options}
     training = METHODS["nnql"]([seed], EPISODES[scale], course=course(**of_course), **options)
-    policy, worlds = training.policies[0], new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed)
-    last = 100 * training.successes[0, -100:].mean()
-    return driven(policy, worlds) | {"success, cold": driven(cold(policy), worlds)["success"], "last episodes": last}
+    driven = judged(training.policies[0], new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed))
+    return driven | {"last episodes": 100 * training.successes[0, -100:].mean()}
 
 
 CIRCLES = Experiment(
@@ -95,7 +94,7 @@ CIRCLES = Experiment(
         "episodes": EPISODES,
         "drives a run": NAVIGATIONS,
         "first seed of the worlds": TEST_WORLDS,
-        "temperature of the cold policy": COLD,
+        "temperature of a cold policy": COLD,
         "otherwise": settings("nnql"),
     },
 )

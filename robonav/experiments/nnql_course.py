@@ -6,11 +6,13 @@ tune on and to test on never meet.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from robonav.lfd import NetworkPolicy
 from robonav.nnql import STARTS, TARGETS, Course
 from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
 
@@ -18,6 +20,7 @@ EPISODES = {"quick": 60, "thesis": 300}
 NAVIGATIONS = {"quick": 100, "thesis": 1000}
 SPEED = 2.5
 TEST_WORLDS = 40_000  # run k drives through the worlds of this seed + k
+COLD = 0.2  # temperature of a policy that is all but greedy: it takes the second best where that is nearly as good
 BLOCK = 30  # episodes that Fig. 4.4 and 4.6 count successes in
 
 Numbers = dict[str, ArrayLike]
@@ -38,6 +41,14 @@ def driven(policy: Policy, worlds: Worlds, speed: float = SPEED) -> Numbers:
     drives = navigate(policy, worlds, speed, Course().max_steps)
     arrived, collided = 100 * drives.success.mean(), 100 * drives.collision.mean()
     return {"success": arrived, "collision": collided, "out of steps": 100 - arrived - collided}
+
+
+def judged(policy: Policy, worlds: Worlds, speed: float = SPEED) -> Numbers:
+    """As :func:`driven`; for a network also ``success, cold``, with the policy at temperature ``COLD``."""
+    numbers = driven(policy, worlds, speed)
+    if isinstance(policy, NetworkPolicy):
+        numbers["success, cold"] = driven(replace(policy, temperature=COLD), worlds, speed)["success"]
+    return numbers
 
 
 def blocks(successes: ArrayLike, size: int = BLOCK) -> np.ndarray:

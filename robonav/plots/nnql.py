@@ -6,11 +6,13 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from numpy.typing import ArrayLike
 
 from robonav import look
+from robonav.experiments import Results
 from robonav.nnql import boltzmann
 from robonav.nnql.rewards import COZY_DISTANCE, REWARDS, reward_row
 from robonav.robot import SENSOR_RANGE, Action, Sensing, Worlds
@@ -20,6 +22,7 @@ from .robot import draw_drives
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
+    from matplotlib.figure import Figure
 
 ACTIONS = [Action(a).name for a in range(5)]
 GOOD_AND_BAD = LinearSegmentedColormap.from_list("good and bad", [look.VERMILION, "#9A9A9A40", look.BLUE])
@@ -65,7 +68,6 @@ def draw_boltzmann(axes: Axes, q: ArrayLike, *, coldest: float = 0.01, hottest: 
 
 def animate_boltzmann(q: ArrayLike, temperatures: Sequence[float]) -> FuncAnimation:
     """Bars of the actions' probabilities while the temperature falls."""
-    from matplotlib import pyplot as plt
     from matplotlib.animation import FuncAnimation
 
     figure, axes = plt.subplots(figsize=(5, 2.6))
@@ -98,9 +100,17 @@ def draw_learning(axes: Axes, counts: Mapping[str, ArrayLike], *, size: int = 30
 
 
 def draw_weight_changes(axes: Axes, changes: Mapping[str, ArrayLike], *, colour: str = look.BLUE) -> None:
-    """What the weights of one layer changed by in each episode (E,), summed in one way or another (Fig. 4.3)."""
-    for (name, values), shade in zip(changes.items(), (1.0, 0.4), strict=False):
-        axes.plot(np.arange(1, len(np.asarray(values)) + 1), values, color=colour, alpha=shade, linewidth=1, label=name)
+    """What the weights of one layer changed by in each episode, summed in one way or another (Fig. 4.3).
+
+    Parameters
+    ----------
+    changes : (E,) of one seed, or (S, E), by way of summing; of several seeds their mean and standard deviation.
+    """
+    for (name, values), shade in zip(changes.items(), (1.0, 0.45), strict=False):
+        runs = np.atleast_2d(np.asarray(values, dtype=float))
+        episodes, mean, spread = np.arange(1, runs.shape[1] + 1), runs.mean(axis=0), runs.std(axis=0)
+        axes.fill_between(episodes, mean - spread, mean + spread, color=colour, alpha=0.2 * shade, linewidth=0)
+        axes.plot(episodes, mean, color=colour, alpha=shade, linewidth=1, label=name)
     axes.axhline(0, color=look.INK, linewidth=0.6)
     axes.set(xlabel="episode")
     axes.legend()
@@ -110,7 +120,6 @@ def animate_learning(
     world: Worlds, paths: Sequence[ArrayLike], titles: Sequence[str], *, colour: str = look.ROBOT
 ) -> FuncAnimation:
     """One world, driven again and again: a path (steps + 1, 3) and a title a frame."""
-    from matplotlib import pyplot as plt
     from matplotlib.animation import FuncAnimation
 
     figure, axes = plt.subplots(figsize=(4.4, 4.6))
@@ -173,3 +182,83 @@ def draw_endings(axes: Axes, endings: Mapping[str, tuple[float, float, float]]) 
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
+
+
+def plot_learning(results: Results) -> Figure:
+    """Fig. 4.4 or 4.6 from its results."""
+    figure, axes = plt.subplots(figsize=(7, 3.8))
+    cases = results.experiment.cases
+    draw_learning(axes, {str(case["method"]): results.values("successes", k) for k, case in enumerate(cases)})
+    return figure
+
+
+def plot_weight_changes(results: Results) -> Figure:
+    """Fig. 4.3 from its results, a panel a layer."""
+    figure, panels = plt.subplots(1, 2, figsize=(9, 3))
+    for panel, layer in zip(panels, ("first layer", "second layer"), strict=True):
+        ways = {str(case["sum"]): results.values(layer, k) for k, case in enumerate(results.experiment.cases)}
+        draw_weight_changes(panel, ways, colour=look.METHODS["nnql"])
+        panel.set(title=layer)
+    return figure
+
+
+def plot_rates(results: Results) -> Figure:
+    """Table 4.3 from its results."""
+    cases = results.experiment.cases
+    rates = {str(case["robot"]): results.values("success", k) for k, case in enumerate(cases)}
+    thesis = dict(zip(rates, results.experiment.thesis["success"], strict=True))
+    figure, axes = plt.subplots(figsize=(7, 3.4))
+    draw_rates(axes, rates, thesis={name: mean for name, mean in thesis.items() if mean is not None})
+    return figure
+
+
+def plot_speeds(results: Results) -> Figure:
+    """Table 4.2 from its results: the mean over seeds, and a band from the worst to the best."""
+    figure, axes = plt.subplots(figsize=(7, 3.6))
+    cases = results.experiment.cases
+    for name in dict.fromkeys(str(case["robot"]) for case in cases):
+        own = [k for k, case in enumerate(cases) if case["robot"] == name]
+        speeds = [float(cases[k]["speed"]) for k in own]
+        runs = np.array([results.values("success", k) for k in own])
+        colour = look.METHODS.get(name, look.BLUE)
+        axes.fill_between(speeds, runs.min(axis=1), runs.max(axis=1), color=colour, alpha=0.15, linewidth=0)
+        axes.plot(speeds, runs.mean(axis=1), color=colour, marker=".", label=name)
+    axes.set(xlabel="speed (m/s)", ylabel="drives that arrive (%)", ylim=(0, 102))
+    axes.legend()
+    return figure
+
+
+def plot_trials(results: Results) -> Figure:
+    """The trials of all methods from their results."""
+    means: dict[str, list[float]] = {}
+    for k, case in enumerate(results.experiment.cases):
+        means.setdefault(str(case["method"]), []).append(results.summary("success", k).mean)
+    figure, axes = plt.subplots(figsize=(7, 3))
+    draw_trials(axes, means)
+    return figure
+
+
+def plot_endings(results: Results, what: str) -> Figure:
+    """How drives end for all choices of one thing, from the results of ``nnql-circles``."""
+    ends = {}
+    for k, case in enumerate(results.experiment.cases):
+        if case["what"] == what:
+            arrived, cut, collided = (results.summary(how, k).mean for how in ("success", "out of steps", "collision"))
+            ends[str(case["choice"])] = (arrived, cut, collided)
+    figure, axes = plt.subplots(figsize=(7, 0.42 * len(ends) + 1.3))
+    draw_endings(axes, ends)
+    return figure
+
+
+def plot_variations(results: Results) -> Figure:
+    """Mean success of every choice of ``nnql-circles``, with its interval."""
+    figure, axes = plt.subplots(figsize=(7, 6.5))
+    cases = results.experiment.cases
+    for k in range(len(cases)):
+        summary = results.summary("success", k)
+        axes.plot([summary.low, summary.high], [k, k], color=look.INK, linewidth=2)
+        axes.plot(summary.mean, k, "o", color=look.METHODS["nnql"])
+    labels = [f"{case['what']}: {case['choice']}" for case in cases]
+    axes.set(yticks=range(len(cases)), yticklabels=labels, xlabel="drives that arrive (%)", xlim=(0, 102))
+    axes.invert_yaxis()
+    return figure
