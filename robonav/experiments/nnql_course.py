@@ -6,6 +6,7 @@ tune on and to test on never meet.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -23,7 +24,7 @@ TEST_WORLDS = 40_000  # run k drives through the worlds of this seed + k
 COLD = 0.2  # temperature of a policy that is all but greedy: it takes the second best where that is nearly as good
 BLOCK = 30  # episodes that Fig. 4.4 and 4.6 count successes in
 
-Numbers = dict[str, ArrayLike]
+Numbers = Mapping[str, ArrayLike]
 
 
 def course(*, target: str = "number", **changes: Any) -> Course:
@@ -36,14 +37,14 @@ def new_worlds(n: int, seed: int, obstacles: int = 10, moving: int = 0) -> World
     return random_worlds(n, obstacles, moving, seed=seed, starts=STARTS, targets=TARGETS)
 
 
-def driven(policy: Policy, worlds: Worlds, speed: float = SPEED) -> Numbers:
+def driven(policy: Policy, worlds: Worlds, speed: float = SPEED) -> dict[str, float]:
     """How many drives arrive, collide and run out of steps, in per cent (Algorithm 9)."""
     drives = navigate(policy, worlds, speed, Course().max_steps)
-    arrived, collided = 100 * drives.success.mean(), 100 * drives.collision.mean()
+    arrived, collided = float(100 * drives.success.mean()), float(100 * drives.collision.mean())
     return {"success": arrived, "collision": collided, "out of steps": 100 - arrived - collided}
 
 
-def judged(policy: Policy, worlds: Worlds, speed: float = SPEED) -> Numbers:
+def judged(policy: Policy, worlds: Worlds, speed: float = SPEED) -> dict[str, float]:
     """As :func:`driven`; for a network also ``success, cold``, with the policy at temperature ``COLD``."""
     numbers = driven(policy, worlds, speed)
     if isinstance(policy, NetworkPolicy):

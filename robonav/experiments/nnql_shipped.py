@@ -1,6 +1,6 @@
-"""The networks of chapter 4 that ship with the package: ``python -m robonav.experiments.nnql_shipped`` makes them again.
+"""The networks of chapter 4 that ship with the package; ``python -m robonav.experiments.nnql_shipped`` makes them.
 
-Of each method eight robots train as its table has it, and the one that drives best in worlds kept for tuning is shipped.
+Of each method eight robots train as for Table 4.3, and the one that drives best in worlds kept for tuning is shipped.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ def best_of(method: str, seeds: tuple[int, ...] = SEEDS, *, episodes: int = EPIS
     for seed in seeds:
         greedy = trained(method, seed, episodes, settings(method)).policies[0]
         policy = replace(greedy, temperature=COLD)
-        rates.setdefault(float(driven(policy, worlds)["success"]), (seed, policy))  # of equals, the first
+        rates.setdefault(driven(policy, worlds)["success"], (seed, policy))  # of equals, the first
     best = max(rates)
     seed, policy = rates[best]
     made = {
-        "command": f"python -m {__spec__.name if __spec__ else __name__}",
+        "command": "python -m robonav.experiments.nnql_shipped",
         "seed": seed,
         "seeds": list(seeds),
         "episodes": episodes,
