@@ -22,7 +22,14 @@ Floats = NDArray[np.float64]
 
 
 def degree_of_danger(ranges: ArrayLike) -> NDArray[np.int64]:
-    """Degrees of danger 0 (nothing near) to 7 (collision) of ranges in metres, any shape (Table 3.1)."""
+    """Degrees of danger 0 (nothing near) to 7 (collision) of ranges in metres, any shape (Table 3.1).
+
+    Raises
+    ------
+    ValueError : if a range is negative or not a number.
+    """
+    if not (np.asarray(ranges) >= 0).all():
+        raise ValueError(f"ranges must be numbers from 0 on, in metres, got {ranges}")
     degrees: NDArray[np.int64] = len(DANGER_BORDERS) - np.searchsorted(DANGER_BORDERS, ranges, side="right")
     return degrees
 

@@ -61,7 +61,7 @@ def _mix(x):
     return x ^ (x >> np.uint64(16))
 
 
-@compiled
+@njit("f8(u4[::1], i8, i8, i8, i8)", cache=True, nogil=True, error_model="numpy")  # else one a literal: 2 s more
 def uniform(key, purpose, step, item, draw):
     """A number in [0, 1) from a world's key (2,) and a counter; eight draws an item, 1024 items a step."""
     counter = np.uint64((step * ITEMS + item) * 8 + draw)
@@ -400,7 +400,8 @@ def step(
         heading = _wrap(heading + TURNS[action])
         length = -speed if action == BACKWARD else speed
         x1, y1 = x + length * math.cos(heading), y + length * math.sin(heading)
-        before[:] = centres[i]
+        for m in range(len(before)):  # a slice assignment would compile the text of its error, for three seconds
+            before[m, 0], before[m, 1] = centres[i, m, 0], centres[i, m, 1]
         _drift(kinds[i], shapes[i], speeds[i], keys[i], steps[i], size, centres[i], headings[i])
         clearance = swept_clearance(
             kinds[i], shapes[i], before, centres[i], size, x, y, x1, y1, COLLISION_DISTANCE + 1e-3
