@@ -6,7 +6,7 @@ import importlib
 
 from .experiment import Experiment
 
-MODULES = ("yardsticks",)
+MODULES = ("yardsticks", "lfd", "nnql", "nnql_circles", "nnql_tuning")
 
 
 def names() -> list[str]:

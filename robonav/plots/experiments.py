@@ -15,6 +15,8 @@ from matplotlib.figure import Figure
 from robonav import files, look
 from robonav.experiments import Results
 
+from . import nnql
+
 OURS, THESIS = look.BLUE, look.ORANGE
 
 
@@ -66,6 +68,15 @@ def draw_bands(results: Results, metric: str, x_label: str, y_label: str) -> Fig
 
 DRAWN: dict[str, Callable[[Results], Figure]] = {
     "yardsticks": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "table-4.2": nnql.plot_speeds,
+    "table-4.3": nnql.plot_rates,
+    "figure-4.3": nnql.plot_weight_changes,
+    "figure-4.4": nnql.plot_learning,
+    "figure-4.6": nnql.plot_learning,
+    "figure-4.7": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "nnql-20-obstacles": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "nnql-circles": nnql.plot_variations,
+    "nnql-tuning": nnql.plot_trials,
 }
 """How each experiment is drawn, by its name."""
 
