@@ -5,8 +5,6 @@ const PACES = [1, 2, 3, 5, 8, 12, 20, 40]; // steps a second
 const KEYS = { ArrowUp: 0, ArrowLeft: 1, ArrowRight: 3, ArrowDown: 5 };
 const HARD_LEFT = 2;
 const HARD_RIGHT = 4;
-const PIXELS = 520;
-const MARGIN = 14;
 
 const copy = (world) => ({ ...world, start: [...world.start], target: [...world.target], obstacles: world.obstacles.map((o) => ({ ...o })) });
 const between = (a, b, t) => a + (b - a) * t;
@@ -59,17 +57,9 @@ export function makeDrive(first, speed) {
 // ---- The map --------------------------------------------------------------------------------------------------------
 
 function map({ drive, selected, grabbed, moved }) {
-  const canvas = h("canvas", { width: PIXELS, height: PIXELS, tabindex: 0, role: "application", class: "map" });
-  const pen = canvas.getContext("2d");
-  const scale = () => (PIXELS - 2 * MARGIN) / drive().world.size;
-  const toX = (x) => MARGIN + x * scale();
-  const toY = (y) => PIXELS - MARGIN - y * scale();
+  const board = mapCanvas({ tabindex: 0, role: "application" });
+  const { canvas, place } = board;
 
-  const place = (event) => {
-    const box = canvas.getBoundingClientRect();
-    const [px, py] = [((event.clientX - box.left) / box.width) * PIXELS, ((event.clientY - box.top) / box.height) * PIXELS];
-    return [(px - MARGIN) / scale(), (PIXELS - MARGIN - py) / scale()];
-  };
   const thingAt = ([x, y]) => {
     const { world, pose } = drive();
     if (Math.hypot(x - pose.x, y - pose.y) < 4) return "robot";
@@ -89,83 +79,22 @@ function map({ drive, selected, grabbed, moved }) {
   canvas.addEventListener("pointermove", (event) => dragging !== null && moved(dragging, place(event)));
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (dragging = null));
 
-  const outline = (o, x, y) => {
-    pen.beginPath();
-    if (o.circle) pen.arc(toX(x), toY(y), o.a * scale(), 0, 2 * Math.PI);
-    else {
-      const [c, s] = [Math.cos(o.turned), Math.sin(o.turned)];
-      for (const [i, j] of [[1, 1], [-1, 1], [-1, -1], [1, -1]]) {
-        pen.lineTo(toX(x + c * o.a * i - s * o.b * j), toY(y + s * o.a * i + c * o.b * j));
-      }
-      pen.closePath();
-    }
-  };
-  const sectors = ({ x, y, heading }, ranges) => {
-    const half = ROBOT.sector / 2;
-    ranges.forEach((distance, k) => {
-      const middle = heading + k * ROBOT.sector;
-      pen.beginPath();
-      pen.moveTo(toX(x), toY(y));
-      pen.arc(toX(x), toY(y), Math.max(distance, 0) * scale(), -(middle - half), -(middle + half), true);
-      pen.closePath();
-      const near = distance < ROBOT.range;
-      pen.globalAlpha = near ? 0.4 : 0.18;
-      pen.fillStyle = near ? PALETTE.ORANGE : PALETTE.SKY;
-      pen.fill();
-      pen.globalAlpha = 0.7;
-      pen.strokeStyle = PALETTE.BLUE;
-      pen.lineWidth = 0.7;
-      pen.stroke();
-    });
-    pen.globalAlpha = 1;
-  };
-  const triangle = ({ x, y, heading }) => {
-    pen.beginPath();
-    for (const angle of [0, 2.5, -2.5]) pen.lineTo(toX(x + 2.2 * Math.cos(heading + angle)), toY(y + 2.2 * Math.sin(heading + angle)));
-    pen.closePath();
-    pen.fillStyle = PALETTE.ROBOT;
-    pen.fill();
-  };
-
   /** The moment at part t of the way from the last step's beginning to now. */
   const draw = (t) => {
     const { world, pose, before, path, sensing, outcome } = drive();
-    const dense = Math.min(window.devicePixelRatio || 1, 2);
-    if (canvas.width !== PIXELS * dense) canvas.width = canvas.height = PIXELS * dense;
-    pen.setTransform(dense, 0, 0, dense, 0, 0);
-    pen.clearRect(0, 0, PIXELS, PIXELS);
-    pen.strokeStyle = PALETTE.OBSTACLE;
-    pen.lineWidth = 2;
-    pen.strokeRect(toX(0), toY(world.size), world.size * scale(), world.size * scale());
-    world.obstacles.forEach((o, m) => {
+    const obstacles = world.obstacles.map((o, m) => {
       const old = before.obstacles[m] ?? o;
-      outline(o, between(old.x, o.x, t), between(old.y, o.y, t));
-      pen.fillStyle = o.speed > 0 ? PALETTE.MOVING : PALETTE.OBSTACLE;
-      pen.fill();
-      if (selected() === m) {
-        pen.strokeStyle = PALETTE.ORANGE;
-        pen.lineWidth = 3;
-        pen.stroke();
-      }
+      return { ...o, x: between(old.x, o.x, t), y: between(old.y, o.y, t) };
     });
-    pen.fillStyle = PALETTE.ROBOT;
-    pen.fillRect(toX(world.start[0]) - 4, toY(world.start[1]) - 4, 8, 8);
-    pen.strokeStyle = PALETTE.TARGET;
-    pen.lineWidth = selected() === "target" ? 4 : 2.5;
-    pen.beginPath();
-    pen.arc(toX(world.target[0]), toY(world.target[1]), ROBOT.arrival * scale(), 0, 2 * Math.PI);
-    pen.stroke();
     const turn = Math.atan2(Math.sin(pose.heading - before.pose.heading), Math.cos(pose.heading - before.pose.heading));
     const now = { x: between(before.pose.x, pose.x, t), y: between(before.pose.y, pose.y, t), heading: before.pose.heading + turn * Math.min(1, 3 * t) };
-    if (t >= 1) sectors(pose, sensing.ranges);
-    else sectors(now, sense({ ...world, obstacles: world.obstacles.map((o, m) => ({ ...o, x: between((before.obstacles[m] ?? o).x, o.x, t), y: between((before.obstacles[m] ?? o).y, o.y, t) })) }, now).ranges);
-    pen.strokeStyle = outcome === "collided" ? PALETTE.VERMILION : PALETTE.BLUE;
-    pen.lineWidth = 1.8;
-    pen.beginPath();
-    path.slice(0, -1).forEach(({ x, y }) => pen.lineTo(toX(x), toY(y)));
-    pen.lineTo(toX(now.x), toY(now.y));
-    pen.stroke();
-    triangle(now);
+    board.begin(world.size);
+    obstacles.forEach((o, m) => board.obstacle(o, { marked: selected() === m }));
+    board.start(world.start);
+    board.target(world.target, selected() === "target");
+    board.sectors(now, t >= 1 ? sensing.ranges : sense({ ...world, obstacles }, now).ranges);
+    board.line([...path.slice(0, -1), now].map(({ x, y }) => [x, y]), outcome === "collided" ? PALETTE.VERMILION : PALETTE.BLUE);
+    board.robot(now);
   };
   return { canvas, draw };
 }

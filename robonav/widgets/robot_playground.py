@@ -20,8 +20,8 @@ RULES = ("straight", "freer side")
 class RobotPlayground(anywidget.AnyWidget):
     """Drag obstacles, let a policy drive or drive yourself, take the drive away as a demonstration."""
 
-    _esm = front_end("simulator", "files", "robot_playground")
-    _css = style("robot_playground")
+    _esm = front_end("simulator", "maps", "files", "robot_playground")
+    _css = style("maps", "robot_playground")
     data = traitlets.Dict().tag(sync=True)
 
 

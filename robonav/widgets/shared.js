@@ -30,7 +30,7 @@ export const set = (element, attributes) => furnish(element, attributes, []);
 
 // ---- Numbers --------------------------------------------------------------------------------------------------------
 
-const TYPES = { float64: Float64Array, float32: Float32Array, int32: Int32Array, uint8: Uint8Array };
+const TYPES = { float64: Float64Array, float32: Float32Array, int32: Int32Array, uint16: Uint16Array, uint8: Uint8Array };
 
 /** The array that Python packed. @param {Packed} array */
 export function unpack({ shape, dtype, data }) {

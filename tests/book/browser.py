@@ -33,7 +33,8 @@ DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 
 FORMULAS_SET = "async () => { await window.MathJax?.startup?.promise }"
 WIDGETS_DRAWN = """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
-  .every((place) => place.parentElement.querySelector(".jupyter-widgets, .widget-subarea > *"))"""
+  .every(({ parentElement: place }) => place.querySelector(".widget-subarea > * > *"))"""
+PATIENCE = 60_000  # milliseconds: the machine may be slow, and busy with other tests
 
 
 def executable() -> str | None:
@@ -54,7 +55,7 @@ class Visit:
         self.page.goto(address, wait_until="load")
         if settled:
             self.page.evaluate(FORMULAS_SET)
-            self.page.wait_for_function(WIDGETS_DRAWN, timeout=20_000)
+            self.page.wait_for_function(WIDGETS_DRAWN)
         return self
 
 
@@ -93,6 +94,7 @@ def chromium(**options: Any) -> Iterator[BrowserContext]:
 def visiting(context: BrowserContext) -> Iterator[Visit]:
     """A new page that is watched from its first request on."""
     visit = Visit(context.new_page())
+    visit.page.set_default_timeout(PATIENCE)
     _watch(visit)
     try:
         yield visit

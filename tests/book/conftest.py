@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 import yaml
-from browser import DESKTOP, ROOT, SITE, Visit, chromium, executable, served, visiting
+from browser import DESKTOP, PATIENCE, ROOT, SITE, Visit, chromium, executable, served, visiting
 from check_site import pages
-from playwright.sync_api import BrowserContext
+from playwright.sync_api import BrowserContext, expect
 
+expect.set_options(timeout=PATIENCE)
 PAGES = list(pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))))
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser import DESKTOP, PHONE, Visit
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, expect
 
 from robonav import mdp
 
@@ -43,8 +43,11 @@ def choose(lab: Locator, plan: str, sensor: str, wheels: str) -> None:
         lab.get_by_label(label, exact=True).select_option(option)
 
 
-def status(lab: Locator) -> str:
-    return lab.locator("[role=status]").inner_text()
+def status(lab: Locator, step: int) -> str:
+    """What the lab says, once it has come to a step."""
+    said = lab.locator("[role=status]")
+    expect(said).to_contain_text(f"Step {step}: ")
+    return said.inner_text()
 
 
 def bars(lab: Locator) -> list[int]:
@@ -52,8 +55,8 @@ def bars(lab: Locator) -> list[int]:
     return [int(text or 0) for text in lab.locator("svg text[y]:not([class])").all_text_contents()]
 
 
-def assert_same(lab: Locator, belief: np.ndarray) -> None:
-    known = KNOWN.search(status(lab))
+def assert_same(lab: Locator, step: int, belief: np.ndarray) -> None:
+    known = KNOWN.search(status(lab, step))
     assert known is not None
     assert belief[int(known["cell"])] == pytest.approx(belief.max(), abs=1e-9)
     assert float(known["share"]) == pytest.approx(100 * belief.max(), abs=0.0501)
@@ -75,16 +78,17 @@ def test_every_click_is_believed_as_python_would(lab, plan, sensor, accuracy, wh
     choose(lab, plan, sensor, wheels)
     pomdp = mdp.corridor(PLANS[plan], accuracy=accuracy, slip=slip)
     belief = pomdp.uniform()
-    assert_same(lab, belief)
-    for button in ["Right →", "Right →", "Stay and sense", "← Left", "← Left", "← Left", "Right →"]:
+    assert_same(lab, 0, belief)
+    buttons = ["Right →", "Right →", "Stay and sense", "← Left", "← Left", "← Left", "Right →"]
+    for step, button in enumerate(buttons, start=1):
         lab.get_by_role("button", name=button).click()
-        seen = STATUS.search(status(lab))
+        seen = STATUS.search(status(lab, step))
         assert seen is not None
         observation = ["wall", "door"].index(seen["seen"])
         chance = pomdp.observation_probabilities(belief, ACTIONS[button])[observation]
         assert float(seen["chance"]) == pytest.approx(100 * chance, abs=0.0501)
         belief = pomdp.update(belief, ACTIONS[button], observation)
-        assert_same(lab, belief)
+        assert_same(lab, step, belief)
 
 
 def test_without_sensing_walls_tell(lab):
@@ -93,26 +97,28 @@ def test_without_sensing_walls_tell(lab):
     stage.focus()
     for _ in range(8):
         lab.page.keyboard.press("ArrowLeft")
-    assert "sensed nothing" in status(lab)
-    assert_same(lab, np.eye(9)[0])
+    assert "sensed nothing" in status(lab, 8)
+    assert_same(lab, 8, np.eye(9)[0])
 
 
 def test_a_new_run_an_undo_and_the_robot(lab):
-    assert lab.get_by_role("button", name="Undo").is_disabled()
-    start = status(lab)
+    undo = lab.get_by_role("button", name="Undo")
+    expect(undo).to_be_disabled()
+    start = status(lab, 0)
     lab.get_by_role("button", name="Right →").click()
-    assert status(lab) != start
-    lab.get_by_role("button", name="Undo").click()
-    assert status(lab) == start
-    lab.get_by_label("show the robot").check()
-    place = re.search(r"It is in cell (\d+)", status(lab))
-    assert place is not None
+    assert status(lab, 1) != start
+    undo.click()
+    assert status(lab, 0) == start
     robot = lab.locator("svg path[transform]")
-    assert robot.get_attribute("visibility") == "visible"
+    said = lab.locator("[role=status]")
+    lab.get_by_label("show the robot").check()
+    expect(said).to_contain_text(re.compile(r"It is in cell \d+"))
+    expect(robot).to_have_attribute("visibility", "visible")
     lab.get_by_label("show the robot").uncheck()
-    assert robot.get_attribute("visibility") == "hidden"
+    expect(said).not_to_contain_text("It is in cell")
+    expect(robot).to_have_attribute("visibility", "hidden")
     lab.get_by_role("button", name="Stay and sense").click()
+    status(lab, 1)
     lab.get_by_role("button", name="New run").click()
-    assert "Step 0" in status(lab)
-    picture = lab.get_by_role("img").get_attribute("aria-label")
-    assert "doors in 2, 8, 10" in (picture or "")
+    status(lab, 0)
+    expect(lab.get_by_role("img")).to_have_attribute("aria-label", re.compile("doors in 2, 8, 10"))

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser import DESKTOP, PHONE, Visit
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, expect
 
 from robonav import mdp
 from robonav.widgets.grid_lab import grid_lab, replay
@@ -77,58 +77,68 @@ def test_every_setting_shows_its_own_sweeps_and_policies(lab, name, discount, sl
         ((swept.history, swept.policies), (iterated.history, iterated.policies))
     ):
         at = min(frame, len(history) - 1)
+        said = lab.locator("figure .told").nth(which)
+        expect(said).to_have_text(re.compile(f"^{('sweep', 'policy')[which]} {at}: "))
         values, arrows = shown(lab, which)
         np.testing.assert_allclose(values, history[at][~grid.terminal], atol=0.0051)
         assert arrows == policies[at][~grid.terminal].tolist()
-        said = lab.locator("figure .told").nth(which).inner_text()
-        assert said.startswith(f"{('sweep', 'policy')[which]} {at}: ")
 
 
 def test_time_moves_by_button_keyboard_and_play(lab):
     said = lab.locator("figure .told").first
 
-    def step() -> int:
-        return int(re.match(r"sweep (\d+)", said.inner_text())[1])
+    def comes_to(step: int) -> None:
+        expect(said).to_have_text(re.compile(f"^sweep {step}: "))
 
-    assert step() == 0
+    comes_to(0)
     lab.get_by_label("One on").click()
+    comes_to(1)
     track(lab).press("ArrowRight")
-    assert step() == 2
+    comes_to(2)
     lab.get_by_label("One back").click()
-    assert step() == 1
+    comes_to(1)
     lab.get_by_label("Play").click()
-    lab.page.wait_for_function("(node) => !node.textContent.startsWith('sweep 1:')", arg=said.element_handle())
+    expect(said).not_to_have_text(re.compile("^sweep 1: "))
     lab.get_by_label("Pause").click()
-    stopped = step()
-    lab.page.wait_for_timeout(800)
-    assert step() == stopped
+    lab.get_by_label("Play").wait_for()
+    stopped = said.inner_text()
+    lab.page.wait_for_timeout(800)  # more than two of its steps
+    assert said.inner_text() == stopped
     track(lab).press("End")
-    assert "arrows optimal" in said.inner_text()
+    expect(said).to_contain_text("arrows optimal")
     lab.get_by_label("To the start").click()
-    assert step() == 0
+    comes_to(0)
 
 
 def test_the_mark_follows_touch_and_arrow_keys(lab):
     status = lab.locator(".status").first
-    assert status.inner_text().startswith("Row 1, column 1: ")
+    expect(status).to_contain_text("Row 1, column 1: ")
     grids = lab.get_by_role("group", name="Grids")
     grids.focus()
     for key in ("ArrowRight", "ArrowRight", "ArrowRight", "ArrowDown"):  # over the wall in between
         lab.page.keyboard.press(key)
-    assert status.inner_text().startswith("Row 2, column 5: ")
+    expect(status).to_contain_text("Row 2, column 5: ")
     lab.locator("figure").nth(1).locator("rect.cell").last.click()
-    assert status.inner_text() == "Row 5, column 7: the episode ends here, with reward 1."
+    expect(status).to_have_text("Row 5, column 7: the episode ends here, with reward 1.")
+    lab.page.keyboard.press("ArrowUp")
+    expect(status).to_contain_text("Row 4, column 7")
     lab.page.keyboard.press("ArrowDown")
-    assert status.inner_text().startswith("Row 5, column 7")
+    expect(status).to_contain_text("Row 5, column 7")
+    lab.page.keyboard.press("ArrowDown")
+    lab.page.keyboard.press("ArrowRight")
+    expect(status).to_contain_text("Row 5, column 7")
 
 
 def test_a_map_of_ones_own_is_offered_only_where_a_kernel_can_solve_it(lab):
-    assert lab.get_by_text("Draw a map of your own").is_hidden()
+    expect(lab.get_by_text("Draw a map of your own")).to_be_hidden()
 
 
 def test_pictures_say_what_they_show(lab):
-    for picture in lab.locator("figure svg").all():
-        assert re.match(r"(value|policy) iteration: (sweep|policy) 0: values", picture.get_attribute("aria-label"))
+    labels = re.compile(r"(value|policy) iteration: (sweep|policy) 0: values")
+    pictures = lab.locator("figure svg")
+    expect(pictures).to_have_count(2)
+    for picture in pictures.all():
+        expect(picture).to_have_attribute("aria-label", labels)
     assert lab.evaluate("(element) => element.scrollWidth <= element.clientWidth")
 
 
@@ -166,7 +176,7 @@ def test_with_a_kernel_a_map_of_ones_own_is_solved(visit, http):
     lab = visit.page.locator("#with-kernel")
     lab.get_by_text("Draw a map of your own").click()
     editor = lab.locator("textarea")
-    assert editor.input_value() == "S.G"
+    expect(editor).to_have_value("S.G")
     editor.fill("S.?")
     lab.get_by_role("button", name="Solve").click()
     lab.get_by_text("no ?").wait_for()
@@ -174,6 +184,7 @@ def test_with_a_kernel_a_map_of_ones_own_is_solved(visit, http):
     lab.get_by_role("button", name="Solve").click()
     lab.locator("rect.cell").nth(4).wait_for()
     track(lab).press("End")
+    expect(lab.locator("figure .told")).to_contain_text("arrows optimal")
     values, arrows = shown(lab, 0)
     np.testing.assert_allclose(values, mdp.value_iteration(drawn.mdp(0.9)).values[:4], atol=0.0051)
     assert arrows[2] == 2

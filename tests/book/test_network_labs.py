@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import DESKTOP, PHONE, Visit
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, expect
 
 from robonav import lfd
 from robonav.lfd import toys
@@ -82,6 +82,7 @@ def test_every_setting_shows_its_own_training(labs, problem, hidden, first, rate
     training = lfd.gradient_descent(
         start, x, y, rate=rate, iterations=iteration, regularisation=0.01, objective=lfd.CROSS_ENTROPY
     )
+    expect(lab.locator(".status")).to_have_text(re.compile(rf"^Iteration {iteration}\b"))
     shown, cost, right, *probe, answer = numbers(lab)
     assert shown == iteration
     assert cost == pytest.approx(training.costs[-1], abs=6e-4)
@@ -95,32 +96,36 @@ def test_the_probe_follows_a_touch_on_the_plane(labs):
     plane.scroll_into_view_if_needed()
     box = plane.bounding_box()
     plane.click(position={"x": box["width"] * 0.25, "y": box["height"] * 0.75})
-    assert numbers(labs[0])[-3:-1] == pytest.approx([-0.75, -0.75], abs=0.02)
+    expect(labs[0].locator(".status")).to_contain_text(re.compile(r"-0\.7[3-7], -0\.7[3-7]"))
 
 
 @pytest.mark.parametrize("which", [0, 1])
 def test_time_moves_by_button_keyboard_and_play(labs, which):
     lab = labs[which]
+    said = lab.locator(".status")
+
+    def comes_to(iteration: int) -> None:
+        expect(said).to_have_text(re.compile(rf"^Iteration {iteration}\b"))
+
     track = lab.get_by_label("iteration", exact=True).and_(lab.locator("input"))
-    last = numbers(lab)[0]
+    last = int(numbers(lab)[0])
     lab.get_by_label("To the start").click()
-    assert numbers(lab)[0] == 0
+    comes_to(0)
     lab.get_by_label("One on").click()
-    assert numbers(lab)[0] == 1
+    comes_to(1)
     track.press("ArrowRight")
-    assert numbers(lab)[0] == 2
+    comes_to(2)
     lab.get_by_label("One back").click()
-    assert numbers(lab)[0] == 1
+    comes_to(1)
     lab.get_by_label("Play").click()
-    lab.page.wait_for_function(
-        "(node) => !node.textContent.startsWith('Iteration 1:')", arg=lab.locator(".status").element_handle()
-    )
+    expect(said).not_to_have_text(re.compile(r"^Iteration 1\b"))
     lab.get_by_label("Pause").click()
+    lab.get_by_label("Play").wait_for()
     stopped = status(lab)
-    lab.page.wait_for_timeout(400)
+    lab.page.wait_for_timeout(400)  # more than two of its steps
     assert status(lab) == stopped
     track.press("End")
-    assert numbers(lab)[0] == last
+    comes_to(last)
 
 
 def test_the_robots_network_answers_as_python_does(labs):
@@ -142,8 +147,8 @@ def test_the_robots_network_answers_as_python_does(labs):
         set_slider(lab, "target seen", int(state[10]))
         p = stack[frame].forward(np.array(state) / np.array([7] * 9 + [9, 1]))
         shown = lab.locator("svg text").filter(has_text=re.compile(r"^(F|[LR][36]0) \d"))
-        assert shown.all_text_contents() == [f"{name} {answer:.2f}" for name, answer in zip(ACTIONS, p, strict=True)]
-        assert f"({ACTIONS[p.argmax()]})" in status(lab)
+        expect(shown).to_have_text([f"{name} {answer:.2f}" for name, answer in zip(ACTIONS, p, strict=True)])
+        expect(lab.locator(".status")).to_contain_text(f"({ACTIONS[p.argmax()]})")
 
 
 def test_touching_a_sector_puts_an_obstacle_there(labs):
@@ -153,9 +158,9 @@ def test_touching_a_sector_puts_an_obstacle_there(labs):
     width = picture.bounding_box()["width"]
     ahead = {"x": width / 2, "y": width / 2 - width * (110 / 284) * 0.3}  # 3 m ahead of the robot: degree 5
     picture.click(position=ahead)
-    assert "danger 5," in picture.get_attribute("aria-label")
+    expect(picture).to_have_attribute("aria-label", re.compile("danger 5,"))
     picture.click(position={"x": width / 2, "y": 4})  # outside the circle: the target, ahead
-    assert picture.get_attribute("aria-label").endswith("target in sector 1")
+    expect(picture).to_have_attribute("aria-label", re.compile("target in sector 1$"))
 
 
 def test_moments_of_the_demonstrations_come_back(labs):
@@ -164,5 +169,5 @@ def test_moments_of_the_demonstrations_come_back(labs):
     for index in (0, 3, len(data["situations"]) - 1):
         lab.get_by_label("a moment of a demonstration").select_option(index=index)
         degrees = ", ".join(map(str, data["situations"][index]["state"][:9]))
-        assert f"danger {degrees};" in lab.locator("svg.dial").get_attribute("aria-label")
-        assert "the expert" in status(lab)
+        expect(lab.locator("svg.dial")).to_have_attribute("aria-label", re.compile(f"danger {degrees};"))
+        expect(lab.locator(".status")).to_contain_text("the expert")

@@ -19,7 +19,7 @@ FILE = "const bytes = page.demonstrationFile(drive); return btoa(String.fromChar
 @pytest.fixture
 def page(node):
     """The playground's whole front end under Node."""
-    return partial(node, ("simulator", "files", "robot_playground"))
+    return partial(node, ("simulator", "maps", "files", "robot_playground"))
 
 
 @pytest.mark.parametrize(("obstacles", "moving"), [(12, 0), (6, 6), (0, 0)])
