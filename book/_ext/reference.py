@@ -51,11 +51,27 @@ def signature(name: str, found: Any) -> str:
     except (TypeError, ValueError):
         return name
     bare = [
-        parameter.replace(annotation=inspect.Parameter.empty)
+        parameter.replace(annotation=inspect.Parameter.empty, default=Named.of(parameter.default))
         for parameter in called.parameters.values()
         if parameter.name != "self"
     ]
     return f"{name}{called.replace(parameters=bare, return_annotation=inspect.Signature.empty)}"
+
+
+class Named:
+    """A default that is shown by its name alone."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __repr__(self) -> str:
+        return self.name
+
+    @classmethod
+    def of(cls, default: Any) -> Any:
+        """A class or function by name; anything else as it is."""
+        known = default is inspect.Parameter.empty or not hasattr(default, "__qualname__")
+        return default if known else cls(default.__qualname__)
 
 
 def methods(found: Any) -> Iterator[tuple[str, Any]]:
