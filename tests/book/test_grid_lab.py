@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser import DESKTOP, PHONE, Visit
+from mounting import mounted
 from playwright.sync_api import Locator, expect
 
 from robonav import mdp
 from robonav.widgets.grid_lab import grid_lab, replay
-from robonav.widgets.shared import front_end
 
 EXITS = {"+": mdp.Cell(reward=1, ends=True), "-": mdp.Cell(reward=-1, ends=True)}
 TWO_ROOMS = """
@@ -142,26 +142,7 @@ def test_pictures_say_what_they_show(lab):
     assert lab.evaluate("(element) => element.scrollWidth <= element.clientWidth")
 
 
-WITH_A_KERNEL = """async ([module, data, solved]) => {
-  const page = await import(URL.createObjectURL(new Blob([module], { type: "text/javascript" })));
-  const place = document.body.appendChild(document.createElement("div"));
-  place.id = "with-kernel";
-  let hear = () => {};
-  const solve = ({ text }) => (text.includes("?") ? { error: "no ?" } : solved);
-  const answers = { kernel: () => ({ kernel: true }), solve };
-  const model = {
-    get: () => data,
-    on: (_, listener) => { hear = listener; },
-    send: (message) => queueMicrotask(() => hear(answers[message.ask](message))),
-  };
-  page.default.render({ model, el: place });
-}"""
-
-
 def test_with_a_kernel_a_map_of_ones_own_is_solved(visit, http):
-    """The page's side of it, with answers as Python gives them; Python's side is tested without a browser."""
-    visit.open(f"{http}/book/glossary.html")
-
     def solve(grid, choices=()):
         swept = mdp.value_iteration(grid.mdp(0.9), record=True)
         steps = [f"sweep {k}" for k in range(len(swept.history))]
@@ -169,17 +150,13 @@ def test_with_a_kernel_a_map_of_ones_own_is_solved(visit, http):
 
     given, drawn = mdp.GridWorld("S.G"), mdp.GridWorld("S..\n.#G")
     widget = grid_lab({"map": given}, {}, {("map",): solve(given)}, solve=solve)
-    answers: list[dict] = []
-    widget.send = answers.append
-    widget._answer(widget, {"ask": "solve", "text": drawn.text, "choices": []}, [])
-    visit.page.evaluate(WITH_A_KERNEL, [front_end("grid_lab"), widget.data, answers[0]])
-    lab = visit.page.locator("#with-kernel")
+    lab = mounted(visit, http, widget, kernel=True)
     lab.get_by_text("Draw a map of your own").click()
     editor = lab.locator("textarea")
     expect(editor).to_have_value("S.G")
     editor.fill("S.?")
     lab.get_by_role("button", name="Solve").click()
-    lab.get_by_text("no ?").wait_for()
+    lab.get_by_text("symbols of the legend").wait_for()
     editor.fill(drawn.text)
     lab.get_by_role("button", name="Solve").click()
     lab.locator("rect.cell").nth(4).wait_for()
@@ -188,3 +165,4 @@ def test_with_a_kernel_a_map_of_ones_own_is_solved(visit, http):
     values, arrows = shown(lab, 0)
     np.testing.assert_allclose(values, mdp.value_iteration(drawn.mdp(0.9)).values[:4], atol=0.0051)
     assert arrows[2] == 2
+    assert visit.errors == []

@@ -1,0 +1,128 @@
+"""Search lab: modified A* and grid A* on one map, node by node."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from itertools import product
+from typing import Any, TypeVar
+
+import anywidget
+import numpy as np
+import traitlets
+
+from robonav import expect
+from robonav.lfd import GridPlan, Plan, plan, plan_on_grid
+from robonav.robot import Worlds
+
+from .shared import front_end, packed, style
+from .simulator import page_world
+
+Found = TypeVar("Found", Plan, GridPlan)
+REPEATS = 3  # searches are timed so often, and the shortest time counts
+
+
+class SearchLab(anywidget.AnyWidget):
+    """Choose a map, a margin and a cell; watch both searches. With a kernel: put the target elsewhere."""
+
+    _esm = front_end("simulator", "maps", "search_lab")
+    _css = style("maps", "search_lab")
+    data = traitlets.Dict().tag(sync=True)
+
+    def __init__(
+        self, worlds: Mapping[str, Worlds], margins: Sequence[float], cells: Sequence[float], speed: float
+    ) -> None:
+        self._worlds = list(worlds.values())
+        self._settings = list(product(margins, cells))
+        self._speed = speed
+        offered = {
+            "map": list(worlds),
+            "margin kept": [f"{margin:g} m" for margin in margins],
+            "side of a cell": [f"{cell:g} m" for cell in cells],
+        }
+        super().__init__(
+            data={
+                "worlds": [page_world(world) for world in self._worlds],
+                "controls": [{"label": label, "options": options, "value": 0} for label, options in offered.items()],
+                "runs": [_both(world, *setting, speed) for world in self._worlds for setting in self._settings],
+                "speed": speed,
+            }
+        )
+        self.on_msg(self._answer)
+
+    def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
+        """The page asks whether a kernel is there, or for a way to another target."""
+        if message.get("ask") == "kernel":
+            self.send({"kernel": True})
+        elif message.get("ask") == "search":
+            try:
+                world, margin, cell = (int(choice) for choice in message["chosen"])
+                count = len(self.data["controls"][2]["options"])
+                target = expect.array("target", message["target"], shape=(2,))
+                elsewhere = replace(self._worlds[world], targets=target[None])
+                run = _both(elsewhere, *self._settings[margin * count + cell], self._speed)
+                self.send({"target": target.tolist(), "run": run})
+            except (ValueError, TypeError) as error:
+                self.send({"error": str(error)})
+
+
+def search_lab(
+    worlds: Mapping[str, Worlds],
+    *,
+    margins: Sequence[float] = (2.0, 1.0, 4.0),
+    cells: Sequence[float] = (1.0, 2.0, 4.0),
+    speed: float = 2.0,
+) -> SearchLab:
+    """The lab for some maps: ``search_lab({"10 obstacles": random_worlds(1, 10, seed=41)})``.
+
+    Both searches run here, for every map, margin and cell; the page replays them.
+
+    Parameters
+    ----------
+    worlds : named batches of one.
+    margins : distances in metres to keep from obstacles; the first is shown at first.
+    cells : sides in metres of the squares in which the modified search counts poses of one heading as one, and of the
+        other one's grid.
+    speed : in m/s.
+
+    Raises
+    ------
+    ValueError : if there is nothing to choose from, or a number out of bounds.
+    """
+    for name, choices in (("worlds", worlds), ("margins", margins), ("cells", cells)):
+        if not choices:
+            raise ValueError(f"{name} must hold at least one, got none")
+    return SearchLab(worlds, margins, cells, speed)
+
+
+def _both(world: Worlds, margin: float, cell: float, speed: float) -> list[dict[str, Any]]:
+    """The two searches as the page reads them."""
+    by_actions, seconds = _timed(lambda: plan(world, margin=margin, cell=cell, speed=speed, record=True))
+    on_grid, longer = _timed(lambda: plan_on_grid(world, margin=margin, cell=cell, record=True))
+    return [
+        {"kind": "actions", "steps": len(by_actions.actions), "seconds": seconds, **_told(by_actions)},
+        {"kind": "grid", "steps": None, "seconds": longer, **_told(on_grid)},
+    ]
+
+
+def _timed(search: Callable[[], Found]) -> tuple[Found, float]:
+    """What a search found and its seconds."""
+    spent = []
+    for _ in range(REPEATS):
+        begin = time.perf_counter()
+        found = search()
+        spent.append(time.perf_counter() - begin)
+    return found, min(spent)
+
+
+def _told(found: Plan | GridPlan) -> dict[str, Any]:
+    """What both kinds of plan have in common; places of nodes to a centimetre."""
+    assert found.visited is not None
+    return {
+        "found": bool(found.found),
+        "length": float(found.length),
+        "expanded": int(found.expanded),
+        "points": packed(found.points),
+        "visited": packed(np.rint(100 * found.visited[:, :2]), np.uint16),
+    }

@@ -1,0 +1,40 @@
+"""A widget on a page without a notebook, alone or with Python to answer it as a kernel would."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import anywidget
+from browser import Visit
+from playwright.sync_api import Locator
+
+MOUNT = """async ([module, style, data, asked]) => {
+  const page = await import(URL.createObjectURL(new Blob([module], { type: "text/javascript" })));
+  document.head.appendChild(document.createElement("style")).textContent = style;
+  const place = document.querySelector("article").appendChild(document.createElement("div"));
+  place.id = "mounted";
+  window.hear = () => {};
+  const silent = () => { throw new Error("no kernel"); };
+  const hear = (answers) => answers.forEach((answer) => window.hear(answer));
+  const ask = (message) => window.askPython(message).then(hear);
+  const model = { get: () => data, on: (_, listener) => { window.hear = listener; }, send: asked ? ask : silent };
+  page.default.render({ model, el: place });
+}"""
+
+
+def mounted(visit: Visit, address: str, widget: Any, *, kernel: bool = False) -> Locator:
+    """The widget at the foot of a short page; with ``kernel``, what it asks is answered by the widget in Python."""
+    assert isinstance(widget, anywidget.AnyWidget)
+    visit.open(f"{address}/book/cite.html")
+    if kernel:
+        answers: list[Any] = []
+        widget.send = answers.append
+
+        def ask(message: dict[str, Any]) -> list[Any]:
+            answers.clear()
+            widget._answer(widget, message, [])
+            return list(answers)
+
+        visit.page.expose_function("askPython", ask)
+    visit.page.evaluate(MOUNT, [widget._esm, widget._css, widget.data, kernel])
+    return visit.page.locator("#mounted")

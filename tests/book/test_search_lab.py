@@ -1,0 +1,108 @@
+"""The search lab, used as a reader would, and its numbers compared with Python's."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from browser import DESKTOP, PHONE
+from mounting import mounted
+from playwright.sync_api import Locator, expect
+
+from robonav.lfd import plan, plan_on_grid
+from robonav.robot import random_worlds
+from robonav.widgets.search_lab import search_lab
+
+WORLDS = {"ten": random_worlds(1, 10, seed=41), "thirty": random_worlds(1, 30, seed=43)}
+
+
+@pytest.fixture(params=[DESKTOP, PHONE], ids=["desktop", "phone"])
+def lab(request, visit, http):
+    visit.page.set_viewport_size(request.param)
+    yield mounted(visit, http, search_lab(WORLDS))
+    assert visit.errors == []
+
+
+def track(lab: Locator) -> Locator:
+    return lab.get_by_label("nodes expanded", exact=True).and_(lab.locator("input"))
+
+
+def told(lab: Locator) -> Locator:
+    return lab.locator("figure .told")
+
+
+def dark_pixels(lab: Locator, which: int) -> int:
+    """How much is drawn on a map."""
+    return (
+        lab.locator("canvas")
+        .nth(which)
+        .evaluate(
+            "(c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data.filter((v, i) => i % 4 === 3 && v).length"
+        )
+    )
+
+
+@pytest.mark.parametrize(("name", "margin", "cell"), [("ten", 2, 1), ("thirty", 4, 2), ("thirty", 1, 4)])
+def test_every_setting_shows_its_own_searches(lab, name, margin, cell):
+    lab.get_by_label("map", exact=True).select_option(name)
+    lab.get_by_label("margin kept").select_option(f"{margin} m")
+    lab.get_by_label("side of a cell").select_option(f"{cell} m")
+    by_actions = plan(WORLDS[name], margin=margin, cell=cell)
+    on_grid = plan_on_grid(WORLDS[name], margin=margin, cell=cell)
+    for which, found in enumerate((by_actions, on_grid)):
+        ended = f"done after {found.expanded} nodes: {found.length:.1f} m"
+        expect(told(lab).nth(which)).to_have_text(ended if found.found else f"{found.expanded} nodes, and no way found")
+    cells = lab.locator("tbody tr").first.locator("td")
+    if by_actions.found:
+        steps = len(by_actions.actions)
+        expect(cells.nth(0)).to_have_text(f"{by_actions.length:.1f}")
+        expect(cells.nth(3)).to_have_text(f"{steps} actions, {steps} s")
+    expect(cells.nth(1)).to_have_text(str(by_actions.expanded))
+
+
+def test_nodes_appear_as_they_are_expanded(lab):
+    most = max(plan(WORLDS["ten"]).expanded, plan_on_grid(WORLDS["ten"]).expanded)
+    full = [dark_pixels(lab, which) for which in (0, 1)]
+    lab.get_by_label("To the start").click()
+    expect(told(lab).first).to_have_text("0 nodes, still searching")
+    assert dark_pixels(lab, 0) < full[0]
+    assert dark_pixels(lab, 1) < full[1]
+    track(lab).press("ArrowRight")
+    lab.get_by_label("One on").click()
+    expect(told(lab).first).to_have_text(f"{round(most * 0.02**2)} nodes, still searching")
+    lab.get_by_label("Play").click()
+    expect(told(lab).nth(1)).to_have_text(re.compile("^done after"))
+    lab.get_by_label("Pause").click()
+    track(lab).press("End")
+    expect(told(lab).first).to_have_text(re.compile("^done after"))
+    assert dark_pixels(lab, 0) == full[0]
+
+
+def test_without_a_kernel_no_target_can_be_put(lab):
+    expect(lab.locator("fieldset")).to_be_hidden()
+    before = told(lab).first.inner_text()
+    lab.locator("canvas").first.click()
+    expect(told(lab).first).to_have_text(before)
+
+
+def test_with_a_kernel_a_target_is_searched_for(visit, http):
+    lab = mounted(visit, http, search_lab(WORLDS), kernel=True)
+    lab.get_by_label("target x (m)").fill("15")
+    lab.get_by_label("target y (m)").fill("200")
+    lab.get_by_role("button", name="Search").click()
+    expect(lab.locator(".status")).to_contain_text("target")
+    before = told(lab).first.inner_text()
+    canvas = lab.locator("canvas").first
+    canvas.scroll_into_view_if_needed()
+    side = canvas.bounding_box()["width"]
+    canvas.click(position={"x": side * 0.86, "y": side * 0.14})  # by the old target, where no obstacle stands
+    expect(lab.get_by_label("target x (m)")).to_have_value("88")
+    expect(lab.locator(".status")).to_have_text("")
+    expect(told(lab).first).not_to_have_text(before)
+    before = told(lab).first.inner_text()
+    lab.get_by_label("target x (m)").fill("15")
+    lab.get_by_label("target y (m)").fill("10")
+    lab.get_by_label("target y (m)").press("Tab")
+    lab.page.keyboard.press("Enter")
+    expect(told(lab).first).not_to_have_text(before)
+    assert visit.errors == []
