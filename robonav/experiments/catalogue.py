@@ -6,7 +6,17 @@ import importlib
 
 from .experiment import Experiment
 
-MODULES = ("yardsticks", "lfd", "nnql", "nnql_circles", "nnql_tuning")
+MODULES = (
+    "yardsticks",
+    "lfd",
+    "nnql",
+    "nnql_circles",
+    "nnql_tuning",
+    "nirl",
+    "nirl_steps",
+    "nirl_transfer",
+    "nirl_tuning",
+)
 
 
 def names() -> list[str]:

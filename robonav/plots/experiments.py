@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from robonav import files, look
 from robonav.experiments import Results
 
-from . import nnql
+from . import nirl, nnql
 
 OURS, THESIS = look.BLUE, look.ORANGE
 
@@ -77,6 +77,20 @@ DRAWN: dict[str, Callable[[Results], Figure]] = {
     "nnql-20-obstacles": partial(draw_bars, metric="success", label="drives that arrive (%)"),
     "nnql-circles": nnql.plot_variations,
     "nnql-tuning": nnql.plot_trials,
+    "figure-5.4": nirl.plot_counts,
+    "figure-5.7": partial(nirl.plot_course, metric="margin", label="margin"),
+    "figure-5.8": partial(nirl.plot_course, metric="cost", label="cost"),
+    "figure-5.10": nirl.plot_densities,
+    "figure-5.11": nirl.plot_changes,
+    "figure-5.12": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "table-5.1": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "table-5.2": partial(nirl.plot_comparison, discount=0.65),
+    "nirl-controls": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "nirl-steps": nirl.plot_steps,
+    "nirl-choice": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "nirl-transfer": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "nirl-refinement": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "nirl-tuning": nnql.plot_trials,
 }
 """How each experiment is drawn, by its name."""
 

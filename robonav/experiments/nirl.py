@@ -1,0 +1,235 @@
+"""Chapter 5 again: Table 5.1 and 5.2, Fig. 5.4, 5.7, 5.8, 5.10 to 5.12, and the controls that belong beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from robonav.robot import Policy, freer_side, nnql_state, straight
+
+from .experiment import Case, Experiment
+from .nirl_course import (
+    CONTROLS,
+    DEMONSTRATIONS,
+    ITERATIONS,
+    NAVIGATIONS,
+    SHOWN_WORLDS,
+    SPEED,
+    TEST_WORLDS,
+    TRAJECTORIES,
+    Numbers,
+    demonstrations,
+    driven,
+    learned,
+    new_worlds,
+    policy,
+)
+from .nirl_tuning import DISCOUNTS, METHODS, trial_settings
+
+RESULTS = Path(__file__).parent / "results"
+"""What these experiments gave at the thesis's scale: the pages show it."""
+
+CHOSEN: dict[str, dict[float, int]] = {
+    "nirl": {0.65: 0, 0.9: 0},
+    "apprenticeship": {0.65: 0, 0.9: 0},
+    "relative_entropy": {0.65: 0, 0.9: 0},
+    "scirl": {0.65: 0, 0.9: 0},
+    "cloning": {0.65: 0, 0.9: 0},
+}
+"""The best trial of each method with each discount; of cloning, which knows none, the better of the two is taken."""
+
+LEARNERS = METHODS[:4]
+RULES: dict[str, Policy] = {"freer side": freer_side, "straight": straight}
+NUMBERS = (20, 25, 30, 35, 40, 50)
+DENSITIES = (5, 10, 15, 20, 25, 30)
+
+
+def settings(method: str, discount: float = 0.65, *, ends: str = "bonus") -> dict[str, Any]:
+    """What was chosen for a method, see :data:`robonav.experiments.nirl_tuning.SPACE`; a control takes NIRL's."""
+    chosen = method if method in CHOSEN else "nirl"
+    found = trial_settings(chosen, CHOSEN[chosen][discount], discount)
+    return found if method == "cloning" or ends == "bonus" else found | {"ends": ends}
+
+
+CLONING = 0.65
+"""Which of cloning's two sets of trials the chosen one is from."""
+
+
+def compare(case: Case, seed: int, scale: str) -> Numbers:
+    """Table 5.2: one run of a method, a control or a rule."""
+    method, worlds = str(case["method"]), new_worlds(scale, seed)
+    if method in RULES:
+        return driven(RULES[method], worlds)
+    discount = CLONING if method == "cloning" else float(case["discount"])
+    return driven(policy(method, seed, scale, settings(method, discount)), worlds)
+
+
+def end(case: Case, seed: int, scale: str) -> Numbers:
+    """The controls: what an end is worth in itself, with the reward of each method, with none, with one of chance."""
+    method = str(case["method"])
+    return driven(policy(method, seed, scale, settings(method, ends=str(case["ends"]))), new_worlds(scale, seed))
+
+
+def from_experts(case: Case, seed: int, scale: str) -> Numbers:
+    """Table 5.1: NIRL from so many demonstrations of one expert or the other."""
+    found = learned("nirl", seed, scale, settings("nirl"), int(case["demonstrations"]), str(case["expert"]))
+    return driven(found.policy, new_worlds(scale, seed))
+
+
+def count(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 5.4: samples, and different states among them, a trajectory; a state is the 16 numbers of Eq. (4.5)."""
+    number = int(case["demonstrations"])
+    pairs = demonstrations(seed, number, str(case["expert"])).effective
+    states = np.unique(nnql_state(pairs.sensing), axis=0)
+    return {"samples": len(pairs) / number, "states": len(states) / number}
+
+
+def follow(case: Case, seed: int, scale: str, *, metrics: tuple[str, ...]) -> Numbers:
+    """Fig. 5.7, 5.8 and 5.11: margin, cost and weight changes of a run, and each at the end: the last 20 iterations."""
+    history = learned("nirl", seed, scale, settings("nirl", float(case["discount"]))).history
+    series = {
+        "margin": history.margins,
+        "cost": history.costs,
+        "first layer": history.changes[:, 0],
+        "second layer": history.changes[:, 1],
+    }
+    chosen: Numbers = {name: series[name] for name in metrics}
+    return chosen | {f"{name} at the end": series[name][-20:].mean() for name in metrics}
+
+
+def at_density(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 5.10: one policy, learned among 20 obstacles at 2 m/s, or a rule, with other obstacles and speeds."""
+    method, speed = str(case["method"]), float(case["speed"])
+    worlds = new_worlds(scale, seed, int(case["obstacles"]))[: NAVIGATIONS[scale] // 5]
+    return driven(RULES[method] if method in RULES else policy(method, seed, scale, settings(method)), worlds, speed)
+
+
+def among_movers(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 5.12: standing and moving obstacles, for a robot that learned among standing ones; beside the rules."""
+    method = str(case["method"])
+    worlds = new_worlds(scale, seed, int(case["standing"]), int(case["moving"]))
+    return driven(RULES[method] if method in RULES else policy(method, seed, scale, settings(method)), worlds, SPEED)
+
+
+_ABOUT = {
+    "demonstrations": DEMONSTRATIONS,
+    "iterations": ITERATIONS,
+    "drives an iteration": TRAJECTORIES,
+    "drives a run": NAVIGATIONS,
+    "first seeds of the worlds": {"shown": SHOWN_WORLDS, "tested": TEST_WORLDS},
+    "settings": {m: {str(discount): settings(m, discount) for discount in DISCOUNTS} for m in METHODS},
+}
+
+
+def _cases(methods: Sequence[str], discount: float | str) -> list[Case]:
+    return [{"method": method, "discount": discount} for method in methods]
+
+
+COMPARED = [
+    *_cases(LEARNERS, 0.65),
+    *_cases(LEARNERS, 0.9),
+    *_cases(CONTROLS, 0.65),
+    *_cases(("cloning", *RULES), "none"),
+]
+
+TABLE_5_1 = Experiment(
+    name="table-5.1",
+    title="NIRL from computer and human experts: success in new maps by number of demonstrations",
+    cases=[{"expert": expert, "demonstrations": n} for expert in ("computer", "human") for n in (25, 30, 40, 50)],
+    run=from_experts,
+    seeds={"quick": 1, "thesis": 10},
+    thesis={"success": [90, 91, 89, 87, 82, 85, 84, 84]},
+    settings=_ABOUT,
+)
+TABLE_5_2 = Experiment(
+    name="table-5.2",
+    title="NIRL, apprenticeship learning, relative entropy, SCIRL, and what they have to beat: success in new maps",
+    cases=COMPARED,
+    run=compare,
+    seeds={"quick": 2, "thesis": 25},
+    thesis={"success": [83, 66, 78, 79, *[None] * (len(COMPARED) - 4)]},
+    settings=_ABOUT,
+)
+ENDINGS = Experiment(
+    name="nirl-controls",
+    title="What the end of a drive is worth in itself: with each method's reward, with none, with one of chance",
+    cases=[{"method": method, "ends": ends} for ends in ("bonus", "neutral") for method in (*LEARNERS, *CONTROLS)],
+    run=end,
+    seeds={"quick": 1, "thesis": 8},
+    settings=_ABOUT,
+)
+FIGURE_5_4 = Experiment(
+    name="figure-5.4",
+    title="Samples and different states a trajectory, by number of demonstrations",
+    cases=[{"expert": expert, "demonstrations": n} for expert in ("computer", "human") for n in NUMBERS],
+    run=count,
+    seeds={"quick": 2, "thesis": 10},
+    settings=_ABOUT,
+)
+FIGURE_5_7 = Experiment(
+    name="figure-5.7",
+    title="The margin by which the reward prefers the expert, over iterations",
+    cases=[{"discount": discount} for discount in DISCOUNTS],
+    run=partial(follow, metrics=("margin",)),
+    seeds={"quick": 2, "thesis": 10},
+    thesis={"margin at the end": [3.0, None]},
+    settings=_ABOUT,
+)
+FIGURE_5_8 = Experiment(
+    name="figure-5.8",
+    title="The cost of the network, over iterations",
+    cases=[{"discount": discount} for discount in DISCOUNTS],
+    run=partial(follow, metrics=("cost",)),
+    seeds={"quick": 2, "thesis": 10},
+    thesis={"cost at the end": [3.23, None]},
+    settings=_ABOUT,
+)
+FIGURE_5_11 = Experiment(
+    name="figure-5.11",
+    title="What the weights change by in each iteration",
+    cases=[{"discount": discount} for discount in DISCOUNTS],
+    run=partial(follow, metrics=("first layer", "second layer")),
+    seeds={"quick": 2, "thesis": 10},
+    settings=_ABOUT,
+)
+FIGURE_5_10 = Experiment(
+    name="figure-5.10",
+    title="Success by number of obstacles at three speeds, learned among 20 at 2 m/s; beside a rule",
+    cases=[
+        {"method": method, "speed": speed, "obstacles": obstacles}
+        for method in ("nirl", "freer side")
+        for speed in (1.0, 2.0, 3.0)
+        for obstacles in DENSITIES
+    ],
+    run=at_density,
+    seeds={"quick": 1, "thesis": 25},
+    settings=_ABOUT,
+)
+FIGURE_5_12 = Experiment(
+    name="figure-5.12",
+    title="Standing and moving obstacles, learned among standing ones; beside two rules",
+    cases=[
+        {"method": method, "standing": standing, "moving": moving}
+        for method in ("nirl", *RULES)
+        for standing, moving in ((20, 0), (10, 10), (0, 20))
+    ],
+    run=among_movers,
+    seeds={"quick": 2, "thesis": 25},
+    settings=_ABOUT,
+)
+
+EXPERIMENTS = (
+    FIGURE_5_4,
+    FIGURE_5_7,
+    FIGURE_5_8,
+    TABLE_5_1,
+    FIGURE_5_10,
+    FIGURE_5_11,
+    FIGURE_5_12,
+    TABLE_5_2,
+    ENDINGS,
+)

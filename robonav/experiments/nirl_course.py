@@ -1,0 +1,153 @@
+"""The conditions of section 5.6, which all experiments of chapter 5 share.
+
+A run is one seed: demonstrations of its own, a network trained from them, and new worlds to drive through. Worlds that
+an expert shows, worlds to tune on and worlds to test on never meet; those a robot practises in are drawn from its seed.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robonav.lfd import Demonstrations, NetworkPolicy, demonstrate, demonstrate_by_hand, learn_policy, sketch
+from robonav.nirl import (
+    BONUS,
+    NEUTRAL,
+    ByContrast,
+    Learned,
+    RobotCourse,
+    SampledDescent,
+    by_heuristic,
+    by_lstd,
+    from_everywhere,
+    from_start,
+    learn,
+    learn_under,
+)
+from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
+
+ITERATIONS = {"quick": 24, "thesis": 140}
+TRAJECTORIES = {"quick": 5, "thesis": 10}
+NAVIGATIONS = {"quick": 100, "thesis": 1000}
+DEMONSTRATIONS, OBSTACLES, SPEED = 30, 20, 2.0
+SHOWN_WORLDS = 50_000  # run k's expert drives through the worlds of this seed + k
+TEST_WORLDS = 60_000  # run k drives through those of this seed + k
+
+Numbers = dict[str, ArrayLike]
+Settings = Mapping[str, Any]
+
+ENDS = {"bonus": BONUS, "neutral": NEUTRAL}
+EXPECTATIONS = {"everywhere": from_everywhere, "start": from_start}
+ESTIMATES = {"lstd": by_lstd, "heuristic": by_heuristic}
+CONTROLS = ("zero reward", "random reward")
+
+
+@lru_cache(maxsize=256)
+def demonstrations(seed: int, number: int = DEMONSTRATIONS, expert: str = "computer") -> Demonstrations:
+    """What an expert, "computer" or "human", shows a run, each drive in a map of its own."""
+    worlds = random_worlds(number, OBSTACLES, seed=SHOWN_WORLDS + seed)
+    if expert == "human":
+        return demonstrate_by_hand(worlds, sketch(worlds, seed=seed), speed=SPEED)
+    return demonstrate(worlds, speed=SPEED)
+
+
+def encoder(target: str) -> Encoder:
+    """phi(s) of section 5.4.1, the target's sector written in one way or another."""
+    return Encoder(NNQL_SENSORS, walls=True, target=target)
+
+
+def course(scale: str, target: str = "sine-cosine", **changes: Any) -> RobotCourse:
+    """Where a robot practises: 20 obstacles, 2 m/s, ten drives an iteration."""
+    return RobotCourse(TRAJECTORIES[scale], encoder=encoder(target), **changes)
+
+
+def descent(settings: Settings, scale: str) -> SampledDescent:
+    """The solver that all methods share; at the quick scale it takes a third of the steps."""
+    samples = int(settings["samples"]) // (1 if scale == "thesis" else 3)
+    return SampledDescent(
+        discount=settings["discount"],
+        rate=tuple(settings["rate"]),
+        samples=samples,
+        replay=settings["replay"],
+        ends=ENDS[settings.get("ends", "bonus")],
+    )
+
+
+_OWN: dict[str, Callable[[Settings], dict[str, Any]]] = {
+    "nirl": lambda s: {"reward": ByContrast(power=s["power"])},
+    "apprenticeship": lambda s: {"expectations": EXPECTATIONS[s["expectations"]], "guesses": s["guesses"]},
+    "relative_entropy": lambda s: {"horizon": s["horizon"], "slack": s["slack"]},
+    "scirl": lambda s: {"estimate": ESTIMATES[s["estimate"]], "power": s["power"], "ridge": s["ridge"]},
+}
+"""What each method has of its own, from its settings."""
+
+
+def teach(method: str, shown: Demonstrations, seed: int, settings: Settings, scale: str, **changes: Any) -> Learned:
+    """Learn from demonstrations, or practise under a reward of zero or of chance, with settings by name.
+
+    ``changes`` go to the method.
+    """
+    practice: dict[str, Any] = {
+        "course": course(scale, settings["target"]),
+        "improve": descent(settings, scale),
+        "iterations": ITERATIONS[scale],
+        "eta": settings["eta"],
+        "hidden": settings["hidden"],
+    }
+    if method in CONTROLS:
+        inputs = practice["course"].inputs + 1
+        theta = np.zeros((5, inputs))
+        if method == "random reward":
+            theta[:] = np.random.default_rng([seed, 5]).normal(size=theta.shape)
+        return learn_under(shown, theta, seed=seed, **practice)
+    own = _OWN[method](settings)
+    if "guesses" in own:
+        own["guesses"] = min(own["guesses"], ITERATIONS[scale])
+    return learn(shown, method, seed, **own, **practice, **changes)
+
+
+def clone(shown: Demonstrations, seed: int, settings: Settings, scale: str) -> NetworkPolicy:
+    """Plain cloning: the expert's decisions as examples, as in chapter 3."""
+    return learn_policy(
+        shown,
+        settings["hidden"],
+        settings["regularisation"],
+        settings["iterations"] if scale == "thesis" else ITERATIONS[scale],
+        seed,
+        encoder=encoder(settings["target"]),
+    )
+
+
+def learned(method: str, seed: int, scale: str, settings: Settings, number: int = DEMONSTRATIONS,
+            expert: str = "computer") -> Learned:  # fmt: skip
+    """One run of a method or control; what was learned once in a process is not learned again."""
+    return _learned(method, seed, scale, json.dumps(settings, sort_keys=True), number, expert)
+
+
+@lru_cache(maxsize=300)
+def _learned(method: str, seed: int, scale: str, settings: str, number: int, expert: str) -> Learned:
+    return teach(method, demonstrations(seed, number, expert), seed, json.loads(settings), scale)
+
+
+def policy(method: str, seed: int, scale: str, settings: Settings) -> NetworkPolicy:
+    """The policy of one run of a method, a control or cloning."""
+    if method == "cloning":
+        return clone(demonstrations(seed), seed, settings, scale)
+    return learned(method, seed, scale, settings).policy
+
+
+def new_worlds(scale: str, seed: int, obstacles: int = OBSTACLES, moving: int = 0) -> Worlds:
+    """Worlds to test in."""
+    return random_worlds(NAVIGATIONS[scale], obstacles, moving, seed=TEST_WORLDS + seed)
+
+
+def driven(robot: Policy, worlds: Worlds, speed: float = SPEED) -> Numbers:
+    """How many drives arrive, collide and run out of steps, in per cent."""
+    outcome = navigate(robot, worlds, speed).outcome
+    ends = {"success": "arrived", "collision": "collided", "out of steps": "out of steps"}
+    return {name: 100 * (outcome == end).mean() for name, end in ends.items()}
