@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 import anywidget
@@ -17,6 +18,7 @@ MOUNT = """async ([module, style, data, asked]) => {
   const silent = () => { throw new Error("no kernel"); };
   const hear = (answers) => answers.forEach((answer) => window.hear(answer));
   const ask = (message) => window.askPython(message).then(hear);
+  if (asked) setInterval(() => ask({}), 100);  // what Python says unasked
   const model = { get: () => data, on: (_, listener) => { window.hear = listener; }, send: asked ? ask : silent };
   page.default.render({ model, el: place });
 }"""
@@ -27,13 +29,12 @@ def mounted(visit: Visit, address: str, widget: Any, *, kernel: bool = False) ->
     assert isinstance(widget, anywidget.AnyWidget)
     visit.open(f"{address}/book/cite.html")
     if kernel:
-        answers: list[Any] = []
+        answers: deque[Any] = deque()
         widget.send = answers.append
 
         def ask(message: dict[str, Any]) -> list[Any]:
-            answers.clear()
             widget._answer(widget, message, [])
-            return list(answers)
+            return [answers.popleft() for _ in range(len(answers))]
 
         visit.page.expose_function("askPython", ask)
     visit.page.evaluate(MOUNT, [widget._esm, widget._css, widget.data, kernel])

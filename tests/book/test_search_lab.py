@@ -31,15 +31,13 @@ def told(lab: Locator) -> Locator:
     return lab.locator("figure .told")
 
 
-def dark_pixels(lab: Locator, which: int) -> int:
-    """How much is drawn on a map."""
-    return (
-        lab.locator("canvas")
-        .nth(which)
-        .evaluate(
-            "(c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data.filter((v, i) => i % 4 === 3 && v).length"
-        )
-    )
+PAINTED = """(canvas) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height)
+  .data.filter((value, i) => i % 4 === 3 && value).length"""
+
+
+def painted(lab: Locator, which: int) -> int:
+    """How many pixels of a map are not empty."""
+    return lab.locator("canvas").nth(which).evaluate(PAINTED)
 
 
 @pytest.mark.parametrize(("name", "margin", "cell"), [("ten", 2, 1), ("thirty", 4, 2), ("thirty", 1, 4)])
@@ -62,11 +60,11 @@ def test_every_setting_shows_its_own_searches(lab, name, margin, cell):
 
 def test_nodes_appear_as_they_are_expanded(lab):
     most = max(plan(WORLDS["ten"]).expanded, plan_on_grid(WORLDS["ten"]).expanded)
-    full = [dark_pixels(lab, which) for which in (0, 1)]
+    full = [painted(lab, which) for which in (0, 1)]
     lab.get_by_label("To the start").click()
     expect(told(lab).first).to_have_text("0 nodes, still searching")
-    assert dark_pixels(lab, 0) < full[0]
-    assert dark_pixels(lab, 1) < full[1]
+    assert painted(lab, 0) < full[0]
+    assert painted(lab, 1) < full[1]
     track(lab).press("ArrowRight")
     lab.get_by_label("One on").click()
     expect(told(lab).first).to_have_text(f"{round(most * 0.02**2)} nodes, still searching")
@@ -75,7 +73,7 @@ def test_nodes_appear_as_they_are_expanded(lab):
     lab.get_by_label("Pause").click()
     track(lab).press("End")
     expect(told(lab).first).to_have_text(re.compile("^done after"))
-    assert dark_pixels(lab, 0) == full[0]
+    assert painted(lab, 0) == full[0]
 
 
 def test_without_a_kernel_no_target_can_be_put(lab):

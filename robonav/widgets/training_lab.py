@@ -1,0 +1,143 @@
+"""Training lab: learning runs in every setting, replayed step by step. With a kernel: train here and now."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import anywidget
+import numpy as np
+import traitlets
+from numpy.typing import ArrayLike
+
+from robonav import expect
+
+from .shared import front_end, packed, style
+
+PAUSE = 0.05  # seconds between two messages to the page
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One measure over a training.
+
+    Attributes
+    ----------
+    steps : (T,) iterations or episodes at which it was taken, ascending.
+    values : (T,), or (S, T) of S seeds: then their mean is drawn, and the band between their least and largest.
+    """
+
+    steps: ArrayLike
+    values: ArrayLike
+
+
+Curves = Mapping[str, Curve]
+Trainer = Callable[[tuple[str, ...]], Iterator[tuple[int, int, Curves]]]
+"""``train(choices)`` trains bit by bit and yields how much is done, of how much, and the curves so far."""
+
+
+class TrainingLab(anywidget.AnyWidget):
+    """Choose settings; step through the learning; keep one run to compare. With a kernel: train, watch, cancel."""
+
+    _esm = front_end("training_lab")
+    _css = style("training_lab")
+    data = traitlets.Dict().tag(sync=True)
+
+    def __init__(self, data: dict[str, Any], train: Trainer | None) -> None:
+        super().__init__(data=data)
+        self._train = train
+        self._cancelled = threading.Event()
+        self._thread: threading.Thread | None = None
+        self.on_msg(self._answer)
+
+    def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
+        """The page asks whether a kernel is there, for a training, or for its end."""
+        asked = message.get("ask")
+        if asked == "kernel":
+            self.send({"kernel": self._train is not None})
+        elif asked == "cancel":
+            self._cancelled.set()
+        elif asked == "train" and self._train is not None and (self._thread is None or not self._thread.is_alive()):
+            self._cancelled.clear()
+            choices = tuple(str(choice) for choice in message["choices"])
+            self._thread = threading.Thread(target=self._run, args=(self._train, choices), daemon=True)
+            self._thread.start()  # apart, so that a cancellation is heard
+
+    def _run(self, train: Trainer, choices: tuple[str, ...]) -> None:
+        """Train, and tell the page of it."""
+        told = 0.0
+        try:
+            for done, total, curves in train(choices):
+                if self._cancelled.is_set():
+                    self.send({"ended": "cancelled"})
+                    return
+                if done == total or time.monotonic() - told > PAUSE:
+                    told = time.monotonic()
+                    self.send({"done": done, "total": total, "live": _packed(curves)})
+            self.send({"ended": "done"})
+        except Exception as error:  # the thread's last word: the page shows it, or nobody would
+            self.send({"error": f"{type(error).__name__}: {error}"})
+
+
+def training_lab(
+    controls: Mapping[str, Sequence[str]],
+    runs: Mapping[tuple[str, ...], Curves],
+    *,
+    step: str,
+    measures: Mapping[str, str],
+    start: Sequence[str] = (),
+    train: Trainer | None = None,
+) -> TrainingLab:
+    """The lab for trainings in every combination of some settings.
+
+    Parameters
+    ----------
+    controls : names of the settings, and their choices.
+    runs : for each combination of choices, a curve for each measure.
+    step : what a step of the training is called, such as "iteration".
+    measures : by name, what stands at the axis, with its unit: ``{"accuracy": "right answers (%)"}``.
+    start : the choices shown at first; by default the first of each.
+    train : what trains anew in the chosen setting, bit by bit; needs a kernel.
+
+    Raises
+    ------
+    ValueError : if a combination or a measure is missing, or a curve has not as many values as steps.
+    """
+    combinations = list(product(*controls.values()))
+    first = tuple(start) or combinations[0]
+    for combination in (*combinations, first):
+        if combination not in runs or set(runs[combination]) != set(measures):
+            raise ValueError(f"runs must hold for {combination} the curves {', '.join(measures)}")
+    return TrainingLab(
+        {
+            "controls": [
+                {"label": label, "options": list(options), "value": list(options).index(choice)}
+                for (label, options), choice in zip(controls.items(), first, strict=True)
+            ],
+            "step": step,
+            "measures": [{"name": name, "label": label} for name, label in measures.items()],
+            "runs": [_packed(runs[combination]) for combination in combinations],
+        },
+        train,
+    )
+
+
+def _packed(curves: Curves) -> dict[str, Any]:
+    """Curves as the page reads them: mean, least and largest of the seeds; single precision shows as much."""
+    return {name: _drawn(name, curve) for name, curve in curves.items()}
+
+
+def _drawn(name: str, curve: Curve) -> dict[str, Any]:
+    steps = expect.array(f"steps of {name}", curve.steps, shape=("T",))
+    values = np.atleast_2d(np.asarray(curve.values, dtype=float))
+    seeds = expect.array(f"values of {name}", values, shape=("S", len(steps)))
+    shown = (seeds.mean(axis=0), seeds.min(axis=0), seeds.max(axis=0))
+    return {
+        "seeds": len(seeds),
+        "steps": packed(steps, np.float32),
+        **{part: packed(line, np.float32) for part, line in zip(("mean", "low", "high"), shown, strict=True)},
+    }
