@@ -100,7 +100,7 @@ TABLE_4_2 = Experiment(
     title="Six speeds: NNQL that learned at 2.5 m/s or at the same speed, and two rules",
     cases=[{"robot": name, "speed": speed} for name in ("nnql", SAME_SPEED, *RULES) for speed in SPEEDS],
     run=at_speed,
-    seeds={"quick": 1, "thesis": 50},
+    seeds={"quick": 1, "thesis": 24},
     settings=_ABOUT,
 )
 TABLE_4_3 = Experiment(
@@ -154,7 +154,7 @@ TWENTY = Experiment(
     cases=[{"robot": name, "episodes": episodes} for name in DENSE for episodes in (300, 600)]
     + [{"robot": name, "episodes": 0} for name in RULES],
     run=in_dense_maps,
-    seeds={"quick": 1, "thesis": 50},
+    seeds={"quick": 1, "thesis": 24},
     settings=_ABOUT | {"settings": DENSE},
 )
 

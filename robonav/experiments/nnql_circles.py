@@ -69,7 +69,11 @@ VARIATIONS: dict[str, dict[str, dict[str, Any]]] = {
     },
     "target's sector": {name: {"target": name} for name in ("number", "signed", "one-hot", "sine-cosine")},
     "inputs": {"brought within 1": {"target": "number"}, "raw numbers": {"encoder": RawNumbers()}},
-    "Q into [0, 1]": {"clipped": {"rescale": "clip"}, "shifted": {"rescale": "shift"}},
+    "Q into [0, 1]": {
+        f"{rescale}, discount {gamma}": {"rescale": rescale, "gamma": gamma}
+        for rescale in ("clip", "shift")
+        for gamma in (0.6, 0.7, 0.9)
+    },
     "learning rate": {"0.8 throughout": {"alpha": 0.8}, "0.8 to 0.1": {"alpha": (0.8, 0.1)}},
 }
 """What is varied, one at a time, from the settings chosen for NNQL."""
@@ -89,7 +93,7 @@ CIRCLES = Experiment(
     title="What makes a robot circle: one choice at a time",
     cases=[{"what": what, "choice": choice} for what, choices in VARIATIONS.items() for choice in choices],
     run=vary,
-    seeds={"quick": 1, "thesis": 12},
+    seeds={"quick": 1, "thesis": 8},
     settings={
         "episodes": EPISODES,
         "drives a run": NAVIGATIONS,

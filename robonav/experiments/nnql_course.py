@@ -21,13 +21,13 @@ EPISODES = {"quick": 60, "thesis": 300}
 NAVIGATIONS = {"quick": 100, "thesis": 1000}
 SPEED = 2.5
 TEST_WORLDS = 40_000  # run k drives through the worlds of this seed + k
-COLD = 0.2  # temperature of a policy that is all but greedy: it takes the second best where that is nearly as good
+COLD = 0.4  # temperature of a policy that is all but greedy: it takes the second best where that is nearly as good
 BLOCK = 30  # episodes that Fig. 4.4 and 4.6 count successes in
 
 Numbers = Mapping[str, ArrayLike]
 
 
-def course(*, target: str = "number", **changes: Any) -> Course:
+def course(*, target: str = "sine-cosine", **changes: Any) -> Course:
     """What section 4.5 trains on, with the target's sector written in one way or another."""
     return Course(**({"encoder": Encoder(NNQL_SENSORS, walls=True, target=target)} | changes))
 

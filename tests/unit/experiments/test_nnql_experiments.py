@@ -6,10 +6,22 @@ import json
 import numpy as np
 import pytest
 
-from robonav.experiments import load_results
-from robonav.experiments.nnql import CHOSEN, EXPERIMENTS, RESULTS, settings
+from robonav.experiments import load_results, methods
+from robonav.experiments.nnql import (
+    CHOSEN,
+    DENSE,
+    EXPERIMENTS,
+    RESULTS,
+    RULES,
+    SPEEDS,
+    TABLE_4_2,
+    TABLE_4_3,
+    TWENTY,
+    settings,
+)
 from robonav.experiments.nnql_circles import CIRCLES, REWARDS_TRIED, RawNumbers, only_moving_away
-from robonav.experiments.nnql_course import TEST_WORLDS, blocks, course, new_worlds
+from robonav.experiments.nnql_course import COLD, TEST_WORLDS, blocks, course, judged, new_worlds
+from robonav.experiments.nnql_shipped import SHIPPED, best_of, ship
 from robonav.experiments.nnql_tuning import (
     SPACE,
     TRIALS,
@@ -20,6 +32,7 @@ from robonav.experiments.nnql_tuning import (
     trained,
     trial_settings,
 )
+from robonav.lfd import NetworkPolicy, load_weights
 from robonav.nnql import METHODS, reward
 from robonav.nnql.rewards import reward_row
 from robonav.robot import Sensing
@@ -29,7 +42,7 @@ ALL = (*EXPERIMENTS, CIRCLES, TUNING)
 
 @pytest.mark.parametrize("experiment", ALL, ids=lambda experiment: experiment.name)
 def test_every_experiment_gives_numbers_for_a_case(experiment):
-    case = experiment.cases[-1] if experiment.name != "nnql-20-obstacles" else experiment.cases[0]
+    case = experiment.cases[0 if "robot" in experiment.cases[0] else -1]
     numbers = experiment.run(case, 0, "quick")
     assert numbers
     for values in numbers.values():
@@ -78,6 +91,59 @@ def test_results_at_the_thesiss_scale_are_published_whole(experiment):
     metric = results.rows[0].metric
     for case in range(len(experiment.cases)):
         assert len(results.values(metric, case)) == experiment.seeds["thesis"]
+
+
+def test_table_4_3_holds_what_the_book_says_of_it():
+    results = load_results(RESULTS, TABLE_4_3)
+    nnql = results.values("success", 0)
+    assert len(nnql) >= 50
+    assert nnql.mean() >= 98
+    assert np.percentile(nnql, 5) >= 95
+
+
+def test_every_speed_is_driven_well():
+    results = load_results(RESULTS, TABLE_4_2)
+    for k, case in enumerate(TABLE_4_2.cases):
+        if case["robot"] == "nnql":
+            assert case["speed"] in SPEEDS
+            assert results.summary("success", k).mean >= 95
+
+
+def test_twenty_obstacles_are_driven_well():
+    results = load_results(RESULTS, TWENTY)
+    rates = [results.summary("success, cold", k).mean for k, case in enumerate(TWENTY.cases) if case["robot"] in DENSE]
+    assert max(rates) >= 94
+
+
+def test_a_rule_is_judged_once_and_a_network_also_when_cold():
+    worlds = new_worlds(40, 5)
+    assert set(judged(RULES["straight"], worlds)) == {"success", "collision", "out of steps"}
+    policy = trained("nnql", 3, 4, settings("nnql")).policies[0]
+    numbers = judged(policy, worlds)
+    assert set(numbers) == {"success", "collision", "out of steps", "success, cold"}
+    assert numbers["success"] + numbers["collision"] + numbers["out of steps"] == pytest.approx(100)
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_network_of_every_method_ships_with_what_made_it(name):
+    weights = load_weights(SHIPPED / f"{name}.safetensors")
+    assert weights.method == name
+    assert weights.temperature == COLD
+    assert weights.made["settings"] == json.loads(json.dumps(settings(name)))
+    assert weights.made["seed"] in weights.made["seeds"]
+    policy = methods.method(name)
+    assert isinstance(policy, NetworkPolicy)
+    assert judged(policy, new_worlds(200, 77))["success"] > 93
+
+
+def test_the_best_of_several_robots_is_shipped(tmp_path, monkeypatch):
+    best = best_of("nnql", (0, 1, 2), episodes=12)
+    alone = [best_of("nnql", (seed,), episodes=12).made["success in tuning worlds (%)"] for seed in range(3)]
+    assert best.made["success in tuning worlds (%)"] == max(alone)
+    assert best.made["seed"] == int(np.argmax(alone))
+    monkeypatch.setattr("robonav.experiments.nnql_shipped.best_of", lambda name: best)
+    ship(tmp_path)
+    assert sorted(path.stem for path in tmp_path.iterdir()) == sorted(METHODS)
 
 
 def test_training_twice_in_a_process_is_training_once():
