@@ -173,6 +173,30 @@ def navigate(
         _write_json(json_file, result)
 
 
+@app.command()
+def leaderboard(
+    method: Annotated[list[str] | None, typer.Argument(help="Methods by name, or files; by default all.")] = None,
+    out: Annotated[Path, typer.Option(help="Folder for results.")] = Path("results"),
+    json_file: Annotated[Path | None, typer.Option("--json", help="Also write what each case came to here.")] = None,
+    scale: Annotated[str, typer.Option(help="quick, or thesis for all of the board's worlds.")] = "thesis",
+) -> None:
+    """Put methods, your own in a file among them, on the board of all chapters' methods."""
+    from robonav import experiments, progress
+    from robonav.experiments.leaderboard import board
+    from robonav.experiments.methods import method as known
+    from robonav.experiments.methods import methods
+    from robonav.experiments.report import as_json, as_table
+
+    names = method or methods()
+    for name in names:
+        known(name)
+    with progress.bar("leaderboard") as shown:
+        results = experiments.reproduce(board(names), out, scale=scale, progress=shown)
+    print(as_table(results, "success", rows="method", columns="setting"))
+    if json_file is not None:
+        _write_json(json_file, as_json([results]))
+
+
 def _write_json(path: Path, content: Any) -> None:
     from robonav import files
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import importlib.util
 from collections.abc import Callable
 from importlib.resources import files
@@ -29,12 +30,17 @@ def method(name: str) -> Policy:
     """
     if name in RULES:
         return RULES[name]
-    shipped = _shipped()
-    path = shipped.get(name, Path(name))
+    path = _shipped().get(name, Path(name))
     if path.suffix not in (".safetensors", ".py") or not path.is_file():
         known = ", ".join(methods())
         raise ValueError(f"method must be one of {known}, or a file that ends in .safetensors or .py, got {name!r}")
     return _from_code(path) if path.suffix == ".py" else _from_weights(path)
+
+
+def fingerprint(name: str) -> str:
+    """SHA-256 of the file a method is in, "" for a rule: results hang on it."""
+    method(name)
+    return "" if name in RULES else hashlib.sha256(_shipped().get(name, Path(name)).read_bytes()).hexdigest()
 
 
 def drive(name: str, *, obstacles: int, moving: int, speed: float, worlds: int, seed: int) -> dict[str, Any]:

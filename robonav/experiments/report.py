@@ -11,10 +11,10 @@ from .experiment import Results
 from .statistics import Summary
 
 
-def scalars(results: Results) -> list[str]:
-    """The metrics with one number a run."""
-    series = {row.metric for row in results.rows if row.step > 0}
-    return sorted({row.metric for row in results.rows} - series)
+def scalars(results: Results, case: int) -> list[str]:
+    """The metrics of a case with one number a run."""
+    rows = [row for row in results.rows if row.case == case]
+    return sorted({row.metric for row in rows} - {row.metric for row in rows if row.step > 0})
 
 
 def as_text(results: Results) -> str:
@@ -23,11 +23,30 @@ def as_text(results: Results) -> str:
     lines = [f"{experiment.name}: {experiment.title} ({results.scale}, {experiment.seeds[results.scale]} runs a case)"]
     for place, case in enumerate(experiment.cases):
         said = ", ".join(f"{key} {value}" for key, value in case.items())
-        for metric in scalars(results):
+        for metric in scalars(results, place):
             thesis = experiment.thesis.get(metric, [None] * len(experiment.cases))[place]
             beside = "" if thesis is None else f"; thesis {thesis:g}"
             lines.append(f"  {said}: {metric} {_said(results.summary(metric, place))}{beside}")
     return "\n".join(lines)
+
+
+def as_table(results: Results, metric: str, *, rows: str, columns: str) -> str:
+    """A Markdown table of a metric's mean and interval, one line a value of ``rows``, one column one of ``columns``."""
+    cases = results.experiment.cases
+    across = list(dict.fromkeys(str(case[columns]) for case in cases))
+    lines = {str(case[rows]): dict.fromkeys(across, "") for case in cases}
+    for place, case in enumerate(cases):
+        if metric in scalars(results, place):
+            lines[str(case[rows])][str(case[columns])] = short(results.summary(metric, place))
+    head = [rows, *across]
+    table = [[name, *cells.values()] for name, cells in lines.items()]
+    return "\n".join("| " + " | ".join(line) + " |" for line in [head, ["---"] * len(head), *table])
+
+
+def short(summary: Summary) -> str:
+    """Mean and interval in few characters: ``97.3 [96.8, 97.7]``."""
+    interval = "" if math.isnan(summary.low) else f" [{summary.low:.1f}, {summary.high:.1f}]"
+    return f"{summary.mean:.1f}{interval}"
 
 
 def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
@@ -40,7 +59,7 @@ def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
             "cases": [
                 {
                     "case": dict(case),
-                    "metrics": {metric: _plain(results.summary(metric, place)) for metric in scalars(results)},
+                    "metrics": {metric: _plain(results.summary(metric, place)) for metric in scalars(results, place)},
                     "thesis": {metric: numbers[place] for metric, numbers in results.experiment.thesis.items()},
                 }
                 for place, case in enumerate(results.experiment.cases)

@@ -29,7 +29,7 @@ def degree_of_danger(ranges: ArrayLike) -> NDArray[np.int64]:
     ValueError : if a range is negative or not a number.
     """
     if not (np.asarray(ranges) >= 0).all():
-        raise ValueError(f"ranges must be numbers from 0 on, in metres, got {ranges}")
+        raise ValueError(f"ranges must be numbers from 0 on, in metres, got {np.min(ranges)}")
     degrees: NDArray[np.int64] = len(DANGER_BORDERS) - np.searchsorted(DANGER_BORDERS, ranges, side="right")
     return degrees
 
