@@ -1,0 +1,105 @@
+"""Run every benchmark, one after the other, and write the book's page of them.
+
+    python benchmarks/page.py --peers DIR      # about a quarter of an hour, with nothing else running
+
+The page, ``book/benchmarks.md``, holds what each script printed, the machine, and pictures of how time and memory grow.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib as mpl
+from matplotlib import pyplot as plt
+
+from robonav import files, look, progress
+
+HERE = Path(__file__).parent
+BOOK = HERE.parent / "book"
+PICTURE = BOOK / "_static" / "growth.svg"
+SCRIPTS = {  # heading: script, options, whether it knows peers, what one should know
+    "The robot": ("robot.py", (), True, "Steps of the simulator as Gymnasium's environments."),
+    "Planning": ("dp.py", ("--million",), False, "Exact planning, beside QuantEcon in the same process."),
+    "Tabular learning": ("tabular.py", (), False, "Q-learning on FrozenLake, beside a loop that only steps."),
+    "Learning from demonstration": ("lfd.py", (), False, "Planning, training and driving of chapter 3."),
+    "Neural Q-learning": ("nnql.py", (), True, "Training of chapter 4, beside stable-baselines3's DQN."),
+    "Inverse reinforcement learning": ("nirl.py", (), False, "One run of chapter 5."),
+    "Grading a class": ("grading.py", ("--students", "300"), False, "Three hundred students, all exercises."),
+}
+INTRODUCTION = """# How fast it is
+
+What `python benchmarks/page.py --peers DIR` printed on {date}, on {machine} with {cores} cores and nothing else
+running. Every figure is a median or the best of several rounds. Where another package does the same work, the two took
+turns in one run: seconds do not carry over to your machine, ratios do, roughly. `benchmarks/peers/README.md` says how
+to set the peers up.
+"""
+GROWTH = """## How it grows
+
+```{{figure}} _static/growth.svg
+:alt: Seconds and memory against the numbers of obstacles, worlds, seeds and states; no line is steeper than one.
+:name: fig-growth
+
+Seconds (blue) and memory (orange) against size. A line of slope one is in proportion.
+```
+
+```text
+{text}
+```
+"""
+
+
+def printed(script: str, options: tuple[str, ...]) -> str:
+    """What a script prints on its output."""
+    command = [sys.executable, str(HERE / script), *options]
+    return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+
+
+def draw_growth(points: dict[str, list[dict[str, float]]]) -> None:
+    """One panel for each thing that grows."""
+    with mpl.rc_context(look.STYLE | {"svg.hashsalt": "growth"}):
+        figure, panels = plt.subplots(2, 2, figsize=(8, 6), layout="constrained")
+        for axes, (what, found) in zip(panels.flat, points.items(), strict=True):
+            shown = [point for point in found if point["size"] > 0]
+            for key, colour in (("seconds", look.BLUE), ("MiB", look.ORANGE)):
+                axes.loglog([p["size"] for p in shown], [p[key] for p in shown], "o-", color=colour, label=key)
+            axes.set(xlabel=what)
+        panels[0, 0].legend()
+        with files.whole(PICTURE) as file:
+            figure.savefig(file, format="svg", metadata={"Date": None})
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--peers", type=Path, help="folder with the peers' virtual environments")
+    peers = parser.parse_args().peers
+    parts = [
+        INTRODUCTION.format(
+            date=datetime.date.today(), machine=f"{platform.system()} on {platform.machine()}", cores=os.cpu_count()
+        )
+    ]
+    with progress.bar("benchmarks") as shown:
+        for number, (heading, (script, options, knows_peers, about)) in enumerate(SCRIPTS.items()):
+            shown(number, len(SCRIPTS) + 1)
+            beside = ("--peers", str(peers)) if peers and knows_peers else ()
+            text = printed(script, (*options, *beside))
+            parts.append(f"## {heading}\n\n{about} `benchmarks/{script}`:\n\n```text\n{text}\n```\n")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "growth.json")
+            text = printed("growth.py", ("--json", str(path)))
+            draw_growth(json.loads(path.read_text()))
+        parts.append(GROWTH.format(text=text))
+        shown(len(SCRIPTS) + 1, len(SCRIPTS) + 1)
+    with files.whole(BOOK / "benchmarks.md") as file:
+        file.write("\n".join(parts).encode())
+
+
+if __name__ == "__main__":
+    main()
