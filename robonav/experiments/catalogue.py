@@ -17,6 +17,7 @@ MODULES = (
     "nirl_transfer",
     "nirl_tuning",
     "leaderboard",
+    "labs",
 )
 
 

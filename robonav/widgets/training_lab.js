@@ -106,6 +106,7 @@ function render({ model, el }) {
     comparison.textContent = kept ? `Kept (dashed; ${kept.said}): ${told(kept.run)}.` : "";
   }
   const draw = () => {
+    drop.disabled = kept === null;
     charts.forEach((one, i) => {
       const measure = measures[i].name;
       one.draw("run", run[measure]);
