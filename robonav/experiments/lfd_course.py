@@ -1,0 +1,123 @@
+"""The conditions of section 3.6, which all experiments of chapter 3 share.
+
+A run is one seed: 25 maps with their demonstrations, one network, and new maps to drive through. Worlds that are shown,
+those of DAgger's rounds, those driven and those that anything was tuned on never meet.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from robonav.lfd import (
+    Aggregation,
+    Demonstrations,
+    Network,
+    NetworkPolicy,
+    Training,
+    dagger,
+    demonstrate,
+    fit,
+    labelled_states,
+    learn_policy,
+)
+from robonav.lfd.experts import CAUTION, MARGIN
+from robonav.robot import (
+    COLLISION_DISTANCE,
+    Encoder,
+    Policy,
+    Worlds,
+    freer_side,
+    lfd_state,
+    navigate,
+    random_worlds,
+    straight,
+)
+
+DEMONSTRATIONS, ROUNDS = 25, 3
+NAVIGATIONS = {"quick": 100, "thesis": 400}
+SEEDS = {"quick": 2, "thesis": 25}
+SHOWN_WORLDS = 30_000  # run k is shown the worlds of this seed + k
+MORE_WORLDS = 31_000  # and meets those of this one + 10 k in DAgger's first round, + 10 k + 1 in the next
+TEST_WORLDS = 35_000  # and drives through those of this one + k
+
+EXPERTS = {
+    "keeps off": {"margin": MARGIN, "caution": CAUTION},
+    "shortest way": {"margin": COLLISION_DISTANCE, "caution": 0.0},
+}
+LARGEST = np.array([7.0] * 9 + [9, 1])  # of the eleven numbers of Eq. (3.17): the encoder divides by it
+RULES: dict[str, Policy] = {"straight": straight, "freer side": freer_side}
+Numbers = dict[str, ArrayLike]
+
+ABOUT = {
+    "demonstrations": DEMONSTRATIONS,
+    "drives a run": NAVIGATIONS,
+    "speed in m/s": 2.0,
+    "experts": EXPERTS,
+    "first seeds of the worlds": {"shown": SHOWN_WORLDS, "of DAgger's rounds": MORE_WORLDS, "driven": TEST_WORLDS},
+}
+
+
+@lru_cache(64)
+def shown(seed: int, obstacles: int = 10, *, drives: int = DEMONSTRATIONS, expert: str = "keeps off") -> Demonstrations:
+    """The computer expert's demonstrations of a run; more of them begin with the same ones.
+
+    Parameters
+    ----------
+    expert : "keeps off" is the package's, "shortest way" is Algorithm 4 to the letter: no collision, and no more.
+    """
+    keeps = EXPERTS[expert]
+    worlds = random_worlds(drives, obstacles, seed=SHOWN_WORLDS + seed)
+    return demonstrate(worlds, margin=keeps["margin"], caution=keeps["caution"])
+
+
+def new_worlds(seed: int, scale: str, obstacles: int = 10, moving: int = 0) -> Worlds:
+    """The worlds that a run drives through."""
+    return random_worlds(NAVIGATIONS[scale], obstacles, moving, seed=TEST_WORLDS + seed)
+
+
+def driven(policy: Policy, worlds: Worlds) -> Numbers:
+    """How many drives arrive, collide and run out of their 500 steps, in per cent."""
+    drives = navigate(policy, worlds)
+    arrived, collided = 100 * drives.success.mean(), 100 * drives.collision.mean()
+    return {"success": arrived, "collision": collided, "out of steps": 100 - arrived - collided}
+
+
+def cloned(seed: int, obstacles: int = 10, *, target: str = "sine-cosine") -> NetworkPolicy:
+    """A network that has learned from the demonstrations of a run (Algorithm 3)."""
+    return learn_policy(shown(seed, obstacles), seed=seed, encoder=Encoder(target=target))
+
+
+def trained(
+    demonstrations: Demonstrations, seed: int, *, degrees: str, iterations: int = 300
+) -> tuple[Training, NetworkPolicy]:
+    """A training on the thesis's 11 numbers, and the policy that it gives.
+
+    Parameters
+    ----------
+    degrees : "0 to 7" as they are, or "0 to 1", all numbers divided by the largest that they can be.
+    """
+    encoder = Encoder(target="number")
+    x, y = labelled_states(demonstrations, encoder)
+    scale = LARGEST if degrees == "0 to 7" else np.ones(len(LARGEST))
+    training = fit(x * scale, y, iterations=iterations, seed=seed)
+    first, *others = training.network.weights
+    return training, NetworkPolicy(Network((first * scale, *others), training.network.biases), encoder)
+
+
+@lru_cache(8)
+def aggregated(
+    seed: int, obstacles: int = 10, *, target: str = "sine-cosine", hidden: int = 8, rounds: int = ROUNDS
+) -> Aggregation:
+    """The same, and then DAgger's rounds, with as many new maps in each as there were demonstrations."""
+    worlds = [
+        random_worlds(DEMONSTRATIONS, obstacles, seed=MORE_WORLDS + 10 * seed + number) for number in range(rounds)
+    ]
+    return dagger(shown(seed, obstacles), worlds, hidden=hidden, seed=seed, encoder=Encoder(target=target))
+
+
+def distinct(demonstrations: Demonstrations) -> int:
+    """How many different states of 11 numbers, Eq. (3.17), the effective pairs hold."""
+    return len(np.unique(lfd_state(demonstrations.effective.sensing), axis=0))
