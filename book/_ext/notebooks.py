@@ -13,6 +13,7 @@ import base64
 import mimetypes
 import re
 import sys
+import textwrap
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ import nbformat
 import yaml
 from check_site import pages
 from docutils import nodes
+from quiz import VERDICTS, marks
 from sphinx.application import Sphinx
 from thesis_numbers import thesis_number
 
@@ -61,10 +63,24 @@ def plain_directive(match: re.Match[str]) -> str:
         return f"![{alt[1] if alt else ''}]({title})\n\n{content.strip()}"
     if name == "source":
         return f"The code of this function: run `{title}??` in a cell (after `import robonav`)."
+    if name == "quiz":
+        return plain_quiz(content)
     if name in ("code-block", "code"):
         return f"```{title}\n{content}```"
     heading = f"**{' '.join(filter(None, (name.removeprefix('prf:').capitalize(), title)))}**"
     return "\n".join(f"> {line}".rstrip() for line in (heading, "", *plain(content).strip().splitlines()))
+
+
+def plain_quiz(content: str) -> str:
+    """A quiz as folds, which Jupyter opens too."""
+    text, right = marks(plain(content))
+    question, *answers = re.split(r"^- ", text, flags=re.M)
+    folds = []
+    for answer, is_right in zip(answers, right, strict=True):
+        choice, _, why = textwrap.dedent(f"  {answer}").strip().partition("\n")
+        explained = textwrap.dedent(why).strip()
+        folds.append(f"<details><summary>{choice}</summary>\n\n**{VERDICTS[is_right]}** {explained}\n\n</details>")
+    return f"**Check yourself.** {question.strip()}\n\n" + "\n".join(folds)
 
 
 def plain_role(match: re.Match[str]) -> str:
