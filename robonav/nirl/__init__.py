@@ -41,13 +41,16 @@ from .relative_entropy import RelativeEntropy, hoeffding_slack, relative_entropy
 from .rewarding import ByContrast, ByEquation514, balance, contrast
 from .scirl import Classification, lstd_mu, shown_only, structured_classification
 from .steps import ENCODER, Steps, shown_steps
+from .toys import KINDS, TRUTH, terrain
 
 __all__ = [
     "BONUS",
     "ENCODER",
+    "KINDS",
     "METHODS",
     "NEUTRAL",
     "NOTHING",
+    "TRUTH",
     "Apprenticeship",
     "ByContrast",
     "ByEquation514",
@@ -106,6 +109,7 @@ __all__ = [
     "soft_value_iteration",
     "start_expectations",
     "structured_classification",
+    "terrain",
     "widest_margin",
     "widest_margin_subgradient",
 ]

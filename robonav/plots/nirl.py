@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.patches import Wedge
+from matplotlib.patches import FancyBboxPatch, Wedge
 from numpy.typing import ArrayLike, NDArray
 
 from robonav import look
@@ -23,9 +23,12 @@ from robonav.robot.kernels import SECTOR
 from .nnql import ACTIONS, GOOD_AND_BAD, draw_rates
 
 if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
     from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
+
+_ARROW = {"arrowstyle": "-|>", "color": look.INK, "linewidth": 1.2}
 
 
 def draw_key_points(
@@ -50,6 +53,48 @@ def draw_slips(axes: Axes, shown: Demonstrations, meant: ArrayLike) -> None:
     axes.plot(x, y, color=look.BLUE, linewidth=1.4, marker=".", markersize=4)
     axes.plot(x[slipped], y[slipped], "o", color=look.VERMILION, markersize=8, fillstyle="none", linestyle="none")
     axes.set(title=f"{slipped.sum()} of {len(slipped)} actions slipped", xlabel="", ylabel="")
+
+
+def draw_margin(axes: Axes, expert: ArrayLike, others: ArrayLike, weights: ArrayLike) -> None:
+    """Feature expectations of an expert (2,) and of others (n, 2), and the margin that a reward (2,) leaves between."""
+    mu, rivals, theta = (np.asarray(part, dtype=float) for part in (expert, others, weights))
+    nearest = rivals[(rivals @ theta).argmax()]
+    foot = mu - ((mu - nearest) @ theta) * theta
+    for x, y in (mu, foot):
+        axes.axline((x, y), (x - theta[1], y + theta[0]), color=look.INK, linestyle="--", linewidth=1)
+    arrow = {"arrowstyle": "-|>", "color": look.BLUE, "linewidth": 2}
+    axes.annotate("", (mu[0], mu[1]), (foot[0], foot[1]), arrowprops=arrow)
+    axes.plot(*rivals.T, "o", color=look.GREY, label="other policies")
+    axes.plot(*mu, "*", color=look.METHODS["A*"], markersize=15, label="expert")
+    axes.legend(loc="lower right")
+
+
+def animate_projection(corners: ArrayLike, expert: ArrayLike, found: ArrayLike, means: ArrayLike) -> FuncAnimation:
+    """The projection method in a plane, a policy a frame.
+
+    Parameters
+    ----------
+    corners : (m, 2) of the polygon of all that policies can collect.
+    expert : (2,).
+    found, means : (n, 2) what each policy collects, and the point after it.
+    """
+    from matplotlib.animation import FuncAnimation
+
+    hull, mu, policies, points = (np.asarray(part, dtype=float) for part in (corners, expert, found, means))
+    figure, axes = plt.subplots(figsize=(4.8, 3.2))
+
+    def draw(frame: int) -> list:
+        axes.clear()
+        axes.fill(*hull.T, facecolor=look.GREY, alpha=0.15, edgecolor=look.INK)
+        if frame > 0:
+            axes.plot(*np.stack([points[frame - 1], policies[frame]]).T, color=look.SKY, linewidth=1)
+        axes.plot(*points[: frame + 1].T, ".-", color=look.BLUE, linewidth=1)
+        axes.plot(*policies[frame], "o", color=look.ORANGE, markersize=9)
+        axes.plot(*mu, "*", color=look.METHODS["A*"], markersize=14)
+        axes.set(aspect="equal", title=f"policy {frame + 1}: {np.linalg.norm(mu - points[frame]):.3f} from the expert")
+        return []
+
+    return FuncAnimation(figure, draw, frames=len(points), interval=700)
 
 
 def draw_counts(axes: Axes, numbers: ArrayLike, counts: Mapping[str, ArrayLike], thesis: tuple[float, float]) -> None:
@@ -120,6 +165,24 @@ def draw_choice(axes: Axes, scores: Mapping[str, ArrayLike], driven: ArrayLike) 
         axes.plot(100 * score[best], success[best], "o", color=colour, markersize=14, fillstyle="none")
     axes.set(xlabel="decisions of the expert that are predicted (%)", ylabel="drives that arrive (%)", ylim=(-2, 102))
     axes.legend()
+
+
+def draw_black_boxes(axes: Axes) -> None:
+    """A network seen from outside: a state in, five values out; or with the choice inside, one action (Fig. 5.2)."""
+    for row, (inside, out) in enumerate(
+        (("network", [f"$Q(s, {a})$" for a in ACTIONS]), ("network,\nbest value", ["$a$"]))
+    ):
+        axes.add_patch(
+            FancyBboxPatch((0.9, 0.15 - row), 0.8, 0.5, boxstyle="round,pad=0.05", facecolor=look.INK, alpha=0.3)
+        )
+        axes.text(1.3, 0.4 - row, inside, ha="center", va="center")
+        axes.text(0.15, 0.4 - row, "$s$", ha="center", va="center")
+        axes.annotate("", (0.85, 0.4 - row), (0.25, 0.4 - row), arrowprops=_ARROW)
+        for place, text in zip(np.linspace(0.65, 0.15, len(out)) if len(out) > 1 else [0.4], out, strict=True):
+            axes.annotate("", (2.3, place - row), (1.75, place - row), arrowprops=_ARROW)
+            axes.text(2.38, place - row, text, va="center", fontsize=9)
+    axes.set(xlim=(0, 3), ylim=(-1.0, 0.85))
+    axes.axis("off")
 
 
 def names_of(encoder: Encoder) -> list[str]:

@@ -5,23 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from robonav import nirl
 from robonav.mdp import policies
 from robonav.mdp.evaluation import policy_evaluation
-from robonav.mdp.gridworld import Cell, GridWorld
+from robonav.mdp.gridworld import GridWorld
 from robonav.mdp.planning import policy_iteration
 from robonav.nirl import FeaturedMDP
-
-TERRAIN = {"m": Cell(), "r": Cell(), "T": Cell(ends=True)}  # mud, road, target
-MAP = """
-    . . m m . . .
-    . r r r r r .
-    . r m m m r .
-    S r . m . r T
-    . r m . . r .
-    . . . m m . .
-"""
-KINDS = ".mrT"
-TRUTH = np.array([-0.3, -1.0, -0.05, 3.0])
 
 
 @dataclass(frozen=True)
@@ -47,20 +36,14 @@ class Case:
         return policy_iteration(self.task.with_reward(weights)).policy
 
 
-def case(text, kinds, truth, *, slip, discount):
-    grid = GridWorld(text, legend=TERRAIN, slip=slip)
-    symbols = np.array([grid.rows[row][column] for row, column in grid.cells])
-    symbols[symbols == "S"] = "."
-    phi = (symbols[:, None] == np.array(list(kinds))).astype(float)
-    task = FeaturedMDP.of_grid(grid, phi, discount)
-    expert = policy_iteration(task.with_reward(truth)).policy
-    return Case(grid, task, np.asarray(truth), expert)
+def case(grid, task, truth):
+    return Case(grid, task, truth, policy_iteration(task.with_reward(truth)).policy)
 
 
 @pytest.fixture(scope="session")
 def terrain():
     """Four kinds of ground, some slipping, a start, a target."""
-    return case(MAP, KINDS, TRUTH, slip=0.2, discount=0.9)
+    return case(*nirl.terrain(), nirl.TRUTH)
 
 
 @pytest.fixture(scope="session", params=range(4))
@@ -71,5 +54,4 @@ def scattered(request):
     blocks = grid.cells // 2
     phi = np.eye(9)[blocks[:, 0] * 3 + blocks[:, 1]]
     truth = rng.normal(size=9) * (rng.random(9) < 0.6)
-    task = FeaturedMDP.of_grid(grid, phi, 0.8)
-    return Case(grid, task, truth, policy_iteration(task.with_reward(truth)).policy)
+    return case(grid, FeaturedMDP.of_grid(grid, phi, 0.8), truth)
