@@ -43,6 +43,22 @@ def as_table(results: Results, metric: str, *, rows: str, columns: str) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in [head, ["---"] * len(head), *table])
 
 
+def as_markdown(results: Results, metrics: Sequence[str]) -> str:
+    """A Markdown table, a line a case: what varies, each metric's mean and interval, the thesis's number beside it."""
+    experiment = results.experiment
+    cases = experiment.cases
+    varied = [key for key in cases[0] if len({case[key] for case in cases}) > 1] or list(cases[0])
+    with_thesis = [metric for metric in metrics if any(v is not None for v in experiment.thesis.get(metric, ()))]
+    head = [*varied, *metrics, *(f"{metric}, thesis" for metric in with_thesis)]
+    lines = [head, ["---"] * len(head)]
+    for place, case in enumerate(cases):
+        known = scalars(results, place)
+        ours = [short(results.summary(metric, place)) if metric in known else "" for metric in metrics]
+        theirs = [experiment.thesis[metric][place] for metric in with_thesis]
+        lines.append([*(str(case[key]) for key in varied), *ours, *("" if v is None else f"{v:g}" for v in theirs)])
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
 def short(summary: Summary) -> str:
     """Mean and interval in few characters: ``97.3 [96.8, 97.7]``."""
     interval = "" if math.isnan(summary.low) else f" [{summary.low:.1f}, {summary.high:.1f}]"
