@@ -19,6 +19,9 @@ from robonav import __version__, files
 
 from .experiment import Experiment, Results, Row
 
+RESULTS = Path(__file__).parent / "results"
+"""What the experiments gave at the thesis's scale: the pages show it."""
+
 FORMAT = "robonav results 1"
 COLUMNS = ("seed", "metric", "step", "value")
 

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from robonav import files, look
 from robonav.experiments import Results
 
-from . import nirl, nnql
+from . import lfd, nirl, nnql
 
 OURS, THESIS = look.BLUE, look.ORANGE
 
@@ -66,8 +66,36 @@ def draw_bands(results: Results, metric: str, x_label: str, y_label: str) -> Fig
     return figure
 
 
+def draw_board(results: Results, metric: str) -> Figure:
+    """A cell for each method and setting of the leaderboard, the darker the higher its percentage."""
+    cases = results.experiment.cases
+    methods = list(dict.fromkeys(str(case["method"]) for case in cases))
+    settings = list(dict.fromkeys(str(case["setting"]) for case in cases))
+    means = np.reshape([results.summary(metric, place).mean for place in range(len(cases))], (len(methods), -1))
+    figure, axes = plt.subplots(figsize=(0.95 * len(settings) + 1.6, 0.42 * len(methods) + 2.2))
+    axes.imshow(means, cmap="Blues", vmin=0, vmax=110, aspect="auto")
+    for (row, column), mean in np.ndenumerate(means):
+        axes.text(column, row, f"{mean:.0f}", ha="center", va="center", color="white" if mean > 60 else "black")
+    axes.set(xticks=range(len(settings)), yticks=range(len(methods)), yticklabels=methods)
+    axes.set_xticklabels(settings, rotation=35, ha="left", rotation_mode="anchor")
+    axes.tick_params(top=True, bottom=False, labeltop=True, labelbottom=False, length=0)
+    axes.grid(False)
+    return figure
+
+
 DRAWN: dict[str, Callable[[Results], Figure]] = {
+    "leaderboard": partial(draw_board, metric="success"),
     "yardsticks": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "table-3.2": lfd.plot_demonstrations,
+    "table-3.3": lfd.plot_iterations,
+    "figure-3.5": lfd.plot_planners,
+    "figure-3.6": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "figure-3.7": lfd.plot_cost,
+    "figure-3.8": lfd.plot_methods,
+    "figure-3.9": partial(draw_bars, metric="learned", label="length of drives, median (m)"),
+    "figure-3.10": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "lfd-encodings": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "lfd-margins": lfd.plot_margins,
     "table-4.2": nnql.plot_speeds,
     "table-4.3": nnql.plot_rates,
     "figure-4.3": nnql.plot_weight_changes,
