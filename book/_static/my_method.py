@@ -2,7 +2,8 @@
 
 import numpy as np
 
-TURNS = np.array([3, 3, 3, 3, 3, 1, 1, 1, 1])  # by the sector of the nearest thing: R30 if it is ahead or left, else L30
+# By the sector of the nearest thing, ahead first, then counter-clockwise: right if it is ahead or left, else left.
+TURNS = np.array([3, 3, 3, 3, 3, 1, 1, 1, 1])
 
 
 def policy(sensing, rng):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -81,6 +82,14 @@ def test_a_readers_method_stands_on_the_board(tmp_path, monkeypatch):
     assert mine.split("|")[2:] == rule.split("|")[2:]
     cases = json.loads((tmp_path / "board.json").read_text())[0]["cases"]
     assert len(cases) == 2 * len(SETTINGS)
+
+
+def test_the_pages_example_beats_going_straight():
+    example = Path(__file__).parents[3] / "book" / "_static" / "my_method.py"
+    own, straight = (
+        entry({"method": name, "setting": "20 obstacles"}, 0, "quick")["success"] for name in (str(example), "straight")
+    )
+    assert own > straight
 
 
 def test_results_hang_on_the_file_of_a_method(tmp_path):
