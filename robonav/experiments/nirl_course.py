@@ -38,7 +38,7 @@ DEMONSTRATIONS, OBSTACLES, SPEED = 30, 20, 2.0
 SHOWN_WORLDS = 50_000  # run k's expert drives through the worlds of this seed + k
 TEST_WORLDS = 60_000  # run k drives through those of this seed + k
 
-Numbers = dict[str, ArrayLike]
+Numbers = Mapping[str, ArrayLike]
 Settings = Mapping[str, Any]
 
 ENDS = {"bonus": BONUS, "neutral": NEUTRAL}
@@ -146,7 +146,7 @@ def new_worlds(scale: str, seed: int, obstacles: int = OBSTACLES, moving: int = 
     return random_worlds(NAVIGATIONS[scale], obstacles, moving, seed=TEST_WORLDS + seed)
 
 
-def driven(robot: Policy, worlds: Worlds, speed: float = SPEED) -> Numbers:
+def driven(robot: Policy, worlds: Worlds, speed: float = SPEED) -> dict[str, float]:
     """How many drives arrive, collide and run out of steps, in per cent."""
     outcome = navigate(robot, worlds, speed).outcome
     ends = {"success": "arrived", "collision": "collided", "out of steps": "out of steps"}

@@ -1,0 +1,48 @@
+"""How fast neural inverse reinforcement learning learns: seconds a run, from demonstrations to a policy and its reward.
+
+    python benchmarks/nirl.py          # at most 10 s for a run of the thesis's size, 2 s for one of a slider's
+    python benchmarks/nirl.py --cpu    # seconds of the processor, for a machine that others use too
+
+Figures are medians of rounds. The demonstrations are made beforehand.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import sys
+import time
+from collections.abc import Callable
+
+from robonav.lfd import Demonstrations, demonstrate
+from robonav.nirl import learn
+from robonav.robot import random_worlds
+
+ROUNDS = 3
+LIMITS = {"thesis": (30, 140, 10.0), "slider": (10, 30, 2.0)}  # demonstrations, iterations, seconds at most
+
+
+def run(shown: Demonstrations, iterations: int, clock: Callable[[], float]) -> float:
+    """Seconds of one run."""
+    began = clock()
+    learn(shown, iterations=iterations, seed=0)
+    return clock() - began
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cpu", action="store_true", help="count seconds of the processor")
+    clock = time.process_time if parser.parse_args().cpu else time.perf_counter
+    shown = demonstrate(random_worlds(30, 20, seed=0))
+    learn(shown, iterations=1)  # compiled
+    slow = False
+    for size, (demonstrations, iterations, most) in LIMITS.items():
+        some = shown.drives(range(demonstrations))
+        spent = statistics.median(run(some, iterations, clock) for _ in range(ROUNDS))
+        print(f"{size}: {demonstrations} demonstrations, {iterations} iterations: {spent:.2f} s (at most {most:g} s)")
+        slow |= spent > most
+    sys.exit(slow)
+
+
+if __name__ == "__main__":
+    main()
