@@ -59,6 +59,12 @@ def as_markdown(results: Results, metrics: Sequence[str]) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
+def made(results: Results) -> str:
+    """What stands behind a table, in a sentence."""
+    runs = results.experiment.seeds[results.scale]
+    return "One run a case." if runs == 1 else f"{runs} runs a case; mean and 95 % interval over runs."
+
+
 def short(summary: Summary) -> str:
     """Mean and interval in few characters: ``97.3 [96.8, 97.7]``."""
     interval = "" if math.isnan(summary.low) else f" [{summary.low:.1f}, {summary.high:.1f}]"
