@@ -9,13 +9,13 @@ from robonav.nnql import METHODS, weight_changes
 from robonav.robot import Policy, freer_side, straight
 
 from .experiment import Case, Experiment
-from .nnql_course import COLD, EPISODES, NAVIGATIONS, TEST_WORLDS, Numbers, blocks, judged, new_worlds
+from .nnql_course import COLD, COLD_DQN, EPISODES, NAVIGATIONS, TEST_WORLDS, Numbers, blocks, judged, new_worlds
 from .nnql_tuning import trained, trial_settings
 
 RESULTS = Path(__file__).parent / "results"
 """What these experiments gave at the thesis's scale: the pages show it."""
 
-CHOSEN = {"nnql": 4, "online": 0, "nfq": 3, "dqn": 15}
+CHOSEN = {"nnql": 2, "online": 0, "nfq": 3, "dqn": 15}
 """The best trial of each method."""
 
 DENSE = {
@@ -37,6 +37,11 @@ def settings(method: str) -> dict[str, Any]:
     return dict(trial_settings(method, CHOSEN[method]))
 
 
+def cold(method: str) -> float:
+    """The temperature at which the policies of a method are all but greedy."""
+    return COLD_DQN if method == "dqn" else COLD
+
+
 def robot(name: str, seed: int, scale: str, **changes: Any) -> Policy:
     """A rule by its name, or what one seed of a method comes to with the settings chosen for it."""
     if name in RULES:
@@ -46,7 +51,8 @@ def robot(name: str, seed: int, scale: str, **changes: Any) -> Policy:
 
 def compare(case: Case, seed: int, scale: str) -> Numbers:
     """Table 4.3: one seed of a method; or a rule, which learns nothing."""
-    return judged(robot(str(case["robot"]), seed, scale), new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed))
+    name, worlds = str(case["robot"]), new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed)
+    return judged(robot(name, seed, scale), worlds, temperature=cold(name))
 
 
 def learn(case: Case, seed: int, scale: str) -> Numbers:
@@ -90,7 +96,7 @@ _ABOUT = {
     "episodes": EPISODES,
     "drives a run": NAVIGATIONS,
     "first seed of the worlds": TEST_WORLDS,
-    "temperature of a cold policy": COLD,
+    "temperature of a cold policy": {method: cold(method) for method in METHODS},
     "settings": {method: trial_settings(method, trial) for method, trial in CHOSEN.items()},
 }
 _SEEDS = {"quick": 2, "thesis": 50}

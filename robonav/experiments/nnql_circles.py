@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.nnql import METHODS, reward
+from robonav.nnql import reward
 from robonav.nnql.rewards import REWARDS, reward_row
 from robonav.robot import NNQL_SENSORS, Encoder, Sensing, nnql_state
 from robonav.robot.environments import Reward, arrival_or_collision
 
 from .experiment import Case, Experiment
 from .nnql import settings
-from .nnql_course import COLD, EPISODES, NAVIGATIONS, TEST_WORLDS, Numbers, course, judged, new_worlds
+from .nnql_course import COLD, EPISODES, NAVIGATIONS, TEST_WORLDS, Numbers, judged, new_worlds
+from .nnql_tuning import trained
 
 Array = NDArray[np.float64]
 
@@ -82,8 +83,8 @@ VARIATIONS: dict[str, dict[str, dict[str, Any]]] = {
 def vary(case: Case, seed: int, scale: str) -> Numbers:
     """One seed of one variation: how drives end, greedily and cold, and how the last 100 episodes went."""
     options = settings("nnql") | VARIATIONS[str(case["what"])][str(case["choice"])]
-    of_course = {name: options.pop(name) for name in ("reward", "encoder", "target") if name in options}
-    training = METHODS["nnql"]([seed], EPISODES[scale], course=course(**of_course), **options)
+    of_course = {name: options.pop(name) for name in ("reward", "encoder") if name in options}
+    training = trained("nnql", seed, EPISODES[scale], options, **of_course)
     driven = judged(training.policies[0], new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed))
     return driven | {"last episodes": 100 * training.successes[0, -100:].mean()}
 

@@ -22,12 +22,13 @@ NAVIGATIONS = {"quick": 100, "thesis": 1000}
 SPEED = 2.5
 TEST_WORLDS = 40_000  # run k drives through the worlds of this seed + k
 COLD = 0.4  # temperature of a policy that is all but greedy: it takes the second best where that is nearly as good
+COLD_DQN = 0.04  # its outputs are the Q-values themselves, and lie closer together than the logits of the others
 BLOCK = 30  # episodes that Fig. 4.4 and 4.6 count successes in
 
 Numbers = Mapping[str, ArrayLike]
 
 
-def course(*, target: str = "sine-cosine", **changes: Any) -> Course:
+def course(*, target: str = "number", **changes: Any) -> Course:
     """What section 4.5 trains on, with the target's sector written in one way or another."""
     return Course(**({"encoder": Encoder(NNQL_SENSORS, walls=True, target=target)} | changes))
 
@@ -44,11 +45,11 @@ def driven(policy: Policy, worlds: Worlds, speed: float = SPEED) -> dict[str, fl
     return {"success": arrived, "collision": collided, "out of steps": 100 - arrived - collided}
 
 
-def judged(policy: Policy, worlds: Worlds, speed: float = SPEED) -> dict[str, float]:
-    """As :func:`driven`; for a network also ``success, cold``, with the policy at temperature ``COLD``."""
+def judged(policy: Policy, worlds: Worlds, speed: float = SPEED, *, temperature: float = COLD) -> dict[str, float]:
+    """As :func:`driven`; for a network also ``success, cold``: with the policy at a low temperature."""
     numbers = driven(policy, worlds, speed)
     if isinstance(policy, NetworkPolicy):
-        numbers["success, cold"] = driven(replace(policy, temperature=COLD), worlds, speed)["success"]
+        numbers["success, cold"] = driven(replace(policy, temperature=temperature), worlds, speed)["success"]
     return numbers
 
 

@@ -12,8 +12,8 @@ from robonav.lfd import NetworkPolicy, Weights, save_weights
 from robonav.nnql import METHODS
 from robonav.progress import Progress, bar
 
-from .nnql import settings
-from .nnql_course import COLD, EPISODES, NAVIGATIONS, SPEED, driven, new_worlds
+from .nnql import cold, settings
+from .nnql_course import EPISODES, NAVIGATIONS, SPEED, driven, new_worlds
 from .nnql_tuning import TUNING_SEEDS, TUNING_WORLDS, trained
 
 SHIPPED = Path(__file__).parents[1] / "nnql" / "shipped"
@@ -26,7 +26,7 @@ def best_of(method: str, seeds: tuple[int, ...] = SEEDS, *, episodes: int = EPIS
     rates: dict[float, tuple[int, NetworkPolicy]] = {}
     for seed in seeds:
         greedy = trained(method, seed, episodes, settings(method)).policies[0]
-        policy = replace(greedy, temperature=COLD)
+        policy = replace(greedy, temperature=cold(method))
         rates.setdefault(driven(policy, worlds)["success"], (seed, policy))  # of equals, the first
     best = max(rates)
     seed, policy = rates[best]

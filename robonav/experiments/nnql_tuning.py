@@ -1,4 +1,8 @@
-"""How the settings of chapter 4's methods were chosen: the same number of trials for each, on worlds kept for that."""
+"""How the settings of chapter 4's methods were chosen: the same number of trials for each, on worlds kept for that.
+
+Sixteen trials of four seeds each; the four best then try again with twelve other seeds, which decide. The best of
+sixteen short trials is partly the luckiest, and its second result says how lucky it was.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +19,7 @@ from .experiment import Case, Experiment, Results
 from .nnql_course import EPISODES, NAVIGATIONS, Numbers, course, driven, new_worlds
 
 TRIALS = 16
+TOGETHER = 8  # seeds that train at once
 TUNING_WORLDS = 41_000  # run k drives through the worlds of this seed + k; tables take others
 TUNING_SEEDS = 10_000  # run k trains with this seed + k; tables take others
 
@@ -49,6 +54,10 @@ FIRST: dict[str, dict[str, Any]] = {
 """Trial 0: what the thesis has, where it has anything."""
 
 
+FINALISTS = {"nnql": (4, 12, 2, 8), "online": (0, 15, 12, 2), "nfq": (3, 13, 6, 9), "dqn": (15, 12, 14, 10)}
+"""The four best trials of each method: the beginning of the :func:`ranking` of their results."""
+
+
 def trial_settings(method: str, trial: int) -> dict[str, Any]:
     """The settings of a trial; NNQL and online learning, which share a space, get the same ones."""
     if trial == 0:
@@ -60,21 +69,24 @@ def trial_settings(method: str, trial: int) -> dict[str, Any]:
 def trained(method: str, seed: int, episodes: int, settings: Mapping[str, Any], **changes: Any) -> Training:
     """One seed of a method with settings such as :func:`trial_settings` gives, or their JSON.
 
-    ``changes`` are what is not as in section 4.5, see :class:`robonav.nnql.Course`; and ``record``. What was trained
-    once in a process is not trained again: several tables look at the same networks.
+    ``changes`` are what is not as in section 4.5, see :class:`robonav.nnql.Course`; and ``record``. Seeds train
+    ``TOGETHER``, which is quicker than one by one and comes to the same; and what was trained once in a process is not
+    trained again, since several tables look at the same networks.
     """
-    return _trained(method, seed, episodes, json.dumps(settings, sort_keys=True), tuple(sorted(changes.items())))
+    block, row = divmod(seed, TOGETHER)
+    return _trained(method, block, episodes, json.dumps(settings, sort_keys=True), tuple(sorted(changes.items())))[row]
 
 
-@lru_cache(maxsize=256)
-def _trained(method: str, seed: int, episodes: int, settings: str, changes: tuple[tuple[str, Any], ...]) -> Training:
+@lru_cache(maxsize=64)
+def _trained(method: str, block: int, episodes: int, settings: str, changes: tuple[tuple[str, Any], ...]) -> Training:
     options: dict[str, Any] = {name: _span(value) for name, value in json.loads(settings).items()}
     of_course = dict(changes)
     record = bool(of_course.pop("record", False))
     where = course(target=options.pop("target"), **of_course)
     if "fitting" in options:
         options["sweeps"], options["epochs"] = options.pop("fitting")
-    return METHODS[method]([seed], episodes, course=where, record=record, **options)
+    seeds = range(block * TOGETHER, (block + 1) * TOGETHER)
+    return METHODS[method](seeds, episodes, course=where, record=record, **options)
 
 
 def _span(value: Any) -> Any:
@@ -89,24 +101,40 @@ def tune(case: Case, seed: int, scale: str) -> Numbers:
     return driven(training.policies[0], new_worlds(NAVIGATIONS[scale] // 2, TUNING_WORLDS + seed))
 
 
+def decide(case: Case, seed: int, scale: str) -> Numbers:
+    """One seed of a finalist: other seeds and other worlds than those it was picked by."""
+    return tune(case, seed + TUNING.seeds["thesis"], scale)
+
+
+def _case(method: str, trial: int) -> Case:
+    return {"method": method, "trial": trial, "settings": json.dumps(trial_settings(method, trial), sort_keys=True)}
+
+
+def ranking(results: Results) -> dict[str, list[int]]:
+    """The trials of each method, by their mean success over seeds, the best first; of equals the earlier first."""
+    means: dict[str, dict[int, float]] = {}
+    for k, case in enumerate(results.experiment.cases):
+        means.setdefault(str(case["method"]), {})[int(case["trial"])] = results.summary("success", k).mean
+    return {method: sorted(found, key=lambda trial: -round(found[trial], 6)) for method, found in means.items()}
+
+
+_ABOUT = {"episodes": EPISODES, "drives a run": {scale: n // 2 for scale, n in NAVIGATIONS.items()}}
+
 TUNING = Experiment(
     name="nnql-tuning",
     title="Trials from which the settings of chapter 4's methods were chosen, as many for each",
-    cases=[
-        {"method": method, "trial": trial, "settings": json.dumps(trial_settings(method, trial), sort_keys=True)}
-        for method in METHODS
-        for trial in range(TRIALS)
-    ],
+    cases=[_case(method, trial) for method in METHODS for trial in range(TRIALS)],
     run=tune,
     seeds={"quick": 1, "thesis": 4},
-    settings={"episodes": EPISODES, "drives a run": {scale: n // 2 for scale, n in NAVIGATIONS.items()}},
+    settings=_ABOUT,
+)
+FINALS = Experiment(
+    name="nnql-finals",
+    title="The four best trials of each method once more, with other seeds",
+    cases=[_case(method, trial) for method, trials in FINALISTS.items() for trial in trials],
+    run=decide,
+    seeds={"quick": 1, "thesis": 12},
+    settings=_ABOUT,
 )
 
-
-def best_trials(results: Results) -> dict[str, int]:
-    """For each method the trial with the greatest mean success over seeds."""
-    means = np.array([results.summary("success", case).mean for case in range(len(TUNING.cases))])
-    return dict(zip(METHODS, means.reshape(len(METHODS), TRIALS).argmax(axis=1).tolist(), strict=True))
-
-
-EXPERIMENTS = (TUNING,)
+EXPERIMENTS = (TUNING, FINALS)

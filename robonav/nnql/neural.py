@@ -22,10 +22,10 @@ def nnql(
     *,
     alpha: Span = (0.8, 0.1),
     gamma: float = 0.6,
-    rate: Span = 0.3,
-    temperature: Span = (0.9, 0.03),
+    rate: Span = (0.3, 0.05),
+    temperature: Span = (0.9, 0.1),
     rescale: str = "shift",
-    passes: int = 1,
+    passes: int = 3,
     tolerance: float = 1e-3,
     **common: Unpack[Common],
 ) -> Training:

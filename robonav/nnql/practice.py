@@ -45,7 +45,7 @@ class Course:
     obstacles, moving, starts, targets : of the worlds, see :func:`robonav.robot.random_worlds`.
     speed : of the robot in m/s.
     max_steps : seconds an episode lasts at most.
-    encoder : how what is sensed becomes the network's inputs: Eq. (4.5), with sine and cosine for the target's sector.
+    encoder : how what is sensed becomes the network's inputs; as in Eq. (4.5), each brought within 1.
     reward : of a step, see :data:`robonav.robot.environments.Reward`.
     reflex : what the robot does before the policy is asked.
     """
@@ -56,7 +56,7 @@ class Course:
     max_steps: int = 400
     starts: Sequence[tuple[float, float]] = STARTS
     targets: Sequence[tuple[float, float]] = TARGETS
-    encoder: Encoder = field(default_factory=lambda: Encoder(NNQL_SENSORS, walls=True, target="sine-cosine"))
+    encoder: Encoder = field(default_factory=lambda: Encoder(NNQL_SENSORS, walls=True, target="number"))
     reward: Reward = reward
     reflex: Callable[[Sensing, float], NDArray[np.int64]] = REFLEX
 

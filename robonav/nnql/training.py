@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, TypedDict
@@ -55,6 +55,23 @@ class Training:
     settings: dict[str, Any]
     history: Network | None = None
     paths: tuple[tuple[Array, ...], ...] | None = None
+
+    def __getitem__(self, row: int) -> Training:
+        """The training of one seed, the same as if it had trained alone."""
+        if not 0 <= row < len(self.seeds):
+            raise IndexError(f"row must be 0 to {len(self.seeds) - 1}, got {row}")
+        own = slice(row, row + 1)
+        return replace(
+            self,
+            seeds=self.seeds[own],
+            network=self.network[own],
+            outcomes=self.outcomes[own],
+            steps=self.steps[own],
+            decisions=self.decisions[own],
+            returns=self.returns[own],
+            history=None if self.history is None else self.history[own],
+            paths=None if self.paths is None else self.paths[own],
+        )
 
     @property
     def successes(self) -> NDArray[np.bool_]:

@@ -17,18 +17,22 @@ from robonav.experiments.nnql import (
     TABLE_4_2,
     TABLE_4_3,
     TWENTY,
+    cold,
     settings,
 )
 from robonav.experiments.nnql_circles import CIRCLES, REWARDS_TRIED, RawNumbers, only_moving_away
-from robonav.experiments.nnql_course import COLD, TEST_WORLDS, blocks, course, judged, new_worlds
+from robonav.experiments.nnql_course import TEST_WORLDS, blocks, course, judged, new_worlds
 from robonav.experiments.nnql_shipped import SHIPPED, best_of, ship
 from robonav.experiments.nnql_tuning import (
+    FINALISTS,
+    FINALS,
+    FIRST,
     SPACE,
     TRIALS,
     TUNING,
     TUNING_SEEDS,
     TUNING_WORLDS,
-    best_trials,
+    ranking,
     trained,
     trial_settings,
 )
@@ -37,7 +41,7 @@ from robonav.nnql import METHODS, reward
 from robonav.nnql.rewards import reward_row
 from robonav.robot import Sensing
 
-ALL = (*EXPERIMENTS, CIRCLES, TUNING)
+ALL = (*EXPERIMENTS, CIRCLES, TUNING, FINALS)
 
 
 @pytest.mark.parametrize("experiment", ALL, ids=lambda experiment: experiment.name)
@@ -69,7 +73,15 @@ def test_tuning_and_testing_never_meet():
 
 
 def test_what_was_chosen_is_the_best_of_the_published_trials():
-    assert best_trials(load_results(RESULTS, TUNING)) == CHOSEN
+    trials, finals = load_results(RESULTS, TUNING), load_results(RESULTS, FINALS)
+    assert {name: tuple(trials[:4]) for name, trials in ranking(trials).items()} == FINALISTS
+    assert {name: trials[0] for name, trials in ranking(finals).items()} == CHOSEN
+
+
+def test_finalists_have_other_seeds_than_the_trials_they_were_picked_by():
+    case = FINALS.cases[0]
+    tried = {tuple(TUNING.run(case, seed, "quick").values()) for seed in range(4)}
+    assert tuple(FINALS.run(case, 0, "quick").values()) not in tried
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -128,7 +140,7 @@ def test_a_rule_is_judged_once_and_a_network_also_when_cold():
 def test_a_network_of_every_method_ships_with_what_made_it(name):
     weights = load_weights(SHIPPED / f"{name}.safetensors")
     assert weights.method == name
-    assert weights.temperature == COLD
+    assert weights.temperature == cold(name)
     assert weights.made["settings"] == json.loads(json.dumps(settings(name)))
     assert weights.made["seed"] in weights.made["seeds"]
     policy = methods.method(name)
@@ -148,8 +160,22 @@ def test_the_best_of_several_robots_is_shipped(tmp_path, monkeypatch):
 
 def test_training_twice_in_a_process_is_training_once():
     first = trained("nnql", 3, 4, settings("nnql"))
-    assert trained("nnql", 3, 4, json.loads(json.dumps(settings("nnql")))) is first
-    assert trained("nnql", 3, 4, settings("nnql"), obstacles=20) is not first
+    again = trained("nnql", 3, 4, json.loads(json.dumps(settings("nnql"))))
+    assert np.shares_memory(first.outcomes, again.outcomes)
+    assert not np.shares_memory(first.outcomes, trained("nnql", 3, 4, settings("nnql"), obstacles=20).outcomes)
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_seeds_train_together_as_they_would_alone(name):
+    together = trained(name, 3, 4, FIRST[name])
+    options = dict(FIRST[name])
+    if "fitting" in options:
+        options["sweeps"], options["epochs"] = options.pop("fitting")
+    alone = METHODS[name]([3], 4, course=course(target=options.pop("target")), **options)
+    assert together.seeds == alone.seeds == (3,)
+    np.testing.assert_array_equal(together.outcomes, alone.outcomes)
+    for ours, theirs in zip(together.network.weights, alone.network.weights, strict=True):
+        np.testing.assert_array_equal(ours, theirs)
 
 
 def test_blocks_count():
