@@ -1,4 +1,4 @@
-"""Run the experiments on a SLURM cluster. Start this on its login node, after pip install "robonav[cluster]" dask-jobqueue.
+"""Run the experiments on a SLURM cluster. Start this on its login node; needs "robonav[cluster]" and dask-jobqueue.
 
 python slurm.py all
 """
