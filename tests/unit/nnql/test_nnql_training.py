@@ -102,6 +102,20 @@ def test_history_and_paths_when_asked_for():
     same(training, nnql(2, 6), 1, 1)
 
 
+def test_the_training_of_one_seed():
+    training = nnql(3, 4, record=True)
+    own = training[2]
+    assert own.seeds == (2,)
+    same(own, training, 0, 2)
+    same(own, nnql([2], 4), 0, 0)
+    assert own.history.stack == (1, 5)
+    assert own.paths == training.paths[2:]
+    assert len(own.policies) == 1
+    assert nnql(2, 4)[0].history is None
+    with pytest.raises(IndexError, match="row must be 0 to 2, got 3"):
+        training[3]
+
+
 def test_weight_changes_add_up_over_a_training():
     training = nnql(2, 6, record=True)
     signed, absolute = (weight_changes(training.history, absolute=kind) for kind in (False, True))
