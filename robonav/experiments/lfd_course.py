@@ -36,9 +36,10 @@ from robonav.robot import (
     straight,
 )
 
-DEMONSTRATIONS, ROUNDS = 25, 3
+DEMONSTRATIONS = 25
+ROUNDS = {"quick": 1, "thesis": 3}  # of DAgger
 NAVIGATIONS = {"quick": 100, "thesis": 400}
-SEEDS = {"quick": 2, "thesis": 25}
+SEEDS = {"quick": 1, "thesis": 20}
 SHOWN_WORLDS = 30_000  # run k is shown the worlds of this seed + k
 MORE_WORLDS = 31_000  # and meets those of this one + 10 k in DAgger's first round, + 10 k + 1 in the next
 TEST_WORLDS = 35_000  # and drives through those of this one + k
@@ -109,13 +110,13 @@ def trained(
 
 @lru_cache(8)
 def aggregated(
-    seed: int, obstacles: int = 10, *, target: str = "sine-cosine", hidden: int = 8, rounds: int = ROUNDS
+    seed: int, obstacles: int = 10, *, target: str = "sine-cosine", rounds: int = ROUNDS["thesis"]
 ) -> Aggregation:
     """The same, and then DAgger's rounds, with as many new maps in each as there were demonstrations."""
     worlds = [
         random_worlds(DEMONSTRATIONS, obstacles, seed=MORE_WORLDS + 10 * seed + number) for number in range(rounds)
     ]
-    return dagger(shown(seed, obstacles), worlds, hidden=hidden, seed=seed, encoder=Encoder(target=target))
+    return dagger(shown(seed, obstacles), worlds, seed=seed, encoder=Encoder(target=target))
 
 
 def distinct(demonstrations: Demonstrations) -> int:

@@ -70,7 +70,7 @@ def test_success_is_what_navigate_gives():
     numbers = with_demonstrations(case, 1, "quick")
     worlds = random_worlds(NAVIGATIONS["quick"], seed=TEST_WORLDS + 1)
     assert new_worlds(1, "quick").digest() == worlds.digest()
-    again = driven(method("straight", 1), worlds)
+    again = driven(method("straight", 1, "quick"), worlds)
     assert again["success"] == 100 * navigate(straight, worlds).success.mean()
     assert numbers["success"] > again["success"] + 30
     assert sum(again.values()) == pytest.approx(100)
@@ -97,7 +97,7 @@ def test_distinct_states_are_counted_once():
 def test_methods_by_name():
     names = {case["method"] for case in FIGURE_3_8.cases}
     assert {"straight", "cloning", "DAgger"} <= names
-    assert method("5 neighbours", 0).k == 5
+    assert method("5 neighbours", 0, "quick").k == 5
 
 
 def test_what_ships_is_what_the_command_makes():
