@@ -15,6 +15,7 @@ from robonav.lfd import (
     labelled_states,
     learn_neighbours,
     learn_policy,
+    overview,
     plan,
     plan_on_grid,
     sketch,
@@ -34,7 +35,6 @@ from .lfd_course import (
     Numbers,
     aggregated,
     cloned,
-    distinct,
     driven,
     new_worlds,
     shown,
@@ -113,14 +113,14 @@ def expert_drives(expert: str, seed: int) -> Demonstrations:
 def experts(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 3.6: what 25 demonstrations hold, and how the robot drives that learned from them."""
     demonstrations = expert_drives(str(case["expert"]), seed)
-    pairs = demonstrations.effective
+    held = overview(demonstrations)
     return {
-        "arrived": 100 * (demonstrations.outcome == "arrived").mean(),
-        "steps a drive": len(demonstrations) / DEMONSTRATIONS,
-        "effective pairs a drive": len(pairs) / DEMONSTRATIONS,
-        "distinct states a drive": distinct(demonstrations) / DEMONSTRATIONS,
-        "straight on": 100 * (pairs.actions == 0).mean(),
-        "least range": demonstrations.sensing.ranges.min(),
+        "arrived": 100 * held.arrived / held.drives,
+        "steps a drive": held.steps / held.drives,
+        "effective pairs a drive": held.effective / held.drives,
+        "distinct states a drive": held.states / held.drives,
+        "straight on": 100 * held.actions[0] / held.effective,
+        "least range": held.closest,
         "success": driven(learn_policy(demonstrations, seed=seed), new_worlds(seed, scale))["success"],
     }
 

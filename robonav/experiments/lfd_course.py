@@ -30,7 +30,6 @@ from robonav.robot import (
     Policy,
     Worlds,
     freer_side,
-    lfd_state,
     navigate,
     random_worlds,
     straight,
@@ -117,8 +116,3 @@ def aggregated(
         random_worlds(DEMONSTRATIONS, obstacles, seed=MORE_WORLDS + 10 * seed + number) for number in range(rounds)
     ]
     return dagger(shown(seed, obstacles), worlds, seed=seed, encoder=Encoder(target=target))
-
-
-def distinct(demonstrations: Demonstrations) -> int:
-    """How many different states of 11 numbers, Eq. (3.17), the effective pairs hold."""
-    return len(np.unique(lfd_state(demonstrations.effective.sensing), axis=0))

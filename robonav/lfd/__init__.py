@@ -18,6 +18,7 @@ from .human import PathFollower, demonstrate_by_hand, path_clearance, sketch, sm
 from .imitation import labelled_states, learn_policy
 from .neighbours import NeighbourPolicy, learn_neighbours
 from .network import Network, propagate, random_network, sigmoid, sigmoid_slope, stacked
+from .overview import Overview, overview
 from .planning import GridPlan, Plan, plan, plan_on_grid
 from .policy import NetworkPolicy
 from .storage import load_demonstrations, save_demonstrations
@@ -36,6 +37,7 @@ __all__ = [
     "Network",
     "NetworkPolicy",
     "Objective",
+    "Overview",
     "PathFollower",
     "Plan",
     "Training",
@@ -58,6 +60,7 @@ __all__ = [
     "load_demonstrations",
     "load_weights",
     "one_hot",
+    "overview",
     "path_clearance",
     "plan",
     "plan_on_grid",

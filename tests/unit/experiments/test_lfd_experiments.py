@@ -11,7 +11,6 @@ from robonav.experiments.lfd_course import (
     SHOWN_WORLDS,
     TEST_WORLDS,
     cloned,
-    distinct,
     driven,
     new_worlds,
     shown,
@@ -86,12 +85,6 @@ def test_plans_are_counted_up_to_the_target():
     assert numbers["modified"] == pytest.approx(np.mean(ours))
     assert numbers["grid"] == pytest.approx(np.mean(grid))
     assert numbers["modified shorter"] == 100 * np.mean(np.subtract(grid, ours) > 1e-6)
-
-
-def test_distinct_states_are_counted_once():
-    once = shown(0, drives=2)
-    states = {tuple(row) for row in labelled_states(once, Encoder(target="number"))[0].round(6)}
-    assert distinct(once) == len(states)
 
 
 def test_methods_by_name():
