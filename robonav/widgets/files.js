@@ -107,7 +107,7 @@ const base64 = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(b
 /**
  * The policy in a file that robonav.lfd.save_weights wrote.
  * @param {ArrayBuffer} buffer
- * @returns {{network: PackedNetwork, encoder: Encoder}}
+ * @returns {{network: PackedNetwork, encoder: Encoder, temperature: number}}
  */
 export function weightsFromFile(buffer) {
   const refuse = (why) => new Error(`The file must hold weights saved by robonav: ${why}.`);
@@ -135,7 +135,7 @@ export function weightsFromFile(buffer) {
   if (weights.length === 0 || weights.some(({ shape }) => shape.length !== 2)) throw refuse("it must hold one network");
   const sizes = [weights[0].shape[1], ...weights.map(({ shape }) => shape[0])];
   if (sizes.at(-1) > 6) throw refuse(`its network has ${sizes.at(-1)} outputs, the robot six actions`);
-  return { network: { sizes, weights, biases }, encoder: about.encoder };
+  return { network: { sizes, weights, biases }, encoder: about.encoder, temperature: about.temperature ?? 0 };
 }
 
 /** Hands bytes to the reader as a file. */

@@ -10,11 +10,11 @@ const copy = (world) => ({ ...world, start: [...world.start], target: [...world.
 const between = (a, b, t) => a + (b - a) * t;
 const metres = (value) => Number(value.toFixed(1));
 
-/** What a policy of the list does: its action and, for a network, what it computed on the way. */
+/** What a policy of the list does in a drive: its action and, for a network, what it computed on the way. */
 function driver(policy) {
-  if (policy.rule) return (sensing) => ({ action: RULES[policy.rule](sensing) });
+  if (policy.rule) return ({ sensing }) => ({ action: RULES[policy.rule](sensing) });
   const network = networks(policy.network)();
-  return (sensing) => consult({ network, encoder: policy.encoder }, sensing);
+  return ({ sensing, world, step }) => consult({ ...policy, network }, sensing, gumbel(world.key, step));
 }
 
 // ---- The drive: state and steps, no drawing -------------------------------------------------------------------------
@@ -205,7 +205,7 @@ function render({ model, el }) {
     const { sensing, outcome, step, speed } = drive;
     table.show(sensing);
     const own = reflex(sensing, speed);
-    const thought = mine() ? null : drivers[policy](sensing);
+    const thought = mine() ? null : drivers[policy](drive);
     if (thought?.z) {
       values.replaceChildren(...[...thought.z].map((z, k) => h("span", { class: k === thought.action ? "chosen" : "" }, `${ROBOT.actions[k]} ${sigmoid(z).toFixed(2)}`)));
       pictures[policy].show(networks(policies[policy].network)(), thought.activations);
@@ -226,7 +226,7 @@ function render({ model, el }) {
     refresh();
     if (t < 1) wake();
   };
-  const next = () => act(mine() ? 0 : drivers[policy](drive.sensing).action);
+  const next = () => act(mine() ? 0 : drivers[policy](drive).action);
   function tick(time) {
     frame = 0;
     t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * PACES[pace]);

@@ -21,7 +21,7 @@ export const ROBOT = {
   toTarget: 6,
   dangerBorders: [3, 7, 11, 15, 20, 25, 30].map((border) => (border * 10) / 30),
 };
-const [DRIFTING, ITEMS, TURN_PROBABILITY] = [2, 1024, 0.1];
+const [DRIFTING, CHOOSING, ITEMS, TURN_PROBABILITY] = [2, 5, 1024, 0.1];
 
 // ---- Random numbers: the hash of kernels.py -------------------------------------------------------------------------
 
@@ -266,8 +266,16 @@ export function freerSide({ ranges }) {
 /** Policies that need no network. */
 export const RULES = { straight: () => 0, "freer side": freerSide };
 
-/** A network's policy: what it reads, every activation, the outputs' sums, and the action it takes. */
-export function consult({ network, encoder }, sensing) {
+/** Gumbel noise for each action in a step: the largest of z + T noise is drawn as Boltzmann's distribution has it. */
+export const gumbel = (key, step) => (action) => -Math.log(-Math.log(uniform(key, CHOOSING, step, action, 0)));
+
+/**
+ * A network's policy: what it reads, every activation, the outputs' sums, and the action it takes.
+ * @param {{network: Network, encoder: Encoder, temperature?: number}} policy
+ * @param {Sensing} sensing
+ * @param {(action: number) => number} noise
+ */
+export function consult({ network, encoder, temperature = 0 }, sensing, noise = () => 0) {
   const { activations, z } = propagate(network, encode(encoder, sensing));
-  return { activations, z, action: largest(z) };
+  return { activations, z, action: largest(temperature > 0 ? z.map((sum, action) => sum + temperature * noise(action)) : z) };
 }

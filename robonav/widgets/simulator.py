@@ -12,6 +12,9 @@ from robonav.robot.kernels import CIRCLE
 
 from .shared import packed_network
 
+CHOOSING = 5
+"""For what the page draws random numbers when a policy leaves its action to chance; see ``uniform`` in kernels.py."""
+
 
 def page_world(world: Worlds) -> dict[str, Any]:
     """The first world of a batch: lengths in metres, angles in radians."""
@@ -38,9 +41,10 @@ def page_world(world: Worlds) -> dict[str, Any]:
 
 
 def page_policy(policy: NetworkPolicy) -> dict[str, Any]:
-    """A network's policy: its weights, and how what is sensed becomes inputs."""
+    """A network's policy: its weights, how what is sensed becomes inputs, and how much is left to chance."""
     encoder = policy.encoder
     return {
         "network": packed_network(policy.network),
         "encoder": {"sensors": list(encoder.sensors), "walls": encoder.walls, "target": encoder.target},
+        "temperature": policy.temperature,
     }

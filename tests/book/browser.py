@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import os
 import re
 import shutil
 import tempfile
@@ -17,7 +18,7 @@ from typing import Any
 from playwright.sync_api import BrowserContext, ConsoleMessage, Page, Route, sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
-SITE = ROOT / "_build" / "html"
+SITE = Path(os.environ.get("BOOK_SITE", ROOT / "_build" / "html"))  # of a book that was built elsewhere
 
 FLAGS = [
     "--no-sandbox",

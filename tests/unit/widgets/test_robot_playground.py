@@ -56,13 +56,14 @@ def test_an_edited_world_is_driven_and_saved_as_edited(page, tmp_path):
 def test_weights_saved_by_python_drive_in_the_page(page, tmp_path):
     encoder = Encoder(target="signed")
     policy = NetworkPolicy(random_network((encoder.size, 6, 5), seed=3), encoder)
-    save_weights(tmp_path / "own.safetensors", Weights(policy.network, "own", encoder))
+    save_weights(tmp_path / "own.safetensors", Weights(policy.network, "own", encoder, temperature=0.3))
     content = base64.b64encode((tmp_path / "own.safetensors").read_bytes()).decode()
     got = page("return page.weightsFromFile(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)).buffer);", content)
     assert got["network"]["sizes"] == [11, 6, 5]
     expected = page_policy(policy)
     assert got["network"]["weights"][0]["data"] == expected["network"]["weights"][0]["data"]
     assert got["encoder"]["target"] == "signed"
+    assert got["temperature"] == 0.3
 
 
 @pytest.mark.parametrize("content", [b"", b"no weights at all", b"\x02\0\0\0\0\0\0\0{}"])

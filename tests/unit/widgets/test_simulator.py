@@ -2,12 +2,17 @@
 
 import numpy as np
 import pytest
+from numba import njit
 
+from robonav.experiments.methods import method, methods
 from robonav.lfd.network import random_network
 from robonav.lfd.policy import NetworkPolicy
 from robonav.robot import (
+    OUTCOMES,
     TARGET_ENCODINGS,
     Encoder,
+    Reflex,
+    Simulator,
     concatenate,
     freer_side,
     navigate,
@@ -16,13 +21,13 @@ from robonav.robot import (
     sense,
     straight,
 )
-from robonav.robot.kernels import DRIFTING, uniform
-from robonav.widgets.simulator import page_policy, page_world
+from robonav.robot.kernels import DRIFTING, RUNNING, uniform
+from robonav.widgets.simulator import CHOOSING, page_policy, page_world
 
 DRIVE = """
 const { policy, worlds, speed, steps } = data;
 const network = policy.network ? page.networks(policy.network)() : null;
-const ask = (seen) => page.consult({ network, encoder: policy.encoder }, seen).action;
+const ask = (seen, { key }, step) => page.consult({ ...policy, network }, seen, page.gumbel(key, step)).action;
 const choose = policy.rule ? page.RULES[policy.rule] : ask;
 return worlds.map((first) => {
   let [world, pose, outcome] = [first, page.startPose(first), "running"];
@@ -30,7 +35,7 @@ return worlds.map((first) => {
   for (let step = 0; step < steps && outcome === "running"; step += 1) {
     const seen = page.sense(world, pose);
     const own = page.reflex(seen, speed);
-    ({ world, pose, outcome } = page.advance(world, pose, step, own < 0 ? choose(seen) : own, speed));
+    ({ world, pose, outcome } = page.advance(world, pose, step, own < 0 ? choose(seen, world, step) : own, speed));
     path.push([pose.x, pose.y, pose.heading]);
   }
   return { path, outcome };
@@ -60,11 +65,93 @@ def test_networks_drive_in_the_page_as_in_python(node, target, policy):
 
 def compare(node, worlds, policy, packed, speed, steps=200):
     expected = navigate(policy, worlds, speed, steps, record_paths=True)
+    same(node, worlds, packed, speed, steps, expected.paths, expected.outcome)
+
+
+def same(node, worlds, packed, speed, steps, paths, outcomes):
+    """The page drives these paths, pose by pose."""
     data = {"worlds": [page_world(w) for w in worlds], "policy": packed, "speed": speed, "steps": steps}
     drives = node("simulator", DRIVE, data)
-    for drive, path, outcome in zip(drives, expected.paths, expected.outcome, strict=True):
-        assert drive["outcome"] == outcome.replace("out of steps", "running")
-        np.testing.assert_allclose(drive["path"], path, rtol=0, atol=1e-9)
+    assert [drive["outcome"] for drive in drives] == [end.replace("out of steps", "running") for end in outcomes]
+    assert [len(drive["path"]) for drive in drives] == [len(path) for path in paths]
+    driven = np.concatenate([drive["path"] for drive in drives])
+    np.testing.assert_allclose(driven, np.concatenate(paths), rtol=0, atol=1e-9)
+
+
+@njit
+def draws(keys, step, actions):
+    """A number in [0, 1) for each world and action."""
+    numbers = np.empty((len(keys), actions))
+    for i in range(len(keys)):
+        for action in range(actions):
+            numbers[i, action] = uniform(keys[i], CHOOSING, step, action, 0)
+    return numbers
+
+
+class Seeded:
+    """A policy that draws its chances as the page does: by world, step and action."""
+
+    def __init__(self, policy, worlds, speed, steps):
+        self.policy, self.simulator, self.steps = policy, Simulator(worlds, speed, max_steps=steps), steps
+
+    def drive(self):
+        """The paths and outcomes of all drives."""
+        simulator = self.simulator
+        n = len(simulator)
+        poses, ended = [simulator.poses.copy()], np.zeros(n, dtype=int)
+        for step in range(self.steps):
+            sensing = simulator.sense()
+            own = Reflex()(sensing, simulator.speed)
+            z = self.policy.logits(sensing)
+            noise = -np.log(-np.log(draws(simulator.worlds.keys, step, z.shape[1])))
+            chosen = (z + self.policy.temperature * noise).argmax(axis=1)
+            simulator.step(np.where(own < 0, chosen, own))
+            poses.append(simulator.poses.copy())
+            ended[(ended == 0) & (simulator.outcome != RUNNING)] = step + 1
+            if (simulator.outcome != RUNNING).all():
+                break
+        assert (ended > 0).all()
+        return [np.array(poses)[: ended[i] + 1, i] for i in range(n)], OUTCOMES[simulator.outcome]
+
+
+def test_chance_drives_in_the_page_as_in_python(node):
+    encoder = Encoder()
+    network = random_network((encoder.size, 8, 5), seed=2, spread=2.0)
+    policy = NetworkPolicy(network, encoder, temperature=1.5)
+    worlds = concatenate([random_worlds(60, 15, seed=35), random_worlds(40, 8, 8, seed=36)])
+    paths, outcomes = Seeded(policy, worlds, 2.0, 200).drive()
+    same(node, worlds, page_policy(policy), 2.0, 200, paths, outcomes)
+    greedy = navigate(NetworkPolicy(network, encoder), worlds, 2.0, 200, record_paths=True)
+    assert sum(len(a) != len(b) for a, b in zip(paths, greedy.paths, strict=True)) > 10
+
+
+def test_chances_are_boltzmanns(node):
+    body = """const counts = [0, 0, 0];
+    const z = Float64Array.from(data.z);
+    for (let step = 0; step < 20000; step += 1) {
+      const noise = page.gumbel([7, 9], step);
+      counts[page.largest(z.map((sum, action) => sum + data.temperature * noise(action)))] += 1;
+    }
+    return counts;"""
+    z = np.array([0.0, 0.5, -1.0])
+    counts = np.array(node("simulator", body, {"z": z.tolist(), "temperature": 0.5}))
+    expected = np.exp(z / 0.5) / np.exp(z / 0.5).sum()
+    np.testing.assert_allclose(counts / 20_000, expected, atol=0.012)
+
+
+NETWORKS = [name for name in methods() if isinstance(method(name), NetworkPolicy)]
+
+
+@pytest.mark.parametrize("name", NETWORKS)
+def test_shipped_policies_drive_a_thousand_worlds_in_the_page_as_in_python(node, name):
+    policy = method(name)
+    worlds = concatenate([random_worlds(500, 20, seed=37), random_worlds(500, 10, 10, seed=38)])
+    if policy.temperature > 0:
+        paths, outcomes = Seeded(policy, worlds, 2.0, 150).drive()
+    else:
+        drives = navigate(policy, worlds, 2.0, 150, record_paths=True)
+        paths, outcomes = drives.paths, drives.outcome
+    same(node, worlds, page_policy(policy), 2.0, 150, paths, outcomes)
 
 
 def test_random_numbers_are_pythons(node):

@@ -1,0 +1,164 @@
+"""The robot playground, used as a reader would, and its drives compared with Python's."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from browser import DESKTOP, PHONE, Visit
+from playwright.sync_api import Locator, expect
+
+from robonav.experiments.methods import method, methods
+from robonav.lfd import NetworkPolicy, Weights, load_demonstrations, random_network, save_weights
+from robonav.robot import Encoder, freer_side, navigate, random_worlds, sense
+
+ME = "you, with the arrow keys"
+GREEDY = [name for name in methods() if isinstance(method(name), NetworkPolicy) and method(name).temperature == 0]
+
+
+@pytest.fixture(params=["desktop", "phone"])
+def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Locator]:
+    """The playground on its page: served to a desktop, or from disk on a phone."""
+    desktop = request.param == "desktop"
+    visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
+    visit.open(f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/playground.html")
+    found = visit.page.locator(".robonav")
+    found.locator("canvas").wait_for()
+    yield found
+    assert visit.errors == []
+
+
+def choose(lab: Locator, label: str, option: str) -> None:
+    lab.get_by_label(label, exact=True).select_option(option)
+
+
+def status(lab: Locator) -> Locator:
+    return lab.locator(".status")
+
+
+def drive_to_the_end(lab: Locator) -> str:
+    """Lets the chosen driver go as fast as it may, and gives what is said at the end."""
+    pace = lab.get_by_label("steps a second", exact=True).and_(lab.locator("input"))
+    pace.evaluate("(input) => { input.value = input.max; input.dispatchEvent(new Event('input')); }")
+    lab.get_by_role("button", name="Drive", exact=True).click()
+    expect(status(lab)).to_contain_text(re.compile("Arrived|Collided"))
+    return status(lab).inner_text()
+
+
+def test_rules_end_as_in_python(lab):
+    for world, made in (("20 obstacles", random_worlds(1, 20, seed=42)), ("10 standing, 10 moving", None)):
+        choose(lab, "world", world)
+        choose(lab, "who drives", "rule: freer side")
+        expected = navigate(freer_side, made or random_worlds(1, 10, 10, seed=44))
+        said = drive_to_the_end(lab)
+        assert said == f"{expected.outcome[0].capitalize()} after {expected.steps[0]} s."
+
+
+def test_every_driver_drives(lab):
+    drivers = lab.get_by_label("who drives", exact=True).locator("option").all_text_contents()
+    assert len(drivers) == 1 + len(methods())
+    for driver in drivers:
+        choose(lab, "who drives", driver)
+        if driver != ME:
+            lab.get_by_role("button", name="Back to the start").click()
+            for _ in range(3):
+                lab.get_by_role("button", name="One step").click()
+            expect(status(lab)).to_contain_text("3 s, target in sector")
+
+
+def test_readings_are_pythons(lab):
+    choose(lab, "world", "30 obstacles")
+    world = random_worlds(1, 30, seed=43)
+    choose(lab, "who drives", "rule: straight")
+    for _ in range(6):
+        lab.get_by_role("button", name="One step").click()
+    expect(status(lab)).to_contain_text("6 s, target in sector")
+    path = navigate(lambda seen, rng: np.zeros(len(seen), dtype=int), world, max_steps=6, record_paths=True).paths[0]
+    seen = sense(world, path[-1:])
+    rows = lab.locator(".readings tbody tr").all()
+    for row, distance in zip(rows, seen.ranges[0], strict=True):
+        expect(row.locator("td").first).to_have_text(f"{distance:.2f}")
+
+
+def test_obstacles_are_added_dragged_resized_and_removed(lab):
+    choose(lab, "world", "nothing at all")
+    lab.get_by_role("button", name="Add a circle").click()
+    thing = lab.get_by_label("Thing to change")
+    expect(thing).to_have_value("0")
+    canvas = lab.locator("canvas")
+    canvas.scroll_into_view_if_needed()
+    box = canvas.bounding_box()
+    mouse = lab.page.mouse
+    mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    mouse.down()
+    mouse.move(box["x"] + box["width"] * 0.3, box["y"] + box["height"] / 2, steps=4)
+    mouse.up()
+    choose(lab, "Thing to change", "target")  # and back, so that its fields show the new place
+    choose(lab, "Thing to change", "0")
+    x = lab.get_by_label("x (m)")
+    expect(x).to_have_value(re.compile(r"^(2[89]|30)"))
+    lab.get_by_label("radius (m)").fill("5")
+    lab.get_by_label("radius (m)").press("Tab")
+    lab.get_by_label("speed (m/s)").fill("0.5")
+    lab.get_by_label("speed (m/s)").press("Tab")
+    expect(canvas).to_have_attribute("aria-label", re.compile("1 obstacles"))
+    lab.get_by_role("button", name="Add a rectangle").click()
+    expect(lab.get_by_label("length (m)")).to_have_value("6")
+    lab.get_by_role("button", name="Remove").click()
+    expect(canvas).to_have_attribute("aria-label", re.compile("1 obstacles"))
+
+
+def test_a_drive_of_ones_own_is_a_demonstration_for_python(lab, tmp_path):
+    choose(lab, "world", "10 obstacles")
+    save = lab.get_by_role("button", name="Download this drive")
+    expect(save).to_be_disabled()
+    canvas = lab.locator("canvas")
+    canvas.focus()
+    for key in ("ArrowUp", "ArrowLeft", "Shift+ArrowRight", "ArrowUp"):
+        lab.page.keyboard.press(key)
+    lab.get_by_role("button", name="R30").click()
+    expect(lab.get_by_label("who drives", exact=True)).to_have_value(ME)
+    expect(status(lab)).to_contain_text("5 s, target in sector")
+    with lab.page.expect_download() as download:
+        save.click()
+    download.value.save_as(tmp_path / "mine.npz")
+    mine = load_demonstrations(tmp_path / "mine.npz")
+    world = random_worlds(1, 10, seed=41)
+    assert mine.worlds.digest() == world.digest()
+    assert len(mine) == 5
+    np.testing.assert_allclose(sense(world[np.zeros(5, dtype=int)], mine.poses).ranges, mine.sensing.ranges, atol=1e-9)
+
+
+def test_weights_of_ones_own_drive(lab, tmp_path):
+    encoder = Encoder(target="signed")
+    own = NetworkPolicy(random_network((encoder.size, 4, 5), seed=5, spread=3.0), encoder)
+    save_weights(tmp_path / "own.safetensors", Weights(own.network, "own", encoder))
+    (tmp_path / "bad.safetensors").write_bytes(b"nothing")
+    upload = lab.get_by_label("Weights to drive with")
+    upload.set_input_files(tmp_path / "bad.safetensors")
+    expect(lab.get_by_text("The file must hold weights saved by robonav")).to_be_visible()
+    upload.set_input_files(tmp_path / "own.safetensors")
+    expect(lab.get_by_text("own.safetensors drives now.")).to_be_visible()
+    choose(lab, "world", "20 obstacles")
+    expected = navigate(own, random_worlds(1, 20, seed=42), max_steps=40, record_paths=True)
+    for _ in range(len(expected.paths[0]) - 1):
+        lab.get_by_role("button", name="One step").click()
+    x, y = (f"{value:.1f}".removesuffix(".0") for value in expected.paths[0][-1][:2])
+    expect(lab.locator("canvas")).to_have_attribute("aria-label", re.compile(re.escape(f"Robot at {x}, {y}. ")))
+
+
+@pytest.mark.parametrize("name", GREEDY[:1])
+def test_what_a_network_thinks_is_pythons(lab, name):
+    choose(lab, "world", "30 obstacles")
+    policy, world = method(name), random_worlds(1, 30, seed=43)
+    lab.get_by_label("who drives", exact=True).select_option(index=methods()[2:].index(name))
+    path = navigate(policy, world, max_steps=6, record_paths=True).paths[0]
+    for _ in range(6):
+        lab.get_by_role("button", name="One step").click()
+    expect(status(lab)).to_contain_text("6 s, target in sector")
+    values = policy.network.forward(policy.encoder(sense(world, path[6:7])))[0]
+    shown = lab.locator(".values span")
+    expect(shown).to_have_text([re.compile(f" {value:.2f}$") for value in values])
