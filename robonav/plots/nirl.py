@@ -41,7 +41,7 @@ def draw_key_points(
     if driven is not None:
         x, y = np.asarray(driven)[:, :2].T
         axes.plot(x, y, ".", color=look.BLUE, markersize=5, label="robot, a dot a second")
-    axes.legend(loc="upper left", fontsize=8)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, fontsize=8)
 
 
 def draw_slips(axes: Axes, shown: Demonstrations, meant: ArrayLike) -> None:

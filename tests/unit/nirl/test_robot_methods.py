@@ -11,10 +11,14 @@ from robonav.nirl import (
     ENCODER,
     METHODS,
     NEUTRAL,
+    ByEquation514,
+    OneStep,
     RobotCourse,
     SampledDescent,
+    accuracy,
     by_heuristic,
     by_lstd,
+    by_max_margin,
     chosen_block,
     from_everywhere,
     from_start,
@@ -112,10 +116,31 @@ def test_every_method_learns_and_repeats(demonstrations, method):
     assert navigate(one.policy, random_worlds(3, 10, seed=0), max_steps=20).outcome.shape == (3,)
 
 
-def test_one_trajectory_is_enough(demonstrations):
-    assert np.isfinite(
-        learn(demonstrations[demonstrations.trajectory == 0], seed=0, course=COURSE, **SMALL).reward_weights
-    ).all()
+@pytest.mark.parametrize("method", METHODS)
+def test_one_trajectory_is_enough(demonstrations, method):
+    settings = dict(SMALL, course=COURSE) | ({"guesses": 3} if method == "apprenticeship" else {})
+    learned = learn(demonstrations[demonstrations.trajectory == 0], method, seed=0, **settings)
+    assert np.isfinite(learned.reward_weights).all()
+
+
+def test_algorithm_10_to_the_letter_runs(demonstrations):
+    to_the_letter = {"reward": ByEquation514(), "improve": OneStep(), "score": accuracy}
+    learned = learn(demonstrations, seed=0, course=COURSE, iterations=3, **to_the_letter)
+    assert learned.history.accuracies[learned.chosen] == learned.history.accuracies.max()
+    assert np.isfinite(learned.history.costs).all()
+
+
+@pytest.mark.parametrize("expectations", [from_start, from_everywhere])
+def test_an_apprentice_by_the_widest_margin(demonstrations, expectations):
+    learned = learn(
+        demonstrations, "apprenticeship", seed=0, course=COURSE, search=by_max_margin, guesses=2,
+        expectations=expectations, **(SMALL | {"iterations": 4}),
+    )  # fmt: skip
+    assert len(learned.history.costs) == 4
+    first, second, third, fourth = learned.history.weights
+    np.testing.assert_array_equal(first, second)
+    np.testing.assert_array_equal(third, fourth)
+    assert (first != third).any()
 
 
 @pytest.mark.parametrize("method", METHODS)
