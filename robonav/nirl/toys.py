@@ -9,7 +9,7 @@ from robonav.mdp.gridworld import Cell, GridWorld
 
 from .featured import FeaturedMDP
 
-GROUND = {"m": Cell(), "r": Cell(), "T": Cell(ends=True)}  # mud, road, target; a dot is grass
+GROUND = {"m": Cell(), "r": Cell(), "T": Cell(reward=3.0, ends=True)}  # mud, road, target; a dot is grass
 TERRAIN = """
     . . m m . . .
     . r r r r r .
