@@ -15,8 +15,8 @@ from .nnql_tuning import trained, trial_settings
 RESULTS = Path(__file__).parent / "results"
 """What these experiments gave at the thesis's scale: the pages show it."""
 
-CHOSEN = {"nnql": 2, "online": 0, "nfq": 3, "dqn": 15}
-"""The best trial of each method."""
+CHOSEN = {"nnql": 2, "online": 0, "nfq": 9, "dqn": 14}
+"""The best trial of each method: the winner of :data:`robonav.experiments.nnql_tuning.FINALS`."""
 
 DENSE = {
     "the thesis's": trial_settings("nnql", 0),

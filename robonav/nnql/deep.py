@@ -137,11 +137,11 @@ def dqn(
     seeds: int | Sequence[int] = 16,
     episodes: int = 300,
     *,
-    gamma: float = 0.6,
+    gamma: float = 0.7,
     rate: float = 0.003,
     temperature: Span = (0.9, 0.1),
-    batch: int = 64,
-    refresh: int = 100,
+    batch: int = 32,
+    refresh: int = 1000,
     **common: Unpack[Common],
 ) -> Training:
     """Deep Q-learning: after each step, one update on a batch drawn from all steps ever made.
