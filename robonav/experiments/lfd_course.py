@@ -47,7 +47,9 @@ EXPERTS = {
     "keeps off": {"margin": MARGIN, "caution": CAUTION},
     "shortest way": {"margin": COLLISION_DISTANCE, "caution": 0.0},
 }
-LARGEST = np.array([7.0] * 9 + [9, 1])  # of the eleven numbers of Eq. (3.17): the encoder divides by it
+INPUTS = {"0 to 7": np.array([7.0] * 9 + [9, 1]), "0 to 1": np.ones(11)}
+"""The 11 numbers of Eq. (3.17), by what the encoder gives."""
+
 RULES: dict[str, Policy] = {"straight": straight, "freer side": freer_side}
 Numbers = dict[str, ArrayLike]
 
@@ -85,29 +87,32 @@ def driven(policy: Policy, worlds: Worlds) -> Numbers:
     return {"success": arrived, "collision": collided, "out of steps": 100 - arrived - collided}
 
 
+@lru_cache(64)
 def cloned(seed: int, obstacles: int = 10, *, target: str = "sine-cosine") -> NetworkPolicy:
     """A network that has learned from the demonstrations of a run (Algorithm 3)."""
     return learn_policy(shown(seed, obstacles), seed=seed, encoder=Encoder(target=target))
 
 
-def trained(
-    demonstrations: Demonstrations, seed: int, *, degrees: str, iterations: int = 300
-) -> tuple[Training, NetworkPolicy]:
-    """A training on the thesis's 11 numbers, and the policy that it gives.
+@lru_cache(64)
+def trained(seed: int, expert: str, degrees: str, *, drives: int = DEMONSTRATIONS, iterations: int = 300) -> Training:
+    """A training on the thesis's 11 numbers, with the network of every iteration.
 
     Parameters
     ----------
+    expert : see :func:`shown`.
     degrees : "0 to 7" as they are, or "0 to 1", all numbers divided by the largest that they can be.
     """
-    encoder = Encoder(target="number")
-    x, y = labelled_states(demonstrations, encoder)
-    scale = LARGEST if degrees == "0 to 7" else np.ones(len(LARGEST))
-    training = fit(x * scale, y, iterations=iterations, seed=seed)
-    first, *others = training.network.weights
-    return training, NetworkPolicy(Network((first * scale, *others), training.network.biases), encoder)
+    x, y = labelled_states(shown(seed, drives=drives, expert=expert), Encoder(target="number"))
+    return fit(x * INPUTS[degrees], y, iterations=iterations, seed=seed, record=True)
 
 
-@lru_cache(8)
+def unscaled(network: Network, degrees: str) -> NetworkPolicy:
+    """The policy of a network trained on such degrees: as the encoder gives 0 to 1, the weights make up for it."""
+    first, *others = network.weights
+    return NetworkPolicy(Network((first * INPUTS[degrees], *others), network.biases), Encoder(target="number"))
+
+
+@lru_cache(32)
 def aggregated(
     seed: int, obstacles: int = 10, *, target: str = "sine-cosine", rounds: int = ROUNDS["thesis"]
 ) -> Aggregation:

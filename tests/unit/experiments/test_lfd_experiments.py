@@ -5,7 +5,7 @@ import pytest
 
 from robonav.experiments.lfd import EXPERIMENTS, FIGURE_3_5, FIGURE_3_8, OTHERS, TABLE_3_2, method, with_demonstrations
 from robonav.experiments.lfd_course import (
-    LARGEST,
+    INPUTS,
     MORE_WORLDS,
     NAVIGATIONS,
     SHOWN_WORLDS,
@@ -15,11 +15,12 @@ from robonav.experiments.lfd_course import (
     new_worlds,
     shown,
     trained,
+    unscaled,
 )
 from robonav.experiments.lfd_shipped import FOLDER, SEED, shipped
 from robonav.experiments.methods import drive
 from robonav.lfd import demonstrate, fit, labelled_states, load_weights, plan, plan_on_grid
-from robonav.robot import Encoder, navigate, random_worlds, straight
+from robonav.robot import navigate, random_worlds, straight
 
 
 @pytest.mark.parametrize("experiment", EXPERIMENTS, ids=lambda experiment: experiment.name)
@@ -55,13 +56,18 @@ def test_the_shortest_way_goes_nearer():
 
 def test_degrees_from_0_to_7_are_folded_into_the_weights():
     """The policy's network answers to the encoder's inputs what the trained one answered to seven times as much."""
-    demonstrations = shown(0, drives=5)
-    training, policy = trained(demonstrations, 4, degrees="0 to 7", iterations=20)
-    x, y = labelled_states(demonstrations, Encoder(target="number"))
-    assert policy.network.forward(x) == pytest.approx(training.network.forward(x * LARGEST))
-    assert training.costs[-1] == fit(x * LARGEST, y, iterations=20, seed=4).costs[-1]
-    plain, same = trained(demonstrations, 4, degrees="0 to 1", iterations=20)
-    assert same.network.weights[0] == pytest.approx(plain.network.weights[0])
+    training = trained(0, "keeps off", "0 to 7", drives=5, iterations=20)
+    policy = unscaled(training.network, "0 to 7")
+    x, y = labelled_states(shown(0, drives=5), policy.encoder)
+    assert policy.network.forward(x) == pytest.approx(training.network.forward(x * np.array([7] * 9 + [9, 1])))
+    assert training.costs[-1] == fit(x * INPUTS["0 to 7"], y, iterations=20, seed=0).costs[-1]
+    plain = trained(0, "keeps off", "0 to 1", drives=5, iterations=20)
+    assert plain.costs[-1] == fit(x, y, iterations=20, seed=0).costs[-1]
+
+
+def test_fewer_iterations_are_the_same_training_cut_short():
+    few, more = (trained(1, "keeps off", "0 to 1", drives=5, iterations=n) for n in (10, 15))
+    assert np.array_equal(few.network.weights[0], more.networks[10].weights[0])
 
 
 def test_success_is_what_navigate_gives():
