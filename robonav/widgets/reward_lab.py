@@ -1,0 +1,87 @@
+"""Reward lab: a reward that was learned, with weights to push, and what a robot does that follows it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import anywidget
+import numpy as np
+import traitlets
+from numpy.typing import ArrayLike
+
+from robonav import expect
+from robonav.lfd.demonstrations import LEARNED
+from robonav.nirl import Steps
+from robonav.robot import Encoder, Worlds
+
+from .shared import front_end, packed, style
+from .simulator import page_world
+
+TARGET_FEATURES = {
+    "number": ["target's sector, 1 to 9"],
+    "signed": ["target's sector, right to left"],
+    "one-hot": [f"target in sector {sector}" for sector in range(1, 10)],
+    "sine-cosine": ["target to the left", "target ahead"],
+}
+
+
+class RewardLab(anywidget.AnyWidget):
+    """Push a weight of the reward; see where the reward is high, and what the robot does then."""
+
+    _esm = front_end("simulator", "maps", "reward_lab")
+    _css = style("maps", "reward_lab")
+    data = traitlets.Dict().tag(sync=True)
+
+
+def reward_lab(
+    reward_weights: ArrayLike,
+    encoder: Encoder,
+    shown: Steps,
+    worlds: Mapping[str, Worlds],
+    others: Worlds,
+    *,
+    discount: float = 0.9,
+    speed: float = 2.0,
+) -> RewardLab:
+    """The lab for one reward.
+
+    Parameters
+    ----------
+    reward_weights : theta (5, k + 1), a row an action, the constant last, as :func:`robonav.nirl.learn` gives it.
+    encoder : phi(s), k features.
+    shown : the expert's decisions, to say how often the reward agrees with them.
+    worlds : named batches of one, to look at.
+    others : more of them, in which arrivals are counted.
+    discount : gamma of a robot that looks more than one decision ahead.
+    speed : in m/s.
+
+    Raises
+    ------
+    ValueError : if the weights do not fit the encoder, or there is no world or decision.
+    """
+    theta = expect.array("reward_weights", reward_weights, shape=(LEARNED, encoder.size + 1))
+    if not worlds or not len(others) or not len(shown):
+        raise ValueError("worlds, others and shown must each hold at least one")
+    return RewardLab(
+        data={
+            "theta": packed(theta),
+            "encoder": {"sensors": list(encoder.sensors), "walls": encoder.walls, "target": encoder.target},
+            "features": _features(encoder),
+            "inputs": packed(shown.inputs),
+            "actions": packed(shown.actions, np.uint8),
+            "worlds": [{"name": name, "world": page_world(world)} for name, world in worlds.items()],
+            "others": [page_world(world) for world in others],
+            "discount": expect.real("discount", discount, at_least=0, below=1),
+            "speed": expect.positive("speed", speed),
+        }
+    )
+
+
+def _features(encoder: Encoder) -> list[dict[str, Any]]:
+    """Names of the features, in the encoder's order, and what each is about."""
+    named = [("danger", f"danger in sector {sensor}") for sensor in encoder.sensors]
+    named += [("target", name) for name in (*TARGET_FEATURES[encoder.target], "target seen")]
+    if encoder.walls:
+        named += [("wall", f"wall in sector {sensor}") for sensor in encoder.sensors]
+    return [{"kind": kind, "name": name} for kind, name in (*named, ("constant", "constant"))]

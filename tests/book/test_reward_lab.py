@@ -1,0 +1,121 @@
+"""The reward lab, used as a reader would, and its numbers compared with Python's."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from browser import DESKTOP, PHONE
+from mounting import mounted
+from playwright.sync_api import Locator, expect
+
+from robonav.lfd import demonstrate
+from robonav.nirl import ENCODER, shown_steps
+from robonav.nirl.steps import with_constant
+from robonav.robot import navigate, random_worlds
+from robonav.widgets.reward_lab import reward_lab
+
+SHOWN = shown_steps(demonstrate(random_worlds(6, 20, seed=3)))
+THETA = np.linalg.lstsq(SHOWN.features, np.eye(5)[SHOWN.actions], rcond=None)[0].T
+WORLDS = {"one": random_worlds(1, 20, seed=5), "another": random_worlds(1, 20, seed=9)}
+OTHERS = random_worlds(10, 20, seed=6)
+
+
+@pytest.fixture(params=[DESKTOP, PHONE], ids=["desktop", "phone"])
+def lab(request, visit, http):
+    visit.page.set_viewport_size(request.param)
+    yield mounted(visit, http, reward_lab(THETA, ENCODER, SHOWN, WORLDS, OTHERS))
+    assert visit.errors == []
+
+
+def choose(lab: Locator, label: str, option: str) -> None:
+    lab.get_by_label(label, exact=True).select_option(option)
+
+
+def driven(theta, worlds):
+    """How a robot ends that takes what the reward likes best."""
+
+    def policy(sensing, rng):
+        return (with_constant(ENCODER(sensing)) @ theta.T).argmax(axis=1)
+
+    return navigate(policy, worlds, max_steps=200)
+
+
+def shows(lab: Locator, theta: np.ndarray, world: str) -> None:
+    """The lab says of this reward what Python says."""
+    here, there = driven(theta, WORLDS[world]), driven(theta, OTHERS)
+    verbs = {"arrived": "arrives after", "collided": "collides after", "out of steps": "is still on its way after"}
+    ended = f"With this reward the robot {verbs[here.outcome[0]]} {here.steps[0]} s."
+    expect(lab.locator(".status")).to_contain_text(ended)
+    agreed = 100 * np.mean((SHOWN.features @ theta.T).argmax(axis=1) == SHOWN.actions)
+    score = lab.locator("p.told")
+    expect(score).to_contain_text(f"is the expert's in {agreed:.1f} % of {len(SHOWN)} decisions")
+    counted = [int((there.outcome == end).sum()) for end in verbs]
+    expect(score).to_contain_text(
+        f"In 10 other maps the robot arrives {counted[0]} times, collides {counted[1]} times and gets lost {counted[2]}"
+    )
+
+
+def push(lab: Locator, step: int) -> None:
+    lab.get_by_label("push this weight", exact=True).and_(lab.locator("input")).evaluate(
+        "(input, step) => { input.value = step; input.dispatchEvent(new Event('input')); }", step
+    )
+
+
+def test_rewards_drive_as_in_python(lab):
+    danger = slice(0, len(ENCODER.sensors))
+    walls = slice(ENCODER.size - len(ENCODER.sensors), ENCODER.size)
+    shows(lab, THETA, "one")
+    choose(lab, "map", "another")
+    shows(lab, THETA, "another")
+    fearless = THETA.copy()
+    fearless[:, danger] = fearless[:, walls] = 0
+    for attempt, theta in (
+        ("nothing matters: all weights 0", 0 * THETA),
+        ("no fear: dangers and walls 0", fearless),
+        ("the opposite: all weights turned round", -THETA),
+    ):
+        choose(lab, "begin with the reward", attempt)
+        shows(lab, theta, "another")
+
+
+def test_weights_are_pushed_one_by_one_and_for_all_actions(lab):
+    strongest = abs(THETA).max()
+    choose(lab, "weight of", "danger in sector 1")
+    choose(lab, "for", "F")
+    push(lab, 40)
+    pushed = THETA.copy()
+    pushed[0, 0] += strongest
+    shows(lab, pushed, "one")
+    choose(lab, "weight of", "constant")
+    choose(lab, "for", "L60")
+    push(lab, 30)
+    pushed[2, -1] += strongest / 2
+    shows(lab, pushed, "one")
+    choose(lab, "for", "all actions")
+    choose(lab, "weight of", "target ahead")
+    push(lab, 0)
+    pushed[:, len(ENCODER.sensors) + 1] -= strongest
+    shows(lab, pushed, "one")
+    lab.get_by_role("button", name="Take all pushes back").click()
+    shows(lab, THETA, "one")
+
+
+def test_a_touched_weight_is_in_hand(lab):
+    picture = lab.locator("svg.weights")
+    picture.locator("rect").nth(2 * (ENCODER.size + 1) + 3).click()
+    expect(lab.get_by_label("for", exact=True)).to_have_value("L60")
+    expect(lab.get_by_label("weight of", exact=True)).to_have_value("danger in sector 4")
+    expect(picture).to_have_attribute("aria-label", re.compile("danger in sector 4 is marked"))
+
+
+def test_the_drive_can_be_stepped_through(lab):
+    lab.get_by_label("To the start").click()
+    expect(lab.locator(".status")).to_contain_text("Second 0: ")
+    lab.get_by_label("One on").click()
+    expect(lab.locator(".status")).to_contain_text("Second 1: ")
+    lab.get_by_label("Play").click()
+    expect(lab.locator(".status")).not_to_contain_text("Second 1: ")
+    choose(lab, "looks ahead", "2 decisions")
+    expect(lab.locator("p.told")).to_contain_text("In 10 other maps")

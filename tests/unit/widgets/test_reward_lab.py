@@ -1,0 +1,156 @@
+"""The reward lab's JavaScript under Node: rewards, and drives that follow them, are Python's."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from robonav.lfd import demonstrate
+from robonav.nirl import ENCODER, into_unit, rewards_of, shown_steps
+from robonav.nirl.steps import with_constant
+from robonav.robot import Reflex, Simulator, navigate, random_worlds
+from robonav.robot.kernels import ARRIVED, COLLIDED, RUNNING
+from robonav.widgets.reward_lab import reward_lab
+from robonav.widgets.simulator import page_world
+
+SPEED, DISCOUNT = 2.0, 0.9
+
+
+@pytest.fixture(scope="module")
+def shown():
+    return shown_steps(demonstrate(random_worlds(6, 20, seed=3)))
+
+
+@pytest.fixture(scope="module")
+def theta(shown):
+    """Least squares on what the expert did: a reward that drives in some maps and not in others."""
+    return np.linalg.lstsq(shown.features, np.eye(5)[shown.actions], rcond=None)[0].T
+
+
+@pytest.fixture
+def page(node):
+    return partial(node, ("simulator", "maps", "reward_lab"))
+
+
+def lab(shown, theta, **changes):
+    worlds, others = {"one": random_worlds(1, 20, seed=5)}, random_worlds(3, 20, seed=6)
+    return reward_lab(
+        **{"reward_weights": theta, "encoder": ENCODER, "shown": shown} | changes, worlds=worlds, others=others
+    )
+
+
+def test_rewards_and_judgements_are_pythons(page, shown, theta):
+    data = lab(shown, theta).data
+    body = """
+      const [theta, inputs] = [page.unpack(data.theta).values, page.unpack(data.inputs).values];
+      const shown = { inputs, actions: page.unpack(data.actions).values, width: data.features.length - 1 };
+      const width = shown.width;
+      const all = [...shown.actions].map((_, m) => page.rewardsOf(theta, inputs.subarray(m * width, (m + 1) * width)));
+      return { all, ...page.judged(theta, shown) };"""
+    seen = page(body, data)
+    np.testing.assert_allclose(seen["all"], shown.features @ theta.T, atol=1e-12)
+    assert seen["scale"] == pytest.approx(np.percentile(abs(rewards_of(theta, shown)), 95), abs=1e-12)
+    assert seen["agreement"] == np.mean((shown.features @ theta.T).argmax(axis=1) == shown.actions)
+
+
+def plan(shown, theta, depth):
+    encoder = lab(shown, theta).data["encoder"]
+    scale = float(np.percentile(abs(rewards_of(theta, shown)), 95))
+    return {
+        "theta": theta.ravel().tolist(),
+        "encoder": encoder,
+        "discount": DISCOUNT,
+        "speed": SPEED,
+        "depth": depth,
+        "scale": scale,
+    }
+
+
+def test_a_robot_that_looks_no_further_drives_as_in_python(page, shown, theta):
+    worlds = random_worlds(60, 20, seed=7)
+
+    def policy(sensing, rng):
+        return (with_constant(ENCODER(sensing)) @ theta.T).argmax(axis=1)
+
+    expected = navigate(policy, worlds, SPEED, 200, record_paths=True)
+    body = """return data.worlds.map((world) => page.drive(data.plan, world))
+      .map(({ poses, outcome }) => ({ poses, outcome }));"""
+    drives = page(body, {"plan": plan(shown, theta, 1), "worlds": [page_world(world) for world in worlds]})
+    assert {"arrived", "collided"} <= {drive["outcome"] for drive in drives}
+    for drive, path, outcome in zip(drives, expected.paths, expected.outcome, strict=True):
+        assert drive["outcome"] == outcome.replace("out of steps", "running")
+        np.testing.assert_allclose([list(pose.values()) for pose in drive["poses"]], path, rtol=0, atol=1e-9)
+
+
+def worths(theta, scale, simulator, depth):
+    """The same by brute force: a copy of the simulator for each action."""
+    sensing = simulator.sense()
+    rewards = (with_constant(ENCODER(sensing)) @ theta.T)[0]
+    units = into_unit(np.append(rewards, [scale] * 1000))[:5]
+    found = []
+    for action in range(5):
+        after = copy_of(simulator)
+        after.step(np.array([action]))
+        for _ in range(5):
+            own = Reflex()(after.sense(), SPEED)
+            if after.outcome[0] != RUNNING or own[0] < 0:
+                break
+            after.step(own)
+        asked = after.outcome[0] == RUNNING and Reflex()(after.sense(), SPEED)[0] < 0
+        rest = {ARRIVED: 1.0, COLLIDED: 0.0}.get(int(after.outcome[0]))
+        if rest is None:
+            rest = max(worths(theta, scale, after, depth - 1)) if depth > 1 and asked else 0.5
+        found.append((1 - DISCOUNT) * units[action] + DISCOUNT * rest)
+    return found
+
+
+def copy_of(simulator):
+    other = Simulator(simulator.worlds, SPEED)
+    for name in ("poses", "centres", "headings", "steps", "outcome"):
+        setattr(other, name, getattr(simulator, name).copy())
+    return other
+
+
+def test_looking_ahead_is_worth_what_brute_force_says(page, shown, theta):
+    worlds = random_worlds(12, 20, 6, seed=8)
+    rng = np.random.default_rng(0)
+    moments, expected = [], []
+    setting = plan(shown, theta, 2)
+    for world in worlds:
+        simulator = Simulator(world, SPEED)
+        for _ in range(12 + int(rng.integers(20))):
+            own = Reflex()(simulator.sense(), SPEED)
+            simulator.step(np.where(own < 0, 0, own))
+        if simulator.outcome[0] != RUNNING or Reflex()(simulator.sense(), SPEED)[0] >= 0:
+            continue
+        here = replace(world, centres=simulator.centres, headings=simulator.headings)
+        x, y, heading = simulator.poses[0].tolist()
+        pose = {"x": x, "y": y, "heading": heading}
+        moments.append({"world": page_world(here), "pose": pose, "step": int(simulator.steps[0])})
+        expected.append(worths(theta, setting["scale"], simulator, 2))
+    assert len(moments) >= 4
+    body = """return data.moments.map((moment) =>
+      page.worths(data.plan, { ...moment, sensing: page.sense(moment.world, moment.pose) }, 2));"""
+    seen = page(body, {"plan": setting, "moments": moments})
+    np.testing.assert_allclose(seen, expected, atol=1e-9)
+
+
+def test_percentiles_are_numpys(page):
+    values = np.random.default_rng(0).normal(size=37)
+    seen = page("return [0, 0.5, 0.95, 1].map((share) => page.percentile(data, share));", values.tolist())
+    np.testing.assert_allclose(seen, np.percentile(values, [0, 50, 95, 100]), atol=1e-12)
+
+
+@pytest.mark.parametrize("target", ["number", "signed", "one-hot", "sine-cosine"])
+def test_every_feature_has_a_name(shown, target):
+    encoder = replace(ENCODER, target=target)
+    steps = shown_steps(demonstrate(random_worlds(2, 20, seed=3)), encoder)
+    features = lab(steps, np.zeros((5, encoder.size + 1)), encoder=encoder).data["features"]
+    assert len(features) == encoder.size + 1
+    assert features[-1]["kind"] == "constant"
+
+
+def test_weights_that_do_not_fit_are_refused(shown):
+    with pytest.raises(ValueError, match="reward_weights must have shape"):
+        lab(shown, np.zeros((5, 4)))
