@@ -127,7 +127,7 @@ function render({ model, el }) {
   const shown = { inputs: unpack(data.inputs).values, actions: unpack(data.actions).values, width: features.length - 1 };
   const kinds = features.map(({ kind }) => kind);
   const strongest = Math.max(...learned.map(Math.abs));
-  let [theta, world, depth, picked, frame] = [[...learned], worlds[0].world, DEPTHS[0], [CHOICES, 0], 0];
+  let [theta, world, depth, picked, frame, coloured] = [[...learned], worlds[0].world, DEPTHS[0], [CHOICES, 0], 0, 0];
   let [plan, now, before, backdrop, timer, tried] = [null, null, null, null, null, 0];
 
   const board = mapCanvas({ role: "img" });
@@ -160,6 +160,8 @@ function render({ model, el }) {
   const back = h("button", { type: "button", click: restart }, "Take all pushes back");
   const where = choice({ label: "map", options: worlds.map(({ name }) => name), change: (index) => { world = worlds[index].world; changed(); } });
   const ahead = choice({ label: "looks ahead", options: DEPTHS.map((d) => `${d} decision${d > 1 ? "s" : ""}`), change: (index) => { depth = DEPTHS[index]; changed(); } });
+
+  const colours = choice({ label: "colours show the reward of", options: [...ROBOT.actions.slice(0, CHOICES), "the best action"], change: (index) => { [coloured, backdrop] = [index, null]; show(); } });
 
   /** Another weight in hand: the controls follow. */
   function inspect() {
@@ -199,19 +201,20 @@ function render({ model, el }) {
     const some = () => {
       for (let i = 0; i < 4 && done < others.length; i += 1, done += 1) tally[drive(plan, others[done]).outcome] += 1;
       score.textContent = done < others.length ? `${agreed} Driving other maps: ${done} of ${others.length} …`
-        : `${agreed} In ${others.length} other maps the robot arrives ${tally.arrived} times, collides ${tally.collided} times and gets lost ${tally.running} times.`;
+        : `${agreed} Of ${others.length} other maps the robot arrives in ${tally.arrived}, collides in ${tally.collided} and gets lost in ${tally.running}.`;
       if (done < others.length) timer = setTimeout(some, 0);
     };
     some();
   }
 
-  /** The reward of the best action all over the map, for a robot that faces the target; nothing where reflexes decide. */
+  /** The reward of an action, or of the best, all over the map for a robot that faces the target; nothing where reflexes decide. */
   function paintReward() {
     backdrop ??= Array.from({ length: CELLS * CELLS }, (_, i) => {
       const [x, y] = [((i % CELLS) + 0.5) / CELLS, (Math.floor(i / CELLS) + 0.5) / CELLS].map((share) => share * world.size);
       const sensing = sense(world, { x, y, heading: Math.atan2(world.target[1] - y, world.target[0] - x) });
       if (sensing.ranges.some((range) => range <= 0) || reflex(sensing, speed) >= 0) return [x, y, null];
-      return [x, y, Math.max(...rewardsOf(theta, encode(encoder, sensing))) / (plan.scale || 1)];
+      const r = rewardsOf(theta, encode(encoder, sensing));
+      return [x, y, (r[coloured] ?? Math.max(...r)) / (plan.scale || 1)];
     });
     backdrop.forEach(([x, y, share]) => share !== null && board.dots([x, y], 0, 1, {
       colour: share >= 0 ? PALETTE.BLUE : PALETTE.VERMILION, radius: 246 / CELLS, alpha: 0.08 + 0.5 * Math.min(Math.abs(share), 1),
@@ -243,7 +246,7 @@ function render({ model, el }) {
   const key = (colour, text) => h("span", { style: `--mark: ${colour}` }, text);
   el.classList.add("robonav", "reward-lab");
   el.replaceChildren(
-    h("div", { class: "row" }, where.element, ahead.element, attempts.element),
+    h("div", { class: "row" }, where.element, ahead.element, attempts.element, colours.element),
     h("div", { class: "row" },
       h("div", { class: "grow" }, board.canvas, place),
       h("div", { class: "grow side" },

@@ -53,7 +53,7 @@ def shows(lab: Locator, theta: np.ndarray, world: str) -> None:
     expect(score).to_contain_text(f"is the expert's in {agreed:.1f} % of {len(SHOWN)} decisions")
     counted = [int((there.outcome == end).sum()) for end in verbs]
     expect(score).to_contain_text(
-        f"In 10 other maps the robot arrives {counted[0]} times, collides {counted[1]} times and gets lost {counted[2]}"
+        f"Of 10 other maps the robot arrives in {counted[0]}, collides in {counted[1]} and gets lost in {counted[2]}."
     )
 
 
@@ -118,4 +118,18 @@ def test_the_drive_can_be_stepped_through(lab):
     lab.get_by_label("Play").click()
     expect(lab.locator(".status")).not_to_contain_text("Second 1: ")
     choose(lab, "looks ahead", "2 decisions")
-    expect(lab.locator("p.told")).to_contain_text("In 10 other maps")
+    expect(lab.locator("p.told")).to_contain_text("Of 10 other maps")
+
+
+def test_colours_show_the_reward_of_an_action_or_of_the_best(lab):
+    before = picture(lab)
+    choose(lab, "colours show the reward of", "L60")
+    after = picture(lab)
+    assert after != before
+    choose(lab, "colours show the reward of", "F")
+    assert picture(lab) == before
+
+
+def picture(lab: Locator) -> str:
+    expect(lab.locator("p.told")).to_contain_text("Of 10 other maps")
+    return lab.locator("canvas").evaluate("(canvas) => canvas.toDataURL()")
