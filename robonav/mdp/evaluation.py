@@ -40,6 +40,7 @@ def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     ------
     ValueError : if, without discount, the policy collects rewards for ever, so that its value is not finite.
     """
+    expect.instance("mdp", mdp, FiniteMDP)
     return solve_chain(*mdp.under(policy), mdp.discount, np.zeros(mdp.states))
 
 
@@ -67,6 +68,7 @@ def iterative_policy_evaluation(
     -----
     ConvergenceWarning : if ``max_iterations`` sweeps did not suffice; says how far the values still moved.
     """
+    expect.instance("mdp", mdp, FiniteMDP)
     from . import kernels
 
     expect.positive("tolerance", tolerance)
@@ -104,19 +106,52 @@ def warn_unfinished(name: str, iterations: int, distance: float, enough: float) 
 
 
 def solve_chain(
-    transitions: sp.csr_array, rewards: NDArray[np.float64], discount: float, guess: NDArray[np.float64]
+    transitions: sp.csr_array,
+    rewards: NDArray[np.float64],
+    discount: float,
+    guess: NDArray[np.float64],
+    *,
+    name: str = "policy",
 ) -> NDArray[np.float64]:
-    """V = r + gamma T V for a Markov chain, improving on ``guess`` (S,)."""
+    """V = r + gamma T V for the Markov chain of the policy ``name``, improving on ``guess`` (S,)."""
     if discount < 1:
         return _solve(sp.eye_array(rewards.size, format="csr") - discount * transitions, rewards, guess)
-    moving = ~_resting(transitions, rewards)
+    moving = ~_resting(transitions, rewards, name)
     values = np.zeros(rewards.size)
     equations = sp.eye_array(moving.sum(), format="csr") - transitions[moving][:, moving]
     values[moving] = _solve(equations, rewards[moving], guess[moving])
     return values
 
 
-def _resting(transitions: sp.csr_array, rewards: NDArray[np.float64]) -> NDArray[np.bool_]:
+def solve_differences(
+    transitions: sp.csr_array, rewards: NDArray[np.float64], discount: float, values: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The solution of V = r + gamma T V but for a number that all states share, refined from ``values`` (S,).
+
+    Near discount 1 values are large, because all states share the mean reward over 1 - gamma, and the differences
+    that matter drown in the rounding of what is shared. Here it is left out. Rows of ``transitions`` are taken to sum
+    to one exactly.
+
+    Returns
+    -------
+    differences : (S,), V less a number.
+    step : (S,), what the last refinement still changed: as much as rounding makes it.
+    """
+    equations = sp.eye_array(rewards.size, format="csr") - discount * transitions
+    differences, step = _less_shared(values), values
+    for _ in range(3):
+        missing = _less_shared(rewards - equations @ differences)
+        step = _less_shared(_solve(equations, missing, np.zeros_like(missing)))
+        differences = differences + step
+    return differences, step
+
+
+def _less_shared(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Numbers about 0: less the middle between the least and the largest."""
+    return numbers - (numbers.min() + numbers.max()) / 2
+
+
+def _resting(transitions: sp.csr_array, rewards: NDArray[np.float64], name: str) -> NDArray[np.bool_]:
     """Which states (S,) the chain never leaves for others and where it collects nothing: their value is 0."""
     count, member = csgraph.connected_components(transitions, connection="strong")
     source, reached = transitions.nonzero()
@@ -125,7 +160,7 @@ def _resting(transitions: sp.csr_array, rewards: NDArray[np.float64]) -> NDArray
     rewarded = closed[member] & (rewards != 0)
     if rewarded.any():
         raise ValueError(
-            "policy must not collect rewards for ever where discount is 1, "
+            f"{name} must not collect rewards for ever where discount is 1, "
             f"got one that does in state {int(rewarded.argmax())} and never ends"
         )
     return closed[member]

@@ -35,6 +35,7 @@ def backward_induction(mdp: FiniteMDP, horizon: int, *, final_values: ArrayLike 
     horizon : number of steps H, at least 0.
     final_values : (S,), what it is worth to stand in each state at the end; zeros if not given.
     """
+    expect.instance("mdp", mdp, FiniteMDP)
     steps = expect.integer("horizon", horizon, at_least=0)
     values = np.empty((steps + 1, mdp.states))
     policy = np.empty((steps, mdp.states), dtype=np.intp)
@@ -49,6 +50,7 @@ def horizon_evaluation(
     mdp: FiniteMDP, policy: ArrayLike, horizon: int, *, final_values: ArrayLike | None = None
 ) -> NDArray[np.float64]:
     """Expected return (S,) of the next ``horizon`` steps under one policy, (S,) actions or (S, A) probabilities."""
+    expect.instance("mdp", mdp, FiniteMDP)
     transitions, rewards = mdp.under(policy)
     values = starting_values("final_values", mdp, final_values)
     for _ in range(expect.integer("horizon", horizon, at_least=0)):

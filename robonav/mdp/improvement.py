@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav import expect
+from robonav.errors import ConvergenceWarning
 
 from . import policies
-from .evaluation import policy_evaluation, starting_values, warn_unfinished
+from .evaluation import policy_evaluation
 from .models import FiniteMDP
+from .planning import first_values, rounding_of_gains
+from .values import or_rest
 
 
 @dataclass(frozen=True)
@@ -51,51 +55,70 @@ def generalized_policy_iteration(
     Parameters
     ----------
     sweeps : evaluation sweeps in each round: 1 is value iteration, ``math.inf`` (exact evaluation) policy iteration.
-    tolerance : largest loss of value accepted, in units of reward; positive.
-    start_values, start_policy : (S,); zeros if not given.
+    tolerance : largest loss of value accepted, in units of reward; positive. What rounding can feign is accepted too.
+    start_values, start_policy : (S,); zeros if not given, without discount as in ``value_iteration``.
     max_rounds : evaluations after which to give up.
 
     Warns
     -----
-    ConvergenceWarning : if ``max_rounds`` did not suffice.
+    ConvergenceWarning : if ``max_rounds`` did not suffice; says how far the values and how many actions still moved.
     """
+    expect.instance("mdp", mdp, FiniteMDP)
     if sweeps != math.inf:
         expect.integer("sweeps", sweeps, at_least=1)
-    enough = mdp.stopping_distance(expect.positive("tolerance", tolerance))
-    values = starting_values("start_values", mdp, start_values)
+    enough = mdp.stopping_distance(tolerance)
+    values = first_values(mdp, start_values, name="start_values")
     chosen = np.zeros(mdp.states, dtype=np.intp) if start_policy is None else start_policy
     policy = policies.deterministic("start_policy", chosen, mdp.states, mdp.actions)
     rows = [(values, policy, False)]
     for rounds in range(1, expect.integer("max_rounds", max_rounds, at_least=1) + 1):
-        evaluated = _evaluated(mdp, policy, values, sweeps)
-        improved = _improved(mdp, policy, evaluated, enough)
+        evaluated, rounding = _evaluated(mdp, policy, values, sweeps)
+        improved = _improved(mdp, policy, evaluated, rounding)
         rows += [(evaluated, policy, False), (evaluated, improved, True)]
-        moved = abs(mdp.backup(evaluated).max(axis=1) - evaluated).max()
-        if moved <= enough and (improved == policy).all():
+        moved = abs(or_rest(mdp, mdp.backup(evaluated)).max(axis=1) - evaluated).max()
+        changed = int((improved != policy).sum())
+        if moved <= max(enough, rounding) and not changed:
             break
         if rounds == max_rounds:
-            warn_unfinished("generalized_policy_iteration", rounds, moved, enough)
+            _warn_unfinished(rounds, moved, enough, changed)
         values, policy = evaluated, improved
     return _traced(mdp, rows)
 
 
 def _evaluated(
     mdp: FiniteMDP, policy: NDArray[np.intp], values: NDArray[np.float64], sweeps: float
-) -> NDArray[np.float64]:
-    """The values moved towards the policy's by some sweeps, all the way by infinitely many."""
+) -> tuple[NDArray[np.float64], float]:
+    """The values moved towards the policy's by some sweeps, all the way by infinitely many; and what a gain may feign.
+
+    That is more for exact values: the equations pass rounding on.
+    """
+    state = np.arange(mdp.states)
     if sweeps == math.inf:
-        return policy_evaluation(mdp, policy)
-    transitions, rewards = mdp.under(policy)
+        exact = policy_evaluation(mdp, policy)
+        return exact, rounding_of_gains(mdp, exact, mdp.backup(exact)[state, policy])
     for _ in range(int(sweeps)):
-        values = rewards + mdp.discount * (transitions @ values)
-    return values
+        values = or_rest(mdp, mdp.backup(values))[state, policy]
+    return values, 4 * np.finfo(float).eps * float(abs(values).max())
 
 
-def _improved(mdp: FiniteMDP, policy: NDArray[np.intp], values: NDArray[np.float64], enough: float) -> NDArray[np.intp]:
+def _improved(
+    mdp: FiniteMDP, policy: NDArray[np.intp], values: NDArray[np.float64], rounding: float
+) -> NDArray[np.intp]:
     """The greedy policy, but an action that is as good as the best stays (else ties would go round for ever)."""
     q = mdp.backup(values)
-    stays = policies.greedy_actions(q, tolerance=min(enough, 1e-9))[np.arange(mdp.states), policy]
-    return np.where(stays, policy, q.argmax(axis=1))
+    promised = or_rest(mdp, q)
+    stays = promised.max(axis=1) - q[np.arange(mdp.states), policy] <= rounding
+    return np.where(stays, policy, promised.argmax(axis=1))
+
+
+def _warn_unfinished(rounds: int, moved: float, enough: float, changed: int) -> None:
+    """ConvergenceWarning at the caller's caller."""
+    warnings.warn(
+        f"generalized_policy_iteration gave up after {rounds} rounds: the last one left a value to move by "
+        f"{moved:.3g}, where {enough:.3g} was asked for, and changed {changed} actions",
+        ConvergenceWarning,
+        stacklevel=3,
+    )
 
 
 def _traced(mdp: FiniteMDP, rows: list[tuple[NDArray[np.float64], NDArray[np.intp], bool]]) -> Trace:
@@ -126,6 +149,7 @@ def shortfalls(
     -------
     largest difference of the values of each step from the best, and the most that its policy loses in any state.
     """
+    expect.instance("mdp", mdp, FiniteMDP)
     optimum = expect.array("best", best, shape=(mdp.states,))
     held = expect.array("values", values, shape=("n", mdp.states))
     kept = expect.array("chosen", chosen, shape=held.shape, dtype=np.intp)

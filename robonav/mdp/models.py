@@ -111,29 +111,57 @@ class FiniteMDP:
     @cached_property
     def steps_to_end(self) -> NDArray[np.float64]:
         """Least number of steps (S,) in which a terminal state can be reached; infinite where none can."""
-        return self.way_out()[0]
+        return self.way_to(self.terminal)[0]
 
-    def way_out(self, allowed: NDArray[np.bool_] | None = None) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-        """The way to the terminal states with the fewest steps that can succeed, using ``allowed`` (S, A) actions only.
+    @cached_property
+    def rests(self) -> NDArray[np.bool_]:
+        """Which actions (S, A) keep one for ever, if one likes, among states where nothing is earned: worth 0 for sure.
+
+        Those of the terminal states do; elsewhere it is what a free wait is, or a free walk in circles.
+        """
+        rests = self.rewards == 0
+        pairs = rests.ravel()  # a view
+        restless = np.flatnonzero(~rests.any(axis=1))
+        while restless.size:
+            lost = np.unique(self.leading_to[restless].indices)
+            lost = lost[pairs[lost]]
+            pairs[lost] = False
+            touched = np.unique(lost // self.actions)
+            restless = touched[~rests[touched].any(axis=1)]
+        rests.flags.writeable = False
+        return rests
+
+    @cached_property
+    def leading_to(self) -> sp.csr_array:
+        """Where each state can be reached from, (S, S A): row s' has an entry in column s A + a if T(s, a, s') > 0."""
+        pairs, reached = self.rows.nonzero()
+        shape = (self.states, self.rewards.size)
+        return sp.csr_array((np.ones(pairs.size, dtype=np.int8), (reached, pairs)), shape)
+
+    def way_to(
+        self, goals: NDArray[np.bool_], allowed: NDArray[np.bool_] | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+        """The way to some of the states ``goals`` (S,) with the fewest steps that can succeed.
+
+        Parameters
+        ----------
+        goals : (S,), where to go.
+        allowed : (S, A), the actions that may be used; all if left out.
 
         Returns
         -------
-        steps : (S,), infinite where no terminal state can be reached.
-        policy : (S,), whose every action may lead one step closer (0 where none does). Followed for ever, it ends
-            with probability 1 if all steps are finite: it is a proper policy.
+        steps : (S,), infinite where no goal can be reached.
+        policy : (S,), whose every action may lead one step closer (0 where none does). Followed for ever, it gets
+            there with probability 1 if all steps are finite.
         """
-        pairs, reached = self.rows.nonzero()
-        if allowed is not None:
-            pairs, reached = pairs[allowed.ravel()[pairs]], reached[allowed.ravel()[pairs]]
-        shape = (self.states, self.rewards.size)
-        leading_to = sp.csr_array((np.ones(pairs.size, dtype=np.int8), (reached, pairs)), shape)
-        steps = np.where(self.terminal, 0.0, np.inf)
+        usable = np.ones(self.rewards.size, dtype=bool) if allowed is None else allowed.ravel()
+        steps = np.where(goals, 0.0, np.inf)
         policy = np.zeros(self.states, dtype=np.intp)
-        frontier = np.flatnonzero(self.terminal)
+        frontier = np.flatnonzero(goals)
         while frontier.size:
             distance = steps[frontier[0]] + 1
-            found = np.unique(leading_to[frontier].indices)
-            found = found[np.isinf(steps[found // self.actions])]
+            found = np.unique(self.leading_to[frontier].indices)
+            found = found[usable[found] & np.isinf(steps[found // self.actions])]
             frontier, first = np.unique(found // self.actions, return_index=True)
             steps[frontier], policy[frontier] = distance, found[first] % self.actions
         return steps, policy
@@ -143,9 +171,7 @@ class FiniteMDP:
 
         This is Q from V, Eq. (2.11) for the optimal values and Eq. (2.15) for those of a policy.
         """
-        v = np.asarray(values, dtype=float)
-        if v.shape != (self.states,):
-            raise ValueError(f"values must have shape ({self.states},), got {v.shape}")
+        v = expect.array("values", values, shape=(self.states,))
         ahead = (self.rows @ v).reshape(self.rewards.shape) if self.is_sparse else (self.transitions @ v).T
         return self.rewards + self.discount * ahead
 
@@ -172,6 +198,7 @@ class FiniteMDP:
         tolerance (1 - gamma) / (2 gamma), Puterman (2005), Theorem 6.3.1: infinite for discount 0. Without
         discount there is no such bound, and it is ``tolerance`` itself.
         """
+        expect.positive("tolerance", tolerance)
         if self.discount == 0:
             return np.inf
         return tolerance if self.discount == 1 else tolerance * (1 - self.discount) / (2 * self.discount)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav import expect
+from robonav.errors import ConvergenceWarning
 
 from . import policies
-from .evaluation import solve_chain, starting_values, warn_unfinished
+from .evaluation import solve_chain, solve_differences, starting_values, warn_unfinished
 from .models import FiniteMDP
+from .values import or_rest
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ def value_iteration(
     Parameters
     ----------
     tolerance : largest loss of value accepted, in units of reward; positive.
-    start : values (S,) to start from; zeros if not given.
+    start : values (S,) to start from; zeros if not given. Without discount what the greedy policy for them earns.
     max_iterations : sweeps after which to give up.
     record : keep ``history`` (iterations + 1, S) and the greedy policy of each of its rows.
 
@@ -63,8 +66,9 @@ def value_iteration(
     """
     from . import kernels
 
-    enough = mdp.stopping_distance(expect.positive("tolerance", tolerance))
-    values = starting_values("start", mdp, start)
+    expect.instance("mdp", mdp, FiniteMDP)
+    enough = mdp.stopping_distance(tolerance)
+    values = first_values(mdp, start)
     updated, policy = np.empty_like(values), np.empty(mdp.states, dtype=np.intp)
     history, chosen = ([values.copy()], []) if record else ([], [])
     for iterations in range(1, expect.integer("max_iterations", max_iterations, at_least=1) + 1):
@@ -93,7 +97,8 @@ def policy_iteration(
     """An optimal policy and its values by policy iteration (Algorithm 1), each policy evaluated exactly.
 
     An action changes only where that gains more than ``tolerance * (1 - discount)``, and more than rounding could
-    feign: every change then improves the policy truly, and where actions tie it ends all the same.
+    feign: every change then improves the policy truly, and where actions tie it ends all the same. Without discount
+    there is no bound on the loss, and only rounding counts.
 
     Parameters
     ----------
@@ -109,27 +114,30 @@ def policy_iteration(
 
     Warns
     -----
-    ConvergenceWarning : if ``max_iterations`` policies did not suffice; says how much the last could be improved.
+    ConvergenceWarning : if ``max_iterations`` policies did not suffice; says how much the last could be improved. Also
+        if rounding hides gains that are worth more than the tolerance, near discount 1; says how much may be lost.
     """
-    expect.positive("tolerance", tolerance)
+    expect.instance("mdp", mdp, FiniteMDP)
+    worth = expect.positive("tolerance", tolerance) * (1 - mdp.discount)
     expect.integer("max_iterations", max_iterations, at_least=1)
     policy = _first_policy(mdp) if start is None else policies.deterministic("start", start, mdp.states, mdp.actions)
-    state, values = np.arange(mdp.states), np.zeros(mdp.states)
+    values, name = np.zeros(mdp.states), "policy" if start is None else "start"
     history, chosen = [], []
     for iterations in range(1, max_iterations + 1):
-        values = solve_chain(*mdp.under(policy), mdp.discount, values)
-        q = mdp.backup(values)
-        gain = q.max(axis=1) - q[state, policy]
-        enough = _true_gain(mdp, tolerance, values, q[state, policy])
+        values = solve_chain(*mdp.under(policy), mdp.discount, values, name=name)
+        name = "policy"
+        gains, rounding = _gains(mdp, policy, values, worth)
+        gain, enough = gains.max(axis=1), max(worth, rounding)
         if record:
             history.append(values)
             chosen.append(policy)
         if gain.max() <= enough:
+            _warn_if_hidden(rounding, worth, mdp.discount)
             break
         if iterations == max_iterations:
             warn_unfinished("policy_iteration", iterations, gain.max(), enough)
             break
-        policy = np.where(gain > enough, q.argmax(axis=1), policy)
+        policy = np.where(gain > enough, gains.argmax(axis=1), policy)
     return Solution(values, policy, iterations, float(gain.max()), *stacked(history, chosen))
 
 
@@ -154,7 +162,8 @@ def modified_policy_iteration(
     ----------
     tolerance : largest loss of value accepted, in units of reward; positive.
     sweeps : evaluation sweeps after each improvement.
-    start : values (S,) to start from; if not given, some that every policy improves on.
+    start : values (S,) to start from; if not given, some that every policy improves on. Without discount what the
+        greedy policy for them earns.
     max_iterations : improvements after which to give up.
     record : keep ``history`` (iterations + 1, S) and the greedy policy of each of its rows.
 
@@ -164,10 +173,10 @@ def modified_policy_iteration(
     """
     from . import kernels
 
-    expect.positive("tolerance", tolerance)
-    enough = tolerance if mdp.discount == 1 else 2 * mdp.stopping_distance(tolerance)
+    expect.instance("mdp", mdp, FiniteMDP)
+    enough = mdp.stopping_distance(tolerance) * (1 if mdp.discount == 1 else 2)
     expect.integer("sweeps", sweeps, at_least=0)
-    values = _values_below(mdp) if start is None else starting_values("start", mdp, start)
+    values = _values_below(mdp) if start is None else first_values(mdp, start)
     updated, policy = np.empty_like(values), np.empty(mdp.states, dtype=np.intp)
     history, chosen = ([values.copy()], []) if record else ([], [])
     for iterations in range(1, expect.integer("max_iterations", max_iterations, at_least=1) + 1):
@@ -192,17 +201,39 @@ def modified_policy_iteration(
     return Solution(values, policy, iterations, distance, *stacked(history, [*chosen, policy]))
 
 
+def first_values(mdp: FiniteMDP, start: ArrayLike | None, *, name: str = "start") -> NDArray[np.float64]:
+    """Values (S,) for sweeps to start from: those given under ``name``, or zeros.
+
+    Without discount sweeps may come to rest on values that nobody earns, where waiting costs nothing and so keeps what
+    it was told. From below they cannot. So they start from what a policy earns that is sure to end, greedy for
+    those given where that leads to an end, or from the 0 of one who rests where that is more.
+    """
+    values = starting_values(name, mdp, start)
+    if mdp.discount < 1:
+        return values
+    _, out = mdp.way_to(mdp.terminal)
+    steps, onwards = mdp.way_to(mdp.terminal, policies.greedy_actions(mdp.backup(values)))
+    earned = solve_chain(*mdp.under(np.where(np.isfinite(steps), onwards, out)), 1, values)
+    return np.where(mdp.rests.any(axis=1), np.maximum(earned, 0), earned)
+
+
 def greedy_policy(mdp: FiniteMDP, values: NDArray[np.float64], tolerance: float) -> NDArray[np.intp]:
     """The greedy policy (S,) for optimal values known to within ``tolerance``.
 
-    Without discount an action that waits for ever can be as greedy as the one that goes (and is worth nothing):
-    of the greedy actions take one that comes closer to an end.
+    Without discount an action that waits for ever can be as greedy as the one that goes (and is worth nothing): of the
+    greedy actions take one that comes closer to an end, or, where 0 is the best, to a place to rest.
     """
     if mdp.discount < 1:
         return mdp.greedy(values)
-    q = mdp.backup(values)
-    steps, onwards = mdp.way_out(policies.greedy_actions(q, tolerance=tolerance))
-    return np.where(np.isfinite(steps), onwards, q.argmax(axis=1))
+    q = or_rest(mdp, mdp.backup(values))
+    best = policies.greedy_actions(q, tolerance=tolerance)
+    steps, onwards = mdp.way_to(mdp.terminal, best)
+    ends = np.isfinite(steps)
+    rests = mdp.rests.any(axis=1) & (values <= tolerance) & ~ends
+    steps, towards = mdp.way_to(ends | rests, best)
+    return np.select(
+        [ends, rests, np.isfinite(steps)], [onwards, mdp.rests.argmax(axis=1), towards], default=q.argmax(axis=1)
+    )
 
 
 def stacked(history: list[NDArray], chosen: list[NDArray]) -> tuple[NDArray | None, NDArray | None]:
@@ -212,14 +243,14 @@ def stacked(history: list[NDArray], chosen: list[NDArray]) -> tuple[NDArray | No
 
 def _first_policy(mdp: FiniteMDP) -> NDArray[np.intp]:
     """A policy to start from: the way to an end where there is one (a proper policy), else the best reward at once."""
-    steps, out = mdp.way_out()
+    steps, out = mdp.way_to(mdp.terminal)
     return np.where(np.isfinite(steps), out, mdp.rewards.argmax(axis=1))
 
 
 def _values_below(mdp: FiniteMDP) -> NDArray[np.float64]:
     """Values (S,) that no sweep lowers, so that modified policy iteration climbs from them steadily."""
     if mdp.discount == 1:
-        return solve_chain(*mdp.under(_first_policy(mdp)), 1, np.zeros(mdp.states))
+        return first_values(mdp, None)
     return np.where(mdp.terminal, 0, min(mdp.rewards.min(), 0) / (1 - mdp.discount))
 
 
@@ -230,8 +261,40 @@ def _centred(mdp: FiniteMDP, values: NDArray[np.float64], least: float, most: fl
     return np.where(mdp.terminal, 0, values + mdp.discount / (1 - mdp.discount) * (least + most) / 2)
 
 
-def _true_gain(mdp: FiniteMDP, tolerance: float, values: NDArray[np.float64], backed_up: NDArray[np.float64]) -> float:
-    """The least gain that counts as one: worth the tolerance, and more than the error of ``values`` can explain."""
+def _gains(
+    mdp: FiniteMDP, policy: NDArray[np.intp], values: NDArray[np.float64], worth: float
+) -> tuple[NDArray[np.float64], float]:
+    """What each action (S, A) gains over the policy, whose ``values`` are given, and how much of it may be rounding.
+
+    If rounding may hide gains larger than ``worth``, and no larger ones are to be seen, look closer: what all values
+    share cancels in a gain, and near discount 1 that is nearly all of them.
+    """
+    state = np.arange(mdp.states)
+    q = mdp.backup(values)
+    own = q[state, policy]
+    gains, rounding = or_rest(mdp, q) - own[:, None], rounding_of_gains(mdp, values, own)
+    if mdp.discount == 1 or rounding <= worth or gains.max() > rounding:
+        return gains, rounding
+    differences, step = solve_differences(*mdp.under(policy), mdp.discount, values)
+    q, moved = mdp.backup(differences), mdp.backup(step) - mdp.rewards
+    size = abs(differences).max() + abs(mdp.rewards).max()
+    rounding = 2 * abs(moved - moved[state, policy][:, None]).max() + 4 * np.finfo(float).eps * size
+    return q - q[state, policy][:, None], rounding
+
+
+def rounding_of_gains(mdp: FiniteMDP, values: NDArray[np.float64], own: NDArray[np.float64]) -> float:
+    """How much of a gain the error of a policy's ``values`` (S,) can explain at most, given their backup ``own``."""
     rounding = np.finfo(float).eps * abs(values).max()
-    error = max(abs(backed_up - values).max(), rounding) * (mdp.states if mdp.discount == 1 else 1 / (1 - mdp.discount))
-    return max(tolerance * (1 - mdp.discount), 2 * mdp.discount * error, 2 * rounding)
+    error = max(abs(own - values).max(), rounding) * (mdp.states if mdp.discount == 1 else 1 / (1 - mdp.discount))
+    return max(2 * mdp.discount * error, 2 * rounding)
+
+
+def _warn_if_hidden(rounding: float, worth: float, discount: float) -> None:
+    """ConvergenceWarning at the caller's caller if gains hide in rounding that are worth more than was accepted."""
+    if discount < 1 and rounding > worth:
+        warnings.warn(
+            f"policy_iteration cannot tell gains below {rounding:.3g} from rounding: its policy may lose "
+            f"{rounding / (1 - discount):.3g}, where {worth / (1 - discount):.3g} was asked for",
+            ConvergenceWarning,
+            stacklevel=3,
+        )

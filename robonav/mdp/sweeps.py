@@ -8,9 +8,9 @@ from numpy.typing import ArrayLike
 
 from robonav import expect
 
-from .evaluation import starting_values, warn_unfinished
+from .evaluation import warn_unfinished
 from .models import FiniteMDP
-from .planning import Solution, greedy_policy, stacked
+from .planning import Solution, first_values, greedy_policy, stacked
 
 
 def in_place_value_iteration(
@@ -30,8 +30,9 @@ def in_place_value_iteration(
     """
     from . import kernels
 
-    enough = mdp.stopping_distance(expect.positive("tolerance", tolerance))
-    values = starting_values("start", mdp, start)
+    expect.instance("mdp", mdp, FiniteMDP)
+    enough = mdp.stopping_distance(tolerance)
+    values = first_values(mdp, start)
     history, chosen = ([values.copy()], [greedy_policy(mdp, values, tolerance)]) if record else ([], [])
     for iterations in range(1, expect.integer("max_iterations", max_iterations, at_least=1) + 1):
         distance = kernels.in_place_sweep(*mdp.arrays, values)
@@ -62,7 +63,7 @@ def prioritized_sweeping(
     Parameters
     ----------
     tolerance : largest loss of value accepted, in units of reward; positive.
-    start : values (S,) to start from; zeros if not given.
+    start : values (S,) to start from; zeros if not given. Without discount what the greedy policy for them earns.
     max_backups : backups of single states after which to give up.
 
     Returns
@@ -75,8 +76,9 @@ def prioritized_sweeping(
     """
     from . import kernels
 
+    expect.instance("mdp", mdp, FiniteMDP)
     enough = expect.positive("tolerance", tolerance) * (1 if mdp.discount == 1 else (1 - mdp.discount) / 2)
-    values = starting_values("start", mdp, start)
+    values = first_values(mdp, start)
     urgency = abs(mdp.backup(values).max(axis=1) - values)
     backups, distance = kernels.prioritized_backups(
         *mdp.arrays,

@@ -13,6 +13,7 @@ from .models import FiniteMDP
 
 def bellman_policy_operator(mdp: FiniteMDP, policy: ArrayLike, values: ArrayLike) -> NDArray[np.float64]:
     """One evaluation sweep: r_pi + gamma T_pi V, (S,), the right-hand side of Eq. (2.6) and (2.14)."""
+    expect.instance("mdp", mdp, FiniteMDP)
     transitions, rewards = mdp.under(policy)
     return rewards + mdp.discount * (transitions @ expect.array("values", values, shape=(mdp.states,)))
 
@@ -22,20 +23,38 @@ def bellman_optimality_operator(mdp: FiniteMDP, values: ArrayLike) -> NDArray[np
 
     This is Eq. (2.26). Eq. (2.13), which misses gamma and the expectation over s', means its fixed point.
     """
+    expect.instance("mdp", mdp, FiniteMDP)
     return mdp.backup(values).max(axis=1)
 
 
 def action_values(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     """Q of a policy, (S, A): take a, then follow the policy, Eq. (2.7) and (2.15)."""
+    expect.instance("mdp", mdp, FiniteMDP)
     return mdp.backup(policy_evaluation(mdp, policy))
 
 
 def advantage(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     """How much better than the policy it is to take a once, then follow it: Q - V, (S, A), Eq. (2.8)."""
+    expect.instance("mdp", mdp, FiniteMDP)
     values = policy_evaluation(mdp, policy)
     return mdp.backup(values) - values[:, None]
 
 
 def is_optimal(mdp: FiniteMDP, policy: ArrayLike, *, tolerance: float = 1e-9) -> bool:
-    """Whether no action has an advantage over the policy of more than ``tolerance`` (Theorem 2.2, Eq. (2.16))."""
-    return bool(advantage(mdp, policy).max() <= expect.real("tolerance", tolerance, at_least=0))
+    """Whether no action has an advantage over the policy of more than ``tolerance`` (Theorem 2.2, Eq. (2.16)).
+
+    Without discount also that no state is worth less than to rest there for ever, where one can: see ``or_rest``.
+    """
+    expect.instance("mdp", mdp, FiniteMDP)
+    expect.real("tolerance", tolerance, at_least=0)
+    values = policy_evaluation(mdp, policy)
+    return bool((or_rest(mdp, mdp.backup(values)).max(axis=1) - values).max() <= tolerance)
+
+
+def or_rest(mdp: FiniteMDP, q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Action values (S, A), but without discount at least 0 where an action lets one rest for ever (``mdp.rests``).
+
+    With discount the backup knows as much by itself. Without, it takes a state of value -1 in which waiting is free
+    for settled: waiting keeps the -1 that comes, and never is the 0 of one who waits for ever.
+    """
+    return q if mdp.discount < 1 else np.where(mdp.rests, np.maximum(q, 0), q)

@@ -7,7 +7,9 @@ import pytest
 
 from robonav.errors import ConvergenceWarning
 from robonav.mdp import (
+    Cell,
     FiniteMDP,
+    GridWorld,
     four_by_three,
     generalized_policy_iteration,
     policy_evaluation,
@@ -73,8 +75,33 @@ def test_an_action_that_ties_stays():
     assert (generalized_policy_iteration(same, start_policy=start).policies == start).all()
 
 
+@pytest.mark.parametrize("sweeps", [1, math.inf])
+def test_it_ends_where_actions_tie_in_large_values(sweeps):
+    """Most cells cannot reach the goal: all their actions are worth -1e8, to rounding."""
+    walled = "##..#\n..#.#\n#....\n.#..#\n#.##G"
+    grid = GridWorld(walled, legend={"G": Cell(ends=True)}, slip=0.2, step_reward=-1e5)
+    trace = generalized_policy_iteration(grid.mdp(0.999), sweeps=sweeps, tolerance=0.1, max_rounds=30_000)
+    assert (trace.policies[-1] == trace.policies[-2]).all()
+    np.testing.assert_allclose(trace.values[-1][:-1], -1e8, atol=0.1)
+
+
+def test_it_ends_only_when_no_action_changes_any_more(mdp):
+    """With so large a tolerance the values are content from the first round on; the policy is not."""
+    trace = generalized_policy_iteration(mdp, sweeps=3, tolerance=100)
+    assert len(trace.values) > 3
+    assert (trace.policies[-1] == trace.policies[-2]).all()
+
+
+def test_without_discount_it_may_rest_too():
+    mdp = GridWorld(". . X").mdp(1.0)
+    for sweeps in (1, math.inf):
+        trace = generalized_policy_iteration(mdp, sweeps=sweeps, start_policy=np.array([1, 1, 0]))
+        np.testing.assert_array_equal(trace.values[-1], [0, 0, 0])
+
+
 def test_giving_up_warns(mdp):
-    with pytest.warns(ConvergenceWarning, match="generalized_policy_iteration gave up after 2"):
+    told = r"gave up after 2 rounds: .* to move by 0\.\d+, where .* was asked for, and changed [1-9]\d* actions"
+    with pytest.warns(ConvergenceWarning, match=told):
         trace = generalized_policy_iteration(mdp, max_rounds=2)
     assert len(trace.values) == 5
 

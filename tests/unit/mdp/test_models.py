@@ -130,12 +130,24 @@ def test_terminal_states_and_the_way_to_them():
     mdp = FiniteMDP([left, right], rewards, 0.9)
     assert mdp.terminal.tolist() == [True, False, False, False, False]
     assert mdp.steps_to_end.tolist() == [0, 1, 2, 3, np.inf]
-    steps, policy = mdp.way_out()
+    steps, policy = mdp.way_to(mdp.terminal)
     assert policy[1:4].tolist() == [0, 0, 0]
     only_right = np.zeros((5, 2), dtype=bool)
     only_right[:, 1] = True
-    steps, _ = mdp.way_out(only_right)
+    steps, _ = mdp.way_to(mdp.terminal, only_right)
     assert np.isinf(steps[1:]).all()
+
+
+def test_one_rests_where_nothing_is_earned_for_ever():
+    """A ring 0 - 1 - 2 free of charge, a corridor 3 - 4 that leads into something that costs, and an end 5."""
+    on = np.eye(6)[[1, 2, 0, 4, 5, 5]]
+    out = np.eye(6)[[3, 5, 2, 3, 3, 5]]
+    rewards = np.zeros((6, 2))
+    rewards[4] = -1
+    rewards[3, 1] = -1
+    for transitions in (np.stack([on, out]), [sp.csr_array(on), sp.csr_array(out)]):
+        rests = FiniteMDP(transitions, rewards, 0.9).rests
+        assert rests.tolist() == [[1, 0], [1, 1], [1, 1], [0, 0], [0, 0], [1, 1]]
 
 
 def test_rewards_of_the_state_reached_are_averaged():

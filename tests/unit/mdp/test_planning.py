@@ -185,12 +185,35 @@ def tie_rich_grid(discount):
     return GridWorld(text, legend=goal, slip=0.2, step_reward=-1).mdp(discount)
 
 
-@pytest.mark.parametrize("discount", [0.5, 0.95, 0.99, 0.999])
-def test_policy_iteration_ends_where_actions_tie(discount):
+@pytest.mark.parametrize(
+    ("discount", "tolerance"), [(0.5, 1e-9), (0.95, 1e-9), (0.99, 1e-9), (0.999, 1e-8), (0.99999, 1e-4)]
+)
+def test_policy_iteration_ends_where_actions_tie(discount, tolerance):
     """A ConvergenceWarning, which fails this test, would say that it went round in circles."""
     mdp = tie_rich_grid(discount)
-    solution = policy_iteration(mdp, max_iterations=60)
+    solution = policy_iteration(mdp, tolerance, max_iterations=60)
     assert is_optimal(mdp, solution.policy, tolerance=1e-7)
+
+
+def two_ways_round(stay, go, back, discount):
+    """State 0 pays ``stay`` for ever, or ``go`` on to state 1, which pays ``back`` and returns."""
+    return FiniteMDP([[[1, 0], [1, 0]], [[0, 1], [1, 0]]], [[stay, go], [back, back]], discount)
+
+
+def test_a_small_gain_is_seen_in_large_values():
+    """Going round pays a millionth more a step than staying, and all values are 100,000."""
+    mdp = two_ways_round(1, 1 - 1e-6, 1 + 3e-6, 0.99999)
+    solution = policy_iteration(mdp)
+    assert solution.policy[0] == 1
+    round_trip = (1 - 1e-6 + 0.99999 * (1 + 3e-6)) / (1 - 0.99999**2)
+    assert solution.values[0] == pytest.approx(round_trip, rel=1e-14)
+
+
+def test_what_rounding_hides_is_told():
+    """At a discount of 1 - 1e-7 a gain of one rounding error is worth more than the tolerance."""
+    with pytest.warns(ConvergenceWarning, match=r"its policy may lose \S*e-0[89], where 1e-09 was"):
+        solution = policy_iteration(two_ways_round(1, 0.99, 1.03, 1 - 1e-7))
+    assert solution.policy[0] == 1
 
 
 def test_policy_iteration_keeps_an_action_that_ties():
@@ -210,10 +233,49 @@ def test_without_discount_waiting_does_not_pass_for_going(planner):
     np.testing.assert_allclose(policy_evaluation(mdp, solution.policy)[:4], 1)
 
 
+@each_planner
+def test_without_discount_a_free_wait_beats_a_bad_end(planner):
+    """The end at hand costs 1: best is to wait for ever, which no proper policy does. Beyond it a goal pays."""
+    mdp = GridWorld(". . X . G").mdp(1.0)
+    solution = planner(mdp)
+    np.testing.assert_array_equal(solution.values, [0, 0, 0, 1, 0])
+    np.testing.assert_array_equal(policy_evaluation(mdp, solution.policy), solution.values)
+    assert is_optimal(mdp, solution.policy)
+    assert not is_optimal(mdp, [1, 1, 0, 1, 0])  # goes into the pit: no action alone looks better
+    assert not is_optimal(mdp, [0, 0, 0, 0, 0])  # waits beside the goal
+
+
+def test_policy_iteration_leaves_a_bad_end_it_was_started_on():
+    solution = policy_iteration(GridWorld(". . X").mdp(1.0), start=[1, 1, 0], record=True)
+    assert solution.history.tolist() == [[-1, -1, 0], [0, 0, 0]]
+
+
+def loan():
+    """Where waiting is free one may borrow 1, which is then paid back; sweeps from 0 believe in never paying."""
+    wait, borrow, end = [1, 0, 0], [0, 1, 0], [0, 0, 1]
+    return FiniteMDP([[wait, end, end], [borrow, end, end]], [[0, 1], [-1, -1], [0, 0]], 1.0)
+
+
+@each_planner
+def test_without_discount_values_are_those_of_a_policy(planner):
+    mdp = loan()
+    solution = planner(mdp)
+    np.testing.assert_allclose(solution.values, [0, -1, 0], atol=1e-12)
+    np.testing.assert_allclose(policy_evaluation(mdp, solution.policy), solution.values, atol=1e-12)
+
+
+@pytest.mark.parametrize("planner", [p for p in PLANNERS if p is not policy_iteration])
+def test_without_discount_a_start_too_high_is_no_answer(planner):
+    """All would be content with 9 in a corridor where one may wait."""
+    np.testing.assert_allclose(planner(GridWorld(". . . . G").mdp(1.0), start=np.full(5, 9.0)).values[:4], 1)
+
+
 def test_without_discount_endless_reward_is_refused():
     mdp = GridWorld("..G", step_reward=1).mdp(1.0)
-    with pytest.raises(ValueError, match="must not collect rewards for ever"):
+    with pytest.raises(ValueError, match="policy must not collect rewards for ever"):
         policy_iteration(mdp)
+    with pytest.raises(ValueError, match="start must not collect rewards for ever"):
+        policy_iteration(mdp, start=[0, 0, 0])
     with pytest.warns(ConvergenceWarning, match="value_iteration gave up after 50 iterations: .* by 1,"):
         value_iteration(mdp, max_iterations=50)
 
