@@ -46,7 +46,7 @@ def robot(name: str, seed: int, scale: str, **changes: Any) -> Policy:
     """A rule by its name, or what one seed of a method comes to with the settings chosen for it."""
     if name in RULES:
         return RULES[name]
-    return trained(name, seed, EPISODES[scale], settings(name), **changes).policies[0]
+    return trained(name, seed, scale, settings(name), **changes).policies[0]
 
 
 def compare(case: Case, seed: int, scale: str) -> Numbers:
@@ -58,13 +58,13 @@ def compare(case: Case, seed: int, scale: str) -> Numbers:
 def learn(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 4.4 and 4.6: successful episodes in every 30."""
     method = str(case["method"])
-    won = trained(method, seed, EPISODES[scale], settings(method)).successes[0]
+    won = trained(method, seed, scale, settings(method)).successes[0]
     return {"successes": blocks(won[None])[0], "of the first 100": won[:100].sum(), "of the last 100": won[-100:].sum()}
 
 
 def change(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 4.3: what the weights of a layer changed by in each episode."""
-    training = trained("nnql", seed, EPISODES[scale], settings("nnql"), record=True)
+    training = trained("nnql", seed, scale, settings("nnql"), record=True)
     assert training.history is not None
     changes = weight_changes(training.history, absolute=case["sum"] == "absolute")[0]
     return {"first layer": changes[:, 0], "second layer": changes[:, 1]}
@@ -88,8 +88,8 @@ def in_dense_maps(case: Case, seed: int, scale: str) -> Numbers:
     name, worlds = str(case["robot"]), new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed, 20)
     if name in RULES:
         return judged(RULES[name], worlds)
-    episodes = int(case["episodes"]) * EPISODES[scale] // EPISODES["thesis"]
-    return judged(trained("nnql", seed, episodes, DENSE[name], obstacles=20).policies[0], worlds)
+    length = float(case["episodes"]) / EPISODES["thesis"]
+    return judged(trained("nnql", seed, scale, DENSE[name], length=length, obstacles=20).policies[0], worlds)
 
 
 _ABOUT = {

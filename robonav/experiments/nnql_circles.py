@@ -84,7 +84,7 @@ def vary(case: Case, seed: int, scale: str) -> Numbers:
     """One seed of one variation: how drives end, greedily and cold, and how the last 100 episodes went."""
     options = settings("nnql") | VARIATIONS[str(case["what"])][str(case["choice"])]
     of_course = {name: options.pop(name) for name in ("reward", "encoder") if name in options}
-    training = trained("nnql", seed, EPISODES[scale], options, **of_course)
+    training = trained("nnql", seed, scale, options, **of_course)
     driven = judged(training.policies[0], new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed))
     return driven | {"last episodes": 100 * training.successes[0, -100:].mean()}
 

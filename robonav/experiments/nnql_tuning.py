@@ -19,7 +19,7 @@ from .experiment import Case, Experiment, Results
 from .nnql_course import EPISODES, NAVIGATIONS, Numbers, course, driven, new_worlds
 
 TRIALS = 16
-TOGETHER = 8  # seeds that train at once
+TOGETHER = {"quick": 1, "thesis": 8}  # seeds that train at once
 TUNING_WORLDS = 41_000  # run k drives through the worlds of this seed + k; tables take others
 TUNING_SEEDS = 10_000  # run k trains with this seed + k; tables take others
 
@@ -66,26 +66,30 @@ def trial_settings(method: str, trial: int) -> dict[str, Any]:
     return {name: choices[int(rng.integers(len(choices)))] for name, choices in SPACE[method].items()}
 
 
-def trained(method: str, seed: int, episodes: int, settings: Mapping[str, Any], **changes: Any) -> Training:
+def trained(
+    method: str, seed: int, scale: str, settings: Mapping[str, Any], *, length: float = 1.0, **changes: Any
+) -> Training:
     """One seed of a method with settings such as :func:`trial_settings` gives, or their JSON.
 
-    ``changes`` are what is not as in section 4.5, see :class:`robonav.nnql.Course`; and ``record``. Seeds train
-    ``TOGETHER``, which is quicker than one by one and comes to the same; and what was trained once in a process is not
-    trained again, since several tables look at the same networks.
+    ``length`` is of the training, in times the usual; ``changes`` are what is not as in section 4.5, see
+    :class:`robonav.nnql.Course`, and ``record``. At the thesis's scale seeds train ``TOGETHER``, which is quicker than
+    one by one and comes to the same. What was trained once in a process is not trained again: several tables look at
+    the same networks.
     """
-    block, row = divmod(seed, TOGETHER)
-    return _trained(method, block, episodes, json.dumps(settings, sort_keys=True), tuple(sorted(changes.items())))[row]
+    together, episodes = TOGETHER[scale], round(EPISODES[scale] * length)
+    seeds = range(seed - seed % together, seed - seed % together + together)
+    training = _trained(method, seeds, episodes, json.dumps(settings, sort_keys=True), tuple(sorted(changes.items())))
+    return training[seed % together]
 
 
 @lru_cache(maxsize=64)
-def _trained(method: str, block: int, episodes: int, settings: str, changes: tuple[tuple[str, Any], ...]) -> Training:
+def _trained(method: str, seeds: range, episodes: int, settings: str, changes: tuple[tuple[str, Any], ...]) -> Training:
     options: dict[str, Any] = {name: _span(value) for name, value in json.loads(settings).items()}
     of_course = dict(changes)
     record = bool(of_course.pop("record", False))
     where = course(target=options.pop("target"), **of_course)
     if "fitting" in options:
         options["sweeps"], options["epochs"] = options.pop("fitting")
-    seeds = range(block * TOGETHER, (block + 1) * TOGETHER)
     return METHODS[method](seeds, episodes, course=where, record=record, **options)
 
 
@@ -97,7 +101,7 @@ def _span(value: Any) -> Any:
 def tune(case: Case, seed: int, scale: str) -> Numbers:
     """One seed of one trial, on tuning worlds."""
     settings = json.loads(str(case["settings"]))
-    training = trained(str(case["method"]), TUNING_SEEDS + seed, EPISODES[scale], settings)
+    training = trained(str(case["method"]), TUNING_SEEDS + seed, scale, settings)
     return driven(training.policies[0], new_worlds(NAVIGATIONS[scale] // 2, TUNING_WORLDS + seed))
 
 

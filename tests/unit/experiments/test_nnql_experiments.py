@@ -130,7 +130,7 @@ def test_twenty_obstacles_are_driven_well():
 def test_a_rule_is_judged_once_and_a_network_also_when_cold():
     worlds = new_worlds(40, 5)
     assert set(judged(RULES["straight"], worlds)) == {"success", "collision", "out of steps"}
-    policy = trained("nnql", 3, 4, settings("nnql")).policies[0]
+    policy = trained("nnql", 3, "quick", settings("nnql")).policies[0]
     numbers = judged(policy, worlds)
     assert set(numbers) == {"success", "collision", "out of steps", "success, cold"}
     assert numbers["success"] + numbers["collision"] + numbers["out of steps"] == pytest.approx(100)
@@ -149,8 +149,8 @@ def test_a_network_of_every_method_ships_with_what_made_it(name):
 
 
 def test_the_best_of_several_robots_is_shipped(tmp_path, monkeypatch):
-    best = best_of("nnql", (0, 1, 2), episodes=12)
-    alone = [best_of("nnql", (seed,), episodes=12).made["success in tuning worlds (%)"] for seed in range(3)]
+    best = best_of("nnql", (0, 1, 2), scale="quick")
+    alone = [best_of("nnql", (seed,), scale="quick").made["success in tuning worlds (%)"] for seed in range(3)]
     assert best.made["success in tuning worlds (%)"] == max(alone)
     assert best.made["seed"] == int(np.argmax(alone))
     monkeypatch.setattr("robonav.experiments.nnql_shipped.best_of", lambda name: best)
@@ -159,20 +159,22 @@ def test_the_best_of_several_robots_is_shipped(tmp_path, monkeypatch):
 
 
 def test_training_twice_in_a_process_is_training_once():
-    first = trained("nnql", 3, 4, settings("nnql"))
-    again = trained("nnql", 3, 4, json.loads(json.dumps(settings("nnql"))))
+    first = trained("nnql", 3, "quick", settings("nnql"), length=0.1)
+    again = trained("nnql", 3, "quick", json.loads(json.dumps(settings("nnql"))), length=0.1)
+    assert first.outcomes.shape == (1, 6)
     assert np.shares_memory(first.outcomes, again.outcomes)
-    assert not np.shares_memory(first.outcomes, trained("nnql", 3, 4, settings("nnql"), obstacles=20).outcomes)
+    dense = trained("nnql", 3, "quick", settings("nnql"), length=0.1, obstacles=20)
+    assert not np.shares_memory(first.outcomes, dense.outcomes)
 
 
 @pytest.mark.parametrize("name", METHODS)
 def test_seeds_train_together_as_they_would_alone(name):
-    together = trained(name, 3, 4, FIRST[name])
+    together = trained(name, 11, "thesis", FIRST[name], length=1 / 75)
     options = dict(FIRST[name])
     if "fitting" in options:
         options["sweeps"], options["epochs"] = options.pop("fitting")
-    alone = METHODS[name]([3], 4, course=course(target=options.pop("target")), **options)
-    assert together.seeds == alone.seeds == (3,)
+    alone = METHODS[name]([11], 4, course=course(target=options.pop("target")), **options)
+    assert together.seeds == alone.seeds == (11,)
     np.testing.assert_array_equal(together.outcomes, alone.outcomes)
     for ours, theirs in zip(together.network.weights, alone.network.weights, strict=True):
         np.testing.assert_array_equal(ours, theirs)
