@@ -16,6 +16,7 @@ from robonav import expect
 from robonav.errors import ConvergenceWarning
 
 from .planning import value_iteration
+from .policies import distributions
 from .pomdp import POMDP, SAME, BeliefMDP
 
 Floats = NDArray[np.float64]
@@ -38,11 +39,12 @@ class AlphaVectors:
 
     def value(self, belief: ArrayLike) -> Floats:
         """Value (...) of one belief (S,) or many (..., S): the largest of the linear functions."""
-        return (np.asarray(belief) @ self.vectors.T).max(axis=-1)
+        return (distributions("belief", belief, self.vectors.shape[1]) @ self.vectors.T).max(axis=-1)
 
     def action(self, belief: ArrayLike) -> int:
         """The action of the vector that is largest at a belief (S,)."""
-        return int(self.actions[(self.vectors @ np.asarray(belief)).argmax()])
+        expect.array("belief", belief, shape=("S",))
+        return int(self.actions[(self.vectors @ distributions("belief", belief, self.vectors.shape[1])).argmax()])
 
 
 def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
@@ -51,6 +53,7 @@ def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
     One vector an action, Q*(., a) of the MDP underneath. Its values are an upper bound; its policy never takes an
     action only to learn something, since it believes that it will know everything anyway.
     """
+    expect.instance("pomdp", pomdp, POMDP)
     values = value_iteration(pomdp.mdp, tolerance).values
     return AlphaVectors(pomdp.mdp.backup(values).T.copy(), np.arange(pomdp.mdp.actions))
 
@@ -61,6 +64,7 @@ def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
     Each new one is the successor, by any action and observation, that is furthest (sum of absolute differences) from
     those taken before; so the choice involves no chance. There are fewer where fewer can be reached.
     """
+    expect.instance("pomdp", pomdp, POMDP)
     expect.integer("count", count, at_least=1)
     taken = [pomdp._belief(start)]
     candidates, distances = np.empty((0, pomdp.mdp.states)), np.empty(0)
@@ -84,36 +88,40 @@ def point_based_value_iteration(
 ) -> AlphaVectors:
     """Value iteration at some beliefs only, one vector for each (Pineau, Gordon and Thrun 2003).
 
-    Starts below every value (the worst reward for ever), and keeps for each point the best vector found so far, so that
-    values rise and stay a lower bound of the true ones, everywhere. More points come closer.
+    Starts below every value (the worst reward for ever), and keeps for each point the best vector found so far; of
+    vectors that are equally good there the one that is larger on the whole, since the next backup may look from
+    another belief. So the values of the points rise, and stay a lower bound of the true ones, everywhere. More points
+    come closer.
 
     Parameters
     ----------
     beliefs : (N, S) the points, such as :func:`spread_beliefs` finds.
-    tolerance : how far the points' values may still rise, in units of reward; positive. Stops when a backup lifts none
-        by more than ``tolerance * (1 - discount)``: rises shrink by the discount, so all that would follow stay below.
+    tolerance : how far values may still rise, in units of reward; positive. Stops when a backup replaces no point's
+        vector by one that is larger by more than ``tolerance * (1 - discount)`` in any state: if it goes on like that,
+        rises shrink by the discount, and all that would follow stay below the tolerance.
     max_iterations : backups after which to give up.
 
     Raises
     ------
-    ValueError : if the discount is 1, with which there is nothing to start from.
+    ValueError : if the discount is 1, with which there is nothing to start from, or a point is no belief.
 
     Warns
     -----
     ConvergenceWarning : if values were still rising; says by how much.
     """
+    expect.instance("pomdp", pomdp, POMDP)
     if pomdp.mdp.discount == 1:
         raise ValueError("point_based_value_iteration needs a discount below 1, got 1")
-    points = np.stack([pomdp._belief(b) for b in expect.array("beliefs", beliefs, shape=("N", pomdp.mdp.states))])
+    expect.array("beliefs", beliefs, shape=("N", pomdp.mdp.states))
+    points = distributions("beliefs", beliefs, pomdp.mdp.states)
+    if len(points) == 0:
+        raise ValueError("beliefs must hold at least one belief, got none")
     enough = expect.positive("tolerance", tolerance) * (1 - pomdp.mdp.discount)
     expect.integer("max_iterations", max_iterations, at_least=1)
     worst = pomdp.mdp.rewards.min() / (1 - pomdp.mdp.discount)
     found = AlphaVectors(np.full((1, pomdp.mdp.states), worst), np.zeros(1, dtype=np.int64))
-    values, rise = found.value(points), np.inf
     for iterations in range(1, max_iterations + 1):
-        found = best_at(points, found, backup(pomdp, points, found), iterations)
-        values, before = found.value(points), values
-        rise = float((values - before).max())
+        found, rise = improved_at(points, found, backup(pomdp, points, found), iterations)
         if rise <= enough:
             return found
     warnings.warn(
@@ -141,8 +149,18 @@ def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
     return AlphaVectors(candidates[best, np.arange(len(points))], best)
 
 
-def best_at(points: Floats, old: AlphaVectors, new: AlphaVectors, iterations: int) -> AlphaVectors:
-    """Of two sets, the vectors that are best at some point; of equal ones the old."""
+def improved_at(points: Floats, old: AlphaVectors, new: AlphaVectors, iterations: int) -> tuple[AlphaVectors, float]:
+    """Of two sets, the vectors that are best at some point, and the most by which a point's vector rose in a state."""
     vectors, actions = np.concatenate([old.vectors, new.vectors]), np.concatenate([old.actions, new.actions])
-    kept = np.unique((points @ vectors.T).argmax(axis=1))
-    return AlphaVectors(vectors[kept], actions[kept], iterations)
+    chosen = best_at(points, vectors)
+    rise = (vectors[chosen] - old.vectors[best_at(points, old.vectors)]).max()
+    kept = np.unique(chosen)
+    return AlphaVectors(vectors[kept], actions[kept], iterations), float(rise)
+
+
+def best_at(points: Floats, vectors: Floats) -> NDArray[np.intp]:
+    """Which vector is best at each point (N,); of those equal to rounding the one with the largest sum."""
+    worth = points @ vectors.T
+    rounding = 16 * np.finfo(float).eps * abs(vectors).max()
+    ties = worth >= worth.max(axis=1, keepdims=True) - rounding
+    return np.where(ties, vectors.sum(axis=1), -np.inf).argmax(axis=1)

@@ -16,6 +16,8 @@ from scipy.special import logsumexp, ndtr
 
 from robonav import expect
 
+from .policies import SUM_TOLERANCE, distributions
+
 Floats = NDArray[np.float64]
 
 
@@ -152,8 +154,8 @@ class RangeSensor:
         A reading short of ``reach`` has a normal density about the prediction; ``reach`` itself, which stands for all
         that lies beyond, has the whole tail as its probability. The n sensors err independently.
         """
-        seen = np.asarray(measured, dtype=float)
-        error = (seen - predicted) / self.deviation
+        seen = expect.array("measured", measured)
+        error = (seen - expect.array("predicted", predicted)) / self.deviation
         beyond = seen >= self.reach
         hit = np.where(beyond, ndtr(-error), np.exp(-(error**2) / 2) / (np.sqrt(2 * np.pi) * self.deviation))
         stray = np.where(beyond, 0.5, 0.5 / self.reach)
@@ -170,33 +172,54 @@ class Localiser:
     transitions : A sparse matrices (S, S), such as :func:`pose_transitions` makes.
     predicted : (S, n) what the n sensors would read at each pose without noise.
     sensor : how they err.
+
+    Raises
+    ------
+    TypeError, ValueError : if the transitions are not (S, S) with rows that sum to one, or the rest does not fit them;
+        by the methods, if a belief is no distribution over S poses, an action does not exist, or readings are not n.
     """
 
     transitions: tuple[sp.csr_array, ...]
     predicted: Floats
     sensor: RangeSensor = RangeSensor()
 
-    def predict(self, belief: Floats, action: int) -> Floats:
-        """The belief (S,) after a move: all that a robot with no sensing has."""
-        return belief @ self.transitions[action]
+    def __post_init__(self) -> None:
+        expect.instance("sensor", self.sensor, RangeSensor)
+        object.__setattr__(self, "predicted", expect.array("predicted", self.predicted, shape=("S", "n")))
+        states = len(self.predicted)
+        for action, matrix in enumerate(expect.instance("transitions", self.transitions, tuple)):
+            if not sp.issparse(matrix) or matrix.shape != (states, states):
+                raise ValueError(f"transitions must be sparse matrices ({states}, {states}), not so at action {action}")
+            if matrix.data.min(initial=0) < 0 or (abs(matrix.sum(axis=1) - 1) > SUM_TOLERANCE).any():
+                raise ValueError(f"transitions must hold one distribution a row, not so at action {action}")
 
-    def correct(self, belief: Floats, ranges: ArrayLike) -> Floats:
+    def predict(self, belief: ArrayLike, action: int) -> Floats:
+        """The belief (S,) after a move: all that a robot with no sensing has."""
+        move = self.transitions[expect.integer("action", action, at_least=0, at_most=len(self.transitions) - 1)]
+        return self._belief(belief) @ move
+
+    def correct(self, belief: ArrayLike, ranges: ArrayLike) -> Floats:
         """The belief (S,) after readings (n,).
 
         Raises
         ------
         ValueError : if the readings are impossible in every pose held possible (only with no outliers).
         """
+        before = self._belief(belief)
         seen = expect.array("ranges", ranges, shape=self.predicted.shape[1:])
-        possible = np.flatnonzero(belief)
-        log = np.log(belief[possible]) + self.sensor.log_likelihood(self.predicted[possible], seen)
+        possible = np.flatnonzero(before)
+        log = np.log(before[possible]) + self.sensor.log_likelihood(self.predicted[possible], seen)
         total = logsumexp(log)
         if not np.isfinite(total):
             raise ValueError("the ranges have probability zero in every pose that the belief holds possible")
-        corrected = np.zeros_like(belief)
+        corrected = np.zeros_like(before)
         corrected[possible] = np.exp(log - total)
         return corrected / corrected.sum()
 
-    def update(self, belief: Floats, action: int, ranges: ArrayLike) -> Floats:
+    def update(self, belief: ArrayLike, action: int, ranges: ArrayLike) -> Floats:
         """The belief (S,) after a move and the readings (n,) that follow it."""
         return self.correct(self.predict(belief, action), ranges)
+
+    def _belief(self, belief: ArrayLike) -> Floats:
+        expect.array("belief", belief, shape=(len(self.predicted),))
+        return distributions("belief", belief, len(self.predicted))

@@ -21,6 +21,7 @@ def deterministic(name: str, policy: ArrayLike, states: int, actions: int) -> ND
     TypeError : if it does not hold whole numbers.
     ValueError : if it has another shape, or an action does not exist.
     """
+    expect.array(name, policy, shape=(states,))
     if np.asarray(policy).dtype.kind not in "iu":
         raise TypeError(f"{name} must hold whole numbers, one action a state, got {np.asarray(policy).dtype}")
     actions_taken = expect.array(name, policy, shape=(states,), dtype=np.intp)
@@ -38,7 +39,7 @@ def checked(policy: ArrayLike, states: int, actions: int) -> NDArray:
     TypeError : if it is no array of numbers, or of one dimension and not of whole numbers.
     ValueError : if its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
     """
-    if np.ndim(policy) == 1:
+    if expect.array("policy", policy).ndim == 1:
         return deterministic("policy", policy, states, actions)
     chances = expect.array("policy", policy, shape=(states, actions))
     wrong = (chances < 0).any(axis=1) | (abs(chances.sum(axis=1) - 1) > SUM_TOLERANCE)
@@ -52,6 +53,28 @@ def probabilities(policy: ArrayLike, states: int, actions: int) -> NDArray[np.fl
     """The policy as probabilities (S, A), whichever of the two forms it comes in."""
     given = checked(policy, states, actions)
     return given if given.ndim == 2 else np.eye(actions)[given]
+
+
+def distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.float64]:
+    """Distributions over S states, an array (..., S): beliefs.
+
+    Raises
+    ------
+    TypeError, ValueError : if it is no array of numbers, its last axis is not S, or a row is no distribution.
+    """
+    given: NDArray[np.float64] = expect.array(name, value)
+    if given.ndim == 0 or given.shape[-1] != states:
+        wanted = f"({states},)" if given.ndim <= 1 else f"(..., {states})"
+        raise ValueError(f"{name} must have shape {wanted}, got {given.shape}")
+    if (given < 0).any():
+        raise ValueError(
+            f"{name} must be a distribution over the {states} states, got a probability of {given.min():.10g}"
+        )
+    totals = given.sum(axis=-1)
+    if (abs(totals - 1) > SUM_TOLERANCE).any():
+        off = np.ravel(totals)[abs(np.ravel(totals) - 1).argmax()]
+        raise ValueError(f"{name} must be a distribution over the {states} states, got sum {off:.10g}")
+    return given
 
 
 def uniform(states: int, actions: int) -> NDArray[np.float64]:

@@ -12,14 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 from robonav import expect
 
 from .models import FiniteMDP
-from .policies import SUM_TOLERANCE
+from .policies import SUM_TOLERANCE, distributions
 
 Floats = NDArray[np.float64]
 
 SAME = 1e-9  # beliefs that differ by no more than this, in any state, count as one
 
 
-def bayes(prior: Floats, likelihood: Floats) -> tuple[Floats, float]:
+def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
     """Bayes' rule: the belief (S,) after evidence, and how probable the evidence was.
 
     Parameters
@@ -29,9 +29,14 @@ def bayes(prior: Floats, likelihood: Floats) -> tuple[Floats, float]:
 
     Raises
     ------
-    ValueError : if no state that is believed possible could have given the evidence.
+    ValueError : if no state that is believed possible could have given the evidence, or a number is negative.
     """
-    joint = prior * likelihood
+    before = expect.array("prior", prior, shape=("S",))
+    explained = expect.array("likelihood", likelihood, shape=before.shape)
+    for name, numbers in (("prior", before), ("likelihood", explained)):
+        if numbers.min(initial=0) < 0:
+            raise ValueError(f"{name} must hold no negative numbers, got {numbers.min():.10g}")
+    joint = before * explained
     probability = float(joint.sum())
     if not probability > 0:
         raise ValueError("the evidence has probability zero in every state that the belief holds possible")
@@ -40,7 +45,7 @@ def bayes(prior: Floats, likelihood: Floats) -> tuple[Floats, float]:
 
 def entropy(belief: ArrayLike) -> float:
     """How uncertain a belief (S,) is, in bits: 0 where one state is sure, log2 S where all are alike."""
-    b = expect.array("belief", belief, shape=("S",))
+    b = distributions("belief", belief, len(expect.array("belief", belief, shape=("S",))))
     sure = b[b > 0]
     return float(-(sure * np.log2(sure)).sum()) + 0.0  # not -0
 
@@ -64,8 +69,7 @@ class POMDP:
     observations: Any
 
     def __post_init__(self) -> None:
-        if not isinstance(self.mdp, FiniteMDP):
-            raise TypeError(f"mdp must be a FiniteMDP, got {type(self.mdp).__name__}")
+        expect.instance("mdp", self.mdp, FiniteMDP)
         z = expect.array("observations", self.observations, shape=(self.mdp.actions, self.mdp.states, "O")).copy()
         wrong = (z < 0).any(axis=2) | (abs(z.sum(axis=2) - 1) > SUM_TOLERANCE)
         if wrong.any():
@@ -118,10 +122,8 @@ class POMDP:
         return self._belief(belief) @ self.mdp.rewards
 
     def _belief(self, belief: ArrayLike) -> Floats:
-        b: Floats = expect.array("belief", belief, shape=(self.mdp.states,))
-        if b.min() < 0 or abs(b.sum() - 1) > SUM_TOLERANCE:
-            raise ValueError(f"belief must be a distribution over the {self.mdp.states} states, got sum {b.sum():.10g}")
-        return b
+        expect.array("belief", belief, shape=(self.mdp.states,))
+        return distributions("belief", belief, self.mdp.states)
 
     def _action(self, action: int) -> int:
         return expect.integer("action", action, at_least=0, at_most=self.mdp.actions - 1)
@@ -129,6 +131,7 @@ class POMDP:
 
 def without_sensing(mdp: FiniteMDP) -> POMDP:
     """A robot with no sensing at all (2.5.1): whatever the state, it observes the same."""
+    expect.instance("mdp", mdp, FiniteMDP)
     return POMDP(mdp, np.ones((mdp.actions, mdp.states, 1)))
 
 
@@ -137,6 +140,9 @@ class BeliefMDP:
     """The MDP whose states are the beliefs of a POMDP: <B, A, tau, r, gamma>. From each, few others can be reached."""
 
     pomdp: POMDP
+
+    def __post_init__(self) -> None:
+        expect.instance("pomdp", self.pomdp, POMDP)
 
     @property
     def discount(self) -> float:
@@ -206,14 +212,16 @@ def belief_walk(
     state : the true first state; drawn from ``belief`` if left out.
     seed : number or generator, for what is random in the world.
     """
+    expect.instance("pomdp", pomdp, POMDP)
     rng = expect.generator("seed", seed)
     expect.integer("steps", steps, at_least=0)
     beliefs = [pomdp.uniform() if belief is None else pomdp._belief(belief)]
     if state is None:
         state = rng.choice(pomdp.mdp.states, p=beliefs[0])
+    expect.integer("state", state, at_least=0, at_most=pomdp.mdp.states - 1)
     states, actions, observations, rewards = [state], [], [], []
     for _ in range(steps):
-        action = choose(beliefs[-1])
+        action = pomdp._action(choose(beliefs[-1]))
         rewards.append(pomdp.mdp.rewards[states[-1], action])
         states.append(rng.choice(pomdp.mdp.states, p=successor_probabilities(pomdp.mdp, states[-1], action)))
         observations.append(rng.choice(pomdp.observations.shape[2], p=pomdp.observations[action, states[-1]]))

@@ -173,6 +173,56 @@ def test_spread_beliefs_are_reachable_far_apart_and_no_more_than_there_are():
     assert len(spread_beliefs(without_sensing(pomdp.mdp), [0.5, 0.5], 9)) == 1
 
 
+def test_a_reward_beyond_all_points_is_found():
+    """Six cells in a row, the reward in the last, points only in the first five: no point itself sees any reward."""
+    forward = np.eye(6)[[1, 2, 3, 4, 5, 5]]
+    rewards = np.zeros((6, 1))
+    rewards[-1] = 1
+    blind = without_sensing(FiniteMDP([forward], rewards, 0.9))
+    policy = point_based_value_iteration(blind, spread_beliefs(blind, np.eye(6)[0], 5))
+    assert policy.value(np.eye(6)[0]) == pytest.approx(0.9**5 / 0.1, abs=1e-5)
+    assert policy.value(np.eye(6)[0]) <= 0.9**5 / 0.1
+
+
+def test_there_are_no_more_vectors_than_points():
+    pomdp = random_pomdp(1, discount=0.9)
+    points = spread_beliefs(pomdp, np.full(3, 1 / 3), 12)
+    policy = point_based_value_iteration(pomdp, points)
+    assert policy.iterations > 12
+    assert len(policy.vectors) == len(policy.actions) <= 12
+
+
+@pytest.mark.parametrize(
+    ("beliefs", "sentence"),
+    [
+        (np.zeros((0, 2)), "beliefs must hold at least one belief"),
+        ([0.5, 0.5], r"beliefs must have shape \(N, 2\)"),
+        ([[0.5, 0.5], [1, 1]], "beliefs must be a distribution over the 2 states, got sum 2"),
+        ([[0.5, 0.5], [1.5, -0.5]], "beliefs must be a distribution over the 2 states, got a probability of -0.5"),
+    ],
+)
+def test_points_are_beliefs(beliefs, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        point_based_value_iteration(tiger(), beliefs)
+
+
+def test_only_beliefs_have_a_value():
+    policy = qmdp(tiger())
+    for wrong in ([1, 1], [1.0], [[0.5, 0.5], [0.5, 0.6]], 1.0):
+        with pytest.raises(ValueError, match="belief must"):
+            policy.value(wrong)
+    with pytest.raises(ValueError, match=r"belief must have shape"):
+        policy.action([[0.5, 0.5]])
+
+
+@pytest.mark.parametrize(
+    "plan", [qmdp, lambda m: spread_beliefs(m, [1, 0], 2), lambda m: point_based_value_iteration(m, [[1, 0]])]
+)
+def test_a_model_without_observations_is_refused(plan):
+    with pytest.raises(TypeError, match="pomdp must be POMDP, got FiniteMDP"):
+        plan(tiger().mdp)
+
+
 def test_too_few_backups_warn_and_say_how_far_it_was():
     pomdp = tiger()
     with pytest.warns(ConvergenceWarning, match="after 3 backups with a value still rising by"):

@@ -125,6 +125,54 @@ def test_readings_that_fit_nowhere_are_an_error_that_says_so():
         localiser.correct(np.array([1.0, 0.0]), [9.0, 9.0])
 
 
+SMALL = PoseGrid([[True, True]], headings=1)
+STAY = pose_transitions(SMALL, [(0.0, 0.0)])
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "sentence"),
+    [
+        ({"transitions": STAY[0]}, TypeError, "transitions must be tuple"),
+        ({"transitions": (np.eye(2),)}, ValueError, r"transitions must be sparse matrices \(2, 2\)"),
+        ({"transitions": (0.5 * STAY[0],)}, ValueError, "transitions must hold one distribution a row"),
+        ({"predicted": np.ones((3, 1))}, ValueError, r"matrices \(3, 3\), not so at action 0"),
+        ({"predicted": [[1.0], [np.nan]]}, ValueError, "predicted must hold finite"),
+        ({"sensor": 0.5}, TypeError, "sensor must be RangeSensor, got float"),
+    ],
+)
+def test_a_localiser_checks_its_parts(options, error, sentence):
+    with pytest.raises(error, match=sentence):
+        Localiser(**{"transitions": STAY, "predicted": np.ones((2, 1)), **options})
+
+
+@pytest.mark.parametrize(
+    ("belief", "action", "ranges", "sentence"),
+    [
+        ([1.0, 1.0], 0, [1.0], "belief must be a distribution over the 2 states, got sum 2"),
+        ([1.5, -0.5], 0, [1.0], "got a probability of -0.5"),
+        ([1.0], 0, [1.0], r"belief must have shape \(2,\)"),
+        ([1.0, 0.0], 1, [1.0], "action must be at most 0, got 1"),
+        ([1.0, 0.0], -1, [1.0], "action must be at least 0"),
+        ([1.0, 0.0], 0, [np.nan], "ranges must hold finite"),
+    ],
+)
+def test_a_localiser_checks_what_it_is_told(belief, action, ranges, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        Localiser(STAY, np.ones((2, 1))).update(belief, action, ranges)
+
+
+def test_a_reading_that_is_no_number_has_no_likelihood():
+    with pytest.raises(ValueError, match="measured must hold finite"):
+        RangeSensor().log_likelihood([3.0], [np.nan])
+
+
+def test_a_robot_that_is_stopped_turns_all_the_same():
+    """Facing east beside the wall, a quarter turn left with a step leads into the wall: it stays, and faces north."""
+    grid = PoseGrid(np.ones((1, 3), dtype=bool), headings=4)
+    (left,) = pose_transitions(grid, [(np.pi / 2, 1.0)])
+    np.testing.assert_allclose(left.toarray()[4], np.eye(12)[5], atol=1e-12)
+
+
 @pytest.mark.parametrize("wrong", [{"free": [[False]]}, {"free": [True]}, {"cell": 0.0}, {"headings": 0}])
 def test_a_grid_checks_its_numbers(wrong):
     with pytest.raises(ValueError, match="must"):

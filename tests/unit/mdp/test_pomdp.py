@@ -134,7 +134,7 @@ def test_an_observation_that_cannot_be_is_an_error_that_says_so():
     ("belief", "action", "observation", "message"),
     [
         ([0.5, 0.6], 0, 0, "belief must be a distribution over the 2 states, got sum 1.1"),
-        ([1.5, -0.5], 0, 0, "belief must be a distribution"),
+        ([1.5, -0.5], 0, 0, "belief must be a distribution over the 2 states, got a probability of -0.5"),
         ([1.0], 0, 0, r"belief must have shape \(2,\)"),
         ([0.5, np.nan], 0, 0, "belief must hold finite numbers"),
         ([0.5, 0.5], 3, 0, "action must be at most 2, got 3"),
@@ -155,8 +155,56 @@ def test_observations_are_checked():
     wrong[1, 0] = [0.7, 0.7]
     with pytest.raises(ValueError, match=r"got .* at action 1, state 0"):
         POMDP(mdp, wrong)
-    with pytest.raises(TypeError, match="mdp must be a FiniteMDP"):
+    with pytest.raises(TypeError, match="mdp must be FiniteMDP, got str"):
         POMDP("mdp", wrong)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (([0.5, 0.5], [0.1, -0.9]), "likelihood must hold no negative numbers, got -0.9"),
+        (([0.5, -0.5], [0.1, 0.9]), "prior must hold no negative numbers, got -0.5"),
+        (([0.5, 0.5], [0.1, 0.2, 0.7]), r"likelihood must have shape \(2,\), got \(3,\)"),
+        (([0.5, 0.5], [0.1, np.nan]), "likelihood must hold finite numbers"),
+    ],
+)
+def test_evidence_is_checked(arguments, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        bayes(*arguments)
+
+
+def test_bayes_takes_lists():
+    posterior, probability = bayes([0.5, 0.5], [0.1, 0.9])
+    np.testing.assert_allclose(posterior, [0.1, 0.9])
+    assert probability == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("belief", [[5, -3], [0.5, 0.4], [[0.5, 0.5]], []])
+def test_only_a_belief_has_an_entropy(belief):
+    with pytest.raises(ValueError, match="belief must"):
+        entropy(belief)
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "sentence"),
+    [
+        ({"state": -1}, ValueError, "state must be at least 0, got -1"),
+        ({"state": 99}, ValueError, "state must be at most 1, got 99"),
+        ({"choose": lambda belief: 99}, ValueError, "action must be at most 2, got 99"),
+        ({"choose": lambda belief: 0.5}, TypeError, "action must be a whole number, got 0.5"),
+        ({"pomdp": tiger().mdp}, TypeError, "pomdp must be POMDP, got FiniteMDP"),
+    ],
+)
+def test_walks_check_what_they_are_given(options, error, sentence):
+    with pytest.raises(error, match=sentence):
+        belief_walk(**{"pomdp": tiger(), "choose": lambda belief: 0, "steps": 2, "seed": 0, **options})
+
+
+def test_only_an_mdp_can_be_robbed_of_its_sensing():
+    with pytest.raises(TypeError, match="mdp must be FiniteMDP, got POMDP"):
+        without_sensing(tiger())
+    with pytest.raises(TypeError, match="pomdp must be POMDP, got FiniteMDP"):
+        BeliefMDP(tiger().mdp)
 
 
 def test_without_sensing_a_move_against_the_wall_still_tells():
