@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import softmax
 
 from robonav import expect
 
@@ -22,5 +21,6 @@ def boltzmann(action_values: ArrayLike, eta: float) -> Floats:
     action_values : (..., A).
     eta : at least 0.
     """
-    q = expect.array("action_values", action_values)
-    return np.asarray(softmax(expect.real("eta", eta, at_least=0) * q, axis=-1))
+    z = expect.real("eta", eta, at_least=0) * expect.array("action_values", action_values)
+    weights = np.exp(z - z.max(axis=-1, keepdims=True))
+    return weights / weights.sum(axis=-1, keepdims=True)
