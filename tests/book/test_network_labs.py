@@ -61,7 +61,7 @@ def unpacked(array: dict[str, Any]) -> np.ndarray:
 
 @pytest.mark.parametrize(
     ("problem", "hidden", "first", "rate", "iteration"),
-    [("corners", 2, "random", 3, 400), ("island", 3, "all zero", 30, 7), ("moons", 8, "random again", 0.3, 56)],
+    [("corners", 2, "random", 3, 150), ("island", 3, "all zero", 30, 7), ("moons", 8, "random again", 0.3, 56)],
 )
 def test_every_setting_shows_its_own_training(labs, problem, hidden, first, rate, iteration):
     lab = labs[0]
