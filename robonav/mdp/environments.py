@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 from gymnasium import spaces
 from numpy.typing import NDArray
+from scipy.sparse import csgraph
 
 from robonav import expect
 
@@ -21,28 +22,49 @@ Outcome = tuple[float, int, float, bool]  # probability, state reached, reward, 
 def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
     """Sparse transitions and rewards (S, A) of an environment that publishes its table ``P``.
 
-    A state that a transition marked as ended leads to becomes terminal: absorbing, with reward 0.
+    A state that a transition marked as ended leads to becomes terminal: absorbing, with reward 0. Wrappers are not
+    looked at.
 
     Raises
     ------
-    ValueError : if the environment publishes no table.
+    ValueError : if the environment publishes no table or an incomplete one, does not keep to it, or may end an episode
+        in a state and go on from it another time, so that the state alone does not say what is to come.
     """
-    table = getattr(getattr(env, "unwrapped", env), "P", None)
+    bare = getattr(env, "unwrapped", env)
+    table = getattr(bare, "P", None)
     if table is None:
         raise ValueError(f"env must publish its transitions as P[s][a] (FrozenLake, Taxi, CliffWalking), got {env}")
-    states, actions = len(table), len(table[0])
+    if getattr(bare, "fickle_passenger", False):
+        raise ValueError("env must move as its table P says, got a taxi whose fickle passenger is not in it")
+    rows = [_in_order(row) for row in _in_order(table)]
+    states, actions = len(rows), len(rows[0]) if rows else 0
+    if actions == 0 or any(len(row) != actions for row in rows):
+        raise ValueError("env must publish P[s][a] for as many actions in every state, and for at least one of each")
     entries = np.array(
         [
             (action, state, reached, probability, probability * reward, ended)
-            for state in range(states)
-            for action in range(actions)
-            for probability, reached, reward, ended in table[state][action]
+            for state, row in enumerate(rows)
+            for action, outcomes in enumerate(row)
+            for probability, reached, reward, ended in outcomes
+            if probability > 0
         ],
         dtype=float,
-    )
+    ).reshape(-1, 6)
     action, state, reached = entries[:, :3].astype(np.intp).T
+    if reached.min(initial=0) < 0 or reached.max(initial=0) >= states:
+        raise ValueError(f"env must publish transitions to states from 0 to {states - 1}, got {reached.max()}")
+    ended = entries[:, 5] == 1
     terminal = np.zeros(states, dtype=bool)
-    terminal[reached[entries[:, 5] == 1]] = True
+    terminal[reached[ended]] = True
+    starts = np.asarray(getattr(bare, "initial_state_distrib", np.ones(states)))
+    leaving = np.zeros(states, dtype=bool)
+    leaving[state[(reached != state) | (entries[:, 4] != 0)]] = True
+    passed = terminal & leaving & _passed(starts, state[~ended], reached[~ended])
+    if passed.any():
+        raise ValueError(
+            "env must end an episode in a state always or never: its number alone must say what is to come, got state "
+            f"{int(passed.argmax())}, in which it may end and may go on"
+        )
     going_on = ~terminal[state]
     rewards = np.zeros((states, actions))
     np.add.at(rewards, (state[going_on], action[going_on]), entries[going_on, 4])
@@ -54,6 +76,20 @@ def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
         probability = np.append(entries[own, 3], np.ones(ends.size))
         transitions.append(sp.coo_array((probability, coordinates), (states, states)).tocsr())
     return transitions, rewards
+
+
+def _in_order(part: Any) -> list[Any]:
+    """What a list, or a dictionary with the keys 0, 1, 2, ..., holds."""
+    try:
+        return [part[key] for key in range(len(part))]
+    except (TypeError, LookupError):
+        raise ValueError(f"env must publish P[s][a] with states and actions numbered from 0, got {part}") from None
+
+
+def _passed(starts: NDArray[np.float64], state: NDArray[np.intp], reached: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Which states (S,) an episode may begin in or pass, by the steps from ``state`` to ``reached`` that do not end."""
+    steps = sp.csr_array((np.ones(state.size), (state, reached)), (starts.size, starts.size))
+    return np.isfinite(csgraph.dijkstra(steps, indices=np.flatnonzero(starts), unweighted=True, min_only=True))
 
 
 class GridEnvironment(gym.Env[Any, Any]):
@@ -89,7 +125,8 @@ class GridEnvironment(gym.Env[Any, Any]):
 
     def step(self, action: int) -> tuple[int, float, bool, bool, dict[str, Any]]:
         """One move: state reached, reward, whether it ended the episode."""
-        probability, self.state, reward, ended = self._drawn(self.P[self.state][int(action)])
+        taken = expect.integer("action", action, at_least=0, at_most=3)
+        probability, self.state, reward, ended = self._drawn(self.P[self.state][taken])
         return self.state, reward, ended, False, {"probability": probability}
 
     def render(self) -> str | None:

@@ -18,20 +18,20 @@ Schedule = Callable[[int], float]
 
 def constant(value: float) -> Schedule:
     """The same rate for ever. Values then never settle, but they can follow a world that changes."""
-    expect.real("value", value)
+    _rate("value", value)
     return lambda n: value
 
 
 def linear_decay(start: float, end: float, over: int) -> Schedule:
     """In equal steps from ``start`` to ``end``, reached at ``over`` and kept."""
-    expect.real("start", start), expect.real("end", end)
+    _rate("start", start), _rate("end", end)
     expect.integer("over", over, at_least=1)
     return lambda n: start + (end - start) * min(n / over, 1.0)
 
 
 def exponential_decay(start: float, end: float, half_life: float) -> Schedule:
     """From ``start`` towards ``end``, the gap halving every ``half_life``."""
-    expect.real("start", start), expect.real("end", end)
+    _rate("start", start), _rate("end", end)
     expect.positive("half_life", half_life)
     return lambda n: end + (start - end) * 0.5 ** (n / half_life)
 
@@ -42,7 +42,7 @@ def harmonic_decay(start: float = 1.0, half_life: float = 1.0) -> Schedule:
     Its sum is infinite and the sum of its squares is not, which is what the convergence of Q-learning asks of a
     learning rate (Watkins and Dayan 1992). With the defaults it is 1, 1/2, 1/3, ...: the plain average.
     """
-    expect.real("start", start)
+    _rate("start", start)
     expect.positive("half_life", half_life)
     return lambda n: start * half_life / (half_life + n)
 
@@ -57,9 +57,21 @@ def polynomial_decay(power: float) -> Schedule:
     return lambda n: (1 + n) ** -power
 
 
-def schedule(name: str, value: float | Schedule, *, most: float = 1.0) -> Schedule:
-    """A schedule, or a number between 0 and ``most`` as a constant one."""
-    return value if callable(value) else constant(expect.real(name, value, at_least=0, at_most=most))
+def schedule(name: str, value: float | Schedule) -> Schedule:
+    """A schedule whose rates are checked as they come, or a number as a constant one: all from 0 to 1."""
+    if not callable(value):
+        return constant(_rate(name, value))
+
+    def checked(n: int) -> float:
+        rate = value(n)
+        return rate if isinstance(rate, float) and 0.0 <= rate <= 1.0 else _rate(f"{name}({n})", rate)
+
+    return checked
+
+
+def _rate(name: str, value: Any) -> float:
+    """A number from 0 to 1."""
+    return expect.real(name, value, at_least=0, at_most=1)
 
 
 def epsilon_greedy(q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
@@ -89,7 +101,7 @@ class EpsilonGreedy:
 
     def begin(self, episode: int) -> None:
         """Take the epsilon of this episode."""
-        self.epsilon = expect.real("epsilon", self._schedule(episode), at_least=0, at_most=1)
+        self.epsilon = self._schedule(episode)
 
     def __call__(self, values: Sequence[Any]) -> int:
         if self._draw() < self.epsilon:

@@ -38,7 +38,8 @@ class OneHot:
         expect.integer("actions", self.actions, at_least=1)
 
     def __call__(self, state: int) -> NDArray[np.float64]:
-        return for_each_action(np.eye(1, self.states, state)[0], self.actions)
+        place = expect.integer("state", state, at_least=0, at_most=self.states - 1)
+        return for_each_action(np.eye(1, self.states, place)[0], self.actions)
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,8 @@ class Tiles:
     def active(self, state: ArrayLike) -> NDArray[np.int64]:
         """(tilings,) the number of the tile that holds the state, in each tiling."""
         low, high = np.asarray(self.low), np.asarray(self.high)
-        place = (np.clip(state, low, high) - low) / (high - low) * self.tiles  # in tiles
+        given = expect.array("state", state, shape=low.shape)
+        place = (np.clip(given, low, high) - low) / (high - low) * self.tiles  # in tiles
         cells = np.minimum((place + self.shifts).astype(int), self.tiles)
         return np.ravel_multi_index((np.arange(self.tilings), *cells.T), self.shape)
 

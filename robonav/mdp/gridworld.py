@@ -72,7 +72,8 @@ class GridWorld:
 
     Raises
     ------
-    ValueError : if rows differ in length, a symbol has no meaning, no cell is free, or a probability is none.
+    TypeError, ValueError : if the text is none, rows differ in length, a symbol has no meaning, no cell is free, or a
+        probability is none.
     """
 
     text: str
@@ -81,6 +82,8 @@ class GridWorld:
     step_reward: float = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
+        expect.instance("text", self.text, str)
+        expect.instance("legend", self.legend, Mapping)
         expect.real("slip", self.slip, at_least=0, at_most=1)
         expect.real("step_reward", self.step_reward)
         if len({len(row) for row in self.rows}) != 1:
@@ -89,6 +92,7 @@ class GridWorld:
         if unknown:
             raise ValueError(f"text must use symbols of the legend, {' '.join(self.meanings)}, got {unknown}")
         for symbol, cell in self.meanings.items():
+            expect.instance(f"legend[{symbol!r}]", cell, Cell)
             expect.real(f"reward of {symbol!r}", cell.reward)
             if cell.slip is not None:
                 expect.real(f"slip of {symbol!r}", cell.slip, at_least=0, at_most=1)
@@ -182,6 +186,8 @@ class GridWorld:
     def on_map(self, numbers: ArrayLike, *, walls: float = np.nan) -> NDArray:
         """One number a state, (..., S), laid out as the map, (..., rows, columns), with ``walls`` in the walls."""
         given = np.asarray(numbers)
+        if given.shape[-1:] != (self.states,):
+            raise ValueError(f"numbers must have shape (..., {self.states}), one a state, got {given.shape}")
         laid_out = np.full((*given.shape[:-1], *self.shape), walls, dtype=np.result_type(given, type(walls)))
         laid_out[..., self.cells[:, 0], self.cells[:, 1]] = given
         return laid_out

@@ -18,7 +18,9 @@ from robonav.progress import Progress
 from . import policies
 
 BLOCK = 4096  # random numbers drawn at a time: one by one they would cost more than the environment's step
-LARGEST_SEED = 2**31 - 1
+
+# Seeds of environments. What is learned from one is tested on the other: they never meet, whatever seeds are given.
+TRAINING, TESTING = range(2**31 - 1), range(2**31 - 1, 2**32 - 2)
 
 
 def uniforms(rng: np.random.Generator) -> Iterator[float]:
@@ -83,6 +85,19 @@ def number(space: gym.Space[Any], element: Any) -> int:
     return place
 
 
+def element(space: gym.Space[Any], place: int) -> Any:
+    """The element of a discrete space that has this number: the inverse of :func:`number`."""
+    if isinstance(space, spaces.Discrete):
+        return place + int(space.start)
+    if isinstance(space, spaces.MultiDiscrete):
+        return np.reshape(np.unravel_index(place, tuple(np.ravel(space.nvec))), space.nvec.shape) + space.start
+    pieces = []
+    for part in reversed(space.spaces):  # type: ignore[attr-defined]
+        place, digit = divmod(place, count("part", part))
+        pieces.append(element(part, digit))
+    return tuple(reversed(pieces))
+
+
 def numbered(env: gym.Env[Any, Any]) -> gym.Env[int, int]:
     """The environment with its states numbered 0 ... S - 1 and its actions 0 ... A - 1.
 
@@ -105,11 +120,9 @@ def with_numbered_actions(env: gym.Env[Any, Any]) -> gym.Env[Any, int]:
     if not isinstance(env, gym.Env):
         raise TypeError(f"env must be a Gymnasium environment, got {type(env).__name__}")
     actions = env.action_space
-    if not isinstance(actions, spaces.Discrete):
-        raise TypeError(f"env.action_space must be Discrete, got {actions}")
-    if actions.start != 0:
-        first = int(actions.start)
-        env = TransformAction(env, lambda action: action + first, spaces.Discrete(actions.n))
+    size = count("env.action_space", actions)
+    if not (isinstance(actions, spaces.Discrete) and actions.start == 0):
+        env = TransformAction(env, lambda action: element(actions, action), spaces.Discrete(size))
     return env
 
 
@@ -126,7 +139,7 @@ class Course:
                 successor, reward, terminated = course.step(action)
 
     An episode is over when the environment ends it or cuts it off, or after ``max_steps``. With ``record`` the states
-    that it passed stay in ``walks``.
+    that it passed stay in ``walks``. The environment's seed is drawn from ``seeds``: those of training, or of testing.
     """
 
     def __init__(
@@ -136,6 +149,7 @@ class Course:
         *,
         max_steps: int,
         rng: np.random.Generator,
+        seeds: range = TRAINING,
         record: bool = False,
         progress: Progress | None = None,
     ) -> None:
@@ -148,7 +162,7 @@ class Course:
         self.over = True
         self._step: Callable[[int], tuple[Any, Any, bool, bool, Any]] = env.step
         self._reset = env.reset
-        self._env_seed = int(rng.integers(LARGEST_SEED))
+        self._env_seed = int(rng.integers(seeds.start, seeds.stop))
         self._record = record
         self._progress = progress
 
@@ -217,7 +231,8 @@ def rollouts(
     policy : (S,) of action numbers, or (S, A) of probabilities.
     episodes : how many.
     max_steps : steps after which an episode is cut off.
-    seed : for the environment's chance and the policy's.
+    seed : for the environment's chance and the policy's. The environment never gets a seed that learners give theirs,
+        so that a policy is not tested on the episodes it was learned from, though the number here be the same.
 
     Raises
     ------
@@ -225,7 +240,7 @@ def rollouts(
     """
     env, rng = numbered(env), expect.generator("seed", seed)
     choose = chooser(policy, *sizes(env), rng)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
+    course = Course(env, episodes, max_steps=max_steps, rng=rng, seeds=TESTING, progress=progress)
     return [course.walk(state, choose) for state in course.episodes()]
 
 

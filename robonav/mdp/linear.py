@@ -15,7 +15,7 @@ from robonav.progress import Progress
 
 from .exploration import EpsilonGreedy, Schedule, schedule
 from .features import Features
-from .interaction import Course, with_numbered_actions
+from .interaction import Course, count, with_numbered_actions
 
 RUNAWAY = 1e100  # far above any reward, far below what overflows
 
@@ -89,23 +89,23 @@ def linear_sarsa(
     Raises
     ------
     TypeError : if the actions are not discrete.
-    ValueError : if ``features`` does not give one row for each action, or the weights grow beyond all bounds (a
-        learning rate too large for the number of features that are on).
+    ValueError : if ``features`` does not give one row for each action, always as long, or the weights grow beyond all
+        bounds (a learning rate too large for the number of features that are on).
     """
     env, rng = with_numbered_actions(env), expect.generator("seed", seed)
     discount = expect.real("discount", discount, at_least=0, at_most=1)
     rate = schedule("learning_rate", learning_rate)
-    weights = blank_weights(env, features)
+    features_of, weights = fitted(env, features)
     course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
     choose, history = EpsilonGreedy(epsilon, rng), [weights.copy()]
     for state in course.episodes():
         choose.begin(course.number)
         alpha = rate(course.number)
-        found = features(state)
+        found = features_of(state)
         action = choose((found @ weights).tolist())
         while not course.over:
             state, reward, terminated = course.step(action)
-            next_found = features(state)
+            next_found = features_of(state)
             next_values = (next_found @ weights).tolist()
             next_action = choose(next_values)
             future = 0.0 if terminated else next_values[next_action]
@@ -138,17 +138,17 @@ def linear_q_learning(
     env, rng = with_numbered_actions(env), expect.generator("seed", seed)
     discount = expect.real("discount", discount, at_least=0, at_most=1)
     rate = schedule("learning_rate", learning_rate)
-    weights = blank_weights(env, features)
+    features_of, weights = fitted(env, features)
     course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
     choose, history = EpsilonGreedy(epsilon, rng), [weights.copy()]
     for state in course.episodes():
         choose.begin(course.number)
         alpha = rate(course.number)
-        found = features(state)
+        found = features_of(state)
         while not course.over:
             action = choose((found @ weights).tolist())
             state, reward, terminated = course.step(action)
-            next_found = features(state)
+            next_found = features_of(state)
             future = 0.0 if terminated else (next_found @ weights).max()
             delta = bounded(reward + discount * future - found[action] @ weights)
             weights += alpha * delta * found[action]
@@ -158,13 +158,20 @@ def linear_q_learning(
     return learned(weights, features, course, history if record else None)
 
 
-def blank_weights(env: gym.Env[Any, int], features: Features) -> NDArray[np.float64]:
-    """A zero for each feature; ValueError if the features do not fit the environment."""
-    actions = int(env.action_space.n)  # type: ignore[attr-defined]
-    found = np.asarray(features(env.reset(seed=0)[0]))
-    if found.ndim != 2 or len(found) != actions:
-        raise ValueError(f"features must give shape ({actions}, n), one row for each action, got {found.shape}")
-    return np.zeros(found.shape[1])
+def fitted(env: gym.Env[Any, int], features: Features) -> tuple[Features, NDArray[np.float64]]:
+    """The features, checked as they come, and a zero weight for each; ValueError if they do not fit the actions."""
+    actions = count("env.action_space", env.action_space)
+    shape = np.shape(features(env.reset(seed=0)[0]))
+    if len(shape) != 2 or shape[0] != actions:
+        raise ValueError(f"features must give shape ({actions}, n), one row for each action, got {shape}")
+
+    def checked(state: Any) -> NDArray[np.float64]:
+        found = np.asarray(features(state))
+        if found.shape != shape:
+            raise ValueError(f"features must give shape {shape} for every state, as for the first, got {found.shape}")
+        return found
+
+    return checked, np.zeros(shape[1])
 
 
 def bounded(delta: float) -> float:

@@ -15,13 +15,20 @@ from robonav.mdp import (
     GridWorld,
     action_values,
     advantage,
+    backward_induction,
     bellman_optimality_operator,
     bellman_policy_operator,
+    generalized_policy_iteration,
+    horizon_evaluation,
+    in_place_value_iteration,
     is_optimal,
     iterative_policy_evaluation,
+    modified_policy_iteration,
     policies,
     policy_evaluation,
     policy_iteration,
+    prioritized_sweeping,
+    value_iteration,
 )
 
 
@@ -177,3 +184,24 @@ def test_giving_up_is_said_once_with_the_distance():
 def test_wrong_options_are_refused(options):
     with pytest.raises(ValueError, match=next(iter(options))):
         iterative_policy_evaluation(dirichlet_mdp(0), np.zeros(8, dtype=int), **options)
+
+
+GRID = GridWorld("..G")
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        *(value_iteration, policy_iteration, modified_policy_iteration, in_place_value_iteration, prioritized_sweeping),
+        generalized_policy_iteration,
+        *(lambda grid, f=f: f(grid, [1, 1, 0]) for f in (policy_evaluation, iterative_policy_evaluation)),
+        *(lambda grid, f=f: f(grid, [1, 1, 0]) for f in (action_values, advantage, is_optimal)),
+        lambda grid: bellman_policy_operator(grid, [1, 1, 0], np.zeros(3)),
+        lambda grid: bellman_optimality_operator(grid, np.zeros(3)),
+        lambda grid: backward_induction(grid, 3),
+        lambda grid: horizon_evaluation(grid, [1, 1, 0], 3),
+    ],
+)
+def test_a_grid_is_no_model_yet(call):
+    with pytest.raises(TypeError, match="mdp must be FiniteMDP, got GridWorld"):
+        call(GRID)

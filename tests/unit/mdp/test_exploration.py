@@ -13,7 +13,7 @@ from robonav.mdp import (
     linear_decay,
     polynomial_decay,
 )
-from robonav.mdp.exploration import EpsilonGreedy, constant
+from robonav.mdp.exploration import EpsilonGreedy, constant, schedule
 
 VALUES = arrays(float, st.tuples(st.integers(1, 6), st.integers(1, 5)), elements=st.sampled_from([-1.0, 0.0, 2.5]))
 
@@ -59,6 +59,33 @@ def test_decays_by_hand():
     assert [harmonic_decay()(n) for n in range(3)] == [1, 1 / 2, pytest.approx(1 / 3)]
     assert harmonic_decay(0.5, 10)(10) == pytest.approx(0.25)
     assert polynomial_decay(0.5)(3) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("rate", [-0.1, 5.0, float("nan"), np.float64(2)])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda rate: constant(rate),
+        lambda rate: linear_decay(rate, 0.1, 10),
+        lambda rate: linear_decay(0.1, rate, 10),
+        lambda rate: exponential_decay(rate, 0.1, 10),
+        lambda rate: exponential_decay(0.1, rate, 10),
+        lambda rate: harmonic_decay(rate),
+    ],
+)
+def test_rates_outside_their_range_are_refused(make, rate):
+    with pytest.raises(ValueError, match=r"(value|start|end) must be (at least 0|finite)"):
+        make(rate)
+
+
+@pytest.mark.parametrize("rate", [-0.1, 5.0, float("nan"), 2])
+def test_rates_of_ones_own_schedule_are_checked_as_they_come(rate):
+    falling = schedule("learning_rate", lambda n: 0.5 if n < 3 else rate)
+    assert falling(2) == 0.5
+    with pytest.raises(ValueError, match=r"learning_rate\(3\) must be (at least 0|finite)"):
+        falling(3)
+    with pytest.raises(TypeError, match=r"learning_rate\(0\) must be a number, got 'fast'"):
+        schedule("learning_rate", lambda n: "fast")(0)
 
 
 @pytest.mark.parametrize("epsilon", [-0.1, 1.1, float("nan")])

@@ -60,6 +60,11 @@ def test_a_slip_goes_aside_and_ice_slips_more(grid):
     assert mdp.rewards[2].tolist() == [0, 0, 0, 0]
 
 
+def test_a_cell_may_be_firm_where_the_grid_is_not():
+    grid = GridWorld("..\n!.", legend={"!": Cell(slip=0.0)}, slip=0.5)
+    np.testing.assert_allclose(grid.outcomes[1][:, 0, 0], [0.5, 0.5, 1, 0.5])
+
+
 def test_no_cell_vanishes_however_little_it_pays():
     """Zero-reward cells are states like others."""
     grid = GridWorld("...\n...\n..G")
@@ -140,6 +145,40 @@ def test_the_robot_is_seen_on_the_map(grid):
     assert grid.environment().render() is None
     with pytest.raises(ValueError, match="render_mode must be one of"):
         grid.environment(render_mode="human")
+
+
+@pytest.mark.parametrize(
+    ("action", "error", "sentence"),
+    [
+        (1.7, TypeError, "action must be a whole number, got 1.7"),
+        (7, ValueError, "action must be at most 3, got 7"),
+        (-1, ValueError, "action must be at least 0"),
+    ],
+)
+def test_actions_that_do_not_exist_are_refused(grid, action, error, sentence):
+    env = grid.environment()
+    env.reset(seed=0)
+    with pytest.raises(error, match=sentence):
+        env.step(action)
+
+
+@pytest.mark.parametrize("numbers", [[1, 2], 5.0, np.zeros((10, 3))])
+def test_a_map_takes_one_number_a_state(grid, numbers):
+    with pytest.raises(ValueError, match=r"numbers must have shape \(..., 10\)"):
+        grid.on_map(numbers)
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "sentence"),
+    [
+        (["..G"], {}, "text must be str, got list"),
+        ("..G", {"legend": {"G": 1.0}}, "legend\\['G'\\] must be Cell, got float"),
+        ("..G", {"legend": "G"}, "legend must be Mapping, got str"),
+    ],
+)
+def test_what_is_no_map_is_refused(text, options, sentence):
+    with pytest.raises(TypeError, match=sentence):
+        GridWorld(text, **options)
 
 
 @pytest.mark.parametrize(

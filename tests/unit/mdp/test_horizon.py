@@ -48,6 +48,13 @@ def test_frozen_lake_within_its_100_steps():
     assert (np.diff(limited.values[:, 0]) <= 1e-12).all()  # the more steps to go, the better
 
 
+def test_a_policy_earns_its_steps_and_what_stands_at_the_end():
+    """By hand: from 0 to 1 and to and fro between them, 1 for each step out of 0, discount 0.5, 8 and 16 at the end."""
+    mdp = FiniteMDP([[[0, 1], [1, 0]]], [[1], [0]], 0.5)
+    np.testing.assert_allclose(horizon_evaluation(mdp, [0, 0], 3, final_values=[8, 16]), [1 + 0.25 + 2, 0.5 + 1])
+    np.testing.assert_allclose(horizon_evaluation(mdp, [0, 0], 0, final_values=[8, 16]), [8, 16])
+
+
 @pytest.mark.parametrize("horizon", [-1, 2.5])
 def test_wrong_horizons_are_refused(horizon):
     mdp = FiniteMDP([[[1.0]]], [[1.0]], 0.5)

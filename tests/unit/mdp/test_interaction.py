@@ -7,8 +7,18 @@ from gymnasium import spaces
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robonav.mdp import discounted_return, rollouts
-from robonav.mdp.interaction import chooser, count, number, numbered
+from robonav.mdp import (
+    OneHot,
+    discounted_return,
+    linear_q_learning,
+    linear_sarsa,
+    monte_carlo_prediction,
+    q_learning,
+    rollouts,
+    sarsa,
+    td_prediction,
+)
+from robonav.mdp.interaction import chooser, count, element, number, numbered
 
 REWARDS = st.lists(st.floats(-10, 10), min_size=1, max_size=30)
 
@@ -20,6 +30,13 @@ def test_discounted_return_is_the_sum_of_its_definition(rewards, discount):
         sum(discount**later * reward for later, reward in enumerate(rewards[step:])) for step in range(len(rewards))
     ]
     np.testing.assert_allclose(discounted_return(rewards, discount), expected, atol=1e-9)
+
+
+def drawn_as(element):
+    """An element of a discrete space as text, whatever its numbers are kept in."""
+    return (
+        " ".join(str(part) for piece in element for part in np.ravel(piece)) if np.iterable(element) else str(element)
+    )
 
 
 def test_discounted_return_of_nothing_is_nothing():
@@ -40,10 +57,13 @@ def test_every_element_of_a_space_gets_its_own_number(space):
     size = count("space", space)
     seen = {}
     for _ in range(60 * size):
-        element = space.sample()
-        seen.setdefault(number(space, element), set()).add(str(element))
+        drawn = space.sample()
+        seen.setdefault(number(space, drawn), set()).add(drawn_as(drawn))
     assert sorted(seen) == list(range(size))
     assert all(len(elements) == 1 for elements in seen.values())
+    for place, elements in seen.items():
+        assert space.contains(element(space, place))
+        assert elements == {drawn_as(element(space, place))}
 
 
 def test_frozen_lake_is_left_alone_and_blackjack_is_numbered():
@@ -75,6 +95,64 @@ def test_states_and_actions_may_start_anywhere():
     assert episode.states.tolist() == [0, 1]
     assert episode.rewards.tolist() == [1]
     assert episode.terminated
+
+
+class TwoWheels(gym.Env):
+    """An action is a pair; the episode ends when both parts are at their largest, with the reward 10 a + b."""
+
+    observation_space = spaces.Discrete(1)
+
+    def __init__(self, action_space):
+        self.action_space = action_space
+
+    def reset(self, *, seed=None, options=None):
+        return 0, {}
+
+    def step(self, action):
+        assert self.action_space.contains(action)
+        one, other = map(int, action)
+        return 0, float(10 * one + other), (one, other) == (1, 2), False, {}
+
+
+@pytest.mark.parametrize(
+    "actions", [spaces.MultiDiscrete([2, 3]), spaces.Tuple([spaces.Discrete(2), spaces.Discrete(3)])]
+)
+def test_actions_may_have_several_parts(actions):
+    earned = [rollouts(TwoWheels(actions), [a], 1, max_steps=1, seed=0)[0].rewards[0] for a in range(6)]
+    assert earned == [0, 1, 2, 10, 11, 12]
+    learned = q_learning(TwoWheels(actions), 200, discount=0.0, epsilon=1.0, learning_rate=1.0, seed=0)
+    assert learned.q.tolist() == [earned]
+
+
+class SeedKeeper(gym.Env):
+    """Writes down the seeds it is given."""
+
+    observation_space, action_space = spaces.Discrete(1), spaces.Discrete(1)
+
+    def __init__(self):
+        self.seeds = []
+
+    def reset(self, *, seed=None, options=None):
+        self.seeds += [] if seed is None else [seed]
+        return 0, {}
+
+    def step(self, action):
+        return 0, 0.0, True, False, {}
+
+
+@pytest.mark.parametrize("seed", [0, 1, 7])
+def test_a_policy_is_never_tested_on_the_episodes_it_was_learned_from(seed):
+    learning, testing = SeedKeeper(), SeedKeeper()
+    for learn in (q_learning, sarsa):
+        learn(learning, 1, seed=seed)
+    for learn in (linear_q_learning, linear_sarsa):
+        learn(learning, 1, OneHot(1, 1), seed=seed)
+    for predict in (td_prediction, monte_carlo_prediction):
+        predict(learning, [0], 1, seed=seed)
+    for other in range(50):
+        rollouts(testing, [0], 1, seed=other)
+    assert not set(learning.seeds) & set(testing.seeds)
+    assert max(learning.seeds) < min(testing.seeds)
 
 
 def test_an_endless_episode_is_cut_off():

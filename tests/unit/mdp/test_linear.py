@@ -3,6 +3,7 @@
 import gymnasium as gym
 import numpy as np
 import pytest
+from gymnasium import spaces
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -37,6 +38,90 @@ def test_the_constant_is_a_weight_like_the_others():
     moved = learned.weights[learned.weights != 0]
     assert learned.weights[0] == pytest.approx(0.1 * learned.returns[0])
     np.testing.assert_allclose(moved, [0.1 * learned.returns[0]] * 2)
+
+
+class TwoRooms(gym.Env):
+    """The step from room 0 leads to room 1, where the episode ends with reward 1."""
+
+    observation_space, action_space = spaces.Discrete(2), spaces.Discrete(1)
+
+    def reset(self, *, seed=None, options=None):
+        return 0, {}
+
+    def step(self, action):
+        return 1, 1.0, True, False, {}
+
+
+@pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
+def test_what_comes_after_the_end_is_worth_nothing(learn):
+    """Both rooms share their one feature, so that looking beyond the end would count the 1 again and again."""
+    learned = learn(TwoRooms(), 60, lambda state: np.ones((1, 1)), learning_rate=0.5, discount=1.0, seed=0)
+    assert learned.weights[0] == pytest.approx(1)
+
+
+@pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
+def test_the_learning_rate_follows_its_schedule_over_episodes(learn):
+    """Half of the way to 1, none of it, a quarter of what is left."""
+    rates = [0.5, 0.0, 0.25]
+    learned = learn(TwoRooms(), 3, OneHot(2, 1), learning_rate=rates.__getitem__, discount=1.0, seed=0, record=True)
+    np.testing.assert_allclose(learned.history[:, 0], [0, 0.5, 0.5, 0.625])
+
+
+class Switch(gym.Env):
+    """Every step ends the episode; action 1 pays, action 0 does not."""
+
+    observation_space, action_space = spaces.Discrete(1), spaces.Discrete(2)
+
+    def reset(self, *, seed=None, options=None):
+        return 0, {}
+
+    def step(self, action):
+        return 0, float(action), True, False, {}
+
+
+@pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
+def test_exploring_follows_its_schedule_over_episodes(learn):
+    """Blind for 100 episodes, then never again: from there on every episode pays."""
+    learned = learn(Switch(), 200, OneHot(1, 2), epsilon=lambda n: float(n < 100), seed=0)
+    assert 20 < learned.returns[:100].sum() < 80
+    assert (learned.returns[100:] == 1).all()
+
+
+@pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
+def test_features_have_one_length(learn):
+    with pytest.raises(ValueError, match=r"features must give shape \(1, 1\) for every state, .* got \(1, 2\)"):
+        learn(TwoRooms(), 1, lambda state: np.ones((1, 1 + state)), seed=0)
+
+
+@pytest.mark.parametrize(
+    ("state", "error", "sentence"),
+    [
+        (12, ValueError, "state must be at most 9, got 12"),
+        (-1, ValueError, "state must be at least 0, got -1"),
+        (1.5, TypeError, "state must be a whole number"),
+    ],
+)
+def test_states_that_do_not_exist_have_no_features(state, error, sentence):
+    with pytest.raises(error, match=sentence):
+        OneHot(10, 4)(state)
+
+
+@pytest.mark.parametrize("state", [0.3, [0.3], [0.3, 0.3, 0.3], [0.3, np.nan]])
+def test_tiles_take_one_number_a_coordinate(state):
+    with pytest.raises(ValueError, match="state must"):
+        TILES.active(state)
+
+
+def test_tilings_are_shifted_differently_in_each_direction():
+    """A step back along one coordinate and on along the other keeps some tilings: with equal shifts it would lose all.
+
+    Of eight tilings those let go whose shift takes them over an edge in either direction, counted here by hand.
+    """
+    k = np.arange(8)
+    np.testing.assert_allclose(TILES.shifts, np.stack([k / 8, 3 * k % 8 / 8], axis=1))
+    here, there = (set(TILES.active(at).tolist()) for at in ((0.5, 0.8), (0.5 - 1 / 32, 0.8 + 1 / 20)))
+    kept = [i for i in k if i / 8 >= 1 / 8 and 3 * i % 8 / 8 < 7 / 8]
+    assert len(here & there) == len(kept) == 6
 
 
 TILES = Tiles(low=(0.0, 0.0), high=(1.0, 2.0), tiles=(4, 5), tilings=8, actions=3)

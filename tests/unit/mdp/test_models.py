@@ -1,5 +1,7 @@
 """The finite MDP: what it accepts, what it computes from its arrays, and Gymnasium's tables."""
 
+from types import SimpleNamespace
+
 import gymnasium as gym
 import numpy as np
 import pytest
@@ -164,12 +166,62 @@ def test_stopping_distance_at_both_ends():
     assert random_mdp(0, discount=0).stopping_distance(0.1) == np.inf
 
 
+@pytest.mark.parametrize("values", [[np.nan, 0, 0, 0, 0, 0], [0.0] * 5, "values"])
+def test_values_are_checked(values):
+    with pytest.raises((ValueError, TypeError), match="values must"):
+        random_mdp(0).greedy(values)
+
+
+@pytest.mark.parametrize("discount", [0, 0.5, 1])
+@pytest.mark.parametrize("tolerance", [-1, 0, np.nan])
+def test_the_stopping_distance_is_of_a_tolerance(discount, tolerance):
+    mdp = FiniteMDP(STAY, [[0], [0]], discount)
+    with pytest.raises(ValueError, match="tolerance must be"):
+        mdp.stopping_distance(tolerance)
+
+
 def test_tables_of_gymnasium_become_models():
     mdp = FiniteMDP.from_gymnasium(gym.make("FrozenLake-v1", is_slippery=True), 0.9)
     assert (mdp.states, mdp.actions) == (16, 4)
     assert np.flatnonzero(mdp.terminal).tolist() == [5, 7, 11, 12, 15]
     assert mdp.rewards[14, 2] == pytest.approx(1 / 3)  # right, from beside the goal
     np.testing.assert_allclose(mdp.transitions[0].toarray()[0, [0, 4]], [2 / 3, 1 / 3])  # left, in the corner
+
+
+END, ON = (1.0, 0, 1.0, True), (1.0, 0, 0.0, False)
+
+
+@pytest.mark.parametrize(
+    ("table", "sentence"),
+    [
+        ({0: {0: [END], 1: [ON]}}, "always or never: .* got state 0, in which it may end and may go on"),
+        ({}, "as many actions in every state, and for at least one"),
+        ({0: {}}, "as many actions in every state"),
+        ({0: {0: [END]}, 1: {0: [END], 1: [END]}}, "as many actions in every state"),
+        ({1: {0: [END]}}, "numbered from 0"),
+        ({0: {1: [END]}}, "numbered from 0"),
+        ({0: 5}, "numbered from 0"),
+        ({0: {0: [(1.0, 4, 0.0, True)]}}, "states from 0 to 0, got 4"),
+    ],
+)
+def test_tables_that_make_no_model_are_refused(table, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        FiniteMDP.from_gymnasium(SimpleNamespace(P=table), 0.9)
+
+
+def test_a_goal_passed_on_from_where_nobody_comes_is_an_end_all_the_same():
+    """State 1 ends the episode that begins in 0. Only from 2, where no episode passes, would it go on."""
+    table = {0: {0: [(1.0, 1, 1.0, True)]}, 1: {0: [(1.0, 0, 0.0, False)]}, 2: {0: [(1.0, 1, 0.0, False)]}}
+    env = SimpleNamespace(P=table, initial_state_distrib=np.array([1.0, 0, 0]))
+    assert FiniteMDP.from_gymnasium(env, 0.9).terminal.tolist() == [False, True, False]
+    env.initial_state_distrib = np.array([0.5, 0, 0.5])
+    with pytest.raises(ValueError, match="got state 1, in which it may end and may go on"):
+        FiniteMDP.from_gymnasium(env, 0.9)
+
+
+def test_a_taxi_whose_passenger_changes_their_mind_is_refused():
+    with pytest.raises(ValueError, match="fickle passenger is not in it"):
+        FiniteMDP.from_gymnasium(gym.make("Taxi-v4", fickle_passenger=True), 0.9)
 
 
 def test_an_environment_without_a_table_is_refused():

@@ -33,14 +33,13 @@ def test_visits_counted_by_hand():
 
 def test_first_and_every_visit_of_one_episode():
     """After T steps in the loop the first visit's return is T, the mean over every visit (T + 1) / 2."""
-    (walk,) = rollouts(Loop(), [0, 0], 1, seed=4)
-    steps = len(walk.actions)
-    assert steps > 2
     first, every = (monte_carlo_prediction(Loop(), [0, 0], 1, visit=visit, discount=1.0, seed=4) for visit in VISITS)
+    steps = every.visits[0]
+    assert steps > 2
     assert first.values[0] == steps
     assert every.values[0] == pytest.approx((steps + 1) / 2)
     assert first.visits.tolist() == [1, 0]
-    assert every.visits.tolist() == [steps, 0]
+    assert every.visits[1] == 0
     assert np.isnan(first.values[1])
 
 
@@ -90,6 +89,24 @@ def test_blackjack_is_learned_better_than_by_chance():
     learned = monte_carlo_control(table, 8_000, discount=1.0, seed=0)
     hold, hit = learned.q.reshape(32, 11, 2, 2)[20, 1:, 0].T
     assert (hold > hit).all()  # at twenty nobody draws a card
+
+
+class Switch(gym.Env):
+    """Every step ends the episode; action 1 pays, action 0 does not."""
+
+    observation_space, action_space = spaces.Discrete(1), spaces.Discrete(2)
+
+    def reset(self, *, seed=None, options=None):
+        return 0, {}
+
+    def step(self, action):
+        return 0, float(action), True, False, {}
+
+
+def test_exploring_follows_its_schedule_over_episodes():
+    learned = monte_carlo_control(Switch(), 200, epsilon=lambda n: float(n < 100), seed=0)
+    assert 20 < learned.returns[:100].sum() < 80
+    assert (learned.returns[100:] == 1).all()
 
 
 def test_seeds_reproduce():

@@ -24,6 +24,9 @@ def test_both_forms_say_the_same():
         (np.full((2, 3), 0.3), ValueError, "one distribution a state"),
         ([[2, -1, 0], [1, 0, 0]], ValueError, "one distribution a state"),
         (np.full((3, 3), 1 / 3), ValueError, r"policy must have shape \(2, 3\)"),
+        ([[1, 0, 0], [1, 0]], TypeError, "policy must be an array of numbers, got list"),
+        (["up", "down"], TypeError, "policy must be an array of numbers, got list"),
+        (1, ValueError, "policy must have shape"),
     ],
 )
 def test_what_is_no_policy_is_refused(policy, error, sentence):
@@ -42,6 +45,10 @@ def test_greedy_actions_are_those_within_the_tolerance(seed):
     mixture = greedy_mixture(q)
     np.testing.assert_allclose(mixture.sum(axis=1), 1)
     np.testing.assert_allclose((mixture * q).sum(axis=1), q.max(axis=1))  # greedy in the sense below Eq. (2.13)
+
+
+def test_what_is_no_rounding_breaks_a_tie():
+    assert greedy_actions([[1.0, 1.0 - 1e-6]]).tolist() == [[True, False]]
 
 
 def test_rounding_does_not_break_a_tie():

@@ -145,6 +145,38 @@ def test_sarsa_learns_the_value_of_exploring(learn):
     np.testing.assert_allclose(learned.q[seen], blind[seen], atol=0.02)
 
 
+class Switch(gym.Env):
+    """Every step ends the episode; action 1 pays, action 0 does not."""
+
+    observation_space, action_space = spaces.Discrete(1), spaces.Discrete(2)
+
+    def reset(self, *, seed=None, options=None):
+        return 0, {}
+
+    def step(self, action):
+        return 0, float(action), True, False, {}
+
+
+@pytest.mark.parametrize("learn", CONTROL)
+def test_exploring_follows_its_schedule_over_episodes(learn):
+    """Blind for 100 episodes, then never again: from there on every episode pays."""
+    learned = learn(Switch(), 200, epsilon=lambda n: float(n < 100), seed=0)
+    assert 20 < learned.returns[:100].sum() < 80
+    assert (learned.returns[100:] == 1).all()
+
+
+@pytest.mark.parametrize("learn", [sarsa, expected_sarsa])
+def test_sarsa_tends_to_the_plan_where_exploring_fades(learn):
+    """Singh et al. (2000): greedy in the limit, and every pair tried for ever."""
+    fork = FiniteMDP([[[0, 1, 0], [0, 0, 1], [0, 0, 1]]] * 2, [[0, 0], [10, 0], [0, 0]], 0.9)
+    learned = learn(
+        Fork(), 4000, discount=0.9, learning_rate=polynomial_decay(0.77), epsilon=harmonic_decay(1.0, 50), seed=0
+    )
+    np.testing.assert_allclose(learned.q, optimal_q(fork), atol=0.7)  # rare tries lag behind
+    blind = learn(Fork(), 4000, discount=0.9, learning_rate=polynomial_decay(0.77), epsilon=1.0, seed=0)
+    assert abs(blind.q - optimal_q(fork)).max() > 3
+
+
 def best_while_exploring(mdp, epsilon, sweeps=5000):
     """Action values of the best among the policies that act blindly with chance epsilon."""
     q = np.zeros((mdp.states, mdp.actions))
@@ -219,6 +251,13 @@ def test_seeds_reproduce(learn):
     assert (first.lengths != other.lengths).any()
     generator = learn(lake, 60, epsilon=0.5, seed=np.random.default_rng(1), record=True)
     np.testing.assert_array_equal(generator.history, first.history)
+
+
+def test_predictions_reproduce_too():
+    lake, blind = gym.make("FrozenLake-v1"), np.full((16, 4), 0.25)
+    first, again, other = (td_prediction(lake, blind, 60, seed=seed, initial=1.0, record=True) for seed in (1, 1, 2))
+    np.testing.assert_array_equal(first.history, again.history)
+    assert (first.history != other.history).any()
 
 
 @pytest.mark.parametrize("learn", CONTROL)
