@@ -13,7 +13,7 @@ import traitlets
 from numpy.typing import ArrayLike, NDArray
 
 from robonav import expect, look
-from robonav.mdp import FiniteMDP, GridWorld
+from robonav.mdp import Cell, FiniteMDP, GridWorld
 from robonav.mdp.improvement import shortfalls
 
 from .shared import front_end, packed, style
@@ -82,9 +82,9 @@ class GridLab(anywidget.AnyWidget):
     _css = style("grid_lab")
     data = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, data: dict[str, Any], solve: Solver | None) -> None:
+    def __init__(self, data: dict[str, Any], solve: Solver | None, legend: Mapping[str, Cell]) -> None:
         super().__init__(data=data)
-        self._solve = solve
+        self._solve, self._legend = solve, legend
         self.on_msg(self._answer)
 
     def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
@@ -93,7 +93,7 @@ class GridLab(anywidget.AnyWidget):
             self.send({"kernel": self._solve is not None})
         elif message.get("ask") == "solve" and self._solve is not None:
             try:
-                grid = GridWorld(str(message["text"]))
+                grid = GridWorld(str(message["text"]), legend=self._legend)
                 replays = self._solve(grid, tuple(str(choice) for choice in message["choices"]))
                 self.send({"grid": _layout(grid), "run": _run(replays)})
             except (ValueError, TypeError) as error:
@@ -116,7 +116,8 @@ def grid_lab(
     controls : names of further settings, and their choices.
     runs : for each grid's name and combination of choices, (grid, choice, choice, ...), a replay by method.
     start : grid and choices shown at first; by default the first of each.
-    solve : what a map drawn by the reader is solved with, given the grid and the choices; needs a kernel.
+    solve : what a map drawn by the reader is solved with, given the grid and the choices; needs a kernel. Its symbols
+        mean what they mean in the grids offered.
 
     Raises
     ------
@@ -141,6 +142,7 @@ def grid_lab(
             "wall": look.OBSTACLE,
         },
         solve,
+        {symbol: cell for grid in grids.values() for symbol, cell in grid.legend.items()},
     )
 
 

@@ -84,6 +84,23 @@ def test_a_map_of_the_reader_is_solved_or_its_fault_named(grid):
     assert "symbols of the legend" in answers[2]["error"]
 
 
+def test_the_map_that_the_editor_offers_first_is_solved_as_it_is():
+    """It may use symbols that only the page knows, as the exits of the 4 x 3 world."""
+    world = mdp.four_by_three()
+    seen = []
+
+    def solve(drawn, choices):
+        seen.append(drawn)
+        return {"sweeps": solved(drawn)}
+
+    lab = grid_lab({"4 x 3": world}, {}, {("4 x 3",): {"sweeps": solved(world)}}, solve=solve)
+    answers = []
+    lab.send = answers.append
+    lab._answer(lab, {"ask": "solve", "text": "\n".join(lab.data["grids"][0]["rows"]), "choices": []}, [])
+    assert answers[0]["grid"] == lab.data["grids"][0]
+    np.testing.assert_array_equal(seen[0].terminal, world.terminal)
+
+
 def test_without_a_solver_nothing_is_solved(grid):
     lab = grid_lab({"map": grid}, {}, {("map",): {"sweeps": solved(grid)}})
     answers = []
