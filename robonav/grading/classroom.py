@@ -68,21 +68,33 @@ def students(folder: Path) -> dict[str, Path]:
 
     Raises
     ------
-    ValueError : if there is none, or two have the same name.
+    ValueError : if there is none, two have the same name, or a name cannot be written.
     """
     if not folder.is_dir():
         raise ValueError(f"the class must be a folder of submissions, got {folder}")
     found: dict[str, Path] = {}
     for path in sorted(folder.iterdir()):
-        if path.name.startswith(".") or not (path.is_dir() or path.suffix in (".zip", *submission.KINDS)):
+        if not _is_submission(path):
             continue
         name = path.name if path.is_dir() else path.stem
+        if not name.isprintable():
+            raise ValueError(f"{name!r} is no name for a student: rename that submission")
         if name in found:
             raise ValueError(f"{found[name].name} and {path.name} are both submissions of {name}")
         found[name] = path
     if not found:
         raise ValueError(f"no folder, zip or notebook in {folder}")
     return found
+
+
+def passed_over(folder: Path) -> list[str]:
+    """What lies in ``folder`` and is no submission; an ``anna.rar`` among it was meant as one."""
+    return sorted(path.name for path in folder.iterdir() if path.name[0] != "." and not _is_submission(path))
+
+
+def _is_submission(path: Path) -> bool:
+    kept = path.is_dir() or submission.is_zip(path) or path.suffix in submission.KINDS
+    return kept and not path.name.startswith(".")
 
 
 def grade_class(
@@ -123,7 +135,7 @@ def grade_class(
             report.write_student(out / "students" / record["student"], record, marking.course)
             if progress is not None:
                 progress(done, len(tasks))
-        report.write_class(out, list(submissions), marking.course)
+        report.write_class(out, list(submissions), passed_over(folder), marking.course)
 
 
 Task = tuple[dict[str, str], Submission | Refused, dict[str, Any] | None, Collection[str]]

@@ -38,13 +38,27 @@ def difference(got: Any, expected: Any) -> str | None:
     return None
 
 
+def without_answer(problem: str) -> str:
+    """What is wrong, without what came: an answer could say what it was asked."""
+    return problem.partition(", got ")[0]
+
+
 def as_numbers(value: Any) -> np.ndarray | None:
     """An array of numbers or truth values from what a student may give for one, or None."""
+    if not _holds_numbers(value):
+        return None
     try:
         array = np.asarray(value)
     except (ValueError, TypeError):  # a ragged list
         return None
     return array if array.dtype.kind in "biuf" else None
+
+
+def _holds_numbers(value: Any) -> bool:
+    """Whether nothing else is in it: numpy makes an array of strings as wide as the longest, as large as you like."""
+    if isinstance(value, list | tuple):
+        return all(map(_holds_numbers, value))
+    return isinstance(value, bool | int | float | np.generic | np.ndarray)
 
 
 def _numbers_differ(got: Any, expected: np.ndarray) -> str | None:

@@ -14,7 +14,8 @@ import struct
 from collections.abc import Iterable, Mapping
 
 # Number of each refused call on (x86-64, AArch64). A worker computes: it starts no process, opens no connection, looks
-# into no other process and changes no mount. Calls that only x86-64 has are None on AArch64.
+# into no other process, sets none back, changes no mount, and takes no memory that its limit does not count, which
+# might outlive it, too. Calls that only x86-64 has are None on AArch64.
 REFUSED: dict[str, tuple[int, int | None]] = {
     "fork": (57, None),
     "vfork": (58, None),
@@ -42,7 +43,25 @@ REFUSED: dict[str, tuple[int, int | None]] = {
     "init_module": (175, 105),
     "finit_module": (313, 273),
     "open_by_handle_at": (304, 265),
+    "shmget": (29, 194),
+    "shmat": (30, 196),
+    "semget": (64, 190),
+    "msgget": (68, 186),
+    "mq_open": (240, 180),
+    "memfd_create": (319, 279),
+    "memfd_secret": (447, 447),
+    "setpriority": (141, 140),
+    "sched_setscheduler": (144, 119),
+    "sched_setparam": (142, 118),
+    "sched_setaffinity": (203, 122),
+    "sched_setattr": (314, 274),
+    "ioprio_set": (251, 30),
+    "io_setup": (206, 0),
 }
+PRLIMIT = (
+    302,
+    261,
+)  # for the caller itself, process 0, it can only lower a limit; the worker's limits are the next one's
 CLONE, CLONE3 = (56, 220), (435, 435)
 CLONE_THREAD = 0x10000
 MACHINES = {"x86_64": (0, 0xC000003E), "aarch64": (1, 0xC00000B7)}  # column above, audit architecture
@@ -87,6 +106,8 @@ def filter_program(machine: str) -> bytes:
             program += [step(EQUAL, number, otherwise=1), refuse]
     # The flags of clone3 lie behind a pointer; without it the C library falls back on clone, whose flags we see.
     program += [step(EQUAL, CLONE3[column], otherwise=1), step(RETURN, REFUSE | errno.ENOSYS)]
+    program += [step(EQUAL, PRLIMIT[column], otherwise=4), step(LOAD, FIRST_ARGUMENT)]
+    program += [step(EQUAL, 0, then=1), refuse, step(RETURN, ALLOW)]
     program += [step(EQUAL, CLONE[column], otherwise=3), step(LOAD, FIRST_ARGUMENT)]
     program += [step(HAS_BITS, CLONE_THREAD, then=1), refuse, step(RETURN, ALLOW)]
     return b"".join(program)

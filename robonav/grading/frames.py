@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import math
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -59,7 +59,11 @@ def decode(frame: bytes) -> Any:
         raise FrameError(f"the frame should hold {sum(sizes)} bytes, it holds {len(frame) - PREFIX.size}")
     header = _parse(frame[PREFIX.size : PREFIX.size + sizes[0]])
     arrays = _to_arrays(header["arrays"], memoryview(frame)[PREFIX.size + sizes[0] :])
-    return _from_tree(header["value"], arrays, MOST_DEPTH)
+    waiting = iter(enumerate(arrays))
+    value = _from_tree(header["value"], waiting, MOST_DEPTH)
+    if next(waiting, None):
+        raise FrameError("an array is in no value")
+    return value
 
 
 def write(stream: BinaryIO, value: Any) -> None:
@@ -163,7 +167,8 @@ def _to_arrays(described: list[Any], body: memoryview) -> list[np.ndarray]:
     return arrays
 
 
-def _from_tree(tree: Any, arrays: list[np.ndarray], depth: int) -> Any:
+def _from_tree(tree: Any, arrays: Iterator[tuple[int, np.ndarray]], depth: int) -> Any:
+    """The value; its arrays stand in their order and once each, so that it is no larger than what came."""
     if depth == 0:
         raise FrameError(f"nested more than {MOST_DEPTH} deep")
     match tree:
@@ -183,8 +188,10 @@ def _from_tree(tree: Any, arrays: list[np.ndarray], depth: int) -> Any:
             return tuple(_from_tree(item, arrays, depth - 1) for item in items)
         case {"dict": dict(items), **rest} if not rest and all(map(_is_text, items)):
             return {key: _from_tree(item, arrays, depth - 1) for key, item in items.items()}
-        case {"array": int(index), **rest} if not rest and type(index) is int and 0 <= index < len(arrays):
-            return arrays[index]
+        case {"array": int(index), **rest} if not rest and type(index) is int:
+            number, array = next(arrays, (None, None))
+            if index == number:
+                return array
     raise FrameError("the header holds something that is no value")
 
 

@@ -7,11 +7,14 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 from typing import Any
+
+PYTHON_CELLS = ("%%time", "%%timeit", "%%capture", "%%prun")  # what stands below these is Python still
 
 
 def definitions(notebook: bytes) -> ast.Module:
-    """Functions, classes, imports and named constants of all code cells, in order, as one module.
+    """Functions, lambdas with a name, classes, imports and named constants of all code cells, in order, as one module.
 
     A cell that Python cannot parse is left out, as are magics (``%matplotlib inline``) and shell lines. An import that
     fails is passed over: a plotting library is missed only by the cells that plot.
@@ -20,13 +23,35 @@ def definitions(notebook: bytes) -> ast.Module:
     ------
     ValueError : if the bytes are no notebook.
     """
+    kept = [node for source in _sources(notebook) for node in _parsed(source) if _defines(node)]
+    return ast.fix_missing_locations(ast.Module([_forgiving(node) for node in kept], type_ignores=[]))
+
+
+def names(node: ast.stmt) -> str | None:
+    """The name that a definition gives."""
+    match node:
+        case ast.FunctionDef(name=name) | ast.ClassDef(name=name) | ast.Assign(targets=[ast.Name(id=name)]):
+            return name
+    return None
+
+
+def broken(notebook: bytes, name: str) -> SyntaxError | None:
+    """Why Python cannot parse the cell that was to define the function ``name``, if that is so."""
+    for source in _sources(notebook):
+        if re.search(rf"^def {re.escape(name)}\b", source, re.MULTILINE) and not _parsed(source):
+            try:
+                ast.parse(_without_magics(source))
+            except SyntaxError as error:
+                return SyntaxError(f"{error.msg} in line {error.lineno} of the cell that defines {name}")
+    return None
+
+
+def _sources(notebook: bytes) -> list[str]:
     try:
         cells = json.loads(notebook)["cells"]
-        sources = [_source(cell) for cell in cells if cell["cell_type"] == "code"]
+        return [_source(cell) for cell in cells if cell["cell_type"] == "code"]
     except (ValueError, KeyError, TypeError, RecursionError):
         raise ValueError("this is no notebook of format 4") from None
-    kept = [node for source in sources for node in _parsed(source) if _defines(node)]
-    return ast.fix_missing_locations(ast.Module([_forgiving(node) for node in kept], type_ignores=[]))
 
 
 def _source(cell: dict[str, Any]) -> str:
@@ -45,7 +70,7 @@ def _parsed(source: str) -> list[ast.stmt]:
 
 def _without_magics(source: str) -> str:
     """The source with its magics blanked, so that line numbers stay."""
-    if source.lstrip().startswith("%%"):
+    if source.lstrip().startswith("%%") and source.split()[0] not in PYTHON_CELLS:
         return ""
     return "\n".join("" if line.lstrip().startswith(("%", "!")) else line for line in source.splitlines())
 
@@ -55,7 +80,7 @@ def _defines(node: ast.stmt) -> bool:
         case ast.FunctionDef() | ast.ClassDef() | ast.Import() | ast.ImportFrom():
             return True
         case ast.Assign(targets=[ast.Name()], value=value):
-            return _is_literal(value)
+            return isinstance(value, ast.Lambda) or _is_literal(value)
         case ast.AnnAssign(target=ast.Name(), value=ast.expr() as value):
             return _is_literal(value)
     return False

@@ -100,11 +100,13 @@ class Session:
             return
         self._serving = None
         try:
-            ended = self._worker.forks and self._worker.ask({"do": "end"}, 1.0) == {"ended": 0}
+            reply = self._worker.ask({"do": "end"}, 1.0) if self._worker.forks else None
         except (TimedOut, EOFError, Garbled):
-            ended = False
-        if not ended:
-            self.close()
+            reply = None
+        match reply:
+            case {"ended": int(status)} if status == 0:
+                return
+        self.close()
 
     def _ask(self, exercise: Exercise, request: dict[str, Any]) -> Any:
         assert self._worker is not None
@@ -124,45 +126,49 @@ class Session:
             raise Unaccepted("error", "Your code ended the process it ran in.") from None
         except Garbled as error:
             self.close()
-            raise Unaccepted("error", f"What came back is no answer: {error}.") from None
+            raise Unaccepted("error", self._told("What came back is no answer", f": {error}.")) from None
         finally:
             self._left[exercise.id] = left - (time.monotonic() - start)
-        match reply:
-            case {"id": self._asked, "value": value, **rest} if not rest:
+        match reply:  # of each thing its type first: an array where a number should be is neither equal nor unequal
+            case {"id": int(number), "value": value, **rest} if number == self._asked and not rest:
                 return value
-            case {"id": self._asked, "raised": {"kind": str(kind), "message": str(message), "where": where}}:
+            case {"id": int(number), "raised": {"kind": str(kind), "message": str(message), "where": where}} if (
+                number == self._asked
+            ):
                 raise self._raised(kind, message, where)
             case {"ended": int(status)}:
                 self._serving = None
-                raise _ended(status)
+                raise self._ended(status)
         self.close()
         raise Unaccepted("error", "What came back is no answer to what was asked.")
 
     def _raised(self, kind: str, message: str, where: Any) -> Unaccepted:
-        """A student's error; with secret cases it says nothing in the student's own words, which could carry a case."""
-        place = ""
-        if isinstance(where, list) and len(where) == 2 and where[0] in self._files and isinstance(where[1], int):
-            place = f" ({where[0]}, line {where[1]})"
+        """A student's error."""
+        match where:
+            case [str(file), int(line)] if file in self._files:
+                place = f" ({file}, line {line})."
+            case _:
+                place = "."
         if kind == "NotImplementedError":
             return Unaccepted("missing", "Not attempted.")
         if kind == "MemoryError":
-            return Unaccepted("memory", f"Your code needs more memory than there is{place}.")
-        if self.secret:
-            known = isinstance(getattr(builtins, kind, None), type)
-            return Unaccepted(
-                "error", f"{kind if known else 'An error of your own'}{place}; try robonav check at home."
-            )
+            return Unaccepted("memory", self._told("Your code needs more memory than there is", place))
         if kind == "FrameError":
-            return Unaccepted("error", f"The answer must be numbers, strings, lists, dicts or arrays, not {message}.")
-        return Unaccepted("error", f"{kind}: {message}{place}.")
+            said = "The answer must be numbers, strings, lists, dicts or arrays"
+            return Unaccepted("error", self._told(said, f", not {message}."))
+        known = not self.secret or isinstance(getattr(builtins, kind, None), type)
+        return Unaccepted("error", self._told(kind if known else "An error of your own", f": {message}{place}"))
 
+    def _ended(self, status: int) -> Unaccepted:
+        if status == -9:
+            return Unaccepted("memory", "Your code was stopped by the system, for its memory or its processor time.")
+        if status < 0:
+            return Unaccepted("error", self._told("Your code crashed the process it ran in", f" (signal {-status})."))
+        return Unaccepted("error", self._told("Your code ended the process it ran in", f" (exit code {status})."))
 
-def _ended(status: int) -> Unaccepted:
-    if status == -9:
-        return Unaccepted("memory", "Your code was stopped by the system, for its memory or its processor time.")
-    if status < 0:
-        return Unaccepted("error", f"Your code crashed the process it ran in (signal {-status}).")
-    return Unaccepted("error", f"Your code ended the process it ran in (exit code {status}).")
+    def _told(self, said: str, more: str) -> str:
+        """With secret cases without what the student's code can choose, be it a number: that could carry a case."""
+        return f"{said}; try robonav check at home." if self.secret else f"{said}{more}"
 
 
 class Answer:
@@ -208,6 +214,8 @@ class Answer:
         self._got = self._calls.call(self._exercise, arguments)
 
     def _wrong(self, problem: str) -> Unaccepted:
+        if self._calls.secret:
+            problem = compare.without_answer(problem)
         called = compare.call(self._exercise.name, self._case.arguments, numbers=not self._calls.secret)
         hints = [f"Hint: {hint}" for hint in self._reference.hints(self._case, self._got)]
         return Unaccepted("wrong", "\n".join([called, f"{problem[0].upper()}{problem[1:]}.", *hints]))

@@ -27,8 +27,8 @@ def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
     _write(folder / "grade.json", _json(record))
 
 
-def write_class(out: Path, names: Sequence[str], course: Course) -> None:
-    """The gradebook and the overview of the students named, from their grades."""
+def write_class(out: Path, names: Sequence[str], passed_over: Sequence[str], course: Course) -> None:
+    """The gradebook and the overview of the students named, from their grades; and what was no submission."""
     rows, counts, earned, totals = [], {id: Counter[str]() for id in course.exercises}, Counter[str](), []
     for name in names:
         record = json.loads((out / "students" / name / "grade.json").read_bytes())
@@ -44,6 +44,7 @@ def write_class(out: Path, names: Sequence[str], course: Course) -> None:
     shares = {id: earned[id] / (course.exercises[id].points * max(len(rows), 1)) for id in course.exercises}
     page = _page(
         "overview.html", rows=rows, counts=counts, shares=shares, totals=totals, course=course, colours=COLOURS,
+        passed_over=[name.encode("utf-8", "replace").decode() for name in passed_over],
         folders=[f"students/{name}/feedback.html" for name in names],
     )  # fmt: skip
     _write(out / "index.html", page)

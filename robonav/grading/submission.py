@@ -10,10 +10,10 @@ import hashlib
 import os
 import stat
 import zipfile
-import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
+from typing import NoReturn
 
 KINDS = (".py", ".ipynb")
 MOST_FILES, MOST_BYTES, MOST_ZIPPED = 200, 8 << 20, 32 << 20
@@ -53,18 +53,25 @@ def read(path: str | Path) -> Submission:
     if path.is_dir():
         packed = _only_zip(path)
         entries = _from_zip(packed) if packed else _from_folder(path)
-    elif path.is_file() and path.suffix == ".zip":
+    elif path.is_file() and is_zip(path):
         entries = _from_zip(path)
     elif path.is_file() and path.suffix in KINDS:
         entries = iter([(path.name, _content(path))])
     else:
         raise ValueError(f"a submission must be a folder, a zip, a notebook or a Python file, got {path}")
     files: dict[str, bytes] = {}
-    for name, content in entries:
-        files[name] = content
-        if len(files) > MOST_FILES or sum(map(len, files.values())) > MOST_BYTES:
+    size = 0
+    for number, (name, content) in enumerate(entries, start=1):
+        files[name] = content  # the last one counts, as when a zip is unpacked
+        size += len(content)
+        if number > MOST_FILES or size > MOST_BYTES:
             raise Refused(f"more than {MOST_FILES} files or {MOST_BYTES >> 20} MB of Python files and notebooks")
     return Submission(files)
+
+
+def is_zip(path: Path) -> bool:
+    """Whether it is called one."""
+    return path.suffix.lower() == ".zip"
 
 
 def taken(path: str | Path) -> Submission | Refused:
@@ -77,12 +84,19 @@ def taken(path: str | Path) -> Submission | Refused:
 
 def _only_zip(folder: Path) -> Path | None:
     """The zip that is all a folder holds, as learning platforms hand it over."""
-    entries = [entry for entry in folder.iterdir() if not entry.name.startswith(".")]
-    return entries[0] if len(entries) == 1 and entries[0].suffix == ".zip" and entries[0].is_file() else None
+    try:
+        entries = [entry for entry in folder.iterdir() if not entry.name.startswith(".")]
+    except OSError as error:
+        _unreadable(error)
+    return entries[0] if len(entries) == 1 and is_zip(entries[0]) and entries[0].is_file() else None
+
+
+def _unreadable(error: OSError) -> NoReturn:
+    raise Refused(f"the folder {Path(error.filename).name!r} cannot be read: {error.strerror}") from None
 
 
 def _from_folder(folder: Path) -> Iterator[tuple[str, bytes]]:
-    for place, folders, names in os.walk(folder):
+    for place, folders, names in os.walk(folder, onerror=_unreadable):
         folders[:] = sorted(name for name in folders if _is_taken(PurePosixPath(name)))
         for name in sorted(names):
             path = Path(place, name)
@@ -103,8 +117,10 @@ def _from_zip(path: Path) -> Iterator[tuple[str, bytes]]:
                     raise Refused(f"{_checked(entry.filename)} is a link")
                 with archive.open(entry) as file:  # the size that the zip declares may be a lie
                     yield _checked(entry.filename), file.read(MOST_BYTES + 1)
-    except (zipfile.BadZipFile, RuntimeError, NotImplementedError, OSError, EOFError, ValueError, zlib.error) as error:
-        raise error if isinstance(error, Refused) else Refused(f"the zip cannot be read: {error}") from None
+    except Refused:
+        raise
+    except Exception as error:  # each way to pack has errors of its own
+        raise Refused(f"the zip cannot be read: {error}") from None
 
 
 def _content(path: Path) -> bytes:

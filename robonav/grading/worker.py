@@ -48,13 +48,18 @@ def main() -> None:
     _close_the_gate({part.removesuffix(".py") for name in files for part in name.split("/")})
     confine.limit(opening["limits"])
     frames.write(replies, "ready")
-    serve = _serve_in_child if opening["fork"] else _serve
     home = Path.cwd()
     try:
         while True:
             request = frames.read(requests)
             os.chdir(_unpacked(home, files))
-            serve(requests, replies, request)
+            if opening["fork"]:
+                status = _serve_in_child(requests, replies, request)
+                os.chdir(home)
+                _empty(home)  # first: who leaves a mess waits for its removal, and not the exercise after it
+                frames.write(replies, {"ended": status})
+            else:
+                _serve(requests, replies, request)
     except (EOFError, BrokenPipeError):
         os._exit(0)  # there is nothing to tidy up
 
@@ -68,13 +73,16 @@ def _take_streams() -> tuple[BinaryIO, BinaryIO]:
     return requests, replies
 
 
-def _unpacked(home: Path, files: Mapping[str, bytes]) -> Path:
-    """The files in a new folder, all older ones gone; its name cannot be guessed, and so not be taken before."""
+def _empty(home: Path) -> None:
     for place, folders, names in os.walk(home, topdown=False):
         for name in names:
             _tried(os.unlink, os.path.join(place, name))
         for name in folders:
             _tried(os.rmdir, os.path.join(place, name))
+
+
+def _unpacked(home: Path, files: Mapping[str, bytes]) -> Path:
+    """The files in a new folder; its name cannot be guessed, and so not be taken before."""
     folder = home / os.urandom(8).hex()
     folder.mkdir()
     for name, content in files.items():
@@ -98,7 +106,8 @@ def _close_the_gate(own: set[str]) -> None:
     sys.meta_path.insert(0, Gate(own))
 
 
-def _serve_in_child(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> None:
+def _serve_in_child(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> int:
+    """Serve one exercise; how its process ended."""
     if (child := os.fork()) == 0:
         status = 1
         try:
@@ -108,7 +117,7 @@ def _serve_in_child(requests: BinaryIO, replies: BinaryIO, request: dict[str, An
         finally:
             os._exit(status)
     _, status = os.waitpid(child, 0)
-    frames.write(replies, {"ended": os.waitstatus_to_exitcode(status)})
+    return os.waitstatus_to_exitcode(status)
 
 
 def _serve(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> None:
@@ -142,15 +151,16 @@ def _load(folder: Path, chapter: str, name: str) -> Any:
     for path in files:
         if STUB.format(name=name).encode() not in (source := path.read_bytes()):
             return _function(_run(name, path, source), name)
-    unreadable = None
+    unreadable: Exception | None = None
     for path in sorted(folder.rglob("*.ipynb")):
         try:
             tree = notebook.definitions(path.read_bytes())
         except ValueError as error:
             unreadable = ValueError(f"{path.name}: {error}")
             continue
-        if any(getattr(node, "name", None) == name for node in tree.body):
+        if name in map(notebook.names, tree.body):
             return _function(_run(name, path, tree), name)
+        unreadable = unreadable or notebook.broken(path.read_bytes(), name)
     raise unreadable or NotImplementedError(f"no file or notebook defines {name}")
 
 

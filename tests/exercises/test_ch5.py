@@ -103,7 +103,7 @@ def game(answer, rng, policies, features):
     contrasts = expert - found
     best, reached = gap(answer.expected, contrasts), gap(theta, contrasts)
     near = reached >= best - 0.015 * np.abs(contrasts).max()
-    answer.check(near, f"a margin of {best:.3f} can be reached, this one is {reached:.3f}")
+    answer.check(near, f"a margin of {best:.3f} can be reached, got {reached:.3f}")
 
 
 @pytest.mark.part("5.4", points=3)

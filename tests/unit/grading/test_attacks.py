@@ -31,9 +31,9 @@ SENDS = """
             for part in parts:
                 try: os.write(descriptor, part)
                 except OSError: pass
-    def frame(value, arrays=()):
+    def frame(value, arrays=(), body=b""):
         header = json.dumps({"value": value, "arrays": list(arrays)}).encode()
-        return struct.pack(">II", len(header), 0) + header
+        return struct.pack(">II", len(header), len(body)) + header + body
 """
 
 EXITS = {
@@ -130,6 +130,36 @@ TAMPERS = {
     def improve(*a):
         send(frame({"dict": {"id": 2, "raised": {"dict": {"kind": 1, "message": [], "where": "nowhere"}}}}))
         return 0
+    """,
+    "claims an error in no file": SENDS
+    + """
+    def improve(*a):
+        where = {"dict": {"kind": "ValueError", "message": "", "where": [[], 1]}}
+        for number in range(2, 50): send(frame({"dict": {"id": number, "raised": where}}))
+    """,
+    "answers with an array for a number": SENDS
+    + """
+    def improve(*a):
+        send(frame({"dict": {"id": {"array": 0}, "value": 0}}, [["|u1", [2]]], b"ab"))
+        return 0
+    """,
+    "says with an array that it ended": SENDS
+    + """
+    leave = os._exit
+    def ended(status):
+        send(frame({"dict": {"ended": {"array": 0}}}, [["|u1", [2]]], b"ab"))
+        leave(0)
+    def improve(*a):
+        os._exit = ended
+        return 0
+    """,
+    "sets its parent's limits": """
+        import os, resource
+        try:
+            for limit in (resource.RLIMIT_NOFILE, resource.RLIMIT_AS, resource.RLIMIT_CPU):
+                resource.prlimit(os.getppid(), limit, (1, 1))
+        except OSError: pass
+        def improve(*a): return 0
     """,
     "sends what is no reply": SENDS + "    def improve(*a): send(frame('ready')); return 0",
     "sends noise": SENDS + "    def improve(*a): send(os.urandom(4096)); return 0",
@@ -275,6 +305,14 @@ VALUES = {
     "a list that holds itself": "def improve(*a):\n    a = []; a.append(a)\n    return a",
     "a dict that collides": "def improve(*a): return {k * (2**61 - 1): 0 for k in range(20000)}",
     "a dict of the same length": "def improve(q, policy, tolerance): return {str(i): 0 for i in range(len(q))}",
+    "strings in an array as wide as the longest": "def improve(*a): return ['x' * 400_000] + [''] * 100_000",
+    "an array many times over": SENDS
+    + """
+    def improve(*a):
+        many = [{"array": 0}] * 60_000
+        for number in range(2, 50):
+            send(frame({"dict": {"id": number, "value": many}}, [["|u1", [1 << 20]]], bytes(1 << 20)))
+    """,
     "a class": "class improve:\n    def __init__(self, *a): pass",
     "no function at all": "improve = 3",
     "another name": "def enhance(*a): return 0",
@@ -313,6 +351,17 @@ RESOURCES = {
     """,
     "a memory bomb": "def improve(*a):\n    a = []\n    while True: a.append(bytearray(1 << 24))",
     "a huge array": "import numpy as np\ndef improve(*a): return np.ones(1 << 40)",
+    "memory of the system's": """
+        import ctypes, os
+        call = ctypes.CDLL(None, use_errno=True)
+        def improve(q, policy, tolerance):
+            for size in (1 << 28,) * 4:
+                taken = call.shmget(0, ctypes.c_size_t(size), 0o1600)
+                if taken < 0 and call.memfd_create(b"", 0) < 0: raise MemoryError
+                call.shmctl(taken, 0, 0)
+            better = q.max(axis=1) - q[range(len(q)), policy] > tolerance
+            return [int(row.argmax()) if yes else int(kept) for row, yes, kept in zip(q, better, policy)]
+    """,
     "an answer too large": "import numpy as np\ndef improve(*a): return np.zeros(1 << 24)",
     "a string too large": "def improve(*a): return 'x' * (1 << 26)",
     "endless output": "import sys\ndef improve(*a):\n    while True: sys.stdout.write('x' * 65536)",

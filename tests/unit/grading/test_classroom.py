@@ -43,6 +43,7 @@ def folder(tmp_path):
     (place / "<b>bo<" / "improve.py").write_text("def improve(*a): raise ValueError('<script>alert(1)</script>')")
     (place / ".DS_Store").write_text("")
     (place / "readme.txt").write_text("")
+    (place / "<fay>.rar").write_text("")
     return place
 
 
@@ -97,6 +98,7 @@ def test_a_class_is_graded_and_written_down_for_everyone(folder, tmp_path):
     assert "<b>bo" not in overview
     assert "&lt;b&gt;bo" in overview
     assert "students/anna/feedback.html" in overview
+    assert "no folder, zip, notebook or Python file: &lt;fay&gt;.rar, readme.txt." in overview
     assert "students/%3D1%2B1/feedback.html" in overview
     feedback = (out / "students" / "<b>bo<" / "feedback.html").read_text()
     assert "<script>" not in feedback
@@ -173,6 +175,16 @@ def test_a_class_must_be_one(tmp_path):
     (tmp_path / "anna").mkdir()
     (tmp_path / "anna.zip").write_text("")
     with pytest.raises(ValueError, match="both submissions of anna"):
+        students(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["an\na.py", "an\x07na.ZIP", "\udcffanna.py"])
+def test_a_name_that_no_report_can_hold_is_one_clear_line(tmp_path, name):
+    try:
+        (tmp_path / name).write_text("")
+    except OSError:
+        pytest.skip("no such names here")
+    with pytest.raises(ValueError, match=r"is no name for a student: rename"):
         students(tmp_path)
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from robonav.grading.compare import call, difference
+from robonav.grading.compare import call, difference, without_answer
 
 FLOATS = hnp.arrays(
     float, hnp.array_shapes(max_dims=3), elements=st.floats(-(2.0**20), 2.0**20, width=32, allow_subnormal=False)
@@ -68,6 +68,19 @@ def test_a_difference_is_a_sentence(got, expected, says):
 )
 def test_these_agree(got, expected):
     assert difference(got, expected) is None
+
+
+def test_strings_are_never_made_an_array_of():
+    """Of the width of the longest, here 160 GB."""
+    got = ["x" * 400_000, *[""] * 100_000]
+    assert difference(got, np.zeros(3)) == "expected an array of shape (3,), got a list of 100001"
+    assert difference([1, [None, "a"]], np.zeros(2)) == "expected an array of shape (2,), got a list of 2"
+
+
+def test_what_came_can_be_left_out():
+    for problem in (difference([0.0, 7.0], np.zeros(2)), difference((1, np.zeros((1234, 0))), (1, np.zeros(3)))):
+        assert "expected" in without_answer(problem)
+        assert not {"7", "1234", "got"} & set(without_answer(problem).replace("(", " ").replace(",", " ").split())
 
 
 def test_a_small_number_among_small_ones_counts():

@@ -126,6 +126,8 @@ def test_a_list_that_holds_itself_is_refused():
         made({"float": "1"}),
         made({"float": "nan", "more": 1}),
         made({"array": 0}),
+        made([{"array": 0}] * 2, [["|i1", [1]]], b"x"),
+        made([{"array": 1}, {"array": 0}], [["|i1", [1]]] * 2, b"xy"),
         made({"array": -1}, [["|i1", [1]]], b"x"),
         made({"array": True}, [["|i1", [1]], ["|i1", [1]]], b"xy"),
         made(1, [["|i1", [1]]]),

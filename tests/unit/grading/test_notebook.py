@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from robonav.grading.notebook import definitions
+from robonav.grading.notebook import broken, definitions
 
 
 def names(*cells):
@@ -51,6 +51,17 @@ def test_magics_and_cells_that_do_not_parse_do_no_harm():
     assert found["f"]() == 1
     assert found["h"]() == 3
     assert set(found) == {"f", "h"}
+
+
+def test_a_cell_that_is_timed_is_python_still():
+    assert set(names("%%time\ndef f(): return 1", "%%capture out\n%precision 3\ng = lambda: 2")) == {"f", "g"}
+
+
+def test_a_definition_that_does_not_parse_is_told_from_none():
+    cells = ["%matplotlib inline\nimport math", "x = (", "def improve(q):\n    return q.argmax(axis=1", "def f(): pass"]
+    notebook = json.dumps({"cells": [{"cell_type": "code", "source": cell} for cell in cells]}).encode()
+    assert str(broken(notebook, "improve")) == "'(' was never closed in line 2 of the cell that defines improve"
+    assert broken(notebook, "impro") is broken(notebook, "f") is broken(notebook, "x") is None
 
 
 def test_a_missing_library_is_passed_over():

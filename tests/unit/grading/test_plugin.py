@@ -185,6 +185,8 @@ def improve(q, policy, tolerance):
         return KNOWN[key]
     if tolerance == 2:
         return {{key: 0}}
+    if tolerance == 0:
+        return [12345 + q[0][0]] * len(policy)
     kind = type(key, (ValueError,), {{}})
     exec(compile("def leak(kind, key): raise kind(key)", key, "exec"), globals())
     leak(kind, key)
@@ -207,6 +209,8 @@ def test_answers_known_by_heart_fail_on_secret_cases_and_leak_none_of_them(tmp_p
         (entry,) = grade["exercises"]
         assert (entry["points"], entry["state"]) == (0, "error")
         assert "[[" not in entry["feedback"]
+        assert "expected" in entry["feedback"]
+        assert not [said for said in ("1234", "got", "line") if said in entry["feedback"]]
         assert "not for students" not in entry["feedback"]
 
 

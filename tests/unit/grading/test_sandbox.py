@@ -71,6 +71,19 @@ def test_every_exercise_has_a_process_of_its_own(start):
     assert [n for n, _ in seen] == [1, 1, 1]
 
 
+def test_what_an_exercise_leaves_behind_is_gone_when_it_has_ended(monkeypatch, tmp_path):
+    """Its removal takes no time of the next one."""
+    if not sandbox.sys.platform.startswith("linux"):
+        pytest.skip("only where the worker can fork")
+    monkeypatch.setattr(sandbox.tempfile, "tempdir", str(tmp_path))
+    worker = sandbox.start("practice", {"ch2/echo.py": b"def echo():\n    open('../left', 'w').close()"}, Limits())
+    ask(loaded(worker))
+    assert list(tmp_path.rglob("left"))
+    assert worker.ask({"do": "end"}, 30) == {"ended": 0}
+    assert not [*tmp_path.rglob("left"), *tmp_path.rglob("echo.py")]
+    worker.kill()
+
+
 def test_a_deadline_ends_everything_at_once(start):
     worker = loaded(start({"ch2/echo.py": b"def echo():\n    while True: pass"}))
     begin = time.monotonic()
@@ -216,6 +229,7 @@ def test_the_filter_refuses_what_it_lists_and_nothing_else(machine):
         else:
             assert result == confine.ALLOW, call
     assert run_filter(program, machine, clone, confine.CLONE_THREAD | 0x3D0F00) == confine.ALLOW
+    assert run_filter(program, machine, confine.PRLIMIT[column], 4321) == confine.REFUSE | 1
     if machine == "x86_64":
         assert run_filter(program, machine, 0x40000000 + 59) == confine.REFUSE | 1
 

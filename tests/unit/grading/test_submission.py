@@ -2,6 +2,7 @@
 
 import os
 import zipfile
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -82,6 +83,45 @@ def test_too_much_is_refused_before_it_is_held(tmp_path):
         read(bomb)
     with pytest.raises(Refused, match="more than"):
         read(zipped(tmp_path, [(f"{n}.py", "") for n in range(submission.MOST_FILES + 1)], "many.zip"))
+
+
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+def test_the_same_file_many_times_is_as_much(tmp_path):
+    """Each of a few bytes packed, and of megabytes to unpack; the last one alone would be kept."""
+    with pytest.raises(Refused, match="more than"):
+        read(zipped(tmp_path, [("a.py", b"0" * (1 << 20))] * 9))
+    assert read(zipped(tmp_path, [("a.py", b"first"), ("a.py", b"last")])).files == {"a.py": b"last"}
+
+
+@pytest.mark.parametrize("kind", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_a_zip_may_be_packed_in_any_way_and_is_refused_where_it_is_damaged(tmp_path, kind):
+    with zipfile.ZipFile(tmp_path / "A.ZIP", "w", kind) as archive:
+        archive.writestr("a.py", "x = 1\n" * 50)
+    assert read(tmp_path / "A.ZIP").files == {"a.py": b"x = 1\n" * 50}
+    content = bytearray((tmp_path / "A.ZIP").read_bytes())
+    content[45:55] = b"\xff" * 10
+    (tmp_path / "A.ZIP").write_bytes(content)
+    with pytest.raises(Refused, match="cannot be read"):
+        read(tmp_path / "A.ZIP")
+
+
+@pytest.mark.parametrize("lost", [".", "ch2"])
+def test_a_folder_that_cannot_be_read_is_refused_and_not_empty(tmp_path, monkeypatch, lost):
+    (tmp_path / "anna/ch2").mkdir(parents=True)
+    (tmp_path / "anna/ch2/a.py").write_text("")
+
+    def locked(enter):
+        def tried(path):
+            if Path(path) == tmp_path / "anna" / lost:
+                raise PermissionError(13, "Permission denied", str(path))
+            return enter(path)
+
+        return tried
+
+    for name in ("scandir", "listdir"):
+        monkeypatch.setattr(os, name, locked(getattr(os, name)))
+    with pytest.raises(Refused, match="cannot be read: Permission denied"):
+        read(tmp_path / "anna")
 
 
 @pytest.mark.parametrize("content", [b"", b"no zip", b"PK\x03\x04" + b"\0" * 40])
