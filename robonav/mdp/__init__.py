@@ -19,7 +19,14 @@ from .pomdp import POMDP, BeliefMDP, BeliefWalk, bayes, belief_walk, entropy, wi
 from .small_pomdps import corridor, fork, tiger
 from .sweeps import in_place_value_iteration, prioritized_sweeping
 from .temporal_difference import Learned, Predicted, expected_sarsa, q_learning, sarsa, td_prediction
-from .values import action_values, advantage, bellman_optimality_operator, bellman_policy_operator, is_optimal
+from .values import (
+    action_values,
+    advantage,
+    bellman_action_value_operator,
+    bellman_optimality_operator,
+    bellman_policy_operator,
+    is_optimal,
+)
 
 __all__ = [
     "POMDP",
@@ -50,6 +57,7 @@ __all__ = [
     "backward_induction",
     "bayes",
     "belief_walk",
+    "bellman_action_value_operator",
     "bellman_optimality_operator",
     "bellman_policy_operator",
     "corridor",

@@ -124,7 +124,7 @@ class GridEnvironment(gym.Env[Any, Any]):
         return self.state, {}
 
     def step(self, action: int) -> tuple[int, float, bool, bool, dict[str, Any]]:
-        """One move: state reached, reward, whether it ended the episode."""
+        """One move: state reached and reward, drawn from P(. | s, a) (Eq. (2.1)), and whether it ended the episode."""
         taken = expect.integer("action", action, at_least=0, at_most=3)
         probability, self.state, reward, ended = self._drawn(self.P[self.state][taken])
         return self.state, reward, ended, False, {"probability": probability}

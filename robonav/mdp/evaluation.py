@@ -29,7 +29,9 @@ class Evaluation:
 
 
 def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
-    """The values (S,) of a policy, exact to rounding: the solution of V = r_pi + gamma T_pi V (Eq. (2.6), (2.14)).
+    """The values (S,) of a policy, exact to rounding: the solution of V = r_pi + gamma T_pi V (Eqs. (2.6), (2.14)).
+
+    These are its expected returns, Eq. (2.4); Eq. (2.5) takes the first step out of them, and leaves linear equations.
 
     Parameters
     ----------

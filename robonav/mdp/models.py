@@ -22,6 +22,8 @@ Arrays = tuple[NDArray[Any], NDArray[Any], NDArray[np.float64], NDArray[np.float
 class FiniteMDP:
     """A finite MDP with S states and A actions, checked when it is made.
 
+    What comes next depends on the state and the action alone (Eq. (2.2)): one row of ``transitions`` for each pair.
+
     Parameters
     ----------
     transitions : ``transitions[a][s, s']`` is the probability T(s, a, s') of reaching s' by action a from s: an array

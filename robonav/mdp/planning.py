@@ -19,7 +19,7 @@ from .values import or_rest
 
 @dataclass(frozen=True)
 class Solution:
-    """What a planner found.
+    """What a planner found: the optimal values V*, the largest of any policy (Eq. (2.9)), and a policy that has them.
 
     Attributes
     ----------

@@ -45,7 +45,7 @@ class Learned:
 
     @cached_property
     def values(self) -> NDArray[np.float64]:
-        """(S,) value of the best action."""
+        """(S,) value of the best action, Eq. (2.10)."""
         return self.q.max(axis=1)
 
 

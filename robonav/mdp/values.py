@@ -27,6 +27,16 @@ def bellman_optimality_operator(mdp: FiniteMDP, values: ArrayLike) -> NDArray[np
     return mdp.backup(values).max(axis=1)
 
 
+def bellman_action_value_operator(mdp: FiniteMDP, action_values: ArrayLike) -> NDArray[np.float64]:
+    """One sweep of value iteration on action values: r(s, a) + gamma sum_s' T(s, a, s') max_b Q(s', b), (S, A).
+
+    This is the right-hand side of Eq. (2.12), whose fixed point is Q*. Q-learning takes one sample of it at a time.
+    """
+    expect.instance("mdp", mdp, FiniteMDP)
+    q = expect.array("action_values", action_values, shape=(mdp.states, mdp.actions))
+    return mdp.backup(q.max(axis=1))
+
+
 def action_values(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     """Q of a policy, (S, A): take a, then follow the policy, Eq. (2.7) and (2.15)."""
     expect.instance("mdp", mdp, FiniteMDP)

@@ -16,6 +16,7 @@ from robonav.mdp import (
     action_values,
     advantage,
     backward_induction,
+    bellman_action_value_operator,
     bellman_optimality_operator,
     bellman_policy_operator,
     generalized_policy_iteration,
@@ -169,6 +170,24 @@ def test_optimality_is_recognised():
     other = best.policy.copy()
     other[2] = (other[2] + 1) % 3
     assert not is_optimal(mdp, other)
+
+
+@settings(deadline=None)
+@given(st.integers(0, 10_000), st.floats(0, 0.95))
+def test_optimal_action_values_are_where_the_operator_on_them_rests(seed, discount):
+    """Eq. (2.12), written out; its fixed point is Q*, Eqs. (2.9) to (2.11), and it brings any two closer by gamma."""
+    mdp = dirichlet_mdp(seed, states=4, discount=discount)
+    q, other = np.random.default_rng(seed).normal(size=(2, 4, 3))
+    swept = bellman_action_value_operator(mdp, q)
+    for s, a in np.ndindex(4, 3):
+        ahead = sum(mdp.transitions[a, s, t] * max(q[t]) for t in range(4))
+        assert swept[s, a] == pytest.approx(mdp.rewards[s, a] + discount * ahead)
+    best = mdp.backup(policy_iteration(mdp).values)
+    np.testing.assert_allclose(bellman_action_value_operator(mdp, best), best, atol=1e-8)
+    gap = abs(swept - bellman_action_value_operator(mdp, other)).max()
+    assert gap <= discount * abs(q - other).max() + 1e-12
+    with pytest.raises(ValueError, match=r"action_values must have shape \(4, 3\)"):
+        bellman_action_value_operator(mdp, q[:, :2])
 
 
 def test_giving_up_is_said_once_with_the_distance():
