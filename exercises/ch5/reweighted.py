@@ -2,7 +2,7 @@
 # Check it with: robonav check 5.5
 """Relative-entropy IRL estimates feature expectations under a policy it has no samples of, from samples of another, by
 weights $p(\\tau) / q(\\tau)$. A few huge weights can decide everything. Make the estimate robust. Scale the weights
-so that their mean is one; cut off what is larger than a given most; scale them to sum to one; average the features.
+so that their mean is one; lower to a given most what is larger; scale them to sum to one; average the features.
 Say, too, how many samples it is worth: the effective sample size $1 / \\sum w_i^2$ of those last weights. Only
 logarithms of the probabilities are given, and they are far from zero.
 """
@@ -20,7 +20,7 @@ def reweighted(
     ----------
     log_p, log_q : (N,), logarithm of each sample's probability under the one policy and the other, up to a constant.
     features : (N, k), each sample's features.
-    most : largest weight to keep, where the mean weight is one; at least 1.
+    most : what larger weights are lowered to, where the mean weight is one; at least 1.
 
     Returns
     -------

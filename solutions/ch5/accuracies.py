@@ -1,28 +1,31 @@
 """Three quarters of an expert's actions are "forward". A policy that always goes forward agrees with three quarters of
-the demonstrations, and hits the first wall. Compute two measures of agreement: the plain accuracy; and the balanced
-one, where each action that the expert did take counts alike, as the mean over those actions of how often the policy
-took them when the expert did.
+the demonstrations, and hits the first wall. The chapter lets rare actions weigh more. Cohen (1960) went another way,
+and took off what two strangers would agree in by chance: if both keep to their own shares of the actions and never
+look at the state, they agree in $c = \\sum_a p_a q_a$ of the steps, where $p_a$ and $q_a$ are the shares of action $a$
+in what the expert and the policy do. Compute the plain accuracy $o$, and the agreement beyond chance,
+$(o - c) / (1 - c)$: one for a policy that does as the expert, zero for one that knows nothing, however often it is
+right.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
 
-def accuracies(shown: NDArray[np.int64], chosen: NDArray[np.int64], number: int) -> tuple[float, float]:
-    """Plain and balanced accuracy.
+def accuracies(shown: NDArray[np.int64], chosen: NDArray[np.int64], number: int) -> NDArray[np.float64]:
+    """Plain accuracy and agreement beyond chance.
 
     Parameters
     ----------
     shown : (N,), the expert's actions, 0 to ``number`` - 1; one at least.
     chosen : (N,), the policy's actions in the same states.
-    number : of actions there are. An action that the expert never took counts in neither measure.
+    number : of actions there are; neither need take them all.
 
     Returns
     -------
-    The plain and the balanced accuracy, each from 0 to 1.
+    (2,), the plain accuracy, and the agreement beyond chance; this is 0 where chance alone would agree in every step.
     """
     ### BEGIN SOLUTION
-    right = shown == chosen
-    recalls = [right[shown == action].mean() for action in range(number) if (shown == action).any()]
-    return float(right.mean()), float(np.mean(recalls))
+    plain = (shown == chosen).mean()
+    chance = np.bincount(shown, minlength=number) @ np.bincount(chosen, minlength=number) / len(shown) ** 2
+    return np.array([plain, (plain - chance) / (1 - chance) if chance < 1 else 0.0])
     ### END SOLUTION

@@ -21,8 +21,16 @@ def overflows(log_p, log_q, features, most):
 
 
 def no_cut(log_p, log_q, features, most):
-    """Cut off the weights that are larger than the most allowed."""
+    """Lower the weights that are larger than the most allowed."""
     return _estimate(log_p - log_q, features, most, cut=False)
+
+
+def dropped(log_p, log_q, features, most):
+    """A sample whose weight is too large still counts, with the most allowed."""
+    weights = np.exp(log_p - log_q - (log_p - log_q).max())
+    weights = np.where(weights <= most * weights.mean(), weights, 0.0)
+    weights = weights / weights.sum()
+    return weights @ features, 1 / (weights @ weights)
 
 
 def not_scaled_again(log_p, log_q, features, most):
