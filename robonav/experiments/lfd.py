@@ -280,7 +280,7 @@ FIGURE_3_9 = Experiment(
     title="Learned paths beside planned ones: medians in metres",
     cases=[{"obstacles": obstacles, "method": name} for obstacles in (10, 20) for name in ("cloning", "DAgger")],
     run=beside_the_expert,
-    seeds={"quick": 1, "thesis": 10},
+    seeds={"quick": 1, "thesis": 5},
     settings=ABOUT,
 )
 FIGURE_3_10 = Experiment(
@@ -305,7 +305,7 @@ ENCODINGS = Experiment(
         for target in TARGET_ENCODINGS
     ],
     run=encoded,
-    seeds=SEEDS | {"thesis": 10},
+    seeds=SEEDS | {"thesis": 6},
     settings=ABOUT,
 )
 MARGINS = Experiment(
@@ -318,7 +318,7 @@ MARGINS = Experiment(
         for margin in (1, 2, 3, 5)
     ],
     run=keeping_off,
-    seeds=SEEDS | {"thesis": 10},
+    seeds=SEEDS | {"thesis": 6},
     settings=ABOUT,
 )
 

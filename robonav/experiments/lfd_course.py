@@ -38,7 +38,7 @@ from robonav.robot import (
 DEMONSTRATIONS = 25
 ROUNDS = {"quick": 1, "thesis": 3}  # of DAgger
 NAVIGATIONS = {"quick": 100, "thesis": 400}
-SEEDS = {"quick": 1, "thesis": 20}
+SEEDS = {"quick": 1, "thesis": 10}
 SHOWN_WORLDS = 30_000  # run k is shown the worlds of this seed + k
 MORE_WORLDS = 31_000  # and meets those of this one + 10 k in DAgger's first round, + 10 k + 1 in the next
 TEST_WORLDS = 35_000  # and drives through those of this one + k
