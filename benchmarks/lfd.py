@@ -3,8 +3,8 @@
     python benchmarks/lfd.py          # seconds on the clock
     python benchmarks/lfd.py --cpu    # seconds of the processor, for a machine that others use too
 
-The thesis has 10.64 s for 300 iterations and 23.2 s for a plan, in Matlab, on a machine of its time. Figures are medians
-of rounds; loading and compiling are not counted. Ends with 1 if one of them is over its limit.
+The thesis has 10.64 s for 300 iterations and 23.2 s for a plan, in Matlab, on a machine of its time. Figures are
+medians of rounds; loading and compiling are not counted. Ends with 1 if one of them is over its limit.
 """
 
 from __future__ import annotations
