@@ -3,6 +3,8 @@
 #   PYTHON   the interpreter that .venv is made from
 #   PIP_OPTIONS   passed to every pip install, for instance an extra index with PyTorch's CPU builds
 #   PYTEST_OPTIONS, LAB_OPTIONS   passed to pytest and to JupyterLab
+#   ADDRESS, REPOSITORY   where the book will stand on the web, and its sources: notebooks then install the package from
+#     there, and pages link to their sources
 
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
@@ -12,15 +14,18 @@ PYTHON ?= python3
 PIP_OPTIONS ?=
 PYTEST_OPTIONS ?=
 LAB_OPTIONS ?=
+export BOOK_ADDRESS := $(ADDRESS)
+export REPOSITORY
 
 BIN := .venv/bin
 INSTALLED := .venv/.installed
 TORCH := $(shell grep '^torch==' requirements.lock)
 EXTRAS := book,lab,grading,cluster,tests,benchmarks
 
-.PHONY: help book test lab lock clean
+.PHONY: help book pdf test lab lock clean
 help:
 	@echo "make book   build the book into _build/html"
+	@echo "make pdf    print the built book to _build/robonav.pdf; needs Chromium"
 	@echo "make test   run every check and test"
 	@echo "make lab    open JupyterLab on the notebooks"
 	@echo "make lock   write requirements.lock anew from pyproject.toml"
@@ -39,6 +44,9 @@ book: $(INSTALLED)
 	$(BIN)/python book/_ext/execute_notebooks.py
 	$(BIN)/jupyter-book build . -W --keep-going -n --all
 	$(BIN)/python book/_ext/check_site.py
+
+pdf: book
+	$(BIN)/python book/_ext/print_book.py _build/robonav.pdf
 
 # One thread a process: pytest runs as many processes as there are cores.
 test: $(INSTALLED)

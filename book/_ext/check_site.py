@@ -6,6 +6,7 @@ Run after a build, as ``make book`` does; prints what is wrong and ends with exi
 from __future__ import annotations
 
 import html
+import os
 import re
 import sys
 from collections.abc import Iterator
@@ -15,7 +16,7 @@ from typing import Any
 import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
-SITE = ROOT / "_build" / "html"
+SITE = Path(os.environ.get("BOOK_SITE", ROOT / "_build" / "html"))  # of a book that was built elsewhere
 LEAST_TEXT = 400  # characters of an article, below which a page counts as empty
 FAILURES = {
     "a failed cell": re.compile(r"Traceback \(most recent call last\)|ansi-red-fg"),

@@ -24,6 +24,7 @@ import yaml
 from check_site import pages
 from docutils import nodes
 from quiz import VERDICTS, marks
+from release import first_cell
 from sphinx.application import Sphinx
 from thesis_numbers import thesis_number
 
@@ -125,8 +126,9 @@ def attach_pictures(cell: nbformat.NotebookNode, folder: Path) -> None:
 
 
 def notebook_of(source: Path) -> nbformat.NotebookNode:
-    """The notebook of one page, without outputs."""
+    """The notebook of one page, without outputs; its first cell installs the package where it is missing."""
     notebook = jupytext.read(source)
+    notebook.cells.insert(0, nbformat.v4.new_code_cell(first_cell()))
     for index, cell in enumerate(notebook.cells):
         cell["id"] = f"cell-{index}"
         if cell.cell_type == "markdown":

@@ -68,9 +68,10 @@ def from_reward(case: Case, seed: int, scale: str) -> Numbers:
     method = str(case["method"])
     settings = FIRST[method] | UPDATES[str(case["learning rate"])][method]
     settings |= {"temperature": TEMPERATURES[str(case["temperature"])]}
-    training = trained(method, seed, EPISODES, settings)
+    outcomes = trained(method, seed, scale, settings).outcomes[0]
+    bins = outcomes[: len(outcomes) // BIN * BIN].reshape(-1, BIN)
     ended = {"success": "arrived", "collision": "collided"}
-    return {name: 100 * (training.outcomes[0] == end).reshape(-1, BIN).mean(axis=1) for name, end in ended.items()}
+    return {name: 100 * (bins == end).mean(axis=1) for name, end in ended.items()}
 
 
 def from_expert(case: Case, seed: int, scale: str) -> Numbers:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import functools
-import os
 import re
 import shutil
+import sys
 import tempfile
 import threading
 from collections.abc import Iterator
@@ -17,8 +17,10 @@ from typing import Any
 
 from playwright.sync_api import BrowserContext, ConsoleMessage, Page, Route, sync_playwright
 
-ROOT = Path(__file__).resolve().parents[2]
-SITE = Path(os.environ.get("BOOK_SITE", ROOT / "_build" / "html"))  # of a book that was built elsewhere
+sys.path.append(str(Path(__file__).resolve().parents[2] / "book" / "_ext"))  # where screenshots.py finds it, too
+
+from check_site import ROOT as ROOT
+from check_site import SITE as SITE
 
 FLAGS = [
     "--no-sandbox",

@@ -200,11 +200,12 @@ def test_notebooks_are_valid_reproducible_and_without_outputs(tmp_path: Path) ->
     (tmp_path / "dot.png").write_bytes(b"dot")
     notebook = notebooks.notebook_of(page)
     nbformat.validate(notebook)
-    assert [cell.cell_type for cell in notebook.cells] == ["markdown", "code"]
-    assert notebook.cells[1].source == "1 + 1"
-    assert notebook.cells[1].outputs == []
-    assert "![A dot.](attachment:dot.png)" in notebook.cells[0].source
-    assert notebook.cells[0].attachments == {"dot.png": {"image/png": "ZG90"}}
+    assert [cell.cell_type for cell in notebook.cells] == ["code", "markdown", "code"]
+    assert "%pip install" in notebook.cells[0].source
+    assert notebook.cells[2].source == "1 + 1"
+    assert notebook.cells[2].outputs == []
+    assert "![A dot.](attachment:dot.png)" in notebook.cells[1].source
+    assert notebook.cells[1].attachments == {"dot.png": {"image/png": "ZG90"}}
     assert notebook == notebooks.notebook_of(page)
 
 

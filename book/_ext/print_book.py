@@ -1,0 +1,161 @@
+"""The whole book as a PDF: the built pages joined into one document, and printed by Chromium.
+
+Usage: python print_book.py FILE, after a build. Links between pages become links inside the document, figures that can
+be touched stand as they look at first, and folded answers are open. Needs Chromium.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import shutil
+import sys
+import tempfile
+from datetime import UTC, datetime
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote, urlsplit
+
+import yaml
+from bs4 import BeautifulSoup, Tag
+from check_site import ROOT, SITE, pages
+
+TITLE = yaml.safe_load((ROOT / "_config.yml").read_text("utf-8"))["title"]
+NOT_PRINTED = (
+    "script:not([type^='application/vnd.jupyter']), .headerlink, .prev-next-area, details.hide, button.copybtn"
+)
+LOADED = (
+    "link[rel=stylesheet], script[src*='third-party'], script[type='application/vnd.jupyter.widget-state+json'], "
+    "script:-soup-contains('window.MathJax')"
+)
+FOOT = '<div style="font-size: 8px; width: 100%; text-align: center" class="pageNumber"></div>'
+STYLE = """
+  @page { size: A4; margin: 18mm 16mm 20mm; }
+  html { font-size: 11pt; scroll-behavior: auto; }
+  body { background: #fff; }
+  .printed { max-width: none; padding: 0; }
+  .printed > section { break-before: page; }
+  .cover { height: 240mm; display: flex; flex-direction: column; justify-content: center; text-align: center; }
+  :is(figure, table, .admonition, .quiz details, .cell_output) { break-inside: avoid; }
+  pre { white-space: pre-wrap !important; overflow-wrap: anywhere; }
+  .robonav :is(button, select, input, textarea, label, fieldset), .anim-controls { display: none !important; }
+  .robonav::after { content: "In the pages of the book this can be touched."; font-size: 0.8rem; font-style: italic; }
+"""
+READY = """async () => {
+  await window.MathJax.startup.promise;
+  await document.fonts.ready;
+  await Promise.all([...document.images].map((image) => image.decode().catch(() => {})));
+}"""
+WIDGETS_DRAWN = """() => [...document.querySelectorAll("script[type='application/vnd.jupyter.widget-view+json']")]
+  .every(({ parentElement: place }) => place.querySelector(".widget-subarea > * > *"))"""
+
+
+def anchor(page: str, fragment: str = "") -> str:
+    """The anchor in the document of a place on a page."""
+    return f"{page.replace('/', '-')}--{fragment}" if fragment else page.replace("/", "-")
+
+
+def inside(page: str, address: str, known: set[str]) -> str:
+    """An address on a page as it is in the document: another page's becomes an anchor, a file's stays a file's."""
+    parts = urlsplit(address)
+    if parts.scheme or parts.netloc:
+        return address
+    if not parts.path:
+        return f"#{anchor(page, unquote(parts.fragment))}"
+    at = PurePosixPath(posixpath.normpath(PurePosixPath(page).parent / unquote(parts.path)))
+    if at.suffix == ".html" and str(at.with_suffix("")) in known:
+        return f"#{anchor(str(at.with_suffix('')), unquote(parts.fragment))}"
+    return str(at)
+
+
+def prepared(page: str, source: str, known: set[str]) -> Tag:
+    """The article of a page, with anchors of its own, open folds and nothing that needs a hand."""
+    article = BeautifulSoup(source, "html.parser").find("article")
+    assert isinstance(article, Tag)
+    for tag in article.select(NOT_PRINTED):
+        tag.decompose()
+    for tag in article.find_all("details"):
+        tag["open"] = ""
+    for tag in article.find_all(id=True):
+        tag["id"] = anchor(page, tag["id"])
+    for tag in article.find_all(["label", "button"], attrs={"for": True}):
+        tag["for"] = anchor(page, tag["for"])
+    for name in ("href", "src", "data"):
+        for tag in article.find_all(attrs={name: True}):
+            tag[name] = inside(page, tag[name], known)
+    article.name = "section"
+    article["id"] = anchor(page)
+    return article
+
+
+def needed(listed: list[str], sources: list[str]) -> str:
+    """Styles, formulas' settings, the states of widgets and the scripts that draw them: what the pages' heads hold."""
+    found: dict[str, None] = {}
+    for page, source in zip(listed, sources, strict=True):
+        for tag in BeautifulSoup(source, "html.parser").head.select(LOADED):
+            for name in ("href", "src"):
+                if tag.get(name):
+                    tag[name] = inside(page, tag[name], set())
+            found[str(tag)] = None
+    return "".join(found)
+
+
+def joined(listed: list[str]) -> str:
+    """One document of all pages."""
+    sources = [(SITE / f"{page}.html").read_text("utf-8") for page in listed]
+    sections = [prepared(page, source, set(listed)) for page, source in zip(listed, sources, strict=True)]
+    titles = [section.find("h1") for section in sections]
+    contents = "".join(
+        f'<li><a href="#{anchor(page)}">{title.get_text().removesuffix("#")}</a></li>'
+        for page, title in zip(listed, titles, strict=True)
+        if isinstance(title, Tag)
+    )
+    cover = f"<h1>{TITLE}</h1><p>The book where every equation runs. {datetime.now(UTC):%B %Y}.</p>"
+    return (
+        '<!doctype html><html lang="en" data-theme="light" data-mode="light"><head><meta charset="utf-8">'
+        f"<title>{TITLE}</title>{needed(listed, sources)}<style>{STYLE}</style></head>"
+        f'<body><main class="bd-content"><div class="bd-article printed"><div class="cover">{cover}</div>'
+        f"<nav><h2>Contents</h2><ul>{contents}</ul></nav>{''.join(map(str, sections))}</div></main></body></html>"
+    )
+
+
+def print_to(target: Path, document: Path) -> None:
+    """Let Chromium print a document, once its formulas and figures stand."""
+    from playwright.sync_api import sync_playwright
+
+    found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    if found is None:
+        raise SystemExit("make pdf needs Chromium: install it, for instance with apt install chromium")
+    with tempfile.TemporaryDirectory() as profile, sync_playwright() as playwright:
+        context = playwright.chromium.launch_persistent_context(
+            profile, executable_path=found, args=["--no-sandbox", "--disable-gpu"], color_scheme="light",
+            viewport={"width": 800, "height": 1100},
+        )  # fmt: skip
+        context.set_default_timeout(180_000)
+        page = context.new_page()
+        page.goto(document.as_uri())
+        page.evaluate(READY)
+        page.wait_for_function(WIDGETS_DRAWN)
+        page.pdf(
+            path=target, prefer_css_page_size=True, print_background=True, outline=True, tagged=True,
+            display_header_footer=True, header_template="<span></span>", footer_template=FOOT,
+        )  # fmt: skip
+        context.close()
+
+
+def main() -> None:
+    listed = list(pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))))
+    missing = [page for page in listed if not (SITE / f"{page}.html").is_file()]
+    if missing:
+        raise SystemExit(f"not built: {', '.join(missing)}; run make book first")
+    target = Path(sys.argv[1])
+    document = SITE / "print.html"  # where the pages' files are, and for as long as it takes
+    try:
+        document.write_text(joined(listed), "utf-8")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        print_to(target.resolve(), document)
+    finally:
+        document.unlink(missing_ok=True)
+    print(f"{target}: {target.stat().st_size / 1e6:.1f} MB")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+"""What readers take away: the wheel, the notebook's first cell, and where a page can be edited."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import edit_page
+import print_book
+import pytest
+import release
+from browser import executable
+
+
+def test_the_wheel_installs_and_is_whole(tmp_path: Path) -> None:
+    wheel = release.build_wheel(tmp_path / "wheels")
+    assert wheel.read_bytes() == release.build_wheel(tmp_path / "again").read_bytes()
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--target", tmp_path / "to"]
+    subprocess.run([*pip, wheel], check=True, timeout=600)
+    code = "import robonav, robonav.look; print(robonav.__file__)"
+    found = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path / "to", capture_output=True, text=True, check=True, timeout=600
+    )
+    assert found.stdout.startswith(str(tmp_path / "to"))
+    names = zipfile.ZipFile(wheel).namelist()
+    assert "robonav/widgets/shared.js" in names
+    assert "robonav/py.typed" in names
+    assert not [name for name in names if "__pycache__" in name]
+
+
+def test_a_notebooks_first_cell_installs_the_books_own_release() -> None:
+    assert f'"https://a.b/book/_static/{release.wheel_name()}"' in release.first_cell("https://a.b/book/")
+    assert f'"{release.wheel_name()}"' in release.first_cell("")
+    compile(release.first_cell("").replace("%pip", "# %pip").replace("is None:", "is None: pass"), "cell", "exec")
+
+
+@pytest.mark.parametrize(
+    ("origin", "page"),
+    [
+        ("https://github.com/some/book.git\n", "https://github.com/some/book"),
+        ("https://name:token@gitlab.com/group/sub/book", "https://gitlab.com/group/sub/book"),
+        ("git@github.com:some/book.git", "https://github.com/some/book"),
+        ("ssh://git@bitbucket.org/some/book.git", "https://bitbucket.org/some/book"),
+        ("/home/me/book", None),
+        ("https://elsewhere.example/some/book.git", None),
+        ("", None),
+    ],
+)
+def test_where_a_page_can_be_edited(origin: str, page: str | None) -> None:
+    assert edit_page.page_of(origin) == page
+
+
+def test_a_repository_that_is_named_comes_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("REPOSITORY", "https://git.example/our/book/")
+    assert edit_page.repository() == "https://git.example/our/book"
+
+
+def test_notebooks_to_take_away_hold_no_solutions(site: Path) -> None:
+    taken = list((site / "_sources").rglob("*.ipynb"))
+    assert taken
+    for notebook in taken:
+        text = notebook.read_text("utf-8")
+        assert "{solution" not in text
+        assert "%pip install" in text
+    assert (site / "_static" / release.wheel_name()).is_file()
+
+
+@pytest.mark.parametrize(
+    ("address", "expected"),
+    [
+        ("#here", "#book-robot--here"),
+        ("nnql.html", "#book-nnql"),
+        ("reference/mdp.html#robonav.mdp", "#book-reference-mdp--robonav.mdp"),
+        ("../_images/a.png", "_images/a.png"),
+        ("https://a.b/c.html", "https://a.b/c.html"),
+        ("data:image/png;base64,AA", "data:image/png;base64,AA"),
+        ("../search.html", "search.html"),
+    ],
+)
+def test_links_stay_inside_the_printed_book(address: str, expected: str) -> None:
+    known = {"book/robot", "book/nnql", "book/reference/mdp"}
+    assert print_book.inside("book/robot", address, known) == expected
+
+
+def test_a_printed_page_is_open_and_still() -> None:
+    source = """<html><article><h1 id="top">Title<a class="headerlink" href="#top">#</a></h1>
+      <details class="quiz"><summary>A</summary>why</details><details class="hide"><pre>x</pre></details>
+      <script>run()</script><script type="application/vnd.jupyter.widget-view+json">{}</script></article></html>"""
+    article = print_book.prepared("book/robot", source, {"book/robot"})
+    assert article["id"] == "book-robot"
+    assert article.h1["id"] == "book-robot--top"
+    assert article.h1.get_text() == "Title"
+    assert [details.has_attr("open") for details in article.find_all("details")] == [True]
+    assert [script.get("type") for script in article.find_all("script")] == ["application/vnd.jupyter.widget-view+json"]
+
+
+def test_some_pages_are_printed(site: Path, tmp_path: Path) -> None:
+    if executable() is None:
+        pytest.skip("Chromium is not installed")
+    document = site / "print-some.html"
+    try:
+        document.write_text(print_book.joined(["book/cite", "book/playground"]), "utf-8")
+        print_book.print_to(tmp_path / "some.pdf", document)
+    finally:
+        document.unlink(missing_ok=True)
+    assert (tmp_path / "some.pdf").read_bytes().startswith(b"%PDF")
+    assert (tmp_path / "some.pdf").stat().st_size > 50_000
