@@ -32,6 +32,7 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
     "Learning from demonstration": ("lfd.py", (), False, "Planning, training and driving of chapter 3."),
     "Neural Q-learning": ("nnql.py", (), True, "Training of chapter 4, beside stable-baselines3's DQN."),
     "Inverse reinforcement learning": ("nirl.py", (), False, "One run of chapter 5."),
+    "Deciding": ("decisions.py", (), False, "One decision of every method that ships."),
     "Grading a class": ("grading.py", ("--students", "300"), False, "Three hundred students, all exercises."),
 }
 INTRODUCTION = """# How fast it is

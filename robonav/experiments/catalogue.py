@@ -16,6 +16,7 @@ MODULES = (
     "nirl_steps",
     "nirl_transfer",
     "nirl_tuning",
+    "pictures",
     "leaderboard",
     "labs",
 )

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from robonav import files, look
 from robonav.experiments import Results
 
-from . import lfd, nirl, nnql
+from . import lfd, nirl, nnql, pictures
 
 OURS, THESIS = look.BLUE, look.ORANGE
 
@@ -85,6 +85,14 @@ def draw_board(results: Results, metric: str) -> Figure:
 
 DRAWN: dict[str, Callable[[Results], Figure]] = {
     "leaderboard": partial(draw_board, metric="success"),
+    "figure-2.4": pictures.plot_gaps,
+    "figure-3.4": pictures.plot_paths,
+    "figure-4.2": pictures.plot_paths,
+    "figure-4.5": pictures.plot_paths,
+    "figure-5.3": pictures.plot_paths,
+    "figure-5.5": pictures.plot_paths,
+    "figure-5.6": pictures.plot_paths,
+    "figure-5.9": pictures.plot_paths,
     "yardsticks": partial(draw_bars, metric="success", label="drives that arrive (%)"),
     "table-3.2": lfd.plot_demonstrations,
     "table-3.3": lfd.plot_iterations,
