@@ -135,10 +135,8 @@ class FiniteMDP:
 
     @cached_property
     def leading_to(self) -> sp.csr_array:
-        """Where each state can be reached from, (S, S A): row s' has an entry in column s A + a if T(s, a, s') > 0."""
-        pairs, reached = self.rows.nonzero()
-        shape = (self.states, self.rewards.size)
-        return sp.csr_array((np.ones(pairs.size, dtype=np.int8), (reached, pairs)), shape)
+        """Where each state can be reached from, (S, S A): row s', column s A + a holds T(s, a, s')."""
+        return sp.csr_array(self.rows.T)
 
     def way_to(
         self, goals: NDArray[np.bool_], allowed: NDArray[np.bool_] | None = None
@@ -153,8 +151,8 @@ class FiniteMDP:
         Returns
         -------
         steps : (S,), infinite where no goal can be reached.
-        policy : (S,), whose every action may lead one step closer (0 where none does). Followed for ever, it gets
-            there with probability 1 if all steps are finite.
+        policy : (S,), whose every action leads one step closer as likely as any can (0 where none does). Followed for
+            ever, it gets there with probability 1 if all steps are finite.
         """
         usable = np.ones(self.rewards.size, dtype=bool) if allowed is None else allowed.ravel()
         steps = np.where(goals, 0.0, np.inf)
@@ -162,8 +160,12 @@ class FiniteMDP:
         frontier = np.flatnonzero(goals)
         while frontier.size:
             distance = steps[frontier[0]] + 1
-            found = np.unique(self.leading_to[frontier].indices)
-            found = found[usable[found] & np.isinf(steps[found // self.actions])]
+            closer = self.leading_to[frontier]
+            found, which = np.unique(closer.indices, return_inverse=True)
+            chance = np.bincount(which, closer.data, found.size)
+            new = usable[found] & np.isinf(steps[found // self.actions])
+            likeliest = np.lexsort((-chance[new], found[new] // self.actions))
+            found = found[new][likeliest]
             frontier, first = np.unique(found // self.actions, return_index=True)
             steps[frontier], policy[frontier] = distance, found[first] % self.actions
         return steps, policy

@@ -9,7 +9,7 @@ import scipy.sparse as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robonav.mdp import FiniteMDP, expected_rewards, value_iteration
+from robonav.mdp import FiniteMDP, GridWorld, expected_rewards, value_iteration
 
 
 def random_mdp(seed, *, states=6, actions=3, discount=0.9, sparse=False, spread=1.0):
@@ -138,6 +138,14 @@ def test_terminal_states_and_the_way_to_them():
     only_right[:, 1] = True
     steps, _ = mdp.way_to(mdp.terminal, only_right)
     assert np.isinf(steps[1:]).all()
+
+
+def test_the_way_goes_where_it_is_likeliest_to():
+    """Above the goal a step down gets there four times in five, one to the side by a slip only."""
+    slippery = GridWorld("...\n..G", slip=0.2).mdp(0.9)
+    steps, policy = slippery.way_to(slippery.terminal)
+    assert steps.tolist() == [3, 2, 1, 2, 1, 0]
+    assert policy[[2, 4]].tolist() == [2, 1]
 
 
 def test_one_rests_where_nothing_is_earned_for_ever():

@@ -233,6 +233,17 @@ def test_without_discount_waiting_does_not_pass_for_going(planner):
     np.testing.assert_allclose(policy_evaluation(mdp, solution.policy)[:4], 1)
 
 
+def test_planners_agree_on_a_slippery_grid_without_discount():
+    """A policy to start from that got to the goal by slips alone would take longer than numbers can say."""
+    rng = np.random.default_rng(3)
+    symbols = np.where(rng.random((15, 15)) < 0.1, "#", ".")
+    symbols[[-1, 0, -1], [-1, 0, 0]] = "G"
+    mdp = GridWorld("\n".join("".join(row) for row in symbols), slip=0.2, step_reward=-1).mdp(1.0)
+    values = [planner(mdp).values for planner in PLANNERS]
+    for found in values[1:]:
+        np.testing.assert_allclose(found, values[0], atol=1e-4)
+
+
 @each_planner
 def test_without_discount_a_free_wait_beats_a_bad_end(planner):
     """The end at hand costs 1: best is to wait for ever, which no proper policy does. Beyond it a goal pays."""
