@@ -40,7 +40,7 @@ STYLE = """
   .robonav::after { content: "In the pages of the book this can be touched."; font-size: 0.8rem; font-style: italic; }
 """
 READY = """async () => {
-  await window.MathJax.startup.promise;
+  await window.MathJax?.startup?.promise;
   await document.fonts.ready;
   await Promise.all([...document.images].map((image) => image.decode().catch(() => {})));
 }"""
