@@ -142,7 +142,7 @@ def draw_pomdp(axes: Axes) -> None:
         arrows += [(("action", time), ("reward", time))]
         if time + 1 < len(times):
             arrows += [(("state", time), ("state", time + 1)), (("belief", time), ("belief", time + 1))]
-            arrows += [(("action", time), ("state", time + 1)), (("action", time), ("belief", time + 1))]
+            arrows += [(("action", time), (kind, time + 1)) for kind in ("state", "observation", "belief")]
     for start, end in arrows:
         bent = 0.22 if start[0] == "action" and end[0] == "reward" else 0.0
         axes.add_patch(

@@ -60,5 +60,5 @@ def test_the_scheme_shows_every_node_and_arrow(axes):
     draw_pomdp(axes)
     assert len(axes.lines) == 15  # five kinds at three times
     arrows = [patch for patch in axes.patches if isinstance(patch, FancyArrowPatch)]
-    assert len(arrows) == 3 * 5 + 2 * 4
+    assert len(arrows) == 3 * 5 + 2 * 5
     axes.figure.canvas.draw()
