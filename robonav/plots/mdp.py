@@ -233,4 +233,4 @@ def draw_value_plane(
         axes.plot(*np.asarray(path).T, "o-", color=PLANNERS[name], markersize=3.5, linewidth=1.2, label=name)
     axes.plot(*np.asarray(best), "*", color=look.ORANGE, markersize=15, label="the best", zorder=5)
     axes.set(xlabel="value of state 0", ylabel="value of state 1")
-    axes.legend(loc="lower right")  # the values of all policies together leave that corner free
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)  # the values may fill every corner

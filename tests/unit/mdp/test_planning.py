@@ -327,6 +327,15 @@ def test_histories_are_the_steps_of_the_algorithms():
     assert value_iteration(mdp).history is None
 
 
+@pytest.mark.parametrize("discount", [0.5, 0.9, 1.0])
+def test_modified_policy_iteration_climbs_from_below(discount):
+    """From its own start no step lowers a value; the last one only centres what is known by then."""
+    history = modified_policy_iteration(four_by_three().mdp(discount), record=True).history
+    assert len(history) > 4
+    assert (np.diff(history[:-1], axis=0) >= -1e-12).all()
+    assert (history[0] <= policy_iteration(four_by_three().mdp(discount)).values + 1e-12).all()
+
+
 def test_starting_at_the_answer_ends_at_once():
     mdp = sampled(11, discount=0.9)
     best = policy_iteration(mdp)
