@@ -1,12 +1,14 @@
 """The planners against closed forms, published utilities, a linear program, and each other."""
 
+import contextlib
+import itertools
 import math
 
 import gymnasium as gym
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
@@ -259,6 +261,34 @@ def test_without_discount_a_free_wait_beats_a_bad_end(planner):
 def test_policy_iteration_leaves_a_bad_end_it_was_started_on():
     solution = policy_iteration(GridWorld(". . X").mdp(1.0), start=[1, 1, 0], record=True)
     assert solution.history.tolist() == [[-1, -1, 0], [0, 0, 0]]
+
+
+@settings(deadline=None)
+@given(st.integers(0, 10**6))
+def test_without_discount_no_policy_of_all_does_better(seed):
+    """Small models with free waits, costs, and prizes and fines at the end, all their policies tried out.
+
+    A policy that pays for ever has no value and is passed over.
+    """
+    rng = np.random.default_rng(seed)
+    transitions = rng.multinomial(2, np.full(5, 0.2), (2, 5)) / 2
+    transitions[:, 4] = np.eye(5)[4]
+    ending = (transitions[:, :, 4] == 1).T
+    rewards = np.where(ending, rng.integers(-2, 3, (5, 2)), -rng.integers(0, 2, (5, 2)))
+    rewards[4] = 0
+    try:
+        mdp = FiniteMDP(transitions, rewards, 1.0)
+    except ValueError:
+        assume(False)
+    best = np.full(5, -np.inf)
+    for policy in itertools.product(range(2), repeat=4):
+        with contextlib.suppress(ValueError):
+            best = np.maximum(best, policy_evaluation(mdp, [*policy, 0]))
+    for planner in PLANNERS:
+        solution = planner(mdp, 1e-9)
+        np.testing.assert_allclose(solution.values, best, atol=1e-6)
+        np.testing.assert_allclose(policy_evaluation(mdp, solution.policy), best, atol=1e-6)
+        assert is_optimal(mdp, solution.policy, tolerance=1e-6)
 
 
 def loan():
