@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from browser import DESKTOP, PHONE, Visit
+from browser import DESKTOP, PHONE, ROOT, Visit
 from check_site import faults
 
+PICTURES = ROOT / "_build" / "widgets"  # kept, to look at after the tests
 LARGEST_PAGE, LARGEST_SITE = 5e6, 60e6  # bytes; a page without what all pages share
 BROKEN = """() => ({
   formulas: [...document.querySelectorAll("mjx-merror")].map((node) => node.textContent),
@@ -28,11 +29,15 @@ def test_page_is_quiet_and_complete(visit: Visit, address: str, page_name: str) 
     assert visit.page.evaluate(BROKEN) == {"formulas": [], "pictures": [], "unnamed": []}
 
 
-def test_widgets_take_up_room(visit: Visit, http: str, page_name: str) -> None:
+def test_widgets_take_up_room_and_are_photographed(visit: Visit, http: str, page_name: str) -> None:
     visit.open(f"{http}/{page_name}.html")
     visit.page.wait_for_function(
         "() => [...document.querySelectorAll('.widget-subarea > *')].every((widget) => widget.clientHeight > 10)"
     )
+    for which, widget in enumerate(visit.page.locator(".widget-subarea .robonav").all()):
+        picture = PICTURES / f"{page_name.removeprefix('book/').replace('/', '-')}-{which}.png"
+        widget.screenshot(path=picture)
+        assert picture.stat().st_size > 1_000
 
 
 def test_page_fits_a_phone(visit: Visit, http: str, page_name: str) -> None:

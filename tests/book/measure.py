@@ -1,0 +1,73 @@
+"""How heavy and how quick the built pages are, and how smoothly the playground runs.
+
+Usage: python tests/book/measure.py [PAGE ...]      (all pages of the book when none is named)
+
+For each page: megabytes without the files that all pages share, milliseconds from a local server until its formulas
+and widgets stand (the least of three visits, each with an empty cache), and what is too much. Times are of this
+machine, so nothing but this script holds them to a limit.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from itertools import pairwise
+
+import yaml
+from browser import DESKTOP, ROOT, SITE, chromium, served, visiting
+from check_site import pages
+
+VISITS = 3
+SLOWEST, HEAVIEST, WHOLE_SITE = 2.0, 5e6, 60e6  # seconds, bytes, bytes
+FRAMES = """() => new Promise((done) => {
+  const times = [];
+  const tick = (now) => (times.push(now) < 181 ? requestAnimationFrame(tick) : done(times));
+  requestAnimationFrame(tick);
+})"""
+
+
+def weight(page: str) -> int:
+    """Bytes of a page and of its own pictures."""
+    built = SITE / f"{page}.html"
+    source = built.read_text("utf-8")
+    pictures = [path for path in SITE.glob("_images/*") if path.name in source]
+    return built.stat().st_size + sum(path.stat().st_size for path in pictures)
+
+
+def seconds_to_open(address: str, page: str) -> float:
+    """Until formulas and widgets stand, in a browser that has seen nothing."""
+    with chromium(viewport=DESKTOP) as context, visiting(context) as visit:
+        visit.page.goto("about:blank")
+        began = time.perf_counter()
+        visit.open(f"{address}/{page}.html")
+        return time.perf_counter() - began
+
+
+def frames_a_second(address: str) -> tuple[float, float]:
+    """Of the playground while a network drives among thirty obstacles: the mean, and what 99 in 100 frames reach."""
+    with chromium(viewport=DESKTOP) as context, visiting(context) as visit:
+        visit.open(f"{address}/book/playground.html")
+        visit.page.get_by_label("world", exact=True).select_option("30 obstacles")
+        visit.page.get_by_role("button", name="Drive", exact=True).click()
+        times = visit.page.evaluate(FRAMES)
+    gaps = sorted(later - earlier for earlier, later in pairwise(times))
+    return 1000 * len(gaps) / sum(gaps), 1000 / gaps[int(0.99 * len(gaps))]
+
+
+def main() -> None:
+    listed = sys.argv[1:] or list(pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))))
+    with served(SITE) as address:
+        for page in listed:
+            took = min(seconds_to_open(address, page) for _ in range(VISITS))
+            heavy = weight(page)
+            signs = [sign for sign, over in (("slow", took > SLOWEST), ("heavy", heavy > HEAVIEST)) if over]
+            print(f"{page:32} {heavy / 1e6:5.2f} MB {1000 * took:6.0f} ms  {' '.join(signs)}", flush=True)
+        if "book/playground" in listed:
+            mean, slowest = frames_a_second(address)
+            print(f"playground, 30 obstacles: {mean:.0f} frames a second, 99 in 100 at {slowest:.0f} or more")
+    whole = sum(path.stat().st_size for path in SITE.rglob("*") if path.is_file())
+    print(f"whole site: {whole / 1e6:.1f} MB of {WHOLE_SITE / 1e6:.0f}")
+
+
+if __name__ == "__main__":
+    main()
