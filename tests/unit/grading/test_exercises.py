@@ -8,10 +8,11 @@ import pytest
 
 from robonav.grading.check import Here, graded
 from robonav.grading.course import Course, trusted
-from robonav.grading.parts import parts_of
+from robonav.grading.parts import PUBLIC, parts_of
 from robonav.grading.reference import Solutions, mistakes, solution
 
 COURSE = Course.around(Path(__file__).parent)
+SOLUTIONS = Solutions(COURSE)  # which knows the answers to all cases that were asked before
 EXERCISES = list(COURSE.exercises.values())
 MISTAKES = [
     pytest.param(exercise, function, id=f"{exercise.name}-{name}")
@@ -25,9 +26,9 @@ def exercise(request):
     return request.param
 
 
-def grade(exercise, function):
+def grade(exercise, function, seed=PUBLIC):
     with np.errstate(all="ignore"):
-        return graded(COURSE, exercise, Here(function), Solutions(COURSE))
+        return graded(COURSE, exercise, Here(function), SOLUTIONS, seed=seed)
 
 
 def as_lists(value):
@@ -68,6 +69,13 @@ def test_a_known_mistake_scores_less_and_gets_its_hint(exercise, mistake):
     assert result["state"] in ("partial", "wrong", "error")
     assert result["points"] < exercise.points
     assert inspect.getdoc(mistake) in result["feedback"]
+
+
+@pytest.mark.parametrize(("exercise", "mistake"), MISTAKES)
+def test_a_known_mistake_is_no_matter_of_luck(exercise, mistake):
+    """On the cases of other secrets it scores less, too."""
+    for seed in (b"seed100", b"seed106"):
+        assert grade(exercise, mistake, seed)["points"] < exercise.points
 
 
 def test_every_exercise_knows_some_mistakes(exercise):
