@@ -1,0 +1,179 @@
+"""Chapter 5's experiments: what they run, what was chosen, what was published."""
+
+import json
+
+import numpy as np
+import pytest
+
+from robonav.experiments import load_results, nirl, nirl_shipped, nirl_steps, nirl_transfer
+from robonav.experiments.nirl import CHOSEN, CLONING, RESULTS, settings
+from robonav.experiments.nirl_course import (
+    CONTROLS,
+    NAVIGATIONS,
+    SHOWN_WORLDS,
+    TEST_WORLDS,
+    demonstrations,
+    learned,
+    new_worlds,
+    policy,
+    teach,
+)
+from robonav.experiments.nirl_tuning import (
+    DISCOUNTS,
+    METHODS,
+    SPACE,
+    TRIALS,
+    TUNING,
+    TUNING_SEEDS,
+    TUNING_WORLDS,
+    best_trials,
+    trial_settings,
+)
+from robonav.lfd import load_weights
+from robonav.nirl import NOTHING, ByEquation514, OneStep, accuracy, balanced_accuracy
+from robonav.robot import random_worlds
+
+ALL = (*nirl.EXPERIMENTS, *nirl_steps.EXPERIMENTS, *nirl_transfer.EXPERIMENTS, TUNING)
+
+
+@pytest.mark.parametrize("experiment", ALL, ids=lambda experiment: experiment.name)
+def test_every_experiment_gives_numbers_for_a_case(experiment):
+    numbers = experiment.run(experiment.cases[0], 0, "quick")
+    assert numbers
+    for values in numbers.values():
+        assert np.isfinite(np.asarray(values, dtype=float)).all()
+    again = experiment.run(experiment.cases[0], 0, "quick")
+    for name, values in numbers.items():
+        np.testing.assert_array_equal(values, again[name])
+
+
+def test_every_method_has_as_many_trials():
+    assert [case["method"] for case in TUNING.cases] == [m for m in METHODS for _ in range(len(DISCOUNTS) * TRIALS)]
+    for method in METHODS:
+        for discount in DISCOUNTS:
+            drawn = [trial_settings(method, trial, discount) for trial in range(TRIALS)]
+            assert all(set(SPACE[method]) <= set(one) for one in drawn)
+            assert len({json.dumps(one, sort_keys=True) for one in drawn}) == TRIALS
+
+
+@pytest.mark.parametrize("method", METHODS[:4])
+def test_trials_differ_from_one_discount_to_the_other_in_that_alone(method):
+    for trial in range(TRIALS):
+        one, other = (trial_settings(method, trial, discount) for discount in DISCOUNTS)
+        assert one.pop("discount") != other.pop("discount")
+        assert one == other
+
+
+def test_cloning_draws_other_trials_instead():
+    one, other = ([trial_settings("cloning", trial, d) for trial in range(TRIALS)] for d in DISCOUNTS)
+    assert one != other
+
+
+def test_worlds_to_show_to_tune_on_and_to_test_on_never_meet():
+    assert max(experiment.seeds["thesis"] for experiment in ALL) < TUNING_SEEDS
+    seeds = {
+        "shown": [SHOWN_WORLDS + s for s in (*range(30), *range(TUNING_SEEDS, TUNING_SEEDS + 20))],
+        "tested": [TEST_WORLDS + s for s in range(30)],
+        "tuned": [TUNING_WORLDS + s for s in range(20)],
+        "chosen by": [nirl_steps.CHOOSING_WORLDS + s for s in range(20)],
+    }
+    keys = {name: {tuple(k) for s in own for k in random_worlds(10, 20, seed=s).keys} for name, own in seeds.items()}
+    assert len(set.union(*keys.values())) == sum(map(len, keys.values()))
+    assert (demonstrations(0, 3).worlds.keys == random_worlds(3, 20, seed=SHOWN_WORLDS).keys).all()
+    assert (new_worlds("quick", 0).keys == random_worlds(NAVIGATIONS["quick"], 20, seed=TEST_WORLDS).keys).all()
+
+
+def test_what_was_chosen_is_the_best_of_the_published_trials():
+    trials = load_results(RESULTS, TUNING)
+    assert best_trials(trials) == CHOSEN
+    cloning = [trials.summary("success", k).mean for k, case in enumerate(TUNING.cases) if case["method"] == "cloning"]
+    assert DISCOUNTS[int(np.argmax(cloning)) // TRIALS] == CLONING
+
+
+@pytest.mark.parametrize("experiment", ALL, ids=lambda experiment: experiment.name)
+def test_results_at_the_thesiss_scale_are_published_whole(experiment):
+    results = load_results(RESULTS, experiment)
+    assert results.scale == "thesis"
+    about = json.loads((RESULTS / f"{experiment.name}.json").read_text())
+    assert about["settings"] == json.loads(json.dumps(dict(experiment.settings)))
+    metric = results.rows[0].metric
+    for case in range(len(experiment.cases)):
+        assert len(results.values(metric, case)) == experiment.seeds["thesis"]
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_controls_practise_as_nirl_does_under_another_reward(control):
+    found, ours = (learned(name, 0, "quick", settings(name)) for name in (control, "nirl"))
+    assert (found.reward_weights == 0).all() == (control == "zero reward")
+    assert settings(control) == settings("nirl")
+    first, same = (run.history.networks.weights[0][0] for run in (found, ours))
+    np.testing.assert_array_equal(first, same)
+
+
+def test_two_runs_have_two_rewards_of_chance():
+    one, other = (learned("random reward", seed, "quick", settings("nirl")).reward_weights for seed in (0, 1))
+    assert (one != other).all()
+
+
+def test_neutral_ends_are_told_from_a_bonus():
+    assert settings("scirl", ends="neutral") == settings("scirl") | {"ends": "neutral"}
+    assert "ends" not in settings("scirl")
+
+
+def test_learning_twice_in_a_process_is_learning_once():
+    first = learned("nirl", 0, "quick", settings("nirl"))
+    assert learned("nirl", 0, "quick", json.loads(json.dumps(settings("nirl")))) is first
+    assert learned("nirl", 1, "quick", settings("nirl")) is not first
+
+
+def test_steps_begin_with_the_algorithm_as_written_and_add_up():
+    written = nirl_steps.up_to("Algorithm 10 as written")
+    assert isinstance(written["reward"], ByEquation514)
+    assert isinstance(written["improve"], OneStep)
+    assert written["score"] is accuracy
+    half = nirl_steps.up_to("chosen by balanced accuracy")
+    assert half["score"] is balanced_accuracy
+    assert half["target"] == "number"
+    assert half["improve"].ends == NOTHING
+    assert nirl_steps.up_to("discount 0.9")["improve"].discount == 0.9
+
+
+def test_choices_choose_what_they_say():
+    found = learned("nirl", 0, "quick", settings("nirl"))
+    worlds = new_worlds("quick", 1)
+    chosen = {name: choice(found, worlds) for name, choice in nirl_steps.CHOICES.items()}
+    assert found.history.accuracies[chosen["accuracy"]] == found.history.accuracies.max()
+    assert chosen["balanced accuracy"] == found.chosen
+    assert chosen["the last"] == len(found.history.costs)
+    assert chosen["test drives"] % nirl_steps.EVERY == 0
+    last = nirl_steps.member(found, chosen["the last"])
+    np.testing.assert_array_equal(last.network.weights[1], found.history.networks.weights[1][-1])
+
+
+def test_a_reward_taken_elsewhere_needs_no_more_than_its_weights():
+    found = learned("nirl", 0, "quick", settings("nirl"))
+    robot = nirl_transfer.under(found, 0, "quick", 10, 1.0)
+    assert robot.encoder == found.policy.encoder
+    assert nirl_transfer.carried(0, "quick", 10, 1.0) is found.policy
+
+
+def test_methods_refuse_names_they_do_not_know():
+    with pytest.raises(KeyError):
+        teach("magic", demonstrations(0), 0, settings("nirl"), "quick")
+
+
+def test_a_shipped_network_is_the_best_of_its_seeds():
+    weights = nirl_shipped.best_of("nirl", (0, 1), scale="quick")
+    made = weights.made
+    assert made["seeds"] == [0, 1]
+    again = policy("nirl", made["seed"], "quick", settings("nirl", 0.9))
+    np.testing.assert_array_equal(weights.network.weights[0], again.network.weights[0])
+    assert np.shape(made["reward weights"]) == (5, weights.encoder.size + 1)
+
+
+@pytest.mark.parametrize("method", nirl.LEARNERS)
+def test_what_ships_says_what_made_it(method):
+    weights = load_weights(nirl_shipped.SHIPPED / f"{method.replace('_', '-')}.safetensors")
+    assert weights.method == method
+    assert weights.made["settings"] == json.loads(json.dumps(settings(method, 0.9)))
+    assert weights.made["success in tuning worlds (%)"] > 90
