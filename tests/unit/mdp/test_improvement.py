@@ -75,12 +75,12 @@ def test_an_action_that_ties_stays():
     assert (generalized_policy_iteration(same, start_policy=start).policies == start).all()
 
 
-@pytest.mark.parametrize("sweeps", [1, math.inf])
+@pytest.mark.parametrize("sweeps", [100, math.inf])
 def test_it_ends_where_actions_tie_in_large_values(sweeps):
     """Most cells cannot reach the goal: all their actions are worth -1e8, to rounding."""
     walled = "##..#\n..#.#\n#....\n.#..#\n#.##G"
     grid = GridWorld(walled, legend={"G": Cell(ends=True)}, slip=0.2, step_reward=-1e5)
-    trace = generalized_policy_iteration(grid.mdp(0.999), sweeps=sweeps, tolerance=0.1, max_rounds=30_000)
+    trace = generalized_policy_iteration(grid.mdp(0.999), sweeps=sweeps, tolerance=0.1, max_rounds=500)
     assert (trace.policies[-1] == trace.policies[-2]).all()
     np.testing.assert_allclose(trace.values[-1][:-1], -1e8, atol=0.1)
 
