@@ -37,7 +37,7 @@ from .methods import (
     learn_under,
 )
 from .refinement import Refined, most_frequent, most_telling
-from .relative_entropy import RelativeEntropy, hoeffding_slack, relative_entropy
+from .relative_entropy import RelativeEntropy, dual_gradient, hoeffding_slack, importance, relative_entropy
 from .rewarding import ByContrast, ByEquation514, balance, contrast
 from .scirl import Classification, lstd_mu, shown_only, structured_classification
 from .steps import ENCODER, Steps, shown_steps
@@ -84,11 +84,13 @@ __all__ = [
     "chosen_block",
     "contrast",
     "discounted_to_go",
+    "dual_gradient",
     "empirical_expectations",
     "feature_expectations",
     "from_everywhere",
     "from_start",
     "hoeffding_slack",
+    "importance",
     "into_unit",
     "learn",
     "learn_under",

@@ -60,7 +60,7 @@ def dual(weights: ArrayLike, expert: ArrayLike, samples: ArrayLike, log_ratios: 
     return float(theta @ mu - log_z - eps @ abs(theta))
 
 
-def gradient(
+def dual_gradient(
     weights: ArrayLike, expert: ArrayLike, samples: ArrayLike, log_ratios: ArrayLike, slack: ArrayLike
 ) -> Floats:
     """The (sub)gradient of :func:`dual`, (K,): mu_E - sum_tau importance(tau) f(tau) - eps sign(theta).
@@ -119,7 +119,7 @@ def relative_entropy(
     def negative(parts: Floats) -> tuple[float, Floats]:
         up, down = parts.reshape(2, k) / scale
         theta = up - down
-        smooth = gradient(theta, mu, features, log_ratios, np.zeros(k))
+        smooth = dual_gradient(theta, mu, features, log_ratios, np.zeros(k))
         value = dual(theta, mu, features, log_ratios, np.zeros(k)) - eps @ (up + down)
         return -value, -np.concatenate([(smooth - eps) / scale, (-smooth - eps) / scale])
 

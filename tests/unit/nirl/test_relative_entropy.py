@@ -9,7 +9,7 @@ from scipy.optimize import approx_fprime
 
 from robonav.mdp import policies
 from robonav.nirl import hoeffding_slack, relative_entropy
-from robonav.nirl.relative_entropy import dual, gradient, importance
+from robonav.nirl.relative_entropy import dual, dual_gradient, importance
 
 RNG = np.random.default_rng(0)
 SAMPLES = RNG.normal(size=(50, 3))
@@ -23,7 +23,7 @@ THETAS = arrays(float, 3, elements=st.floats(-3, 3).map(lambda x: round(x, 3)))
 def test_two_weights_give_two_gradients(one, other):
     """The regression that matters: weights that cancel would give the same gradient for every theta."""
     slack = np.zeros(3)
-    apart = gradient(one, EXPERT, SAMPLES, RATIOS, slack) - gradient(other, EXPERT, SAMPLES, RATIOS, slack)
+    apart = dual_gradient(one, EXPERT, SAMPLES, RATIOS, slack) - dual_gradient(other, EXPERT, SAMPLES, RATIOS, slack)
     assert np.allclose(apart, 0, atol=1e-12) == (np.linalg.norm(one - other) < 1e-9)
 
 
@@ -32,7 +32,7 @@ def test_two_weights_give_two_gradients(one, other):
 def test_the_gradient_is_that_of_the_dual(theta):
     slack = np.array([0.1, 0.0, 0.3])
     numerical = approx_fprime(theta, lambda t: dual(t, EXPERT, SAMPLES, RATIOS, slack), 1e-6)
-    np.testing.assert_allclose(gradient(theta, EXPERT, SAMPLES, RATIOS, slack), numerical, atol=1e-4)
+    np.testing.assert_allclose(dual_gradient(theta, EXPERT, SAMPLES, RATIOS, slack), numerical, atol=1e-4)
 
 
 def test_importance_weights_undo_the_sampling():
@@ -51,7 +51,7 @@ def test_importance_weights_undo_the_sampling():
 def test_the_maximum_has_no_gradient_left():
     learned = relative_entropy(EXPERT, SAMPLES, RATIOS)
     np.testing.assert_allclose(learned.gap, 0, atol=1e-4)
-    np.testing.assert_allclose(gradient(learned.weights, EXPERT, SAMPLES, RATIOS, np.zeros(3)), 0, atol=1e-4)
+    np.testing.assert_allclose(dual_gradient(learned.weights, EXPERT, SAMPLES, RATIOS, np.zeros(3)), 0, atol=1e-4)
     assert 1 < learned.effective_samples <= 50
 
 
