@@ -104,3 +104,19 @@ def test_with_a_kernel_a_target_is_searched_for(visit, http):
     lab.page.keyboard.press("Enter")
     expect(told(lab).first).not_to_have_text(before)
     assert visit.errors == []
+
+
+@pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_the_page_on_demonstrations_searches_as_python_does(visit, site, size):
+    visit.page.set_viewport_size(size)
+    visit.open(f"{site.as_uri()}/book/demonstrations.html")
+    lab = visit.page.locator(".search-lab")
+    maps = {
+        "20 obstacles": random_worlds(1, 20, seed=42),
+        "target off the diagonal": random_worlds(1, 20, seed=12, targets=((90, 40),)),
+    }
+    for name, world in maps.items():
+        lab.get_by_label("map", exact=True).select_option(name)
+        for which, found in enumerate((plan(world), plan_on_grid(world))):
+            expect(told(lab).nth(which)).to_have_text(f"done after {found.expanded} nodes: {found.length:.1f} m")
+    assert visit.errors == []
