@@ -15,7 +15,7 @@ from .demonstrations import LEARNED, Demonstrations
 
 @dataclass(frozen=True, eq=False)
 class Overview:
-    """A set of demonstrations in a few numbers; as text, a line of them.
+    """A set of demonstrations in a few numbers; as text, a few lines.
 
     Attributes
     ----------
@@ -39,8 +39,10 @@ class Overview:
             f"{Action(action).name} {count / max(self.effective, 1):.0%}" for action, count in enumerate(self.actions)
         )
         return (
-            f"{self.drives} drives, {self.arrived} arrived; {self.steps} steps, {self.effective} to learn from, "
-            f"in {self.states} different states; {shares}; nothing nearer than {self.closest:.1f} m"
+            f"{self.drives} drives, {self.arrived} arrived\n"
+            f"{self.steps} steps, {self.effective} to learn from, in {self.states} different states\n"
+            f"{shares}\n"
+            f"nothing nearer than {self.closest:.1f} m"
         )
 
 

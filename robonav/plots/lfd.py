@@ -103,12 +103,12 @@ def draw_against(axes: Axes, results: Results, key: str, metric: str, *, thesis:
     if thesis:
         axes.plot(*zip(*marked, strict=True), color=look.INK, marker="D", linestyle="none", label="thesis")
     axes.set(xlabel=key)
-    axes.legend(loc="upper left", bbox_to_anchor=(1, 1), fontsize=8)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, fontsize=9)
 
 
 def plot_demonstrations(results: Results) -> Figure:
     """Success against number of demonstrations, the thesis's beside ours (Table 3.2)."""
-    figure, axes = plt.subplots(figsize=(8.5, 3.2))
+    figure, axes = plt.subplots(figsize=(6.5, 4))
     draw_against(axes, results, "demonstrations", "success", thesis=True)
     axes.set(ylabel=ARRIVE)
     return figure
@@ -116,12 +116,12 @@ def plot_demonstrations(results: Results) -> Figure:
 
 def plot_iterations(results: Results) -> Figure:
     """Agreement with the demonstrations, and success, against iterations of training (Table 3.3)."""
-    figure, (above, below) = plt.subplots(2, figsize=(8.5, 5), sharex=True)
-    draw_against(above, results, "iterations", "accuracy", thesis=True)
-    above.set(ylabel="agreement (%)", xlabel="")
-    draw_against(below, results, "iterations", "success")
-    below.set(ylabel=ARRIVE)
-    below.get_legend().remove()
+    figure, (above, below) = plt.subplots(2, figsize=(6.5, 6), sharex=True)
+    draw_against(above, results, "iterations", "success")
+    above.set(ylabel=ARRIVE, xlabel="")
+    above.get_legend().remove()
+    draw_against(below, results, "iterations", "accuracy", thesis=True)
+    below.set(ylabel="agreement (%)")
     return figure
 
 
@@ -149,7 +149,7 @@ def plot_planners(results: Results) -> Figure:
 
 def plot_cost(results: Results) -> Figure:
     """The cost in training: mean and, shaded, least to largest over runs (Fig. 3.7)."""
-    figure, axes = plt.subplots(figsize=(7.5, 3.2))
+    figure, axes = plt.subplots(figsize=(6.5, 3.6))
     for case, (setting, colour) in enumerate(zip(results.experiment.cases, CYCLE, strict=False)):
         runs = results.values("cost", case)
         label = f"expert: {setting['expert']}; degrees {setting['degrees']}"
@@ -163,7 +163,7 @@ def plot_cost(results: Results) -> Figure:
 
 def plot_methods(results: Results) -> Figure:
     """Success of methods against the number of obstacles, with 95 % intervals over runs (Fig. 3.8)."""
-    figure, axes = plt.subplots(figsize=(8.5, 3.6))
+    figure, axes = plt.subplots(figsize=(6.5, 4.6))
     draw_against(axes, results, "obstacles", "success")
     axes.set(ylabel=ARRIVE, xticks=sorted({int(case["obstacles"]) for case in results.experiment.cases}))
     return figure
@@ -171,7 +171,7 @@ def plot_methods(results: Results) -> Figure:
 
 def plot_margins(results: Results) -> Figure:
     """Success against the margin that the expert keeps."""
-    figure, axes = plt.subplots(figsize=(8.5, 3.2))
+    figure, axes = plt.subplots(figsize=(6.5, 4))
     draw_against(axes, results, "margin", "success")
     axes.set(xlabel="margin of the expert (m)", ylabel=ARRIVE)
     return figure

@@ -17,7 +17,7 @@ def test_an_overview_counts():
     assert held.actions.tolist() == y.sum(axis=0).tolist()
     assert held.closest == shown.sensing.ranges.min() < 10
     text = str(held)
-    assert text.startswith(f"6 drives, 6 arrived; {len(shown)} steps, {len(x)} to learn from, in {held.states} ")
+    assert text.startswith(f"6 drives, 6 arrived\n{len(shown)} steps, {len(x)} to learn from, in {held.states} ")
     assert f"F {held.actions[0] / len(x):.0%}, L30" in text
 
 

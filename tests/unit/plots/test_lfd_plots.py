@@ -44,7 +44,7 @@ def test_demonstrations_and_the_thesis():
 def test_iterations():
     figure = draw.plot_iterations(made_up(TABLE_3_3, ["accuracy", "success"]))
     assert len(figure.axes) == 2
-    assert any(np.array_equal(line.get_ydata(), np.arange(7) * 10 + 71) for line in figure.axes[1].get_lines())
+    assert any(np.array_equal(line.get_ydata(), np.arange(7) * 10 + 71) for line in figure.axes[0].get_lines())
 
 
 def test_planners():
