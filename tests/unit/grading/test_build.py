@@ -16,6 +16,7 @@ from robonav.grading.notebook import definitions
 
 COURSE = Course.around(Path(__file__).parent)
 ROBONAV = str(Path(sys.executable).with_name("robonav"))
+TRY = "return q.argmax(axis=1)"
 SOURCE = '''"""Add one."""
 
 
@@ -119,6 +120,14 @@ def test_a_student_with_the_zip_alone_checks_an_answer(tmp_path):
 
     code, said = check("2.2")
     assert (code, "Not begun yet: write improve in exercises/ch2/improve.py" in said) == (1, True)
+    stub = (home / "exercises/ch2/improve.py").read_text()
+    (home / "exercises/ch2/improve.py").write_text(
+        stub.replace('raise NotImplementedError("improve is yours to write")', TRY)
+    )
+    code, said = check("2.2")
+    documented = (COURSE.root / "book/students.md").read_text().split("```text\n")[1].partition("```")[0]
+    assert [line for line in documented.splitlines() if "…" not in line and line not in said.splitlines()] == []
+    assert len(documented.splitlines()) == len(said.splitlines())
     answer = (COURSE.solutions / "ch2/improve.py").read_text()
     (home / "exercises/ch2/improve.py").write_text(answer.replace("> tolerance", "> 0"))
     code, said = check("2.2")
