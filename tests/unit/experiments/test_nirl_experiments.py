@@ -101,6 +101,22 @@ def test_results_at_the_thesiss_scale_are_published_whole(experiment):
         assert len(results.values(metric, case)) == experiment.seeds["thesis"]
 
 
+def test_nirl_reaches_what_it_was_to_reach_and_beats_its_controls():
+    table = load_results(RESULTS, nirl.TABLE_5_2)
+    found = {(case["method"], case["discount"]): table.summary("success", k) for k, case in enumerate(nirl.COMPARED)}
+    ours = found["nirl", 0.65]
+    assert ours.mean > 90
+    assert ours.worst > 80
+    assert found["nirl", 0.9].mean > 95
+    assert max(found[control, 0.65].high for control in CONTROLS) < ours.low
+    assert found["freer side", "none"].high < ours.low
+    without = load_results(RESULTS, nirl.ENDINGS)
+    neutral = {
+        c["method"]: without.summary("success", k) for k, c in enumerate(nirl.ENDINGS.cases) if c["ends"] == "neutral"
+    }
+    assert max(neutral[control].best for control in CONTROLS) < 20 < 90 < neutral["nirl"].worst
+
+
 @pytest.mark.parametrize("control", CONTROLS)
 def test_controls_practise_as_nirl_does_under_another_reward(control):
     found, ours = (learned(name, 0, "quick", settings(name)) for name in (control, "nirl"))
