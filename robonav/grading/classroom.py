@@ -12,6 +12,7 @@ import json
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -125,12 +126,11 @@ def grade_class(
         files.sweep(out)
         key, tasks = marking.key(), []
         for name, path in submissions.items():
-            taken = submission.taken(path)
-            entry = {"student": name, "submission": _digest(taken), "marking": key}
+            entry = {"student": name, "submission": _digest(submission.taken(path)), "marking": key}
             old = _written(out, entry)
             chosen = name in again if again else bool(ids)
             if old is None or chosen:
-                tasks.append((entry, taken, old, ids if chosen and old else ()))
+                tasks.append((entry, path, old, ids if chosen and old else ()))
         for done, record in enumerate(_marked(marking, tasks, jobs, scheduler), start=1):
             report.write_student(out / "students" / record["student"], record, marking.course)
             if progress is not None:
@@ -138,16 +138,21 @@ def grade_class(
         report.write_class(out, list(submissions), passed_over(folder), marking.course)
 
 
-Task = tuple[dict[str, str], Submission | Refused, dict[str, Any] | None, Collection[str]]
+Task = tuple[dict[str, str], Path, dict[str, Any] | None, Collection[str]]
 
 
 def _marked(marking: Marking, tasks: Sequence[Task], jobs: int, scheduler: str | None) -> Iterator[dict[str, Any]]:
-    """The records of all tasks, as they are done."""
+    """The records of all tasks, as they are done; of the submissions only those in work are held."""
+    calls = (
+        (marking, {**entry, "submission": _digest(taken)}, taken, old, ids)
+        for entry, path, old, ids in tasks
+        for taken in [submission.taken(path)]
+    )
     if scheduler is None:
         from joblib import Parallel, delayed
 
         yield from Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)(
-            delayed(_record)(marking, *task) for task in tasks
+            delayed(_record)(*call) for call in calls
         )
         return
     try:
@@ -155,9 +160,12 @@ def _marked(marking: Marking, tasks: Sequence[Task], jobs: int, scheduler: str |
     except ImportError:
         raise ValueError("a scheduler needs dask: pip install distributed") from None
     with Client(scheduler) as client:
-        futures = [client.submit(_record, marking, *task, pure=False) for task in tasks]
-        for future in as_completed(futures):
+        at_once = 4 * sum(client.nthreads().values()) + 4
+        running = as_completed([client.submit(_record, *call, pure=False) for call in islice(calls, at_once)])
+        for future in running:
             yield future.result()
+            for call in islice(calls, 1):
+                running.add(client.submit(_record, *call, pure=False))
 
 
 def _record(

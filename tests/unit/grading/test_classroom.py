@@ -182,6 +182,27 @@ def test_one_student_or_one_exercise_again(folder, tmp_path, quick):
     assert quick[13:] == [(1, ("2.1",))]
 
 
+def test_a_scheduler_gets_a_few_submissions_at_once(tmp_path, quick, monkeypatch):
+    distributed = pytest.importorskip("distributed")
+    place, out, held = tmp_path / "class", tmp_path / "out", []
+    for number in range(20):
+        (place / f"student{number:02}").mkdir(parents=True)
+    with distributed.LocalCluster(1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+        read = classroom.submission.taken
+        monkeypatch.setattr(classroom.submission, "taken", lambda path: held.append(path) or read(path))
+        seen = []
+        grade_class(
+            HERE,
+            place,
+            out,
+            scheduler=cluster.scheduler_address,
+            progress=lambda done, total: seen.append((done, len(held) - 20)),
+        )
+    assert [done for done, _ in seen] == list(range(1, 21))
+    assert all(in_hand <= done + 8 for done, in_hand in seen)
+    assert len(records(out)) == len(quick) == 20
+
+
 def test_a_class_must_be_one(tmp_path):
     with pytest.raises(ValueError, match="must be a folder"):
         students(tmp_path / "nowhere")
