@@ -67,8 +67,9 @@ def made(results: Results) -> str:
 
 def short(summary: Summary) -> str:
     """Mean and interval in few characters: ``97.3 [96.8, 97.7]``."""
-    interval = "" if math.isnan(summary.low) else f" [{summary.low:.1f}, {summary.high:.1f}]"
-    return f"{summary.mean:.1f}{interval}"
+    digits = 1 if abs(summary.mean) >= 10 else 2 if abs(summary.mean) >= 1 else 3
+    interval = "" if math.isnan(summary.low) else f" [{summary.low:.{digits}f}, {summary.high:.{digits}f}]"
+    return f"{summary.mean:.{digits}f}{interval}"
 
 
 def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
