@@ -49,8 +49,11 @@ def test_a_new_run_falls_where_the_committed_ones_foretell(name):
     """A seed that none of them had, on this machine, with this code."""
     known, committed = experiment(name), load_results(RESULTS, experiment(name))
     _, rows, _ = run_unit(known, (0, NEW_SEED), "thesis")
+    metrics = {row.metric for row in rows}
     compared = 0
     for row in rows:
+        if "success" in metrics and row.metric != "success":
+            continue  # rarer things, such as drives out of steps, are far from normal
         values = committed.values(row.metric, 0)
         if values.ndim == 1:
             low, high = prediction(values)
