@@ -159,7 +159,7 @@ ENDINGS = Experiment(
     title="What the end of a drive is worth in itself: with each method's reward, with none, with one of chance",
     cases=[{"method": method, "ends": ends} for ends in ("bonus", "neutral") for method in (*LEARNERS, *CONTROLS)],
     run=end,
-    seeds={"quick": 1, "thesis": 4},
+    seeds={"quick": 1, "thesis": 8},
     settings=_ABOUT,
 )
 FIGURE_5_4 = Experiment(
