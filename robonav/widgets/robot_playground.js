@@ -17,6 +17,10 @@ function driver(policy) {
   return ({ sensing, world, step }) => consult({ ...policy, network }, sensing, gumbel(world.key, step));
 }
 
+/** What a network's inputs are called: sensors, the target's sector V, whether it is seen I, wall flags. */
+export const inputsOf = ({ sensors, walls, target }) =>
+  [...sensors.map(String), ...TARGETS[target](1).map(() => "V"), "I", ...(walls ? sensors.map((sensor) => `wall ${sensor}`) : [])];
+
 // ---- The drive: state and steps, no drawing -------------------------------------------------------------------------
 
 /** A drive that can be stepped, reset and edited. */
@@ -166,7 +170,7 @@ function render({ model, el }) {
   const table = readings();
   const picture = h("div", {});
   const pictures = policies.map(({ network, encoder }) => network && networkPicture(network.sizes, {
-    inputs: Array.from({ length: network.sizes[0] }, (_, j) => (j < encoder.sensors.length ? String(encoder.sensors[j]) : "")),
+    inputs: inputsOf(encoder),
     outputs: ROBOT.actions.slice(0, network.sizes.at(-1)),
     label: "The network that drives: inputs, hidden units, and a value for each action",
   }));
@@ -268,7 +272,7 @@ function render({ model, el }) {
       const own = { ...weightsFromFile(await file.arrayBuffer()), name: file.name };
       policies.push(own);
       drivers.push(driver(own));
-      pictures.push(networkPicture(own.network.sizes, { inputs: own.network.sizes[0] ? Array(own.network.sizes[0]).fill("") : [], outputs: ROBOT.actions.slice(0, own.network.sizes.at(-1)), label: "Your network" }));
+      pictures.push(networkPicture(own.network.sizes, { inputs: inputsOf(own.encoder), outputs: ROBOT.actions.slice(0, own.network.sizes.at(-1)), label: "Your network" }));
       names.splice(names.length - 1, 0, file.name);
       who.element.querySelector("select").replaceChildren(...names.map((name) => h("option", {}, name)));
       pick(policies.length - 1);

@@ -91,3 +91,13 @@ def test_the_page_gets_worlds_and_policies():
     )
     assert [policy["name"] for policy in lab.data["policies"]] == ["own", "rule: straight", "rule: freer side"]
     assert len(lab.data["worlds"][0]["world"]["obstacles"]) == 3
+
+
+@pytest.mark.parametrize(
+    "encoder", [Encoder(), Encoder((1, 2), walls=True, target="one-hot"), Encoder(target="number")]
+)
+def test_every_input_of_a_network_has_a_name(page, encoder):
+    shown = {"sensors": list(encoder.sensors), "walls": encoder.walls, "target": encoder.target}
+    names = page("return page.inputsOf(data);", shown)
+    assert len(names) == encoder.size
+    assert names[: len(encoder.sensors)] == [str(sensor) for sensor in encoder.sensors]
