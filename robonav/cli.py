@@ -129,6 +129,7 @@ def reproduce(
         for known in experiments.names():
             print(f"{known:20} {experiments.experiment(known).title}")
         return
+    _check_json(json_file)
     chosen = [experiments.experiment(one) for one in (experiments.names() if name == "all" else [name])]
     done = []
     for experiment in chosen:
@@ -163,6 +164,7 @@ def navigate(
         print("\n".join(methods.methods()))
         return
     expect.integer("worlds", worlds, at_least=1)
+    _check_json(json_file)
     result = methods.drive(method, obstacles=obstacles, moving=moving, speed=speed, worlds=worlds, seed=seed)
     rate, (low, high) = result["success"], result["interval"]
     print(
@@ -190,11 +192,22 @@ def leaderboard(
     names = method or methods()
     for name in names:
         known(name)
+    _check_json(json_file)
     with progress.bar("leaderboard") as shown:
         results = experiments.reproduce(board(names), out, scale=scale, progress=shown)
     print(as_table(results, "success", rows="method", columns="setting"))
     if json_file is not None:
         _write_json(json_file, as_json([results]))
+
+
+def _check_json(path: Path | None) -> None:
+    """Say now what could not be written later."""
+    from robonav.experiments.store import check_writable
+
+    if path is not None:
+        if path.is_dir():
+            raise ValueError(f"json must be a file to write, got the folder {path}")
+        check_writable("json", path.parent)
 
 
 def _write_json(path: Path, content: Any) -> None:

@@ -11,10 +11,11 @@ from robonav import expect
 from robonav.progress import Progress
 
 from .experiment import SCALES, Experiment, Results, Row, rows_of
-from .store import load_run, run_file, save_results, save_run, save_timing
+from .store import check_writable, load_run, run_file, save_results, save_run, save_timing
 
 BACKENDS = ("joblib", "dask")
 RETRIES = 3
+ANSWER = 10  # seconds that a scheduler has to answer
 
 Unit = tuple[int, int]  # case, seed
 Done = tuple[Unit, list[Row], float]
@@ -45,12 +46,18 @@ def reproduce(
 
     Raises
     ------
-    ValueError : for an unknown scale or backend, or dask without a scheduler.
+    ValueError : for an unknown scale or backend, no processes, dask without a scheduler that answers or a scheduler
+        without dask, or a folder that cannot be written in.
     """
     expect.one_of("scale", scale, SCALES)
     expect.one_of("backend", backend, BACKENDS)
     if backend == "dask" and scheduler is None:
         raise ValueError("scheduler must be the address of a Dask scheduler, such as tcp://host:8786, got none")
+    if backend != "dask" and scheduler is not None:
+        raise ValueError(f"scheduler must come with backend dask, got {scheduler} with backend {backend}")
+    if jobs == 0:
+        raise ValueError("jobs must be a number of processes, or -1 for one a core, got 0")
+    check_writable("out", out)
     folder = Path(out)
     units = [(case, seed) for case in range(len(experiment.cases)) for seed in range(experiment.seeds[scale])]
     kept = {unit: load_run(run_file(folder, experiment, scale, *unit)) for unit in units}
@@ -103,7 +110,11 @@ def _on_cluster(experiment: Experiment, units: Sequence[Unit], scale: str, sched
     """Runs on a Dask cluster, as they finish; a worker that dies has its run done again by another."""
     from dask.distributed import Client, as_completed
 
-    with Client(scheduler) as client:
+    try:
+        client = Client(scheduler, timeout=ANSWER)
+    except (OSError, ValueError) as error:
+        raise ValueError(f"scheduler must be the address of one that answers, got {scheduler}: {error}") from None
+    with client:
         futures = [client.submit(run_unit, experiment, unit, scale, pure=False, retries=RETRIES) for unit in units]
         for future in as_completed(futures):
             yield future.result()

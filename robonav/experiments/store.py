@@ -10,6 +10,7 @@ import hashlib
 import io
 import json
 import platform
+import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import astuple
 from pathlib import Path
@@ -24,6 +25,16 @@ RESULTS = Path(__file__).parent / "results"
 
 FORMAT = "robonav results 1"
 COLUMNS = ("seed", "metric", "step", "value")
+
+
+def check_writable(name: str, folder: str | Path) -> None:
+    """Make the folder, if need be; ValueError, naming the argument, where nothing can be written in it."""
+    try:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise ValueError(f"{name} must be in a folder to write in, got {folder}: {error.strerror}") from None
 
 
 def run_file(folder: Path, experiment: Experiment, scale: str, case: int, seed: int) -> Path:

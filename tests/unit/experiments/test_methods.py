@@ -84,6 +84,8 @@ def test_the_reproduce_command(tmp_path):
         ["navigate", "--method", "straight", "--speed", "0"],
         ["navigate", "--method", "straight", "--worlds", "0"],
         ["reproduce", "table-9.9"],
+        ["reproduce", "yardsticks", "--json", "/dev/null/y.json"],
+        ["navigate", "--method", "straight", "--json", "/dev"],
     ],
 )
 def test_a_wrong_input_is_one_line_and_exit_code_two(monkeypatch, capsys, arguments):

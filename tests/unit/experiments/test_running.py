@@ -141,12 +141,26 @@ def test_a_killed_experiment_goes_on_where_it_was(tmp_path):
         ({"scale": "huge"}, "scale must be one of quick, thesis"),
         ({"backend": "ray"}, "backend must be one of joblib, dask"),
         ({"backend": "dask"}, "scheduler must be the address"),
+        ({"scheduler": "tcp://127.0.0.1:8786"}, "scheduler must come with backend dask"),
+        ({"jobs": 0}, "jobs must be a number of processes"),
     ],
 )
 def test_bad_settings_are_refused(tmp_path, settings, message):
     with pytest.raises(ValueError, match=message):
         reproduce(toy(), tmp_path, **settings)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_written_in_is_refused_before_any_run(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ValueError, match="out must be in a folder to write in"):
+        reproduce(toy(), tmp_path / "file" / "results", jobs=1)
+
+
+def test_a_scheduler_that_does_not_answer_is_one_sentence(tmp_path, monkeypatch):
+    monkeypatch.setattr("robonav.experiments.running.ANSWER", 0.5)
+    with pytest.raises(ValueError, match="scheduler must be the address of one that answers, got tcp"):
+        reproduce(toy(), tmp_path, backend="dask", scheduler="tcp://127.0.0.1:1")
 
 
 @pytest.mark.parametrize(
