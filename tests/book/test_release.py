@@ -62,7 +62,7 @@ def test_notebooks_to_take_away_hold_no_solutions(site: Path) -> None:
     assert taken
     for notebook in taken:
         text = notebook.read_text("utf-8")
-        assert "{solution" not in text
+        assert "```{solution" not in text
         assert "%pip install" in text
     assert (site / "_static" / release.wheel_name()).is_file()
 
