@@ -20,7 +20,7 @@ SCRIPT = """
     if __name__ == "__main__":
         folder = sys.argv[1]
         reproduce(experiment, f"{folder}/here", jobs=1)
-        with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster:
             victim = next(iter(cluster.workers.values())).pid
             killed = []
 

@@ -187,7 +187,7 @@ def test_a_scheduler_gets_a_few_submissions_at_once(tmp_path, quick, monkeypatch
     place, out, held = tmp_path / "class", tmp_path / "out", []
     for number in range(20):
         (place / f"student{number:02}").mkdir(parents=True)
-    with distributed.LocalCluster(1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+    with distributed.LocalCluster(1, threads_per_worker=1, processes=False, dashboard_address=":0") as cluster:
         read = classroom.submission.taken
         monkeypatch.setattr(classroom.submission, "taken", lambda path: held.append(path) or read(path))
         seen = []
