@@ -37,10 +37,10 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
 }
 INTRODUCTION = """# How fast it is
 
-What `python benchmarks/page.py --peers DIR` printed on {date}, on {machine} with {cores} cores and nothing else
-running. Every figure is a median or the best of several rounds. Where another package does the same work, the two took
-turns in one run: seconds do not carry over to your machine, ratios do, roughly. `benchmarks/peers/README.md` says how
-to set the peers up.
+What the scripts in `benchmarks/` printed on {date}, on {machine} with {cores} cores and nothing else running;
+`python benchmarks/page.py --peers DIR` runs them all and writes this page. Every figure is a median or the best of
+several rounds. Where another package does the same work, the two took turns in one run: seconds do not carry over to
+your machine, ratios do, roughly. `benchmarks/peers/README.md` says how to set the peers up.
 """
 GROWTH = """## How it grows
 
