@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,9 +16,7 @@ from .lfd_course import Numbers, new_worlds, shown
 from .nirl_course import learned
 from .nirl_tuning import trial_settings
 from .nnql_tuning import FIRST, trained
-
-RESULTS = Path(__file__).parent / "results"
-"""What these experiments gave at the thesis's scale: the page shows it."""
+from .store import RESULTS as RESULTS
 
 EARLY = (0, 5, 10, 15, 20, 25, 30, 40, 50, 75, 100, 150, 200, 250, 300)  # most happens in the first 50 iterations
 BIN = 30  # episodes, as in Fig. 4.4

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -28,7 +26,6 @@ from .lfd_course import (
     ABOUT,
     DEMONSTRATIONS,
     ROUNDS,
-    RULES,
     SEEDS,
     SHOWN_WORLDS,
     TEST_WORLDS,
@@ -41,9 +38,8 @@ from .lfd_course import (
     trained,
     unscaled,
 )
-
-RESULTS = Path(__file__).parent / "results"
-"""What these experiments gave at the thesis's scale: the pages show it."""
+from .store import RESULTS as RESULTS
+from .yardsticks import RULES
 
 ITERATIONS, MOST_ITERATIONS = 300, 500
 OTHERS = 500  # run k is tested on the demonstrations of run k + 500

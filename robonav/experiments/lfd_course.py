@@ -29,10 +29,8 @@ from robonav.robot import (
     Encoder,
     Policy,
     Worlds,
-    freer_side,
     navigate,
     random_worlds,
-    straight,
 )
 
 DEMONSTRATIONS = 25
@@ -50,7 +48,6 @@ EXPERTS = {
 INPUTS = {"0 to 7": np.array([7.0] * 9 + [9, 1]), "0 to 1": np.ones(11)}
 """The 11 numbers of Eq. (3.17), by what the encoder gives."""
 
-RULES: dict[str, Policy] = {"straight": straight, "freer side": freer_side}
 Numbers = dict[str, ArrayLike]
 
 ABOUT = {

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,9 +28,7 @@ from .nirl_course import (
     policy,
 )
 from .nirl_tuning import DISCOUNTS, METHODS, trial_settings
-
-RESULTS = Path(__file__).parent / "results"
-"""What these experiments gave at the thesis's scale: the pages show it."""
+from .store import RESULTS as RESULTS
 
 CHOSEN: dict[str, dict[float, int]] = {
     "nirl": {0.65: 1, 0.9: 1},

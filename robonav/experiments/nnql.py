@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from robonav.nnql import METHODS, weight_changes
-from robonav.robot import Policy, freer_side, straight
+from robonav.robot import Policy
 
 from .experiment import Case, Experiment
 from .nnql_course import COLD, COLD_DQN, EPISODES, NAVIGATIONS, TEST_WORLDS, Numbers, blocks, judged, new_worlds
 from .nnql_tuning import trained, trial_settings
-
-RESULTS = Path(__file__).parent / "results"
-"""What these experiments gave at the thesis's scale: the pages show it."""
+from .store import RESULTS as RESULTS
+from .yardsticks import RULES
 
 CHOSEN = {"nnql": 2, "online": 0, "nfq": 9, "dqn": 14}
 """The best trial of each method: the winner of :data:`robonav.experiments.nnql_tuning.FINALS`."""
@@ -27,7 +25,6 @@ DENSE = {
 }  # fmt: skip
 """Settings for 20 obstacles: in ours both learning rates fall, and the target's sector has no break."""
 
-RULES: dict[str, Policy] = {"straight": straight, "freer side": freer_side}
 SPEEDS = (1.5, 2.0, 2.5, 3.0, 3.5, 4.0)
 SAME_SPEED = "nnql, learned at this speed"
 

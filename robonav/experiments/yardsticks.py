@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from robonav.robot import freer_side, navigate, random_worlds, straight
+from robonav.robot import Policy, freer_side, navigate, random_worlds, straight
 
 from .experiment import Case, Experiment
 
-RULES = {"straight": straight, "freer side": freer_side}
+RULES: dict[str, Policy] = {"straight": straight, "freer side": freer_side}
 SEED = 9_000  # of the worlds; run k drives through those of SEED + k
 WORLDS = {"quick": 100, "thesis": 1000}
 
