@@ -31,6 +31,8 @@ class Experiment:
     run : ``run(case, seed, scale)`` gives numbers by metric, each a single one or one a step (T,); nothing else may
         decide them.
     seeds : number of runs of each case, by scale: "quick" (under a minute in all), "thesis" (its number, or more).
+    shortened : what a quick run leaves out of the training, if anything; its numbers then foretell nothing. All others
+        are runs as at the thesis's scale, only fewer, with fewer drives.
     thesis : what the thesis has: metric to one number a case, None where it has none.
     settings : what else a reader needs to know, for the metadata.
     """
@@ -42,6 +44,7 @@ class Experiment:
     seeds: Mapping[str, int]
     thesis: Mapping[str, Sequence[float | None]] = field(default_factory=dict)
     settings: Mapping[str, Any] = field(default_factory=dict)
+    shortened: str = ""
 
     def __post_init__(self) -> None:
         if not self.cases or any(set(case) != set(self.cases[0]) for case in self.cases):

@@ -15,6 +15,7 @@ from .experiment import Case, Experiment, Results
 from .lfd_course import Numbers, new_worlds, shown
 from .nirl_course import learned
 from .nirl_tuning import trial_settings
+from .nnql_course import SHORTENED
 from .nnql_tuning import FIRST, trained
 from .store import RESULTS as RESULTS
 
@@ -65,7 +66,7 @@ def from_reward(case: Case, seed: int, scale: str) -> Numbers:
     method = str(case["method"])
     settings = FIRST[method] | UPDATES[str(case["learning rate"])][method]
     settings |= {"temperature": TEMPERATURES[str(case["temperature"])]}
-    outcomes = trained(method, seed, scale, settings).outcomes[0]
+    outcomes = trained(method, seed, scale, settings, length=SHORTENED[scale]).outcomes[0]
     bins = outcomes[: len(outcomes) // BIN * BIN].reshape(-1, BIN)
     ended = {"success": "arrived", "collision": "collided"}
     return {name: 100 * (bins == end).mean(axis=1) for name, end in ended.items()}
@@ -74,7 +75,7 @@ def from_reward(case: Case, seed: int, scale: str) -> Numbers:
 def from_expert(case: Case, seed: int, scale: str) -> Numbers:
     """Algorithm 10 while it goes on: margin, cost, practice drives that arrive, and agreement with the expert."""
     settings = trial_settings("nirl", 0, float(case["discount"])) | {"ends": str(case["ends"])}
-    history = learned("nirl", seed, scale, settings, int(case["demonstrations"])).history
+    history = learned("nirl", seed, settings, int(case["demonstrations"])).history
     at = np.minimum(np.array(STEPS["lab-nirl"]["cost"]), len(history.costs)) - 1
 
     def recent(series: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -118,6 +119,7 @@ EXPERIMENTS = (
         cases=_combinations({"method": METHODS, "temperature": tuple(TEMPERATURES), "learning rate": tuple(UPDATES)}),
         run=from_reward,
         seeds={"quick": 1, "thesis": 5},
+        shortened="a fifth of the episodes",
         settings={"updates": UPDATES, "bin": BIN},
     ),
     Experiment(

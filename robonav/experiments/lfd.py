@@ -130,7 +130,7 @@ def method(name: str, seed: int, scale: str, obstacles: int = 10) -> Policy:
     if name in RULES:
         return RULES[name]
     if name == "DAgger":
-        return aggregated(seed, obstacles, rounds=ROUNDS[scale]).policy
+        return aggregated(seed, obstacles, rounds=ROUNDS).policy
     if name == "cloning":
         return cloned(seed, obstacles)
     return learn_neighbours(shown(seed, obstacles), int(name.split()[0]))
@@ -142,7 +142,7 @@ def in_new_maps(case: Case, seed: int, scale: str) -> Numbers:
     worlds = new_worlds(seed, scale, obstacles)
     numbers = driven(method(name, seed, scale, obstacles), worlds)
     if name == "DAgger":
-        policies = aggregated(seed, obstacles, rounds=ROUNDS[scale]).policies
+        policies = aggregated(seed, obstacles, rounds=ROUNDS).policies
         numbers["success by round"] = np.array([driven(policy, worlds)["success"] for policy in policies])
     return numbers
 

@@ -34,7 +34,7 @@ from robonav.robot import (
 )
 
 DEMONSTRATIONS = 25
-ROUNDS = {"quick": 1, "thesis": 3}  # of DAgger
+ROUNDS = 3  # of DAgger
 NAVIGATIONS = {"quick": 100, "thesis": 400}
 SEEDS = {"quick": 1, "thesis": 10}
 SHOWN_WORLDS = 30_000  # run k is shown the worlds of this seed + k
@@ -110,9 +110,7 @@ def unscaled(network: Network, degrees: str) -> NetworkPolicy:
 
 
 @lru_cache(32)
-def aggregated(
-    seed: int, obstacles: int = 10, *, target: str = "sine-cosine", rounds: int = ROUNDS["thesis"]
-) -> Aggregation:
+def aggregated(seed: int, obstacles: int = 10, *, target: str = "sine-cosine", rounds: int = ROUNDS) -> Aggregation:
     """The same, and then DAgger's rounds, with as many new maps in each as there were demonstrations."""
     worlds = [
         random_worlds(DEMONSTRATIONS, obstacles, seed=MORE_WORLDS + 10 * seed + number) for number in range(rounds)

@@ -23,7 +23,7 @@ def shipped() -> dict[str, Weights]:
         "speed": 2.0,
         "seed of the worlds": SHOWN_WORLDS + SEED,
     }
-    rounds = {"rounds": ROUNDS["thesis"], "seed of the worlds of round 1": MORE_WORLDS + 10 * SEED}
+    rounds = {"rounds": ROUNDS, "seed of the worlds of round 1": MORE_WORLDS + 10 * SEED}
     return {
         "lfd": _weights("lfd", cloned(SEED, OBSTACLES), made),
         "dagger": _weights("dagger", aggregated(SEED, OBSTACLES).policy, made | rounds),

@@ -62,18 +62,18 @@ def compare(case: Case, seed: int, scale: str) -> Numbers:
     if method in RULES:
         return driven(RULES[method], worlds)
     discount = CLONING if method == "cloning" else float(case["discount"])
-    return driven(policy(method, seed, scale, settings(method, discount)), worlds)
+    return driven(policy(method, seed, settings(method, discount)), worlds)
 
 
 def end(case: Case, seed: int, scale: str) -> Numbers:
     """The controls: what an end is worth in itself, with the reward of each method, with none, with one of chance."""
     method = str(case["method"])
-    return driven(policy(method, seed, scale, settings(method, ends=str(case["ends"]))), new_worlds(scale, seed))
+    return driven(policy(method, seed, settings(method, ends=str(case["ends"]))), new_worlds(scale, seed))
 
 
 def from_experts(case: Case, seed: int, scale: str) -> Numbers:
     """Table 5.1: NIRL from so many demonstrations of one expert or the other."""
-    found = learned("nirl", seed, scale, settings("nirl"), int(case["demonstrations"]), str(case["expert"]))
+    found = learned("nirl", seed, settings("nirl"), int(case["demonstrations"]), str(case["expert"]))
     return driven(found.policy, new_worlds(scale, seed))
 
 
@@ -87,7 +87,7 @@ def count(case: Case, seed: int, scale: str) -> Numbers:
 
 def follow(case: Case, seed: int, scale: str, *, metrics: tuple[str, ...]) -> Numbers:
     """Fig. 5.7, 5.8 and 5.11: margin, cost and weight changes of a run, and each at the end: the last 20 iterations."""
-    history = learned("nirl", seed, scale, settings("nirl", float(case["discount"]))).history
+    history = learned("nirl", seed, settings("nirl", float(case["discount"]))).history
     series = {
         "margin": history.margins,
         "cost": history.costs,
@@ -102,14 +102,14 @@ def at_density(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 5.10: one policy, learned among 20 obstacles at 2 m/s, or a rule, with other obstacles and speeds."""
     method, speed = str(case["method"]), float(case["speed"])
     worlds = new_worlds(scale, seed, int(case["obstacles"]))[: NAVIGATIONS[scale] // 5]
-    return driven(RULES[method] if method in RULES else policy(method, seed, scale, settings(method)), worlds, speed)
+    return driven(RULES[method] if method in RULES else policy(method, seed, settings(method)), worlds, speed)
 
 
 def among_movers(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 5.12: standing and moving obstacles, for a robot that learned among standing ones; beside the rules."""
     method = str(case["method"])
     worlds = new_worlds(scale, seed, int(case["standing"]), int(case["moving"]))
-    return driven(RULES[method] if method in RULES else policy(method, seed, scale, settings(method)), worlds, SPEED)
+    return driven(RULES[method] if method in RULES else policy(method, seed, settings(method)), worlds, SPEED)
 
 
 _ABOUT = {

@@ -31,8 +31,8 @@ from robonav.nirl import (
 )
 from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
 
-ITERATIONS = {"quick": 24, "thesis": 140}
-TRAJECTORIES = {"quick": 5, "thesis": 10}
+ITERATIONS, TRAJECTORIES = 140, 10
+SHORTENED = {"quick": 0.1, "thesis": 1.0}  # of a training, in experiments that have very many
 NAVIGATIONS = {"quick": 100, "thesis": 1000}
 DEMONSTRATIONS, OBSTACLES, SPEED = 30, 20, 2.0
 SHOWN_WORLDS = 50_000  # run k's expert drives through the worlds of this seed + k
@@ -61,18 +61,17 @@ def encoder(target: str) -> Encoder:
     return Encoder(NNQL_SENSORS, walls=True, target=target)
 
 
-def course(scale: str, target: str = "sine-cosine", **changes: Any) -> RobotCourse:
+def course(target: str = "sine-cosine", **changes: Any) -> RobotCourse:
     """Where a robot practises: 20 obstacles, 2 m/s, ten drives an iteration."""
-    return RobotCourse(TRAJECTORIES[scale], encoder=encoder(target), **changes)
+    return RobotCourse(TRAJECTORIES, encoder=encoder(target), **changes)
 
 
-def descent(settings: Settings, scale: str) -> SampledDescent:
-    """The solver that all methods share; at the quick scale it takes a third of the steps."""
-    samples = int(settings["samples"]) // (1 if scale == "thesis" else 3)
+def descent(settings: Settings) -> SampledDescent:
+    """The solver that all methods share."""
     return SampledDescent(
         discount=settings["discount"],
         rate=tuple(settings["rate"]),
-        samples=samples,
+        samples=settings["samples"],
         replay=settings["replay"],
         ends=ENDS[settings.get("ends", "bonus")],
     )
@@ -87,15 +86,18 @@ _OWN: dict[str, Callable[[Settings], dict[str, Any]]] = {
 """What each method has of its own, from its settings."""
 
 
-def teach(method: str, shown: Demonstrations, seed: int, settings: Settings, scale: str, **changes: Any) -> Learned:
+def teach(
+    method: str, shown: Demonstrations, seed: int, settings: Settings, *, length: float = 1.0, **changes: Any
+) -> Learned:
     """Learn from demonstrations, or practise under a reward of zero or of chance, with settings by name.
 
-    ``changes`` go to the method.
+    ``length`` is of the training, in times the usual; ``changes`` go to the method.
     """
+    iterations = round(ITERATIONS * length)
     practice: dict[str, Any] = {
-        "course": course(scale, settings["target"]),
-        "improve": descent(settings, scale),
-        "iterations": ITERATIONS[scale],
+        "course": course(settings["target"]),
+        "improve": descent(settings),
+        "iterations": iterations,
         "eta": settings["eta"],
         "hidden": settings["hidden"],
     }
@@ -107,38 +109,45 @@ def teach(method: str, shown: Demonstrations, seed: int, settings: Settings, sca
         return learn_under(shown, theta, seed=seed, **practice)
     own = _OWN[method](settings)
     if "guesses" in own:
-        own["guesses"] = min(own["guesses"], ITERATIONS[scale])
+        own["guesses"] = min(own["guesses"], iterations)
     return learn(shown, method, seed, **own, **practice, **changes)
 
 
-def clone(shown: Demonstrations, seed: int, settings: Settings, scale: str) -> NetworkPolicy:
+def clone(shown: Demonstrations, seed: int, settings: Settings) -> NetworkPolicy:
     """Plain cloning: the expert's decisions as examples, as in chapter 3."""
     return learn_policy(
         shown,
         settings["hidden"],
         settings["regularisation"],
-        settings["iterations"] if scale == "thesis" else ITERATIONS[scale],
+        settings["iterations"],
         seed,
         encoder=encoder(settings["target"]),
     )
 
 
-def learned(method: str, seed: int, scale: str, settings: Settings, number: int = DEMONSTRATIONS,
-            expert: str = "computer") -> Learned:  # fmt: skip
+def learned(
+    method: str,
+    seed: int,
+    settings: Settings,
+    number: int = DEMONSTRATIONS,
+    expert: str = "computer",
+    *,
+    length: float = 1.0,
+) -> Learned:
     """One run of a method or control; what was learned once in a process is not learned again."""
-    return _learned(method, seed, scale, json.dumps(settings, sort_keys=True), number, expert)
+    return _learned(method, seed, json.dumps(settings, sort_keys=True), number, expert, length)
 
 
 @lru_cache(maxsize=300)
-def _learned(method: str, seed: int, scale: str, settings: str, number: int, expert: str) -> Learned:
-    return teach(method, demonstrations(seed, number, expert), seed, json.loads(settings), scale)
+def _learned(method: str, seed: int, settings: str, number: int, expert: str, length: float) -> Learned:
+    return teach(method, demonstrations(seed, number, expert), seed, json.loads(settings), length=length)
 
 
-def policy(method: str, seed: int, scale: str, settings: Settings) -> NetworkPolicy:
+def policy(method: str, seed: int, settings: Settings, *, length: float = 1.0) -> NetworkPolicy:
     """The policy of one run of a method, a control or cloning."""
     if method == "cloning":
-        return clone(demonstrations(seed), seed, settings, scale)
-    return learned(method, seed, scale, settings).policy
+        return clone(demonstrations(seed), seed, settings)
+    return learned(method, seed, settings, length=length).policy
 
 
 def new_worlds(scale: str, seed: int, obstacles: int = OBSTACLES, moving: int = 0) -> Worlds:

@@ -23,13 +23,13 @@ SEEDS = tuple(range(TUNING_SEEDS + 10, TUNING_SEEDS + 14))
 COLD = 0.05  # temperature: a robot without a memory can go round in circles, and a little chance ends that
 
 
-def best_of(method: str, seeds: tuple[int, ...] = SEEDS, *, scale: str = "thesis", discount: float = 0.9) -> Weights:
+def best_of(method: str, seeds: tuple[int, ...] = SEEDS, *, length: float = 1.0, discount: float = 0.9) -> Weights:
     """Learn once a seed; the policy that arrives most often in tuning worlds, and what made it."""
-    worlds = random_worlds(NAVIGATIONS[scale], OBSTACLES, seed=TUNING_WORLDS + len(SEEDS))
+    worlds = random_worlds(NAVIGATIONS["thesis"], OBSTACLES, seed=TUNING_WORLDS + len(SEEDS))
     chosen = settings(method, discount)
     rates: dict[float, tuple[int, Learned, NetworkPolicy]] = {}
     for seed in seeds:
-        found = learned(method, seed, scale, chosen)
+        found = learned(method, seed, chosen, length=length)
         policy = replace(found.policy, temperature=COLD)
         rates.setdefault(driven(policy, worlds)["success"], (seed, found, policy))  # of equals, the first
     best = max(rates)
@@ -39,7 +39,7 @@ def best_of(method: str, seeds: tuple[int, ...] = SEEDS, *, scale: str = "thesis
         "seed": seed,
         "seeds": list(seeds),
         "demonstrations": DEMONSTRATIONS,
-        "iterations": ITERATIONS[scale],
+        "iterations": round(ITERATIONS * length),
         "speed": SPEED,
         "obstacles": OBSTACLES,
         "settings": chosen,

@@ -72,8 +72,8 @@ def up_to(step: str) -> dict[str, Any]:
 def mend(case: Case, seed: int, scale: str) -> Numbers:
     """One run after so many changes."""
     options = up_to(str(case["step"]))
-    ground = course(scale, options.pop("target"))
-    found = learn(demonstrations(seed), "nirl", seed, course=ground, iterations=ITERATIONS[scale], **options)
+    ground = course(options.pop("target"))
+    found = learn(demonstrations(seed), "nirl", seed, course=ground, iterations=ITERATIONS, **options)
     return driven(found.policy, new_worlds(scale, seed))
 
 
@@ -101,7 +101,7 @@ CHOICES: dict[str, Callable[[Learned, Worlds], int]] = {
 def choose(case: Case, seed: int, scale: str) -> Numbers:
     """One run, with the reward learned or none at all, its policy chosen in one way or another."""
     method = "nirl" if case["reward"] == "learned" else "zero reward"
-    found = learned(method, seed, scale, settings(method))
+    found = learned(method, seed, settings(method))
     worlds = random_worlds(NAVIGATIONS[scale] // 5, OBSTACLES, seed=CHOOSING_WORLDS + seed)
     k = CHOICES[str(case["chosen by"])](found, worlds)
     scores = {"accuracy": 100 * found.history.accuracies[k], "balanced accuracy": 100 * found.history.balanced[k]}

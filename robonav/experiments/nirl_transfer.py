@@ -20,6 +20,7 @@ from .nirl_course import (
     ITERATIONS,
     NAVIGATIONS,
     OBSTACLES,
+    SHORTENED,
     SHOWN_WORLDS,
     SPEED,
     Numbers,
@@ -34,7 +35,7 @@ from .nirl_course import (
 )
 from .nirl_steps import member
 
-EPISODES = {"quick": 60, "thesis": 1400}  # of training with Table 4.1's reward: as many drives as practice takes
+EPISODES = 1400  # of training with Table 4.1's reward: as many drives as practice takes
 PLACES = ((10, 2.0), (30, 2.0), (20, 1.0), (20, 3.0))
 SLIP = 0.3
 TABLE_SETTINGS: dict[str, Any] = {
@@ -42,50 +43,50 @@ TABLE_SETTINGS: dict[str, Any] = {
 }  # fmt: skip
 
 
-def under(found: Learned, seed: int, scale: str, obstacles: int, speed: float) -> Policy:
+def under(found: Learned, seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """The last policy of a new robot that practises elsewhere under a reward learned before, and nothing else."""
     chosen = settings("nirl")
-    theta = found.reward_weights
+    theta, iterations = found.reward_weights, round(ITERATIONS * length)
     practised = learn_under(
         demonstrations(seed),
         theta,
-        course=course(scale, chosen["target"], obstacles=obstacles, speed=speed),
+        course=course(chosen["target"], obstacles=obstacles, speed=speed),
         seed=seed + 1,
-        improve=descent(chosen, scale),
-        iterations=ITERATIONS[scale],
+        improve=descent(chosen),
+        iterations=iterations,
         eta=chosen["eta"],
         hidden=chosen["hidden"],
     )
-    return member(practised, ITERATIONS[scale])
+    return member(practised, iterations)
 
 
-def carried(seed: int, scale: str, obstacles: int, speed: float) -> Policy:
+def carried(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """The policy learned among 20 obstacles at 2 m/s, as it is."""
-    return learned("nirl", seed, scale, settings("nirl")).policy
+    return learned("nirl", seed, settings("nirl"), length=length).policy
 
 
-def by_reward(seed: int, scale: str, obstacles: int, speed: float) -> Policy:
+def by_reward(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """A new robot, trained there under the reward learned among 20 obstacles at 2 m/s."""
-    return under(learned("nirl", seed, scale, settings("nirl")), seed, scale, obstacles, speed)
+    return under(learned("nirl", seed, settings("nirl"), length=length), seed, length, obstacles, speed)
 
 
-def by_nothing(seed: int, scale: str, obstacles: int, speed: float) -> Policy:
+def by_nothing(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """The same with a reward of zero."""
-    return under(learned("zero reward", seed, scale, settings("nirl")), seed, scale, obstacles, speed)
+    return under(learned("zero reward", seed, settings("nirl"), length=length), seed, length, obstacles, speed)
 
 
-def by_table(seed: int, scale: str, obstacles: int, speed: float) -> Policy:
+def by_table(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """A new robot, trained there by NNQL with the reward of Table 4.1."""
     ground = Course(obstacles, speed=speed, starts=[(10, 10)], targets=[(90, 90)])
-    return nnql([seed], EPISODES[scale], course=ground, **TABLE_SETTINGS).policies[0]
+    return nnql([seed], round(EPISODES * length), course=ground, **TABLE_SETTINGS).policies[0]
 
 
-def by_rule(seed: int, scale: str, obstacles: int, speed: float) -> Policy:
+def by_rule(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """The rule of three lines."""
     return freer_side
 
 
-TAKEN: dict[str, Callable[[int, str, int, float], Policy]] = {
+TAKEN: dict[str, Callable[[int, float, int, float], Policy]] = {
     "the policy itself": carried,
     "trained there under the learned reward": by_reward,
     "trained there under Table 4.1": by_table,
@@ -97,7 +98,7 @@ TAKEN: dict[str, Callable[[int, str, int, float], Policy]] = {
 def elsewhere(case: Case, seed: int, scale: str) -> Numbers:
     """One run of one way to drive in maps of another density, or at another speed."""
     obstacles, speed = int(case["obstacles"]), float(case["speed"])
-    robot = TAKEN[str(case["taken along"])](seed, scale, obstacles, speed)
+    robot = TAKEN[str(case["taken along"])](seed, SHORTENED[scale], obstacles, speed)
     return driven(robot, new_worlds(scale, seed, obstacles), speed)
 
 
@@ -123,7 +124,7 @@ def refine(case: Case, seed: int, scale: str) -> Numbers:
     if how is not None:
         steps = shown_steps(shown, encoder(settings("nirl")["target"]))
         changed = 100 * how(steps.inputs.round(6), steps.actions, LEARNED).changed.mean()
-    found = teach("nirl", shown, seed, settings("nirl"), scale, refine=how)
+    found = teach("nirl", shown, seed, settings("nirl"), refine=how)
     return driven(found.policy, new_worlds(scale, seed)) | {"actions changed": changed}
 
 
@@ -135,6 +136,7 @@ TRANSFER = Experiment(
     ],
     run=elsewhere,
     seeds={"quick": 1, "thesis": 3},
+    shortened="a tenth of the iterations",
     settings={
         "learned with": {"obstacles": OBSTACLES, "speed": SPEED} | settings("nirl"),
         "episodes with Table 4.1": EPISODES,

@@ -10,7 +10,7 @@ import numpy as np
 from robonav.robot import random_worlds
 
 from .experiment import Case, Experiment, Results
-from .nirl_course import NAVIGATIONS, OBSTACLES, Numbers, driven, policy
+from .nirl_course import NAVIGATIONS, OBSTACLES, SHORTENED, Numbers, driven, policy
 
 TRIALS = 8  # with each of two discounts
 DISCOUNTS = (0.65, 0.9)
@@ -77,7 +77,8 @@ def trial_settings(method: str, trial: int, discount: float) -> dict[str, Any]:
 
 def tune(case: Case, seed: int, scale: str) -> Numbers:
     """One seed of one trial, on tuning worlds."""
-    robot = policy(str(case["method"]), TUNING_SEEDS + seed, scale, json.loads(str(case["settings"])))
+    chosen = json.loads(str(case["settings"]))
+    robot = policy(str(case["method"]), TUNING_SEEDS + seed, chosen, length=SHORTENED[scale])
     return driven(robot, random_worlds(NAVIGATIONS[scale], OBSTACLES, seed=TUNING_WORLDS + seed))
 
 
@@ -97,6 +98,7 @@ TUNING = Experiment(
     ],
     run=tune,
     seeds={"quick": 1, "thesis": 2},
+    shortened="a tenth of the iterations",
     settings={"drives a run": NAVIGATIONS},
 )
 

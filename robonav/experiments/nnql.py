@@ -85,7 +85,7 @@ def in_dense_maps(case: Case, seed: int, scale: str) -> Numbers:
     name, worlds = str(case["robot"]), new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed, 20)
     if name in RULES:
         return judged(RULES[name], worlds)
-    length = float(case["episodes"]) / EPISODES["thesis"]
+    length = float(case["episodes"]) / EPISODES
     return judged(trained("nnql", seed, scale, DENSE[name], length=length, obstacles=20).policies[0], worlds)
 
 

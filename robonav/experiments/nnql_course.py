@@ -17,7 +17,8 @@ from robonav.lfd import NetworkPolicy
 from robonav.nnql import STARTS, TARGETS, Course
 from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
 
-EPISODES = {"quick": 60, "thesis": 300}
+EPISODES = 300
+SHORTENED = {"quick": 0.2, "thesis": 1.0}  # of a training, in experiments that have very many
 NAVIGATIONS = {"quick": 100, "thesis": 1000}
 SPEED = 2.5
 TEST_WORLDS = 40_000  # run k drives through the worlds of this seed + k

@@ -20,12 +20,12 @@ SHIPPED = Path(__file__).parents[1] / "nnql" / "shipped"
 SEEDS = tuple(range(TUNING_SEEDS, TUNING_SEEDS + 8))
 
 
-def best_of(method: str, seeds: tuple[int, ...] = SEEDS, *, scale: str = "thesis") -> Weights:
+def best_of(method: str, seeds: tuple[int, ...] = SEEDS, *, length: float = 1.0) -> Weights:
     """Train one robot a seed; the one that arrives most often in tuning worlds, and what made it."""
     worlds = new_worlds(NAVIGATIONS["thesis"], TUNING_WORLDS + len(SEEDS))
     rates: dict[float, tuple[int, NetworkPolicy]] = {}
     for seed in seeds:
-        greedy = trained(method, seed, scale, settings(method)).policies[0]
+        greedy = trained(method, seed, "thesis", settings(method), length=length).policies[0]
         policy = replace(greedy, temperature=cold(method))
         rates.setdefault(driven(policy, worlds)["success"], (seed, policy))  # of equals, the first
     best = max(rates)
@@ -34,7 +34,7 @@ def best_of(method: str, seeds: tuple[int, ...] = SEEDS, *, scale: str = "thesis
         "command": "python -m robonav.experiments.nnql_shipped",
         "seed": seed,
         "seeds": list(seeds),
-        "episodes": EPISODES[scale],
+        "episodes": round(EPISODES * length),
         "speed": SPEED,
         "obstacles": 10,
         "settings": settings(method),

@@ -16,7 +16,7 @@ import numpy as np
 from robonav.nnql import METHODS, Training
 
 from .experiment import Case, Experiment, Results
-from .nnql_course import EPISODES, NAVIGATIONS, Numbers, course, driven, new_worlds
+from .nnql_course import EPISODES, NAVIGATIONS, SHORTENED, Numbers, course, driven, new_worlds
 
 TRIALS = 16
 TOGETHER = {"quick": 1, "thesis": 8}  # seeds that train at once
@@ -76,7 +76,7 @@ def trained(
     one by one and comes to the same. What was trained once in a process is not trained again: several tables look at
     the same networks.
     """
-    together, episodes = TOGETHER[scale], round(EPISODES[scale] * length)
+    together, episodes = TOGETHER[scale], round(EPISODES * length)
     seeds = range(seed - seed % together, seed - seed % together + together)
     training = _trained(method, seeds, episodes, json.dumps(settings, sort_keys=True), tuple(sorted(changes.items())))
     return training[seed % together]
@@ -101,7 +101,7 @@ def _span(value: Any) -> Any:
 def tune(case: Case, seed: int, scale: str) -> Numbers:
     """One seed of one trial, on tuning worlds."""
     settings = json.loads(str(case["settings"]))
-    training = trained(str(case["method"]), TUNING_SEEDS + seed, scale, settings)
+    training = trained(str(case["method"]), TUNING_SEEDS + seed, scale, settings, length=SHORTENED[scale])
     return driven(training.policies[0], new_worlds(NAVIGATIONS[scale] // 2, TUNING_WORLDS + seed))
 
 
@@ -124,12 +124,15 @@ def ranking(results: Results) -> dict[str, list[int]]:
 
 _ABOUT = {"episodes": EPISODES, "drives a run": {scale: n // 2 for scale, n in NAVIGATIONS.items()}}
 
+_SHORTENED = "a fifth of the episodes"
+
 TUNING = Experiment(
     name="nnql-tuning",
     title="Trials from which the settings of chapter 4's methods were chosen, as many for each",
     cases=[_case(method, trial) for method in METHODS for trial in range(TRIALS)],
     run=tune,
     seeds={"quick": 1, "thesis": 4},
+    shortened=_SHORTENED,
     settings=_ABOUT,
 )
 FINALS = Experiment(
@@ -138,6 +141,7 @@ FINALS = Experiment(
     cases=[_case(method, trial) for method, trials in FINALISTS.items() for trial in trials],
     run=decide,
     seeds={"quick": 1, "thesis": 12},
+    shortened=_SHORTENED,
     settings=_ABOUT,
 )
 

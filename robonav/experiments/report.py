@@ -20,7 +20,11 @@ def scalars(results: Results, case: int) -> list[str]:
 def as_text(results: Results) -> str:
     """Title and one line a case: mean, interval, best and worst of each metric, the thesis's number beside it."""
     experiment = results.experiment
-    lines = [f"{experiment.name}: {experiment.title} ({results.scale}, {experiment.seeds[results.scale]} runs a case)"]
+    seeds = experiment.seeds[results.scale]
+    heading = [results.scale, "1 run a case" if seeds == 1 else f"{seeds} runs a case"]
+    if experiment.shortened and results.scale == "quick":
+        heading.append(f"{experiment.shortened}: not to be compared")
+    lines = [f"{experiment.name}: {experiment.title} ({', '.join(heading)})"]
     for place, case in enumerate(experiment.cases):
         said = ", ".join(f"{key} {value}" for key, value in case.items())
         for metric in scalars(results, place):

@@ -10,6 +10,7 @@ from robonav.experiments.nirl import CHOSEN, CLONING, RESULTS, settings
 from robonav.experiments.nirl_course import (
     CONTROLS,
     NAVIGATIONS,
+    SHORTENED,
     SHOWN_WORLDS,
     TEST_WORLDS,
     demonstrations,
@@ -34,6 +35,7 @@ from robonav.nirl import NOTHING, ByEquation514, OneStep, accuracy, balanced_acc
 from robonav.robot import random_worlds
 
 ALL = (*nirl.EXPERIMENTS, *nirl_steps.EXPERIMENTS, *nirl_transfer.EXPERIMENTS, TUNING)
+SHORT = SHORTENED["quick"]
 
 
 @pytest.mark.parametrize("experiment", ALL, ids=lambda experiment: experiment.name)
@@ -119,7 +121,7 @@ def test_nirl_reaches_what_it_was_to_reach_and_beats_its_controls():
 
 @pytest.mark.parametrize("control", CONTROLS)
 def test_controls_practise_as_nirl_does_under_another_reward(control):
-    found, ours = (learned(name, 0, "quick", settings(name)) for name in (control, "nirl"))
+    found, ours = (learned(name, 0, settings(name), length=SHORT) for name in (control, "nirl"))
     assert (found.reward_weights == 0).all() == (control == "zero reward")
     assert settings(control) == settings("nirl")
     first, same = (run.history.networks.weights[0][0] for run in (found, ours))
@@ -127,7 +129,7 @@ def test_controls_practise_as_nirl_does_under_another_reward(control):
 
 
 def test_two_runs_have_two_rewards_of_chance():
-    one, other = (learned("random reward", seed, "quick", settings("nirl")).reward_weights for seed in (0, 1))
+    one, other = (learned("random reward", seed, settings("nirl"), length=SHORT).reward_weights for seed in (0, 1))
     assert (one != other).all()
 
 
@@ -137,9 +139,9 @@ def test_neutral_ends_are_told_from_a_bonus():
 
 
 def test_learning_twice_in_a_process_is_learning_once():
-    first = learned("nirl", 0, "quick", settings("nirl"))
-    assert learned("nirl", 0, "quick", json.loads(json.dumps(settings("nirl")))) is first
-    assert learned("nirl", 1, "quick", settings("nirl")) is not first
+    first = learned("nirl", 0, settings("nirl"), length=SHORT)
+    assert learned("nirl", 0, json.loads(json.dumps(settings("nirl"))), length=SHORT) is first
+    assert learned("nirl", 1, settings("nirl"), length=SHORT) is not first
 
 
 def test_steps_begin_with_the_algorithm_as_written_and_add_up():
@@ -155,7 +157,7 @@ def test_steps_begin_with_the_algorithm_as_written_and_add_up():
 
 
 def test_choices_choose_what_they_say():
-    found = learned("nirl", 0, "quick", settings("nirl"))
+    found = learned("nirl", 0, settings("nirl"), length=SHORT)
     worlds = new_worlds("quick", 1)
     chosen = {name: choice(found, worlds) for name, choice in nirl_steps.CHOICES.items()}
     assert found.history.accuracies[chosen["accuracy"]] == found.history.accuracies.max()
@@ -167,22 +169,22 @@ def test_choices_choose_what_they_say():
 
 
 def test_a_reward_taken_elsewhere_needs_no_more_than_its_weights():
-    found = learned("nirl", 0, "quick", settings("nirl"))
-    robot = nirl_transfer.under(found, 0, "quick", 10, 1.0)
+    found = learned("nirl", 0, settings("nirl"), length=SHORT)
+    robot = nirl_transfer.under(found, 0, SHORT, 10, 1.0)
     assert robot.encoder == found.policy.encoder
-    assert nirl_transfer.carried(0, "quick", 10, 1.0) is found.policy
+    assert nirl_transfer.carried(0, SHORT, 10, 1.0) is found.policy
 
 
 def test_methods_refuse_names_they_do_not_know():
     with pytest.raises(KeyError):
-        teach("magic", demonstrations(0), 0, settings("nirl"), "quick")
+        teach("magic", demonstrations(0), 0, settings("nirl"))
 
 
 def test_a_shipped_network_is_the_best_of_its_seeds():
-    weights = nirl_shipped.best_of("nirl", (0, 1), scale="quick")
+    weights = nirl_shipped.best_of("nirl", (0, 1), length=SHORT)
     made = weights.made
     assert made["seeds"] == [0, 1]
-    again = policy("nirl", made["seed"], "quick", settings("nirl", 0.9))
+    again = policy("nirl", made["seed"], settings("nirl", 0.9), length=SHORT)
     np.testing.assert_array_equal(weights.network.weights[0], again.network.weights[0])
     assert np.shape(made["reward weights"]) == (5, weights.encoder.size + 1)
 

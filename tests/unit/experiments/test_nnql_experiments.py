@@ -130,7 +130,7 @@ def test_twenty_obstacles_are_driven_well():
 def test_a_rule_is_judged_once_and_a_network_also_when_cold():
     worlds = new_worlds(40, 5)
     assert set(judged(RULES["straight"], worlds)) == {"success", "collision", "out of steps"}
-    policy = trained("nnql", 3, "quick", settings("nnql")).policies[0]
+    policy = trained("nnql", 3, "quick", settings("nnql"), length=0.1).policies[0]
     numbers = judged(policy, worlds)
     assert set(numbers) == {"success", "collision", "out of steps", "success, cold"}
     assert numbers["success"] + numbers["collision"] + numbers["out of steps"] == pytest.approx(100)
@@ -149,8 +149,8 @@ def test_a_network_of_every_method_ships_with_what_made_it(name):
 
 
 def test_the_best_of_several_robots_is_shipped(tmp_path, monkeypatch):
-    best = best_of("nnql", (0, 1, 2), scale="quick")
-    alone = [best_of("nnql", (seed,), scale="quick").made["success in tuning worlds (%)"] for seed in range(3)]
+    best = best_of("nnql", (0, 1, 2), length=0.1)
+    alone = [best_of("nnql", (seed,), length=0.1).made["success in tuning worlds (%)"] for seed in range(3)]
     assert best.made["success in tuning worlds (%)"] == max(alone)
     assert best.made["seed"] == int(np.argmax(alone))
     monkeypatch.setattr("robonav.experiments.nnql_shipped.best_of", lambda name: best)
@@ -161,7 +161,7 @@ def test_the_best_of_several_robots_is_shipped(tmp_path, monkeypatch):
 def test_training_twice_in_a_process_is_training_once():
     first = trained("nnql", 3, "quick", settings("nnql"), length=0.1)
     again = trained("nnql", 3, "quick", json.loads(json.dumps(settings("nnql"))), length=0.1)
-    assert first.outcomes.shape == (1, 6)
+    assert first.outcomes.shape == (1, 30)
     assert np.shares_memory(first.outcomes, again.outcomes)
     dense = trained("nnql", 3, "quick", settings("nnql"), length=0.1, obstacles=20)
     assert not np.shares_memory(first.outcomes, dense.outcomes)
