@@ -59,7 +59,8 @@ class Apprenticeship(Generic[Found]):
 def project(mean: Floats, found: Floats, expert: Floats) -> Floats:
     """The point nearest to the expert on the line from ``mean`` through ``found``, all (K,) (Abbeel and Ng 2004, 3.1).
 
-    Not beyond ``found`` itself, so that the point stays a mixture of policies.
+    Not beyond ``found`` itself, so that the point stays a mixture of policies. It would never lie beyond if ``found``
+    were the best policy for the reward ``expert - mean``; one that was learned need not be.
     """
     along = found - mean
     length2 = along @ along

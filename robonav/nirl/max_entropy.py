@@ -65,6 +65,9 @@ def soft_value_iteration(
 ) -> SoftSolution:
     """The soft Bellman backup repeated to its fixed point: V(s) = T log sum_a exp(Q(s, a) / T).
 
+    No policy collects more reward and entropy (times T), discounted alike. A terminal state goes on collecting entropy,
+    A actions that are all the same: an end costs nothing of it.
+
     Parameters
     ----------
     mdp : finite MDP with S states, A actions and a discount below 1.

@@ -138,6 +138,17 @@ def test_both_ways_walk_the_same_first_step(terrain):
     np.testing.assert_allclose(a / np.linalg.norm(a), b / np.linalg.norm(b), atol=1e-6)
 
 
+def test_a_projection_never_lies_beyond_the_best_policy(terrain):
+    """So the bound in ``project`` changes nothing of the paper's method where rewards are solved exactly."""
+    learned = learn(terrain, by_projection, start_expectations(terrain.task, terrain.expert), iterations=20)
+    mean = learned.expectations[0]
+    for found in learned.expectations[1:]:
+        share = (found - mean) @ (learned.expert - mean) / ((found - mean) @ (found - mean))
+        assert 0 <= share <= 1
+        mean = mean + share * (found - mean)
+    assert np.linalg.norm(learned.expert - mean) == pytest.approx(learned.distances[-1])
+
+
 def test_an_expert_met_at_once_ends_it(terrain, method):
     first = start_expectations(terrain.task, np.zeros(terrain.task.states, dtype=int))
     learned = learn(terrain, method, first)

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from scipy.optimize import check_grad
+from scipy.optimize import check_grad, minimize
+from scipy.special import softmax
 
 from robonav.errors import ConvergenceWarning
 from robonav.mdp.models import FiniteMDP
@@ -46,6 +47,22 @@ def test_one_state_in_closed_form():
     soft = soft_value_iteration(mdp, temperature=0.5)
     assert soft.values[0] == pytest.approx(0.5 * np.log(np.exp(0.6) + np.exp(-1.4)) / 0.1)
     np.testing.assert_allclose(soft.policy, boltzmann(soft.q, 2.0))
+
+
+def test_no_policy_collects_more_reward_and_entropy():
+    """An optimiser over all stochastic policies, scored by a linear system, comes to the soft values and no further."""
+    rng = np.random.default_rng(0)
+    transitions, rewards, heat = rng.dirichlet(np.ones(3), (2, 3)), rng.normal(size=(3, 2)), 0.7
+    soft = soft_value_iteration(FiniteMDP(transitions, rewards, 0.8), temperature=heat)
+
+    def worth(logits):
+        policy = softmax(logits.reshape(3, 2), axis=1)
+        gained = (policy * (rewards - heat * np.log(policy))).sum(axis=1)
+        return np.linalg.solve(np.eye(3) - 0.8 * np.einsum("sa,ast->st", policy, transitions), gained)[0]
+
+    found = minimize(lambda logits: -worth(logits), rng.normal(size=6))
+    assert -found.fun == pytest.approx(soft.values[0], abs=1e-6)
+    np.testing.assert_allclose(softmax(found.x.reshape(3, 2), axis=1), soft.policy, atol=1e-3)
 
 
 def test_a_budget_too_small_warns(scattered):
