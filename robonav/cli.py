@@ -11,6 +11,8 @@ from typing import Annotated, Any
 
 import typer
 
+from robonav.errors import WorkerLost
+
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
 exercises = typer.Typer(no_args_is_help=True, help="Make what students get from solutions/.")
 app.add_typer(exercises, name="exercises")
@@ -20,7 +22,7 @@ def main() -> None:
     """Run the command; a wrong input is one line and exit code 2."""
     try:
         app()
-    except (ValueError, TypeError) as error:
+    except (ValueError, TypeError, WorkerLost) as error:
         print(f"robonav: {error}", file=sys.stderr)
         sys.exit(2)
 

@@ -3,13 +3,14 @@
 from .catalogue import experiment, names
 from .experiment import Case, Experiment, Results, Row
 from .running import reproduce
-from .statistics import Summary, bootstrap_interval, probability_of_improvement, summarise
+from .statistics import Improvement, Summary, bootstrap_interval, probability_of_improvement, summarise
 from .store import RESULTS, load_results, save_results
 
 __all__ = [
     "RESULTS",
     "Case",
     "Experiment",
+    "Improvement",
     "Results",
     "Row",
     "Summary",

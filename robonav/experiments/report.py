@@ -98,7 +98,8 @@ def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
 
 def _said(summary: Summary) -> str:
     interval = "" if math.isnan(summary.low) else f" [{summary.low:.4g}, {summary.high:.4g}]"
-    return f"{summary.mean:.4g}{interval}, worst {summary.worst:.4g}, best {summary.best:.4g}"
+    rest = {"interquartile mean": summary.interquartile_mean, "worst": summary.worst, "best": summary.best}
+    return ", ".join([f"{summary.mean:.4g}{interval}", *(f"{name} {value:.4g}" for name, value in rest.items())])
 
 
 def _plain(summary: Summary) -> dict[str, Any]:

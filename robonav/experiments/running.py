@@ -5,13 +5,15 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from concurrent.futures import BrokenExecutor
 from pathlib import Path
 
 from robonav import expect
+from robonav.errors import WorkerLost
 from robonav.progress import Progress
 
 from .experiment import SCALES, Experiment, Results, Row, rows_of
-from .store import check_writable, load_run, run_file, save_results, save_run, save_timing
+from .store import check_writable, code, load_run, run_file, save_results, save_run, save_timing
 
 BACKENDS = ("joblib", "dask")
 RETRIES = 3
@@ -47,7 +49,8 @@ def reproduce(
     Raises
     ------
     ValueError : for an unknown scale or backend, no processes, dask without a scheduler that answers or a scheduler
-        without dask, or a folder that cannot be written in.
+        without dask, workers with other code than this process, or a folder that cannot be written in.
+    WorkerLost : if processes that work die again and again; what is finished stays.
     """
     expect.one_of("scale", scale, SCALES)
     expect.one_of("backend", backend, BACKENDS)
@@ -74,8 +77,9 @@ def reproduce(
             progress(len(finished), len(units))
     results = Results(experiment, scale, tuple(row for unit in units for row in finished[unit][0]))
     save_results(folder, results)
-    spent = {"seconds in all runs": sum(seconds for _, seconds in finished.values())}
-    save_timing(folder, experiment, spent | {"seconds on the clock": time.perf_counter() - began})
+    spent = {"runs": len(units), "seconds in all runs": sum(seconds for _, seconds in finished.values())}
+    clock = {"runs since the last start": len(waiting), "seconds since the last start": time.perf_counter() - began}
+    save_timing(folder, experiment, spent | clock)
     return results
 
 
@@ -99,22 +103,45 @@ def run_unit(experiment: Experiment, unit: Unit, scale: str) -> Done:
 
 
 def _here(experiment: Experiment, units: Sequence[Unit], scale: str, jobs: int) -> Iterator[Done]:
-    """Runs on this machine, as they finish."""
+    """Runs on this machine, as they finish; after a process died, what is not finished is begun again."""
     from joblib import Parallel, delayed
 
-    work = (delayed(run_unit)(experiment, unit, scale) for unit in units)
-    yield from Parallel(n_jobs=jobs, return_as="generator_unordered")(work)
+    waiting, deaths = dict.fromkeys(units), 0
+    while waiting:
+        work = [delayed(run_unit)(experiment, unit, scale) for unit in waiting]
+        try:
+            for done in Parallel(n_jobs=jobs, return_as="generator_unordered")(work):
+                del waiting[done[0]]
+                yield done
+        except BrokenExecutor:
+            deaths += 1
+            if deaths > RETRIES:
+                raise WorkerLost(f"{experiment.name} lost {deaths} processes, perhaps for want of memory: "
+                                 "what is finished stays, go on with fewer jobs") from None  # fmt: skip
 
 
 def _on_cluster(experiment: Experiment, units: Sequence[Unit], scale: str, scheduler: str | None) -> Iterator[Done]:
     """Runs on a Dask cluster, as they finish; a worker that dies has its run done again by another."""
-    from dask.distributed import Client, as_completed
+    from dask.distributed import Client, KilledWorker, as_completed
 
     try:
         client = Client(scheduler, timeout=ANSWER)
     except (OSError, ValueError) as error:
         raise ValueError(f"scheduler must be the address of one that answers, got {scheduler}: {error}") from None
     with client:
-        futures = [client.submit(run_unit, experiment, unit, scale, pure=False, retries=RETRIES) for unit in units]
-        for future in as_completed(futures):
-            yield future.result()
+        futures = [client.submit(_on_worker, experiment, unit, scale, code(), pure=False) for unit in units]
+        try:
+            for future in as_completed(futures):
+                yield future.result()
+        except KilledWorker:
+            raise WorkerLost(f"a run of {experiment.name} killed every worker that did it, perhaps for want of memory: "
+                             "what is finished stays, go on with workers that have more") from None  # fmt: skip
+
+
+def _on_worker(experiment: Experiment, unit: Unit, scale: str, wanted: str) -> Done:
+    """A run on a machine that may have another version of the package."""
+    if code() != wanted:
+        raise ValueError(
+            "workers must have the same robonav as the command, but one has another: install it anew there"
+        )
+    return run_unit(experiment, unit, scale)

@@ -67,11 +67,36 @@ def bootstrap_interval(values: ArrayLike) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def probability_of_improvement(ours: ArrayLike, theirs: ArrayLike) -> float:
-    """How likely a run of ours (S,) beats a run of theirs (R,); a tie counts half."""
+@dataclass(frozen=True)
+class Improvement:
+    """How likely one method's run beats another's; ``low`` and ``high`` bound it with 95 % confidence."""
+
+    probability: float
+    low: float
+    high: float
+
+    def __str__(self) -> str:
+        return f"{self.probability:.2f} [{self.low:.2f}, {self.high:.2f}]"
+
+
+def probability_of_improvement(ours: ArrayLike, theirs: ArrayLike) -> Improvement:
+    """How likely a run of ours (S,) beats a run of theirs (R,); a tie counts half.
+
+    The interval is a percentile bootstrap that draws runs of each method anew; with one run of a method it is NaN.
+
+    Raises
+    ------
+    ValueError : if there is no run, or one is not finite.
+    """
     a, b = _runs("ours", ours), _runs("theirs", theirs)
     difference = a[:, None] - b[None, :]
-    return float((difference > 0).mean() + (difference == 0).mean() / 2)
+    wins = (difference > 0) + (difference == 0) / 2
+    if min(wins.shape) == 1:
+        return Improvement(float(wins.mean()), float("nan"), float("nan"))
+    rng = np.random.default_rng(0)
+    of_ours, of_theirs = (rng.multinomial(n, np.full(n, 1 / n), size=RESAMPLES) / n for n in wins.shape)
+    low, high = np.quantile(((of_ours @ wins) * of_theirs).sum(axis=1), [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+    return Improvement(float(wins.mean()), float(low), float(high))
 
 
 def _runs(name: str, values: ArrayLike) -> NDArray[np.float64]:

@@ -9,10 +9,15 @@ import csv
 import hashlib
 import io
 import json
+import os
 import platform
+import re
+import sys
 import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import astuple
+from functools import cache
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +29,7 @@ RESULTS = Path(__file__).parent / "results"
 """What the experiments gave at the thesis's scale: the pages show it."""
 
 FORMAT = "robonav results 1"
+COMPUTING = ("mdp", "robot", "lfd", "nnql", "nirl", "experiments")
 COLUMNS = ("seed", "metric", "step", "value")
 
 
@@ -113,11 +119,35 @@ def load_results(folder: Path, experiment: Experiment) -> Results:
         raise ValueError(f"{path.name} must hold results of {experiment.name}, but is damaged or of another") from None
 
 
-def save_timing(folder: Path, experiment: Experiment, seconds: Mapping[str, float]) -> None:
+def save_timing(folder: Path, experiment: Experiment, spent: Mapping[str, float]) -> None:
     """Write ``NAME.machine.json``: what no other machine will repeat."""
-    about = {"machine": platform.machine(), "system": platform.system(), "python": platform.python_version()}
     with files.whole(folder / f"{experiment.name}.machine.json") as file:
-        file.write((json.dumps(about | dict(seconds), indent=2, sort_keys=True) + "\n").encode())
+        file.write((json.dumps(machine() | dict(spent), indent=2, sort_keys=True) + "\n").encode())
+
+
+def machine() -> dict[str, Any]:
+    """What this process runs on: processor, cores it may use, system, and the libraries that compute."""
+    told = Path("/proc/cpuinfo").read_text() if sys.platform == "linux" else ""
+    named = re.search(r"model name\s*: (.+)", told)
+    return {
+        "machine": platform.machine(),
+        "processor": named[1] if named else platform.processor(),
+        "cores": len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count(),
+        "system": platform.system(),
+        "python": platform.python_version(),
+        "libraries": {name: metadata.version(name) for name in ("numpy", "scipy", "numba", "torch")},
+    }
+
+
+@cache
+def code() -> str:
+    """SHA-256 of the package's code that computes."""
+    root = Path(__file__).parents[1]
+    digest = hashlib.sha256()
+    for path in sorted(path for part in COMPUTING for path in (root / part).rglob("*.py")):
+        digest.update(path.relative_to(root).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
 
 
 def _digest(numbers: object) -> str:
@@ -125,6 +155,6 @@ def _digest(numbers: object) -> str:
 
 
 def _identity(experiment: Experiment) -> str:
-    """What a kept run hangs on besides its case and seed: another version or other settings, another run."""
+    """What a kept run hangs on besides its case and seed: with other code or other settings it is another run."""
     cases = [dict(case) for case in experiment.cases]
-    return _digest([__version__, cases, dict(experiment.settings)])[:12]
+    return _digest([code(), cases, dict(experiment.settings)])[:12]

@@ -12,8 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from robonav.errors import WorkerLost
 from robonav.experiments import Experiment, experiment, load_results, names, reproduce
-from robonav.experiments.store import load_run, run_file
+from robonav.experiments.running import _on_worker
+from robonav.experiments.store import code, load_run, run_file
 
 
 def roll(case, seed, scale):
@@ -155,6 +157,54 @@ def test_a_folder_that_cannot_be_written_in_is_refused_before_any_run(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(ValueError, match="out must be in a folder to write in"):
         reproduce(toy(), tmp_path / "file" / "results", jobs=1)
+
+
+def test_a_process_that_dies_costs_its_run(tmp_path):
+    """The first run kills its process once, as the system does when memory runs out."""
+
+    def fragile(case, seed, scale):
+        sign = tmp_path / "died"
+        if (case["sides"], seed) == (6, 0) and not sign.exists():
+            sign.touch()
+            os.kill(os.getpid(), signal.SIGKILL)
+        return roll(case, seed, scale)
+
+    reproduce(toy(), tmp_path / "whole", jobs=1)
+    reproduce(toy(fragile), tmp_path / "cut", jobs=2)
+    assert (tmp_path / "died").exists()
+    assert content(tmp_path / "cut") == content(tmp_path / "whole")
+
+
+def test_a_run_that_always_kills_its_process_is_one_sentence(tmp_path):
+    def deadly(case, seed, scale):
+        os.kill(os.getpid(), signal.SIGKILL)
+
+    with pytest.raises(WorkerLost, match="toy lost 4 processes, perhaps for want of memory"):
+        reproduce(toy(deadly), tmp_path, jobs=2)
+
+
+def test_a_worker_with_other_code_is_refused():
+    assert _on_worker(toy(), (0, 1), "quick", code())[0] == (0, 1)
+    with pytest.raises(ValueError, match="workers must have the same robonav"):
+        _on_worker(toy(), (0, 1), "quick", "another")
+
+
+def test_a_run_kept_from_other_code_is_run_again(tmp_path, monkeypatch):
+    before = run_file(tmp_path, toy(), "quick", 0, 0)
+    monkeypatch.setattr("robonav.experiments.store.code", lambda: "another")
+    assert run_file(tmp_path, toy(), "quick", 0, 0) != before
+
+
+def test_the_machine_is_told(tmp_path):
+    reproduce(toy(), tmp_path, jobs=1)
+    (run_file(tmp_path, toy(), "quick", 0, 0)).unlink()
+    reproduce(toy(), tmp_path, jobs=1)
+    told = json.loads((tmp_path / "toy.machine.json").read_text())
+    assert told["cores"] >= 1
+    assert told["processor"]
+    assert set(told["libraries"]) == {"numpy", "scipy", "numba", "torch"}
+    assert (told["runs"], told["runs since the last start"]) == (8, 1)
+    assert told["seconds since the last start"] > 0
 
 
 def test_a_scheduler_that_does_not_answer_is_one_sentence(tmp_path, monkeypatch):

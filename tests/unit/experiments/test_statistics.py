@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from robonav.experiments import bootstrap_interval, probability_of_improvement, summarise
+from robonav.experiments import Improvement, bootstrap_interval, probability_of_improvement, summarise
 
 
 def test_a_summary_by_hand():
@@ -45,13 +45,34 @@ def test_one_seed_has_no_interval():
 
 
 def test_probability_of_improvement_by_hand_and_by_mann_whitney():
-    assert probability_of_improvement([1, 2], [0, 3]) == 0.5
-    assert probability_of_improvement([5, 6], [1, 2]) == 1
-    assert probability_of_improvement([1], [1]) == 0.5
+    assert probability_of_improvement([1, 2], [0, 3]).probability == 0.5
+    assert probability_of_improvement([5, 6], [1, 2]) == Improvement(1, 1, 1)
+    assert probability_of_improvement([1], [1]).probability == 0.5
     rng = np.random.default_rng(0)
     a, b = rng.integers(0, 10, 20), rng.integers(2, 12, 15)
     u = stats.mannwhitneyu(a, b).statistic / (20 * 15)
-    assert probability_of_improvement(a, b) == pytest.approx(u)
+    assert probability_of_improvement(a, b).probability == pytest.approx(u)
+
+
+def test_the_interval_of_an_improvement_draws_runs_of_both_methods_anew():
+    rng = np.random.default_rng(4)
+    a, b = rng.normal(0.5, 1, 30), rng.normal(0, 1, 20)
+
+    def wins(ours, theirs, axis=-1):
+        return (ours[..., :, None] > theirs[..., None, :]).mean(axis=(-2, -1))
+
+    low, high = stats.bootstrap(
+        (a, b), wins, method="percentile", n_resamples=4_000, rng=np.random.default_rng(5), batch=100
+    ).confidence_interval
+    got = probability_of_improvement(a, b)
+    np.testing.assert_allclose([got.low, got.high], [low, high], atol=0.01)
+    assert str(got) == f"{got.probability:.2f} [{got.low:.2f}, {got.high:.2f}]"
+
+
+def test_one_run_of_a_method_gives_no_interval_of_improvement():
+    got = probability_of_improvement([1.0], [0.0, 2.0])
+    assert got.probability == 0.5
+    assert np.isnan([got.low, got.high]).all()
 
 
 @pytest.mark.parametrize("values", [[], [1.0, float("nan")], [[1.0, 2.0]]])
