@@ -87,17 +87,28 @@ class CompiledNetworks:
 
 
 class TorchNetworks:
-    """:class:`Networks` in a torch tensor, on whatever device torch has: the same steps, to rounding."""
+    """:class:`Networks` in a torch tensor, on whatever device torch has: the same steps, to rounding.
+
+    What comes in goes :meth:`_there`, what goes out comes :meth:`_back_here`; in between nothing leaves the device.
+
+    Raises
+    ------
+    ValueError : if torch has no such device, or none that computes in double precision.
+    """
 
     def __init__(self, network: Network, device: str) -> None:
         import torch
 
-        self._parameters = torch.tensor(packed(network), device=device)
+        try:
+            self._parameters = torch.tensor(packed(network), device=device)
+        except (RuntimeError, AssertionError, TypeError) as error:
+            reason = str(error).partition("\n")[0]
+            raise ValueError(f"device must be one that torch has, got {device!r}: {reason}") from None
         self._sizes = network.sizes
 
     def logits(self, rows: Rows, x: Array) -> Array:
-        _, z = self._propagate(rows, self._here(x))
-        return z.cpu().numpy()
+        _, z = self._propagate(rows, self._there(x))
+        return self._back_here(z)
 
     def descend(
         self, rows: Rows, x: Array, y: Array, first: Rows, last: Rows, *, rate: Array, passes: int, tolerance: float
@@ -108,7 +119,7 @@ class TorchNetworks:
             for step in range(int(counts[going].max(initial=0))):
                 k = going[step < counts[going]]
                 at = (rows[k], first[k] + step)
-                cost[k] += self._step(rows[k], self._here(x[at]), self._here(y[at]), rate[k])
+                cost[k] += self._step(rows[k], self._there(x[at]), self._there(y[at]), rate[k])
             cost /= np.maximum(counts, 1)
             going = going[np.abs(before - cost)[going] >= tolerance]
             before = cost
@@ -118,24 +129,24 @@ class TorchNetworks:
         import torch
 
         (_, hidden, q), z = self._propagate(rows, x[:, None])
-        self._parameters[rows] -= self._here(rate)[:, None] * self._back(rows, x[:, None], hidden, q - y[:, None])
-        return (torch.nn.functional.softplus(z[:, 0]) - y * z[:, 0]).sum(dim=1).cpu().numpy()
+        self._parameters[rows] -= self._there(rate)[:, None] * self._slopes(rows, x[:, None], hidden, q - y[:, None])
+        return self._back_here((torch.nn.functional.softplus(z[:, 0]) - y * z[:, 0]).sum(dim=1))
 
     def slopes(
         self, rows: Rows, x: Array, actions: NDArray[np.int64], targets: Array, *, linear: bool
     ) -> tuple[Array, Array]:
         import torch
 
-        inputs, taken, wanted = self._here(x), self._here(actions)[..., None], self._here(targets)[..., None]
+        inputs, taken, wanted = self._there(x), self._there(actions)[..., None], self._there(targets)[..., None]
         (_, hidden, q), z = self._propagate(rows, inputs)
         answer, logit = (z if linear else q).gather(2, taken), z.gather(2, taken)
         huber = torch.nn.functional.huber_loss(answer, wanted, reduction="none")
         costs = huber if linear else torch.nn.functional.softplus(logit) - wanted * logit
         error = (answer - wanted).clamp(-1, 1) / x.shape[1]
-        slope = self._back(rows, inputs, hidden, torch.zeros_like(z).scatter(2, taken, error))
-        return slope.cpu().numpy(), costs.mean(dim=(1, 2)).cpu().numpy()
+        slope = self._slopes(rows, inputs, hidden, torch.zeros_like(z).scatter(2, taken, error))
+        return self._back_here(slope), self._back_here(costs.mean(dim=(1, 2)))
 
-    def _back(self, rows: Rows, x: torch.Tensor, hidden: torch.Tensor, d2: torch.Tensor) -> torch.Tensor:
+    def _slopes(self, rows: Rows, x: torch.Tensor, hidden: torch.Tensor, d2: torch.Tensor) -> torch.Tensor:
         """Backpropagation, Eq. (3.14), (3.15): slopes (K, P) from the errors ``d2`` (K, m, A) of the outputs."""
         import torch
 
@@ -145,13 +156,13 @@ class TorchNetworks:
         return torch.cat([part.flatten(1) for part in parts], dim=1)
 
     def subtract(self, rows: Rows, steps: Array) -> None:
-        self._parameters[rows] -= self._here(steps)
+        self._parameters[rows] -= self._there(steps)
 
     def parameters(self) -> Array:
-        return self._parameters.cpu().numpy().copy()
+        return self._back_here(self._parameters).copy()
 
     def load(self, rows: Rows, parameters: Array) -> None:
-        self._parameters[rows] = self._here(parameters)
+        self._parameters[rows] = self._there(parameters)
 
     def _propagate(self, rows: Rows, x: torch.Tensor) -> tuple[list[torch.Tensor], torch.Tensor]:
         import torch
@@ -164,10 +175,14 @@ class TorchNetworks:
         w1, b1, w2, b2 = self._parameters[rows].split([n * h, h, h * a, a], dim=1)
         return w1.reshape(-1, n, h), b1, w2.reshape(-1, h, a), b2
 
-    def _here(self, array: NDArray) -> torch.Tensor:
+    def _there(self, array: NDArray) -> torch.Tensor:
         import torch
 
         return torch.as_tensor(array, device=self._parameters.device)
+
+    def _back_here(self, tensor: torch.Tensor) -> Array:
+        array: Array = tensor.cpu().numpy()
+        return array
 
 
 def packed(network: Network) -> Array:

@@ -214,27 +214,53 @@ def test_the_target_network_stands_still_between_refreshes():
     assert stood == 10
 
 
-@pytest.mark.parametrize("kind", ["accumulating", "fitting", "replaying"])
+def learner_of(kind, one, other):
+    if kind == "accumulating":
+        return Accumulating(
+            one, (2, 40, 4, 2), pairs=40, alpha=0.8, gamma=GAMMA, rate=0.3, rescale="clip", passes=2, tolerance=1e-3
+        )
+    if kind == "fitting":
+        return Fitting(one, (2, 4), gamma=GAMMA, collect=1, sweeps=2, epochs=20, tolerance=0)
+    return Replaying(one, other, (0, 1), 4, gamma=GAMMA, rate=0.01, batch=4, refresh=10)
+
+
+KINDS = ["accumulating", "fitting", "replaying"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_torch_learns_what_the_compiled_kernels_learn(kind):
     """The same numbers from a tensor, which may lie on any device."""
-
-    def make(one, other):
-        if kind == "accumulating":
-            return Accumulating(
-                one, (2, 40, 4, 2), pairs=40, alpha=0.8, gamma=GAMMA, rate=0.3, rescale="clip", passes=2, tolerance=1e-3
-            )
-        if kind == "fitting":
-            return Fitting(one, (2, 4), gamma=GAMMA, collect=1, sweeps=2, epochs=20, tolerance=0)
-        return Replaying(one, other, (0, 1), 4, gamma=GAMMA, rate=0.01, batch=4, refresh=10)
-
     start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
     backends = (CompiledNetworks, lambda network: TorchNetworks(network, "cpu"))
-    both = [make(backend(start), backend(start)) for backend in backends]
+    both = [learner_of(kind, backend(start), backend(start)) for backend in backends]
     for learner in both:
         for rows, steps in corridor_steps(learner, 40):
             learner.observe(rows, steps)
         learner.close(np.arange(2), np.array([1, 1]))
     np.testing.assert_allclose(*(learner.networks.parameters() for learner in both), rtol=1e-7, atol=1e-9)
+
+
+class Elsewhere(TorchNetworks):
+    """On torch's device without numbers, which computes shapes alone and takes no tensor from another device."""
+
+    def __init__(self, network):
+        super().__init__(network, "meta")
+
+    def _back_here(self, tensor):
+        assert tensor.device.type == "meta"
+        return np.full(tensor.shape, 0.5)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_tensor_is_made_on_another_device_than_the_networks(kind):
+    """What holds for a device that every machine has holds for a graphics card: each tensor lies where it is told."""
+    start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
+    learner = learner_of(kind, Elsewhere(start), Elsewhere(start))
+    for rows, steps in corridor_steps(learner, 12):
+        learner.observe(rows, steps)
+    learner.close(np.arange(2), np.array([1, 1]))
+    learner.restore(learner.state())
+    assert learner.networks._parameters.device.type == "meta"
 
 
 def test_memory_grows_and_comes_back():
