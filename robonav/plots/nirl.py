@@ -109,21 +109,16 @@ def draw_counts(axes: Axes, numbers: ArrayLike, counts: Mapping[str, ArrayLike],
     axes.set(xlabel="demonstrations", ylim=(0, None))
 
 
-def draw_course(
-    axes: Axes, series: Mapping[str, ArrayLike], label: str, *, thesis: float | None = None, window: int = 1
-) -> None:
-    """A number an iteration (runs, n) by name: mean and range over runs, averaged over ``window`` iterations."""
+def draw_course(axes: Axes, series: Mapping[str, ArrayLike], label: str) -> None:
+    """A number an iteration (runs, n) by name: mean and range over runs."""
     colours = (look.VERMILION, look.BLUE, look.GREEN, look.ORANGE)
     for (name, given), colour in zip(series.items(), colours, strict=False):
         runs = np.atleast_2d(np.asarray(given, dtype=float))
-        smooth = np.stack([np.convolve(run, np.ones(window) / window, "valid") for run in runs])
-        x = np.arange(window, runs.shape[1] + 1)
-        axes.fill_between(x, smooth.min(axis=0), smooth.max(axis=0), color=colour, alpha=0.2, linewidth=0)
-        axes.plot(x, smooth.mean(axis=0), color=colour, label=name)
-    if thesis is not None:
-        axes.axhline(thesis, color=look.INK, linewidth=1, linestyle="--", label=f"thesis: {thesis:g} at the end")
+        x = np.arange(1, runs.shape[1] + 1)
+        axes.fill_between(x, runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.2, linewidth=0)
+        axes.plot(x, runs.mean(axis=0), color=colour, label=name)
     axes.set(xlabel="iteration", ylabel=label)
-    if thesis is not None or len(series) > 1:
+    if len(series) > 1:
         axes.legend()
 
 

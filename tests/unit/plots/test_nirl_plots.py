@@ -112,10 +112,10 @@ def test_the_choice_rings_the_best_of_each_score(axes):
     assert rings == [(70.0, 20.0), (90.0, 10.0)]
 
 
-def test_a_course_is_smoothed_over_its_window(axes):
-    draw.draw_course(axes, {"margin": [[1.0, 3, 5]]}, "margin", thesis=3.0, window=2)
-    np.testing.assert_array_equal(axes.lines[0].get_ydata(), [2, 4])
-    np.testing.assert_array_equal(axes.lines[0].get_xdata(), [2, 3])
+def test_a_course_is_the_mean_of_its_runs(axes):
+    draw.draw_course(axes, {"0.65": [[1.0, 3, 5], [3.0, 3, 3]], "0.9": [[0.0, 0, 0]]}, "margin")
+    np.testing.assert_array_equal(axes.lines[0].get_ydata(), [2, 3, 4])
+    np.testing.assert_array_equal(axes.lines[0].get_xdata(), [1, 2, 3])
     assert axes.get_legend() is not None
 
 
