@@ -52,28 +52,29 @@ def _property(nearest: NDArray[np.float64], outcome: NDArray[np.int8] | None) ->
 
 
 class Row(NamedTuple):
-    """One row of the reward table: from which states, to which, on what condition, how much."""
+    """One row of the reward table: from which states, to which, on what condition, how much; what the thesis has."""
 
     before: str
     after: str
     condition: str
     reward: float
+    thesis: str
 
 
 TABLE = (
-    Row("any", "winning", "", 1.0),
-    Row("any", "failure", "", -1.0),
-    Row("any", "safe", "", 0.0),
-    Row("safe", "cozy or dangerous", "", 0.0),
-    Row("dangerous", "cozy", "", 0.5),
-    Row("cozy", "dangerous", "", 0.0),
-    Row("cozy", "cozy", "not a metre nearer", 0.6),
-    Row("cozy", "cozy", "1 m nearer", 0.0),
-    Row("cozy", "cozy", "2 m nearer or more", -0.2),
-    Row("dangerous", "dangerous", "not a metre nearer", 0.4),
-    Row("dangerous", "dangerous", "1 m nearer", -0.2),
-    Row("dangerous", "dangerous", "2 m nearer", -0.5),
-    Row("dangerous", "dangerous", "3 m nearer or more", -1.0),
+    Row("any", "winning", "", 1.0, "1"),
+    Row("any", "failure", "", -1.0, "−1, from dangerous"),
+    Row("any", "safe", "", 0.0, "0, from cozy"),
+    Row("safe", "cozy or dangerous", "", 0.0, "0, to cozy"),
+    Row("dangerous", "cozy", "", 0.5, "0.5, and 0.6"),
+    Row("cozy", "dangerous", "", 0.0, "0"),
+    Row("cozy", "cozy", "not a metre nearer", 0.6, "0.6"),
+    Row("cozy", "cozy", "1 m nearer", 0.0, "none"),
+    Row("cozy", "cozy", "2 m nearer or more", -0.2, "−0.2, as dangerous → dangerous"),
+    Row("dangerous", "dangerous", "not a metre nearer", 0.4, "0.4"),
+    Row("dangerous", "dangerous", "1 m nearer", -0.2, "−0.2"),
+    Row("dangerous", "dangerous", "2 m nearer", -0.5, "−0.5"),
+    Row("dangerous", "dangerous", "3 m nearer or more", -1.0, "−1"),
 )
 """Table 4.1 as we read it: of these rows exactly one holds for any step. "Nearer" is by how many whole metres the
 least range shrank."""
