@@ -1,12 +1,14 @@
 """The whole book as a PDF: the built pages joined into one document, and printed by Chromium.
 
 Usage: python print_book.py FILE, after a build. Links between pages become links inside the document, figures that can
-be touched stand as they look at first, and folded answers are open. Needs Chromium.
+be touched stand as they look at first, animations stand still half-way, and folded answers are open. Needs Chromium.
 """
 
 from __future__ import annotations
 
+import os
 import posixpath
+import re
 import shutil
 import sys
 import tempfile
@@ -18,10 +20,13 @@ import yaml
 from bs4 import BeautifulSoup, Tag
 from check_site import ROOT, SITE, pages
 
-TITLE = yaml.safe_load((ROOT / "_config.yml").read_text("utf-8"))["title"]
+CONFIG = yaml.safe_load((ROOT / "_config.yml").read_text("utf-8"))
+TITLE, AUTHOR = CONFIG["title"], CONFIG["author"]
 NOT_PRINTED = (
-    "script:not([type^='application/vnd.jupyter']), .headerlink, .prev-next-area, details.hide, button.copybtn"
+    "script:not([type^='application/vnd.jupyter']), .headerlink, .prev-next-area, .toctree-wrapper, "
+    "details.hide:not(.above-output), .hide > summary, button.copybtn"
 )
+FRAME = re.compile(r'frames\[\d+\] = "(data:[^"]+)"')  # of matplotlib's animations
 LOADED = (
     "link[rel=stylesheet], script[src*='third-party'], script[type='application/vnd.jupyter.widget-state+json'], "
     "script:-soup-contains('window.MathJax')"
@@ -34,9 +39,16 @@ STYLE = """
   .printed { max-width: none; padding: 0; }
   .printed > section { break-before: page; }
   .cover { height: 240mm; display: flex; flex-direction: column; justify-content: center; text-align: center; }
-  :is(figure, table, .admonition, .quiz details, .cell_output) { break-inside: avoid; }
-  pre { white-space: pre-wrap !important; overflow-wrap: anywhere; }
-  .robonav :is(button, select, input, textarea, label, fieldset), .anim-controls { display: none !important; }
+  nav ul { columns: 2; }
+  :is(h1, h2, h3, h4, .code-block-caption, .rubric) { break-after: avoid; }
+  :is(figure, img, tr, .math, .quiz, .animation, .robonav, .admonition) { break-inside: avoid; }
+  .cell_input { break-inside: avoid; }
+  :is(.literal-block-wrapper, .literal-block-wrapper div) { display: block !important; break-inside: auto !important; }
+  :is(pre, .highlight, .math, .output, .output > div, .pst-scrollable-table-container) { overflow: visible !important; }
+  pre { white-space: pre-wrap !important; overflow-wrap: anywhere; break-inside: auto !important; orphans: 4; }
+  table { font-size: 0.8rem; }
+  table.table :is(td, th) { padding: 0.3rem; overflow-wrap: break-word; }
+  .robonav :is(button, select, input, textarea, label, fieldset, details), .anim-controls { display: none !important; }
   .robonav::after { content: "In the pages of the book this can be touched."; font-size: 0.8rem; font-style: italic; }
 """
 READY = """async () => {
@@ -46,6 +58,8 @@ READY = """async () => {
 }"""
 WIDGETS_DRAWN = """() => [...document.querySelectorAll("script[type='application/vnd.jupyter.widget-view+json']")]
   .every(({ parentElement: place }) => place.querySelector(".widget-subarea > * > *"))"""
+WIDGETS_SETTLED = """() => [...document.querySelectorAll(".robonav [role=status]")]
+  .every(({ textContent: said }) => !said.endsWith("…"))"""
 
 
 def anchor(page: str, fragment: str = "") -> str:
@@ -66,12 +80,24 @@ def inside(page: str, address: str, known: set[str]) -> str:
     return str(at)
 
 
+def still(article: Tag) -> None:
+    """Give each animation the frame half-way as its picture, which else a script would set."""
+    for animation in article.select(".animation"):
+        script = animation.find_next("script", string=FRAME)
+        frames = FRAME.findall(script.get_text()) if script else []
+        if frames and animation.img:
+            animation.img["src"] = frames[len(frames) // 2].replace("\\\n", "")
+
+
 def prepared(page: str, source: str, known: set[str]) -> Tag:
-    """The article of a page, with anchors of its own, open folds and nothing that needs a hand."""
+    """The article of a page, with anchors of its own, open folds and nothing that needs a hand or this machine."""
     article = BeautifulSoup(source, "html.parser").find("article")
     assert isinstance(article, Tag)
+    still(article)
     for tag in article.select(NOT_PRINTED):
         tag.decompose()
+    for tag in article.select("details.hide"):  # an output in a fold
+        tag.unwrap()
     for tag in article.find_all("details"):
         tag["open"] = ""
     for tag in article.find_all(id=True):
@@ -81,6 +107,11 @@ def prepared(page: str, source: str, known: set[str]) -> Tag:
     for name in ("href", "src", "data"):
         for tag in article.find_all(attrs={name: True}):
             tag[name] = inside(page, tag[name], known)
+    for link in article.select("a[href]:not([href^='#'], [href*=':'])"):  # to a file beside the pages
+        if address := os.environ.get("BOOK_ADDRESS"):
+            link["href"] = f"{address.rstrip('/')}/{link['href']}"
+        else:
+            link.unwrap()
     article.name = "section"
     article["id"] = anchor(page)
     return article
@@ -108,7 +139,7 @@ def joined(listed: list[str]) -> str:
         for page, title in zip(listed, titles, strict=True)
         if isinstance(title, Tag)
     )
-    cover = f"<h1>{TITLE}</h1><p>The book where every equation runs. {datetime.now(UTC):%B %Y}.</p>"
+    cover = f"<h1>{TITLE}</h1><p>The book where every equation runs</p><p>{AUTHOR}, {datetime.now(UTC):%B %Y}</p>"
     return (
         '<!doctype html><html lang="en" data-theme="light" data-mode="light"><head><meta charset="utf-8">'
         f"<title>{TITLE}</title>{needed(listed, sources)}<style>{STYLE}</style></head>"
@@ -134,6 +165,7 @@ def print_to(target: Path, document: Path) -> None:
         page.goto(document.as_uri())
         page.evaluate(READY)
         page.wait_for_function(WIDGETS_DRAWN)
+        page.wait_for_function(WIDGETS_SETTLED)
         page.pdf(
             path=target, prefer_css_page_size=True, print_background=True, outline=True, tagged=True,
             display_header_footer=True, header_template="<span></span>", footer_template=FOOT,

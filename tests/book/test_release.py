@@ -84,15 +84,22 @@ def test_links_stay_inside_the_printed_book(address: str, expected: str) -> None
     assert print_book.inside("book/robot", address, known) == expected
 
 
-def test_a_printed_page_is_open_and_still() -> None:
+def test_a_printed_page_is_open_and_still(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("BOOK_ADDRESS", raising=False)
     source = """<html><article><h1 id="top">Title<a class="headerlink" href="#top">#</a></h1>
-      <details class="quiz"><summary>A</summary>why</details><details class="hide"><pre>x</pre></details>
+      <details class="quiz"><summary>A</summary>why</details><details class="hide above-input"><pre>x</pre></details>
+      <details class="hide above-output"><summary>Show</summary><table></table></details>
+      <div class="animation"><img id="i"></div><script>frames[0] = "data:a"; frames[1] = "data:b\\
+c"</script><a href="../_static/file.whl">this file</a>
       <script>run()</script><script type="application/vnd.jupyter.widget-view+json">{}</script></article></html>"""
     article = print_book.prepared("book/robot", source, {"book/robot"})
     assert article["id"] == "book-robot"
     assert article.h1["id"] == "book-robot--top"
     assert article.h1.get_text() == "Title"
     assert [details.has_attr("open") for details in article.find_all("details")] == [True]
+    assert article.table is not None  # an output in a fold is printed, a cell's code is not
+    assert article.img["src"] == "data:bc"  # the frame half-way, without its line's break
+    assert article.a is None  # a file of this machine
     assert [script.get("type") for script in article.find_all("script")] == ["application/vnd.jupyter.widget-view+json"]
 
 
