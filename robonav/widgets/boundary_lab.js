@@ -1,6 +1,7 @@
 // A network of two inputs: what it answers all over the plane, for every setting that the page has trained.
 
 const EDGE = 340; // of the picture, in pixels
+const REACH = 40; // pixels around the probe in which a finger takes hold of it
 
 /** Red, green and blue of a colour such as #0072B2. */
 const rgb = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
@@ -59,6 +60,10 @@ function plane({ extent, change }) {
   };
   overlay.addEventListener("pointerdown", touch);
   overlay.addEventListener("pointermove", touch);
+  holdFinger(overlay, ({ clientX, clientY }) => {
+    const box = probe.getBoundingClientRect();
+    return Math.hypot(clientX - box.left - box.width / 2, clientY - box.top - box.height / 2) < REACH;
+  });
 
   const examples = ({ x, y }) => {
     points.replaceChildren(...x.map((place, i) => {
@@ -144,7 +149,7 @@ function render({ model, el }) {
     h("div", { class: "row" }, ...settings.map(({ element }) => element)),
     time.element,
     status,
-    h("div", { class: "row" }, h("div", { class: "grow" }, map.element, ...probes.map(({ element }) => element)), place),
+    h("div", { class: "row" }, h("div", { class: "grow" }, map.element, h("div", { class: "probes" }, ...probes.map(({ element }) => element))), place),
     history.element,
   );
   load();

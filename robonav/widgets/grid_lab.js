@@ -69,7 +69,7 @@ function panel({ layout, wall, name, mark }) {
       arrow.remove();
       base.append(svg("rect", { x: x - 26, y: y - 26, width: 52, height: 52, fill: "none", stroke: DARK, "stroke-width": 2, class: "still" }));
       set(text, { y: y + 6, "font-size": 18 });
-      text.textContent = `${reward < 0 ? "−" : "+"}${Math.abs(reward)}`;
+      text.textContent = `${reward < 0 ? "−" : reward > 0 ? "+" : ""}${Math.abs(reward)}`;
     } else if (layout.rows[row][column] !== ".") {
       base.append(svg("text", { x: x - 25, y: y - 18, "font-size": 12, style: `fill: ${DARK}` }, layout.rows[row][column]));
     }
@@ -113,7 +113,7 @@ function render({ model, el }) {
   function here(frame) {
     const [row, column] = layout.cells[marked];
     const where = `Row ${row + 1}, column ${column + 1}`;
-    if (layout.ends.includes(marked)) return `${where}: the episode ends here, with reward ${String(layout.rewards[marked]).replace("-", "−")}.`;
+    if (layout.ends.includes(marked)) return `${where}: the episode ends here. Arriving earns ${String(layout.rewards[marked]).replace("-", "−")} on top of the step.`;
     const each = replays.map(({ run, frames }) => {
       const { values, policy } = frames.at(frame);
       return `${short(values[marked])} and ${WORDS[policy[marked]]} by ${run.name}`;

@@ -82,6 +82,7 @@ function map({ drive, selected, grabbed, moved }) {
   });
   canvas.addEventListener("pointermove", (event) => dragging !== null && moved(dragging, place(event)));
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (dragging = null));
+  holdFinger(canvas, (touch) => thingAt(place(touch)) !== null);
 
   /** The moment at part t of the way from the last step's beginning to now. */
   const draw = (t) => {
@@ -128,33 +129,43 @@ function readings() {
 function inspector({ drive, selected, select, changed, removed }) {
   const list = h("select", { "aria-label": "Thing to change", change: () => select(list.value === "robot" || list.value === "target" ? list.value : Number(list.value)) });
   const fields = h("span", { class: "fields" });
-  const field = (label, value, step, set) => h("label", {}, h("span", {}, label),
-    h("input", { type: "number", step, value, change: (event) => Number.isFinite(event.target.valueAsNumber) && changed(() => set(event.target.valueAsNumber)) }));
-  const show = () => {
-    const { world, pose, base } = drive();
-    const name = selected();
-    const options = [["robot", "robot (start)"], ["target", "target"], ...world.obstacles.map((o, m) => [String(m), `${o.circle ? "circle" : "rectangle"} ${m + 1}`])];
-    list.replaceChildren(...options.map(([value, text]) => h("option", { value, selected: value === String(name) }, text)));
-    const edit = (act) => (value) => drive().edit((w) => act(w, value));
-    const at = (find) => [
-      field("x (m)", metres(find(world)[0]), 1, edit((w, v) => (find(w)[0] = v))),
-      field("y (m)", metres(find(world)[1]), 1, edit((w, v) => (find(w)[1] = v)))];
-    if (name === "target") fields.replaceChildren(...at((w) => w.target));
-    else if (name === "robot") fields.replaceChildren(...at((w) => w.start));
-    else {
-      const o = world.obstacles[name];
-      const put = (property) => edit((w, v) => (w.obstacles[name][property] = v));
-      const size = (property) => edit((w, v) => (w.obstacles[name][property] = Math.max(0.5, v / (o.circle ? 1 : 2))));
-      fields.replaceChildren(
-        field("x (m)", metres(o.x), 1, put("x")), field("y (m)", metres(o.y), 1, put("y")),
-        ...(o.circle ? [field("radius (m)", metres(o.a), 0.5, size("a"))] : [
-          field("length (m)", metres(2 * o.a), 0.5, size("a")), field("width (m)", metres(2 * o.b), 0.5, size("b")),
-          field("turned (°)", Math.round((o.turned * 180) / Math.PI), 10, edit((w, v) => (w.obstacles[name].turned = (v * Math.PI) / 180)))]),
-        field("speed (m/s)", metres(o.speed), 0.1, edit((w, v) => (w.obstacles[name].speed = Math.max(0, Math.min(v, 2))))),
-        h("button", { type: "button", click: () => removed(name) }, "Remove"));
-    }
+  let shown = [];
+  /** A number of the world; `read` and `write` are given the world. */
+  const field = (label, step, read, write) => {
+    const input = h("input", { type: "number", step, change: () => {
+      if (Number.isFinite(input.valueAsNumber)) changed((world) => write(world, input.valueAsNumber));
+      fill();
+    } });
+    const fill = () => (input.value = metres(read(drive().world)));
+    shown.push(() => document.activeElement !== input && fill());
+    return h("label", {}, h("span", {}, label), input);
   };
-  return { element: h("fieldset", { class: "inspector" }, h("legend", {}, "Change a thing (or drag it in the map)"), list, fields), show };
+  const place = (find) => [0, 1].map((axis) => field(`${"xy"[axis]} (m)`, 1, (world) => find(world)[axis],
+    (world, value) => (find(world)[axis] = clamp(value, 0, world.size))));
+  const property = (item, label, step, key, { scale = 1, least = 0, most } = {}) => field(label, step,
+    ({ obstacles }) => obstacles[item][key] * scale,
+    ({ obstacles, size }, value) => (obstacles[item][key] = clamp(value, least, most ?? size) / scale));
+  const sides = (item, circle) => circle ? [property(item, "radius (m)", 0.5, "a", { least: 0.5 })] : [
+    property(item, "length (m)", 0.5, "a", { scale: 2, least: 1 }), property(item, "width (m)", 0.5, "b", { scale: 2, least: 1 }),
+    property(item, "turned (°)", 10, "turned", { scale: 180 / Math.PI, least: -360, most: 360 })];
+  /** The values that the fields show, but for the one that is being typed in. */
+  const update = () => shown.forEach((fill) => fill());
+  /** The list of things, and the fields of the one that is chosen. */
+  const show = () => {
+    const { obstacles } = drive().world;
+    const name = selected();
+    const options = [["robot", "robot (start)"], ["target", "target"], ...obstacles.map((o, m) => [String(m), `${o.circle ? "circle" : "rectangle"} ${m + 1}`])];
+    list.replaceChildren(...options.map(([value, text]) => h("option", { value, selected: value === String(name) }, text)));
+    shown = [];
+    if (name === "target") fields.replaceChildren(...place((world) => world.target));
+    else if (name === "robot") fields.replaceChildren(...place((world) => world.start));
+    else fields.replaceChildren(
+      property(name, "x (m)", 1, "x"), property(name, "y (m)", 1, "y"), ...sides(name, obstacles[name].circle),
+      property(name, "speed (m/s)", 0.1, "speed", { most: 2 }),
+      h("button", { type: "button", click: () => removed(name) }, "Remove"));
+    update();
+  };
+  return { element: h("fieldset", { class: "inspector" }, h("legend", {}, "Change a thing (or drag it in the map)"), list, fields), show, update };
 }
 
 function render({ model, el }) {
@@ -182,9 +193,8 @@ function render({ model, el }) {
   };
   const board = map({
     drive: () => drive, selected: () => selected, grabbed: choose,
-    moved: (name, [x, y]) => {
-      const { size } = drive.world;
-      const [px, py] = [Math.min(Math.max(x, 0), size), Math.min(Math.max(y, 0), size)];
+    moved: (name, point) => {
+      const [px, py] = point.map((value) => clamp(value, 0, drive.world.size));
       if (name === "robot") {
         if (drive.step > 0) return;
         drive.edit((w) => (w.start = [px, py]));
@@ -195,10 +205,13 @@ function render({ model, el }) {
   });
   const inspect = inspector({
     drive: () => drive, selected: () => selected, select: choose,
-    changed: (act) => { act(); refresh(); },
+    changed: (act) => {
+      drive.edit(act);
+      refresh();
+    },
     removed: (name) => {
       drive.edit((w) => w.obstacles.splice(name, 1));
-      selected = "robot";
+      choose("robot");
       refresh();
     },
   });
@@ -220,6 +233,7 @@ function render({ model, el }) {
     status.textContent = ended ?? `${step} s, target in sector ${sensing.region}${sensing.seen ? ", seen" : ""}; ${will}.`;
     board.canvas.setAttribute("aria-label", `Map, ${drive.world.obstacles.length} obstacles. Robot at ${metres(drive.pose.x)}, ${metres(drive.pose.y)}. ${status.textContent}`);
     save.disabled = drive.steps.length === 0;
+    inspect.update();
     paint();
   }
   const act = (chosen) => {

@@ -15,7 +15,7 @@ export function searchOf({ visited, points, ...told }) {
 }
 
 /** Nodes expanded at a frame of 0..FRAMES by searches of which the longest expands `most`: slow at first. */
-export const nodesAt = (frame, most) => Math.round(most * (frame / FRAMES) ** 2);
+export const nodesAt = (frame, most) => Math.ceil(most * (frame / FRAMES) ** 2);
 
 /** What a search has come to after so many nodes. */
 export function progressOf({ expanded, found, length }, nodes) {

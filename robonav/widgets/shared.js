@@ -28,6 +28,11 @@ export const svg = (tag, attributes = {}, ...children) =>
 /** Changes some attributes. */
 export const set = (element, attributes) => furnish(element, attributes, []);
 
+/** Lets a finger drag where `holds` says so of its touch; elsewhere it scrolls the page. */
+export function holdFinger(element, holds) {
+  element.addEventListener("touchstart", (event) => holds(event.touches[0]) && event.preventDefault(), { passive: false });
+}
+
 // ---- Numbers --------------------------------------------------------------------------------------------------------
 
 const TYPES = { float64: Float64Array, float32: Float32Array, int32: Int32Array, uint16: Uint16Array, uint8: Uint8Array };

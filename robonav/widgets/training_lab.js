@@ -1,8 +1,8 @@
 // Learning runs in every setting: curves to step through and to lay over one another, and a training of one's own.
 
 const FRAMES = 100;
-const [WIDE, HIGH] = [440, 190]; // of a chart, pixels
-const [LEFT, RIGHT, TOP, BOTTOM] = [52, WIDE - 12, 12, HIGH - 36];
+const [WIDE, HIGH] = [330, 184]; // of a chart, pixels
+const [LEFT, RIGHT, TOP, BOTTOM] = [54, WIDE - 10, 30, HIGH - 24];
 const DRAWN = { run: PALETTE.BLUE, kept: PALETTE.INK, live: PALETTE.VERMILION };
 
 /** Curves as Python packed them, by measure. */
@@ -28,7 +28,7 @@ export function reading(curve, step) {
 function chart({ label, step, last, highest, lowest, touch }) {
   const x = (at) => LEFT + ((RIGHT - LEFT) * at) / last;
   const y = (value) => BOTTOM - ((BOTTOM - TOP) * (value - lowest)) / (highest - lowest || 1);
-  const text = (content, attributes) => svg("text", { "font-size": 11, ...attributes }, content);
+  const text = (content, attributes) => svg("text", { "font-size": 12, ...attributes }, content);
   const element = svg("svg", { viewBox: `0 0 ${WIDE} ${HIGH}`, width: WIDE, height: HIGH, role: "img" });
   const mark = svg("line", { y1: TOP, y2: BOTTOM, stroke: PALETTE.INK, "stroke-dasharray": "3 3" });
   const lines = Object.fromEntries(Object.entries(DRAWN).map(([which, stroke]) => [which, {
@@ -40,10 +40,10 @@ function chart({ label, step, last, highest, lowest, touch }) {
   element.append(
     svg("path", { d: `M${LEFT} ${TOP}V${BOTTOM}H${RIGHT}`, fill: "none", stroke: PALETTE.INK }),
     ...drawn.map(({ band }) => band), mark, ...drawn.map(({ line }) => line), ...drawn.map(({ dot }) => dot),
-    text(digits(highest), { x: LEFT - 6, y: TOP + 8, "text-anchor": "end" }), text(digits(lowest), { x: LEFT - 6, y: BOTTOM, "text-anchor": "end" }),
-    text("0", { x: LEFT, y: BOTTOM + 15, "text-anchor": "middle" }), text(digits(last), { x: RIGHT, y: BOTTOM + 15, "text-anchor": "end" }),
-    text(step, { x: (LEFT + RIGHT) / 2, y: HIGH - 4, "text-anchor": "middle", class: "quiet" }),
-    text(label, { transform: `translate(12 ${(TOP + BOTTOM) / 2}) rotate(-90)`, "text-anchor": "middle", class: "quiet" }),
+    text(digits(highest), { x: LEFT - 6, y: TOP + 5, "text-anchor": "end" }), text(digits(lowest), { x: LEFT - 6, y: BOTTOM, "text-anchor": "end" }),
+    text("0", { x: LEFT, y: BOTTOM + 16, "text-anchor": "middle" }), text(digits(last), { x: RIGHT, y: BOTTOM + 16, "text-anchor": "end" }),
+    text(step, { x: (LEFT + RIGHT) / 2, y: BOTTOM + 16, "text-anchor": "middle", class: "quiet" }),
+    text(label, { x: 2, y: 14, class: "quiet" }),
   );
   const point = (event) => {
     if (event.type === "pointermove" && event.buttons === 0) return;
@@ -130,7 +130,7 @@ function render({ model, el }) {
   el.classList.add("robonav", "training-lab");
   el.replaceChildren(
     h("div", { class: "row settings" }, ...settings.map(({ element }) => element), keep, drop), time.element,
-    status, comparison, h("div", { class: "row" }, ...charts.map(({ element }) => h("div", { class: "grow" }, element))), workshop,
+    status, comparison, h("div", { class: "charts" }, ...charts.map(({ element }) => element)), workshop,
   );
   draw();
   return () => time.stop();

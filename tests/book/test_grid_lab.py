@@ -119,7 +119,7 @@ def test_the_mark_follows_touch_and_arrow_keys(lab):
         lab.page.keyboard.press(key)
     expect(status).to_contain_text("Row 2, column 5: ")
     lab.locator("figure").nth(1).locator("rect.cell").last.click()
-    expect(status).to_have_text("Row 5, column 7: the episode ends here, with reward 1.")
+    expect(status).to_have_text("Row 5, column 7: the episode ends here. Arriving earns 1 on top of the step.")
     lab.page.keyboard.press("ArrowUp")
     expect(status).to_contain_text("Row 4, column 7")
     lab.page.keyboard.press("ArrowDown")

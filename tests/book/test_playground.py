@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from browser import DESKTOP, PHONE, Visit
+from browser import DESKTOP, PHONE, Visit, swipe
 from playwright.sync_api import Locator, expect
 
 from robonav.experiments.methods import method, methods
@@ -96,10 +96,11 @@ def test_obstacles_are_added_dragged_resized_and_removed(lab):
     mouse.down()
     mouse.move(box["x"] + box["width"] * 0.3, box["y"] + box["height"] / 2, steps=4)
     mouse.up()
-    choose(lab, "Thing to change", "target")  # and back, so that its fields show the new place
-    choose(lab, "Thing to change", "0")
     x = lab.get_by_label("x (m)")
     expect(x).to_have_value(re.compile(r"^(2[89]|30)"))
+    x.fill("140")
+    x.press("Enter")
+    expect(x).to_have_value("100")  # the map's border
     lab.get_by_label("radius (m)").fill("5")
     lab.get_by_label("radius (m)").press("Tab")
     lab.get_by_label("speed (m/s)").fill("0.5")
@@ -109,6 +110,40 @@ def test_obstacles_are_added_dragged_resized_and_removed(lab):
     expect(lab.get_by_label("length (m)")).to_have_value("6")
     lab.get_by_role("button", name="Remove").click()
     expect(canvas).to_have_attribute("aria-label", re.compile("1 obstacles"))
+    expect(thing).to_have_value("robot")
+    expect(lab.get_by_role("button", name="Remove")).to_have_count(0)
+
+
+def test_fields_follow_what_moves_but_not_while_one_types(lab):
+    choose(lab, "world", "10 standing, 10 moving")
+    lab.get_by_label("Thing to change").select_option(index=21)
+    x, y = lab.get_by_label("x (m)"), lab.get_by_label("y (m)")
+    before = x.input_value(), y.input_value()
+    x.focus()
+    for _ in range(3):
+        lab.get_by_role("button", name="One step").evaluate("(button) => button.click()")  # the focus stays
+    expect(status(lab)).to_contain_text("3 s")
+    assert x.input_value() == before[0]
+    expect(y).not_to_have_value(before[1])
+
+
+def test_a_finger_drags_things_and_scrolls_elsewhere(visit, http):
+    visit.page.set_viewport_size(PHONE)
+    visit.open(f"{http}/book/playground.html")
+    lab = visit.page.locator(".robonav")
+    choose(lab, "world", "nothing at all")
+    lab.get_by_role("button", name="Add a circle").click()
+    canvas = lab.locator("canvas")
+    canvas.evaluate("(map) => map.scrollIntoView({ block: 'center' })")
+    box = canvas.bounding_box()
+    middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    x = lab.get_by_label("x (m)")
+    swipe(visit.page, middle, (middle[0] - 0.2 * box["width"], middle[1]))
+    expect(x).to_have_value(re.compile(r"^(2[89]|30)"))
+    scrolled = visit.page.evaluate("scrollY")
+    swipe(visit.page, (middle[0], middle[1] + 100), (middle[0], middle[1] - 100))
+    visit.page.wait_for_function("(before) => scrollY > before + 50", arg=scrolled)
+    expect(x).to_have_value(re.compile(r"^(2[89]|30)"))
 
 
 def test_a_drive_of_ones_own_is_a_demonstration_for_python(lab, tmp_path):

@@ -82,7 +82,7 @@ def test_time_moves_by_button_touch_and_play(lab):
     picture = lab.get_by_role("img").first
     picture.scroll_into_view_if_needed()
     box = picture.bounding_box()
-    picture.click(position={"x": box["width"] * 52 / 440 + 2, "y": box["height"] / 2})
+    picture.click(position={"x": box["width"] * 54 / 330 + 2, "y": box["height"] / 2})
     expect(status(lab)).to_contain_text(re.compile("Episode [0-4]: "))
     expect(picture).to_have_attribute("aria-label", re.compile("cost J over the training; at episode [0-4]: "))
 

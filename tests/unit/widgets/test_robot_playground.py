@@ -76,6 +76,18 @@ def test_files_that_hold_no_weights_are_refused_with_a_sentence(page, content):
     assert said == "The file must hold weights saved by robonav: it is damaged or of another kind."
 
 
+def test_a_network_that_does_not_fit_what_it_reads_is_refused(page, tmp_path):
+    network, encoder = random_network((11, 6, 5), seed=3), Encoder(target="signed")
+    save_weights(tmp_path / "own.safetensors", Weights(network, "own", encoder))
+    content = (tmp_path / "own.safetensors").read_bytes().replace(b"8, 9]", b"8]   ")
+    body = """
+      try { page.weightsFromFile(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)).buffer); }
+      catch (error) { return error.message; }
+    """
+    said = page(body, base64.b64encode(content).decode())
+    assert "its network has 11 inputs, and it says that it reads 10 numbers" in said
+
+
 def test_bad_settings_are_refused():
     with pytest.raises(ValueError, match="worlds must hold at least one"):
         robot_playground({})
