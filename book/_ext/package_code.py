@@ -28,6 +28,8 @@ from sphinx.util.docutils import SphinxDirective, SphinxRole
 from sphinx.util.nodes import make_refnode
 
 NAME = re.compile(r"(?P<name>robonav(?:\.\w+)+)(?:\((?P<argument>\w+)\))?")
+CODE_WORD = re.compile(r'(?<=<span class="pre">)[^<]+')
+BREAK = re.compile(r"(?<=[._/(])(?=[a-zA-Z])")
 
 
 def resolve(name: str) -> Any:
@@ -116,8 +118,17 @@ class CodeName(SphinxRole):
         return [code_reference(match["name"], self.text.removeprefix("robonav."), self.env.docname)], []
 
 
+def let_names_break(
+    app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: nodes.document | None
+) -> None:
+    """Let a name of code break after its dots, underscores and brackets where a column is narrow."""
+    if body := context.get("body"):
+        context["body"] = CODE_WORD.sub(lambda word: BREAK.sub("<wbr>", word[0]), body)
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     app.add_directive("source", FunctionSource)
     app.add_role("name", CodeName())
     app.connect("missing-reference", link_to_owner)
+    app.connect("html-page-context", let_names_break)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

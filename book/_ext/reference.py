@@ -100,6 +100,7 @@ class Reference(SphinxDirective):
         callables = [(name, found) for name, found in named if inspect.isclass(found) or inspect.isroutine(found)]
         constants = [(name, found) for name, found in named if isinstance(found, VALUES)]
         made: list[nodes.Node] = self.constants(constants) if constants else []
+        callables.sort(key=lambda named: (not inspect.isclass(named[1]), named[0].casefold()))
         return made + [self.entry(f"{module.__name__}.{name}", name, found) for name, found in callables]
 
     def constants(self, named: list[tuple[str, Any]]) -> list[nodes.Node]:

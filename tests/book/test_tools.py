@@ -75,6 +75,13 @@ def test_names_are_resolved_through_modules_classes_and_fields() -> None:
         package_code.resolve("robonav.plots.schemes.Box.nothing")
 
 
+def test_names_of_code_may_break_between_their_words_alone() -> None:
+    context = {"body": '<span class="pre">mdp.q_learning(rate)</span> a.b <span class="pre">0.5, &lt;x&gt;</span>'}
+    package_code.let_names_break(None, "page", "page.html", context, None)  # type: ignore[arg-type]
+    name, number = "mdp.<wbr>q_<wbr>learning(<wbr>rate)", "0.5, &lt;x&gt;"
+    assert context["body"] == f'<span class="pre">{name}</span> a.b <span class="pre">{number}</span>'
+
+
 def test_docstrings_become_lists_under_bold_titles() -> None:
     docstring = """Values of ``mdp`` (Eq. (2.26)); see :func:`~robonav.mdp.plan`.
 
