@@ -11,7 +11,7 @@ from robonav import expect
 from robonav.progress import Progress
 from robonav.robot import Encoder, Policy, Simulator, Worlds
 
-from .demonstrations import Actions, Demonstrations, Expert, join, record
+from .demonstrations import MAX_STEPS, Actions, Demonstrations, Expert, join, record
 from .experts import ComputerExpert
 from .imitation import learn_policy
 from .policy import NetworkPolicy
@@ -21,7 +21,7 @@ TEMPERATURE = 0.4
 
 @dataclass(frozen=True, eq=False)
 class Aggregation:
-    """What DAgger went through, round by round; round 0 is plain cloning.
+    """What DAgger went through, round by round; in round 0 there are the first demonstrations alone.
 
     Attributes
     ----------
@@ -39,7 +39,13 @@ class Aggregation:
 
 
 def advised(
-    policy: Policy, worlds: Worlds, *, expert: Expert | None = None, speed: float = 2.0, seed: int = 0
+    policy: Policy,
+    worlds: Worlds,
+    *,
+    expert: Expert | None = None,
+    speed: float = 2.0,
+    seed: int = 0,
+    max_steps: int = MAX_STEPS,
 ) -> Demonstrations:
     """Let a policy drive in D worlds, and write down what an expert would have done instead.
 
@@ -53,13 +59,14 @@ def advised(
     expert : gives the labels; by default the computer expert, who plans anew in each state.
     speed : m/s.
     seed : of the generator handed to the policy.
+    max_steps : seconds after which a drive is stopped.
     """
     rng = expect.generator("seed", seed)
 
     def drives(simulator: Simulator, asked: Actions) -> Actions:
         return np.asarray(policy(simulator.sense()[asked], rng), dtype=np.int64)
 
-    return record(drives, worlds, speed=speed, labels=expert or ComputerExpert())
+    return record(drives, worlds, speed=speed, labels=expert or ComputerExpert(), max_steps=max_steps)
 
 
 def dagger(
@@ -73,6 +80,7 @@ def dagger(
     seed: int = 0,
     encoder: Encoder | None = None,
     temperature: float = TEMPERATURE,
+    max_steps: int = MAX_STEPS,
     progress: Progress | None = None,
 ) -> Aggregation:
     """Clone the demonstrations, drive, have the expert label the states met, learn from everything; again.
@@ -85,6 +93,8 @@ def dagger(
     hidden, regularisation, iterations, seed, encoder : as in :func:`learn_policy`.
     temperature : of the policies, see :class:`NetworkPolicy`. The states that a learner meets by itself ask for more
         different answers than an expert's drives, and at 0 more policies go round in circles.
+    max_steps : seconds after which a round's drives are stopped. A robot that goes in circles has the expert label
+        the same few places again and again, and what is learned from everything then leans to them.
 
     Raises
     ------
@@ -97,7 +107,7 @@ def dagger(
 
     gathered, policies = [demonstrations], [learned(demonstrations)]
     for number, worlds in enumerate(rounds, start=1):
-        met = advised(policies[-1], worlds, expert=expert(), speed=demonstrations.speed, seed=seed)
+        met = advised(policies[-1], worlds, expert=expert(), speed=demonstrations.speed, seed=seed, max_steps=max_steps)
         gathered.append(join([gathered[-1], met]))
         policies.append(learned(gathered[-1]))
         if progress is not None:

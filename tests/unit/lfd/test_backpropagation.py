@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import torch
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robonav.lfd.backpropagation import CROSS_ENTROPY, SQUARED_ERROR, backpropagate
@@ -44,6 +44,7 @@ def test_cross_entropy_is_finite_where_a_sigmoid_rounds_to_one():
 
 
 @OBJECTIVES
+@settings(deadline=None)
 @given(SHAPES, st.integers(1, 5), st.sampled_from([0.0, 0.7]), st.integers(0, 10_000))
 def test_gradient_is_the_slope_of_the_cost(objective, sizes, m, regularisation, seed):
     network, x, y = problem(sizes, m, seed)
@@ -66,6 +67,7 @@ def test_gradient_is_the_slope_of_the_cost(objective, sizes, m, regularisation, 
 
 
 @OBJECTIVES
+@settings(deadline=None)
 @given(SHAPES, st.integers(1, 8), st.sampled_from([0.0, 0.7]), st.integers(0, 10_000))
 def test_gradient_is_what_autograd_finds(objective, sizes, m, regularisation, seed):
     network, x, y = problem(sizes, m, seed)

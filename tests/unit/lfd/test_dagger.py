@@ -71,6 +71,41 @@ def test_a_round_of_dagger_beats_cloning_little(shown):
     assert len(gathered.demonstrations[1]) > len(gathered.demonstrations[0]) == len(few)
 
 
+def test_each_round_adds_advice_on_its_own_worlds_to_everything_before(shown):
+    begin = demonstrate(random_worlds(3, 20, seed=79), speed=1.5)
+    rounds = [random_worlds(3, 20, seed=80), random_worlds(2, 20, seed=81)]
+    made = dagger(begin, rounds, seed=2, iterations=20, temperature=0.3)
+    assert [policy.temperature for policy in made.policies] == [0.3] * 3
+    gathered = begin
+    for number, worlds in enumerate(rounds):
+        met = advised(made.policies[number], worlds, speed=1.5, seed=2)
+        gathered = join([gathered, met])
+        assert np.array_equal(made.demonstrations[number + 1].poses, gathered.poses)
+        assert np.array_equal(made.demonstrations[number + 1].actions, gathered.actions)
+        learned = learn_policy(gathered, seed=2, iterations=20)
+        assert np.array_equal(made.policies[number + 1].network.weights[0], learned.network.weights[0])
+
+
+def test_dagger_asks_the_expert_it_is_given(shown):
+    def always_left(simulator, asked):
+        return np.full(len(asked), 2)
+
+    made = dagger(shown, [random_worlds(3, 20, seed=82)], expert=lambda: always_left, iterations=20)
+    added = made.demonstrations[1].drives(np.arange(len(shown.worlds), len(shown.worlds) + 3))
+    assert set(added.effective.actions) == {2}
+
+
+def test_a_drive_that_is_stopped_early_gives_no_more_advice(shown):
+    worlds = random_worlds(3, 20, seed=83)
+    whole, cut = advised(straight, worlds), advised(straight, worlds, max_steps=7)
+    assert (cut.lengths <= 7).all()
+    assert set(cut.outcome[whole.lengths > 7]) == {"out of steps"}
+    first = np.concatenate([np.flatnonzero(whole.trajectory == drive)[:7] for drive in range(3)])
+    assert np.array_equal(cut.actions, whole.actions[first])
+    made = dagger(shown, [worlds], iterations=10, max_steps=7)
+    assert made.demonstrations[1].lengths[len(shown.worlds) :].max() <= 7
+
+
 def test_dagger_is_reproducible(shown):
     rounds = [random_worlds(4, 10, seed=75)]
     one, same = (dagger(shown, rounds, seed=3, iterations=30) for _ in range(2))

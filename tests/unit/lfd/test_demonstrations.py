@@ -58,15 +58,18 @@ def test_each_drive_is_its_worlds_alone(shown):
     assert picked.worlds.digest() == shown.worlds[[5, 3]].digest()
 
 
+class Counting(ComputerExpert):
+    """Counts its plans."""
+
+    plans = 0
+
+    def way(self, simulator, robot):
+        self.plans += 1
+        return super().way(simulator, robot)
+
+
 def test_a_plan_is_made_where_the_last_was_left():
     """Without slipping there are few plans; with it the robot leaves them."""
-
-    class Counting(ComputerExpert):
-        plans = 0
-
-        def way(self, simulator, robot):
-            self.plans += 1
-            return super().way(simulator, robot)
 
     worlds = random_worlds(4, 10, seed=5)
     steady, slipping = Counting(), Counting()
@@ -97,8 +100,21 @@ def test_executed_actions_are_read_off_the_poses(action, heading):
 
 
 def test_moving_obstacles_are_planned_around():
-    shown = demonstrate(random_worlds(6, 5, 5, seed=6))
+    """Anew in every moment: where they stood when a plan was made says little."""
+
+    expert = Counting()
+    shown = record(expert, random_worlds(6, 5, 5, seed=6))
     assert (shown.outcome == "arrived").mean() > 0.6
+    assert expert.plans == (REFLEX(shown.sensing, shown.speed) < 0).sum()
+
+
+def test_steps_in_safe_states_are_not_learned_from():
+    """Not even where, without a reflex, one of the five actions was taken."""
+    shown = record(ComputerExpert(), random_worlds(3, 10, seed=7), reflex=None)
+    assert (shown.actions < 5).all()
+    assert shown.sensing.safe.sum() > 30
+    assert not shown.effective.sensing.safe.any()
+    assert len(shown.effective) == (~shown.sensing.safe).sum()
 
 
 def test_out_of_steps():

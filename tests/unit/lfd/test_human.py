@@ -73,6 +73,14 @@ def test_hand_driven_demonstrations():
     assert not np.array_equal(slipping.actions[: len(shown)], shown.actions[: len(slipping)])
 
 
+def test_sketches_shake_less_and_less_until_they_keep_clear():
+    """A hand that shakes by six metres: at first it would often draw through something."""
+    worlds = random_worlds(12, 20, seed=3)
+    for world, points in zip(worlds, sketch(worlds, seed=5, shake=6.0), strict=True):
+        path = smooth_path([world.starts[0], *points, world.targets[0]])
+        assert path_clearance(world, path).min() > 1.5
+
+
 def test_sketches_hang_on_seed_and_world_alone():
     worlds = random_worlds(4, 12, seed=3)
     some, same, others = sketch(worlds, seed=5), sketch(worlds[:2], seed=5), sketch(worlds, seed=6)

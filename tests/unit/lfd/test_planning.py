@@ -75,7 +75,7 @@ def least_cost(world, speed, margin, depth, caution=0.0):
         if rest <= ARRIVAL_DISTANCE:
             least = min(least, cost + rest)
             return
-        if done == depth:
+        if done == depth or cost + rest >= least:  # no way on is shorter than the straight one
             return
         for turn in TURNS:
             angle = heading + turn
@@ -111,6 +111,17 @@ def test_plan_is_optimal_where_cells_tell_all_poses_apart(rectangle):
     rest = np.linalg.norm(made.points[-1] - world.targets[0])
     assert made.found
     assert made.length + rest == pytest.approx(least_cost(world, 2.0, 1.0, depth=len(made.actions)), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "rectangle", [(16.4, 12.6, 8.6, 4.6, -71.0), (15.6, 11.1, 7.4, 8.8, 16.2), (18.1, 17.3, 5.9, 3.6, 10.4)]
+)
+def test_plan_is_optimal_where_haste_is_not(rectangle):
+    """Maps in which a heuristic that promises half as much again finds a longer way."""
+    world = make_world(rectangles=[rectangle], start=(6.0, 6.2), target=(24.0, 23.8), size=30)
+    made = plan(world, speed=3.0, margin=1.0, cell=0.06)
+    rest = np.linalg.norm(made.points[-1] - world.targets[0])
+    assert made.length + rest == pytest.approx(least_cost(world, 3.0, 1.0, depth=len(made.actions) + 1), abs=1e-6)
 
 
 def test_no_shorter_way_than_a_plan_of_few_steps():
