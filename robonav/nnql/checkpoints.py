@@ -9,6 +9,7 @@ import hashlib
 import io
 import zipfile
 from pathlib import Path
+from types import CodeType, FunctionType
 from typing import Any
 
 import numpy as np
@@ -63,7 +64,7 @@ def load_checkpoint(path: str | Path, identity: dict[str, Any], learner: Learner
 
 
 def _digest(identity: dict[str, Any]) -> str:
-    """A name for a training; functions, such as a reward, go by their own name."""
+    """A name for a training; functions, such as a reward, go by what they say and what they hold on to."""
     named = {key: _plain(value) for key, value in identity.items()}
     return hashlib.sha256(repr(sorted(named.items())).encode()).hexdigest()
 
@@ -71,9 +72,16 @@ def _digest(identity: dict[str, Any]) -> str:
 def _plain(value: Any) -> Any:
     fields = getattr(value, "__dataclass_fields__", None)
     if fields is not None:
-        return {name: _plain(getattr(value, name)) for name in fields}
+        return type(value).__qualname__, {name: _plain(getattr(value, name)) for name in fields}
     if isinstance(value, dict):
         return sorted((key, _plain(part)) for key, part in value.items())
     if isinstance(value, list | tuple):
         return [_plain(part) for part in value]
-    return getattr(value, "__qualname__", value)
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, CodeType):
+        return value.co_code, _plain(value.co_consts), value.co_names
+    if isinstance(value, FunctionType):
+        held = [cell.cell_contents for cell in value.__closure__ or ()]
+        return value.__qualname__, _plain(value.__code__), _plain(held)
+    return value

@@ -65,6 +65,28 @@ def test_a_checkpoint_of_another_training_is_refused(tmp_path):
         nnql(3, 4, checkpoint=path)
 
 
+def test_an_encoder_of_another_kind_is_another_training(tmp_path):
+    class Rounded(Encoder):
+        def __call__(self, sensing):
+            return super().__call__(sensing).round(1)
+
+    path, kind = tmp_path / "training", (NNQL_SENSORS, True, "number")
+    nnql(2, 4, checkpoint=path, course=Course(encoder=Encoder(*kind)))
+    with pytest.raises(ValueError, match="belongs to a training with other"):
+        nnql(2, 4, checkpoint=path, course=Course(encoder=Rounded(*kind)))
+
+
+def test_rewards_that_differ_only_in_a_number_are_other_trainings(tmp_path):
+    def paying(row):
+        return lambda before, after, outcome: row[outcome]
+
+    path, rows = tmp_path / "training", np.eye(4)
+    nnql(2, 4, checkpoint=path, course=Course(reward=paying(rows[1])))
+    nnql(2, 4, checkpoint=path, course=Course(reward=paying(rows[1].copy())))
+    with pytest.raises(ValueError, match="belongs to a training with other"):
+        nnql(2, 4, checkpoint=path, course=Course(reward=paying(rows[2])))
+
+
 def test_a_checkpoint_of_another_version_or_a_torn_one_is_refused(tmp_path, monkeypatch):
     path = tmp_path / "training"
     nnql(2, 4, checkpoint=path)
