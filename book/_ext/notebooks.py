@@ -39,6 +39,8 @@ ROLE = re.compile(r"\{(?P<name>[\w:.-]+)\}`(?P<text>[^`]+)`")
 TARGET = re.compile(r"^\([\w:. -]+\)=\n", re.M)
 PICTURE = re.compile(r"(?P<start>!\[[^\]]*\]\()(?P<path>[^):\s]+)\)")
 KEY = re.compile(r"([a-z]+)(\d{4})[a-z]?")
+LABEL = re.compile(r"(?P<kind>fig|table|theorem|algorithm|exercise)-(?P<number>\d+(?:-\d+)*)")
+KINDS = {"fig": "Fig.", "table": "Table", "theorem": "Theorem", "algorithm": "Algorithm", "exercise": "Exercise"}
 LEFT_OUT = ("solution", "solution-start", "solution-end", "exercise-end", "bibliography", "contents")
 
 
@@ -98,8 +100,23 @@ def plain_role(match: re.Match[str]) -> str:
         return ", ".join(f"({number.strip()})" for number in text.split(","))
     if name == "name":
         return f"`{text}`"
-    shown = re.fullmatch(r"(.*?)\s*<[^>]*>", text, re.S)
-    return shown[1] if shown else text
+    if shown := re.fullmatch(r"(.*?)\s*<[^>]*>", text, re.S):
+        return shown[1]
+    if name == "doc":
+        return title_of(text)
+    return called(text) if name in ("ref", "numref", "prf:ref") else text
+
+
+def title_of(page: str) -> str:
+    """The title of a page of the book."""
+    return next(line[2:] for line in (ROOT / "book" / f"{page}.md").read_text("utf-8").splitlines() if line[:2] == "# ")
+
+
+def called(label: str) -> str:
+    """What a label is called where nothing can be numbered: the thesis's number, or a figure's label in words."""
+    if match := LABEL.search(label):
+        return f"{KINDS[match['kind']]} {match['number'].replace('-', '.')}"
+    return f"the figure of {label.removeprefix('fig-').replace('-', ' ')}"
 
 
 def plain(markdown: str) -> str:

@@ -146,6 +146,7 @@ def test_everything_public_is_documented(chapter: str) -> None:
 MYST = """(here)=
 Text {cite:p}`ng2000,abbeel2004` and {cite:t}`xia2015`: see
 {eq}`eq-2.24`, {thesis}`2.1, 2.2`, {doc}`the notes <notation>`.
+By {prf:ref}`theorem-2-2`, {numref}`fig-table-3-2` and {numref}`fig-trials` in {doc}`notation`.
 
 $$V = r$$ (eq-2.26)
 
@@ -176,6 +177,7 @@ Secret.
 def test_pages_become_plain_markdown() -> None:
     plain = notebooks.plain(MYST)
     assert "Text (Ng 2000; Abbeel 2004) and Xia 2015: see\n(2.24), (2.1), (2.2), the notes." in plain
+    assert "By Theorem 2.2, Table 3.2 and the figure of trials in Notation." in plain
     assert "$$\nV = r \\tag{2.26}\n$$" in plain
     assert "$$\na = b\n$$" in plain
     assert "> **Admonition Mind**\n>\n> A *word* policy." in plain
