@@ -106,7 +106,7 @@ def at_density(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def among_movers(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 5.12: standing and moving obstacles, for a robot that learned among standing ones; beside the rules."""
+    """Fig. 5.12: standing and moving obstacles, for a robot that learned among standing ones, or a rule."""
     method = str(case["method"])
     worlds = new_worlds(scale, seed, int(case["standing"]), int(case["moving"]))
     return driven(RULES[method] if method in RULES else policy(method, seed, settings(method)), worlds, SPEED)
@@ -195,10 +195,10 @@ FIGURE_5_11 = Experiment(
 )
 FIGURE_5_10 = Experiment(
     name="figure-5.10",
-    title="Success by number of obstacles at three speeds, learned among 20 at 2 m/s; beside a rule",
+    title="Success by number of obstacles at three speeds, learned among 20 at 2 m/s; beside cloning and a rule",
     cases=[
         {"method": method, "speed": speed, "obstacles": obstacles}
-        for method in ("nirl", "freer side")
+        for method in ("nirl", "cloning", "freer side")
         for speed in (1.0, 2.0, 3.0)
         for obstacles in DENSITIES
     ],
@@ -208,10 +208,10 @@ FIGURE_5_10 = Experiment(
 )
 FIGURE_5_12 = Experiment(
     name="figure-5.12",
-    title="Standing and moving obstacles, learned among standing ones; beside two rules",
+    title="Standing and moving obstacles, learned among standing ones; beside cloning and two rules",
     cases=[
         {"method": method, "standing": standing, "moving": moving}
-        for method in ("nirl", *RULES)
+        for method in ("nirl", "cloning", *RULES)
         for standing, moving in ((20, 0), (10, 10), (0, 20))
     ],
     run=among_movers,

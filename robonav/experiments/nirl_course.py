@@ -12,9 +12,10 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from robonav.lfd import Demonstrations, NetworkPolicy, demonstrate, demonstrate_by_hand, learn_policy, sketch
+from robonav.lfd.demonstrations import LEARNED
 from robonav.nirl import (
     BONUS,
     NEUTRAL,
@@ -102,15 +103,17 @@ def teach(
         "hidden": settings["hidden"],
     }
     if method in CONTROLS:
-        inputs = practice["course"].inputs + 1
-        theta = np.zeros((5, inputs))
-        if method == "random reward":
-            theta[:] = np.random.default_rng([seed, 5]).normal(size=theta.shape)
-        return learn_under(shown, theta, seed=seed, **practice)
+        return learn_under(shown, control(method, seed, practice["course"].inputs), seed=seed, **practice)
     own = _OWN[method](settings)
     if "guesses" in own:
         own["guesses"] = min(own["guesses"], iterations)
     return learn(shown, method, seed, **own, **practice, **changes)
+
+
+def control(name: str, seed: int, inputs: int) -> NDArray[np.float64]:
+    """The reward (5, k + 1) of a control: zero, or drawn by chance."""
+    shape = (LEARNED, inputs + 1)
+    return np.zeros(shape) if name == "zero reward" else np.random.default_rng([seed, 5]).normal(size=shape)
 
 
 def clone(shown: Demonstrations, seed: int, settings: Settings) -> NetworkPolicy:
@@ -143,11 +146,24 @@ def _learned(method: str, seed: int, settings: str, number: int, expert: str, le
     return teach(method, demonstrations(seed, number, expert), seed, json.loads(settings), length=length)
 
 
-def policy(method: str, seed: int, settings: Settings, *, length: float = 1.0) -> NetworkPolicy:
-    """The policy of one run of a method, a control or cloning."""
+def policy(
+    method: str,
+    seed: int,
+    settings: Settings,
+    number: int = DEMONSTRATIONS,
+    expert: str = "computer",
+    *,
+    length: float = 1.0,
+) -> NetworkPolicy:
+    """The policy of one run of a method, a control or cloning; what was learned once is not learned again."""
     if method == "cloning":
-        return clone(demonstrations(seed), seed, settings)
-    return learned(method, seed, settings, length=length).policy
+        return _cloned(seed, json.dumps(settings, sort_keys=True), number, expert)
+    return learned(method, seed, settings, number, expert, length=length).policy
+
+
+@lru_cache(maxsize=300)
+def _cloned(seed: int, settings: str, number: int, expert: str) -> NetworkPolicy:
+    return clone(demonstrations(seed, number, expert), seed, json.loads(settings))
 
 
 def new_worlds(scale: str, seed: int, obstacles: int = OBSTACLES, moving: int = 0) -> Worlds:
