@@ -56,6 +56,28 @@ def test_nfq_converges_to_the_known_values():
     np.testing.assert_allclose(learned_values(learner), [corridor_values()] * 2, atol=0.02)
 
 
+def test_nfq_looks_at_nothing_beyond_the_end():
+    learner, rows = Fitting(networks(), (2, 4), gamma=GAMMA, collect=1, sweeps=3, epochs=300, tolerance=0), np.arange(2)
+    x, last = np.eye(4)[[2, 2]], np.array([True, True])
+    learner.observe(rows, Steps(x, x[:, :2], np.array([1, 1]), np.full(2, 0.3), np.eye(4)[[3, 3]], last, np.zeros(2)))
+    learner.close(rows, np.array([1, 1]))
+    np.testing.assert_allclose(learner.values(rows, x)[:, 1], 0.3, atol=0.01)
+
+
+def test_dqn_draws_from_all_that_was_ever_made(monkeypatch):
+    drawn, draw = [], Memory.draw
+    monkeypatch.setattr(Memory, "draw", lambda memory, rows, steps: drawn.append(steps) or draw(memory, rows, steps))
+    learner = Replaying(networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=10, refresh=50)
+    for rows, steps in corridor_steps(learner, 200):
+        learner.observe(rows, steps)
+    latest = np.array(drawn[-100:])  # (100, 2, 10) of between 100 and 200 steps
+    made = np.arange(101, 201)[:, None, None]
+    assert (latest < made).all()
+    np.testing.assert_allclose((latest / made).mean(), 0.5, atol=0.03)
+    np.testing.assert_allclose((latest < made / 4).mean(), 0.25, atol=0.04)
+    assert (latest[:, 0] != latest[:, 1]).any()
+
+
 def test_dqn_converges_to_the_known_values():
     learner = Replaying(networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=16, refresh=50)
     for rows, steps in corridor_steps(learner, 900):

@@ -8,6 +8,7 @@ import pytest
 
 from robonav.nnql import METHODS, Course, nnql, train, weight_changes
 from robonav.nnql.checkpoints import load_checkpoint
+from robonav.nnql.networks import CompiledNetworks
 from robonav.nnql.practice import STARTS, TARGETS
 from robonav.robot import NNQL_SENSORS, Encoder, navigate, random_worlds
 
@@ -23,6 +24,21 @@ def same(one, other, row, other_row):
         (*one.network.weights, *one.network.biases), (*other.network.weights, *other.network.biases), strict=True
     ):
         np.testing.assert_array_equal(mine[row], theirs[other_row])
+
+
+@pytest.mark.parametrize(("method", "pairs"), [("nnql", 30), ("online", 1)])
+def test_nnql_trains_on_the_whole_episode_and_online_learning_on_its_latest_step(method, pairs, monkeypatch):
+    trained_on, descend = [], CompiledNetworks.descend
+
+    def watched(networks, rows, x, y, first, last, **options):
+        trained_on.extend(zip(first.tolist(), last.tolist(), strict=True))
+        descend(networks, rows, x, y, first, last, **options)
+
+    monkeypatch.setattr(CompiledNetworks, "descend", watched)
+    training = train(method, seeds=1, episodes=4, course=Course(max_steps=30))
+    expected = [(max(k - pairs, 0), k) for n in training.decisions[0] for k in range(1, n + 1)]
+    assert trained_on == expected
+    assert training.decisions.max() > 5
 
 
 @pytest.mark.parametrize("method", METHODS)
