@@ -12,10 +12,20 @@ PICTURES = ROOT / "_build" / "widgets"  # kept, to look at after the tests
 LARGEST_PAGE, LARGEST_SITE = 5e6, 60e6  # bytes; a page without what all pages share
 BROKEN = """() => ({
   formulas: [...document.querySelectorAll("mjx-merror")].map((node) => node.textContent),
+  cut: [...document.querySelectorAll("div.math, div.math mjx-container")]
+    .filter((place) => place.scrollWidth > place.clientWidth + 1).map((place) => place.textContent.slice(0, 60)),
   pictures: [...document.images].filter((image) => image.complete && !image.naturalWidth).map((image) => image.src),
   unnamed: [...document.images].filter((image) => !image.alt && image.offsetParent).map((image) => image.src),
 })"""
 OVERHANG = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
+ILLEGIBLE = """() => [...document.querySelectorAll(".robonav svg text")].filter((text) => {
+  const picture = text.ownerSVGElement;
+  const [inner, outer] = [text, picture].map((element) => element.getBoundingClientRect());
+  const size = (parseFloat(getComputedStyle(text).fontSize) * outer.width) / (picture.viewBox.baseVal.width || 1);
+  const [across, down] = [["left", "right"], ["top", "bottom"]].map(([low, high]) =>
+    Math.max(outer[low] - inner[low], inner[high] - outer[high]));
+  return text.textContent && inner.width > 0 && (size < 8 || Math.max(across, down) > 2);
+}).map((text) => text.textContent)"""
 
 
 def test_page_was_built_whole(site: Path, page_name: str) -> None:
@@ -26,7 +36,7 @@ def test_page_is_quiet_and_complete(visit: Visit, address: str, page_name: str) 
     visit.open(f"{address}/{page_name}.html")
     assert visit.external == []
     assert visit.errors == []
-    assert visit.page.evaluate(BROKEN) == {"formulas": [], "pictures": [], "unnamed": []}
+    assert visit.page.evaluate(BROKEN) == {"formulas": [], "cut": [], "pictures": [], "unnamed": []}
 
 
 def test_widgets_take_up_room_and_are_photographed(visit: Visit, http: str, page_name: str) -> None:
@@ -38,12 +48,14 @@ def test_widgets_take_up_room_and_are_photographed(visit: Visit, http: str, page
         picture = PICTURES / f"{page_name.removeprefix('book/').replace('/', '-')}-{which}.png"
         widget.screenshot(path=picture)
         assert picture.stat().st_size > 1_000
+    assert visit.page.evaluate(ILLEGIBLE) == []
 
 
 def test_page_fits_a_phone(visit: Visit, http: str, page_name: str) -> None:
     visit.page.set_viewport_size(PHONE)
     visit.open(f"{http}/{page_name}.html")
     assert visit.page.evaluate(OVERHANG) <= 1
+    assert visit.page.evaluate(ILLEGIBLE) == []
 
 
 @pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
