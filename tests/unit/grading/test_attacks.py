@@ -21,7 +21,7 @@ from robonav.grading.submission import Submission
 
 COURSE = Course.around(Path(__file__).parent)
 ATTACKED, HONEST = COURSE.named("improve"), COURSE.named("bounds")
-LIMITS = Limits(call_seconds=1.0, exercise_seconds=8.0, memory=512 << 20)
+LIMITS = Limits(call_seconds=3.0, exercise_seconds=8.0, memory=512 << 20)
 SLACK = 15.0  # seconds for starting two sandboxes on a busy machine
 
 SENDS = """
