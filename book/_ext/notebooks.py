@@ -156,12 +156,18 @@ def notebook_of(source: Path) -> nbformat.NotebookNode:
 
 
 def offer(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: nodes.document | None) -> None:
-    """Write a notebook page's ``.ipynb`` beside its source and tell the theme, which adds the button."""
+    """Write a notebook page's ``.ipynb`` beside its source and tell the theme, which adds the button.
+
+    The page holds the notebook, too: from disk a browser would show the file as text, and ``book.js`` hands this out.
+    """
     if doctree is None or "kernelspec" not in app.env.metadata.get(page, {}):
         return
     target = Path(app.outdir) / "_sources" / f"{page}.ipynb"
     target.parent.mkdir(parents=True, exist_ok=True)
-    nbformat.write(notebook_of(Path(app.env.doc2path(page))), target)
+    notebook = notebook_of(Path(app.env.doc2path(page)))
+    nbformat.write(notebook, target)
+    held = nbformat.writes(notebook).replace("</", "<\\/")
+    context["metatags"] += f'<script type="application/x-ipynb+json" id="notebook">{held}</script>'
     context["ipynb_source"] = f"{page}.ipynb"
 
 

@@ -2,3 +2,16 @@
 if (location.protocol === "file:" && typeof DOCUMENTATION_OPTIONS !== "undefined") {
   DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false;
 }
+
+// The page's notebook is saved under its name, where the browser by itself might show its text.
+document.addEventListener("click", (event) => {
+  const link = event.target.closest("a.btn-download-notebook-button");
+  const notebook = document.getElementById("notebook");
+  if (!link || !notebook) return;
+  event.preventDefault();
+  const file = document.createElement("a");
+  file.href = URL.createObjectURL(new Blob([notebook.textContent], { type: "application/x-ipynb+json" }));
+  file.download = link.pathname.split("/").pop();
+  file.click();
+  setTimeout(() => URL.revokeObjectURL(file.href), 1000);
+});

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -70,6 +71,16 @@ def test_search_finds_a_page(visit: Visit, address: str, size: dict[str, int]) -
 def test_first_page_leads_into_the_book(visit: Visit, address: str) -> None:
     visit.page.goto(f"{address}/index.html")
     visit.page.wait_for_url("**/book/intro.html")
+
+
+def test_a_notebook_is_saved_by_its_button(visit: Visit, address: str, site: Path) -> None:
+    visit.open(f"{address}/book/playground.html")
+    visit.page.get_by_label("Download this page").click()
+    with visit.page.expect_download() as download:
+        visit.page.locator(".dropdown-menu a", has_text=".ipynb").click()
+    assert download.value.suggested_filename == "playground.ipynb"
+    saved = json.loads(Path(download.value.path()).read_text("utf-8"))
+    assert saved == json.loads((site / "_sources/book/playground.ipynb").read_text("utf-8"))
 
 
 def test_page_is_light(site: Path, page_name: str) -> None:
