@@ -129,7 +129,7 @@ def draw_densities(axes: Axes, obstacles: Sequence[int], rates: Mapping[str, Arr
         colour = look.METHODS.get(name, look.BLUE)
         axes.fill_between(obstacles, runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.18, linewidth=0)
         axes.plot(obstacles, runs.mean(axis=0), "o-", color=colour, label=name, markersize=4)
-    axes.set(xlabel="obstacles", xticks=list(obstacles), ylim=(0, 102), title=title)
+    axes.set(xlabel="obstacles", xticks=list(obstacles), ylim=(50, 101), title=title)
 
 
 def draw_steps(axes: Axes, rates: Mapping[str, ArrayLike]) -> None:
