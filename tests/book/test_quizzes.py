@@ -34,7 +34,7 @@ def test_a_quiz_opens_in_a_notebook_too() -> None:
     assert "[x]" not in plain
 
 
-@pytest.mark.parametrize("page", ["dynamic-programming", "robot"])
+@pytest.mark.parametrize("page", ["dynamic-programming", "playground", "robot"])
 def test_each_answer_says_whether_it_is_right_and_why(visit: Visit, http: str, page: str) -> None:
     visit.page.set_viewport_size(PHONE)
     visit.open(f"{http}/book/{page}.html")
