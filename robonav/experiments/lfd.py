@@ -18,6 +18,7 @@ from robonav.lfd import (
     plan_on_grid,
     sketch,
 )
+from robonav.lfd.demonstrations import MAX_STEPS
 from robonav.robot import Policy, navigate, neighbour_slip, random_worlds
 from robonav.robot.encoding import TARGET_ENCODINGS
 
@@ -33,6 +34,7 @@ from .lfd_course import (
     aggregated,
     cloned,
     driven,
+    expert_in_new_worlds,
     new_worlds,
     shown,
     trained,
@@ -46,6 +48,7 @@ OTHERS = 500  # run k is tested on the demonstrations of run k + 500
 MAPS = 20  # that a run plans in
 MARGIN = 2.0  # metres that planners keep: every map has a way that wide
 OTHER_WAY = 10.0  # metres that two paths may be apart before they count as two ways
+CROWDED = 30  # obstacles
 SLIP = 0.2  # how likely a slipping expert turns 30 degrees too far or too little
 
 
@@ -149,8 +152,8 @@ def in_new_maps(case: Case, seed: int, scale: str) -> Numbers:
 
 def beside_the_expert(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 3.9: the same maps driven by what was learned and by the expert that it was learned from."""
-    worlds = new_worlds(seed, scale, int(case["obstacles"]))
-    expert = demonstrate(worlds)
+    expert = expert_in_new_worlds(seed, scale, int(case["obstacles"]))
+    worlds = expert.worlds
     policy = method(str(case["method"]), seed, scale, int(case["obstacles"]))
     drives = navigate(policy, worlds, record_paths=True)
     assert drives.paths is not None
@@ -183,6 +186,13 @@ def encoded(case: Case, seed: int, scale: str) -> Numbers:
     else:
         policy = cloned(seed, obstacles, target=target)
     return driven(policy, new_worlds(seed, scale, obstacles))
+
+
+def after_rounds(case: Case, seed: int, scale: str) -> Numbers:
+    """DAgger after so many rounds among many obstacles, with more hidden units, or with its drives stopped early."""
+    hidden, stopped, rounds = (int(case[key]) for key in ("hidden units", "drives stopped after s", "rounds"))
+    made = aggregated(seed, CROWDED, rounds=ROUNDS if rounds else 0, hidden=hidden, max_steps=stopped)
+    return driven(made.policies[rounds], new_worlds(seed, scale, CROWDED))
 
 
 def keeping_off(case: Case, seed: int, scale: str) -> Numbers:
@@ -242,7 +252,7 @@ FIGURE_3_6 = Experiment(
     title="What 25 demonstrations hold, by expert, and how the robot drives that learned from them",
     cases=[{"expert": expert} for expert in ("computer", "computer, slipping", "hand", "hand, slipping")],
     run=experts,
-    seeds=SEEDS,
+    seeds=SEEDS | {"thesis": 10},
     thesis={"success": [92, None, None, None]},
     settings=ABOUT | {"slip": SLIP},
 )
@@ -254,7 +264,7 @@ FIGURE_3_7 = Experiment(
         for expert, degrees in (("shortest way", "0 to 7"), ("keeps off", "0 to 7"), ("keeps off", "0 to 1"))
     ],
     run=cost,
-    seeds={"quick": 1, "thesis": 8},
+    seeds=SEEDS | {"thesis": 8},
     thesis={"cost at the end": [0.91] * 3},
     settings=ABOUT,
 )
@@ -267,7 +277,7 @@ FIGURE_3_8 = Experiment(
         for name in (*RULES, "1 neighbour", "5 neighbours", "15 neighbours", "cloning", "DAgger")
     ],
     run=in_new_maps,
-    seeds=SEEDS | {"thesis": 25},
+    seeds=SEEDS,
     thesis={"success": [None] * 5 + [92] + [None] * 15},
     settings=ABOUT,
 )
@@ -276,7 +286,7 @@ FIGURE_3_9 = Experiment(
     title="Learned paths beside planned ones: medians in metres",
     cases=[{"obstacles": obstacles, "method": name} for obstacles in (10, 20) for name in ("cloning", "DAgger")],
     run=beside_the_expert,
-    seeds={"quick": 1, "thesis": 5},
+    seeds=SEEDS | {"thesis": 5},
     settings=ABOUT,
 )
 FIGURE_3_10 = Experiment(
@@ -288,7 +298,7 @@ FIGURE_3_10 = Experiment(
         for name in (*RULES, "cloning", "DAgger")
     ],
     run=among_movers,
-    seeds=SEEDS,
+    seeds=SEEDS | {"thesis": 10},
     settings=ABOUT,
 )
 ENCODINGS = Experiment(
@@ -316,6 +326,19 @@ MARGINS = Experiment(
     run=keeping_off,
     seeds=SEEDS | {"thesis": 6},
     settings=ABOUT,
+)
+DAGGER_ROUNDS = Experiment(
+    name="lfd-rounds",
+    title="Rounds of DAgger among 30 obstacles: hidden units, and when a round stops its drives",
+    cases=[
+        {"hidden units": hidden, "drives stopped after s": stopped, "rounds": rounds}
+        for hidden in (8, 20)
+        for stopped in (MAX_STEPS, 120)
+        for rounds in range(ROUNDS + 1)
+    ],
+    run=after_rounds,
+    seeds=SEEDS | {"thesis": 8},
+    settings=ABOUT | {"obstacles": CROWDED},
 )
 
 EXPERIMENTS = (

@@ -23,6 +23,7 @@ from robonav.lfd import (
     labelled_states,
     learn_policy,
 )
+from robonav.lfd.demonstrations import MAX_STEPS
 from robonav.lfd.experts import CAUTION, MARGIN
 from robonav.robot import (
     COLLISION_DISTANCE,
@@ -36,7 +37,7 @@ from robonav.robot import (
 DEMONSTRATIONS = 25
 ROUNDS = 3  # of DAgger
 NAVIGATIONS = {"quick": 100, "thesis": 400}
-SEEDS = {"quick": 1, "thesis": 10}
+SEEDS = {"quick": 1, "thesis": 25}
 SHOWN_WORLDS = 30_000  # run k is shown the worlds of this seed + k
 MORE_WORLDS = 31_000  # and meets those of this one + 10 k in DAgger's first round, + 10 k + 1 in the next
 TEST_WORLDS = 35_000  # and drives through those of this one + k
@@ -77,6 +78,12 @@ def new_worlds(seed: int, scale: str, obstacles: int = 10, moving: int = 0) -> W
     return random_worlds(NAVIGATIONS[scale], obstacles, moving, seed=TEST_WORLDS + seed)
 
 
+@lru_cache(32)
+def expert_in_new_worlds(seed: int, scale: str, obstacles: int) -> Demonstrations:
+    """The computer expert's drives through the worlds that a run drives through."""
+    return demonstrate(new_worlds(seed, scale, obstacles))
+
+
 def driven(policy: Policy, worlds: Worlds) -> Numbers:
     """How many drives arrive, collide and run out of their 500 steps, in per cent."""
     drives = navigate(policy, worlds)
@@ -110,9 +117,18 @@ def unscaled(network: Network, degrees: str) -> NetworkPolicy:
 
 
 @lru_cache(32)
-def aggregated(seed: int, obstacles: int = 10, *, target: str = "sine-cosine", rounds: int = ROUNDS) -> Aggregation:
+def aggregated(
+    seed: int,
+    obstacles: int = 10,
+    *,
+    target: str = "sine-cosine",
+    rounds: int = ROUNDS,
+    hidden: int = 8,
+    max_steps: int = MAX_STEPS,
+) -> Aggregation:
     """The same, and then DAgger's rounds, with as many new maps in each as there were demonstrations."""
     worlds = [
         random_worlds(DEMONSTRATIONS, obstacles, seed=MORE_WORLDS + 10 * seed + number) for number in range(rounds)
     ]
-    return dagger(shown(seed, obstacles), worlds, seed=seed, encoder=Encoder(target=target))
+    encoder = Encoder(target=target)
+    return dagger(shown(seed, obstacles), worlds, hidden=hidden, seed=seed, encoder=encoder, max_steps=max_steps)

@@ -5,6 +5,7 @@ import pytest
 
 from robonav.lfd import (
     ComputerExpert,
+    NeighbourPolicy,
     NetworkPolicy,
     advised,
     dagger,
@@ -156,6 +157,15 @@ def test_neighbours_vote(shown, k):
             continue  # a tie about who is among the k
         votes = np.bincount(policy.actions[nearest[:k]], minlength=5)
         assert votes[answer] == votes.max()
+
+
+def test_of_equal_votes_the_nearer_neighbour_has_the_last(shown):
+    sensing = shown.effective.sensing[:1]
+    x = learn_neighbours(shown).encoder(sensing)
+    for nearer in (1, 3):
+        states = np.concatenate([x + 0.01, x + 0.02])
+        policy = NeighbourPolicy(states, np.array([nearer, 4 - nearer]), Encoder(), k=2)
+        assert policy(sensing, np.random.default_rng(0)).tolist() == [nearer]
 
 
 def test_neighbours_beat_going_straight(shown):

@@ -142,7 +142,7 @@ def test_learning_beats_the_commonest_answer():
 
 def test_accuracy_of_one_output_is_yes_above_one_half():
     yes_above_two = Network((np.array([[1.0]]),), (np.array([-2.0]),))
-    assert accuracy(yes_above_two, [[1.0], [3.0], [4.0], [0.0]], [[0.0], [1.0], [0.0], [1.0]]) == 0.5
+    assert accuracy(yes_above_two, [[1.9], [2.1], [4.0], [0.0]], [[0.0], [1.0], [0.0], [1.0]]) == 0.5
 
 
 def test_two_hidden_layers_train():
