@@ -1,9 +1,12 @@
-"""Chapter 4 again: Table 4.2 and 4.3, Fig. 4.3, 4.4 and 4.6, moving obstacles (Fig. 4.7) and denser maps."""
+"""Chapter 4 again: Table 4.2, 4.3 and what equal steps change in it, Fig. 4.3, 4.4, 4.6 and 4.7, and denser maps."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
+from robonav.lfd import NetworkPolicy
 from robonav.nnql import METHODS, weight_changes
 from robonav.robot import Policy
 
@@ -50,6 +53,23 @@ def compare(case: Case, seed: int, scale: str) -> Numbers:
     """Table 4.3: one seed of a method; or a rule, which learns nothing."""
     name, worlds = str(case["robot"]), new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed)
     return judged(robot(name, seed, scale), worlds, temperature=cold(name))
+
+
+def with_as_many_steps(case: Case, seed: int, scale: str) -> Numbers:
+    """Table 4.3, each method stopped after the last episode within as many learning steps as NNQL's training has.
+
+    NNQL's are those of the same seed. A method that has fewer goes through all its episodes.
+    """
+    name, worlds = str(case["robot"]), new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed)
+    allowed = trained("nnql", seed, scale, settings("nnql")).decisions[0].sum()
+    training = trained(name, seed, scale, settings(name), record=True)
+    assert training.history is not None
+    spent, driven = training.decisions[0].cumsum(), training.steps[0].cumsum()
+    last = int(np.searchsorted(spent, allowed, side="right"))
+    policy = NetworkPolicy(training.history[0, last], training.encoder)
+    means = {"episodes": last, "learning steps": spent[last - 1], "seconds driven": driven[last - 1]}
+    whole = {"learning steps, whole training": spent[-1], "seconds driven, whole training": driven[-1]}
+    return judged(policy, worlds, temperature=cold(name)) | means | whole
 
 
 def learn(case: Case, seed: int, scale: str) -> Numbers:
@@ -115,6 +135,14 @@ TABLE_4_3 = Experiment(
     thesis={"success": [98, 56, 87, None, None, None]},
     settings=_ABOUT,
 )
+STEPS = Experiment(
+    name="nnql-steps",
+    title="Table 4.3 with as many learning steps for each method as NNQL has",
+    cases=[{"robot": name} for name in METHODS],
+    run=with_as_many_steps,
+    seeds=_SEEDS,
+    settings=_ABOUT,
+)
 FIGURE_4_3 = Experiment(
     name="figure-4.3",
     title="What the weights change by in each episode",
@@ -161,4 +189,4 @@ TWENTY = Experiment(
     settings=_ABOUT | {"settings": DENSE},
 )
 
-EXPERIMENTS = (TABLE_4_2, TABLE_4_3, FIGURE_4_3, FIGURE_4_4, FIGURE_4_6, FIGURE_4_7, TWENTY)
+EXPERIMENTS = (TABLE_4_2, TABLE_4_3, STEPS, FIGURE_4_3, FIGURE_4_4, FIGURE_4_6, FIGURE_4_7, TWENTY)

@@ -1,4 +1,4 @@
-"""What a method makes of a step: the one place where the methods of this chapter differ."""
+"""What a method makes of a step: in this alone the methods of this chapter differ."""
 
 from __future__ import annotations
 

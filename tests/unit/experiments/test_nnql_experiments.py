@@ -9,11 +9,11 @@ import pytest
 from robonav.experiments import load_results, methods
 from robonav.experiments.nnql import (
     CHOSEN,
-    DENSE,
     EXPERIMENTS,
     RESULTS,
     RULES,
     SPEEDS,
+    STEPS,
     TABLE_4_2,
     TABLE_4_3,
     TWENTY,
@@ -98,10 +98,33 @@ def test_every_speed_is_driven_well():
             assert results.summary("success", k).mean >= 95
 
 
-def test_twenty_obstacles_are_driven_well():
+def test_twenty_obstacles_are_driven_well_with_a_little_chance_and_nearly_so_without():
     results = load_results(RESULTS, TWENTY)
-    rates = [results.summary("success, cold", k).mean for k, case in enumerate(TWENTY.cases) if case["robot"] in DENSE]
-    assert max(rates) >= 94
+    ours = [k for k, case in enumerate(TWENTY.cases) if case["robot"] == "rates that fall" and case["episodes"] == 600]
+    assert results.summary("success, cold", ours[0]).mean >= 94
+    assert results.summary("success", ours[0]).mean >= 93
+
+
+def test_no_method_had_more_learning_steps_than_nnql():
+    results, table = load_results(RESULTS, STEPS), load_results(RESULTS, TABLE_4_3)
+    nnql = results.values("learning steps", 0)
+    np.testing.assert_array_equal(results.values("success", 0), table.values("success", 0))
+    for k in range(len(STEPS.cases)):
+        spent, whole = (results.values(name, k) for name in ("learning steps", "learning steps, whole training"))
+        assert (spent <= nnql).all()
+        assert ((spent == whole) | (spent > 0.9 * nnql)).all()  # it stopped no earlier than it had to
+
+
+def test_a_method_is_stopped_where_nnqls_steps_end():
+    numbers = STEPS.run({"robot": "nfq"}, 1, "quick")
+    allowed = trained("nnql", 1, "quick", settings("nnql")).decisions[0].sum()
+    training = trained("nfq", 1, "quick", settings("nfq"), record=True)
+    last = int(numbers["episodes"])
+    assert training.decisions[0, :last].sum() == numbers["learning steps"] <= allowed
+    assert training.steps[0, :last].sum() == numbers["seconds driven"]
+    assert last == 300 or training.decisions[0, : last + 1].sum() > allowed
+    policy = NetworkPolicy(training.history[0, last], training.encoder)
+    assert judged(policy, new_worlds(100, TEST_WORLDS + 1))["success"] == numbers["success"]
 
 
 def test_a_rule_is_judged_once_and_a_network_also_when_cold():
