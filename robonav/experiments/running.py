@@ -77,18 +77,18 @@ def reproduce(
             progress(len(finished), len(units))
     results = Results(experiment, scale, tuple(row for unit in units for row in finished[unit][0]))
     save_results(folder, results)
-    spent = {"runs": len(units), "seconds in all runs": sum(seconds for _, seconds in finished.values())}
+    spent = {"runs": len(units), "processor seconds in all runs": sum(seconds for _, seconds in finished.values())}
     clock = {"runs since the last start": len(waiting), "seconds since the last start": time.perf_counter() - began}
     save_timing(folder, experiment, spent | clock)
     return results
 
 
 def run_unit(experiment: Experiment, unit: Unit, scale: str) -> Done:
-    """One run, on one thread: sums come out the same however many cores there are."""
+    """One run, on one thread: sums come out the same however many cores there are. With it, its processor seconds."""
     from threadpoolctl import threadpool_limits
 
     case, seed = unit
-    began = time.perf_counter()
+    began = time.process_time()
     torch = sys.modules.get("torch")
     threads = torch.get_num_threads() if torch else 0
     with threadpool_limits(1):
@@ -99,7 +99,7 @@ def run_unit(experiment: Experiment, unit: Unit, scale: str) -> Done:
         finally:
             if torch:
                 torch.set_num_threads(threads)
-    return unit, rows_of(case, seed, numbers), time.perf_counter() - began
+    return unit, rows_of(case, seed, numbers), time.process_time() - began
 
 
 def _here(experiment: Experiment, units: Sequence[Unit], scale: str, jobs: int) -> Iterator[Done]:
