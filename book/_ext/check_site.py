@@ -24,6 +24,9 @@ FAILURES = {
     "an unresolved reference": re.compile(r"<code[^>]*>\{(?:ref|eq|numref|cite[^}]*|prf:ref)\}"),
 }
 
+NO_PROSE = re.compile(r"<(pre|code|script|style)\b.*?</\1>|<(span|div) class=\"math\b.*?</\2>", re.DOTALL)
+BARE_TEX = re.compile(r"\\[a-zA-Z]{2,}")
+
 
 def pages(entry: Any) -> Iterator[str]:
     """Every page named in a table of contents, parts and sections included."""
@@ -46,6 +49,8 @@ def faults(page: str) -> Iterator[str]:
     text = html.unescape(re.sub(r"<[^>]+>", " ", article[0] if article else ""))
     if len(" ".join(text.split())) < LEAST_TEXT:
         yield f"holds fewer than {LEAST_TEXT} characters"
+    if article and BARE_TEX.search(NO_PROSE.sub("", article[0])):
+        yield "shows a formula that did not parse"
     yield from (f"shows {name}" for name, sign in FAILURES.items() if article and sign.search(article[0]))
 
 

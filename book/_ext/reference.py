@@ -24,6 +24,7 @@ VALUES = bool | int | float | str | tuple | Enum
 UNDERLINED = re.compile(r"^(?P<title>\w[\w ]*)\n-{3,}$", re.MULTILINE)
 ITEM = re.compile(r"^(?P<names>[*\w][\w*, ]*) : (?P<text>.*(?:\n[ \t]+.*|\n(?=\n[ \t]))*)", re.MULTILINE)
 ROLE = re.compile(r":\w+:`~?([^`]+)`")
+FUNCTION = re.compile(r"<function (\S+) at 0x[0-9a-f]+>")
 
 
 def markdown(docstring: str) -> str:
@@ -69,9 +70,10 @@ class Named:
 
     @classmethod
     def of(cls, default: Any) -> Any:
-        """A class or function by name; anything else as it is."""
-        known = default is inspect.Parameter.empty or not hasattr(default, "__qualname__")
-        return default if known else cls(default.__qualname__)
+        """A class or function by name, also as a part of something else; anything else as Python writes it."""
+        if default is inspect.Parameter.empty:
+            return default
+        return cls(getattr(default, "__qualname__", FUNCTION.sub(r"\1", repr(default))))
 
 
 def methods(found: Any) -> Iterator[tuple[str, Any]]:

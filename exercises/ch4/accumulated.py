@@ -4,8 +4,8 @@
 targets as they were computed when each pair was new (Algorithm 8). Follow one recorded episode with a learner
 simple enough to check by hand: linear, $Q(s, a) = w_a \\cdot \\phi(s)$, with weights zero at first. After each step
 compute the new pair's target, the reward plus the discounted best value of the next state under the weights as they
-are. Then go once through all pairs so far, oldest first, moving $w_a \\leftarrow w_a + \\sigma \\, (\\text{target}
-- w_a \\cdot \\phi(s)) \\, \\phi(s)$ for each.
+are. Then go once through all pairs so far, oldest first, and move each pair's $w_a$ by
+$\\sigma \\, (\\text{target} - w_a \\cdot \\phi(s)) \\, \\phi(s)$.
 """
 
 import numpy as np

@@ -106,6 +106,11 @@ def test_signatures_have_names_and_defaults_but_no_types() -> None:
     def drive(self: int, worlds: list[int], *, speed: float = 2.0) -> None: ...
 
     assert reference.signature("drive", drive) == "drive(worlds, *, speed=2.0)"
+
+    def train(cost: object = (drive, 1)) -> None: ...
+
+    assert reference.signature("train", train).endswith(".drive, 1))")
+    assert " at 0x" not in reference.signature("train", train)
     assert reference.signature("Way", Enum("Way", ["LEFT", "RIGHT"])) == "Way: LEFT, RIGHT"
 
 
@@ -255,6 +260,8 @@ def test_digest_sees_code_and_names_but_not_byte_code(tmp_path: Path) -> None:
         ("word " * 200 + "Traceback (most recent call last)", "shows a failed cell"),
         ("word " * 200 + '<div class="system-message">', "shows a directive or role that did not parse"),
         ("word " * 200 + "<code>{eq}</code>", "shows an unresolved reference"),
+        ("word " * 200 + "moving $w \\leftarrow w + 1$", "shows a formula that did not parse"),
+        ("word " * 200 + '<span class="math">\\(\\alpha\\)</span><code>\\dots</code>', None),
     ],
 )
 def test_a_page_that_failed_is_found(
