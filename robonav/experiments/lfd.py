@@ -18,7 +18,6 @@ from robonav.lfd import (
     plan_on_grid,
     sketch,
 )
-from robonav.lfd.demonstrations import MAX_STEPS
 from robonav.robot import Policy, navigate, neighbour_slip, random_worlds
 from robonav.robot.encoding import TARGET_ENCODINGS
 
@@ -48,7 +47,6 @@ OTHERS = 500  # run k is tested on the demonstrations of run k + 500
 MAPS = 20  # that a run plans in
 MARGIN = 2.0  # metres that planners keep: every map has a way that wide
 OTHER_WAY = 10.0  # metres that two paths may be apart before they count as two ways
-CROWDED = 30  # obstacles
 SLIP = 0.2  # how likely a slipping expert turns 30 degrees too far or too little
 
 
@@ -188,13 +186,6 @@ def encoded(case: Case, seed: int, scale: str) -> Numbers:
     return driven(policy, new_worlds(seed, scale, obstacles))
 
 
-def after_rounds(case: Case, seed: int, scale: str) -> Numbers:
-    """DAgger after so many rounds among many obstacles, with more hidden units, or with its drives stopped early."""
-    hidden, stopped, rounds = (int(case[key]) for key in ("hidden units", "drives stopped after s", "rounds"))
-    made = aggregated(seed, CROWDED, rounds=ROUNDS if rounds else 0, hidden=hidden, max_steps=stopped)
-    return driven(made.policies[rounds], new_worlds(seed, scale, CROWDED))
-
-
 def keeping_off(case: Case, seed: int, scale: str) -> Numbers:
     """An expert that keeps so far off, and the robot that learned from it."""
     obstacles = int(case["obstacles"])
@@ -252,7 +243,7 @@ FIGURE_3_6 = Experiment(
     title="What 25 demonstrations hold, by expert, and how the robot drives that learned from them",
     cases=[{"expert": expert} for expert in ("computer", "computer, slipping", "hand", "hand, slipping")],
     run=experts,
-    seeds=SEEDS | {"thesis": 10},
+    seeds=SEEDS,
     thesis={"success": [92, None, None, None]},
     settings=ABOUT | {"slip": SLIP},
 )
@@ -298,7 +289,7 @@ FIGURE_3_10 = Experiment(
         for name in (*RULES, "cloning", "DAgger")
     ],
     run=among_movers,
-    seeds=SEEDS | {"thesis": 10},
+    seeds=SEEDS,
     settings=ABOUT,
 )
 ENCODINGS = Experiment(
@@ -326,19 +317,6 @@ MARGINS = Experiment(
     run=keeping_off,
     seeds=SEEDS | {"thesis": 6},
     settings=ABOUT,
-)
-DAGGER_ROUNDS = Experiment(
-    name="lfd-rounds",
-    title="Rounds of DAgger among 30 obstacles: hidden units, and when a round stops its drives",
-    cases=[
-        {"hidden units": hidden, "drives stopped after s": stopped, "rounds": rounds}
-        for hidden in (8, 20)
-        for stopped in (MAX_STEPS, 120)
-        for rounds in range(ROUNDS + 1)
-    ],
-    run=after_rounds,
-    seeds=SEEDS | {"thesis": 8},
-    settings=ABOUT | {"obstacles": CROWDED},
 )
 
 EXPERIMENTS = (

@@ -23,7 +23,6 @@ from robonav.lfd import (
     labelled_states,
     learn_policy,
 )
-from robonav.lfd.demonstrations import MAX_STEPS
 from robonav.lfd.experts import CAUTION, MARGIN
 from robonav.robot import (
     COLLISION_DISTANCE,
@@ -117,18 +116,9 @@ def unscaled(network: Network, degrees: str) -> NetworkPolicy:
 
 
 @lru_cache(32)
-def aggregated(
-    seed: int,
-    obstacles: int = 10,
-    *,
-    target: str = "sine-cosine",
-    rounds: int = ROUNDS,
-    hidden: int = 8,
-    max_steps: int = MAX_STEPS,
-) -> Aggregation:
+def aggregated(seed: int, obstacles: int = 10, *, target: str = "sine-cosine", rounds: int = ROUNDS) -> Aggregation:
     """The same, and then DAgger's rounds, with as many new maps in each as there were demonstrations."""
     worlds = [
         random_worlds(DEMONSTRATIONS, obstacles, seed=MORE_WORLDS + 10 * seed + number) for number in range(rounds)
     ]
-    encoder = Encoder(target=target)
-    return dagger(shown(seed, obstacles), worlds, hidden=hidden, seed=seed, encoder=encoder, max_steps=max_steps)
+    return dagger(shown(seed, obstacles), worlds, seed=seed, encoder=Encoder(target=target))

@@ -104,7 +104,6 @@ DRAWN: dict[str, Callable[[Results], Figure]] = {
     "figure-3.10": partial(draw_bars, metric="success", label="drives that arrive (%)"),
     "lfd-encodings": partial(draw_bars, metric="success", label="drives that arrive (%)"),
     "lfd-margins": lfd.plot_margins,
-    "lfd-rounds": lfd.plot_rounds,
     "table-4.2": nnql.plot_speeds,
     "table-4.3": nnql.plot_rates,
     "figure-4.3": nnql.plot_weight_changes,

@@ -30,7 +30,6 @@ COLOURS = look.METHODS | {
 }
 CYCLE = (look.BLUE, look.GREEN, look.ORANGE, look.VERMILION, look.PURPLE, look.SKY)
 ARRIVE = "drives that arrive (%)"
-ROUND = "round of DAgger (0: before the first)"
 VISITED = LinearSegmentedColormap.from_list("visited", [to_rgba(look.SKY, 0.75), to_rgba(look.PURPLE, 0.75)])
 
 
@@ -187,13 +186,5 @@ def draw_rounds(axes: Axes, results: Results) -> None:
         obstacles = results.experiment.cases[case]["obstacles"]
         axes.plot(rounds, runs.mean(axis=0), color=colour, marker="o", label=f"{obstacles} obstacles")
         axes.fill_between(rounds, runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.15, linewidth=0)
-    axes.set(xlabel=ROUND, ylabel=ARRIVE, xticks=rounds)
+    axes.set(xlabel="round of DAgger (0: before the first)", ylabel=ARRIVE, xticks=rounds)
     axes.legend(fontsize=8)
-
-
-def plot_rounds(results: Results) -> Figure:
-    """Success after each of DAgger's rounds against what was tried: hidden units, drives stopped early."""
-    figure, axes = plt.subplots(figsize=(6.5, 4.2))
-    draw_against(axes, results, "rounds", "success")
-    axes.set(xlabel=ROUND, ylabel=ARRIVE, xticks=sorted({int(case["rounds"]) for case in results.experiment.cases}))
-    return figure
