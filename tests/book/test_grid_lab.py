@@ -142,6 +142,42 @@ def test_pictures_say_what_they_show(lab):
     assert lab.evaluate("(element) => element.scrollWidth <= element.clientWidth")
 
 
+def test_the_best_with_time_short_is_pythons(visit, site):
+    visit.open(f"{site.as_uri()}/book/decision-processes.html")
+    lab = visit.page.locator(".grid-lab")
+    lab.get_by_label("slip", exact=True).select_option("0.2")
+    lab.get_by_label("cost of a step").select_option("0.04")
+    track(lab).evaluate("(input) => { input.value = 11; input.dispatchEvent(new Event('input')); }")
+    expect(lab.locator("figure .told")).to_have_text("12 steps to go")
+    grid = mdp.four_by_three(slip=0.2, step_reward=-0.04)
+    plan = mdp.backward_induction(grid.mdp(1.0), 12)
+    values, arrows = shown(lab, 0)
+    np.testing.assert_allclose(values, plan.values[0][~grid.terminal], atol=0.0051)
+    assert arrows == plan.policy[0][~grid.terminal].tolist()
+
+
+def test_learners_and_their_walks_are_pythons(visit, site):
+    visit.open(f"{site.as_uri()}/book/model-free-learning.html")
+    lab = visit.page.locator(".grid-lab")
+    lab.get_by_label("exploring ε").select_option("0.2")
+    lab.get_by_label("learning rate α").select_option("0.5")
+    track(lab).evaluate("(input) => { input.value = 9; input.dispatchEvent(new Event('input')); }")
+    ends = {"X": mdp.Cell(reward=-99.0, ends=True), "G": mdp.Cell(ends=True)}
+    cliff = mdp.GridWorld("." * 7 + "\n" + "." * 7 + "\n" + "." * 7 + "\nSXXXXXG", legend=ends, step_reward=-1.0)
+    for which, learn in enumerate((mdp.q_learning, mdp.sarsa)):
+        options = {"discount": 1.0, "learning_rate": 0.5, "epsilon": 0.2, "seed": 1, "record": True}
+        learned = learn(cliff.environment(), 50, **options)
+        said = f"after episode 50, which collected {learned.returns[49]:.0f}"
+        expect(lab.locator("figure .told").nth(which)).to_have_text(said)
+        values, arrows = shown(lab, which)
+        q = learned.history[50][~cliff.terminal]
+        np.testing.assert_allclose(values, q.max(axis=1), atol=0.051)
+        assert arrows == q.argmax(axis=1).tolist()
+        walk = lab.locator("figure").nth(which).locator("svg path[stroke='#E69F00']").get_attribute("d")
+        places = [tuple(map(float, place.split())) for place in re.split("[ML]", walk)[1:]]
+        assert places == [(64 * (c + 0.5), 64 * (r + 0.5)) for r, c in cliff.cells[learned.walks[49]]]
+
+
 def test_with_a_kernel_a_map_of_ones_own_is_solved(visit, http):
     def solve(grid, choices=()):
         swept = mdp.value_iteration(grid.mdp(0.9), record=True)

@@ -58,22 +58,26 @@ def policies():
         yield target, NetworkPolicy(random_network((encoder.size, 8, 5), seed=rng, spread=2.0), encoder)
 
 
+@pytest.fixture(scope="module")
+def thousand():
+    """A thousand worlds, standing and moving, and the same for the page."""
+    worlds = concatenate([random_worlds(500, 20, seed=37), random_worlds(500, 10, 10, seed=38)])
+    return worlds, [page_world(world) for world in worlds]
+
+
 @pytest.mark.parametrize(("rule", "policy"), [("straight", straight), ("freer side", freer_side)])
 @pytest.mark.parametrize("speed", [2.0, 3.5])
-def test_rules_drive_in_the_page_as_in_python(node, rule, policy, speed):
-    worlds = concatenate([random_worlds(120, 20, seed=31), random_worlds(80, 8, 12, seed=32)])
-    compare(node, worlds, policy, {"rule": rule}, speed)
+def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(node, thousand, rule, policy, speed):
+    worlds, shown = thousand
+    drives = navigate(policy, worlds, speed, 100, record_paths=True)
+    same(node, shown, {"rule": rule}, speed, 100, drives.paths, drives.outcome)
 
 
 @pytest.mark.parametrize(("target", "policy"), [*policies()])
 def test_networks_drive_in_the_page_as_in_python(node, target, policy):
     worlds = concatenate([random_worlds(60, 15, seed=33), random_worlds(40, 8, 8, seed=34)])
-    compare(node, worlds, policy, page_policy(policy), 2.5)
-
-
-def compare(node, worlds, policy, packed, speed, steps=200):
-    expected = navigate(policy, worlds, speed, steps, record_paths=True)
-    same(node, worlds, packed, speed, steps, expected.paths, expected.outcome)
+    drives = navigate(policy, worlds, 2.5, 200, record_paths=True)
+    same(node, worlds, page_policy(policy), 2.5, 200, drives.paths, drives.outcome)
 
 
 def same(node, worlds, packed, speed, steps, paths, outcomes):
@@ -148,13 +152,6 @@ def test_chances_are_boltzmanns(node):
 
 
 NETWORKS = [name for name in methods() if isinstance(method(name), NetworkPolicy)]
-
-
-@pytest.fixture(scope="module")
-def thousand():
-    """A thousand worlds, standing and moving, and the same for the page."""
-    worlds = concatenate([random_worlds(500, 20, seed=37), random_worlds(500, 10, 10, seed=38)])
-    return worlds, [page_world(world) for world in worlds]
 
 
 @pytest.mark.parametrize("name", NETWORKS)
