@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import lru_cache
+from collections.abc import Callable, Sequence
+from functools import lru_cache, partial
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from robonav.lfd import Demonstrations, demonstrate
 from robonav.lfd.demonstrations import LEARNED
-from robonav.nirl import Learned, learn_under, most_frequent, most_telling, shown_steps
+from robonav.nirl import learn_under, most_frequent, most_telling, shown_steps
 from robonav.nirl.methods import Refinement
 from robonav.nnql import Course, nnql
 from robonav.robot import Policy, freer_side, neighbour_slip, random_worlds
@@ -24,6 +27,7 @@ from .nirl_course import (
     SHOWN_WORLDS,
     SPEED,
     Numbers,
+    control,
     course,
     demonstrations,
     descent,
@@ -31,11 +35,13 @@ from .nirl_course import (
     encoder,
     learned,
     new_worlds,
+    policy,
     teach,
 )
 from .nirl_steps import member
 
 EPISODES = 1400  # of training with Table 4.1's reward: as many drives as practice takes
+TOGETHER = 5  # seeds that train at once under Table 4.1: quicker than one by one, with the same numbers
 PLACES = ((10, 2.0), (30, 2.0), (20, 1.0), (20, 3.0))
 SLIP = 0.3
 TABLE_SETTINGS: dict[str, Any] = {
@@ -43,10 +49,10 @@ TABLE_SETTINGS: dict[str, Any] = {
 }  # fmt: skip
 
 
-def under(found: Learned, seed: int, length: float, obstacles: int, speed: float) -> Policy:
-    """The last policy of a new robot that practises elsewhere under a reward learned before, and nothing else."""
+def under(theta: NDArray[np.float64], seed: int, length: float, obstacles: int, speed: float) -> Policy:
+    """The last policy of a new robot that practises elsewhere under a reward (5, k + 1), and nothing else."""
     chosen = settings("nirl")
-    theta, iterations = found.reward_weights, round(ITERATIONS * length)
+    iterations = round(ITERATIONS * length)
     practised = learn_under(
         demonstrations(seed),
         theta,
@@ -62,23 +68,36 @@ def under(found: Learned, seed: int, length: float, obstacles: int, speed: float
 
 def carried(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """The policy learned among 20 obstacles at 2 m/s, as it is."""
-    return learned("nirl", seed, settings("nirl"), length=length).policy
+    return policy("nirl", seed, settings("nirl"), length=length)
+
+
+def cloned(seed: int, length: float, obstacles: int, speed: float) -> Policy:
+    """The policy cloned from the same demonstrations, as it is."""
+    return policy("cloning", seed, settings("cloning"))
 
 
 def by_reward(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """A new robot, trained there under the reward learned among 20 obstacles at 2 m/s."""
-    return under(learned("nirl", seed, settings("nirl"), length=length), seed, length, obstacles, speed)
+    theta = learned("nirl", seed, settings("nirl"), length=length).reward_weights
+    return under(theta, seed, length, obstacles, speed)
 
 
-def by_nothing(seed: int, length: float, obstacles: int, speed: float) -> Policy:
-    """The same with a reward of zero."""
-    return under(learned("zero reward", seed, settings("nirl"), length=length), seed, length, obstacles, speed)
+def by_control(seed: int, length: float, obstacles: int, speed: float, *, name: str) -> Policy:
+    """The same under a reward of zero, or of chance."""
+    theta = control(name, seed, encoder(settings("nirl")["target"]).size)
+    return under(theta, seed, length, obstacles, speed)
 
 
 def by_table(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """A new robot, trained there by NNQL with the reward of Table 4.1."""
+    seeds = range(seed - seed % TOGETHER, seed - seed % TOGETHER + TOGETHER)
+    return _by_table(seeds, length, obstacles, speed)[seed % TOGETHER]
+
+
+@lru_cache(maxsize=16)
+def _by_table(seeds: range, length: float, obstacles: int, speed: float) -> Sequence[Policy]:
     ground = Course(obstacles, speed=speed, starts=[(10, 10)], targets=[(90, 90)])
-    return nnql([seed], round(EPISODES * length), course=ground, **TABLE_SETTINGS).policies[0]
+    return nnql(seeds, round(EPISODES * length), course=ground, **TABLE_SETTINGS).policies
 
 
 def by_rule(seed: int, length: float, obstacles: int, speed: float) -> Policy:
@@ -88,9 +107,11 @@ def by_rule(seed: int, length: float, obstacles: int, speed: float) -> Policy:
 
 TAKEN: dict[str, Callable[[int, float, int, float], Policy]] = {
     "the policy itself": carried,
+    "a cloned policy": cloned,
     "trained there under the learned reward": by_reward,
     "trained there under Table 4.1": by_table,
-    "trained there under no reward": by_nothing,
+    "trained there under no reward": partial(by_control, name="zero reward"),
+    "trained there under a random reward": partial(by_control, name="random reward"),
     "freer side": by_rule,
 }
 
@@ -130,12 +151,12 @@ def refine(case: Case, seed: int, scale: str) -> Numbers:
 
 TRANSFER = Experiment(
     name="nirl-transfer",
-    title="Elsewhere: the policy taken along, or the reward alone; beside Table 4.1's reward, none, and a rule",
+    title="Elsewhere: the policy taken along, or the reward alone; beside cloning, other rewards, and a rule",
     cases=[
         {"obstacles": obstacles, "speed": speed, "taken along": taken} for obstacles, speed in PLACES for taken in TAKEN
     ],
     run=elsewhere,
-    seeds={"quick": 1, "thesis": 3},
+    seeds={"quick": 1, "thesis": 10},
     shortened="a tenth of the iterations",
     settings={
         "learned with": {"obstacles": OBSTACLES, "speed": SPEED} | settings("nirl"),

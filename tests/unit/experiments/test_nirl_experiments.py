@@ -32,6 +32,7 @@ from robonav.experiments.nirl_tuning import (
 )
 from robonav.lfd import load_weights
 from robonav.nirl import NOTHING, ByEquation514, OneStep, accuracy, balanced_accuracy
+from robonav.nnql import Course, nnql
 from robonav.robot import random_worlds
 
 ALL = (*nirl.EXPERIMENTS, *nirl_steps.EXPERIMENTS, *nirl_transfer.EXPERIMENTS, TUNING)
@@ -97,6 +98,19 @@ def test_nirl_reaches_what_it_was_to_reach_and_beats_its_controls():
     assert max(neutral[control].best for control in CONTROLS) < 25 < 90 < neutral["nirl"].worst
 
 
+def test_from_an_unsteady_hand_a_reward_beats_a_copy():
+    """Run by run, from the same drives."""
+    table = load_results(RESULTS, nirl.TABLE_5_1)
+    half = len(nirl.TABLE_5_1.cases) // 2
+    apart = {
+        (case["expert"], case["demonstrations"]): table.values("success", k) - table.values("success", k + half)
+        for k, case in enumerate(nirl.TABLE_5_1.cases[:half])
+    }
+    human = np.array([runs for (expert, _), runs in apart.items() if expert == "human"])
+    assert (human > 0).sum() == 39
+    assert human.mean(axis=1).min() > 6
+
+
 @pytest.mark.parametrize("control", CONTROLS)
 def test_controls_practise_as_nirl_does_under_another_reward(control):
     found, ours = (learned(name, 0, settings(name), length=SHORT) for name in (control, "nirl"))
@@ -148,9 +162,31 @@ def test_choices_choose_what_they_say():
 
 def test_a_reward_taken_elsewhere_needs_no_more_than_its_weights():
     found = learned("nirl", 0, settings("nirl"), length=SHORT)
-    robot = nirl_transfer.under(found, 0, SHORT, 10, 1.0)
+    robot = nirl_transfer.under(found.reward_weights, 0, SHORT, 10, 1.0)
     assert robot.encoder == found.policy.encoder
     assert nirl_transfer.carried(0, SHORT, 10, 1.0) is found.policy
+    same = nirl_transfer.by_reward(0, SHORT, 10, 1.0)
+    np.testing.assert_array_equal(robot.network.weights[0], same.network.weights[0])
+
+
+def test_robots_trained_together_are_those_trained_alone():
+    """Under Table 4.1 seeds share their training, to be quicker."""
+    settings_ = nirl_transfer.TABLE_SETTINGS
+    ground = Course(10, speed=1.0, starts=[(10, 10)], targets=[(90, 90)])
+    alone = nnql([nirl_transfer.TOGETHER + 1], 14, course=ground, **settings_).policies[0]
+    together = nirl_transfer.by_table(nirl_transfer.TOGETHER + 1, 0.01, 10, 1.0)
+    np.testing.assert_array_equal(together.network.weights[0], alone.network.weights[0])
+
+
+def test_a_comparison_has_its_controls_beside_it():
+    """No reward, one of chance, plain cloning: wherever what was learned is said to be good for something."""
+    methods = {e.name: {case.get("method") for case in e.cases} for e in nirl.EXPERIMENTS}
+    assert {"zero reward", "random reward", "cloning"} <= methods["table-5.2"]
+    assert {"zero reward", "random reward"} <= methods["nirl-controls"]
+    assert all("cloning" in methods[name] for name in ("table-5.1", "figure-5.10", "figure-5.12"))
+    assert {"a cloned policy", "trained there under no reward", "trained there under a random reward"} <= set(
+        nirl_transfer.TAKEN
+    )
 
 
 def test_methods_refuse_names_they_do_not_know():
