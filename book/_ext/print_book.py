@@ -45,10 +45,9 @@ STYLE = """
   .cell_input { break-inside: avoid; }
   :is(.literal-block-wrapper, .literal-block-wrapper div) { display: block !important; break-inside: auto !important; }
   :is(pre, .highlight, .math, .output, .output > div, .pst-scrollable-table-container) { overflow: visible !important; }
-  pre { white-space: pre-wrap !important; overflow-wrap: anywhere; break-inside: auto !important; orphans: 4; }
+  pre { break-inside: auto !important; orphans: 4; }
   table { font-size: 0.8rem; }
   table.table :is(td, th) { padding: 0.3rem; overflow-wrap: break-word; }
-  .robonav :is(button, select, input, textarea, label, fieldset, details), .anim-controls { display: none !important; }
   .robonav::after { content: "In the pages of the book this can be touched."; font-size: 0.8rem; font-style: italic; }
 """
 READY = """async () => {
