@@ -33,7 +33,7 @@ def something_changes(lab: Locator, control: str) -> Iterator[None]:
     before = lab.evaluate(SHOWN)
     yield
     try:
-        lab.page.wait_for_function(CHANGED, arg=[lab.element_handle(), before], timeout=4000)
+        lab.page.wait_for_function(CHANGED, arg=[lab.element_handle(), before])
     except PlaywrightError as error:
         raise AssertionError(f"{control} changes nothing") from error
 
