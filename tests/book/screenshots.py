@@ -26,6 +26,7 @@ def photograph(folder: Path, pages: list[str]) -> None:
             for page in pages:
                 with visiting(context) as visit:
                     visit.open(f"{address}/{page}.html")
+                    visit.page.add_style_tag(content="* { content-visibility: visible !important; }")
                     visit.page.wait_for_timeout(300)
                     height = visit.page.evaluate("document.documentElement.scrollHeight")
                     width = visit.page.viewport_size["width"]
