@@ -170,7 +170,7 @@ REFINEMENT = Experiment(
     title="Experts that contradict themselves, and what MAP refinement mends",
     cases=[{"expert": expert, "actions": how} for expert in ("computer", "human", "slipping") for how in REFINEMENTS],
     run=refine,
-    seeds={"quick": 1, "thesis": 6},
+    seeds={"quick": 1, "thesis": 10},
     settings={"slip": SLIP, "settings": settings("nirl"), "drives a run": NAVIGATIONS},
 )
 
