@@ -315,7 +315,7 @@ MARGINS = Experiment(
         for margin in (1, 2, 3, 5)
     ],
     run=keeping_off,
-    seeds=SEEDS | {"thesis": 6},
+    seeds=SEEDS,
     settings=ABOUT,
 )
 
