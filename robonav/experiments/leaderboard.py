@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.lfd import plan_on_grid
 from robonav.robot import Worlds, navigate, neighbour_slip, random_worlds
 
+from .drives import rates
 from .experiment import Case, Experiment
 from .methods import fingerprint, method, methods
 
@@ -87,11 +88,7 @@ def entry(case: Case, seed: int, scale: str) -> dict[str, float]:
         noise=setting.noise,
         seed=seed,
     )
-    numbers = {
-        "success": 100 * float(drives.success.mean()),
-        "collision": 100 * float(drives.collision.mean()),
-        "out of steps": 100 * float((drives.outcome == "out of steps").mean()),
-    }
+    numbers = rates(drives)
     if setting.moving == 0:  # what moves may stand in the way of a plan, or leave it
         shortest = shortest_ways(setting.obstacles, seed, worlds)
         numbers["SPL"] = 100 * spl(drives.success, drives.steps * setting.speed, shortest)

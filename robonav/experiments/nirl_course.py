@@ -32,6 +32,8 @@ from robonav.nirl import (
 )
 from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
 
+from .drives import rates
+
 ITERATIONS, TRAJECTORIES = 140, 10
 SHORTENED = {"quick": 0.1, "thesis": 1.0}  # of a training, in experiments that have very many
 NAVIGATIONS = {"quick": 100, "thesis": 1000}
@@ -172,7 +174,5 @@ def new_worlds(scale: str, seed: int, obstacles: int = OBSTACLES, moving: int = 
 
 
 def driven(robot: Policy, worlds: Worlds, speed: float = SPEED) -> dict[str, float]:
-    """How many drives arrive, collide and run out of steps, in per cent."""
-    outcome = navigate(robot, worlds, speed).outcome
-    ends = {"success": "arrived", "collision": "collided", "out of steps": "out of steps"}
-    return {name: 100 * (outcome == end).mean() for name, end in ends.items()}
+    """How drives of 500 steps at most end, in per cent."""
+    return rates(navigate(robot, worlds, speed))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from robonav.robot import Policy, freer_side, navigate, random_worlds, straight
 
+from .drives import rates
 from .experiment import Case, Experiment
 
 RULES: dict[str, Policy] = {"straight": straight, "freer side": freer_side}
@@ -12,10 +13,9 @@ WORLDS = {"quick": 100, "thesis": 1000}
 
 
 def drive(case: Case, seed: int, scale: str) -> dict[str, float]:
-    """Success and collisions in per cent of one batch of worlds."""
+    """How drives through one batch of worlds end."""
     worlds = random_worlds(WORLDS[scale], int(case["standing"]), int(case["moving"]), seed=SEED + seed)
-    drives = navigate(RULES[str(case["rule"])], worlds, float(case["speed"]))
-    return {"success": 100 * drives.success.mean(), "collision": 100 * drives.collision.mean()}
+    return rates(navigate(RULES[str(case["rule"])], worlds, float(case["speed"])))
 
 
 YARDSTICKS = Experiment(

@@ -69,7 +69,7 @@ def run(script, *arguments, folder):
     path = folder / "on_a_cluster.py"
     path.write_text(textwrap.dedent(script))
     done = subprocess.run(
-        [sys.executable, path, folder / "there", *arguments], capture_output=True, text=True, timeout=300, check=False
+        [sys.executable, path, folder / "there", *arguments], capture_output=True, text=True, timeout=900, check=False
     )
     assert done.returncode == 0, done.stderr[-3000:]
     return done.stdout
