@@ -1,6 +1,6 @@
 """Run every benchmark, one after the other, and write the book's page of them.
 
-    python benchmarks/page.py --peers DIR      # about a quarter of an hour, with nothing else running
+    python benchmarks/page.py --peers DIR      # about ten minutes, with nothing else running
 
 The page, ``book/benchmarks.md``, holds what each script printed, the machine, and pictures of how time and memory grow.
 """
