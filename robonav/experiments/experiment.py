@@ -31,10 +31,10 @@ class Experiment:
     run : ``run(case, seed, scale)`` gives numbers by metric, each a single one or one a step (T,); nothing else may
         decide them.
     seeds : number of runs of each case, by scale: "quick" (under a minute in all), "thesis" (its number, or more).
-    shortened : what a quick run leaves out of the training, if anything; its numbers then foretell nothing. All others
-        are runs as at the thesis's scale, only fewer, with fewer drives.
     thesis : what the thesis has: metric to one number a case, None where it has none.
     settings : what else a reader needs to know, for the metadata.
+    shortened : what a quick run leaves out of the training, if anything; its numbers then foretell nothing. All others
+        are runs as at the thesis's scale, only fewer, with fewer drives.
     """
 
     name: str

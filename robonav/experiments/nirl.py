@@ -56,6 +56,11 @@ CLONING = 0.65
 """Which of cloning's two sets of trials the chosen one is from."""
 
 
+def robot(name: str, seed: int) -> Policy:
+    """A rule by its name, or what one run of a method comes to with the settings chosen for it."""
+    return RULES[name] if name in RULES else policy(name, seed, settings(name))
+
+
 def compare(case: Case, seed: int, scale: str) -> Numbers:
     """Table 5.2: one run of a method, a control or a rule."""
     method, worlds = str(case["method"]), new_worlds(scale, seed)
@@ -102,14 +107,14 @@ def at_density(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 5.10: one policy, learned among 20 obstacles at 2 m/s, or a rule, with other obstacles and speeds."""
     method, speed = str(case["method"]), float(case["speed"])
     worlds = new_worlds(scale, seed, int(case["obstacles"]))[: NAVIGATIONS[scale] // 5]
-    return driven(RULES[method] if method in RULES else policy(method, seed, settings(method)), worlds, speed)
+    return driven(robot(method, seed), worlds, speed)
 
 
 def among_movers(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 5.12: standing and moving obstacles, for a robot that learned among standing ones, or a rule."""
     method = str(case["method"])
     worlds = new_worlds(scale, seed, int(case["standing"]), int(case["moving"]))
-    return driven(RULES[method] if method in RULES else policy(method, seed, settings(method)), worlds, SPEED)
+    return driven(robot(method, seed), worlds, SPEED)
 
 
 _ABOUT = {

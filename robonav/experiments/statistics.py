@@ -62,9 +62,7 @@ def bootstrap_interval(values: ArrayLike) -> tuple[float, float]:
     if len(runs) == 1:
         return float("nan"), float("nan")
     rng = np.random.default_rng(0)
-    means = runs[rng.integers(len(runs), size=(RESAMPLES, len(runs)))].mean(axis=1)
-    low, high = np.quantile(means, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
-    return float(low), float(high)
+    return _middle(runs[rng.integers(len(runs), size=(RESAMPLES, len(runs)))].mean(axis=1))
 
 
 @dataclass(frozen=True)
@@ -95,8 +93,13 @@ def probability_of_improvement(ours: ArrayLike, theirs: ArrayLike) -> Improvemen
         return Improvement(float(wins.mean()), float("nan"), float("nan"))
     rng = np.random.default_rng(0)
     of_ours, of_theirs = (rng.multinomial(n, np.full(n, 1 / n), size=RESAMPLES) / n for n in wins.shape)
-    low, high = np.quantile(((of_ours @ wins) * of_theirs).sum(axis=1), [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
-    return Improvement(float(wins.mean()), float(low), float(high))
+    return Improvement(float(wins.mean()), *_middle(((of_ours @ wins) * of_theirs).sum(axis=1)))
+
+
+def _middle(resampled: NDArray[np.float64]) -> tuple[float, float]:
+    """Between which 95 % of resampled numbers lie."""
+    low, high = np.quantile(resampled, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+    return float(low), float(high)
 
 
 def _runs(name: str, values: ArrayLike) -> NDArray[np.float64]:
