@@ -10,8 +10,6 @@ from __future__ import annotations
 import argparse
 import datetime
 import json
-import os
-import platform
 import subprocess
 import sys
 import tempfile
@@ -21,6 +19,7 @@ import matplotlib as mpl
 from matplotlib import pyplot as plt
 
 from robonav import files, look, progress
+from robonav.experiments.store import machine
 
 HERE = Path(__file__).parent
 BOOK = HERE.parent / "book"
@@ -37,10 +36,11 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
 }
 INTRODUCTION = """# How fast it is
 
-What the scripts in `benchmarks/` printed on {date}, on {machine} with {cores} cores and nothing else running;
-`python benchmarks/page.py --peers DIR` runs them all and writes this page. Every figure is a median or the best of
-several rounds. Where another package does the same work, the two took turns in one run: seconds do not carry over to
-your machine, ratios do, roughly. `benchmarks/peers/README.md` says how to set the peers up.
+What the scripts in `benchmarks/` printed on {date}, on {system} on {machine} with {cores} cores and nothing
+else running; `python benchmarks/page.py --peers DIR` runs them all and writes this page. Every figure is a
+median or the best of several rounds. Where another package does the same work, the two took turns in one run:
+seconds do not carry over to your machine, ratios do, roughly. `benchmarks/peers/README.md` says how to set the
+peers up.
 """
 GROWTH = """## How it grows
 
@@ -81,11 +81,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--peers", type=Path, help="folder with the peers' virtual environments")
     peers = parser.parse_args().peers
-    parts = [
-        INTRODUCTION.format(
-            date=datetime.date.today(), machine=f"{platform.system()} on {platform.machine()}", cores=os.cpu_count()
-        )
-    ]
+    parts = [INTRODUCTION.format(date=datetime.date.today(), **machine())]
     with progress.bar("benchmarks") as shown:
         for number, (heading, (script, options, knows_peers, about)) in enumerate(SCRIPTS.items()):
             shown(number, len(SCRIPTS) + 1)

@@ -39,6 +39,7 @@ from .nirl_course import (
     teach,
 )
 from .nirl_steps import member
+from .nnql_tuning import block
 
 EPISODES = 1400  # of training with Table 4.1's reward: as many drives as practice takes
 TOGETHER = 5  # seeds that train at once under Table 4.1: quicker than one by one, with the same numbers
@@ -90,8 +91,7 @@ def by_control(seed: int, length: float, obstacles: int, speed: float, *, name: 
 
 def by_table(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """A new robot, trained there by NNQL with the reward of Table 4.1."""
-    seeds = range(seed - seed % TOGETHER, seed - seed % TOGETHER + TOGETHER)
-    return _by_table(seeds, length, obstacles, speed)[seed % TOGETHER]
+    return _by_table(block(seed, TOGETHER), length, obstacles, speed)[seed % TOGETHER]
 
 
 @lru_cache(maxsize=16)

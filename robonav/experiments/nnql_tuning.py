@@ -77,9 +77,15 @@ def trained(
     the same networks.
     """
     together, episodes = TOGETHER[scale], round(EPISODES * length)
-    seeds = range(seed - seed % together, seed - seed % together + together)
+    seeds = block(seed, together)
     training = _trained(method, seeds, episodes, json.dumps(settings, sort_keys=True), tuple(sorted(changes.items())))
     return training[seed % together]
+
+
+def block(seed: int, together: int) -> range:
+    """The seeds that train with this one, where so many train at once."""
+    first = seed - seed % together
+    return range(first, first + together)
 
 
 @lru_cache(maxsize=64)
