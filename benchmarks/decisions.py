@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 
-from robonav.experiments.methods import method, methods
+from robonav.benchmark.policies import method, methods
 from robonav.lfd import plan
 from robonav.robot import Policy, Sensing, random_worlds, sense
 
@@ -31,17 +31,23 @@ def microseconds(policy: Policy, sensing: Sensing) -> float:
 
 
 def main() -> None:
-    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
+    argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    ).parse_args()
     worlds = random_worlds(ROBOTS, 20, seed=0)
     places = np.random.default_rng(0).uniform([20, 20, -3], [80, 80, 3], (ROBOTS, 3))
     sensing = sense(worlds, places)
     for name in methods():
-        alone, together = (microseconds(method(name), sensing[:robots]) for robots in (1, ROBOTS))
+        alone, together = (
+            microseconds(method(name), sensing[:robots]) for robots in (1, ROBOTS)
+        )
         print(f"{name:18} {alone:7.1f} us alone, {together:6.2f} us among {ROBOTS}")
     began = time.perf_counter()
     for i in range(50):
         plan(worlds[i])
-    print(f"for comparison, one plan of modified A*: {1e6 * (time.perf_counter() - began) / 50:,.0f} us")
+    print(
+        f"for comparison, one plan of modified A*: {1e6 * (time.perf_counter() - began) / 50:,.0f} us"
+    )
 
 
 if __name__ == "__main__":

@@ -44,10 +44,20 @@ def grid(side: int, discount: float, *, seed: int = 0) -> FiniteMDP:
     reached = []
     for down, right in ((-1, 0), (0, 1), (1, 0), (0, -1)):
         to = np.clip(row + down, 0, side - 1), np.clip(column + right, 0, side - 1)
-        reached.append(np.where(walls[to] | (states == goal), states, to[0] * side + to[1]))
+        reached.append(
+            np.where(walls[to] | (states == goal), states, to[0] * side + to[1])
+        )
     chances = np.repeat([0.8, 0.1, 0.1], states.size)
     transitions = [
-        sp.csr_array((chances, (np.tile(states, 3), np.concatenate([reached[(a + turn) % 4] for turn in (0, 1, 3)]))))
+        sp.csr_array(
+            (
+                chances,
+                (
+                    np.tile(states, 3),
+                    np.concatenate([reached[(a + turn) % 4] for turn in (0, 1, 3)]),
+                ),
+            )
+        )
         for a in range(4)
     ]
     rewards = np.full((states.size, 4), -1.0)
@@ -70,7 +80,9 @@ def scattered(states: int = 10_000, successors: int = 5, *, seed: int = 0) -> Fi
 def peer(mdp: FiniteMDP) -> DiscreteDP:
     """The same model as QuantEcon keeps it: state-action pairs in order of the state."""
     state, action = np.divmod(np.arange(mdp.rewards.size), mdp.actions)
-    return DiscreteDP(mdp.rewards.ravel(), sp.csr_matrix(mdp.rows), mdp.discount, state, action)
+    return DiscreteDP(
+        mdp.rewards.ravel(), sp.csr_matrix(mdp.rows), mdp.discount, state, action
+    )
 
 
 def seconds(work: Callable[[], Any]) -> float:
@@ -88,7 +100,10 @@ def best_by_turns(*works: Callable[[], Any]) -> list[float]:
 def compare(name: str, mdp: FiniteMDP) -> None:
     other = peer(mdp)
     exact = policy_iteration(mdp).values
-    for planner, method in ((value_iteration, "vi"), (modified_policy_iteration, "mpi")):
+    for planner, method in (
+        (value_iteration, "vi"),
+        (modified_policy_iteration, "mpi"),
+    ):
 
         def ours(planner: Callable[..., Any] = planner) -> Any:
             return planner(mdp, TOLERANCE)
@@ -105,7 +120,9 @@ def compare(name: str, mdp: FiniteMDP) -> None:
     solution = policy_iteration(mdp)
     (own,) = best_by_turns(lambda: policy_iteration(mdp))
     off = abs(solution.values - policy_evaluation(mdp, solution.policy)).max()
-    print(f"{name:5} policy_iteration           {1e3 * own:7.1f} ms, {solution.iterations} policies (error {off:.1e})")
+    print(
+        f"{name:5} policy_iteration           {1e3 * own:7.1f} ms, {solution.iterations} policies (error {off:.1e})"
+    )
 
 
 def million() -> None:
@@ -115,24 +132,32 @@ def million() -> None:
     symbols[-1, -1] = "G"
     text = "\n".join("".join(row) for row in symbols)
     start = time.perf_counter()
-    mdp = GridWorld(text, legend={"G": Cell(ends=True)}, slip=0.2, step_reward=-1).mdp(0.99)
+    mdp = GridWorld(text, legend={"G": Cell(ends=True)}, slip=0.2, step_reward=-1).mdp(
+        0.99
+    )
     print(f"\n{mdp}: built in {time.perf_counter() - start:.1f} s")
     for planner in (value_iteration, modified_policy_iteration):
         start = time.perf_counter()
         solution = planner(mdp, 1e-4)
-        print(f"{planner.__name__:26} {time.perf_counter() - start:5.1f} s, {solution.iterations} iterations")
+        print(
+            f"{planner.__name__:26} {time.perf_counter() - start:5.1f} s, {solution.iterations} iterations"
+        )
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
     print(f"memory at its highest: {peak:.2f} GiB")
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--million", action="store_true", help="solve the grid of a million states too")
+    parser.add_argument(
+        "--million", action="store_true", help="solve the grid of a million states too"
+    )
     options = parser.parse_args()
     ties = grid(100, DISCOUNT)
     compare("grid", ties)
     given_up = peer(ties).solve(method="policy_iteration", max_iter=60).num_iter == 60
-    print(f"grid  QuantEcon's policy iteration {'still changes' if given_up else 'is done'} after 60 policies")
+    print(
+        f"grid  QuantEcon's policy iteration {'still changes' if given_up else 'is done'} after 60 policies"
+    )
     compare("rand", scattered())
     if options.million:
         million()

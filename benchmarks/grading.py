@@ -27,7 +27,9 @@ from robonav.grading.worker import STUB
 HOSTILE = "def {name}(*arguments):\n    while True:\n        pass\n"
 
 
-def answer(course: Course, exercise: Exercise, chance: random.Random, hostile: float) -> str:
+def answer(
+    course: Course, exercise: Exercise, chance: random.Random, hostile: float
+) -> str:
     """A student's file: 55 % right, 15 % right in another way, 20 % a known mistake, 10 % not begun; or hostile."""
     draw = chance.random()
     if chance.random() < hostile:
@@ -38,7 +40,9 @@ def answer(course: Course, exercise: Exercise, chance: random.Random, hostile: f
         return (course.solutions / "otherwise" / exercise.file).read_text()
     if draw < 0.9:
         wrong = chance.choice(sorted(mistakes(course, exercise)))
-        return (course.solutions / "wrong" / exercise.file).read_text() + f"\n\n{exercise.name} = {wrong}\n"
+        return (
+            course.solutions / "wrong" / exercise.file
+        ).read_text() + f"\n\n{exercise.name} = {wrong}\n"
     return f"def {exercise.name}(*arguments):\n    {STUB.format(name=exercise.name)}\n"
 
 
@@ -61,15 +65,22 @@ def processor_seconds() -> float:
     with suppress(ChildProcessError):
         while os.waitpid(-1, os.WNOHANG)[0]:
             pass
-    usages = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    usages = (
+        resource.getrusage(who)
+        for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+    )
     return sum(usage.ru_utime + usage.ru_stime for usage in usages)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--students", type=int, default=300)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--hostile", type=float, default=0.0, help="share of answers that never end")
+    parser.add_argument(
+        "--hostile", type=float, default=0.0, help="share of answers that never end"
+    )
     chosen = parser.parse_args()
     course = Course.around(Path(__file__).parent)
     adopt_orphans()
@@ -78,18 +89,30 @@ def main() -> None:
         marking = Marking(course, probe.best())
         clock, processor = time.monotonic(), processor_seconds()
         with progress.bar("grading") as shown:
-            grade_class(marking, Path(folder, "class"), Path(folder, "out"), jobs=chosen.jobs, progress=shown)
+            grade_class(
+                marking,
+                Path(folder, "class"),
+                Path(folder, "out"),
+                jobs=chosen.jobs,
+                progress=shown,
+            )
         clock = time.monotonic() - clock
     from joblib.externals.loky import get_reusable_executor
 
-    get_reusable_executor().shutdown(wait=True)  # only the dead have told how long they worked
+    get_reusable_executor().shutdown(
+        wait=True
+    )  # only the dead have told how long they worked
     processor = processor_seconds() - processor
     each = processor / chosen.students
     print(
         f"{chosen.students} submissions, {len(course.exercises)} exercises, {marking.tier} sandbox, {chosen.jobs} jobs"
     )
-    print(f"{clock:.0f} s by the clock, {processor:.0f} s of processor time, {each:.2f} s a submission")
-    print(f"100,000 submissions: {each * 100_000 / 3600:.0f} hours of one core, {each * 100_000 / 3600 / 64:.1f} of 64")
+    print(
+        f"{clock:.0f} s by the clock, {processor:.0f} s of processor time, {each:.2f} s a submission"
+    )
+    print(
+        f"100,000 submissions: {each * 100_000 / 3600:.0f} hours of one core, {each * 100_000 / 3600 / 64:.1f} of 64"
+    )
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from dp import grid
 
-from robonav import files
+from robonav import atomic
 from robonav.mdp import value_iteration
 from robonav.nnql import train
 from robonav.robot import navigate, random_worlds, straight
@@ -67,18 +67,25 @@ def growth() -> dict[str, list[Point]]:
         },
         "states, value iteration": {side * side: planning(side) for side in SIDES},
     }
-    return {what: [{"size": size, **measured(one)} for size, one in sizes.items()] for what, sizes in work.items()}
+    return {
+        what: [{"size": size, **measured(one)} for size, one in sizes.items()]
+        for what, sizes in work.items()
+    }
 
 
 def slope(points: list[Point]) -> float:
     """The power that seconds grow with, over the upper half of the sizes: 1 is in proportion."""
     upper = [point for point in points if point["size"] > 0][-3:]
-    size, seconds = (np.log([point[key] for point in upper]) for key in ("size", "seconds"))
+    size, seconds = (
+        np.log([point[key] for point in upper]) for key in ("size", "seconds")
+    )
     return float(np.polyfit(size, seconds, 1)[0])
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--json", type=Path, help="also write the points here")
     path = parser.parse_args().json
     train("nnql", seeds=1, episodes=2)  # compiled
@@ -86,9 +93,11 @@ def main() -> None:
     for what, points in found.items():
         print(f"{what}: seconds grow with the power {slope(points):.2f}")
         for point in points:
-            print(f"  {point['size']:>9,.0f}: {point['seconds'] * 1000:10,.1f} ms {point['MiB']:8.1f} MiB")
+            print(
+                f"  {point['size']:>9,.0f}: {point['seconds'] * 1000:10,.1f} ms {point['MiB']:8.1f} MiB"
+            )
     if path is not None:
-        with files.whole(path) as file:
+        with atomic.atomic_write(path) as file:
             file.write((json.dumps(found, indent=1) + "\n").encode())
 
 

@@ -15,7 +15,8 @@ import sys
 import time
 from collections.abc import Callable
 
-from robonav.lfd import demonstrate, fit, labelled_states, learn_policy, plan
+from robonav.lfd import demonstrate, labelled_states, learn_policy, plan
+from robonav.networks import fit
 from robonav.robot import Encoder, navigate, random_worlds
 
 ROUNDS, PLANS = 5, 200
@@ -26,7 +27,9 @@ Clock = Callable[[], float]
 
 def training(clock: Clock) -> float:
     """Seconds of 300 iterations on 25 demonstrations, in the thesis's setting."""
-    x, y = labelled_states(demonstrate(random_worlds(25, seed=SEED)), Encoder(target="number"))
+    x, y = labelled_states(
+        demonstrate(random_worlds(25, seed=SEED)), Encoder(target="number")
+    )
     began = clock()
     fit(x, y, iterations=300)
     return clock() - began
@@ -58,8 +61,12 @@ LIMITS: dict[str, tuple[Callable[[Clock], float], float]] = {
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cpu", action="store_true", help="count seconds of the processor")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--cpu", action="store_true", help="count seconds of the processor"
+    )
     clock = time.process_time if parser.parse_args().cpu else time.perf_counter
     study(clock)  # loaded and compiled
     slow = False

@@ -19,7 +19,10 @@ from robonav.nirl import learn
 from robonav.robot import random_worlds
 
 ROUNDS = 3
-LIMITS = {"thesis": (30, 140, 10.0), "slider": (10, 30, 2.0)}  # demonstrations, iterations, seconds at most
+LIMITS = {
+    "thesis": (30, 140, 10.0),
+    "slider": (10, 30, 2.0),
+}  # demonstrations, iterations, seconds at most
 
 
 def run(shown: Demonstrations, iterations: int, clock: Callable[[], float]) -> float:
@@ -30,8 +33,12 @@ def run(shown: Demonstrations, iterations: int, clock: Callable[[], float]) -> f
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cpu", action="store_true", help="count seconds of the processor")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--cpu", action="store_true", help="count seconds of the processor"
+    )
     clock = time.process_time if parser.parse_args().cpu else time.perf_counter
     shown = demonstrate(random_worlds(30, 20, seed=0))
     learn(shown, iterations=1)  # compiled
@@ -39,7 +46,9 @@ def main() -> None:
     for size, (demonstrations, iterations, most) in LIMITS.items():
         some = shown.drives(range(demonstrations))
         spent = statistics.median(run(some, iterations, clock) for _ in range(ROUNDS))
-        print(f"{size}: {demonstrations} demonstrations, {iterations} iterations: {spent:.2f} s (at most {most:g} s)")
+        print(
+            f"{size}: {demonstrations} demonstrations, {iterations} iterations: {spent:.2f} s (at most {most:g} s)"
+        )
         slow |= spent > most
     sys.exit(slow)
 

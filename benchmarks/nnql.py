@@ -23,7 +23,10 @@ from robonav.nnql import train
 
 HERE = Path(__file__).parent
 EPISODES, ROUNDS = 300, 3
-LIMITS = {1: (5, 3), 16: (15, 20)}  # seeds: seconds at most, and times the peer's rate at least
+LIMITS = {
+    1: (5, 3),
+    16: (15, 20),
+}  # seeds: seconds at most, and times the peer's rate at least
 
 
 def training(seeds: int, clock: Callable[[], float]) -> tuple[float, float]:
@@ -36,16 +39,28 @@ def training(seeds: int, clock: Callable[[], float]) -> tuple[float, float]:
 
 def peer(folder: Path, *options: str) -> float:
     """Updates a second of stable-baselines3's DQN, in its own environment."""
-    command = [str(folder / "v1" / "bin" / "python"), str(HERE / "peers" / "sb3_dqn.py"), *options]
+    command = [
+        str(folder / "v1" / "bin" / "python"),
+        str(HERE / "peers" / "sb3_dqn.py"),
+        *options,
+    ]
     quiet = os.environ | {"PYTHONWARNINGS": "ignore"}
-    shown = subprocess.run(command, capture_output=True, text=True, check=True, env=quiet)
+    shown = subprocess.run(
+        command, capture_output=True, text=True, check=True, env=quiet
+    )
     return float(shown.stdout.strip().splitlines()[-1])
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--peers", type=Path, help="folder with the peers' virtual environments")
-    parser.add_argument("--cpu", action="store_true", help="count seconds of the processor")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--peers", type=Path, help="folder with the peers' virtual environments"
+    )
+    parser.add_argument(
+        "--cpu", action="store_true", help="count seconds of the processor"
+    )
     options = parser.parse_args()
     clock = time.process_time if options.cpu else time.perf_counter
     extra = ["--cpu"] if options.cpu else []
@@ -53,15 +68,25 @@ def main() -> None:
     slow = False
     for seeds, (most, times) in LIMITS.items():
         rounds = [
-            (*training(seeds, clock), peer(options.peers, *extra) if options.peers else 0.0) for _ in range(ROUNDS)
+            (
+                *training(seeds, clock),
+                peer(options.peers, *extra) if options.peers else 0.0,
+            )
+            for _ in range(ROUNDS)
         ]
-        spent, rate = (statistics.median(column) for column in list(zip(*rounds, strict=True))[:2])
-        print(f"{seeds} seeds x {EPISODES} episodes: {spent:.1f} s (at most {most} s), {rate:,.0f} learning steps/s")
+        spent, rate = (
+            statistics.median(column) for column in list(zip(*rounds, strict=True))[:2]
+        )
+        print(
+            f"{seeds} seeds x {EPISODES} episodes: {spent:.1f} s (at most {most} s), {rate:,.0f} learning steps/s"
+        )
         slow |= spent > most
         if options.peers:
             theirs = statistics.median(row[2] for row in rounds)
             ratio = statistics.median(row[1] / row[2] for row in rounds)
-            print(f"   stable-baselines3 DQN: {theirs:,.0f} updates/s; ratio {ratio:.1f} (at least {times})")
+            print(
+                f"   stable-baselines3 DQN: {theirs:,.0f} updates/s; ratio {ratio:.1f} (at least {times})"
+            )
             slow |= ratio < times
     sys.exit(1 if slow else 0)
 

@@ -18,21 +18,51 @@ from pathlib import Path
 import matplotlib as mpl
 from matplotlib import pyplot as plt
 
-from robonav import files, look, progress
-from robonav.experiments.store import machine
+from robonav import atomic, progress, style
+from robonav.experiments.runner.results import machine
 
 HERE = Path(__file__).parent
 BOOK = HERE.parent / "book"
 PICTURE = BOOK / "_static" / "growth.svg"
 SCRIPTS = {  # heading: script, options, whether it knows peers, what one should know
-    "The robot": ("robot.py", (), True, "Steps of the simulator as Gymnasium's environments."),
-    "Planning": ("dp.py", ("--million",), False, "Exact planning, beside QuantEcon in the same process."),
-    "Tabular learning": ("tabular.py", (), False, "Q-learning on FrozenLake, beside a loop that only steps."),
-    "Learning from demonstration": ("lfd.py", (), False, "Planning, training and driving of chapter 3."),
-    "Neural Q-learning": ("nnql.py", (), True, "Training of chapter 4, beside stable-baselines3's DQN."),
+    "The robot": (
+        "robot.py",
+        (),
+        True,
+        "Steps of the simulator as Gymnasium's environments.",
+    ),
+    "Planning": (
+        "dp.py",
+        ("--million",),
+        False,
+        "Exact planning, beside QuantEcon in the same process.",
+    ),
+    "Tabular learning": (
+        "tabular.py",
+        (),
+        False,
+        "Q-learning on FrozenLake, beside a loop that only steps.",
+    ),
+    "Learning from demonstration": (
+        "lfd.py",
+        (),
+        False,
+        "Planning, training and driving of chapter 3.",
+    ),
+    "Neural Q-learning": (
+        "nnql.py",
+        (),
+        True,
+        "Training of chapter 4, beside stable-baselines3's DQN.",
+    ),
     "Inverse reinforcement learning": ("nirl.py", (), False, "One run of chapter 5."),
     "Deciding": ("decisions.py", (), False, "One decision of every method that ships."),
-    "Grading a class": ("grading.py", ("--students", "300"), False, "Three hundred students, all exercises."),
+    "Grading a class": (
+        "grading.py",
+        ("--students", "300"),
+        False,
+        "Three hundred students, all exercises.",
+    ),
 }
 INTRODUCTION = """# How fast it is
 
@@ -60,41 +90,57 @@ Seconds (blue) and memory (orange) against size. A line of slope one is in propo
 def printed(script: str, options: tuple[str, ...]) -> str:
     """What a script prints on its output."""
     command = [sys.executable, str(HERE / script), *options]
-    return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+    return subprocess.run(
+        command, stdout=subprocess.PIPE, text=True, check=True
+    ).stdout.strip()
 
 
 def draw_growth(points: dict[str, list[dict[str, float]]]) -> None:
     """One panel for each thing that grows."""
-    with mpl.rc_context(look.STYLE | {"svg.hashsalt": "growth"}):
+    with mpl.rc_context(style.STYLE | {"svg.hashsalt": "growth"}):
         figure, panels = plt.subplots(2, 2, figsize=(8, 6), layout="constrained")
         for axes, (what, found) in zip(panels.flat, points.items(), strict=True):
             shown = [point for point in found if point["size"] > 0]
-            for key, colour in (("seconds", look.BLUE), ("MiB", look.ORANGE)):
-                axes.loglog([p["size"] for p in shown], [p[key] for p in shown], "o-", color=colour, label=key)
+            for key, colour in (("seconds", style.BLUE), ("MiB", style.ORANGE)):
+                axes.loglog(
+                    [p["size"] for p in shown],
+                    [p[key] for p in shown],
+                    "o-",
+                    color=colour,
+                    label=key,
+                )
             axes.set(xlabel=what)
         panels[0, 0].legend()
-        with files.whole(PICTURE) as file:
+        with atomic.atomic_write(PICTURE) as file:
             figure.savefig(file, format="svg", metadata={"Date": None})
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--peers", type=Path, help="folder with the peers' virtual environments")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--peers", type=Path, help="folder with the peers' virtual environments"
+    )
     peers = parser.parse_args().peers
     parts = [INTRODUCTION.format(date=datetime.date.today(), **machine())]
     with progress.bar("benchmarks") as shown:
-        for number, (heading, (script, options, knows_peers, about)) in enumerate(SCRIPTS.items()):
+        for number, (heading, (script, options, knows_peers, about)) in enumerate(
+            SCRIPTS.items()
+        ):
             shown(number, len(SCRIPTS) + 1)
             beside = ("--peers", str(peers)) if peers and knows_peers else ()
             text = printed(script, (*options, *beside))
-            parts.append(f"## {heading}\n\n{about} `benchmarks/{script}`:\n\n```text\n{text}\n```\n")
+            parts.append(
+                f"## {heading}\n\n{about} `benchmarks/{script}`:\n\n```text\n{text}\n```\n"
+            )
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "growth.json")
             text = printed("growth.py", ("--json", str(path)))
             draw_growth(json.loads(path.read_text()))
         parts.append(GROWTH.format(text=text))
         shown(len(SCRIPTS) + 1, len(SCRIPTS) + 1)
-    with files.whole(BOOK / "benchmarks.md") as file:
+    with atomic.atomic_write(BOOK / "benchmarks.md") as file:
         file.write("\n".join(parts).encode())
 
 

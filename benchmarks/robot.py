@@ -30,7 +30,9 @@ SECONDS, ROUNDS = 1.5, 5
 
 def batched(name: str, number: int, **settings: object) -> Callable[[], float]:
     """Steps a second of a vector environment, random actions, new worlds after each episode included."""
-    env = gymnasium.make_vec(name, number, vectorization_mode="vector_entry_point", **settings)
+    env = gymnasium.make_vec(
+        name, number, vectorization_mode="vector_entry_point", **settings
+    )
     env.reset(seed=0)
     env.action_space.seed(0)
     actions = [env.action_space.sample() for _ in range(16)]
@@ -67,7 +69,9 @@ def single(name: str, **settings: object) -> Callable[[], float]:
     return measure
 
 
-def in_turn(ours: Callable[[], float], peer: Callable[[], float]) -> tuple[float, float, float]:
+def in_turn(
+    ours: Callable[[], float], peer: Callable[[], float]
+) -> tuple[float, float, float]:
     """Medians of both, and of their ratio, round by round."""
     rounds = [(ours(), peer()) for _ in range(ROUNDS)]
     return (
@@ -81,9 +85,16 @@ def peer_process(folder: Path, environment: str, script: str) -> Callable[[], fl
     """A peer in its own virtual environment; its script prints steps a second on its last line."""
 
     def measure() -> float:
-        command = [str(folder / environment / "bin" / "python"), str(HERE / "peers" / script)]
+        command = [
+            str(folder / environment / "bin" / "python"),
+            str(HERE / "peers" / script),
+        ]
         shown = subprocess.run(
-            command, capture_output=True, text=True, check=True, env=os.environ | {"PYTHONWARNINGS": "ignore"}
+            command,
+            capture_output=True,
+            text=True,
+            check=True,
+            env=os.environ | {"PYTHONWARNINGS": "ignore"},
         )
         return float(shown.stdout.strip().splitlines()[-1])
 
@@ -102,18 +113,26 @@ def import_and_compile() -> None:
     with tempfile.TemporaryDirectory() as cache:
         first = seconds(step, NUMBA_CACHE_DIR=cache)
         again = seconds(step, NUMBA_CACHE_DIR=cache)
-    print(f"first step of a fresh clone: {first:.1f} s, of the next process: {again:.1f} s (at most 10 s, then cached)")
+    print(
+        f"first step of a fresh clone: {first:.1f} s, of the next process: {again:.1f} s (at most 10 s, then cached)"
+    )
 
 
 def seconds(code: str, **environment: str) -> float:
     start = time.perf_counter()
-    subprocess.run([sys.executable, "-c", code], check=True, env=os.environ | environment)
+    subprocess.run(
+        [sys.executable, "-c", code], check=True, env=os.environ | environment
+    )
     return time.perf_counter() - start
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--peers", type=Path, help="folder with the peers' virtual environments")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--peers", type=Path, help="folder with the peers' virtual environments"
+    )
     folder = parser.parse_args().peers
     import_and_compile()
     ours, peer, ratio = in_turn(single(NAME, obstacles=20), single("CartPole-v1"))
@@ -121,8 +140,12 @@ def main() -> None:
         f"single, 20 obstacles: {ours:,.0f} steps/s; CartPole {peer:,.0f}; ratio {ratio:.2f} (at least 30,000 steps/s)"
     )
     for number in (1024, 4096, 16384):
-        ours, peer, ratio = in_turn(batched(NAME, number, obstacles=20), batched("CartPole-v1", number))
-        print(f"{number} at once, 20 obstacles: {ours:,.0f} steps/s; CartPole {peer:,.0f}; ratio {ratio:.3f}")
+        ours, peer, ratio = in_turn(
+            batched(NAME, number, obstacles=20), batched("CartPole-v1", number)
+        )
+        print(
+            f"{number} at once, 20 obstacles: {ours:,.0f} steps/s; CartPole {peer:,.0f}; ratio {ratio:.3f}"
+        )
     if folder is None:
         print("peers in their own environments: left out, see --peers")
         return
@@ -131,8 +154,12 @@ def main() -> None:
         ("ir-sim", "v1", "irsim_robot.py"),
         ("JaxNav", "v3", "jaxnav.py"),
     ):
-        ours, peer, ratio = in_turn(batched(NAME, 4096, obstacles=20), peer_process(folder, environment, script))
-        print(f"4096 at once, 20 obstacles: {ours:,.0f} steps/s; {what} {peer:,.0f}; ratio {ratio:.1f}")
+        ours, peer, ratio = in_turn(
+            batched(NAME, 4096, obstacles=20), peer_process(folder, environment, script)
+        )
+        print(
+            f"4096 at once, 20 obstacles: {ours:,.0f} steps/s; {what} {peer:,.0f}; ratio {ratio:.1f}"
+        )
 
 
 if __name__ == "__main__":

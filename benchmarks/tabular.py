@@ -47,7 +47,11 @@ def main() -> None:
     env = gym.make("FrozenLake-v1")
     timings = np.array(
         [
-            (bare(env, options.steps), learning(env, options.steps, 1.0), learning(env, options.steps, 0.1))
+            (
+                bare(env, options.steps),
+                learning(env, options.steps, 1.0),
+                learning(env, options.steps, 0.1),
+            )
             for _ in range(options.repeats)
         ]
     )
@@ -55,7 +59,9 @@ def main() -> None:
     print(f"{options.steps} steps of FrozenLake-v1, best of {options.repeats}")
     print(f"bare loop                   {loop:6.2f} s")
     print(f"Q-learning, random actions  {blind:6.2f} s   ratio {blind / loop:.2f}")
-    print(f"Q-learning, epsilon 0.1     {greedy:6.2f} s   ratio {greedy / loop:.2f}   (limit {LIMIT})")
+    print(
+        f"Q-learning, epsilon 0.1     {greedy:6.2f} s   ratio {greedy / loop:.2f}   (limit {LIMIT})"
+    )
     if max(blind, greedy) / loop > LIMIT:
         raise SystemExit("Q-learning takes more than its limit")
 

@@ -11,12 +11,34 @@ from typing import TYPE_CHECKING, Any
 
 import gymnasium
 
-__version__ = "0.1.0"
+from ._version import __version__ as __version__
 
-_SUBPACKAGES = ("experiments", "grading", "lfd", "mdp", "nirl", "nnql", "plots", "robot", "widgets")
+_SUBPACKAGES = (
+    "benchmark",
+    "experiments",
+    "grading",
+    "lfd",
+    "mdp",
+    "networks",
+    "nirl",
+    "nnql",
+    "plots",
+    "robot",
+    "widgets",
+)
 
 if TYPE_CHECKING:
-    from . import experiments, grading, lfd, mdp, nirl, nnql, plots, robot, widgets  # noqa: F401
+    from robonav import (  # noqa: F401
+        experiments,
+        grading,
+        lfd,
+        mdp,
+        nirl,
+        nnql,
+        plots,
+        robot,
+        widgets,
+    )
 
 
 def __getattr__(name: str) -> Any:

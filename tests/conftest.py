@@ -9,18 +9,34 @@ import pytest
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption("--no-skips", action="store_true", help="a test that would be skipped fails instead")
+    parser.addoption(
+        "--no-skips",
+        action="store_true",
+        help="a test that would be skipped fails instead",
+    )
 
 
 def _refuse_skip(report: Any, config: pytest.Config) -> None:
-    if report.skipped and not hasattr(report, "wasxfail") and config.getoption("--no-skips"):
-        reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else report.longrepr
+    if (
+        report.skipped
+        and not hasattr(report, "wasxfail")
+        and config.getoption("--no-skips")
+    ):
+        reason = (
+            report.longrepr[2]
+            if isinstance(report.longrepr, tuple)
+            else report.longrepr
+        )
         report.outcome = "failed"
-        report.longrepr = f"{report.nodeid}: skipped where no skip is allowed ({reason})"
+        report.longrepr = (
+            f"{report.nodeid}: skipped where no skip is allowed ({reason})"
+        )
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+def pytest_runtest_makereport(
+    item: pytest.Item,
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
     report = yield
     _refuse_skip(report, item.config)
     return report

@@ -23,7 +23,9 @@ def drive(key):
         key, state = carry
         key, choose, act = jax.random.split(key, 3)
         actions = {"agent_0": jax.random.randint(choose, (NUMBER,), 0, 15)}
-        seen, state, reward, _, _ = jax.vmap(env.step)(jax.random.split(act, NUMBER), state, actions)
+        seen, state, reward, _, _ = jax.vmap(env.step)(
+            jax.random.split(act, NUMBER), state, actions
+        )
         return (key, state), (reward["agent_0"].sum(), seen["agent_0"].sum())
 
     return jax.lax.scan(step, (key, state), None, length=STEPS)[1]

@@ -17,7 +17,9 @@ settings = {
     "seed": 0,
     "device": "cpu",
 }
-learner = DQN("MlpPolicy", "CartPole-v1", policy_kwargs={"net_arch": [64, 64]}, **settings)
+learner = DQN(
+    "MlpPolicy", "CartPole-v1", policy_kwargs={"net_arch": [64, 64]}, **settings
+)
 learner.learn(500)
 start = CLOCK()
 learner.learn(STEPS, reset_num_timesteps=False)

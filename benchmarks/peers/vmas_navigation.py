@@ -6,7 +6,14 @@ import torch
 from vmas import make_env
 
 NUMBER, SECONDS = 1024, 4
-env = make_env("navigation", num_envs=NUMBER, device="cpu", continuous_actions=False, seed=0, n_agents=4)
+env = make_env(
+    "navigation",
+    num_envs=NUMBER,
+    device="cpu",
+    continuous_actions=False,
+    seed=0,
+    n_agents=4,
+)
 env.reset()
 
 

@@ -24,16 +24,29 @@ def lint(app: Sphinx, doctree: nodes.document) -> None:
     """Look at the pictures of one page, as nodes and inside raw HTML."""
     for image in doctree.findall(nodes.image):
         if not image.get("alt", "").strip():
-            LOGGER.warning("picture without alternative text: %s", image.get("uri"), location=image)
+            LOGGER.warning(
+                "picture without alternative text: %s", image.get("uri"), location=image
+            )
     for cell in doctree.findall(nodes.container):
-        promised = cell.get("cell_metadata", {}).get("mystnb", {}).keys() & {"image", "figure"}
-        if promised and not any(cell.findall(nodes.image)) and not any(cell.findall(nodes.raw)):
-            LOGGER.warning("cell has a text for a picture but shows none", location=cell)
+        promised = cell.get("cell_metadata", {}).get("mystnb", {}).keys() & {
+            "image",
+            "figure",
+        }
+        if (
+            promised
+            and not any(cell.findall(nodes.image))
+            and not any(cell.findall(nodes.raw))
+        ):
+            LOGGER.warning(
+                "cell has a text for a picture but shows none", location=cell
+            )
     for raw in doctree.findall(nodes.raw):
         shown = SCRIPT.sub("", raw.astext()) if raw.get("format") == "html" else ""
         for tag in IMAGE_TAG.findall(shown):
             if not ALT.search(tag):
-                LOGGER.warning("picture without alternative text: %.120s", tag, location=raw)
+                LOGGER.warning(
+                    "picture without alternative text: %.120s", tag, location=raw
+                )
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

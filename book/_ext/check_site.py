@@ -16,15 +16,23 @@ from typing import Any
 import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
-SITE = Path(os.environ.get("BOOK_SITE", ROOT / "_build" / "html"))  # of a book that was built elsewhere
+SITE = Path(
+    os.environ.get("BOOK_SITE", ROOT / "_build" / "html")
+)  # of a book that was built elsewhere
 LEAST_TEXT = 400  # characters of an article, below which a page counts as empty
 FAILURES = {
     "a failed cell": re.compile(r"Traceback \(most recent call last\)|ansi-red-fg"),
-    "a directive or role that did not parse": re.compile(r'class="system-message|class="problematic'),
-    "an unresolved reference": re.compile(r"<code[^>]*>\{(?:ref|eq|numref|cite[^}]*|prf:ref)\}"),
+    "a directive or role that did not parse": re.compile(
+        r'class="system-message|class="problematic'
+    ),
+    "an unresolved reference": re.compile(
+        r"<code[^>]*>\{(?:ref|eq|numref|cite[^}]*|prf:ref)\}"
+    ),
 }
 
-NO_PROSE = re.compile(r"<(pre|code|script|style)\b.*?</\1>|<(span|div) class=\"math\b.*?</\2>", re.DOTALL)
+NO_PROSE = re.compile(
+    r"<(pre|code|script|style)\b.*?</\1>|<(span|div) class=\"math\b.*?</\2>", re.DOTALL
+)
 BARE_TEX = re.compile(r"\\[a-zA-Z]{2,}")
 
 
@@ -51,13 +59,20 @@ def faults(page: str) -> Iterator[str]:
         yield f"holds fewer than {LEAST_TEXT} characters"
     if article and BARE_TEX.search(NO_PROSE.sub("", article[0])):
         yield "shows a formula that did not parse"
-    yield from (f"shows {name}" for name, sign in FAILURES.items() if article and sign.search(article[0]))
+    yield from (
+        f"shows {name}"
+        for name, sign in FAILURES.items()
+        if article and sign.search(article[0])
+    )
 
 
 def main() -> int:
     listed = list(pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))))
     found = [f"{page} {fault}" for page in listed for fault in faults(page)]
-    print("\n".join(found) or f"{len(listed)} pages, each built, filled and without a failure")
+    print(
+        "\n".join(found)
+        or f"{len(listed)} pages, each built, filled and without a failure"
+    )
     return bool(found) or not listed
 
 

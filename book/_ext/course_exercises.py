@@ -26,7 +26,11 @@ class CourseExercises(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         course = Course.around()
-        chosen = [exercise for exercise in course.exercises.values() if exercise.chapter == self.arguments[0]]
+        chosen = [
+            exercise
+            for exercise in course.exercises.values()
+            if exercise.chapter == self.arguments[0]
+        ]
         if not chosen:
             raise self.error(f"no chapter {self.arguments[0]} in the manifest")
         self.env.note_dependency(str(course.tests / "manifest.toml"))
@@ -51,10 +55,17 @@ class CourseExercises(SphinxDirective):
         return "\n\n".join(parts) + "\n"
 
     def _solution(self, course: Course, exercise: Exercise) -> str:
-        for path in (course.solutions / exercise.file, course.solutions / "wrong" / exercise.file):
+        for path in (
+            course.solutions / exercise.file,
+            course.solutions / "wrong" / exercise.file,
+        ):
             self.env.note_dependency(str(path))
         lines = [
-            line for line in code((course.solutions / exercise.file).read_text()).splitlines() if "### " not in line
+            line
+            for line in code(
+                (course.solutions / exercise.file).read_text()
+            ).splitlines()
+            if "### " not in line
         ]
         hints = [
             f"- `{name}`: {' '.join((inspect.getdoc(function) or '').split())}"

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
-from robonav import lfd, look
+from robonav import lfd, style
 from robonav.plots.robot import draw_maps
 from robonav.robot import navigate, random_worlds
 
 PICTURE = Path(__file__).resolve().parents[1] / "_static" / "drives.png"
 
-plt.rcParams.update(look.STYLE)
+plt.rcParams.update(style.STYLE)
 policy = lfd.learn_policy(lfd.demonstrate(random_worlds(25, obstacles=10, seed=7)))
 worlds = random_worlds(4, obstacles=20, seed=2015)
 drives = navigate(policy, worlds, record_paths=True)

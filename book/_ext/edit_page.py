@@ -32,7 +32,9 @@ def repository() -> str | None:
         return os.environ["REPOSITORY"].rstrip("/")
     command = ["git", "-C", str(ROOT), "remote", "get-url", "origin"]
     try:
-        return page_of(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+        return page_of(
+            subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        )
     except (OSError, subprocess.CalledProcessError):
         return None
 

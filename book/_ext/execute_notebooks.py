@@ -17,12 +17,18 @@ LONGEST = 120  # seconds a cell may take, as in _config.yml
 
 
 def main() -> None:
-    os.environ.setdefault("OMP_NUM_THREADS", "1")  # the cores are busy with other notebooks
+    os.environ.setdefault(
+        "OMP_NUM_THREADS", "1"
+    )  # the cores are busy with other notebooks
     cache = get_cache(str(prepared_cache()))
     pages = [str(page) for page in notebook_pages()]
     for page in pages:
-        cache.add_nb_to_project(page, read_data={"name": "myst_nb_md", "type": "plugin"})
-    done = load_executor("local-parallel", cache).run_and_cache(filter_uris=pages, timeout=LONGEST)
+        cache.add_nb_to_project(
+            page, read_data={"name": "myst_nb_md", "type": "plugin"}
+        )
+    done = load_executor("local-parallel", cache).run_and_cache(
+        filter_uris=pages, timeout=LONGEST
+    )
     print(
         f"{len(pages)} notebooks, {len(done.succeeded)} executed now, {len(done.excepted) + len(done.errored)} failed"
     )

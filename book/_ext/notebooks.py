@@ -31,17 +31,35 @@ from thesis_numbers import thesis_number
 ROOT = Path(__file__).resolve().parents[2]
 
 FENCE = re.compile(
-    r"^(?P<fence>`{3,}|:{3,})\{(?P<name>[\w:.-]+)\} *(?P<title>[^\n]*)\n(?P<body>.*?)^(?P=fence)[ \t]*$", re.M | re.S
+    r"^(?P<fence>`{3,}|:{3,})\{(?P<name>[\w:.-]+)\} *(?P<title>[^\n]*)\n(?P<body>.*?)^(?P=fence)[ \t]*$",
+    re.M | re.S,
 )
 OPTIONS = re.compile(r"\A(?::[\w-]+:[^\n]*\n)+|\A---\n.*?\n---\n", re.S)
-DOLLARS = re.compile(r"^\$\$(?P<body>.*?)\$\$ *\((?P<label>[^()\n]+)\)[ \t]*$", re.M | re.S)
+DOLLARS = re.compile(
+    r"^\$\$(?P<body>.*?)\$\$ *\((?P<label>[^()\n]+)\)[ \t]*$", re.M | re.S
+)
 ROLE = re.compile(r"\{(?P<name>[\w:.-]+)\}`(?P<text>[^`]+)`")
 TARGET = re.compile(r"^\([\w:. -]+\)=\n", re.M)
 PICTURE = re.compile(r"(?P<start>!\[[^\]]*\]\()(?P<path>[^):\s]+)\)")
 KEY = re.compile(r"([a-z]+)(\d{4})[a-z]?")
-LABEL = re.compile(r"(?P<kind>fig|table|theorem|algorithm|exercise)-(?P<number>\d+(?:-\d+)*)")
-KINDS = {"fig": "Fig.", "table": "Table", "theorem": "Theorem", "algorithm": "Algorithm", "exercise": "Exercise"}
-LEFT_OUT = ("solution", "solution-start", "solution-end", "exercise-end", "bibliography", "contents")
+LABEL = re.compile(
+    r"(?P<kind>fig|table|theorem|algorithm|exercise)-(?P<number>\d+(?:-\d+)*)"
+)
+KINDS = {
+    "fig": "Fig.",
+    "table": "Table",
+    "theorem": "Theorem",
+    "algorithm": "Algorithm",
+    "exercise": "Exercise",
+}
+LEFT_OUT = (
+    "solution",
+    "solution-start",
+    "solution-end",
+    "exercise-end",
+    "bibliography",
+    "contents",
+)
 
 
 def with_tag(tex: str, label: str | None) -> str:
@@ -70,8 +88,13 @@ def plain_directive(match: re.Match[str]) -> str:
         return plain_quiz(content)
     if name in ("code-block", "code"):
         return f"```{title}\n{content}```"
-    heading = f"**{' '.join(filter(None, (name.removeprefix('prf:').capitalize(), title)))}**"
-    return "\n".join(f"> {line}".rstrip() for line in (heading, "", *plain(content).strip().splitlines()))
+    heading = (
+        f"**{' '.join(filter(None, (name.removeprefix('prf:').capitalize(), title)))}**"
+    )
+    return "\n".join(
+        f"> {line}".rstrip()
+        for line in (heading, "", *plain(content).strip().splitlines())
+    )
 
 
 def plain_quiz(content: str) -> str:
@@ -82,7 +105,9 @@ def plain_quiz(content: str) -> str:
     for answer, is_right in zip(answers, right, strict=True):
         choice, _, why = textwrap.dedent(f"  {answer}").strip().partition("\n")
         explained = textwrap.dedent(why).strip()
-        folds.append(f"<details><summary>{choice}</summary>\n\n**{VERDICTS[is_right]}** {explained}\n\n</details>")
+        folds.append(
+            f"<details><summary>{choice}</summary>\n\n**{VERDICTS[is_right]}** {explained}\n\n</details>"
+        )
     return f"**Check yourself.** {question.strip()}\n\n" + "\n".join(folds)
 
 
@@ -92,7 +117,9 @@ def plain_role(match: re.Match[str]) -> str:
     if name == "eq":
         return f"({thesis_number(text) or text})"
     if name.startswith("cite"):
-        works = "; ".join(f"{author.capitalize()} {year}" for author, year in KEY.findall(text))
+        works = "; ".join(
+            f"{author.capitalize()} {year}" for author, year in KEY.findall(text)
+        )
         return works if name.startswith("cite:t") else f"({works})"
     if name == "math":
         return f"${text}$"
@@ -109,7 +136,11 @@ def plain_role(match: re.Match[str]) -> str:
 
 def title_of(page: str) -> str:
     """The title of a page of the book."""
-    return next(line[2:] for line in (ROOT / "book" / f"{page}.md").read_text("utf-8").splitlines() if line[:2] == "# ")
+    return next(
+        line[2:]
+        for line in (ROOT / "book" / f"{page}.md").read_text("utf-8").splitlines()
+        if line[:2] == "# "
+    )
 
 
 def called(label: str) -> str:
@@ -139,7 +170,10 @@ def attach_pictures(cell: nbformat.NotebookNode, folder: Path) -> None:
         kind = mimetypes.guess_type(picture.name)[0] or "application/octet-stream"
         content = base64.b64encode(picture.read_bytes()).decode()
         cell.setdefault("attachments", {})[picture.name] = {kind: content}
-    cell.source = PICTURE.sub(lambda match: f"{match['start']}attachment:{Path(match['path']).name})", cell.source)
+    cell.source = PICTURE.sub(
+        lambda match: f"{match['start']}attachment:{Path(match['path']).name})",
+        cell.source,
+    )
 
 
 def notebook_of(source: Path) -> nbformat.NotebookNode:
@@ -155,7 +189,13 @@ def notebook_of(source: Path) -> nbformat.NotebookNode:
     return notebook
 
 
-def offer(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: nodes.document | None) -> None:
+def offer(
+    app: Sphinx,
+    page: str,
+    template: str,
+    context: dict[str, Any],
+    doctree: nodes.document | None,
+) -> None:
     """Write a notebook page's ``.ipynb`` beside its source and tell the theme, which adds the button.
 
     The page holds the notebook, too: from disk a browser would show the file as text, and ``book.js`` hands this out.
@@ -167,14 +207,23 @@ def offer(app: Sphinx, page: str, template: str, context: dict[str, Any], doctre
     notebook = notebook_of(Path(app.env.doc2path(page)))
     nbformat.write(notebook, target)
     held = nbformat.writes(notebook).replace("</", "<\\/")
-    context["metatags"] += f'<script type="application/x-ipynb+json" id="notebook">{held}</script>'
+    context["metatags"] += (
+        f'<script type="application/x-ipynb+json" id="notebook">{held}</script>'
+    )
     context["ipynb_source"] = f"{page}.ipynb"
 
 
 def notebook_pages() -> list[Path]:
     """The sources of the book's notebook pages, in its order."""
-    listed = [ROOT / f"{page}.md" for page in pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8")))]
-    return [source for source in listed if source.read_text("utf-8").startswith("---\njupytext:")]
+    listed = [
+        ROOT / f"{page}.md"
+        for page in pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8")))
+    ]
+    return [
+        source
+        for source in listed
+        if source.read_text("utf-8").startswith("---\njupytext:")
+    ]
 
 
 def write_all(folder: Path) -> None:
@@ -190,7 +239,9 @@ def write_all(folder: Path) -> None:
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    app.connect("html-page-context", offer, priority=400)  # before the theme gathers its buttons
+    app.connect(
+        "html-page-context", offer, priority=400
+    )  # before the theme gathers its buttons
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 

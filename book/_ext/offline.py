@@ -17,13 +17,19 @@ UNWANTED_SCRIPT = re.compile(r"thebe", re.IGNORECASE)
 
 
 def drop_unwanted_scripts(
-    app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: nodes.document | None
+    app: Sphinx,
+    page: str,
+    template: str,
+    context: dict[str, Any],
+    doctree: nodes.document | None,
 ) -> None:
     """Take the script tags of unused tools out of a page's template context."""
     context["script_files"] = [
         script
         for script in context.get("script_files", [])
-        if not UNWANTED_SCRIPT.search(f"{getattr(script, 'filename', script)} {getattr(script, 'attributes', '')}")
+        if not UNWANTED_SCRIPT.search(
+            f"{getattr(script, 'filename', script)} {getattr(script, 'attributes', '')}"
+        )
     ]
 
 

@@ -44,13 +44,18 @@ def resolve(name: str) -> Any:
             found = importlib.import_module(f"{found.__name__}.{part}")
         else:
             found = getattr(found, part)
-    return inspect.unwrap(getattr(found, "py_func", found)) if callable(found) else found
+    return (
+        inspect.unwrap(getattr(found, "py_func", found)) if callable(found) else found
+    )
 
 
 def without_docstring(source: str) -> str:
     """The same source with the docstring of its outermost definition cut out."""
     definition = ast.parse(source).body[0]
-    if not isinstance(definition, ast.FunctionDef | ast.ClassDef) or ast.get_docstring(definition) is None:
+    if (
+        not isinstance(definition, ast.FunctionDef | ast.ClassDef)
+        or ast.get_docstring(definition) is None
+    ):
         return source
     docstring = definition.body[0]
     lines = source.splitlines(keepends=True)
@@ -77,7 +82,9 @@ class FunctionSource(SphinxDirective):
         self.env.note_dependency(str(path))
         if "docstring" not in self.options:
             source = without_docstring(source)
-        code = nodes.literal_block(source, source, language="python", classes=["function-source"])
+        code = nodes.literal_block(
+            source, source, language="python", classes=["function-source"]
+        )
         return [container_wrapper(self, code, f"`{name}`")]
 
 
@@ -87,7 +94,9 @@ def code_reference(name: str, shown: str, docname: str) -> nodes.Node:
     return pending_xref("", nodes.literal("", shown), **target)
 
 
-def link_to_owner(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Element) -> nodes.Node | None:
+def link_to_owner(
+    app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Element
+) -> nodes.Node | None:
     """Link a field or a part that has no entry of its own to its owner's; without one, leave it plain."""
     if node.get("refdomain") != "py" or node.get("reftype") != "obj":
         return None
@@ -98,7 +107,9 @@ def link_to_owner(app: Sphinx, env: BuildEnvironment, node: pending_xref, conten
     if not name:
         return content
     found = objects[name]
-    return make_refnode(app.builder, node["refdoc"], found.docname, found.node_id, content, name)
+    return make_refnode(
+        app.builder, node["refdoc"], found.docname, found.node_id, content, name
+    )
 
 
 class CodeName(SphinxRole):
@@ -110,16 +121,29 @@ class CodeName(SphinxRole):
             if match is None:
                 raise ValueError("not a dotted name")
             found = resolve(match["name"])
-            if match["argument"] and match["argument"] not in inspect.signature(found).parameters:
+            if (
+                match["argument"]
+                and match["argument"] not in inspect.signature(found).parameters
+            ):
                 raise ValueError(f"it has no argument {match['argument']}")
         except (ImportError, AttributeError, TypeError, ValueError) as error:
-            message = self.inliner.reporter.warning(f"{self.text} is not in the package: {error}", line=self.lineno)
+            message = self.inliner.reporter.warning(
+                f"{self.text} is not in the package: {error}", line=self.lineno
+            )
             return [], [message]
-        return [code_reference(match["name"], self.text.removeprefix("robonav."), self.env.docname)], []
+        return [
+            code_reference(
+                match["name"], self.text.removeprefix("robonav."), self.env.docname
+            )
+        ], []
 
 
 def let_names_break(
-    app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: nodes.document | None
+    app: Sphinx,
+    page: str,
+    template: str,
+    context: dict[str, Any],
+    doctree: nodes.document | None,
 ) -> None:
     """Let a name of code break after its dots, underscores and brackets where a column is narrow."""
     if body := context.get("body"):

@@ -11,7 +11,13 @@ from docutils import nodes
 from sphinx.application import Sphinx
 
 
-def mark(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: nodes.document | None) -> None:
+def mark(
+    app: Sphinx,
+    page: str,
+    template: str,
+    context: dict[str, Any],
+    doctree: nodes.document | None,
+) -> None:
     """Put the page's body into an element that names its language."""
     language = app.env.metadata.get(page, {}).get("lang")
     if language and "body" in context:

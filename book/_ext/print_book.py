@@ -63,7 +63,9 @@ WIDGETS_SETTLED = """() => [...document.querySelectorAll(".robonav [role=status]
 
 def anchor(page: str, fragment: str = "") -> str:
     """The anchor in the document of a place on a page."""
-    return f"{page.replace('/', '-')}--{fragment}" if fragment else page.replace("/", "-")
+    return (
+        f"{page.replace('/', '-')}--{fragment}" if fragment else page.replace("/", "-")
+    )
 
 
 def inside(page: str, address: str, known: set[str]) -> str:
@@ -73,7 +75,9 @@ def inside(page: str, address: str, known: set[str]) -> str:
         return address
     if not parts.path:
         return f"#{anchor(page, unquote(parts.fragment))}"
-    at = PurePosixPath(posixpath.normpath(PurePosixPath(page).parent / unquote(parts.path)))
+    at = PurePosixPath(
+        posixpath.normpath(PurePosixPath(page).parent / unquote(parts.path))
+    )
     if at.suffix == ".html" and str(at.with_suffix("")) in known:
         return f"#{anchor(str(at.with_suffix('')), unquote(parts.fragment))}"
     return str(at)
@@ -106,7 +110,9 @@ def prepared(page: str, source: str, known: set[str]) -> Tag:
     for name in ("href", "src", "data"):
         for tag in article.find_all(attrs={name: True}):
             tag[name] = inside(page, tag[name], known)
-    for link in article.select("a[href]:not([href^='#'], [href*=':'])"):  # to a file beside the pages
+    for link in article.select(
+        "a[href]:not([href^='#'], [href*=':'])"
+    ):  # to a file beside the pages
         if address := os.environ.get("BOOK_ADDRESS"):
             link["href"] = f"{address.rstrip('/')}/{link['href']}"
         else:
@@ -131,7 +137,10 @@ def needed(listed: list[str], sources: list[str]) -> str:
 def joined(listed: list[str]) -> str:
     """One document of all pages."""
     sources = [(SITE / f"{page}.html").read_text("utf-8") for page in listed]
-    sections = [prepared(page, source, set(listed)) for page, source in zip(listed, sources, strict=True)]
+    sections = [
+        prepared(page, source, set(listed))
+        for page, source in zip(listed, sources, strict=True)
+    ]
     titles = [section.find("h1") for section in sections]
     contents = "".join(
         f'<li><a href="#{anchor(page)}">{title.get_text().removesuffix("#")}</a></li>'
@@ -151,9 +160,16 @@ def print_to(target: Path, document: Path) -> None:
     """Let Chromium print a document, once its formulas and figures stand."""
     from playwright.sync_api import sync_playwright
 
-    found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    found = next(
+        filter(
+            None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))
+        ),
+        None,
+    )
     if found is None:
-        raise SystemExit("make pdf needs Chromium: install it, for instance with apt install chromium")
+        raise SystemExit(
+            "make pdf needs Chromium: install it, for instance with apt install chromium"
+        )
     with tempfile.TemporaryDirectory() as profile, sync_playwright() as playwright:
         context = playwright.chromium.launch_persistent_context(
             profile, executable_path=found, args=["--no-sandbox", "--disable-gpu"], color_scheme="light",
@@ -178,7 +194,9 @@ def main() -> None:
     if missing:
         raise SystemExit(f"not built: {', '.join(missing)}; run make book first")
     target = Path(sys.argv[1])
-    document = SITE / "print.html"  # where the pages' files are, and for as long as it takes
+    document = (
+        SITE / "print.html"
+    )  # where the pages' files are, and for as long as it takes
     try:
         document.write_text(joined(listed), "utf-8")
         target.parent.mkdir(parents=True, exist_ok=True)

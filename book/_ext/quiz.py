@@ -33,7 +33,9 @@ VERDICTS = {True: "Right.", False: "No."}
 
 def marks(content: str) -> tuple[str, list[bool]]:
     """The content as a plain list, and which of its answers are right."""
-    return ANSWER.sub("- ", content), [found["mark"] == "x" for found in ANSWER.finditer(content)]
+    return ANSWER.sub("- ", content), [
+        found["mark"] == "x" for found in ANSWER.finditer(content)
+    ]
 
 
 class QuizAnswer(nodes.General, nodes.Element):
@@ -53,8 +55,14 @@ class Quiz(SphinxDirective):
         text, right = marks("\n".join(self.content))
         self.content = StringList(text.splitlines(), source=self.get_source_info()[0])
         parsed = self.parse_content_to_nodes()
-        if not parsed or not isinstance(parsed[-1], nodes.bullet_list) or len(parsed[-1]) != len(right):
-            raise self.error("a quiz must be a question and then a list of answers that begin with [ ] or [x]")
+        if (
+            not parsed
+            or not isinstance(parsed[-1], nodes.bullet_list)
+            or len(parsed[-1]) != len(right)
+        ):
+            raise self.error(
+                "a quiz must be a question and then a list of answers that begin with [ ] or [x]"
+            )
         if sum(right) != 1 or len(right) < 2:
             raise self.error("a quiz must have two answers or more, one of them right")
         *question, answers = parsed

@@ -22,7 +22,10 @@ from sphinx.util.docutils import SphinxDirective
 
 VALUES = bool | int | float | str | tuple | Enum
 UNDERLINED = re.compile(r"^(?P<title>\w[\w ]*)\n-{3,}$", re.MULTILINE)
-ITEM = re.compile(r"^(?P<names>[*\w][\w*, ]*) : (?P<text>.*(?:\n[ \t]+.*|\n(?=\n[ \t]))*)", re.MULTILINE)
+ITEM = re.compile(
+    r"^(?P<names>[*\w][\w*, ]*) : (?P<text>.*(?:\n[ \t]+.*|\n(?=\n[ \t]))*)",
+    re.MULTILINE,
+)
 ROLE = re.compile(r":\w+:`~?([^`]+)`")
 FUNCTION = re.compile(r"<function (\S+) at 0x[0-9a-f]+>")
 
@@ -30,7 +33,9 @@ FUNCTION = re.compile(r"<function (\S+) at 0x[0-9a-f]+>")
 def markdown(docstring: str) -> str:
     """A docstring in Markdown: section titles in bold, what they list as a list with names as code."""
     text = ROLE.sub(r"`\1`", inspect.cleandoc(docstring))
-    text = ITEM.sub(lambda match: f"- {_code(match['names'])}: {_indented(match['text'])}", text)
+    text = ITEM.sub(
+        lambda match: f"- {_code(match['names'])}: {_indented(match['text'])}", text
+    )
     return UNDERLINED.sub(r"**\g<title>**\n", text)
 
 
@@ -52,7 +57,9 @@ def signature(name: str, found: Any) -> str:
     except (TypeError, ValueError):
         return name
     bare = [
-        parameter.replace(annotation=inspect.Parameter.empty, default=Named.of(parameter.default))
+        parameter.replace(
+            annotation=inspect.Parameter.empty, default=Named.of(parameter.default)
+        )
         for parameter in called.parameters.values()
         if parameter.name != "self"
     ]
@@ -79,15 +86,25 @@ class Named:
 def methods(found: Any) -> Iterator[tuple[str, Any]]:
     """The public methods and properties that a class defines itself, in the order of its source."""
     for name, member in vars(found).items():
-        function = member.fget if isinstance(member, property) else getattr(member, "__func__", member)
-        if not name.startswith("_") and inspect.isfunction(function) and function.__doc__:
+        function = (
+            member.fget
+            if isinstance(member, property)
+            else getattr(member, "__func__", member)
+        )
+        if (
+            not name.startswith("_")
+            and inspect.isfunction(function)
+            and function.__doc__
+        ):
             yield name, member
 
 
 def own_docstring(found: Any) -> str:
     """The docstring, unless it is what ``dataclass`` or another class put there."""
     written = found.__doc__ or ""
-    generated = dataclasses.is_dataclass(found) and written.startswith(f"{getattr(found, '__name__', '')}(")
+    generated = dataclasses.is_dataclass(found) and written.startswith(
+        f"{getattr(found, '__name__', '')}("
+    )
     return "" if generated else written
 
 
@@ -99,11 +116,22 @@ class Reference(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         module = importlib.import_module(self.arguments[0])
         named = [(name, getattr(module, name)) for name in module.__all__]
-        callables = [(name, found) for name, found in named if inspect.isclass(found) or inspect.isroutine(found)]
-        constants = [(name, found) for name, found in named if isinstance(found, VALUES)]
+        callables = [
+            (name, found)
+            for name, found in named
+            if inspect.isclass(found) or inspect.isroutine(found)
+        ]
+        constants = [
+            (name, found) for name, found in named if isinstance(found, VALUES)
+        ]
         made: list[nodes.Node] = self.constants(constants) if constants else []
-        callables.sort(key=lambda named: (not inspect.isclass(named[1]), named[0].casefold()))
-        return made + [self.entry(f"{module.__name__}.{name}", name, found) for name, found in callables]
+        callables.sort(
+            key=lambda named: (not inspect.isclass(named[1]), named[0].casefold())
+        )
+        return made + [
+            self.entry(f"{module.__name__}.{name}", name, found)
+            for name, found in callables
+        ]
 
     def constants(self, named: list[tuple[str, Any]]) -> list[nodes.Node]:
         """The constants and their values, long ones cut; type aliases and tables are for the eyes of the code alone."""
@@ -124,16 +152,29 @@ class Reference(SphinxDirective):
 
     def method(self, path: str, owner: str, name: str, member: Any) -> nodes.Node:
         """One method of a class, set apart below it."""
-        function = member.fget if isinstance(member, property) else getattr(member, "__func__", member)
+        function = (
+            member.fget
+            if isinstance(member, property)
+            else getattr(member, "__func__", member)
+        )
         block = nodes.container(ids=[f"{path}.{name}"], classes=["reference-method"])
-        self.note(f"{path}.{name}", "method", f"{path}.{name}", f"{function.__module__}.{function.__qualname__}")
+        self.note(
+            f"{path}.{name}",
+            "method",
+            f"{path}.{name}",
+            f"{function.__module__}.{function.__qualname__}",
+        )
         shown = f"{owner}.{name}"
-        block += self.code(shown if isinstance(member, property) else signature(shown, function))
+        block += self.code(
+            shown if isinstance(member, property) else signature(shown, function)
+        )
         block += self.parse_text_to_nodes(markdown(function.__doc__ or ""))
         return block
 
     def code(self, text: str) -> nodes.literal_block:
-        return nodes.literal_block(text, text, language="python", classes=["reference-signature"])
+        return nodes.literal_block(
+            text, text, language="python", classes=["reference-signature"]
+        )
 
     def note(self, path: str, kind: str, anchor: str, definition: str) -> None:
         """Make the name known to links, under its public path and the one of its definition."""
@@ -141,7 +182,9 @@ class Reference(SphinxDirective):
         assert isinstance(domain, PythonDomain)
         domain.note_object(path, kind, anchor, location=self.get_location())
         if definition not in domain.objects:
-            domain.note_object(definition, kind, anchor, aliased=True, location=self.get_location())
+            domain.note_object(
+                definition, kind, anchor, aliased=True, location=self.get_location()
+            )
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

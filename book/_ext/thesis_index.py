@@ -55,11 +55,15 @@ def numbers(text: str) -> set[Number]:
 
 def documented(path: Path) -> Iterator[tuple[str, str]]:
     """Dotted name and docstring of every public function, class and method of a module."""
-    module = ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+    module = ".".join(
+        path.relative_to(PACKAGE.parent).with_suffix("").parts
+    ).removesuffix(".__init__")
 
     def visit(node: ast.Module | ast.ClassDef, name: str) -> Iterator[tuple[str, str]]:
         for child in node.body:
-            if isinstance(child, ast.FunctionDef | ast.ClassDef) and not child.name.startswith("_"):
+            if isinstance(
+                child, ast.FunctionDef | ast.ClassDef
+            ) and not child.name.startswith("_"):
                 yield f"{name}.{child.name}", ast.get_docstring(child) or ""
                 if isinstance(child, ast.ClassDef):
                     yield from visit(child, f"{name}.{child.name}")
@@ -72,7 +76,11 @@ def cited(kind: str) -> dict[Number, list[str]]:
     found: dict[Number, list[str]] = defaultdict(list)
     for path in sorted(PACKAGE.rglob("*.py")):
         for name, docstring in documented(path):
-            for number in {number for text in KINDS[kind].findall(docstring) for number in numbers(text)}:
+            for number in {
+                number
+                for text in KINDS[kind].findall(docstring)
+                for number in numbers(text)
+            }:
                 found[number].append(name)
     return dict(sorted(found.items()))
 
@@ -87,14 +95,23 @@ class ThesisIndex(SphinxDirective):
         for path in PACKAGE.rglob("*.py"):
             self.env.note_dependency(str(path))
         title = kind.removesuffix("s")
-        head = nodes.thead("", _row([nodes.Text(title)], [nodes.Text("in the package")]))
+        head = nodes.thead(
+            "", _row([nodes.Text(title)], [nodes.Text("in the package")])
+        )
         body = nodes.tbody()
         for parts, names in cited(kind).items():
             number = ".".join(map(str, parts))
             shown = nodes.Text(f"{title.capitalize()} {number}")
-            code = [code_reference(name, name.removeprefix("robonav."), self.env.docname) for name in names]
+            code = [
+                code_reference(name, name.removeprefix("robonav."), self.env.docname)
+                for name in names
+            ]
             body += _row(
-                [equation_reference(number, self.env.docname) if kind == "equations" else shown],
+                [
+                    equation_reference(number, self.env.docname)
+                    if kind == "equations"
+                    else shown
+                ],
                 [part for name in code for part in (name, nodes.Text(", "))][:-1],
             )
         columns = [nodes.colspec(colwidth=width) for width in (15, 85)]
@@ -102,7 +119,9 @@ class ThesisIndex(SphinxDirective):
 
 
 def _row(*cells: list[nodes.Node]) -> nodes.row:
-    return nodes.row("", *(nodes.entry("", nodes.paragraph("", "", *content)) for content in cells))
+    return nodes.row(
+        "", *(nodes.entry("", nodes.paragraph("", "", *content)) for content in cells)
+    )
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

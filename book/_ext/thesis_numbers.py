@@ -33,14 +33,21 @@ class ThesisMathDomain(MathDomain):
     def note_equation(self, docname: str, labelid: str, location: Any = None) -> None:
         number = thesis_number(labelid)
         if number is None or labelid in self.equations:
-            super().note_equation(docname, labelid, location)  # which warns of a label that is used twice
+            super().note_equation(
+                docname, labelid, location
+            )  # which warns of a label that is used twice
         else:
             self.equations[labelid] = (docname, number)
 
 
 def equation_reference(number: str, docname: str) -> nodes.Node:
     """The number in brackets, a link if a page shows the equation."""
-    target = {"refdomain": "math", "reftype": "eq", "reftarget": f"eq-{number}", "refdoc": docname}
+    target = {
+        "refdomain": "math",
+        "reftype": "eq",
+        "reftarget": f"eq-{number}",
+        "refdoc": docname,
+    }
     return pending_xref("", nodes.Text(f"({number})"), **target)
 
 
@@ -55,9 +62,15 @@ class ThesisEquation(SphinxRole):
         return found, []
 
 
-def leave_plain(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Element) -> nodes.Node | None:
+def leave_plain(
+    app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Element
+) -> nodes.Node | None:
     """Leave the number of an equation that no page shows as plain text, but not for the strict role ``{eq}``."""
-    if node.get("refdomain") == "math" and thesis_number(node["reftarget"]) and isinstance(content, nodes.Text):
+    if (
+        node.get("refdomain") == "math"
+        and thesis_number(node["reftarget"])
+        and isinstance(content, nodes.Text)
+    ):
         return content
     return None
 

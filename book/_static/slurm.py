@@ -17,5 +17,13 @@ cluster = SLURMCluster(
     job_script_prologue=["source robonav/.venv/bin/activate"],  # where you installed it
 )
 cluster.scale(jobs=8)
-command = ["robonav", "reproduce", *sys.argv[1:], "--scale", "thesis", "--backend", "dask"]
+command = [
+    "robonav",
+    "reproduce",
+    *sys.argv[1:],
+    "--scale",
+    "thesis",
+    "--backend",
+    "dask",
+]
 subprocess.run([*command, "--scheduler", cluster.scheduler_address], check=True)

@@ -1,10 +1,16 @@
 """Every table and figure of the thesis as a named experiment."""
 
-from .catalogue import experiment, names
-from .experiment import Case, Experiment, Results, Row
-from .running import reproduce
-from .statistics import Improvement, Summary, bootstrap_interval, probability_of_improvement, summarise
-from .store import RESULTS, load_results, save_results
+from .registry import experiment, names
+from .runner.experiment import Case, Experiment, Results, Row
+from .runner.results import RESULTS, load_results, save_results
+from .runner.run import reproduce
+from .runner.statistics import (
+    Improvement,
+    Summary,
+    bootstrap_interval,
+    probability_of_improvement,
+    summarise,
+)
 
 __all__ = [
     "RESULTS",

@@ -8,22 +8,43 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.lfd import NetworkPolicy, fit, labelled_states
+from robonav.lfd import labelled_states
+from robonav.networks import NetworkPolicy, fit
 from robonav.robot import Encoder, navigate
 
-from .experiment import Case, Experiment, Results
-from .lfd_course import Numbers, new_worlds, shown
-from .nirl_course import learned
-from .nirl_tuning import trial_settings
-from .nnql_course import SHORTENED
-from .nnql_tuning import FIRST, trained
-from .store import RESULTS as RESULTS
+from .chapter3.setup import Numbers, new_worlds, shown
+from .chapter4.setup import SHORTENED
+from .chapter4.tuning import FIRST, trained
+from .chapter5.setup import learned
+from .chapter5.tuning import trial_settings
+from .runner.experiment import Case, Experiment, Results
+from .runner.results import RESULTS as RESULTS
 
-EARLY = (0, 5, 10, 15, 20, 25, 30, 40, 50, 75, 100, 150, 200, 250, 300)  # most happens in the first 50 iterations
+EARLY = (
+    0,
+    5,
+    10,
+    15,
+    20,
+    25,
+    30,
+    40,
+    50,
+    75,
+    100,
+    150,
+    200,
+    250,
+    300,
+)  # most happens in the first 50 iterations
 BIN = 30  # episodes, as in Fig. 4.4
 EPISODES = 300
 METHODS = ("nnql", "online", "nfq", "dqn")
-TEMPERATURES = {"0.9 to 0.1": (0.9, 0.1), "0.9 to 0.03": (0.9, 0.03), "0.9 throughout": (0.9, 0.9)}
+TEMPERATURES = {
+    "0.9 to 0.1": (0.9, 0.1),
+    "0.9 to 0.03": (0.9, 0.03),
+    "0.9 throughout": (0.9, 0.9),
+}
 UPDATES: dict[str, dict[str, dict[str, Any]]] = {
     "as the thesis has it": {"nnql": {}, "online": {}, "nfq": {}, "dqn": {}},
     "a quarter of that": {
@@ -37,8 +58,12 @@ UPDATES: dict[str, dict[str, dict[str, Any]]] = {
 
 STEPS: dict[str, dict[str, Sequence[int]]] = {
     "lab-lfd": {"cost": EARLY, "accuracy": EARLY, "success": EARLY},
-    "lab-nnql": {name: range(BIN, EPISODES + 1, BIN) for name in ("success", "collision")},
-    "lab-nirl": {name: range(5, 141, 5) for name in ("margin", "cost", "success", "agreement")},
+    "lab-nnql": {
+        name: range(BIN, EPISODES + 1, BIN) for name in ("success", "collision")
+    },
+    "lab-nirl": {
+        name: range(5, 141, 5) for name in ("margin", "cost", "success", "agreement")
+    },
 }
 """At which iterations or episodes each number of a run is taken."""
 
@@ -53,7 +78,10 @@ def from_demonstrations(case: Case, seed: int, scale: str) -> Numbers:
     assert training.networks is not None
     at = np.minimum(EARLY, training.iterations)
     worlds, networks = new_worlds(seed, scale), training.networks
-    arrived = {k: navigate(NetworkPolicy(networks[k], Encoder()), worlds).success.mean() for k in {*at.tolist()}}
+    arrived = {
+        k: navigate(NetworkPolicy(networks[k], Encoder()), worlds).success.mean()
+        for k in {*at.tolist()}
+    }
     return {
         "cost": training.costs[at],
         "accuracy": 100 * training.accuracies[at],
@@ -66,7 +94,9 @@ def from_reward(case: Case, seed: int, scale: str) -> Numbers:
     method = str(case["method"])
     settings = FIRST[method] | UPDATES[str(case["learning rate"])][method]
     settings |= {"temperature": TEMPERATURES[str(case["temperature"])]}
-    outcomes = trained(method, seed, scale, settings, length=SHORTENED[scale]).outcomes[0]
+    outcomes = trained(method, seed, scale, settings, length=SHORTENED[scale]).outcomes[
+        0
+    ]
     bins = outcomes[: len(outcomes) // BIN * BIN].reshape(-1, BIN)
     ended = {"success": "arrived", "collision": "collided"}
     return {name: 100 * (bins == end).mean(axis=1) for name, end in ended.items()}
@@ -74,7 +104,9 @@ def from_reward(case: Case, seed: int, scale: str) -> Numbers:
 
 def from_expert(case: Case, seed: int, scale: str) -> Numbers:
     """Algorithm 10 while it goes on: margin, cost, practice drives that arrive, and agreement with the expert."""
-    settings = trial_settings("nirl", 0, float(case["discount"])) | {"ends": str(case["ends"])}
+    settings = trial_settings("nirl", 0, float(case["discount"])) | {
+        "ends": str(case["ends"])
+    }
     history = learned("nirl", seed, settings, int(case["demonstrations"])).history
     at = np.minimum(np.array(STEPS["lab-nirl"]["cost"]), len(history.costs)) - 1
 
@@ -101,14 +133,19 @@ def _combinations(settings: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]
 def offered(results: Results) -> dict[str, list[str]]:
     """The settings that an experiment varies, and their choices, as text."""
     cases = results.experiment.cases
-    return {name: list(dict.fromkeys(str(case[name]) for case in cases)) for name in cases[0]}
+    return {
+        name: list(dict.fromkeys(str(case[name]) for case in cases))
+        for name in cases[0]
+    }
 
 
 EXPERIMENTS = (
     Experiment(
         name="lab-lfd",
         title="Training lab: learning from demonstration in 27 settings",
-        cases=_combinations({"demonstrations": (5, 25, 40), "lambda": (0, 1, 10), "hidden": (2, 8, 20)}),
+        cases=_combinations(
+            {"demonstrations": (5, 25, 40), "lambda": (0, 1, 10), "hidden": (2, 8, 20)}
+        ),
         run=from_demonstrations,
         seeds={"quick": 1, "thesis": 3},
         settings={"iterations": EARLY, "target": "sine-cosine"},
@@ -116,7 +153,13 @@ EXPERIMENTS = (
     Experiment(
         name="lab-nnql",
         title="Training lab: the methods of chapter 4 in 24 settings",
-        cases=_combinations({"method": METHODS, "temperature": tuple(TEMPERATURES), "learning rate": tuple(UPDATES)}),
+        cases=_combinations(
+            {
+                "method": METHODS,
+                "temperature": tuple(TEMPERATURES),
+                "learning rate": tuple(UPDATES),
+            }
+        ),
         run=from_reward,
         seeds={"quick": 1, "thesis": 5},
         shortened="a fifth of the episodes",
@@ -125,7 +168,13 @@ EXPERIMENTS = (
     Experiment(
         name="lab-nirl",
         title="Training lab: neural inverse reinforcement learning in 12 settings",
-        cases=_combinations({"demonstrations": (10, 30, 50), "discount": (0.65, 0.9), "ends": ("bonus", "neutral")}),
+        cases=_combinations(
+            {
+                "demonstrations": (10, 30, 50),
+                "discount": (0.65, 0.9),
+                "ends": ("bonus", "neutral"),
+            }
+        ),
         run=from_expert,
         seeds={"quick": 1, "thesis": 3},
         settings={"trial": 0},

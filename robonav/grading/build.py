@@ -16,14 +16,24 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from robonav.files import whole
-from robonav.grading.check import Here, graded
-from robonav.grading.course import Course, Exercise
-from robonav.grading.reference import Recorder, solution
-from robonav.grading.worker import STUB
+from robonav.atomic import atomic_write
 
-SOLUTION = re.compile(r"^( *)### BEGIN SOLUTION\n.*?^ *### END SOLUTION\n", re.MULTILINE | re.DOTALL)
-LONG_AGO = (2015, 1, 1, 0, 0, 0)  # the date of every file in a zip, so that the same content makes the same zip
+from .check import Here, graded
+from .course import Course, Exercise
+from .reference import Recorder, solution
+from .worker import STUB
+
+SOLUTION = re.compile(
+    r"^( *)### BEGIN SOLUTION\n.*?^ *### END SOLUTION\n", re.MULTILINE | re.DOTALL
+)
+LONG_AGO = (
+    2015,
+    1,
+    1,
+    0,
+    0,
+    0,
+)  # the date of every file in a zip, so that the same content makes the same zip
 
 
 def stub(source: str, name: str) -> str:
@@ -35,7 +45,9 @@ def stub(source: str, name: str) -> str:
     """
     cut, found = SOLUTION.subn(rf"\1{STUB.format(name=name)}\n", source)
     if not found or "### " in cut:
-        raise ValueError(f"{name} must have its solution between ### BEGIN SOLUTION and ### END SOLUTION")
+        raise ValueError(
+            f"{name} must have its solution between ### BEGIN SOLUTION and ### END SOLUTION"
+        )
     return cut
 
 
@@ -54,12 +66,20 @@ def built(course: Course) -> dict[str, str]:
     """Every generated file's text by its path from the course's root."""
     files = {"exercises/README.md": _readme(course)}
     for chapter, exercises in course.chapters():
-        sources = {exercise: (course.solutions / exercise.file).read_text() for exercise in exercises}
-        stubs = {exercise: stub(source, exercise.name) for exercise, source in sources.items()}
+        sources = {
+            exercise: (course.solutions / exercise.file).read_text()
+            for exercise in exercises
+        }
+        stubs = {
+            exercise: stub(source, exercise.name)
+            for exercise, source in sources.items()
+        }
         for exercise, text in stubs.items():
             files[f"exercises/{exercise.file}"] = f"{_heading(exercise)}\n{text}"
         files[f"exercises/{chapter}.ipynb"] = _notebook(chapter, stubs)
-        files[f"solutions/nbgrader/source/{chapter}/{chapter}.ipynb"] = _notebook(chapter, sources)
+        files[f"solutions/nbgrader/source/{chapter}/{chapter}.ipynb"] = _notebook(
+            chapter, sources
+        )
     return files
 
 
@@ -67,7 +87,11 @@ def outdated(course: Course) -> list[str]:
     """Generated files that are missing, differ from their source, or have none any more."""
     files = built(course)
     present = {path.relative_to(course.root).as_posix() for path in _generated(course)}
-    differ = [name for name in files if name in present and (course.root / name).read_text() != files[name]]
+    differ = [
+        name
+        for name in files
+        if name in present and (course.root / name).read_text() != files[name]
+    ]
     return sorted({*differ, *(set(files) ^ present)})
 
 
@@ -77,7 +101,7 @@ def build(course: Course) -> list[str]:
     changed = outdated(course)
     for name in changed:
         if name in files:
-            with whole(course.root / name) as file:
+            with atomic_write(course.root / name) as file:
                 file.write(files[name].encode())
         else:
             (course.root / name).unlink()
@@ -86,30 +110,53 @@ def build(course: Course) -> list[str]:
 
 def students_zip(course: Course, path: Path) -> None:
     """A zip for a learning platform: stubs, notebooks, and tests with the answers to the public cases alone."""
-    tests = [course.tests / name for name in ("manifest.toml", "pytest.ini")] + sorted(course.tests.glob("test_*.py"))
+    tests = [course.tests / name for name in ("manifest.toml", "pytest.ini")] + sorted(
+        course.tests.glob("test_*.py")
+    )
     with (
         TemporaryDirectory() as folder,
-        whole(path) as file,
+        atomic_write(path) as file,
         zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive,
     ):
         recorder = Recorder(course)
         for exercise in course.exercises.values():
-            if (result := graded(course, exercise, Here(solution(course, exercise)), recorder))["state"] != "correct":
-                raise ValueError(f"the solution of {exercise.id} does not pass: {result['feedback']}")
+            if (
+                result := graded(
+                    course, exercise, Here(solution(course, exercise)), recorder
+                )
+            )["state"] != "correct":
+                raise ValueError(
+                    f"the solution of {exercise.id} does not pass: {result['feedback']}"
+                )
         recorder.write(Path(folder))
-        content = {name: text.encode() for name, text in built(course).items() if name.startswith("exercises/")}
-        content |= {test.relative_to(course.root).as_posix(): test.read_bytes() for test in tests}
+        content = {
+            name: text.encode()
+            for name, text in built(course).items()
+            if name.startswith("exercises/")
+        }
         content |= {
-            f"tests/exercises/recorded/{path.name}": path.read_bytes() for path in sorted(Path(folder).iterdir())
+            test.relative_to(course.root).as_posix(): test.read_bytes()
+            for test in tests
+        }
+        content |= {
+            f"tests/exercises/recorded/{path.name}": path.read_bytes()
+            for path in sorted(Path(folder).iterdir())
         }
         for name, text in content.items():
-            archive.writestr(zipfile.ZipInfo(f"robonav-exercises/{name}", LONG_AGO), text)
+            archive.writestr(
+                zipfile.ZipInfo(f"robonav-exercises/{name}", LONG_AGO), text
+            )
 
 
 def _generated(course: Course) -> Iterator[Path]:
-    for folder, kinds in ((course.stubs, (".py", ".ipynb", ".md")), (course.solutions / "nbgrader", (".ipynb",))):
+    for folder, kinds in (
+        (course.stubs, (".py", ".ipynb", ".md")),
+        (course.solutions / "nbgrader", (".ipynb",)),
+    ):
         for path in folder.rglob("*"):
-            if path.suffix in kinds and not any(part.startswith((".", "__")) for part in path.parts[-2:]):
+            if path.suffix in kinds and not any(
+                part.startswith((".", "__")) for part in path.parts[-2:]
+            ):
                 yield path
 
 
@@ -125,7 +172,10 @@ def _readme(course: Course) -> str:
         f"| {e.id} | `{e.file}` | {e.title} | {e.difficulty} | {e.minutes} min | {e.points} |"
         for e in course.exercises.values()
     ]
-    head = ["| exercise | file | title | kind | time | points |", "|---|---|---|---|---|---|"]
+    head = [
+        "| exercise | file | title | kind | time | points |",
+        "|---|---|---|---|---|---|",
+    ]
     return "\n".join(
         [
             "# Exercises",
@@ -151,7 +201,10 @@ def _notebook(chapter: str, sources: Mapping[Exercise, str]) -> str:
     """A chapter's exercises as one notebook, with the cell metadata that nbgrader reads."""
     number = chapter.removeprefix("ch")
     cells = [
-        _markdown("title", f"# Exercises of chapter {number}\n\nRun a cell with `check` to see how you are doing.")
+        _markdown(
+            "title",
+            f"# Exercises of chapter {number}\n\nRun a cell with `check` to see how you are doing.",
+        )
     ]
     for exercise, source in sources.items():
         key = exercise.id.replace(".", "-")
@@ -160,10 +213,29 @@ def _notebook(chapter: str, sources: Mapping[Exercise, str]) -> str:
         check = f'from robonav.grading.check import check\n\ncheck("{exercise.id}", {exercise.name})'
         cells += [
             _markdown(f"question-{key}", text),
-            _code(f"answer-{key}", code(source).rstrip(), solution=True, locked=False, grade=False),
-            _code(f"check-{key}", check, solution=False, locked=True, grade=True, points=exercise.points),
+            _code(
+                f"answer-{key}",
+                code(source).rstrip(),
+                solution=True,
+                locked=False,
+                grade=False,
+            ),
+            _code(
+                f"check-{key}",
+                check,
+                solution=False,
+                locked=True,
+                grade=True,
+                points=exercise.points,
+            ),
         ]
-    kernel = {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}}
+    kernel = {
+        "kernelspec": {
+            "display_name": "Python 3",
+            "language": "python",
+            "name": "python3",
+        }
+    }
     notebook = {"cells": cells, "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}
     return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
 
@@ -173,7 +245,15 @@ def _markdown(key: str, text: str) -> dict[str, Any]:
 
 
 def _code(key: str, text: str, **grading: Any) -> dict[str, Any]:
-    metadata = {"nbgrader": {"grade_id": key, "schema_version": 3, "task": False, "cell_type": "code", **grading}}
+    metadata = {
+        "nbgrader": {
+            "grade_id": key,
+            "schema_version": 3,
+            "task": False,
+            "cell_type": "code",
+            **grading,
+        }
+    }
     head = {"cell_type": "code", "execution_count": None, "id": key}
     return {**head, "metadata": metadata, "outputs": [], "source": _lines(text)}
 

@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from robonav.grading import frames
-from robonav.grading.course import Course, Exercise
-from robonav.grading.grade import Unaccepted, exercise_grade
-from robonav.grading.parts import PUBLIC, generator, outcome, parts_of
-from robonav.grading.proxy import Answer, Calls
-from robonav.grading.reference import Reference, reference
+from . import frames
+from .course import Course, Exercise
+from .grade import Unaccepted, exercise_grade
+from .parts import PUBLIC, generator, outcome, parts_of
+from .proxy import Answer, Calls
+from .reference import Reference, reference
 
 
 def check(key: str, function: Callable[..., Any]) -> float:
@@ -28,7 +28,12 @@ def check(key: str, function: Callable[..., Any]) -> float:
 
 
 def graded(
-    course: Course, exercise: Exercise, calls: Calls, known: Reference, *, seed: bytes = PUBLIC
+    course: Course,
+    exercise: Exercise,
+    calls: Calls,
+    known: Reference,
+    *,
+    seed: bytes = PUBLIC,
 ) -> dict[str, Any]:
     """The exercise's entry in a grade, on the cases of this seed."""
     parts = []
@@ -59,7 +64,8 @@ class Here:
             raise Unaccepted("missing", "Not attempted.") from None
         except frames.FrameError as error:
             raise Unaccepted(
-                "error", f"The answer must be numbers, strings, lists, dicts or arrays, not {error}."
+                "error",
+                f"The answer must be numbers, strings, lists, dicts or arrays, not {error}.",
             ) from None
         except Exception as error:
             raise Unaccepted("error", f"{type(error).__name__}: {error}.") from error

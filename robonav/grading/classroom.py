@@ -16,16 +16,17 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from robonav import files
-from robonav.grading import report, submission
-from robonav.grading.check import graded
-from robonav.grading.course import Course
-from robonav.grading.grade import fault_grade, grade
-from robonav.grading.parts import PUBLIC
-from robonav.grading.proxy import Session
-from robonav.grading.reference import reference
-from robonav.grading.submission import Refused, Submission
+from robonav import atomic
 from robonav.progress import Progress
+
+from . import report, submission
+from .check import graded
+from .course import Course
+from .grade import fault_grade, grade
+from .parts import PUBLIC
+from .proxy import Session
+from .reference import reference
+from .submission import Refused, Submission
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,9 @@ class Marking:
 
     def key(self) -> str:
         """A fingerprint of all that a grade depends on besides the submission."""
-        digest = hashlib.sha256(hashlib.sha256(self.secret).digest() + self.tier.encode())
+        digest = hashlib.sha256(
+            hashlib.sha256(self.secret).digest() + self.tier.encode()
+        )
         for folder, pattern in (
             (self.course.tests, "*"),
             (self.course.solutions, "**/*.py"),
@@ -50,14 +53,29 @@ class Marking:
         return digest.hexdigest()
 
 
-def mark(marking: Marking, taken: Submission | Refused, ids: Collection[str] = ()) -> dict[str, Any]:
+def mark(
+    marking: Marking, taken: Submission | Refused, ids: Collection[str] = ()
+) -> dict[str, Any]:
     """The grade of one submission, or of these exercises of it: the same as by ``pytest tests/exercises``."""
     course = marking.course
-    exercises = [exercise for exercise in course.exercises.values() if not ids or exercise.id in ids]
-    session, known = Session(taken, marking.tier, secret=bool(marking.secret)), reference(course)
+    exercises = [
+        exercise
+        for exercise in course.exercises.values()
+        if not ids or exercise.id in ids
+    ]
+    session, known = (
+        Session(taken, marking.tier, secret=bool(marking.secret)),
+        reference(course),
+    )
     try:
         seed = marking.secret or PUBLIC
-        return grade([graded(course, exercise, session, known, seed=seed) for exercise in exercises], marking.tier)
+        return grade(
+            [
+                graded(course, exercise, session, known, seed=seed)
+                for exercise in exercises
+            ],
+            marking.tier,
+        )
     except Exception:  # whatever it is, it is not the student's doing
         return fault_grade(exercises, marking.tier)
     finally:
@@ -79,9 +97,13 @@ def students(folder: Path) -> dict[str, Path]:
             continue
         name = path.name if path.is_dir() else path.stem
         if not name.isprintable():
-            raise ValueError(f"{name!r} is no name for a student: rename that submission")
+            raise ValueError(
+                f"{name!r} is no name for a student: rename that submission"
+            )
         if name in found:
-            raise ValueError(f"{found[name].name} and {path.name} are both submissions of {name}")
+            raise ValueError(
+                f"{found[name].name} and {path.name} are both submissions of {name}"
+            )
         found[name] = path
     if not found:
         raise ValueError(f"no folder, zip or notebook in {folder}")
@@ -90,7 +112,11 @@ def students(folder: Path) -> dict[str, Path]:
 
 def passed_over(folder: Path) -> list[str]:
     """What lies in ``folder`` and is no submission; an ``anna.rar`` among it was meant as one."""
-    return sorted(path.name for path in folder.iterdir() if path.name[0] != "." and not _is_submission(path))
+    return sorted(
+        path.name
+        for path in folder.iterdir()
+        if path.name[0] != "." and not _is_submission(path)
+    )
 
 
 def _is_submission(path: Path) -> bool:
@@ -123,16 +149,24 @@ def grade_class(
     for name in set(again) - set(submissions):
         raise ValueError(f"no submission of {name} in {folder}")
     with _alone(out):
-        files.sweep(out)
+        atomic.remove_partial_files(out)
         key, tasks = marking.key(), []
         for name, path in submissions.items():
-            entry = {"student": name, "submission": _digest(submission.taken(path)), "marking": key}
+            entry = {
+                "student": name,
+                "submission": _digest(submission.taken(path)),
+                "marking": key,
+            }
             old = _written(out, entry)
             chosen = name in again if again else bool(ids)
             if old is None or chosen:
                 tasks.append((entry, path, old, ids if chosen and old else ()))
-        for done, record in enumerate(_marked(marking, tasks, jobs, scheduler), start=1):
-            report.write_student(out / "students" / record["student"], record, marking.course)
+        for done, record in enumerate(
+            _marked(marking, tasks, jobs, scheduler), start=1
+        ):
+            report.write_student(
+                out / "students" / record["student"], record, marking.course
+            )
             if progress is not None:
                 progress(done, len(tasks))
         report.write_class(out, list(submissions), passed_over(folder), marking.course)
@@ -141,7 +175,9 @@ def grade_class(
 Task = tuple[dict[str, str], Path, dict[str, Any] | None, Collection[str]]
 
 
-def _marked(marking: Marking, tasks: Sequence[Task], jobs: int, scheduler: str | None) -> Iterator[dict[str, Any]]:
+def _marked(
+    marking: Marking, tasks: Sequence[Task], jobs: int, scheduler: str | None
+) -> Iterator[dict[str, Any]]:
     """The records of all tasks, as they are done; of the submissions only those in work are held."""
     calls = (
         (marking, {**entry, "submission": _digest(taken)}, taken, old, ids)
@@ -161,7 +197,12 @@ def _marked(marking: Marking, tasks: Sequence[Task], jobs: int, scheduler: str |
         raise ValueError("a scheduler needs dask: pip install distributed") from None
     with Client(scheduler) as client:
         at_once = 4 * sum(client.nthreads().values()) + 4
-        running = as_completed([client.submit(_record, *call, pure=False) for call in islice(calls, at_once)])
+        running = as_completed(
+            [
+                client.submit(_record, *call, pure=False)
+                for call in islice(calls, at_once)
+            ]
+        )
         for future in running:
             yield future.result()
             for call in islice(calls, 1):
@@ -179,7 +220,9 @@ def _record(
     new = mark(marking, taken, ids)
     if old is not None and ids:
         fresh = {graded["id"]: graded for graded in new["exercises"]}
-        new = grade([fresh.get(kept["id"], kept) for kept in old["exercises"]], marking.tier)
+        new = grade(
+            [fresh.get(kept["id"], kept) for kept in old["exercises"]], marking.tier
+        )
     return {**entry, **new}
 
 
@@ -190,11 +233,18 @@ def _digest(taken: Submission | Refused) -> str:
 def _written(out: Path, entry: dict[str, str]) -> dict[str, Any] | None:
     """The grade that is there, if it is of this submission by this marking and whole."""
     try:
-        record = json.loads((out / "students" / entry["student"] / "grade.json").read_bytes())
+        record = json.loads(
+            (out / "students" / entry["student"] / "grade.json").read_bytes()
+        )
     except (OSError, ValueError):
         return None
     same = all(record.get(name) == value for name, value in entry.items())
-    return record if same and all(graded["state"] != "grader-fault" for graded in record["exercises"]) else None
+    return (
+        record
+        if same
+        and all(graded["state"] != "grader-fault" for graded in record["exercises"])
+        else None
+    )
 
 
 @contextmanager

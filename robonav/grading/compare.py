@@ -20,13 +20,19 @@ def difference(got: Any, expected: Any) -> str | None:
     """
     match expected:
         case None | str():
-            return None if type(got) is type(expected) and got == expected else _unlike(expected, got)
+            return (
+                None
+                if type(got) is type(expected) and got == expected
+                else _unlike(expected, got)
+            )
         case dict():
             if not isinstance(got, dict) or set(got) != set(expected):
                 return _unlike(expected, got)
             parts = [(f"[{key!r}]", got[key], value) for key, value in expected.items()]
         case list() | tuple():
-            parts_came = isinstance(got, list | tuple) or (isinstance(got, np.ndarray) and got.ndim > 0)
+            parts_came = isinstance(got, list | tuple) or (
+                isinstance(got, np.ndarray) and got.ndim > 0
+            )
             if not parts_came or len(got) != len(expected):
                 return _unlike(expected, got)
             parts = [(f"part {n}", got[n], value) for n, value in enumerate(expected)]
@@ -63,14 +69,22 @@ def _holds_numbers(value: Any) -> bool:
 
 def _numbers_differ(got: Any, expected: np.ndarray) -> str | None:
     array = as_numbers(got)
-    if isinstance(got, list) and not got and expected.shape[:1] == (0,):  # no rows: a list cannot say how long they are
+    if (
+        isinstance(got, list) and not got and expected.shape[:1] == (0,)
+    ):  # no rows: a list cannot say how long they are
         return None
     if array is None or array.shape != expected.shape:
         return _unlike(expected, got)
     if expected.dtype.kind == "f":
         finite = np.abs(expected[np.isfinite(expected)])
         with np.errstate(all="ignore"):
-            close = np.isclose(array, expected, rtol=RELATIVE, atol=SCALED * finite.max(initial=0.0), equal_nan=True)
+            close = np.isclose(
+                array,
+                expected,
+                rtol=RELATIVE,
+                atol=SCALED * finite.max(initial=0.0),
+                equal_nan=True,
+            )
     else:
         close = array == expected
     if close.all():
@@ -97,15 +111,23 @@ def kind(value: Any) -> str:
             return f"{len(value)} parts"
     array = as_numbers(value)
     if array is None:
-        return f"a list of {len(value)}" if isinstance(value, list) else f"a {type(value).__name__}"
+        return (
+            f"a list of {len(value)}"
+            if isinstance(value, list)
+            else f"a {type(value).__name__}"
+        )
     if array.ndim == 0:
-        return {"b": "a truth value", "f": "a number"}.get(array.dtype.kind, "a whole number")
+        return {"b": "a truth value", "f": "a number"}.get(
+            array.dtype.kind, "a whole number"
+        )
     return f"an array of shape {array.shape}"
 
 
 def call(name: str, arguments: tuple[Any, ...], *, numbers: bool) -> str:
     """``name(...)`` as feedback shows it: with its small arguments, or with their shapes alone."""
-    return f"{name}({', '.join(_argument(argument, numbers) for argument in arguments)})"
+    return (
+        f"{name}({', '.join(_argument(argument, numbers) for argument in arguments)})"
+    )
 
 
 def _argument(value: Any, numbers: bool) -> str:
@@ -113,7 +135,9 @@ def _argument(value: Any, numbers: bool) -> str:
         return kind(value)
     match value:
         case np.ndarray():
-            text = np.array2string(value, precision=4, separator=", ", suppress_small=True).replace("\n", "")
+            text = np.array2string(
+                value, precision=4, separator=", ", suppress_small=True
+            ).replace("\n", "")
         case float():
             text = f"{value:.6g}"
         case _:

@@ -64,15 +64,25 @@ PRLIMIT = (
 )  # for the caller itself, process 0, it can only lower a limit; the worker's limits are the next one's
 CLONE, CLONE3 = (56, 220), (435, 435)
 CLONE_THREAD = 0x10000
-MACHINES = {"x86_64": (0, 0xC000003E), "aarch64": (1, 0xC00000B7)}  # column above, audit architecture
+MACHINES = {
+    "x86_64": (0, 0xC000003E),
+    "aarch64": (1, 0xC00000B7),
+}  # column above, audit architecture
 
 LOAD, EQUAL, AT_LEAST, HAS_BITS, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
-ALLOW, KILL, REFUSE = 0x7FFF0000, 0x80000000, 0x00050000  # a refusal carries the error number
+ALLOW, KILL, REFUSE = (
+    0x7FFF0000,
+    0x80000000,
+    0x00050000,
+)  # a refusal carries the error number
 CALL, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # offsets in struct seccomp_data
 
 PR_SET_SECCOMP, PR_SET_NO_NEW_PRIVS, FILTER_MODE = 22, 38, 2
 LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
-READ, ALL_OF_IT = 0b1101, (1 << 13) - 1  # Landlock: execute, read a file, list a folder; all of its first version
+READ, ALL_OF_IT = (
+    0b1101,
+    (1 << 13) - 1,
+)  # Landlock: execute, read a file, list a folder; all of its first version
 OF_A_FILE = 0b111  # execute, write, read: the rights that a file can have, the others being those of folders
 
 
@@ -98,14 +108,25 @@ def filter_program(machine: str) -> bytes:
         return struct.pack("=HBBI", code, then, otherwise, value)
 
     refuse = step(RETURN, REFUSE | errno.EPERM)
-    program = [step(LOAD, ARCHITECTURE), step(EQUAL, architecture, then=1), step(RETURN, KILL), step(LOAD, CALL)]
+    program = [
+        step(LOAD, ARCHITECTURE),
+        step(EQUAL, architecture, then=1),
+        step(RETURN, KILL),
+        step(LOAD, CALL),
+    ]
     if machine == "x86_64":
-        program += [step(AT_LEAST, 0x40000000, otherwise=1), refuse]  # the 32-bit ABI, another table of numbers
+        program += [
+            step(AT_LEAST, 0x40000000, otherwise=1),
+            refuse,
+        ]  # the 32-bit ABI, another table of numbers
     for numbers in REFUSED.values():
         if (number := numbers[column]) is not None:
             program += [step(EQUAL, number, otherwise=1), refuse]
     # The flags of clone3 lie behind a pointer; without it the C library falls back on clone, whose flags we see.
-    program += [step(EQUAL, CLONE3[column], otherwise=1), step(RETURN, REFUSE | errno.ENOSYS)]
+    program += [
+        step(EQUAL, CLONE3[column], otherwise=1),
+        step(RETURN, REFUSE | errno.ENOSYS),
+    ]
     program += [step(EQUAL, PRLIMIT[column], otherwise=4), step(LOAD, FIRST_ARGUMENT)]
     program += [step(EQUAL, 0, then=1), refuse, step(RETURN, ALLOW)]
     program += [step(EQUAL, CLONE[column], otherwise=3), step(LOAD, FIRST_ARGUMENT)]

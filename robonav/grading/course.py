@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 
-from robonav import expect
+from robonav.validation import check_integer, check_one_of
 
 DIFFICULTIES = ("warm-up", "exercise", "project")
 
@@ -27,9 +27,9 @@ class Exercise:
     minutes: int
 
     def __post_init__(self) -> None:
-        expect.integer(f"points of exercise {self.id}", self.points, at_least=1)
-        expect.integer(f"minutes of exercise {self.id}", self.minutes, at_least=1)
-        expect.one_of(f"difficulty of exercise {self.id}", self.difficulty, DIFFICULTIES)
+        check_integer(f"points of exercise {self.id}", self.points, at_least=1)
+        check_integer(f"minutes of exercise {self.id}", self.minutes, at_least=1)
+        check_one_of(f"difficulty of exercise {self.id}", self.difficulty, DIFFICULTIES)
 
     @property
     def chapter(self) -> str:
@@ -55,7 +55,9 @@ class Course:
             for folder in (start.resolve(), *start.resolve().parents):
                 if (folder / "tests/exercises/manifest.toml").is_file():
                     return cls(folder)
-        raise ValueError("no exercises found: go to the folder that holds tests/exercises")
+        raise ValueError(
+            "no exercises found: go to the folder that holds tests/exercises"
+        )
 
     @property
     def tests(self) -> Path:
@@ -79,14 +81,27 @@ class Course:
         with (self.tests / "manifest.toml").open("rb") as file:
             listed = [Exercise(**entry) for entry in tomllib.load(file)["exercise"]]
         found = {exercise.id: exercise for exercise in listed}
-        if len(found) < len(listed) or len({exercise.name for exercise in listed}) < len(listed):
-            raise ValueError("every exercise in the manifest must have an id and a name of its own")
+        if len(found) < len(listed) or len(
+            {exercise.name for exercise in listed}
+        ) < len(listed):
+            raise ValueError(
+                "every exercise in the manifest must have an id and a name of its own"
+            )
         return found
 
     def chapters(self) -> Iterator[tuple[str, list[Exercise]]]:
         """Each chapter with its exercises."""
-        for chapter in sorted({exercise.chapter for exercise in self.exercises.values()}):
-            yield chapter, [exercise for exercise in self.exercises.values() if exercise.chapter == chapter]
+        for chapter in sorted(
+            {exercise.chapter for exercise in self.exercises.values()}
+        ):
+            yield (
+                chapter,
+                [
+                    exercise
+                    for exercise in self.exercises.values()
+                    if exercise.chapter == chapter
+                ],
+            )
 
     def named(self, key: str) -> Exercise:
         """The exercise with this id or name."""
@@ -99,7 +114,9 @@ class Course:
 @cache
 def trusted(path: Path) -> types.ModuleType:
     """One of the course's own files as a module: a solution, or a chapter's tests."""
-    spec = importlib.util.spec_from_file_location(f"robonav_course_{path.parent.name}_{path.stem}", path)
+    spec = importlib.util.spec_from_file_location(
+        f"robonav_course_{path.parent.name}_{path.stem}", path
+    )
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)

@@ -21,7 +21,20 @@ MOST_HEADER = 1 << 20
 MOST_ARRAYS = 1 << 26
 MOST_DEPTH = 16
 MOST_AXES = 8
-DTYPES = ("|b1", "|i1", "|u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8", "<f2", "<f4", "<f8")
+DTYPES = (
+    "|b1",
+    "|i1",
+    "|u1",
+    "<i2",
+    "<u2",
+    "<i4",
+    "<u4",
+    "<i8",
+    "<u8",
+    "<f2",
+    "<f4",
+    "<f8",
+)
 UNUSUAL = {"nan": math.nan, "inf": math.inf, "-inf": -math.inf}
 
 
@@ -38,7 +51,10 @@ def encode(value: Any) -> bytes:
     """
     arrays: list[np.ndarray] = []
     tree = _to_tree(value, arrays, MOST_DEPTH)
-    header = {"value": tree, "arrays": [[array.dtype.str, array.shape] for array in arrays]}
+    header = {
+        "value": tree,
+        "arrays": [[array.dtype.str, array.shape] for array in arrays],
+    }
     text = json.dumps(header, allow_nan=False, separators=(",", ":")).encode()
     body = b"".join(array.tobytes() for array in arrays)
     _check_sizes(len(text), len(body))
@@ -56,7 +72,9 @@ def decode(frame: bytes) -> Any:
         raise FrameError("the frame ends within its prefix")
     sizes = _check_sizes(*PREFIX.unpack_from(frame))
     if len(frame) != PREFIX.size + sum(sizes):
-        raise FrameError(f"the frame should hold {sum(sizes)} bytes, it holds {len(frame) - PREFIX.size}")
+        raise FrameError(
+            f"the frame should hold {sum(sizes)} bytes, it holds {len(frame) - PREFIX.size}"
+        )
     header = _parse(frame[PREFIX.size : PREFIX.size + sizes[0]])
     arrays = _to_arrays(header["arrays"], memoryview(frame)[PREFIX.size + sizes[0] :])
     waiting = iter(enumerate(arrays))
@@ -113,21 +131,32 @@ def _to_tree(value: Any, arrays: list[np.ndarray], depth: int) -> Any:
                 raise FrameError("a whole number of more than 64 bits")
             return int(value)
         case float():
-            return float(value) if math.isfinite(value) else {"float": str(float(value))}
+            return (
+                float(value) if math.isfinite(value) else {"float": str(float(value))}
+            )
         case list():
             return [_to_tree(item, arrays, depth - 1) for item in value]
         case tuple():
             return {"tuple": [_to_tree(item, arrays, depth - 1) for item in value]}
         case dict() if all(isinstance(key, str) for key in value):
-            return {"dict": {key: _to_tree(item, arrays, depth - 1) for key, item in value.items()}}
+            return {
+                "dict": {
+                    key: _to_tree(item, arrays, depth - 1)
+                    for key, item in value.items()
+                }
+            }
         case np.ndarray():
             plain = np.asarray(value)
             plain = plain.astype(plain.dtype.newbyteorder("<"), copy=False)
             if plain.dtype.str not in DTYPES or plain.ndim > MOST_AXES:
-                raise FrameError(f"an array of dtype {plain.dtype} and {plain.ndim} axes")
+                raise FrameError(
+                    f"an array of dtype {plain.dtype} and {plain.ndim} axes"
+                )
             arrays.append(plain)
             return {"array": len(arrays) - 1}
-    raise FrameError(f"a value of type {type(value).__name__}")  # a dict comes here only for its keys
+    raise FrameError(
+        f"a value of type {type(value).__name__}"
+    )  # a dict comes here only for its keys
 
 
 def _parse(text: bytes) -> dict[str, Any]:
@@ -135,7 +164,11 @@ def _parse(text: bytes) -> dict[str, Any]:
         header = json.loads(text.decode(), parse_constant=_no_constant)
     except (ValueError, RecursionError) as error:
         raise FrameError(f"the header is not JSON: {error}") from None
-    if not isinstance(header, dict) or set(header) != {"value", "arrays"} or not isinstance(header["arrays"], list):
+    if (
+        not isinstance(header, dict)
+        or set(header) != {"value", "arrays"}
+        or not isinstance(header["arrays"], list)
+    ):
         raise FrameError("the header must hold a value and its arrays")
     return header
 
@@ -149,16 +182,22 @@ def _to_arrays(described: list[Any], body: memoryview) -> list[np.ndarray]:
     for entry in described:
         match entry:
             case [str(dtype), [*shape]] if (
-                dtype in DTYPES and len(shape) <= MOST_AXES and all(type(n) is int and n >= 0 for n in shape)
+                dtype in DTYPES
+                and len(shape) <= MOST_AXES
+                and all(type(n) is int and n >= 0 for n in shape)
             ):
                 end = start + math.prod(shape) * np.dtype(dtype).itemsize
             case _:
-                raise FrameError("an array's description must be a known dtype and a shape")
+                raise FrameError(
+                    "an array's description must be a known dtype and a shape"
+                )
         if end > len(body):
             raise FrameError("an array is declared larger than the bytes that came")
         try:
             flat = np.frombuffer(body[start:end], dtype if dtype != "|b1" else "|u1")
-            arrays.append(flat.astype(dtype).reshape(shape))  # astype copies, and makes any byte a true or a false
+            arrays.append(
+                flat.astype(dtype).reshape(shape)
+            )  # astype copies, and makes any byte a true or a false
         except ValueError:  # a shape such as (0, 2**63): no bytes, yet beyond numpy
             raise FrameError("an array's shape is beyond numpy's") from None
         start = end
@@ -187,7 +226,9 @@ def _from_tree(tree: Any, arrays: Iterator[tuple[int, np.ndarray]], depth: int) 
         case {"tuple": [*items], **rest} if not rest:
             return tuple(_from_tree(item, arrays, depth - 1) for item in items)
         case {"dict": dict(items), **rest} if not rest and all(map(_is_text, items)):
-            return {key: _from_tree(item, arrays, depth - 1) for key, item in items.items()}
+            return {
+                key: _from_tree(item, arrays, depth - 1) for key, item in items.items()
+            }
         case {"array": int(index), **rest} if not rest and type(index) is int:
             number, array = next(arrays, (None, None))
             if index == number:

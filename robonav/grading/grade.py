@@ -6,10 +6,28 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from robonav.grading.course import Exercise
+from .course import Exercise
 
-State = Literal["correct", "partial", "wrong", "error", "timeout", "memory", "missing", "grader-fault"]
-STATES: tuple[State, ...] = ("correct", "partial", "wrong", "error", "timeout", "memory", "missing", "grader-fault")
+State = Literal[
+    "correct",
+    "partial",
+    "wrong",
+    "error",
+    "timeout",
+    "memory",
+    "missing",
+    "grader-fault",
+]
+STATES: tuple[State, ...] = (
+    "correct",
+    "partial",
+    "wrong",
+    "error",
+    "timeout",
+    "memory",
+    "missing",
+    "grader-fault",
+)
 FAULT = "The grader failed here, which is not your doing: this exercise will be graded again."
 MOST_FEEDBACK = 4_000
 
@@ -37,7 +55,10 @@ def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
     """The entry of one exercise in a grade; its points are None where the grader failed in any part."""
     missing = exercise.points - sum(part.points for part in parts)
     if missing > 0:
-        parts = [*parts, Part("parts that were not run", missing, "grader-fault", FAULT)]
+        parts = [
+            *parts,
+            Part("parts that were not run", missing, "grader-fault", FAULT),
+        ]
     return {
         "id": exercise.id,
         "points": None
@@ -45,7 +66,9 @@ def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
         else sum(part.points for part in parts if part.state == "correct"),
         "max_points": exercise.points,
         "state": _state(parts),
-        "feedback": "Not attempted." if _state(parts) == "missing" else printable("\n".join(map(_line, parts))),
+        "feedback": "Not attempted."
+        if _state(parts) == "missing"
+        else printable("\n".join(map(_line, parts))),
     }
 
 
@@ -66,7 +89,10 @@ def fault_grade(exercises: Iterable[Exercise], tier: str) -> dict[str, Any]:
 
 def printable(text: str) -> str:
     """Text that every file and terminal takes: a student's error messages may hold anything."""
-    kept = "".join(c if c == "\n" or c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text[:MOST_FEEDBACK])
+    kept = "".join(
+        c if c == "\n" or c.isprintable() else "\N{REPLACEMENT CHARACTER}"
+        for c in text[:MOST_FEEDBACK]
+    )
     return kept.encode("utf-8", "replace").decode()
 
 
@@ -87,5 +113,9 @@ def _line(part: Part) -> str:
     """A part's points and name, and below what went wrong."""
     earned = part.points if part.state == "correct" else 0
     mark = "✓" if earned else "✗"
-    details = "" if part.state == "correct" else "".join(f"\n    {line}" for line in part.feedback.splitlines())
+    details = (
+        ""
+        if part.state == "correct"
+        else "".join(f"\n    {line}" for line in part.feedback.splitlines())
+    )
     return f"{mark} {earned}/{part.points} {part.name}{details}"

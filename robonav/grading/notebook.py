@@ -10,7 +10,12 @@ import json
 import re
 from typing import Any
 
-PYTHON_CELLS = ("%%time", "%%timeit", "%%capture", "%%prun")  # what stands below these is Python still
+PYTHON_CELLS = (
+    "%%time",
+    "%%timeit",
+    "%%capture",
+    "%%prun",
+)  # what stands below these is Python still
 
 
 def definitions(notebook: bytes) -> ast.Module:
@@ -23,14 +28,25 @@ def definitions(notebook: bytes) -> ast.Module:
     ------
     ValueError : if the bytes are no notebook.
     """
-    kept = [node for source in _sources(notebook) for node in _parsed(source) if _defines(node)]
-    return ast.fix_missing_locations(ast.Module([_forgiving(node) for node in kept], type_ignores=[]))
+    kept = [
+        node
+        for source in _sources(notebook)
+        for node in _parsed(source)
+        if _defines(node)
+    ]
+    return ast.fix_missing_locations(
+        ast.Module([_forgiving(node) for node in kept], type_ignores=[])
+    )
 
 
 def names(node: ast.stmt) -> str | None:
     """The name that a definition gives."""
     match node:
-        case ast.FunctionDef(name=name) | ast.ClassDef(name=name) | ast.Assign(targets=[ast.Name(id=name)]):
+        case (
+            ast.FunctionDef(name=name)
+            | ast.ClassDef(name=name)
+            | ast.Assign(targets=[ast.Name(id=name)])
+        ):
             return name
     return None
 
@@ -38,11 +54,15 @@ def names(node: ast.stmt) -> str | None:
 def broken(notebook: bytes, name: str) -> SyntaxError | None:
     """Why Python cannot parse the cell that was to define the function ``name``, if that is so."""
     for source in _sources(notebook):
-        if re.search(rf"^def {re.escape(name)}\b", source, re.MULTILINE) and not _parsed(source):
+        if re.search(
+            rf"^def {re.escape(name)}\b", source, re.MULTILINE
+        ) and not _parsed(source):
             try:
                 ast.parse(_without_magics(source))
             except SyntaxError as error:
-                return SyntaxError(f"{error.msg} in line {error.lineno} of the cell that defines {name}")
+                return SyntaxError(
+                    f"{error.msg} in line {error.lineno} of the cell that defines {name}"
+                )
     return None
 
 
@@ -72,7 +92,10 @@ def _without_magics(source: str) -> str:
     """The source with its magics blanked, so that line numbers stay."""
     if source.lstrip().startswith("%%") and source.split()[0] not in PYTHON_CELLS:
         return ""
-    return "\n".join("" if line.lstrip().startswith(("%", "!")) else line for line in source.splitlines())
+    return "\n".join(
+        "" if line.lstrip().startswith(("%", "!")) else line
+        for line in source.splitlines()
+    )
 
 
 def _defines(node: ast.stmt) -> bool:
@@ -96,6 +119,10 @@ def _is_literal(value: ast.expr) -> bool:
 
 def _forgiving(node: ast.stmt) -> ast.stmt:
     if isinstance(node, ast.Import | ast.ImportFrom):
-        handler = ast.ExceptHandler(type=ast.Name("ImportError", ast.Load()), name=None, body=[ast.Pass()])
-        return ast.copy_location(ast.Try(body=[node], handlers=[handler], orelse=[], finalbody=[]), node)
+        handler = ast.ExceptHandler(
+            type=ast.Name("ImportError", ast.Load()), name=None, body=[ast.Pass()]
+        )
+        return ast.copy_location(
+            ast.Try(body=[node], handlers=[handler], orelse=[], finalbody=[]), node
+        )
     return node

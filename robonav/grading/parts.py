@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from robonav.grading.course import Course, Exercise, trusted
-from robonav.grading.grade import FAULT, Part, Unaccepted, printable
+from .course import Course, Exercise, trusted
+from .grade import FAULT, Part, Unaccepted, printable
 
 PUBLIC = b"2015"  # what the cases are drawn from where no secret is given
 
@@ -46,7 +46,9 @@ def parts_of(course: Course, exercise: Exercise) -> Iterator[tuple[Test, int]]:
 
 def generator(seed: bytes, name: str) -> np.random.Generator:
     """The random numbers of the part of this name."""
-    return np.random.default_rng(int.from_bytes(hashlib.sha256(seed + b"/" + name.encode()).digest()[:16], "big"))
+    return np.random.default_rng(
+        int.from_bytes(hashlib.sha256(seed + b"/" + name.encode()).digest()[:16], "big")
+    )
 
 
 def outcome(test: Test, points: int, error: BaseException | None) -> Part:

@@ -15,18 +15,44 @@ from pathlib import Path
 
 import pytest
 
-KEPT = ("HOME", "LANG", "LC_ALL", "PATH", "ROBONAV_SECRET", "SYSTEMROOT", "TERM", "TMPDIR", "TEMP")
+KEPT = (
+    "HOME",
+    "LANG",
+    "LC_ALL",
+    "PATH",
+    "ROBONAV_SECRET",
+    "SYSTEMROOT",
+    "TERM",
+    "TMPDIR",
+    "TEMP",
+)
 CLEAN = "ROBONAV_GRADER_IS_CLEAN"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("robonav", "grading a submission to the book's exercises")
-    group.addoption("--submission", metavar="PATH", help="the folder, zip or notebook to grade")
-    group.addoption("--grade-json", metavar="FILE", help="write points, states and feedback there")
-    group.addoption("--secret", metavar="FILE", help="draw the cases from its content; or set ROBONAV_SECRET")
-    group.addoption("--tier", choices=["official", "restricted", "practice"], help="the sandbox; the best by default")
     group.addoption(
-        "--exercise", metavar="ID", action="append", default=[], help="grade this one only; may be repeated"
+        "--submission", metavar="PATH", help="the folder, zip or notebook to grade"
+    )
+    group.addoption(
+        "--grade-json", metavar="FILE", help="write points, states and feedback there"
+    )
+    group.addoption(
+        "--secret",
+        metavar="FILE",
+        help="draw the cases from its content; or set ROBONAV_SECRET",
+    )
+    group.addoption(
+        "--tier",
+        choices=["official", "restricted", "practice"],
+        help="the sandbox; the best by default",
+    )
+    group.addoption(
+        "--exercise",
+        metavar="ID",
+        action="append",
+        default=[],
+        help="grade this one only; may be repeated",
     )
 
 
@@ -35,12 +61,19 @@ def pytest_load_initial_conftests(early_config: pytest.Config) -> Generator[None
     """Before anything else is read that lies about: start again in a clean environment, unless this is one."""
     known = early_config.known_args_namespace
     if known.submission and CLEAN not in os.environ:
-        from robonav.grading.course import Course
+        from .course import Course
 
         # The tests named on the command line, or this package's own: a submission may bring tests along.
-        tests = Course.around(*[Path(name.partition("::")[0]) for name in known.file_or_dir]).tests
-        arguments = [*early_config.invocation_params.args, *([] if known.file_or_dir else [str(tests)])]
-        raise SystemExit(subprocess.run(command(tests, arguments), env=environment()).returncode)
+        tests = Course.around(
+            *[Path(name.partition("::")[0]) for name in known.file_or_dir]
+        ).tests
+        arguments = [
+            *early_config.invocation_params.args,
+            *([] if known.file_or_dir else [str(tests)]),
+        ]
+        raise SystemExit(
+            subprocess.run(command(tests, arguments), env=environment()).returncode
+        )
     return (yield)
 
 
@@ -57,8 +90,10 @@ def environment() -> dict[str, str]:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    config.addinivalue_line("markers", "part(exercise, points): a part of an exercise and what it is worth")
+    config.addinivalue_line(
+        "markers", "part(exercise, points): a part of an exercise and what it is worth"
+    )
     if config.getoption("submission"):
-        from robonav.grading.run import Run
+        from .run import Run
 
         config.pluginmanager.register(Run(config), "robonav-grading-run")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import functools
 
-from robonav.grading import sandbox
-from robonav.grading.sandbox import Limits
+from . import sandbox
+from .sandbox import Limits
 
 TIERS = ("official", "restricted", "practice")
 
@@ -45,15 +45,24 @@ def fault(tier: str, python: str | None = None) -> str | None:
     except sandbox.SandboxFault as error:
         return str(error)
     try:
-        worker.ask({"id": 1, "do": "load", "chapter": "", "name": "canary"}, sandbox.START_SECONDS)
-        reply = worker.ask({"id": 2, "do": "call", "args": [__file__]}, sandbox.START_SECONDS)
+        worker.ask(
+            {"id": 1, "do": "load", "chapter": "", "name": "canary"},
+            sandbox.START_SECONDS,
+        )
+        reply = worker.ask(
+            {"id": 2, "do": "call", "args": [__file__]}, sandbox.START_SECONDS
+        )
     except (sandbox.TimedOut, EOFError, sandbox.Garbled) as error:
         return f"the {tier} sandbox does not answer: {error!r}"
     finally:
         worker.kill()
     if tier == "practice" and "value" in reply:
         return None
-    return None if reply == {"id": 2, "value": []} else f"the {tier} sandbox lets out: {reply}"
+    return (
+        None
+        if reply == {"id": 2, "value": []}
+        else f"the {tier} sandbox lets out: {reply}"
+    )
 
 
 def best() -> str:

@@ -11,12 +11,12 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from robonav.grading import compare, sandbox
-from robonav.grading.course import Exercise
-from robonav.grading.grade import Unaccepted
-from robonav.grading.reference import Case, Reference
-from robonav.grading.sandbox import Garbled, Limits, TimedOut, Worker
-from robonav.grading.submission import Refused, Submission
+from . import compare, sandbox
+from .course import Exercise
+from .grade import Unaccepted
+from .reference import Case, Reference
+from .sandbox import Garbled, Limits, TimedOut, Worker
+from .submission import Refused, Submission
 
 
 class Calls(Protocol):
@@ -47,7 +47,9 @@ class Session:
         self._python = python
         self._worker: Worker | None = None
         self._serving: Exercise | None = None
-        self._failed: dict[str, Unaccepted] = {}  # by exercise: a file that hangs when it is read does so once
+        self._failed: dict[
+            str, Unaccepted
+        ] = {}  # by exercise: a file that hangs when it is read does so once
         self._left: dict[str, float] = {}  # seconds by exercise
         self._asked = 0
 
@@ -90,9 +92,13 @@ class Session:
 
     def _load(self, exercise: Exercise) -> None:
         if self._worker is None:
-            self._worker = sandbox.start(self.tier, self._files, self._limits, python=self._python)
+            self._worker = sandbox.start(
+                self.tier, self._files, self._limits, python=self._python
+            )
         self._serving = exercise
-        self._ask(exercise, {"do": "load", "chapter": exercise.chapter, "name": exercise.name})
+        self._ask(
+            exercise, {"do": "load", "chapter": exercise.chapter, "name": exercise.name}
+        )
 
     def _dismiss(self) -> None:
         """End the child of the exercise before; the sandbox with it, unless all goes as it should."""
@@ -113,28 +119,40 @@ class Session:
         self._asked += 1
         left = self._left.setdefault(exercise.id, self._limits.exercise_seconds)
         if left <= 0:
-            raise Unaccepted("timeout", f"The {self._limits.exercise_seconds:g} seconds for this exercise are used up.")
+            raise Unaccepted(
+                "timeout",
+                f"The {self._limits.exercise_seconds:g} seconds for this exercise are used up.",
+            )
         seconds = min(self._limits.call_seconds, left)
         start = time.monotonic()
         try:
             reply = self._worker.ask({"id": self._asked, **request}, seconds)
         except TimedOut:
             self.close()
-            raise Unaccepted("timeout", f"No answer came within {seconds:.1f} seconds.") from None
+            raise Unaccepted(
+                "timeout", f"No answer came within {seconds:.1f} seconds."
+            ) from None
         except EOFError:
             self.close()
-            raise Unaccepted("error", "Your code ended the process it ran in.") from None
+            raise Unaccepted(
+                "error", "Your code ended the process it ran in."
+            ) from None
         except Garbled as error:
             self.close()
-            raise Unaccepted("error", self._told("What came back is no answer", f": {error}.")) from None
+            raise Unaccepted(
+                "error", self._told("What came back is no answer", f": {error}.")
+            ) from None
         finally:
             self._left[exercise.id] = left - (time.monotonic() - start)
         match reply:  # of each thing its type first: an array where a number should be is neither equal nor unequal
-            case {"id": int(number), "value": value, **rest} if number == self._asked and not rest:
-                return value
-            case {"id": int(number), "raised": {"kind": str(kind), "message": str(message), "where": where}} if (
-                number == self._asked
+            case {"id": int(number), "value": value, **rest} if (
+                number == self._asked and not rest
             ):
+                return value
+            case {
+                "id": int(number),
+                "raised": {"kind": str(kind), "message": str(message), "where": where},
+            } if number == self._asked:
                 raise self._raised(kind, message, where)
             case {"ended": int(status)}:
                 self._serving = None
@@ -152,19 +170,39 @@ class Session:
         if kind == "NotImplementedError":
             return Unaccepted("missing", "Not attempted.")
         if kind == "MemoryError":
-            return Unaccepted("memory", self._told("Your code needs more memory than there is", place))
+            return Unaccepted(
+                "memory", self._told("Your code needs more memory than there is", place)
+            )
         if kind == "FrameError":
             said = "The answer must be numbers, strings, lists, dicts or arrays"
             return Unaccepted("error", self._told(said, f", not {message}."))
         known = not self.secret or isinstance(getattr(builtins, kind, None), type)
-        return Unaccepted("error", self._told(kind if known else "An error of your own", f": {message}{place}"))
+        return Unaccepted(
+            "error",
+            self._told(
+                kind if known else "An error of your own", f": {message}{place}"
+            ),
+        )
 
     def _ended(self, status: int) -> Unaccepted:
         if status == -9:
-            return Unaccepted("memory", "Your code was stopped by the system, for its memory or its processor time.")
+            return Unaccepted(
+                "memory",
+                "Your code was stopped by the system, for its memory or its processor time.",
+            )
         if status < 0:
-            return Unaccepted("error", self._told("Your code crashed the process it ran in", f" (signal {-status})."))
-        return Unaccepted("error", self._told("Your code ended the process it ran in", f" (exit code {status})."))
+            return Unaccepted(
+                "error",
+                self._told(
+                    "Your code crashed the process it ran in", f" (signal {-status})."
+                ),
+            )
+        return Unaccepted(
+            "error",
+            self._told(
+                "Your code ended the process it ran in", f" (exit code {status})."
+            ),
+        )
 
     def _told(self, said: str, more: str) -> str:
         """With secret cases without what the student's code can choose, be it a number: that could carry a case."""
@@ -179,7 +217,9 @@ class Answer:
     expected : the reference's answer to the last call.
     """
 
-    def __init__(self, calls: Calls, reference: Reference, exercise: Exercise, part: str) -> None:
+    def __init__(
+        self, calls: Calls, reference: Reference, exercise: Exercise, part: str
+    ) -> None:
         self._calls, self._reference, self._exercise = calls, reference, exercise
         self._cases = (Case(exercise, part, number) for number in itertools.count())
         self._case: Case
@@ -198,7 +238,9 @@ class Answer:
         self._call(arguments)
         array = compare.as_numbers(self._got)
         if array is None or array.shape != shape:
-            raise self._wrong(f"expected {compare.kind(np.zeros(shape))}, got {compare.kind(self._got)}")
+            raise self._wrong(
+                f"expected {compare.kind(np.zeros(shape))}, got {compare.kind(self._got)}"
+            )
         if not np.isfinite(array).all():
             raise self._wrong("the answer holds NaN or infinity")
         return array.astype(float)
@@ -216,6 +258,12 @@ class Answer:
     def _wrong(self, problem: str) -> Unaccepted:
         if self._calls.secret:
             problem = compare.without_answer(problem)
-        called = compare.call(self._exercise.name, self._case.arguments, numbers=not self._calls.secret)
-        hints = [f"Hint: {hint}" for hint in self._reference.hints(self._case, self._got)]
-        return Unaccepted("wrong", "\n".join([called, f"{problem[0].upper()}{problem[1:]}.", *hints]))
+        called = compare.call(
+            self._exercise.name, self._case.arguments, numbers=not self._calls.secret
+        )
+        hints = [
+            f"Hint: {hint}" for hint in self._reference.hints(self._case, self._got)
+        ]
+        return Unaccepted(
+            "wrong", "\n".join([called, f"{problem[0].upper()}{problem[1:]}.", *hints])
+        )

@@ -17,9 +17,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from robonav.files import whole
-from robonav.grading import compare, frames
-from robonav.grading.course import Course, Exercise, trusted
+from robonav.atomic import atomic_write
+
+from . import compare, frames
+from .course import Course, Exercise, trusted
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,9 @@ class Case:
 
     def key(self) -> bytes:
         """The same for the same exercise and arguments."""
-        return hashlib.sha256(self.exercise.id.encode() + frames.encode(self.arguments)).digest()
+        return hashlib.sha256(
+            self.exercise.id.encode() + frames.encode(self.arguments)
+        ).digest()
 
 
 class Reference(Protocol):
@@ -92,7 +95,9 @@ class Recorder:
         right = self._solutions.expected(case)
         mistakes = [list(mistake) for mistake in self._solutions.mistakes(case)]
         of_exercise = self._cases.setdefault(case.exercise.name, {})
-        of_exercise.setdefault(case.part, []).append([list(case.arguments), right, mistakes])
+        of_exercise.setdefault(case.part, []).append(
+            [list(case.arguments), right, mistakes]
+        )
         return right
 
     def hints(self, case: Case, got: Any) -> list[str]:
@@ -101,7 +106,7 @@ class Recorder:
     def write(self, folder: Path) -> None:
         """One file of frames for each exercise."""
         for name, parts in self._cases.items():
-            with whole(folder / f"{name}.frame") as file:
+            with atomic_write(folder / f"{name}.frame") as file:
                 file.write(frames.encode(parts))
 
 
@@ -121,13 +126,17 @@ class Recorded:
     def _entry(self, case: Case) -> Any:
         name = case.exercise.name
         if name not in self._cases:
-            self._cases[name] = frames.decode((self._folder / f"{name}.frame").read_bytes())
+            self._cases[name] = frames.decode(
+                (self._folder / f"{name}.frame").read_bytes()
+            )
         try:
             entry = self._cases[name][case.part][case.number]
         except (KeyError, IndexError):
             entry = [None, None, []]
         if compare.difference(list(case.arguments), entry[0]) is not None:
-            raise RuntimeError("the recorded answers are to other cases: numpy draws differently here; try numpy 2")
+            raise RuntimeError(
+                "the recorded answers are to other cases: numpy draws differently here; try numpy 2"
+            )
         return entry
 
 

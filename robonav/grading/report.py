@@ -11,37 +11,65 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from robonav.files import whole
-from robonav.grading.course import Course
-from robonav.grading.grade import STATES
-from robonav.look import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW
+from robonav.atomic import atomic_write
+from robonav.style import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW
 
-COLOURS = dict(zip(STATES, (GREEN, SKY, ORANGE, VERMILION, PURPLE, YELLOW, GREY, BLUE), strict=True))
+from .course import Course
+from .grade import STATES
+
+COLOURS = dict(
+    zip(
+        STATES, (GREEN, SKY, ORANGE, VERMILION, PURPLE, YELLOW, GREY, BLUE), strict=True
+    )
+)
 
 
 def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
     """All files of one student; the grade itself last, so that where it is, the others are."""
-    _write(folder / "feedback.html", _page("feedback.html", record=record, course=course))
+    _write(
+        folder / "feedback.html", _page("feedback.html", record=record, course=course)
+    )
     _write(folder / "results.json", _json(gradescope(record, course)))
     _write(folder / "junit.xml", junit(record, course))
     _write(folder / "grade.json", _json(record))
 
 
-def write_class(out: Path, names: Sequence[str], passed_over: Sequence[str], course: Course) -> None:
+def write_class(
+    out: Path, names: Sequence[str], passed_over: Sequence[str], course: Course
+) -> None:
     """The gradebook and the overview of the students named, from their grades; and what was no submission."""
-    rows, counts, earned, totals = [], {id: Counter[str]() for id in course.exercises}, Counter[str](), []
+    rows, counts, earned, totals = (
+        [],
+        {id: Counter[str]() for id in course.exercises},
+        Counter[str](),
+        [],
+    )
     for name in names:
         record = json.loads((out / "students" / name / "grade.json").read_bytes())
         entries = {entry["id"]: entry for entry in record["exercises"]}
         again = [id for id, entry in entries.items() if entry["points"] is None]
-        points = [entries[id]["points"] if id in entries else None for id in course.exercises]
-        rows.append([name, record["points"], record["max_points"], record["tier"], " ".join(again), *points])
+        points = [
+            entries[id]["points"] if id in entries else None for id in course.exercises
+        ]
+        rows.append(
+            [
+                name,
+                record["points"],
+                record["max_points"],
+                record["tier"],
+                " ".join(again),
+                *points,
+            ]
+        )
         totals.append(record["points"])
         for id, entry in entries.items():
             counts[id][entry["state"]] += 1
             earned[id] += entry["points"] or 0
     _write(out / "gradebook.csv", gradebook(rows, course))
-    shares = {id: earned[id] / (course.exercises[id].points * max(len(rows), 1)) for id in course.exercises}
+    shares = {
+        id: earned[id] / (course.exercises[id].points * max(len(rows), 1))
+        for id in course.exercises
+    }
     page = _page(
         "overview.html", rows=rows, counts=counts, shares=shares, totals=totals, course=course, colours=COLOURS,
         passed_over=[name.encode("utf-8", "replace").decode() for name in passed_over],
@@ -65,8 +93,15 @@ def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
         for entry in record["exercises"]
     ]
     again = [entry["id"] for entry in record["exercises"] if entry["points"] is None]
-    output = f"To be graded again, the grader failed: {', '.join(again)}." if again else ""
-    return {"score": record["points"], "output": output, "stdout_visibility": "hidden", "tests": tests}
+    output = (
+        f"To be graded again, the grader failed: {', '.join(again)}." if again else ""
+    )
+    return {
+        "score": record["points"],
+        "output": output,
+        "stdout_visibility": "hidden",
+        "tests": tests,
+    }
 
 
 def junit(record: dict[str, Any], course: Course) -> str:
@@ -76,17 +111,24 @@ def junit(record: dict[str, Any], course: Course) -> str:
         "testsuite",
         name=str(record["student"]),
         tests=str(len(cases)),
-        failures=str(sum(entry["state"] not in ("correct", "grader-fault") for entry in cases)),
+        failures=str(
+            sum(entry["state"] not in ("correct", "grader-fault") for entry in cases)
+        ),
         errors=str(sum(entry["state"] == "grader-fault" for entry in cases)),
     )
     for entry in cases:
         exercise = course.exercises[entry["id"]]
         case = ElementTree.SubElement(
-            suite, "testcase", classname=exercise.chapter, name=f"{exercise.id} {exercise.title}"
+            suite,
+            "testcase",
+            classname=exercise.chapter,
+            name=f"{exercise.id} {exercise.title}",
         )
         if entry["state"] != "correct":
             kind = "error" if entry["state"] == "grader-fault" else "failure"
-            found = ElementTree.SubElement(case, kind, message=entry["state"], type=entry["state"])
+            found = ElementTree.SubElement(
+                case, kind, message=entry["state"], type=entry["state"]
+            )
             found.text = entry["feedback"]
     return ElementTree.tostring(suite, encoding="unicode", xml_declaration=True)
 
@@ -95,14 +137,20 @@ def gradebook(rows: Sequence[Sequence[Any]], course: Course) -> str:
     """One line a student; no cell can be taken for a formula."""
     text = io.StringIO()
     writer = csv.writer(text)
-    writer.writerow(["student", "points", "max_points", "tier", "grade_again", *course.exercises])
+    writer.writerow(
+        ["student", "points", "max_points", "tier", "grade_again", *course.exercises]
+    )
     writer.writerows([[_cell(value) for value in row] for row in rows])
     return text.getvalue()
 
 
 def _cell(value: Any) -> Any:
     """Text that begins like a formula is marked as text, as spreadsheets have it."""
-    return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value
+    return (
+        f"'{value}"
+        if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r"))
+        else value
+    )
 
 
 def _page(name: str, **content: Any) -> str:
@@ -110,7 +158,10 @@ def _page(name: str, **content: Any) -> str:
 
     folder = Path(__file__).with_name("templates")
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True
+        loader=jinja2.FileSystemLoader(folder),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
     )
     return environment.get_template(name).render(**content)
 
@@ -120,5 +171,5 @@ def _json(value: Any) -> str:
 
 
 def _write(path: Path, text: str) -> None:
-    with whole(path) as file:
+    with atomic_write(path) as file:
         file.write(text.encode())

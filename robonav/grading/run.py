@@ -10,13 +10,14 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from robonav.files import whole
-from robonav.grading import probe, submission
-from robonav.grading.course import Course, Exercise
-from robonav.grading.grade import Part, exercise_grade, grade
-from robonav.grading.parts import PUBLIC, generator, outcome, secret_from
-from robonav.grading.proxy import Answer, Session
-from robonav.grading.reference import reference
+from robonav.atomic import atomic_write
+
+from . import probe, submission
+from .course import Course, Exercise
+from .grade import Part, exercise_grade, grade
+from .parts import PUBLIC, generator, outcome, secret_from
+from .proxy import Answer, Session
+from .reference import reference
 
 
 class Run:
@@ -28,25 +29,41 @@ class Run:
         paths = [Path(argument.partition("::")[0]) for argument in config.args]
         try:
             self.course = Course.around(*paths)
-            self.only = {self.course.named(key).id for key in config.getoption("exercise")}
+            self.only = {
+                self.course.named(key).id for key in config.getoption("exercise")
+            }
             taken = submission.taken(config.getoption("submission"))
             secret = secret_from(config.getoption("secret"))
         except ValueError as error:
             raise pytest.UsageError(str(error)) from None
         tier = config.getoption("tier") or probe.best()
         if secret and tier == "practice":
-            raise pytest.UsageError(f"no marks in the practice tier: {probe.fault('official')}")
+            raise pytest.UsageError(
+                f"no marks in the practice tier: {probe.fault('official')}"
+            )
         self.seed = secret or PUBLIC
         self.session = Session(taken, tier, secret=bool(secret))
         self.reference = reference(self.course)
         self.parts: dict[str, list[Part]] = {}
-        if self.course.tests in [path.resolve() for path in paths] and not config.option.keyword:
-            self.parts = {id: [] for id in self.course.exercises if not self.only or id in self.only}
+        if (
+            self.course.tests in [path.resolve() for path in paths]
+            and not config.option.keyword
+        ):
+            self.parts = {
+                id: []
+                for id in self.course.exercises
+                if not self.only or id in self.only
+            }
 
     @pytest.fixture
     def answer(self, request: pytest.FixtureRequest) -> Answer:
         """The student's function."""
-        return Answer(self.session, self.reference, self._exercise(request.node)[0], request.node.name)
+        return Answer(
+            self.session,
+            self.reference,
+            self._exercise(request.node)[0],
+            request.node.name,
+        )
 
     @pytest.fixture
     def rng(self, request: pytest.FixtureRequest) -> np.random.Generator:
@@ -56,7 +73,9 @@ class Run:
     def _exercise(self, item: pytest.Item) -> tuple[Exercise, int]:
         marker = item.get_closest_marker("part")
         if marker is None:
-            raise pytest.UsageError(f"{item.nodeid} must say which exercise it is a part of")
+            raise pytest.UsageError(
+                f"{item.nodeid} must say which exercise it is a part of"
+            )
         return self.course.exercises[marker.args[0]], marker.kwargs["points"]
 
     @pytest.hookimpl(tryfirst=True)
@@ -65,7 +84,11 @@ class Run:
         for item in items:
             exercise, _ = self._exercise(item)
             item.extra_keyword_matches.update({exercise.id, exercise.name})
-        items[:] = [item for item in items if not self.only or self._exercise(item)[0].id in self.only]
+        items[:] = [
+            item
+            for item in items
+            if not self.only or self._exercise(item)[0].id in self.only
+        ]
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_makereport(
@@ -78,25 +101,43 @@ class Run:
             part = outcome(test, points, call.excinfo.value if call.excinfo else None)
             self.parts.setdefault(exercise.id, []).append(part)
             if part.state not in ("correct", "grader-fault"):
-                report.longrepr = part.feedback  # nothing of the trusted side's traceback
+                report.longrepr = (
+                    part.feedback
+                )  # nothing of the trusted side's traceback
         return report
 
     def pytest_sessionfinish(self, session: pytest.Session, exitstatus: int) -> None:
         self.session.close()
-        if session.config.getoption("grade_json") and exitstatus in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
-            with whole(session.config.getoption("grade_json")) as file:
-                file.write(json.dumps(self.grade(), indent=1, ensure_ascii=False).encode())
+        if session.config.getoption("grade_json") and exitstatus in (
+            pytest.ExitCode.OK,
+            pytest.ExitCode.TESTS_FAILED,
+        ):
+            with atomic_write(session.config.getoption("grade_json")) as file:
+                file.write(
+                    json.dumps(self.grade(), indent=1, ensure_ascii=False).encode()
+                )
 
     def grade(self) -> dict[str, Any]:
         """The grade of all exercises that were to be graded."""
         exercises = self.course.exercises
-        graded = [exercise_grade(exercises[id], parts) for id, parts in self.parts.items()]
-        return grade(sorted(graded, key=lambda entry: list(exercises).index(entry["id"])), self.session.tier)
+        graded = [
+            exercise_grade(exercises[id], parts) for id, parts in self.parts.items()
+        ]
+        return grade(
+            sorted(graded, key=lambda entry: list(exercises).index(entry["id"])),
+            self.session.tier,
+        )
 
-    def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
+    def pytest_terminal_summary(
+        self, terminalreporter: pytest.TerminalReporter
+    ) -> None:
         result = self.grade()
-        terminalreporter.section(f"{result['points']} of {result['max_points']} points ({result['tier']} sandbox)")
+        terminalreporter.section(
+            f"{result['points']} of {result['max_points']} points ({result['tier']} sandbox)"
+        )
         for entry in result["exercises"]:
             points = "?" if entry["points"] is None else entry["points"]
             title = self.course.exercises[entry["id"]].title
-            terminalreporter.line(f"{entry['id']}  {points}/{entry['max_points']}  {entry['state']:12}  {title}")
+            terminalreporter.line(
+                f"{entry['id']}  {points}/{entry['max_points']}  {entry['state']:12}  {title}"
+            )

@@ -30,17 +30,38 @@ from typing import Any, BinaryIO, cast
 
 import numpy as np
 
-from robonav.grading import frames
+from . import frames
 
 START_SECONDS = 60.0  # for the worker's own start, before any of the student's code
-STAGED = ("confine", "frames", "notebook", "supervisor", "worker")  # the files of this folder that the sandbox holds
-LOADER = ("/lib", "/lib64", "/usr/lib", "/usr/lib64", "/etc/ld.so.cache")  # shared libraries of the interpreter
+STAGED = (
+    "confine",
+    "frames",
+    "notebook",
+    "supervisor",
+    "worker",
+)  # the files of this folder that the sandbox holds
+LOADER = (
+    "/lib",
+    "/lib64",
+    "/usr/lib",
+    "/usr/lib64",
+    "/etc/ld.so.cache",
+)  # shared libraries of the interpreter
 CHUNK = 1 << 16  # bytes moved at once
 HOME = "/submission"  # the one place where it can write in the official tier; not /tmp, where an environment may lie
 NOBODY = "65534"
-USERS = range(2_000_000, 4_000_000)  # for the restricted tier; systems hand out none of these
-ENVIRONMENT = {"LANG": "C.UTF-8", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
-PYTHON = os.path.realpath(getattr(sys, "_base_executable", sys.executable))  # outside any virtual environment
+USERS = range(
+    2_000_000, 4_000_000
+)  # for the restricted tier; systems hand out none of these
+ENVIRONMENT = {
+    "LANG": "C.UTF-8",
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+}
+PYTHON = os.path.realpath(
+    getattr(sys, "_base_executable", sys.executable)
+)  # outside any virtual environment
 
 
 @dataclass(frozen=True)
@@ -56,7 +77,13 @@ class Limits:
     def resources(self) -> dict[str, int]:
         """The same as the system's resource limits; the processor time is that of one exercise."""
         seconds = int(self.exercise_seconds) + 1
-        return {"AS": self.memory, "CPU": seconds, "FSIZE": self.written, "NOFILE": self.files, "CORE": 0}
+        return {
+            "AS": self.memory,
+            "CPU": seconds,
+            "FSIZE": self.written,
+            "NOFILE": self.files,
+            "CORE": 0,
+        }
 
 
 class SandboxFault(RuntimeError):
@@ -74,9 +101,14 @@ class Garbled(Exception):
 class Worker:
     """A worker in its sandbox; it is asked one thing at a time."""
 
-    def __init__(self, process: subprocess.Popen[bytes], end: Callable[[], None], *, forks: bool) -> None:
+    def __init__(
+        self, process: subprocess.Popen[bytes], end: Callable[[], None], *, forks: bool
+    ) -> None:
         self._process, self._end, self.forks = process, end, forks
-        self._requests, self._replies = cast(BinaryIO, process.stdin), cast(BinaryIO, process.stdout)
+        self._requests, self._replies = (
+            cast(BinaryIO, process.stdin),
+            cast(BinaryIO, process.stdout),
+        )
         if os.name == "posix":
             os.set_blocking(self._requests.fileno(), False)
             os.set_blocking(self._replies.fileno(), False)
@@ -93,7 +125,11 @@ class Worker:
         """
         frame = frames.encode(request)
         try:
-            return self._exchange(frame, seconds) if os.name == "posix" else self._exchange_watched(frame, seconds)
+            return (
+                self._exchange(frame, seconds)
+                if os.name == "posix"
+                else self._exchange_watched(frame, seconds)
+            )
         except frames.FrameError as error:
             raise Garbled(str(error)) from None
         except TimedOut:
@@ -167,7 +203,9 @@ class Worker:
                 stream.close()
 
 
-def start(tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str | None = None) -> Worker:
+def start(
+    tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str | None = None
+) -> Worker:
     """A worker in a sandbox of this tier that holds these files and has run none of them yet.
 
     Raises
@@ -175,15 +213,22 @@ def start(tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str 
     SandboxFault : if it does not start.
     """
     try:
-        worker = {"official": _official, "restricted": _restricted, "practice": _practice}[tier](
-            python or PYTHON, limits
-        )
+        worker = {
+            "official": _official,
+            "restricted": _restricted,
+            "practice": _practice,
+        }[tier](python or PYTHON, limits)
     except (OSError, subprocess.SubprocessError) as error:
         raise SandboxFault(f"the {tier} sandbox cannot be started: {error}") from error
-    contents = {name: np.frombuffer(content, np.uint8) for name, content in files.items()}
+    contents = {
+        name: np.frombuffer(content, np.uint8) for name, content in files.items()
+    }
     resources = limits.resources() if worker.forks else {}
     try:
-        answer = worker.ask({"files": contents, "limits": resources, "fork": worker.forks}, START_SECONDS)
+        answer = worker.ask(
+            {"files": contents, "limits": resources, "fork": worker.forks},
+            START_SECONDS,
+        )
     except (TimedOut, EOFError, Garbled) as error:
         answer = error
     if answer != "ready":
@@ -193,7 +238,13 @@ def start(tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str 
 
 
 def _official(python: str, limits: Limits) -> Worker:
-    process = _spawn([*_bubblewrap(python, limits.written), "--", *_python(python, "/grader", "worker.main()")])
+    process = _spawn(
+        [
+            *_bubblewrap(python, limits.written),
+            "--",
+            *_python(python, "/grader", "worker.main()"),
+        ]
+    )
     return Worker(process, process.kill, forks=True)
 
 
@@ -234,7 +285,9 @@ def _practice(python: str, limits: Limits) -> Worker:
     return Worker(process, end, forks=sys.platform == "linux")
 
 
-def _spawn(command: Sequence[str], *, folder: str | None = None, keep: Sequence[int] = ()) -> subprocess.Popen[bytes]:
+def _spawn(
+    command: Sequence[str], *, folder: str | None = None, keep: Sequence[int] = ()
+) -> subprocess.Popen[bytes]:
     environment = ENVIRONMENT if os.name == "posix" else {**os.environ, **ENVIRONMENT}
     return subprocess.Popen(
         command,
@@ -258,19 +311,40 @@ def _python(python: str, stage: str, code: str) -> list[str]:
 
 def _bubblewrap(python: str, writable: int) -> list[str]:
     """The sandbox's own file system: libraries, interpreter, numpy and worker, all read-only, and a small HOME."""
-    command = ["bwrap", "--unshare-all", "--unshare-user", "--die-with-parent", "--cap-drop", "ALL"]
+    command = [
+        "bwrap",
+        "--unshare-all",
+        "--unshare-user",
+        "--die-with-parent",
+        "--cap-drop",
+        "ALL",
+    ]
     command += ["--uid", NOBODY, "--gid", NOBODY, "--hostname", "sandbox"]
     if _bubblewrap_can("--disable-userns"):
         command += ["--disable-userns"]
     for path in LOADER:
-        command += ["--symlink", os.readlink(path), path] if os.path.islink(path) else ["--ro-bind-try", path, path]
+        command += (
+            ["--symlink", os.readlink(path), path]
+            if os.path.islink(path)
+            else ["--ro-bind-try", path, path]
+        )
     for path in _interpreter(python):
         command += ["--ro-bind", path, path]
     for path in _package_folders(python):
         command += ["--perms", "0555", "--size", "4096", "--tmpfs", path]
     for path in _numpy():
         command += ["--ro-bind", path, path]
-    command += ["--ro-bind", _stage(), "/grader", "--dev", "/dev", "--size", str(writable), "--tmpfs", HOME]
+    command += [
+        "--ro-bind",
+        _stage(),
+        "/grader",
+        "--dev",
+        "/dev",
+        "--size",
+        str(writable),
+        "--tmpfs",
+        HOME,
+    ]
     for path in ("/", "/dev", *_package_folders(python)):
         command += ["--remount-ro", path]
     return [*command, "--chdir", HOME]
@@ -278,14 +352,19 @@ def _bubblewrap(python: str, writable: int) -> list[str]:
 
 @functools.cache
 def _bubblewrap_can(option: str) -> bool:
-    return option in subprocess.run(["bwrap", "--help"], capture_output=True, text=True).stdout
+    return (
+        option
+        in subprocess.run(["bwrap", "--help"], capture_output=True, text=True).stdout
+    )
 
 
 @functools.cache
 def _interpreter(python: str) -> list[str]:
     """The interpreter, its standard library and its shared library."""
     code = "import os, sys; print(sys.base_prefix, os.path.dirname(os.__file__), sep='\\n')"
-    answer = subprocess.run([python, "-I", "-S", "-c", code], capture_output=True, text=True, check=True).stdout
+    answer = subprocess.run(
+        [python, "-I", "-S", "-c", code], capture_output=True, text=True, check=True
+    ).stdout
     prefix, library = answer.splitlines()
     return [python, library, *map(str, Path(prefix).glob("lib/libpython*.so*"))]
 
@@ -300,10 +379,22 @@ def _numpy() -> list[str]:
 def _package_folders(python: str) -> list[str]:
     """Folders of installed packages that lie within what the sandbox shows; robonav itself may be in one of them."""
     shown = {
-        Path(path) for path in (*LOADER, *_interpreter(python)) if os.path.isdir(path) and not os.path.islink(path)
+        Path(path)
+        for path in (*LOADER, *_interpreter(python))
+        if os.path.isdir(path) and not os.path.islink(path)
     }
-    patterns = ("python3*/site-packages", "python3*/dist-packages", "site-packages", "dist-packages")
-    found = {folder for root in shown for pattern in patterns for folder in root.glob(pattern)}
+    patterns = (
+        "python3*/site-packages",
+        "python3*/dist-packages",
+        "site-packages",
+        "dist-packages",
+    )
+    found = {
+        folder
+        for root in shown
+        for pattern in patterns
+        for folder in root.glob(pattern)
+    }
     return sorted(str(folder) for folder in found)
 
 

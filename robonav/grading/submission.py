@@ -17,7 +17,13 @@ from typing import NoReturn
 
 KINDS = (".py", ".ipynb")
 MOST_FILES, MOST_BYTES, MOST_ZIPPED = 200, 8 << 20, 32 << 20
-PASSED_OVER = {"__pycache__", "__MACOSX", "venv", "site-packages", "node_modules"}  # and every hidden folder
+PASSED_OVER = {
+    "__pycache__",
+    "__MACOSX",
+    "venv",
+    "site-packages",
+    "node_modules",
+}  # and every hidden folder
 
 
 class Refused(ValueError):
@@ -58,14 +64,18 @@ def read(path: str | Path) -> Submission:
     elif path.is_file() and path.suffix in KINDS:
         entries = iter([(path.name, _content(path))])
     else:
-        raise ValueError(f"a submission must be a folder, a zip, a notebook or a Python file, got {path}")
+        raise ValueError(
+            f"a submission must be a folder, a zip, a notebook or a Python file, got {path}"
+        )
     files: dict[str, bytes] = {}
     size = 0
     for number, (name, content) in enumerate(entries, start=1):
         files[name] = content  # the last one counts, as when a zip is unpacked
         size += len(content)
         if number > MOST_FILES or size > MOST_BYTES:
-            raise Refused(f"more than {MOST_FILES} files or {MOST_BYTES >> 20} MB of Python files and notebooks")
+            raise Refused(
+                f"more than {MOST_FILES} files or {MOST_BYTES >> 20} MB of Python files and notebooks"
+            )
     return Submission(files)
 
 
@@ -85,14 +95,22 @@ def taken(path: str | Path) -> Submission | Refused:
 def _only_zip(folder: Path) -> Path | None:
     """The zip that is all a folder holds, as learning platforms hand it over."""
     try:
-        entries = [entry for entry in folder.iterdir() if not entry.name.startswith(".")]
+        entries = [
+            entry for entry in folder.iterdir() if not entry.name.startswith(".")
+        ]
     except OSError as error:
         _unreadable(error)
-    return entries[0] if len(entries) == 1 and is_zip(entries[0]) and entries[0].is_file() else None
+    return (
+        entries[0]
+        if len(entries) == 1 and is_zip(entries[0]) and entries[0].is_file()
+        else None
+    )
 
 
 def _unreadable(error: OSError) -> NoReturn:
-    raise Refused(f"the folder {Path(error.filename).name!r} cannot be read: {error.strerror}") from None
+    raise Refused(
+        f"the folder {Path(error.filename).name!r} cannot be read: {error.strerror}"
+    ) from None
 
 
 def _from_folder(folder: Path) -> Iterator[tuple[str, bytes]]:
@@ -111,11 +129,17 @@ def _from_zip(path: Path) -> Iterator[tuple[str, bytes]]:
         with zipfile.ZipFile(path) as archive:
             for entry in archive.infolist():
                 inside = PurePosixPath(entry.filename)
-                if entry.is_dir() or inside.suffix not in KINDS or not _is_taken(inside):
+                if (
+                    entry.is_dir()
+                    or inside.suffix not in KINDS
+                    or not _is_taken(inside)
+                ):
                     continue
                 if stat.S_ISLNK(entry.external_attr >> 16):
                     raise Refused(f"{_checked(entry.filename)} is a link")
-                with archive.open(entry) as file:  # the size that the zip declares may be a lie
+                with archive.open(
+                    entry
+                ) as file:  # the size that the zip declares may be a lie
                     yield _checked(entry.filename), file.read(MOST_BYTES + 1)
     except Refused:
         raise
@@ -126,9 +150,14 @@ def _from_zip(path: Path) -> Iterator[tuple[str, bytes]]:
 def _content(path: Path) -> bytes:
     """A regular file's bytes; a link, a pipe or a device is refused before it is opened."""
     try:
-        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
+        descriptor = os.open(
+            path,
+            os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0),
+        )
     except OSError as error:
-        raise Refused(f"{path.name} is a link or cannot be read: {error.strerror}") from None
+        raise Refused(
+            f"{path.name} is a link or cannot be read: {error.strerror}"
+        ) from None
     with os.fdopen(descriptor, "rb") as file:
         if path.is_symlink() or not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
             raise Refused(f"{path.name} is no plain file")
@@ -136,13 +165,21 @@ def _content(path: Path) -> bytes:
 
 
 def _is_taken(path: PurePosixPath) -> bool:
-    return not any(part in PASSED_OVER or (part.startswith(".") and part != "..") for part in path.parts)
+    return not any(
+        part in PASSED_OVER or (part.startswith(".") and part != "..")
+        for part in path.parts
+    )
 
 
 def _checked(name: str) -> str:
     """A name that stays inside the submission and can be written anywhere."""
     path = PurePosixPath(name)
-    inside = not path.is_absolute() and ".." not in path.parts and "\\" not in name and ":" not in name
+    inside = (
+        not path.is_absolute()
+        and ".." not in path.parts
+        and "\\" not in name
+        and ":" not in name
+    )
     if not (inside and name.isprintable() and len(name) <= 200):
         raise Refused(f"{name!r} is no name of a file within the submission")
     return path.as_posix()

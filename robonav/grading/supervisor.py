@@ -12,7 +12,7 @@ import signal
 from collections.abc import Sequence
 from contextlib import suppress
 
-from robonav.grading import confine, worker
+from . import confine, worker
 
 
 def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) -> None:

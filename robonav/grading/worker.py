@@ -19,7 +19,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from robonav.grading import confine, frames, notebook
+from . import confine, frames, notebook
 
 STUB = 'raise NotImplementedError("{name} is yours to write")'  # what stands in a file before the student writes it
 ALLOWED = {"numpy", *sys.stdlib_module_names}
@@ -32,12 +32,20 @@ class Gate(importlib.abc.MetaPathFinder):
     def __init__(self, own: set[str]) -> None:
         self.allowed = ALLOWED | own
 
-    def find_spec(self, name: str, path: Sequence[str] | None = None, target: Any = None) -> None:
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: Any = None
+    ) -> None:
         top = name.partition(".")[0]
         if top == "robonav":
-            raise ModuleNotFoundError("robonav is out of reach here: the exercise asks for your own answer", name=name)
+            raise ModuleNotFoundError(
+                "robonav is out of reach here: the exercise asks for your own answer",
+                name=name,
+            )
         if top not in self.allowed:
-            raise ModuleNotFoundError(f"{top} is out of reach here: use Python's standard library and numpy", name=name)
+            raise ModuleNotFoundError(
+                f"{top} is out of reach here: use Python's standard library and numpy",
+                name=name,
+            )
 
 
 def main() -> None:
@@ -45,7 +53,9 @@ def main() -> None:
     requests, replies = _take_streams()
     opening = frames.read(requests)
     files = {name: content.tobytes() for name, content in opening["files"].items()}
-    _close_the_gate({part.removesuffix(".py") for name in files for part in name.split("/")})
+    _close_the_gate(
+        {part.removesuffix(".py") for name in files for part in name.split("/")}
+    )
     confine.limit(opening["limits"])
     frames.write(replies, "ready")
     home = Path.cwd()
@@ -56,7 +66,9 @@ def main() -> None:
             if opening["fork"]:
                 status = _serve_in_child(requests, replies, request)
                 os.chdir(home)
-                _empty(home)  # first: who leaves a mess waits for its removal, and not the exercise after it
+                _empty(
+                    home
+                )  # first: who leaves a mess waits for its removal, and not the exercise after it
                 frames.write(replies, {"ended": status})
             else:
                 _serve(requests, replies, request)
@@ -66,7 +78,10 @@ def main() -> None:
 
 def _take_streams() -> tuple[BinaryIO, BinaryIO]:
     """The standard streams for frames alone; what a student's code prints goes nowhere."""
-    requests, replies = os.fdopen(os.dup(0), "rb", buffering=0), os.fdopen(os.dup(1), "wb")
+    requests, replies = (
+        os.fdopen(os.dup(0), "rb", buffering=0),
+        os.fdopen(os.dup(1), "wb"),
+    )
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in (0, 1, 2):
         os.dup2(nowhere, stream)
@@ -106,7 +121,9 @@ def _close_the_gate(own: set[str]) -> None:
     sys.meta_path.insert(0, Gate(own))
 
 
-def _serve_in_child(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> int:
+def _serve_in_child(
+    requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]
+) -> int:
     """Serve one exercise; how its process ended."""
     if (child := os.fork()) == 0:
         status = 1
@@ -127,7 +144,9 @@ def _serve(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> No
         reply = {"id": request["id"], **_answer(request, functions)}
         try:
             frame = frames.encode(reply)
-        except BaseException as error:  # what the student returned may do anything when it is looked at
+        except (
+            BaseException
+        ) as error:  # what the student returned may do anything when it is looked at
             frame = frames.encode({"id": request["id"], "raised": _described(error)})
         replies.write(frame)
         replies.flush()
@@ -174,7 +193,10 @@ def _run(name: str, path: Path, source: Any) -> types.ModuleType:
     module = types.ModuleType(name)
     module.__file__ = str(path.relative_to(Path.cwd()))
     sys.modules[name] = module
-    sys.path += [str(path.parent), str(Path.cwd())]  # last: a student's random.py does not stand in for Python's
+    sys.path += [
+        str(path.parent),
+        str(Path.cwd()),
+    ]  # last: a student's random.py does not stand in for Python's
     exec(compile(source, str(path), "exec"), module.__dict__)
     return module
 
@@ -186,6 +208,12 @@ def _described(error: BaseException) -> dict[str, Any]:
     except BaseException:
         message = ""
     own = str(Path.cwd()) + os.sep
-    steps = [step for step in traceback.extract_tb(error.__traceback__) if step.filename.startswith(own)]
-    where = [steps[-1].filename.removeprefix(own), steps[-1].lineno or 0] if steps else None
+    steps = [
+        step
+        for step in traceback.extract_tb(error.__traceback__)
+        if step.filename.startswith(own)
+    ]
+    where = (
+        [steps[-1].filename.removeprefix(own), steps[-1].lineno or 0] if steps else None
+    )
     return {"kind": type(error).__name__, "message": message, "where": where}

@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from robonav import expect
+from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import Encoder, Policy, Simulator, Worlds
+from robonav.validation import check_generator
 
+from .behaviour_cloning import learn_policy
+from .computer_expert import ComputerExpert
 from .demonstrations import MAX_STEPS, Actions, Demonstrations, Expert, join, record
-from .experts import ComputerExpert
-from .imitation import learn_policy
-from .policy import NetworkPolicy
 
 TEMPERATURE = 0.4
 
@@ -61,12 +61,18 @@ def advised(
     seed : of the generator handed to the policy.
     max_steps : seconds after which a drive is stopped.
     """
-    rng = expect.generator("seed", seed)
+    rng = check_generator("seed", seed)
 
     def drives(simulator: Simulator, asked: Actions) -> Actions:
         return np.asarray(policy(simulator.sense()[asked], rng), dtype=np.int64)
 
-    return record(drives, worlds, speed=speed, labels=expert or ComputerExpert(), max_steps=max_steps)
+    return record(
+        drives,
+        worlds,
+        speed=speed,
+        labels=expert or ComputerExpert(),
+        max_steps=max_steps,
+    )
 
 
 def dagger(
@@ -102,12 +108,21 @@ def dagger(
     """
 
     def learned(gathered: Demonstrations) -> NetworkPolicy:
-        policy = learn_policy(gathered, hidden, regularisation, iterations, seed, encoder=encoder)
+        policy = learn_policy(
+            gathered, hidden, regularisation, iterations, seed, encoder=encoder
+        )
         return replace(policy, temperature=temperature)
 
     gathered, policies = [demonstrations], [learned(demonstrations)]
     for number, worlds in enumerate(rounds, start=1):
-        met = advised(policies[-1], worlds, expert=expert(), speed=demonstrations.speed, seed=seed, max_steps=max_steps)
+        met = advised(
+            policies[-1],
+            worlds,
+            expert=expert(),
+            speed=demonstrations.speed,
+            seed=seed,
+            max_steps=max_steps,
+        )
         gathered.append(join([gathered[-1], met]))
         policies.append(learned(gathered[-1]))
         if progress is not None:

@@ -9,9 +9,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
 from robonav.progress import Progress
-from robonav.robot import OUTCOMES, REFLEX, Action, Reflex, Sensing, Simulator, Worlds, concatenate
+from robonav.robot import (
+    OUTCOMES,
+    REFLEX,
+    Action,
+    Reflex,
+    Sensing,
+    Simulator,
+    Worlds,
+    concatenate,
+)
+from robonav.validation import check_array, check_integer, check_one_of, check_positive
 
 Floats = NDArray[np.float64]
 Actions = NDArray[np.int64]
@@ -59,23 +68,37 @@ class Demonstrations:
             "outcome": ((drives,), np.str_),
         }
         for name, (shape, dtype) in wanted.items():
-            checked = expect.array(f"demonstrations: {name}", getattr(self, name), shape=shape, dtype=dtype)
+            checked = check_array(
+                f"demonstrations: {name}", getattr(self, name), shape=shape, dtype=dtype
+            )
             object.__setattr__(self, name, checked)
-        object.__setattr__(self, "speed", expect.positive("demonstrations: speed", self.speed))
+        object.__setattr__(
+            self, "speed", check_positive("demonstrations: speed", self.speed)
+        )
         if steps and (np.diff(self.trajectory) < 0).any():
-            raise ValueError("demonstrations: trajectory must ascend, one drive after the other")
-        for name, values, most in (("trajectory", self.trajectory, drives - 1), ("actions", self.actions, max(Action))):
+            raise ValueError(
+                "demonstrations: trajectory must ascend, one drive after the other"
+            )
+        for name, values, most in (
+            ("trajectory", self.trajectory, drives - 1),
+            ("actions", self.actions, max(Action)),
+        ):
             if steps and not 0 <= values.min() <= values.max() <= most:
-                raise ValueError(f"demonstrations: {name} must lie in 0..{most}, got {values.min()}..{values.max()}")
+                raise ValueError(
+                    f"demonstrations: {name} must lie in 0..{most}, got {values.min()}..{values.max()}"
+                )
         for outcome in np.unique(self.outcome):
-            expect.one_of("demonstrations: outcome", outcome, OUTCOMES[1:])
+            check_one_of("demonstrations: outcome", outcome, OUTCOMES[1:])
 
     def __len__(self) -> int:
         return len(self.actions)
 
     def __getitem__(self, index: slice | NDArray[Any]) -> Demonstrations:
         """Some of the steps, in their order; the worlds and outcomes stay."""
-        steps = {name: getattr(self, name)[index] for name in ("trajectory", "sensing", "actions", "poses")}
+        steps = {
+            name: getattr(self, name)[index]
+            for name in ("trajectory", "sensing", "actions", "poses")
+        }
         return replace(self, **steps)
 
     @property
@@ -92,7 +115,9 @@ class Demonstrations:
         """Whole drives alone, picked by indices or a mask and counted anew from 0."""
         chosen = np.arange(len(self.worlds))[np.asarray(index)]
         none = np.empty(0, np.int64)
-        rows = np.concatenate([none, *(np.flatnonzero(self.trajectory == drive) for drive in chosen)])
+        rows = np.concatenate(
+            [none, *(np.flatnonzero(self.trajectory == drive) for drive in chosen)]
+        )
         return replace(
             self,
             worlds=self.worlds[chosen],
@@ -135,7 +160,7 @@ def record(
     ------
     ValueError : if an argument is out of bounds.
     """
-    expect.integer("max_steps", max_steps, at_least=1)
+    check_integer("max_steps", max_steps, at_least=1)
     simulator = Simulator(worlds, speed, slip=slip)
     rows: list[tuple[Actions, Sensing, Actions, Floats]] = []
     for _ in range(max_steps):
@@ -143,15 +168,23 @@ def record(
         if len(running) == 0:
             break
         sensing, poses = simulator.sense(), simulator.poses.copy()
-        commands = np.full(len(worlds), -1) if reflex is None else reflex(sensing, speed)
+        commands = (
+            np.full(len(worlds), -1) if reflex is None else reflex(sensing, speed)
+        )
         asked = running[commands[running] < 0]
-        commands[simulator.outcome != _RUNNING] = Action.F  # these stand still, whatever they are told
+        commands[simulator.outcome != _RUNNING] = (
+            Action.F
+        )  # these stand still, whatever they are told
         if len(asked) > 0:
             advice = labels(simulator, asked) if labels is not None else None
             commands[asked] = expert(simulator, asked)
         simulator.step(commands)
         if len(asked) > 0:
-            commands[asked] = executed(poses[asked], simulator.poses[asked]) if advice is None else advice
+            commands[asked] = (
+                executed(poses[asked], simulator.poses[asked])
+                if advice is None
+                else advice
+            )
         rows.append((running, sensing[running], commands[running], poses[running]))
         if progress is not None:
             progress(len(worlds) - len(running), len(worlds))
@@ -167,11 +200,15 @@ def join(sets: Sequence[Demonstrations]) -> Demonstrations:
     ValueError : if there is no set, or speeds or map sizes differ.
     """
     if not sets or len({each.speed for each in sets}) > 1:
-        raise ValueError(f"sets must be at least one, of one speed, got {[each.speed for each in sets]}")
+        raise ValueError(
+            f"sets must be at least one, of one speed, got {[each.speed for each in sets]}"
+        )
     before = np.cumsum([0, *(len(each.worlds) for each in sets)])
     return Demonstrations(
         worlds=concatenate([each.worlds for each in sets]),
-        trajectory=np.concatenate([each.trajectory + n for each, n in zip(sets, before[:-1], strict=True)]),
+        trajectory=np.concatenate(
+            [each.trajectory + n for each, n in zip(sets, before[:-1], strict=True)]
+        ),
         sensing=_sensings([each.sensing for each in sets]),
         actions=np.concatenate([each.actions for each in sets]),
         poses=np.concatenate([each.poses for each in sets]),
@@ -184,7 +221,8 @@ def executed(before: Floats, after: Floats) -> Actions:
     """The actions (N,) that led from poses ``before`` to ``after`` (N, 3): by the turn, or B where it went back."""
     turned = np.rint((after[:, 2] - before[:, 2]) / np.radians(30)).astype(int) % 12
     actions = np.select(
-        [turned == 1, turned == 2, turned == 11, turned == 10], [Action.L30, Action.L60, Action.R30, Action.R60]
+        [turned == 1, turned == 2, turned == 11, turned == 10],
+        [Action.L30, Action.L60, Action.R30, Action.R60],
     )
     way = np.column_stack([np.cos(after[:, 2]), np.sin(after[:, 2])])
     backward = ((after[:, :2] - before[:, :2]) * way).sum(axis=1) < 0
@@ -193,14 +231,27 @@ def executed(before: Floats, after: Floats) -> Actions:
 
 def _sensings(parts: Sequence[Sensing]) -> Sensing:
     """Rows of several as one."""
-    return Sensing(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Sensing)))
+    return Sensing(
+        *(
+            np.concatenate([getattr(part, field.name) for part in parts])
+            for field in fields(Sensing)
+        )
+    )
 
 
 def _by_drive(
-    worlds: Worlds, rows: list[tuple[Actions, Sensing, Actions, Floats]], speed: float, outcome: NDArray[np.str_]
+    worlds: Worlds,
+    rows: list[tuple[Actions, Sensing, Actions, Floats]],
+    speed: float,
+    outcome: NDArray[np.str_],
 ) -> Demonstrations:
     """Steps by drive from steps by time."""
-    nothing = np.empty(0, np.int64), Sensing.empty(0), np.empty(0, np.int64), np.empty((0, 3))
+    nothing = (
+        np.empty(0, np.int64),
+        Sensing.empty(0),
+        np.empty(0, np.int64),
+        np.empty((0, 3)),
+    )
     owners, sensed, actions, poses = zip(nothing, *rows, strict=True)
     drives = np.concatenate(owners)
     order = np.argsort(drives, kind="stable")

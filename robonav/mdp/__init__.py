@@ -1,9 +1,27 @@
 """Chapter 2: finite MDPs, planning, tabular learning, partial observation, gridworlds."""
 
-from .belief_planning import AlphaVectors, point_based_value_iteration, qmdp, spread_beliefs
+from .belief_planning import (
+    AlphaVectors,
+    point_based_value_iteration,
+    qmdp,
+    spread_beliefs,
+)
+from .dynamic_programming import (
+    Solution,
+    modified_policy_iteration,
+    policy_iteration,
+    value_iteration,
+)
 from .environments import GridEnvironment
 from .evaluation import Evaluation, iterative_policy_evaluation, policy_evaluation
-from .exploration import Schedule, epsilon_greedy, exponential_decay, harmonic_decay, linear_decay, polynomial_decay
+from .exploration import (
+    Schedule,
+    epsilon_greedy,
+    exponential_decay,
+    harmonic_decay,
+    linear_decay,
+    polynomial_decay,
+)
 from .features import Features, OneHot, Tiles
 from .gridworld import Cell, GridWorld, four_by_three
 from .horizon import FiniteHorizon, backward_induction, horizon_evaluation
@@ -13,12 +31,26 @@ from .linear import LinearLearned, linear_q_learning, linear_sarsa, with_constan
 from .localisation import Localiser, PoseGrid, RangeSensor, pose_transitions
 from .models import FiniteMDP, expected_rewards
 from .monte_carlo import monte_carlo_control, monte_carlo_prediction
-from .planning import Solution, modified_policy_iteration, policy_iteration, value_iteration
 from .policies import greedy_actions, greedy_mixture
-from .pomdp import POMDP, BeliefMDP, BeliefWalk, bayes, belief_walk, entropy, without_sensing
+from .pomdp import (
+    POMDP,
+    BeliefMDP,
+    BeliefWalk,
+    bayes,
+    belief_walk,
+    entropy,
+    without_sensing,
+)
 from .small_pomdps import corridor, fork, tiger
 from .sweeps import in_place_value_iteration, prioritized_sweeping
-from .temporal_difference import Learned, Predicted, expected_sarsa, q_learning, sarsa, td_prediction
+from .temporal_difference import (
+    Learned,
+    Predicted,
+    expected_sarsa,
+    q_learning,
+    sarsa,
+    td_prediction,
+)
 from .values import (
     action_values,
     advantage,

@@ -12,10 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
 from robonav.errors import ConvergenceWarning
+from robonav.validation import (
+    check_array,
+    check_instance,
+    check_integer,
+    check_positive,
+)
 
-from .planning import value_iteration
+from .dynamic_programming import value_iteration
 from .policies import distributions
 from .pomdp import POMDP, SAME, BeliefMDP
 
@@ -39,12 +44,21 @@ class AlphaVectors:
 
     def value(self, belief: ArrayLike) -> Floats:
         """Value (...) of one belief (S,) or many (..., S): the largest of the linear functions."""
-        return (distributions("belief", belief, self.vectors.shape[1]) @ self.vectors.T).max(axis=-1)
+        return (
+            distributions("belief", belief, self.vectors.shape[1]) @ self.vectors.T
+        ).max(axis=-1)
 
     def action(self, belief: ArrayLike) -> int:
         """The action of the vector that is largest at a belief (S,)."""
-        expect.array("belief", belief, shape=("S",))
-        return int(self.actions[(self.vectors @ distributions("belief", belief, self.vectors.shape[1])).argmax()])
+        check_array("belief", belief, shape=("S",))
+        return int(
+            self.actions[
+                (
+                    self.vectors
+                    @ distributions("belief", belief, self.vectors.shape[1])
+                ).argmax()
+            ]
+        )
 
 
 def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
@@ -53,7 +67,7 @@ def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
     One vector an action, Q*(., a) of the MDP underneath. Its values are an upper bound; its policy never takes an
     action only to learn something, since it believes that it will know everything anyway.
     """
-    expect.instance("pomdp", pomdp, POMDP)
+    check_instance("pomdp", pomdp, POMDP)
     values = value_iteration(pomdp.mdp, tolerance).values
     return AlphaVectors(pomdp.mdp.backup(values).T.copy(), np.arange(pomdp.mdp.actions))
 
@@ -64,15 +78,25 @@ def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
     Each new one is the successor, by any action and observation, that is furthest (sum of absolute differences) from
     those taken before; so the choice involves no chance. There are fewer where fewer can be reached.
     """
-    expect.instance("pomdp", pomdp, POMDP)
-    expect.integer("count", count, at_least=1)
+    check_instance("pomdp", pomdp, POMDP)
+    check_integer("count", count, at_least=1)
     taken = [pomdp._belief(start)]
     candidates, distances = np.empty((0, pomdp.mdp.states)), np.empty(0)
     while len(taken) < count:
         distances = np.minimum(distances, abs(candidates - taken[-1]).sum(axis=1))
-        new = np.concatenate([BeliefMDP(pomdp).successors(taken[-1], action)[0] for action in range(pomdp.mdp.actions)])
-        new_distances = np.min([abs(new - belief).sum(axis=1) for belief in taken], axis=0)
-        candidates, distances = np.concatenate([candidates, new]), np.concatenate([distances, new_distances])
+        new = np.concatenate(
+            [
+                BeliefMDP(pomdp).successors(taken[-1], action)[0]
+                for action in range(pomdp.mdp.actions)
+            ]
+        )
+        new_distances = np.min(
+            [abs(new - belief).sum(axis=1) for belief in taken], axis=0
+        )
+        candidates, distances = (
+            np.concatenate([candidates, new]),
+            np.concatenate([distances, new_distances]),
+        )
         furthest = int(distances.argmax())
         if distances[furthest] <= SAME:
             break
@@ -84,7 +108,11 @@ def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
 
 
 def point_based_value_iteration(
-    pomdp: POMDP, beliefs: ArrayLike, *, tolerance: float = 1e-6, max_iterations: int = 10_000
+    pomdp: POMDP,
+    beliefs: ArrayLike,
+    *,
+    tolerance: float = 1e-6,
+    max_iterations: int = 10_000,
 ) -> AlphaVectors:
     """Value iteration at some beliefs only, one vector for each (Pineau, Gordon and Thrun 2003).
 
@@ -109,19 +137,23 @@ def point_based_value_iteration(
     -----
     ConvergenceWarning : if values were still rising; says by how much.
     """
-    expect.instance("pomdp", pomdp, POMDP)
+    check_instance("pomdp", pomdp, POMDP)
     if pomdp.mdp.discount == 1:
         raise ValueError("point_based_value_iteration needs a discount below 1, got 1")
-    expect.array("beliefs", beliefs, shape=("N", pomdp.mdp.states))
+    check_array("beliefs", beliefs, shape=("N", pomdp.mdp.states))
     points = distributions("beliefs", beliefs, pomdp.mdp.states)
     if len(points) == 0:
         raise ValueError("beliefs must hold at least one belief, got none")
-    enough = expect.positive("tolerance", tolerance) * (1 - pomdp.mdp.discount)
-    expect.integer("max_iterations", max_iterations, at_least=1)
+    enough = check_positive("tolerance", tolerance) * (1 - pomdp.mdp.discount)
+    check_integer("max_iterations", max_iterations, at_least=1)
     worst = pomdp.mdp.rewards.min() / (1 - pomdp.mdp.discount)
-    found = AlphaVectors(np.full((1, pomdp.mdp.states), worst), np.zeros(1, dtype=np.int64))
+    found = AlphaVectors(
+        np.full((1, pomdp.mdp.states), worst), np.zeros(1, dtype=np.int64)
+    )
     for iterations in range(1, max_iterations + 1):
-        found, rise = improved_at(points, found, backup(pomdp, points, found), iterations)
+        found, rise = improved_at(
+            points, found, backup(pomdp, points, found), iterations
+        )
         if rise <= enough:
             return found
     warnings.warn(
@@ -143,15 +175,24 @@ def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
     for action in range(mdp.actions):
         candidates[action] = mdp.rewards[:, action]
         for likelihood in pomdp.observations[action].T:
-            carried = (mdp.transitions[action] @ (likelihood * known.vectors).T).T  # (K, S)
-            candidates[action] += mdp.discount * carried[(points @ carried.T).argmax(axis=1)]
+            carried = (
+                mdp.transitions[action] @ (likelihood * known.vectors).T
+            ).T  # (K, S)
+            candidates[action] += (
+                mdp.discount * carried[(points @ carried.T).argmax(axis=1)]
+            )
     best = np.einsum("ans,ns->na", candidates, points).argmax(axis=1)
     return AlphaVectors(candidates[best, np.arange(len(points))], best)
 
 
-def improved_at(points: Floats, old: AlphaVectors, new: AlphaVectors, iterations: int) -> tuple[AlphaVectors, float]:
+def improved_at(
+    points: Floats, old: AlphaVectors, new: AlphaVectors, iterations: int
+) -> tuple[AlphaVectors, float]:
     """Of two sets, the vectors that are best at some point, and the most by which a point's vector rose in a state."""
-    vectors, actions = np.concatenate([old.vectors, new.vectors]), np.concatenate([old.actions, new.actions])
+    vectors, actions = (
+        np.concatenate([old.vectors, new.vectors]),
+        np.concatenate([old.actions, new.actions]),
+    )
     chosen = best_at(points, vectors)
     rise = (vectors[chosen] - old.vectors[best_at(points, old.vectors)]).max()
     kept = np.unique(chosen)

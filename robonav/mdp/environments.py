@@ -11,12 +11,14 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 from scipy.sparse import csgraph
 
-from robonav import expect
+from robonav.validation import check_integer, check_one_of
 
 if TYPE_CHECKING:
     from .gridworld import GridWorld
 
-Outcome = tuple[float, int, float, bool]  # probability, state reached, reward, whether the episode ends
+Outcome = tuple[
+    float, int, float, bool
+]  # probability, state reached, reward, whether the episode ends
 
 
 def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
@@ -33,13 +35,19 @@ def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
     bare = getattr(env, "unwrapped", env)
     table = getattr(bare, "P", None)
     if table is None:
-        raise ValueError(f"env must publish its transitions as P[s][a] (FrozenLake, Taxi, CliffWalking), got {env}")
+        raise ValueError(
+            f"env must publish its transitions as P[s][a] (FrozenLake, Taxi, CliffWalking), got {env}"
+        )
     if getattr(bare, "fickle_passenger", False):
-        raise ValueError("env must move as its table P says, got a taxi whose fickle passenger is not in it")
+        raise ValueError(
+            "env must move as its table P says, got a taxi whose fickle passenger is not in it"
+        )
     rows = [_in_order(row) for row in _in_order(table)]
     states, actions = len(rows), len(rows[0]) if rows else 0
     if actions == 0 or any(len(row) != actions for row in rows):
-        raise ValueError("env must publish P[s][a] for as many actions in every state, and for at least one of each")
+        raise ValueError(
+            "env must publish P[s][a] for as many actions in every state, and for at least one of each"
+        )
     entries = np.array(
         [
             (action, state, reached, probability, probability * reward, ended)
@@ -52,7 +60,9 @@ def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
     ).reshape(-1, 6)
     action, state, reached = entries[:, :3].astype(np.intp).T
     if reached.min(initial=0) < 0 or reached.max(initial=0) >= states:
-        raise ValueError(f"env must publish transitions to states from 0 to {states - 1}, got {reached.max()}")
+        raise ValueError(
+            f"env must publish transitions to states from 0 to {states - 1}, got {reached.max()}"
+        )
     ended = entries[:, 5] == 1
     terminal = np.zeros(states, dtype=bool)
     terminal[reached[ended]] = True
@@ -74,7 +84,9 @@ def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
         own = going_on & (action == which)
         coordinates = np.append(state[own], ends), np.append(reached[own], ends)
         probability = np.append(entries[own, 3], np.ones(ends.size))
-        transitions.append(sp.coo_array((probability, coordinates), (states, states)).tocsr())
+        transitions.append(
+            sp.coo_array((probability, coordinates), (states, states)).tocsr()
+        )
     return transitions, rewards
 
 
@@ -83,13 +95,23 @@ def _in_order(part: Any) -> list[Any]:
     try:
         return [part[key] for key in range(len(part))]
     except (TypeError, LookupError):
-        raise ValueError(f"env must publish P[s][a] with states and actions numbered from 0, got {part}") from None
+        raise ValueError(
+            f"env must publish P[s][a] with states and actions numbered from 0, got {part}"
+        ) from None
 
 
-def _passed(starts: NDArray[np.float64], state: NDArray[np.intp], reached: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _passed(
+    starts: NDArray[np.float64], state: NDArray[np.intp], reached: NDArray[np.intp]
+) -> NDArray[np.bool_]:
     """Which states (S,) an episode may begin in or pass, by the steps from ``state`` to ``reached`` that do not end."""
-    steps = sp.csr_array((np.ones(state.size), (state, reached)), (starts.size, starts.size))
-    return np.isfinite(csgraph.dijkstra(steps, indices=np.flatnonzero(starts), unweighted=True, min_only=True))
+    steps = sp.csr_array(
+        (np.ones(state.size), (state, reached)), (starts.size, starts.size)
+    )
+    return np.isfinite(
+        csgraph.dijkstra(
+            steps, indices=np.flatnonzero(starts), unweighted=True, min_only=True
+        )
+    )
 
 
 class GridEnvironment(gym.Env[Any, Any]):
@@ -109,23 +131,30 @@ class GridEnvironment(gym.Env[Any, Any]):
 
     def __init__(self, grid: GridWorld, *, render_mode: str | None = None) -> None:
         if render_mode is not None:
-            expect.one_of("render_mode", render_mode, self.metadata["render_modes"])
+            check_one_of("render_mode", render_mode, self.metadata["render_modes"])
         self.grid, self.render_mode = grid, render_mode
         self.observation_space = spaces.Discrete(grid.states)
         self.action_space = spaces.Discrete(4)
         self.initial_state_distrib = grid.start
-        self.P = {state: {action: self._outcomes(state, action) for action in range(4)} for state in range(grid.states)}
+        self.P = {
+            state: {action: self._outcomes(state, action) for action in range(4)}
+            for state in range(grid.states)
+        }
         self.state = int(grid.start.argmax())
 
-    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[int, dict[str, Any]]:
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[int, dict[str, Any]]:
         """A new episode, from a cell drawn among the start cells."""
         super().reset(seed=seed)
-        self.state = int(self.np_random.choice(self.grid.states, p=self.initial_state_distrib))
+        self.state = int(
+            self.np_random.choice(self.grid.states, p=self.initial_state_distrib)
+        )
         return self.state, {}
 
     def step(self, action: int) -> tuple[int, float, bool, bool, dict[str, Any]]:
         """One move: state reached and reward, drawn from P(. | s, a) (Eq. (2.1)), and whether it ended the episode."""
-        taken = expect.integer("action", action, at_least=0, at_most=3)
+        taken = check_integer("action", action, at_least=0, at_most=3)
         probability, self.state, reward, ended = self._drawn(self.P[self.state][taken])
         return self.state, reward, ended, False, {"probability": probability}
 
@@ -157,6 +186,11 @@ class GridEnvironment(gym.Env[Any, Any]):
             if chance > 0:
                 total[to] = total.get(to, 0.0) + chance
         return [
-            (chance, to, float(self.grid.cell_rewards[to]), bool(self.grid.terminal[to]))
+            (
+                chance,
+                to,
+                float(self.grid.cell_rewards[to]),
+                bool(self.grid.terminal[to]),
+            )
             for to, chance in total.items()
         ]

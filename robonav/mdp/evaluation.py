@@ -10,12 +10,19 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csgraph, linalg
 
-from robonav import expect
 from robonav.errors import ConvergenceWarning
+from robonav.validation import (
+    check_array,
+    check_instance,
+    check_integer,
+    check_positive,
+)
 
 from .models import FiniteMDP, packed
 
-DIRECT_SOLVE = 1000  # up to so many equations elimination is quick whatever their pattern
+DIRECT_SOLVE = (
+    1000  # up to so many equations elimination is quick whatever their pattern
+)
 
 
 @dataclass(frozen=True)
@@ -42,7 +49,7 @@ def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     ------
     ValueError : if, without discount, the policy collects rewards for ever, so that its value is not finite.
     """
-    expect.instance("mdp", mdp, FiniteMDP)
+    check_instance("mdp", mdp, FiniteMDP)
     return solve_chain(*mdp.under(policy), mdp.discount, np.zeros(mdp.states))
 
 
@@ -70,18 +77,22 @@ def iterative_policy_evaluation(
     -----
     ConvergenceWarning : if ``max_iterations`` sweeps did not suffice; says how far the values still moved.
     """
-    expect.instance("mdp", mdp, FiniteMDP)
-    from . import kernels
+    check_instance("mdp", mdp, FiniteMDP)
+    from . import _fast
 
-    expect.positive("tolerance", tolerance)
+    check_positive("tolerance", tolerance)
     enough = tolerance if mdp.discount == 1 else 2 * mdp.stopping_distance(tolerance)
     transitions, rewards = mdp.under(policy)
-    chain = packed(transitions, rewards[:, None], mdp.discount)  # an MDP with one action
+    chain = packed(
+        transitions, rewards[:, None], mdp.discount
+    )  # an MDP with one action
     values = starting_values("start", mdp, start)
     updated, only_action = np.empty_like(values), np.zeros(mdp.states, dtype=np.intp)
     history = [values.copy()] if record else []
-    for iterations in range(1, expect.integer("max_iterations", max_iterations, at_least=1) + 1):
-        distance = kernels.policy_sweep(*chain, values, updated, only_action)
+    for iterations in range(
+        1, check_integer("max_iterations", max_iterations, at_least=1) + 1
+    ):
+        distance = _fast.policy_sweep(*chain, values, updated, only_action)
         values, updated = updated, values
         if record:
             history.append(values.copy())
@@ -89,12 +100,20 @@ def iterative_policy_evaluation(
             break
         if iterations == max_iterations:
             warn_unfinished("iterative_policy_evaluation", iterations, distance, enough)
-    return Evaluation(values, iterations, distance, np.stack(history) if record else None)
+    return Evaluation(
+        values, iterations, distance, np.stack(history) if record else None
+    )
 
 
-def starting_values(name: str, mdp: FiniteMDP, given: ArrayLike | None) -> NDArray[np.float64]:
+def starting_values(
+    name: str, mdp: FiniteMDP, given: ArrayLike | None
+) -> NDArray[np.float64]:
     """A fresh copy of the values to start from, zeros unless given."""
-    return np.zeros(mdp.states) if given is None else expect.array(name, given, shape=(mdp.states,)).copy()
+    return (
+        np.zeros(mdp.states)
+        if given is None
+        else check_array(name, given, shape=(mdp.states,)).copy()
+    )
 
 
 def warn_unfinished(name: str, iterations: int, distance: float, enough: float) -> None:
@@ -117,16 +136,25 @@ def solve_chain(
 ) -> NDArray[np.float64]:
     """V = r + gamma T V for the Markov chain of the policy ``name``, improving on ``guess`` (S,)."""
     if discount < 1:
-        return _solve(sp.eye_array(rewards.size, format="csr") - discount * transitions, rewards, guess)
+        return _solve(
+            sp.eye_array(rewards.size, format="csr") - discount * transitions,
+            rewards,
+            guess,
+        )
     moving = ~_resting(transitions, rewards, name)
     values = np.zeros(rewards.size)
-    equations = sp.eye_array(moving.sum(), format="csr") - transitions[moving][:, moving]
+    equations = (
+        sp.eye_array(moving.sum(), format="csr") - transitions[moving][:, moving]
+    )
     values[moving] = _solve(equations, rewards[moving], guess[moving])
     return values
 
 
 def solve_differences(
-    transitions: sp.csr_array, rewards: NDArray[np.float64], discount: float, values: NDArray[np.float64]
+    transitions: sp.csr_array,
+    rewards: NDArray[np.float64],
+    discount: float,
+    values: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The solution of V = r + gamma T V but for a number that all states share, refined from ``values`` (S,).
 
@@ -153,7 +181,9 @@ def _less_shared(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
     return numbers - (numbers.min() + numbers.max()) / 2
 
 
-def _resting(transitions: sp.csr_array, rewards: NDArray[np.float64], name: str) -> NDArray[np.bool_]:
+def _resting(
+    transitions: sp.csr_array, rewards: NDArray[np.float64], name: str
+) -> NDArray[np.bool_]:
     """Which states (S,) the chain never leaves for others and where it collects nothing: their value is 0."""
     count, member = csgraph.connected_components(transitions, connection="strong")
     source, reached = transitions.nonzero()
@@ -168,7 +198,9 @@ def _resting(transitions: sp.csr_array, rewards: NDArray[np.float64], name: str)
     return closed[member]
 
 
-def _solve(equations: sp.csr_array, right: NDArray[np.float64], guess: NDArray[np.float64]) -> NDArray[np.float64]:
+def _solve(
+    equations: sp.csr_array, right: NDArray[np.float64], guess: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Solve a sparse system to rounding: elimination for few equations, else a Krylov method, refined.
 
     Elimination fills up where states lead anywhere; the Krylov method does not, and says how well it did. Where it
@@ -182,7 +214,9 @@ def _solve(equations: sp.csr_array, right: NDArray[np.float64], guess: NDArray[n
         rounding = np.finfo(float).eps * max(abs(solution).max(), abs(right).max())
         if abs(missing).max() <= 16 * rounding:
             return solution
-        step, _ = linalg.bicgstab(equations, missing, rtol=1e-10, atol=4 * rounding, maxiter=1000)
+        step, _ = linalg.bicgstab(
+            equations, missing, rtol=1e-10, atol=4 * rounding, maxiter=1000
+        )
         if not np.isfinite(step).all():
             break
         solution = solution + step

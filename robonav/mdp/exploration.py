@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_array, check_integer, check_positive, check_real
 
 from .interaction import uniforms
 
@@ -25,14 +25,14 @@ def constant(value: float) -> Schedule:
 def linear_decay(start: float, end: float, over: int) -> Schedule:
     """In equal steps from ``start`` to ``end``, reached at ``over`` and kept."""
     _rate("start", start), _rate("end", end)
-    expect.integer("over", over, at_least=1)
+    check_integer("over", over, at_least=1)
     return lambda n: start + (end - start) * min(n / over, 1.0)
 
 
 def exponential_decay(start: float, end: float, half_life: float) -> Schedule:
     """From ``start`` towards ``end``, the gap halving every ``half_life``."""
     _rate("start", start), _rate("end", end)
-    expect.positive("half_life", half_life)
+    check_positive("half_life", half_life)
     return lambda n: end + (start - end) * 0.5 ** (n / half_life)
 
 
@@ -43,7 +43,7 @@ def harmonic_decay(start: float = 1.0, half_life: float = 1.0) -> Schedule:
     learning rate (Watkins and Dayan 1992). With the defaults it is 1, 1/2, 1/3, ...: the plain average.
     """
     _rate("start", start)
-    expect.positive("half_life", half_life)
+    check_positive("half_life", half_life)
     return lambda n: start * half_life / (half_life + n)
 
 
@@ -53,7 +53,7 @@ def polynomial_decay(power: float) -> Schedule:
     With 1 the first, wrong targets weigh as much as the last ones, and a discount near 1 makes that endless; Even-Dar
     and Mansour (2003) find that about 0.77 does best.
     """
-    expect.real("power", power, above=0)
+    check_real("power", power, above=0)
     return lambda n: (1 + n) ** -power
 
 
@@ -64,14 +64,18 @@ def schedule(name: str, value: float | Schedule) -> Schedule:
 
     def checked(n: int) -> float:
         rate = value(n)
-        return rate if isinstance(rate, float) and 0.0 <= rate <= 1.0 else _rate(f"{name}({n})", rate)
+        return (
+            rate
+            if isinstance(rate, float) and 0.0 <= rate <= 1.0
+            else _rate(f"{name}({n})", rate)
+        )
 
     return checked
 
 
 def _rate(name: str, value: Any) -> float:
     """A number from 0 to 1."""
-    return expect.real(name, value, at_least=0, at_most=1)
+    return check_real(name, value, at_least=0, at_most=1)
 
 
 def epsilon_greedy(q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
@@ -82,10 +86,12 @@ def epsilon_greedy(q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
     q : action values (..., A); actions of exactly equal value share.
     epsilon : in [0, 1]; 0 is the greedy policy, 1 chooses blindly.
     """
-    values = expect.array("q", q)
-    expect.real("epsilon", epsilon, at_least=0, at_most=1)
+    values = check_array("q", q)
+    check_real("epsilon", epsilon, at_least=0, at_most=1)
     best = values == values.max(axis=-1, keepdims=True)
-    return epsilon / values.shape[-1] + (1 - epsilon) * best / best.sum(axis=-1, keepdims=True)
+    return epsilon / values.shape[-1] + (1 - epsilon) * best / best.sum(
+        axis=-1, keepdims=True
+    )
 
 
 class EpsilonGreedy:
@@ -114,4 +120,6 @@ class EpsilonGreedy:
 
     def expected(self, values: Sequence[float]) -> float:
         """The mean of the values under the policy: what SARSA's target is on average."""
-        return self.epsilon * sum(values) / len(values) + (1 - self.epsilon) * max(values)
+        return self.epsilon * sum(values) / len(values) + (1 - self.epsilon) * max(
+            values
+        )

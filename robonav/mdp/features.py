@@ -14,12 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_array, check_integer
 
 Features = Callable[[Any], NDArray[np.float64]]
 
 
-def for_each_action(state_features: NDArray[np.float64], actions: int) -> NDArray[np.float64]:
+def for_each_action(
+    state_features: NDArray[np.float64], actions: int
+) -> NDArray[np.float64]:
     """State features (d,) with their own weights for each action: (A, A * d), zero but for the action's block."""
     blocks = np.zeros((actions, actions, len(state_features)))
     blocks[np.arange(actions), np.arange(actions)] = state_features
@@ -34,11 +36,11 @@ class OneHot:
     actions: int
 
     def __post_init__(self) -> None:
-        expect.integer("states", self.states, at_least=1)
-        expect.integer("actions", self.actions, at_least=1)
+        check_integer("states", self.states, at_least=1)
+        check_integer("actions", self.actions, at_least=1)
 
     def __call__(self, state: int) -> NDArray[np.float64]:
-        place = expect.integer("state", state, at_least=0, at_most=self.states - 1)
+        place = check_integer("state", state, at_least=0, at_most=self.states - 1)
         return for_each_action(np.eye(1, self.states, place)[0], self.actions)
 
 
@@ -66,14 +68,16 @@ class Tiles:
     actions: int
 
     def __post_init__(self) -> None:
-        low = expect.array("low", self.low, shape=("d",))
-        high = expect.array("high", self.high, shape=low.shape)
+        low = check_array("low", self.low, shape=("d",))
+        high = check_array("high", self.high, shape=low.shape)
         if not (low < high).all():
-            raise ValueError(f"low must be below high in every coordinate, got {self.low} and {self.high}")
-        for tiles in expect.array("tiles", self.tiles, shape=low.shape, dtype=int):
-            expect.integer("tiles", tiles, at_least=1)
-        expect.integer("tilings", self.tilings, at_least=1)
-        expect.integer("actions", self.actions, at_least=1)
+            raise ValueError(
+                f"low must be below high in every coordinate, got {self.low} and {self.high}"
+            )
+        for tiles in check_array("tiles", self.tiles, shape=low.shape, dtype=int):
+            check_integer("tiles", tiles, at_least=1)
+        check_integer("tilings", self.tilings, at_least=1)
+        check_integer("actions", self.actions, at_least=1)
 
     @cached_property
     def shape(self) -> tuple[int, ...]:
@@ -89,8 +93,10 @@ class Tiles:
     def active(self, state: ArrayLike) -> NDArray[np.int64]:
         """(tilings,) the number of the tile that holds the state, in each tiling."""
         low, high = np.asarray(self.low), np.asarray(self.high)
-        given = expect.array("state", state, shape=low.shape)
-        place = (np.clip(given, low, high) - low) / (high - low) * self.tiles  # in tiles
+        given = check_array("state", state, shape=low.shape)
+        place = (
+            (np.clip(given, low, high) - low) / (high - low) * self.tiles
+        )  # in tiles
         cells = np.minimum((place + self.shifts).astype(int), self.tiles)
         return np.ravel_multi_index((np.arange(self.tilings), *cells.T), self.shape)
 

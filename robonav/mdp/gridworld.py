@@ -12,7 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_instance, check_real
 
 from .models import FiniteMDP
 
@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from .environments import GridEnvironment
 
 UP, RIGHT, DOWN, LEFT = range(4)
-STEPS = np.array([(-1, 0), (0, 1), (1, 0), (0, -1)])  # rows and columns, in the order of the actions
+STEPS = np.array(
+    [(-1, 0), (0, 1), (1, 0), (0, -1)]
+)  # rows and columns, in the order of the actions
 ARROWS = "↑→↓←"
 
 
@@ -82,22 +84,28 @@ class GridWorld:
     step_reward: float = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
-        expect.instance("text", self.text, str)
-        expect.instance("legend", self.legend, Mapping)
-        expect.real("slip", self.slip, at_least=0, at_most=1)
-        expect.real("step_reward", self.step_reward)
+        check_instance("text", self.text, str)
+        check_instance("legend", self.legend, Mapping)
+        check_real("slip", self.slip, at_least=0, at_most=1)
+        check_real("step_reward", self.step_reward)
         if len({len(row) for row in self.rows}) != 1:
-            raise ValueError(f"text must have rows of one length, got lengths {[len(row) for row in self.rows]}")
+            raise ValueError(
+                f"text must have rows of one length, got lengths {[len(row) for row in self.rows]}"
+            )
         unknown = "".join(sorted(set("".join(self.rows)) - set(self.meanings)))
         if unknown:
-            raise ValueError(f"text must use symbols of the legend, {' '.join(self.meanings)}, got {unknown}")
+            raise ValueError(
+                f"text must use symbols of the legend, {' '.join(self.meanings)}, got {unknown}"
+            )
         for symbol, cell in self.meanings.items():
-            expect.instance(f"legend[{symbol!r}]", cell, Cell)
-            expect.real(f"reward of {symbol!r}", cell.reward)
+            check_instance(f"legend[{symbol!r}]", cell, Cell)
+            check_real(f"reward of {symbol!r}", cell.reward)
             if cell.slip is not None:
-                expect.real(f"slip of {symbol!r}", cell.slip, at_least=0, at_most=1)
+                check_real(f"slip of {symbol!r}", cell.slip, at_least=0, at_most=1)
         if self.terminal.all():
-            raise ValueError("text must have a cell that is no wall and ends nothing, got none")
+            raise ValueError(
+                "text must have a cell that is no wall and ends nothing, got none"
+            )
 
     @cached_property
     def meanings(self) -> Mapping[str, Cell]:
@@ -152,14 +160,20 @@ class GridWorld:
     def moves(self) -> NDArray[np.intp]:
         """Where each action leads from each state, (S, 4), if it does not slip."""
         bordered = np.pad(self.numbers, 1, constant_values=-1)
-        ahead = np.stack([bordered[tuple((self.cells + 1 + step).T)] for step in STEPS], axis=1)
+        ahead = np.stack(
+            [bordered[tuple((self.cells + 1 + step).T)] for step in STEPS], axis=1
+        )
         return np.where(ahead >= 0, ahead, np.arange(self.states)[:, None])
 
     @cached_property
     def outcomes(self) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
         """The three outcomes of each action, (S, 4, 3) each: states reached (ahead, left, right), probabilities."""
-        slip = self._of_states(lambda cell: self.slip if cell.slip is None else cell.slip, float)
-        chances = np.stack([1 - slip, slip / 2, slip / 2], axis=1)[:, None].repeat(4, axis=1)
+        slip = self._of_states(
+            lambda cell: self.slip if cell.slip is None else cell.slip, float
+        )
+        chances = np.stack([1 - slip, slip / 2, slip / 2], axis=1)[:, None].repeat(
+            4, axis=1
+        )
         reached = self.moves[:, (np.arange(4)[:, None] + [0, -1, 1]) % 4]
         reached[self.terminal] = np.flatnonzero(self.terminal)[:, None, None]
         return reached, chances
@@ -172,7 +186,14 @@ class GridWorld:
         starts = np.arange(0, 3 * self.states + 1, 3, dtype=np.int32)
         shape = (self.states, self.states)
         transitions = [
-            sp.csr_array((chances[:, action].ravel(), reached[:, action].ravel().astype(np.int32), starts), shape)
+            sp.csr_array(
+                (
+                    chances[:, action].ravel(),
+                    reached[:, action].ravel().astype(np.int32),
+                    starts,
+                ),
+                shape,
+            )
             for action in range(4)
         ]
         return FiniteMDP(transitions, rewards, discount)
@@ -187,15 +208,23 @@ class GridWorld:
         """One number a state, (..., S), laid out as the map, (..., rows, columns), with ``walls`` in the walls."""
         given = np.asarray(numbers)
         if given.shape[-1:] != (self.states,):
-            raise ValueError(f"numbers must have shape (..., {self.states}), one a state, got {given.shape}")
-        laid_out = np.full((*given.shape[:-1], *self.shape), walls, dtype=np.result_type(given, type(walls)))
+            raise ValueError(
+                f"numbers must have shape (..., {self.states}), one a state, got {given.shape}"
+            )
+        laid_out = np.full(
+            (*given.shape[:-1], *self.shape),
+            walls,
+            dtype=np.result_type(given, type(walls)),
+        )
         laid_out[..., self.cells[:, 0], self.cells[:, 1]] = given
         return laid_out
 
     def _of_symbols(self, what: Callable[[Cell], float], dtype: type) -> NDArray:
         """A property of each cell of the map, (rows, columns)."""
         meaning = {symbol: what(cell) for symbol, cell in self.meanings.items()}
-        return np.array([[meaning[symbol] for symbol in row] for row in self.rows], dtype=dtype)
+        return np.array(
+            [[meaning[symbol] for symbol in row] for row in self.rows], dtype=dtype
+        )
 
     def _of_states(self, what: Callable[[Cell], float], dtype: type) -> NDArray:
         """A property of each state, (S,)."""

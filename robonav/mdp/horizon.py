@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_instance, check_integer
 
 from .evaluation import starting_values
 from .models import FiniteMDP
@@ -27,7 +27,9 @@ class FiniteHorizon:
     policy: NDArray[np.intp]
 
 
-def backward_induction(mdp: FiniteMDP, horizon: int, *, final_values: ArrayLike | None = None) -> FiniteHorizon:
+def backward_induction(
+    mdp: FiniteMDP, horizon: int, *, final_values: ArrayLike | None = None
+) -> FiniteHorizon:
     """Optimal values and policy for each of the next ``horizon`` steps: the return J of Eq. (2.27), discounted.
 
     Parameters
@@ -35,8 +37,8 @@ def backward_induction(mdp: FiniteMDP, horizon: int, *, final_values: ArrayLike 
     horizon : number of steps H, at least 0.
     final_values : (S,), what it is worth to stand in each state at the end; zeros if not given.
     """
-    expect.instance("mdp", mdp, FiniteMDP)
-    steps = expect.integer("horizon", horizon, at_least=0)
+    check_instance("mdp", mdp, FiniteMDP)
+    steps = check_integer("horizon", horizon, at_least=0)
     values = np.empty((steps + 1, mdp.states))
     policy = np.empty((steps, mdp.states), dtype=np.intp)
     values[steps] = starting_values("final_values", mdp, final_values)
@@ -47,12 +49,16 @@ def backward_induction(mdp: FiniteMDP, horizon: int, *, final_values: ArrayLike 
 
 
 def horizon_evaluation(
-    mdp: FiniteMDP, policy: ArrayLike, horizon: int, *, final_values: ArrayLike | None = None
+    mdp: FiniteMDP,
+    policy: ArrayLike,
+    horizon: int,
+    *,
+    final_values: ArrayLike | None = None,
 ) -> NDArray[np.float64]:
     """Expected return (S,) of the next ``horizon`` steps under one policy, (S,) actions or (S, A) probabilities."""
-    expect.instance("mdp", mdp, FiniteMDP)
+    check_instance("mdp", mdp, FiniteMDP)
     transitions, rewards = mdp.under(policy)
     values = starting_values("final_values", mdp, final_values)
-    for _ in range(expect.integer("horizon", horizon, at_least=0)):
+    for _ in range(check_integer("horizon", horizon, at_least=0)):
         values = rewards + mdp.discount * (transitions @ values)
     return values

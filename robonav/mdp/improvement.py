@@ -9,13 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
 from robonav.errors import ConvergenceWarning
+from robonav.validation import check_array, check_instance, check_integer
 
 from . import policies
+from .dynamic_programming import first_values, rounding_of_gains
 from .evaluation import policy_evaluation
 from .models import FiniteMDP
-from .planning import first_values, rounding_of_gains
 from .values import or_rest
 
 
@@ -63,15 +63,17 @@ def generalized_policy_iteration(
     -----
     ConvergenceWarning : if ``max_rounds`` did not suffice; says how far the values and how many actions still moved.
     """
-    expect.instance("mdp", mdp, FiniteMDP)
+    check_instance("mdp", mdp, FiniteMDP)
     if sweeps != math.inf:
-        expect.integer("sweeps", sweeps, at_least=1)
+        check_integer("sweeps", sweeps, at_least=1)
     enough = mdp.stopping_distance(tolerance)
     values = first_values(mdp, start_values, name="start_values")
-    chosen = np.zeros(mdp.states, dtype=np.intp) if start_policy is None else start_policy
+    chosen = (
+        np.zeros(mdp.states, dtype=np.intp) if start_policy is None else start_policy
+    )
     policy = policies.deterministic("start_policy", chosen, mdp.states, mdp.actions)
     rows = [(values, policy, False)]
-    for rounds in range(1, expect.integer("max_rounds", max_rounds, at_least=1) + 1):
+    for rounds in range(1, check_integer("max_rounds", max_rounds, at_least=1) + 1):
         evaluated, rounding = _evaluated(mdp, policy, values, sweeps)
         improved = _improved(mdp, policy, evaluated, rounding)
         rows += [(evaluated, policy, False), (evaluated, improved, True)]
@@ -102,7 +104,10 @@ def _evaluated(
 
 
 def _improved(
-    mdp: FiniteMDP, policy: NDArray[np.intp], values: NDArray[np.float64], rounding: float
+    mdp: FiniteMDP,
+    policy: NDArray[np.intp],
+    values: NDArray[np.float64],
+    rounding: float,
 ) -> NDArray[np.intp]:
     """The greedy policy, but an action that is as good as the best stays (else ties would go round for ever)."""
     q = mdp.backup(values)
@@ -121,7 +126,9 @@ def _warn_unfinished(rounds: int, moved: float, enough: float, changed: int) -> 
     )
 
 
-def _traced(mdp: FiniteMDP, rows: list[tuple[NDArray[np.float64], NDArray[np.intp], bool]]) -> Trace:
+def _traced(
+    mdp: FiniteMDP, rows: list[tuple[NDArray[np.float64], NDArray[np.intp], bool]]
+) -> Trace:
     """The rows (values, policy, whether improved) as arrays, with their distances from the two lines."""
     state = np.arange(mdp.states)
     gaps = []
@@ -149,9 +156,9 @@ def shortfalls(
     -------
     largest difference of the values of each step from the best, and the most that its policy loses in any state.
     """
-    expect.instance("mdp", mdp, FiniteMDP)
-    optimum = expect.array("best", best, shape=(mdp.states,))
-    held = expect.array("values", values, shape=("n", mdp.states))
-    kept = expect.array("chosen", chosen, shape=held.shape, dtype=np.intp)
+    check_instance("mdp", mdp, FiniteMDP)
+    optimum = check_array("best", best, shape=(mdp.states,))
+    held = check_array("values", values, shape=("n", mdp.states))
+    kept = check_array("chosen", chosen, shape=held.shape, dtype=np.intp)
     loss = [(optimum - policy_evaluation(mdp, policy)).max() for policy in kept]
     return abs(held - optimum).max(axis=1), np.array(loss)

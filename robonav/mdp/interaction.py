@@ -12,8 +12,8 @@ from gymnasium import spaces
 from gymnasium.wrappers import TransformAction, TransformObservation
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
 from robonav.progress import Progress
+from robonav.validation import check_array, check_generator, check_integer, check_real
 
 from . import policies
 
@@ -34,8 +34,8 @@ def discounted_return(rewards: ArrayLike, discount: float) -> NDArray[np.float64
 
     ``G[0]`` is the return of the whole run, Eqs. (2.3), (2.28), without discount Eq. (2.27).
     """
-    returns: NDArray[np.float64] = expect.array("rewards", rewards, shape=("T",)).copy()
-    gamma = expect.real("discount", discount, at_least=0, at_most=1)
+    returns: NDArray[np.float64] = check_array("rewards", rewards, shape=("T",)).copy()
+    gamma = check_real("discount", discount, at_least=0, at_most=1)
     for step in range(len(returns) - 2, -1, -1):
         returns[step] += gamma * returns[step + 1]
     return returns
@@ -70,7 +70,9 @@ def count(name: str, space: gym.Space[Any]) -> int:
         return int(np.prod(space.nvec))
     if isinstance(space, spaces.Tuple):
         return int(np.prod([count(name, part) for part in space]))
-    raise TypeError(f"{name} must be discrete (Discrete, MultiDiscrete or a tuple of Discrete), got {space}")
+    raise TypeError(
+        f"{name} must be discrete (Discrete, MultiDiscrete or a tuple of Discrete), got {space}"
+    )
 
 
 def number(space: gym.Space[Any], element: Any) -> int:
@@ -78,7 +80,11 @@ def number(space: gym.Space[Any], element: Any) -> int:
     if isinstance(space, spaces.Discrete):
         return int(element) - int(space.start)
     if isinstance(space, spaces.MultiDiscrete):
-        return int(np.ravel_multi_index(tuple(np.ravel(element - space.start)), tuple(np.ravel(space.nvec))))
+        return int(
+            np.ravel_multi_index(
+                tuple(np.ravel(element - space.start)), tuple(np.ravel(space.nvec))
+            )
+        )
     place = 0
     for part, piece in zip(space, element, strict=True):  # type: ignore[call-overload]
         place = place * count("part", part) + number(part, piece)
@@ -90,7 +96,12 @@ def element(space: gym.Space[Any], place: int) -> Any:
     if isinstance(space, spaces.Discrete):
         return place + int(space.start)
     if isinstance(space, spaces.MultiDiscrete):
-        return np.reshape(np.unravel_index(place, tuple(np.ravel(space.nvec))), space.nvec.shape) + space.start
+        return (
+            np.reshape(
+                np.unravel_index(place, tuple(np.ravel(space.nvec))), space.nvec.shape
+            )
+            + space.start
+        )
     pieces = []
     for part in reversed(space.spaces):  # type: ignore[attr-defined]
         place, digit = divmod(place, count("part", part))
@@ -111,18 +122,24 @@ def numbered(env: gym.Env[Any, Any]) -> gym.Env[int, int]:
     observations = env.observation_space
     states = count("env.observation_space", observations)
     if not (isinstance(observations, spaces.Discrete) and observations.start == 0):
-        env = TransformObservation(env, lambda seen: number(observations, seen), spaces.Discrete(states))
+        env = TransformObservation(
+            env, lambda seen: number(observations, seen), spaces.Discrete(states)
+        )
     return env
 
 
 def with_numbered_actions(env: gym.Env[Any, Any]) -> gym.Env[Any, int]:
     """The environment with its actions numbered 0 ... A - 1, its observations whatever they are."""
     if not isinstance(env, gym.Env):
-        raise TypeError(f"env must be a Gymnasium environment, got {type(env).__name__}")
+        raise TypeError(
+            f"env must be a Gymnasium environment, got {type(env).__name__}"
+        )
     actions = env.action_space
     size = count("env.action_space", actions)
     if not (isinstance(actions, spaces.Discrete) and actions.start == 0):
-        env = TransformAction(env, lambda action: element(actions, action), spaces.Discrete(size))
+        env = TransformAction(
+            env, lambda action: element(actions, action), spaces.Discrete(size)
+        )
     return env
 
 
@@ -153,8 +170,8 @@ class Course:
         record: bool = False,
         progress: Progress | None = None,
     ) -> None:
-        self.total = expect.integer("episodes", episodes, at_least=1)
-        self.max_steps = expect.integer("max_steps", max_steps, at_least=1)
+        self.total = check_integer("episodes", episodes, at_least=1)
+        self.max_steps = check_integer("max_steps", max_steps, at_least=1)
         self.number = 0
         self.returns: list[float] = []
         self.lengths: list[int] = []
@@ -197,10 +214,17 @@ class Course:
             states.append(state)
             actions.append(action)
             rewards.append(reward)
-        return Episode(np.array(states), np.array(actions), np.array(rewards, dtype=float), bool(terminated))
+        return Episode(
+            np.array(states),
+            np.array(actions),
+            np.array(rewards, dtype=float),
+            bool(terminated),
+        )
 
 
-def chooser(policy: ArrayLike, states: int, actions: int, rng: np.random.Generator) -> Callable[[int], int]:
+def chooser(
+    policy: ArrayLike, states: int, actions: int, rng: np.random.Generator
+) -> Callable[[int], int]:
     """A policy as a function from state to action; the one that draws where the policy is stochastic.
 
     ``policy`` is (S,) of action numbers or (S, A) of probabilities.
@@ -211,7 +235,9 @@ def chooser(policy: ArrayLike, states: int, actions: int, rng: np.random.Generat
     thresholds = np.cumsum(table, axis=1)
     thresholds /= thresholds[:, -1:]
     draw = uniforms(rng)
-    return lambda state: int(np.searchsorted(thresholds[state], next(draw), side="right"))
+    return lambda state: int(
+        np.searchsorted(thresholds[state], next(draw), side="right")
+    )
 
 
 def rollouts(
@@ -238,12 +264,16 @@ def rollouts(
     ------
     TypeError, ValueError : if the spaces are not discrete or the policy does not fit them.
     """
-    env, rng = numbered(env), expect.generator("seed", seed)
+    env, rng = numbered(env), check_generator("seed", seed)
     choose = chooser(policy, *sizes(env), rng)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, seeds=TESTING, progress=progress)
+    course = Course(
+        env, episodes, max_steps=max_steps, rng=rng, seeds=TESTING, progress=progress
+    )
     return [course.walk(state, choose) for state in course.episodes()]
 
 
 def sizes(env: gym.Env[int, int]) -> tuple[int, int]:
     """S and A of a numbered environment."""
-    return count("env.observation_space", env.observation_space), count("env.action_space", env.action_space)
+    return count("env.observation_space", env.observation_space), count(
+        "env.action_space", env.action_space
+    )

@@ -10,8 +10,8 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav import expect
 from robonav.progress import Progress
+from robonav.validation import check_generator, check_real
 
 from .exploration import EpsilonGreedy, Schedule, schedule
 from .features import Features
@@ -92,8 +92,8 @@ def linear_sarsa(
     ValueError : if ``features`` does not give one row for each action, always as long, or the weights grow beyond all
         bounds (a learning rate too large for the number of features that are on).
     """
-    env, rng = with_numbered_actions(env), expect.generator("seed", seed)
-    discount = expect.real("discount", discount, at_least=0, at_most=1)
+    env, rng = with_numbered_actions(env), check_generator("seed", seed)
+    discount = check_real("discount", discount, at_least=0, at_most=1)
     rate = schedule("learning_rate", learning_rate)
     features_of, weights = fitted(env, features)
     course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
@@ -135,8 +135,8 @@ def linear_q_learning(
     Parameters, result and errors are those of :func:`linear_sarsa`. Unlike there, nothing promises that the weights
     settle: learning about one policy from the steps of another, with shared features, can diverge (Baird 1995).
     """
-    env, rng = with_numbered_actions(env), expect.generator("seed", seed)
-    discount = expect.real("discount", discount, at_least=0, at_most=1)
+    env, rng = with_numbered_actions(env), check_generator("seed", seed)
+    discount = check_real("discount", discount, at_least=0, at_most=1)
     rate = schedule("learning_rate", learning_rate)
     features_of, weights = fitted(env, features)
     course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
@@ -158,17 +158,23 @@ def linear_q_learning(
     return learned(weights, features, course, history if record else None)
 
 
-def fitted(env: gym.Env[Any, int], features: Features) -> tuple[Features, NDArray[np.float64]]:
+def fitted(
+    env: gym.Env[Any, int], features: Features
+) -> tuple[Features, NDArray[np.float64]]:
     """The features, checked as they come, and a zero weight for each; ValueError if they do not fit the actions."""
     actions = count("env.action_space", env.action_space)
     shape = np.shape(features(env.reset(seed=0)[0]))
     if len(shape) != 2 or shape[0] != actions:
-        raise ValueError(f"features must give shape ({actions}, n), one row for each action, got {shape}")
+        raise ValueError(
+            f"features must give shape ({actions}, n), one row for each action, got {shape}"
+        )
 
     def checked(state: Any) -> NDArray[np.float64]:
         found = np.asarray(features(state))
         if found.shape != shape:
-            raise ValueError(f"features must give shape {shape} for every state, as for the first, got {found.shape}")
+            raise ValueError(
+                f"features must give shape {shape} for every state, as for the first, got {found.shape}"
+            )
         return found
 
     return checked, np.zeros(shape[1])
@@ -177,13 +183,20 @@ def fitted(env: gym.Env[Any, int], features: Features) -> tuple[Features, NDArra
 def bounded(delta: float) -> float:
     """The error of a prediction, as long as learning has not run away."""
     if not abs(delta) < RUNAWAY:
-        raise ValueError("the weights grow without bound: learning_rate is too large for the number of features")
+        raise ValueError(
+            "the weights grow without bound: learning_rate is too large for the number of features"
+        )
     return delta
 
 
 def learned(
-    weights: NDArray[np.float64], features: Features, course: Course, history: list[NDArray[np.float64]] | None
+    weights: NDArray[np.float64],
+    features: Features,
+    course: Course,
+    history: list[NDArray[np.float64]] | None,
 ) -> LinearLearned:
     """All of it as arrays."""
     kept = None if history is None else np.stack(history)
-    return LinearLearned(weights, features, np.array(course.returns), np.array(course.lengths), kept)
+    return LinearLearned(
+        weights, features, np.array(course.returns), np.array(course.lengths), kept
+    )

@@ -14,7 +14,13 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import logsumexp, ndtr
 
-from robonav import expect
+from robonav.validation import (
+    check_array,
+    check_instance,
+    check_integer,
+    check_positive,
+    check_real,
+)
 
 from .policies import SUM_TOLERANCE, distributions
 
@@ -39,13 +45,15 @@ class PoseGrid:
     headings: int = 12
 
     def __post_init__(self) -> None:
-        free = expect.array("free", self.free, shape=("rows", "columns"), dtype=bool).copy()
+        free = check_array(
+            "free", self.free, shape=("rows", "columns"), dtype=bool
+        ).copy()
         if not free.any():
             raise ValueError("free must have a cell where the robot can be, got none")
         free.flags.writeable = False
         object.__setattr__(self, "free", free)
-        object.__setattr__(self, "cell", expect.positive("cell", self.cell))
-        expect.integer("headings", self.headings, at_least=1)
+        object.__setattr__(self, "cell", check_positive("cell", self.cell))
+        check_integer("headings", self.headings, at_least=1)
 
     @property
     def states(self) -> int:
@@ -55,9 +63,15 @@ class PoseGrid:
     @cached_property
     def poses(self) -> Floats:
         """(S, 3) x and y in metres, heading in radians."""
-        row, column, heading = (part.ravel() for part in np.indices((*self.free.shape, self.headings)))
+        row, column, heading = (
+            part.ravel() for part in np.indices((*self.free.shape, self.headings))
+        )
         return np.column_stack(
-            [(column + 0.5) * self.cell, (row + 0.5) * self.cell, heading * 2 * np.pi / self.headings]
+            [
+                (column + 0.5) * self.cell,
+                (row + 0.5) * self.cell,
+                heading * 2 * np.pi / self.headings,
+            ]
         )
 
     @cached_property
@@ -75,28 +89,42 @@ class PoseGrid:
         Where one of the eight corners is not free, or off the map, its share goes to the others; a pose with no free
         corner gets an empty row.
         """
-        given = expect.array("poses", poses, shape=("N", 3))
+        given = check_array("poses", poses, shape=("N", 3))
         rows, columns = self.free.shape
-        scaled = given / [self.cell, self.cell, 2 * np.pi / self.headings] - [0.5, 0.5, 0]
+        scaled = given / [self.cell, self.cell, 2 * np.pi / self.headings] - [
+            0.5,
+            0.5,
+            0,
+        ]
         low = np.floor(np.round(scaled, 9)).astype(int)
         above = np.clip(scaled - low, 0, 1)
         pose, state, weight = [], [], []
         for corner in np.ndindex(2, 2, 2):
             column, row, heading = (low + corner).T
             share = np.where(corner, above, 1 - above).prod(axis=1)
-            inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns) & (share > 0)
+            inside = (
+                (row >= 0)
+                & (row < rows)
+                & (column >= 0)
+                & (column < columns)
+                & (share > 0)
+            )
             inside[inside] = self.free[row[inside], column[inside]]
             number = (row * columns + column) * self.headings + heading % self.headings
             pose.append(np.flatnonzero(inside))
             state.append(number[inside])
             weight.append(share[inside])
         coordinates = np.concatenate(pose), np.concatenate(state)
-        mixed = sp.coo_array((np.concatenate(weight), coordinates), (len(given), self.states)).tocsr()
+        mixed = sp.coo_array(
+            (np.concatenate(weight), coordinates), (len(given), self.states)
+        ).tocsr()
         totals = np.asarray(mixed.sum(axis=1))
         return sp.csr_array(sp.diags_array(1 / np.where(totals > 0, totals, 1)) @ mixed)
 
 
-def pose_transitions(grid: PoseGrid, moves: ArrayLike, *, slip: ArrayLike | None = None) -> tuple[sp.csr_array, ...]:
+def pose_transitions(
+    grid: PoseGrid, moves: ArrayLike, *, slip: ArrayLike | None = None
+) -> tuple[sp.csr_array, ...]:
     """Transitions, A sparse matrices (S, S), of moves on a grid: turn, then go straight.
 
     A move that would end in a wall does not happen: the robot turns, but stays where it is.
@@ -106,24 +134,35 @@ def pose_transitions(grid: PoseGrid, moves: ArrayLike, *, slip: ArrayLike | None
     moves : (A, 2) turn in radians, counter-clockwise, and distance in metres (negative: backward).
     slip : (A, A) probabilities that one move (row) turns into another (prediction uncertainty, 2.5.1), or none.
     """
-    steps = expect.array("moves", moves, shape=("A", 2))
+    steps = check_array("moves", moves, shape=("A", 2))
     meant = [_move(grid, turn, distance) for turn, distance in steps]
     if slip is None:
         return tuple(meant)
-    mixing = expect.array("slip", slip, shape=(len(steps), len(steps)))
+    mixing = check_array("slip", slip, shape=(len(steps), len(steps)))
     if (mixing < 0).any() or not np.allclose(mixing.sum(axis=1), 1):
         raise ValueError("slip must have rows of probabilities that sum to one")
-    return tuple(sp.csr_array(sum(share * meant[b] for b, share in enumerate(row) if share > 0)) for row in mixing)
+    return tuple(
+        sp.csr_array(sum(share * meant[b] for b, share in enumerate(row) if share > 0))
+        for row in mixing
+    )
 
 
 def _move(grid: PoseGrid, turn: float, distance: float) -> sp.csr_array:
     """Transitions (S, S) of one move."""
     turned = grid.poses + [0, 0, turn]
-    ahead = distance * np.column_stack([np.cos(turned[:, 2]), np.sin(turned[:, 2]), np.zeros(len(turned))])
+    ahead = distance * np.column_stack(
+        [np.cos(turned[:, 2]), np.sin(turned[:, 2]), np.zeros(len(turned))]
+    )
     gone, stayed = grid.around(turned + ahead), grid.around(turned)
     blocked = np.asarray(gone.sum(axis=1)) == 0
-    nowhere = blocked & (np.asarray(stayed.sum(axis=1)) == 0)  # poses inside walls; nobody is there
-    return sp.csr_array(gone + sp.diags_array(blocked.astype(float)) @ stayed + sp.diags_array(nowhere.astype(float)))
+    nowhere = blocked & (
+        np.asarray(stayed.sum(axis=1)) == 0
+    )  # poses inside walls; nobody is there
+    return sp.csr_array(
+        gone
+        + sp.diags_array(blocked.astype(float)) @ stayed
+        + sp.diags_array(nowhere.astype(float))
+    )
 
 
 @dataclass(frozen=True)
@@ -144,9 +183,9 @@ class RangeSensor:
     outliers: float = 0.1
 
     def __post_init__(self) -> None:
-        expect.positive("deviation", self.deviation)
-        expect.positive("reach", self.reach)
-        expect.real("outliers", self.outliers, at_least=0, at_most=1)
+        check_positive("deviation", self.deviation)
+        check_positive("reach", self.reach)
+        check_real("outliers", self.outliers, at_least=0, at_most=1)
 
     def log_likelihood(self, predicted: ArrayLike, measured: ArrayLike) -> Floats:
         """Logarithm (...) of the density of the readings ``measured`` (n,) where ``predicted`` (..., n) is expected.
@@ -154,13 +193,21 @@ class RangeSensor:
         A reading short of ``reach`` has a normal density about the prediction; ``reach`` itself, which stands for all
         that lies beyond, has the whole tail as its probability. The n sensors err independently.
         """
-        seen = expect.array("measured", measured)
-        error = (seen - expect.array("predicted", predicted)) / self.deviation
+        seen = check_array("measured", measured)
+        error = (seen - check_array("predicted", predicted)) / self.deviation
         beyond = seen >= self.reach
-        hit = np.where(beyond, ndtr(-error), np.exp(-(error**2) / 2) / (np.sqrt(2 * np.pi) * self.deviation))
+        hit = np.where(
+            beyond,
+            ndtr(-error),
+            np.exp(-(error**2) / 2) / (np.sqrt(2 * np.pi) * self.deviation),
+        )
         stray = np.where(beyond, 0.5, 0.5 / self.reach)
-        with np.errstate(divide="ignore"):  # impossible readings have logarithm minus infinity
-            return np.log((1 - self.outliers) * hit + self.outliers * stray).sum(axis=-1)
+        with np.errstate(
+            divide="ignore"
+        ):  # impossible readings have logarithm minus infinity
+            return np.log((1 - self.outliers) * hit + self.outliers * stray).sum(
+                axis=-1
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,18 +231,35 @@ class Localiser:
     sensor: RangeSensor = RangeSensor()
 
     def __post_init__(self) -> None:
-        expect.instance("sensor", self.sensor, RangeSensor)
-        object.__setattr__(self, "predicted", expect.array("predicted", self.predicted, shape=("S", "n")))
+        check_instance("sensor", self.sensor, RangeSensor)
+        object.__setattr__(
+            self,
+            "predicted",
+            check_array("predicted", self.predicted, shape=("S", "n")),
+        )
         states = len(self.predicted)
-        for action, matrix in enumerate(expect.instance("transitions", self.transitions, tuple)):
+        for action, matrix in enumerate(
+            check_instance("transitions", self.transitions, tuple)
+        ):
             if not sp.issparse(matrix) or matrix.shape != (states, states):
-                raise ValueError(f"transitions must be sparse matrices ({states}, {states}), not so at action {action}")
-            if matrix.data.min(initial=0) < 0 or (abs(matrix.sum(axis=1) - 1) > SUM_TOLERANCE).any():
-                raise ValueError(f"transitions must hold one distribution a row, not so at action {action}")
+                raise ValueError(
+                    f"transitions must be sparse matrices ({states}, {states}), not so at action {action}"
+                )
+            if (
+                matrix.data.min(initial=0) < 0
+                or (abs(matrix.sum(axis=1) - 1) > SUM_TOLERANCE).any()
+            ):
+                raise ValueError(
+                    f"transitions must hold one distribution a row, not so at action {action}"
+                )
 
     def predict(self, belief: ArrayLike, action: int) -> Floats:
         """The belief (S,) after a move: all that a robot with no sensing has."""
-        move = self.transitions[expect.integer("action", action, at_least=0, at_most=len(self.transitions) - 1)]
+        move = self.transitions[
+            check_integer(
+                "action", action, at_least=0, at_most=len(self.transitions) - 1
+            )
+        ]
         return self._belief(belief) @ move
 
     def correct(self, belief: ArrayLike, ranges: ArrayLike) -> Floats:
@@ -206,12 +270,16 @@ class Localiser:
         ValueError : if the readings are impossible in every pose held possible (only with no outliers).
         """
         before = self._belief(belief)
-        seen = expect.array("ranges", ranges, shape=self.predicted.shape[1:])
+        seen = check_array("ranges", ranges, shape=self.predicted.shape[1:])
         possible = np.flatnonzero(before)
-        log = np.log(before[possible]) + self.sensor.log_likelihood(self.predicted[possible], seen)
+        log = np.log(before[possible]) + self.sensor.log_likelihood(
+            self.predicted[possible], seen
+        )
         total = logsumexp(log)
         if not np.isfinite(total):
-            raise ValueError("the ranges have probability zero in every pose that the belief holds possible")
+            raise ValueError(
+                "the ranges have probability zero in every pose that the belief holds possible"
+            )
         corrected = np.zeros_like(before)
         corrected[possible] = np.exp(log - total)
         return corrected / corrected.sum()
@@ -221,5 +289,5 @@ class Localiser:
         return self.correct(self.predict(belief, action), ranges)
 
     def _belief(self, belief: ArrayLike) -> Floats:
-        expect.array("belief", belief, shape=(len(self.predicted),))
+        check_array("belief", belief, shape=(len(self.predicted),))
         return distributions("belief", belief, len(self.predicted))

@@ -11,11 +11,13 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_array, check_positive, check_real
 
 from . import policies
 
-Arrays = tuple[NDArray[Any], NDArray[Any], NDArray[np.float64], NDArray[np.float64], float]
+Arrays = tuple[
+    NDArray[Any], NDArray[Any], NDArray[np.float64], NDArray[np.float64], float
+]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,11 +47,15 @@ class FiniteMDP:
     def __post_init__(self) -> None:
         transitions = _checked_transitions(self.transitions)
         shape = (transitions[0].shape[0], len(transitions))
-        rewards = expect.array("rewards", self.rewards, shape=shape).copy()
+        rewards = check_array("rewards", self.rewards, shape=shape).copy()
         rewards.flags.writeable = False
         object.__setattr__(self, "transitions", transitions)
         object.__setattr__(self, "rewards", rewards)
-        object.__setattr__(self, "discount", expect.real("discount", self.discount, at_least=0, at_most=1))
+        object.__setattr__(
+            self,
+            "discount",
+            check_real("discount", self.discount, at_least=0, at_most=1),
+        )
         if self.discount == 1:
             stranded = np.isinf(self.steps_to_end)
             if stranded.any():
@@ -72,7 +78,9 @@ class FiniteMDP:
         ------
         ValueError : if the environment has no such table.
         """
-        from .environments import tabulate  # the other way round, environments are made from models
+        from .environments import (
+            tabulate,  # the other way round, environments are made from models
+        )
 
         return cls(*tabulate(env), discount)
 
@@ -95,9 +103,15 @@ class FiniteMDP:
     def rows(self) -> sp.csr_array:
         """All transitions as one sparse matrix (S A, S); row s A + a holds T(s, a, .)."""
         if not self.is_sparse:
-            return sp.csr_array(self.transitions.swapaxes(0, 1).reshape(-1, self.states))
+            return sp.csr_array(
+                self.transitions.swapaxes(0, 1).reshape(-1, self.states)
+            )
         by_action = sp.vstack(self.transitions, format="csr")
-        return by_action[np.arange(self.states * self.actions).reshape(self.actions, self.states).T.ravel()]
+        return by_action[
+            np.arange(self.states * self.actions)
+            .reshape(self.actions, self.states)
+            .T.ravel()
+        ]
 
     @cached_property
     def arrays(self) -> Arrays:
@@ -108,7 +122,9 @@ class FiniteMDP:
     def terminal(self) -> NDArray[np.bool_]:
         """Which states (S,) end an episode: absorbing under every action, with reward 0."""
         staying = np.stack([matrix.diagonal() for matrix in self.transitions])
-        return (staying > 1 - policies.SUM_TOLERANCE).all(axis=0) & (self.rewards == 0).all(axis=1)
+        return (staying > 1 - policies.SUM_TOLERANCE).all(axis=0) & (
+            self.rewards == 0
+        ).all(axis=1)
 
     @cached_property
     def steps_to_end(self) -> NDArray[np.float64]:
@@ -154,7 +170,11 @@ class FiniteMDP:
         policy : (S,), whose every action leads one step closer as likely as any can (0 where none does). Followed for
             ever, it gets there with probability 1 if all steps are finite.
         """
-        usable = np.ones(self.rewards.size, dtype=bool) if allowed is None else allowed.ravel()
+        usable = (
+            np.ones(self.rewards.size, dtype=bool)
+            if allowed is None
+            else allowed.ravel()
+        )
         steps = np.where(goals, 0.0, np.inf)
         policy = np.zeros(self.states, dtype=np.intp)
         frontier = np.flatnonzero(goals)
@@ -175,8 +195,12 @@ class FiniteMDP:
 
         This is Q from V, Eq. (2.11) for the optimal values and Eq. (2.15) for those of a policy.
         """
-        v = expect.array("values", values, shape=(self.states,))
-        ahead = (self.rows @ v).reshape(self.rewards.shape) if self.is_sparse else (self.transitions @ v).T
+        v = check_array("values", values, shape=(self.states,))
+        ahead = (
+            (self.rows @ v).reshape(self.rewards.shape)
+            if self.is_sparse
+            else (self.transitions @ v).T
+        )
         return self.rewards + self.discount * ahead
 
     def greedy(self, values: ArrayLike) -> NDArray[np.intp]:
@@ -193,7 +217,9 @@ class FiniteMDP:
         if chosen.ndim == 1:
             return self.rows[state * self.actions + chosen], self.rewards[state, chosen]
         starts = np.arange(0, chosen.size + 1, self.actions)
-        average = sp.csr_array((chosen.ravel(), np.arange(chosen.size), starts), (self.states, chosen.size))
+        average = sp.csr_array(
+            (chosen.ravel(), np.arange(chosen.size), starts), (self.states, chosen.size)
+        )
         return sp.csr_array(average @ self.rows), (chosen * self.rewards).sum(axis=1)
 
     def stopping_distance(self, tolerance: float) -> float:
@@ -202,10 +228,14 @@ class FiniteMDP:
         tolerance (1 - gamma) / (2 gamma), Puterman (2005), Theorem 6.3.1: infinite for discount 0. Without
         discount there is no such bound, and it is ``tolerance`` itself.
         """
-        expect.positive("tolerance", tolerance)
+        check_positive("tolerance", tolerance)
         if self.discount == 0:
             return np.inf
-        return tolerance if self.discount == 1 else tolerance * (1 - self.discount) / (2 * self.discount)
+        return (
+            tolerance
+            if self.discount == 1
+            else tolerance * (1 - self.discount) / (2 * self.discount)
+        )
 
 
 def packed(rows: sp.csr_array, rewards: NDArray[np.float64], discount: float) -> Arrays:
@@ -213,9 +243,13 @@ def packed(rows: sp.csr_array, rewards: NDArray[np.float64], discount: float) ->
 
     ``rows`` is (S A, S), row s A + a holding T(s, a, .); ``rewards`` (S, A).
     """
-    starts, successors = (part.view(f"u{part.itemsize}") for part in (rows.indptr, rows.indices))
+    starts, successors = (
+        part.view(f"u{part.itemsize}") for part in (rows.indptr, rows.indices)
+    )
     fixed = rewards.view()
-    fixed.flags.writeable = False  # numba compiles for a read-only array anew: one kind only
+    fixed.flags.writeable = (
+        False  # numba compiles for a read-only array anew: one kind only
+    )
     return starts, successors, rows.data, fixed, discount
 
 
@@ -223,22 +257,43 @@ def expected_rewards(transitions: Any, rewards: ArrayLike) -> NDArray[np.float64
     """Rewards r(s, a), (S, A), of rewards R(s', a, s) that depend on the state reached, given as (A, S, S')."""
     checked = _checked_transitions(transitions)
     states = checked[0].shape[0]
-    reached = expect.array("rewards", rewards, shape=(len(checked), states, states))
-    return np.stack([np.asarray((t * r).sum(axis=1)) for t, r in zip(checked, reached, strict=True)], axis=1)
+    reached = check_array("rewards", rewards, shape=(len(checked), states, states))
+    return np.stack(
+        [
+            np.asarray((t * r).sum(axis=1))
+            for t, r in zip(checked, reached, strict=True)
+        ],
+        axis=1,
+    )
 
 
-def _checked_transitions(transitions: Any) -> NDArray[np.float64] | tuple[sp.csr_array, ...]:
+def _checked_transitions(
+    transitions: Any,
+) -> NDArray[np.float64] | tuple[sp.csr_array, ...]:
     """A read-only copy: an array (A, S, S), or a tuple of A sparse arrays (S, S)."""
     checked: NDArray[np.float64] | tuple[sp.csr_array, ...]
     if sp.issparse(transitions):
-        raise TypeError("transitions must be a sequence of A sparse matrices (S, S), got one sparse matrix")
-    if isinstance(transitions, Sequence) and any(sp.issparse(matrix) for matrix in transitions):
-        checked = tuple(_checked_sparse(action, matrix, transitions) for action, matrix in enumerate(transitions))
-        parts = [part for matrix in checked for part in (matrix.data, matrix.indices, matrix.indptr)]
+        raise TypeError(
+            "transitions must be a sequence of A sparse matrices (S, S), got one sparse matrix"
+        )
+    if isinstance(transitions, Sequence) and any(
+        sp.issparse(matrix) for matrix in transitions
+    ):
+        checked = tuple(
+            _checked_sparse(action, matrix, transitions)
+            for action, matrix in enumerate(transitions)
+        )
+        parts = [
+            part
+            for matrix in checked
+            for part in (matrix.data, matrix.indices, matrix.indptr)
+        ]
     else:
-        checked = expect.array("transitions", transitions, shape=("A", "S", "S")).copy()
+        checked = check_array("transitions", transitions, shape=("A", "S", "S")).copy()
         if checked.shape[1] != checked.shape[2]:
-            raise ValueError(f"transitions must have shape (A, S, S), got {checked.shape}")
+            raise ValueError(
+                f"transitions must have shape (A, S, S), got {checked.shape}"
+            )
         parts = [checked]
     if len(checked) == 0 or checked[0].shape[0] == 0:
         raise ValueError("transitions must hold at least one action and one state")
@@ -249,17 +304,23 @@ def _checked_transitions(transitions: Any) -> NDArray[np.float64] | tuple[sp.csr
     return checked
 
 
-def _checked_sparse(action: int, matrix: Any, transitions: Sequence[Any]) -> sp.csr_array:
+def _checked_sparse(
+    action: int, matrix: Any, transitions: Sequence[Any]
+) -> sp.csr_array:
     """A canonical copy of one action's sparse matrix."""
     if not sp.issparse(matrix):
-        raise TypeError(f"transitions must be all sparse or all dense, got {type(matrix).__name__} at action {action}")
+        raise TypeError(
+            f"transitions must be all sparse or all dense, got {type(matrix).__name__} at action {action}"
+        )
     states = transitions[0].shape[0]
     if matrix.shape != (states, states):
-        raise ValueError(f"transitions must hold matrices ({states}, {states}), got {matrix.shape} at action {action}")
+        raise ValueError(
+            f"transitions must hold matrices ({states}, {states}), got {matrix.shape} at action {action}"
+        )
     copy = sp.csr_array(matrix, dtype=float, copy=True)
     copy.sum_duplicates()
     copy.eliminate_zeros()
-    expect.array("transitions", copy.data)
+    check_array("transitions", copy.data)
     return copy
 
 
@@ -267,7 +328,9 @@ def _check_rows(action: int, matrix: NDArray[np.float64] | sp.csr_array) -> None
     """ValueError unless every row is a distribution."""
     probabilities = matrix if isinstance(matrix, np.ndarray) else matrix.data
     if probabilities.min(initial=0) < 0:
-        raise ValueError(f"transitions must not hold negative probabilities, got one at action {action}")
+        raise ValueError(
+            f"transitions must not hold negative probabilities, got one at action {action}"
+        )
     totals = np.asarray(matrix.sum(axis=1))
     state = int(abs(totals - 1).argmax())
     if abs(totals[state] - 1) > policies.SUM_TOLERANCE:

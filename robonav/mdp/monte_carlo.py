@@ -9,8 +9,8 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robonav import expect
 from robonav.progress import Progress
+from robonav.validation import check_generator, check_one_of, check_real
 
 from .exploration import EpsilonGreedy, Schedule, harmonic_decay
 from .interaction import Course, chooser, discounted_return, numbered, sizes
@@ -59,9 +59,9 @@ def monte_carlo_prediction(
     -------
     Predicted with ``values`` (S,), NaN where a state was never passed, and ``visits`` (S,), the returns averaged.
     """
-    env, rng = numbered(env), expect.generator("seed", seed)
-    discount = expect.real("discount", discount, at_least=0, at_most=1)
-    expect.one_of("visit", visit, ("first", "every"))
+    env, rng = numbered(env), check_generator("seed", seed)
+    discount = check_real("discount", discount, at_least=0, at_most=1)
+    check_one_of("visit", visit, ("first", "every"))
     states, actions = sizes(env)
     course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
     choose = chooser(policy, states, actions, rng)
@@ -106,18 +106,22 @@ def monte_carlo_control(
 
     The others, and the result, are those of :func:`~robonav.mdp.q_learning`.
     """
-    env, rng = numbered(env), expect.generator("seed", seed)
-    discount = expect.real("discount", discount, at_least=0, at_most=1)
-    expect.one_of("visit", visit, ("first", "every"))
+    env, rng = numbered(env), check_generator("seed", seed)
+    discount = check_real("discount", discount, at_least=0, at_most=1)
+    check_one_of("visit", visit, ("first", "every"))
     rate = harmonic_decay() if learning_rate is None else learning_rate
     table = QTable(sizes(env), initial=initial, learning_rate=rate, record=record)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress)
+    course = Course(
+        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
+    )
     choose, q = EpsilonGreedy(epsilon, rng), table.q
     for start in course.episodes():
         choose.begin(course.number)
         episode = course.walk(start, lambda state: choose(q[state]))
         returns = discounted_return(episode.rewards, discount).tolist()
-        pairs = list(zip(episode.states[:-1].tolist(), episode.actions.tolist(), strict=True))
+        pairs = list(
+            zip(episode.states[:-1].tolist(), episode.actions.tolist(), strict=True)
+        )
         for step in counted_visits(pairs, visit):
             table.learn(*pairs[step], returns[step])
         table.keep()

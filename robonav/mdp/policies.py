@@ -8,12 +8,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_array, check_real
 
-SUM_TOLERANCE = 1e-8  # how far the probabilities of one distribution may be from summing to one
+SUM_TOLERANCE = (
+    1e-8  # how far the probabilities of one distribution may be from summing to one
+)
 
 
-def deterministic(name: str, policy: ArrayLike, states: int, actions: int) -> NDArray[np.intp]:
+def deterministic(
+    name: str, policy: ArrayLike, states: int, actions: int
+) -> NDArray[np.intp]:
     """The policy as an integer array (S,).
 
     Raises
@@ -21,13 +25,17 @@ def deterministic(name: str, policy: ArrayLike, states: int, actions: int) -> ND
     TypeError : if it does not hold whole numbers.
     ValueError : if it has another shape, or an action does not exist.
     """
-    expect.array(name, policy, shape=(states,))
+    check_array(name, policy, shape=(states,))
     if np.asarray(policy).dtype.kind not in "iu":
-        raise TypeError(f"{name} must hold whole numbers, one action a state, got {np.asarray(policy).dtype}")
-    actions_taken = expect.array(name, policy, shape=(states,), dtype=np.intp)
+        raise TypeError(
+            f"{name} must hold whole numbers, one action a state, got {np.asarray(policy).dtype}"
+        )
+    actions_taken = check_array(name, policy, shape=(states,), dtype=np.intp)
     if not (actions_taken.min() >= 0 and actions_taken.max() < actions):
         least, most = actions_taken.min(), actions_taken.max()
-        raise ValueError(f"{name} must hold actions from 0 to {actions - 1}, got {least} to {most}")
+        raise ValueError(
+            f"{name} must hold actions from 0 to {actions - 1}, got {least} to {most}"
+        )
     return actions_taken
 
 
@@ -39,13 +47,15 @@ def checked(policy: ArrayLike, states: int, actions: int) -> NDArray:
     TypeError : if it is no array of numbers, or of one dimension and not of whole numbers.
     ValueError : if its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
     """
-    if expect.array("policy", policy).ndim == 1:
+    if check_array("policy", policy).ndim == 1:
         return deterministic("policy", policy, states, actions)
-    chances = expect.array("policy", policy, shape=(states, actions))
+    chances = check_array("policy", policy, shape=(states, actions))
     wrong = (chances < 0).any(axis=1) | (abs(chances.sum(axis=1) - 1) > SUM_TOLERANCE)
     if wrong.any():
         state = int(wrong.argmax())
-        raise ValueError(f"policy must hold one distribution a state, got {chances[state]} for state {state}")
+        raise ValueError(
+            f"policy must hold one distribution a state, got {chances[state]} for state {state}"
+        )
     return chances
 
 
@@ -62,7 +72,7 @@ def distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.float6
     ------
     TypeError, ValueError : if it is no array of numbers, its last axis is not S, or a row is no distribution.
     """
-    given: NDArray[np.float64] = expect.array(name, value)
+    given: NDArray[np.float64] = check_array(name, value)
     if given.ndim == 0 or given.shape[-1] != states:
         wanted = f"({states},)" if given.ndim <= 1 else f"(..., {states})"
         raise ValueError(f"{name} must have shape {wanted}, got {given.shape}")
@@ -73,7 +83,9 @@ def distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.float6
     totals = given.sum(axis=-1)
     if (abs(totals - 1) > SUM_TOLERANCE).any():
         off = np.ravel(totals)[abs(np.ravel(totals) - 1).argmax()]
-        raise ValueError(f"{name} must be a distribution over the {states} states, got sum {off:.10g}")
+        raise ValueError(
+            f"{name} must be a distribution over the {states} states, got sum {off:.10g}"
+        )
     return given
 
 
@@ -82,13 +94,19 @@ def uniform(states: int, actions: int) -> NDArray[np.float64]:
     return np.full((states, actions), 1 / actions)
 
 
-def greedy_actions(action_values: ArrayLike, *, tolerance: float = 1e-9) -> NDArray[np.bool_]:
+def greedy_actions(
+    action_values: ArrayLike, *, tolerance: float = 1e-9
+) -> NDArray[np.bool_]:
     """Which actions are greedy: (S, A) bools, true within ``tolerance`` of the best of each state (Eq. (2.16))."""
-    q = expect.array("action_values", action_values, shape=("S", "A"))
-    return q >= q.max(axis=1, keepdims=True) - expect.real("tolerance", tolerance, at_least=0)
+    q = check_array("action_values", action_values, shape=("S", "A"))
+    return q >= q.max(axis=1, keepdims=True) - check_real(
+        "tolerance", tolerance, at_least=0
+    )
 
 
-def greedy_mixture(action_values: ArrayLike, *, tolerance: float = 1e-9) -> NDArray[np.float64]:
+def greedy_mixture(
+    action_values: ArrayLike, *, tolerance: float = 1e-9
+) -> NDArray[np.float64]:
     """The stochastic policy (S, A) that chooses evenly among the greedy actions."""
     best = greedy_actions(action_values, tolerance=tolerance)
     return best / best.sum(axis=1, keepdims=True)

@@ -9,7 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import (
+    check_array,
+    check_generator,
+    check_instance,
+    check_integer,
+)
 
 from .models import FiniteMDP
 from .policies import SUM_TOLERANCE, distributions
@@ -31,21 +36,27 @@ def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
     ------
     ValueError : if no state that is believed possible could have given the evidence, or a number is negative.
     """
-    before = expect.array("prior", prior, shape=("S",))
-    explained = expect.array("likelihood", likelihood, shape=before.shape)
+    before = check_array("prior", prior, shape=("S",))
+    explained = check_array("likelihood", likelihood, shape=before.shape)
     for name, numbers in (("prior", before), ("likelihood", explained)):
         if numbers.min(initial=0) < 0:
-            raise ValueError(f"{name} must hold no negative numbers, got {numbers.min():.10g}")
+            raise ValueError(
+                f"{name} must hold no negative numbers, got {numbers.min():.10g}"
+            )
     joint = before * explained
     probability = float(joint.sum())
     if not probability > 0:
-        raise ValueError("the evidence has probability zero in every state that the belief holds possible")
+        raise ValueError(
+            "the evidence has probability zero in every state that the belief holds possible"
+        )
     return joint / probability, probability
 
 
 def entropy(belief: ArrayLike) -> float:
     """How uncertain a belief (S,) is, in bits: 0 where one state is sure, log2 S where all are alike."""
-    b = distributions("belief", belief, len(expect.array("belief", belief, shape=("S",))))
+    b = distributions(
+        "belief", belief, len(check_array("belief", belief, shape=("S",)))
+    )
     sure = b[b > 0]
     return float(-(sure * np.log2(sure)).sum()) + 0.0  # not -0
 
@@ -69,8 +80,12 @@ class POMDP:
     observations: Any
 
     def __post_init__(self) -> None:
-        expect.instance("mdp", self.mdp, FiniteMDP)
-        z = expect.array("observations", self.observations, shape=(self.mdp.actions, self.mdp.states, "O")).copy()
+        check_instance("mdp", self.mdp, FiniteMDP)
+        z = check_array(
+            "observations",
+            self.observations,
+            shape=(self.mdp.actions, self.mdp.states, "O"),
+        ).copy()
         wrong = (z < 0).any(axis=2) | (abs(z.sum(axis=2) - 1) > SUM_TOLERANCE)
         if wrong.any():
             action, state = np.argwhere(wrong)[0].tolist()
@@ -104,7 +119,12 @@ class POMDP:
         ValueError : if the belief is no distribution over S states, an index does not exist, or the observation has
             probability zero.
         """
-        seen = expect.integer("observation", observation, at_least=0, at_most=self.observations.shape[2] - 1)
+        seen = check_integer(
+            "observation",
+            observation,
+            at_least=0,
+            at_most=self.observations.shape[2] - 1,
+        )
         prior = self.predict(belief, action)
         try:
             return bayes(prior, self.observations[action, :, seen])[0]
@@ -122,16 +142,16 @@ class POMDP:
         return self._belief(belief) @ self.mdp.rewards
 
     def _belief(self, belief: ArrayLike) -> Floats:
-        expect.array("belief", belief, shape=(self.mdp.states,))
+        check_array("belief", belief, shape=(self.mdp.states,))
         return distributions("belief", belief, self.mdp.states)
 
     def _action(self, action: int) -> int:
-        return expect.integer("action", action, at_least=0, at_most=self.mdp.actions - 1)
+        return check_integer("action", action, at_least=0, at_most=self.mdp.actions - 1)
 
 
 def without_sensing(mdp: FiniteMDP) -> POMDP:
     """A robot with no sensing at all (2.5.1): whatever the state, it observes the same."""
-    expect.instance("mdp", mdp, FiniteMDP)
+    check_instance("mdp", mdp, FiniteMDP)
     return POMDP(mdp, np.ones((mdp.actions, mdp.states, 1)))
 
 
@@ -142,7 +162,7 @@ class BeliefMDP:
     pomdp: POMDP
 
     def __post_init__(self) -> None:
-        expect.instance("pomdp", self.pomdp, POMDP)
+        check_instance("pomdp", self.pomdp, POMDP)
 
     @property
     def discount(self) -> float:
@@ -166,7 +186,7 @@ class BeliefMDP:
 
     def transition(self, belief: ArrayLike, action: int, successor: ArrayLike) -> float:
         """tau(b, a, b'), the probability that ``successor`` follows (Eq. (2.22))."""
-        wanted = expect.array("successor", successor, shape=(self.pomdp.mdp.states,))
+        wanted = check_array("successor", successor, shape=(self.pomdp.mdp.states,))
         beliefs, probabilities = self.successors(belief, action)
         return float(probabilities[(abs(beliefs - wanted) <= SAME).all(axis=1)].sum())
 
@@ -212,19 +232,28 @@ def belief_walk(
     state : the true first state; drawn from ``belief`` if left out.
     seed : number or generator, for what is random in the world.
     """
-    expect.instance("pomdp", pomdp, POMDP)
-    rng = expect.generator("seed", seed)
-    expect.integer("steps", steps, at_least=0)
+    check_instance("pomdp", pomdp, POMDP)
+    rng = check_generator("seed", seed)
+    check_integer("steps", steps, at_least=0)
     beliefs = [pomdp.uniform() if belief is None else pomdp._belief(belief)]
     if state is None:
         state = rng.choice(pomdp.mdp.states, p=beliefs[0])
-    expect.integer("state", state, at_least=0, at_most=pomdp.mdp.states - 1)
+    check_integer("state", state, at_least=0, at_most=pomdp.mdp.states - 1)
     states, actions, observations, rewards = [state], [], [], []
     for _ in range(steps):
         action = pomdp._action(choose(beliefs[-1]))
         rewards.append(pomdp.mdp.rewards[states[-1], action])
-        states.append(rng.choice(pomdp.mdp.states, p=successor_probabilities(pomdp.mdp, states[-1], action)))
-        observations.append(rng.choice(pomdp.observations.shape[2], p=pomdp.observations[action, states[-1]]))
+        states.append(
+            rng.choice(
+                pomdp.mdp.states,
+                p=successor_probabilities(pomdp.mdp, states[-1], action),
+            )
+        )
+        observations.append(
+            rng.choice(
+                pomdp.observations.shape[2], p=pomdp.observations[action, states[-1]]
+            )
+        )
         beliefs.append(pomdp.update(beliefs[-1], action, observations[-1]))
         actions.append(action)
     return BeliefWalk(*map(np.array, (states, actions, observations, rewards, beliefs)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from robonav import expect
+from robonav.validation import check_real
 
 from .models import FiniteMDP
 from .pomdp import POMDP
@@ -21,11 +21,14 @@ def tiger(*, accuracy: float = 0.85, discount: float = 0.95) -> POMDP:
     Observations: it is heard left (0) or right (1), correctly with probability ``accuracy`` after listening, by chance
     after opening.
     """
-    expect.real("accuracy", accuracy, at_least=0, at_most=1)
+    check_real("accuracy", accuracy, at_least=0, at_most=1)
     stay, anew = np.eye(2), np.full((2, 2), 0.5)
     rewards = [[-1.0, -100.0, 10.0], [-1.0, 10.0, -100.0]]
     heard = np.array([[accuracy, 1 - accuracy], [1 - accuracy, accuracy]])
-    return POMDP(FiniteMDP(np.stack([stay, anew, anew]), rewards, discount), np.stack([heard, anew, anew]))
+    return POMDP(
+        FiniteMDP(np.stack([stay, anew, anew]), rewards, discount),
+        np.stack([heard, anew, anew]),
+    )
 
 
 def corridor(
@@ -52,18 +55,25 @@ def corridor(
     """
     if not cells or set(cells) - set("D."):
         raise ValueError(f"cells must be letters D (door) and . (wall), got {cells!r}")
-    expect.real("accuracy", accuracy, at_least=0, at_most=1)
-    expect.real("slip", slip, at_least=0, at_most=1)
+    check_real("accuracy", accuracy, at_least=0, at_most=1)
+    check_real("slip", slip, at_least=0, at_most=1)
     place = np.arange(len(cells))
     transitions = np.zeros((3, len(cells), len(cells)))
     for action, by in ((CORRIDOR_LEFT, -1), (CORRIDOR_RIGHT, 1), (CORRIDOR_STAY, 0)):
-        reached = (place + by) % len(cells) if ring else np.clip(place + by, 0, len(cells) - 1)
+        reached = (
+            (place + by) % len(cells)
+            if ring
+            else np.clip(place + by, 0, len(cells) - 1)
+        )
         transitions[action, place, reached] += 1 - slip
         transitions[action, place, place] += slip
     door = np.array([cell == "D" for cell in cells])
     seen = np.where(door, accuracy, 1 - accuracy)
     observations = np.stack([1 - seen, seen], axis=1)
-    return POMDP(FiniteMDP(transitions, np.zeros((len(cells), 3)), discount), np.stack([observations] * 3))
+    return POMDP(
+        FiniteMDP(transitions, np.zeros((len(cells), 3)), discount),
+        np.stack([observations] * 3),
+    )
 
 
 def fork(*, sign_cost: float = 1.0, discount: float = 0.9) -> POMDP:
@@ -73,10 +83,15 @@ def fork(*, sign_cost: float = 1.0, discount: float = 0.9) -> POMDP:
     read the sign (1) costs ``sign_cost``; going left (2) or right (3) brings 10 where the target is and -10 where it is
     not, and ends it. Observations: target left (0), right (1), nothing (2).
     """
-    expect.real("sign_cost", sign_cost, at_least=0)
+    check_real("sign_cost", sign_cost, at_least=0)
     stay, end = np.eye(3), np.tile([0.0, 0.0, 1.0], (3, 1))
-    rewards = [[0.0, -sign_cost, 10.0, -10.0], [0.0, -sign_cost, -10.0, 10.0], [0.0, 0.0, 0.0, 0.0]]
+    rewards = [
+        [0.0, -sign_cost, 10.0, -10.0],
+        [0.0, -sign_cost, -10.0, 10.0],
+        [0.0, 0.0, 0.0, 0.0],
+    ]
     nothing, clear = np.tile([0.0, 0.0, 1.0], (3, 1)), np.eye(3)
     return POMDP(
-        FiniteMDP(np.stack([stay, stay, end, end]), rewards, discount), np.stack([nothing, clear, nothing, nothing])
+        FiniteMDP(np.stack([stay, stay, end, end]), rewards, discount),
+        np.stack([nothing, clear, nothing, nothing]),
     )

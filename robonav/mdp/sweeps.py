@@ -6,11 +6,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from robonav import expect
+from robonav.validation import check_instance, check_integer, check_positive
 
+from .dynamic_programming import Solution, first_values, greedy_policy, stacked
 from .evaluation import warn_unfinished
 from .models import FiniteMDP
-from .planning import Solution, first_values, greedy_policy, stacked
 
 
 def in_place_value_iteration(
@@ -28,14 +28,20 @@ def in_place_value_iteration(
 
     Parameters, result and warning are those of ``value_iteration``.
     """
-    from . import kernels
+    from . import _fast
 
-    expect.instance("mdp", mdp, FiniteMDP)
+    check_instance("mdp", mdp, FiniteMDP)
     enough = mdp.stopping_distance(tolerance)
     values = first_values(mdp, start)
-    history, chosen = ([values.copy()], [greedy_policy(mdp, values, tolerance)]) if record else ([], [])
-    for iterations in range(1, expect.integer("max_iterations", max_iterations, at_least=1) + 1):
-        distance = kernels.in_place_sweep(*mdp.arrays, values)
+    history, chosen = (
+        ([values.copy()], [greedy_policy(mdp, values, tolerance)])
+        if record
+        else ([], [])
+    )
+    for iterations in range(
+        1, check_integer("max_iterations", max_iterations, at_least=1) + 1
+    ):
+        distance = _fast.in_place_sweep(*mdp.arrays, values)
         if record:
             history.append(values.copy())
             chosen.append(greedy_policy(mdp, values, tolerance))
@@ -43,7 +49,13 @@ def in_place_value_iteration(
             break
         if iterations == max_iterations:
             warn_unfinished("in_place_value_iteration", iterations, distance, enough)
-    return Solution(values, greedy_policy(mdp, values, tolerance), iterations, distance, *stacked(history, chosen))
+    return Solution(
+        values,
+        greedy_policy(mdp, values, tolerance),
+        iterations,
+        distance,
+        *stacked(history, chosen),
+    )
 
 
 def prioritized_sweeping(
@@ -74,20 +86,22 @@ def prioritized_sweeping(
     -----
     ConvergenceWarning : if ``max_backups`` did not suffice; says how large the largest bound still was.
     """
-    from . import kernels
+    from . import _fast
 
-    expect.instance("mdp", mdp, FiniteMDP)
-    enough = expect.positive("tolerance", tolerance) * (1 if mdp.discount == 1 else (1 - mdp.discount) / 2)
+    check_instance("mdp", mdp, FiniteMDP)
+    enough = check_positive("tolerance", tolerance) * (
+        1 if mdp.discount == 1 else (1 - mdp.discount) / 2
+    )
     values = first_values(mdp, start)
     urgency = abs(mdp.backup(values).max(axis=1) - values)
-    backups, distance = kernels.prioritized_backups(
+    backups, distance = _fast.prioritized_backups(
         *mdp.arrays,
         *_predecessors(mdp),
         values,
         urgency,
         np.argsort(-urgency),
         enough,
-        expect.integer("max_backups", max_backups, at_least=1),
+        check_integer("max_backups", max_backups, at_least=1),
     )
     if distance > enough:
         warn_unfinished("prioritized_sweeping", backups, distance, enough)
@@ -100,5 +114,7 @@ def _predecessors(mdp: FiniteMDP) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     for action in range(1, mdp.actions):
         likeliest = likeliest.maximum(mdp.rows[action :: mdp.actions])
     backward = sp.csr_array(likeliest.T)
-    starts, predecessors = (part.view(f"u{part.itemsize}") for part in (backward.indptr, backward.indices))
+    starts, predecessors = (
+        part.view(f"u{part.itemsize}") for part in (backward.indptr, backward.indices)
+    )
     return starts, predecessors, backward.data

@@ -10,8 +10,8 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
 from robonav.progress import Progress
+from robonav.validation import check_generator, check_real
 
 from .exploration import EpsilonGreedy, Schedule, schedule
 from .interaction import Course, chooser, numbered, sizes
@@ -69,10 +69,15 @@ class QTable:
     """Action values while they are being learned: nested lists, which Python reads one entry of faster than arrays."""
 
     def __init__(
-        self, shape: tuple[int, int], *, initial: float, learning_rate: float | Schedule, record: bool
+        self,
+        shape: tuple[int, int],
+        *,
+        initial: float,
+        learning_rate: float | Schedule,
+        record: bool,
     ) -> None:
         states, actions = shape
-        self.q = [[expect.real("initial", initial)] * actions for _ in range(states)]
+        self.q = [[check_real("initial", initial)] * actions for _ in range(states)]
         self.visits = [[0] * actions for _ in range(states)]
         self._rate = schedule("learning_rate", learning_rate)
         self._history = [np.array(self.q)] if record else None
@@ -140,10 +145,14 @@ def q_learning(
     TypeError : if ``env`` is no Gymnasium environment or its spaces are not discrete.
     ValueError : if a number is out of its range.
     """
-    env, rng = numbered(env), expect.generator("seed", seed)
-    discount = expect.real("discount", discount, at_least=0, at_most=1)
-    table = QTable(sizes(env), initial=initial, learning_rate=learning_rate, record=record)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress)
+    env, rng = numbered(env), check_generator("seed", seed)
+    discount = check_real("discount", discount, at_least=0, at_most=1)
+    table = QTable(
+        sizes(env), initial=initial, learning_rate=learning_rate, record=record
+    )
+    course = Course(
+        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
+    )
     choose, q = EpsilonGreedy(epsilon, rng), table.q
     for state in course.episodes():
         choose.begin(course.number)
@@ -175,10 +184,14 @@ def sarsa(
     Parameters, result and errors are those of :func:`q_learning`. The values tend to the optimal ones only if, besides,
     ``epsilon`` falls to zero (Singh et al. 2000).
     """
-    env, rng = numbered(env), expect.generator("seed", seed)
-    discount = expect.real("discount", discount, at_least=0, at_most=1)
-    table = QTable(sizes(env), initial=initial, learning_rate=learning_rate, record=record)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress)
+    env, rng = numbered(env), check_generator("seed", seed)
+    discount = check_real("discount", discount, at_least=0, at_most=1)
+    table = QTable(
+        sizes(env), initial=initial, learning_rate=learning_rate, record=record
+    )
+    course = Course(
+        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
+    )
     choose, q = EpsilonGreedy(epsilon, rng), table.q
     for state in course.episodes():
         choose.begin(course.number)
@@ -211,10 +224,14 @@ def expected_sarsa(
     Parameters, result and errors are those of :func:`q_learning`. The target varies less than SARSA's, so that a larger
     learning rate does; where nothing in the world is random, a rate of 1 is the best.
     """
-    env, rng = numbered(env), expect.generator("seed", seed)
-    discount = expect.real("discount", discount, at_least=0, at_most=1)
-    table = QTable(sizes(env), initial=initial, learning_rate=learning_rate, record=record)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress)
+    env, rng = numbered(env), check_generator("seed", seed)
+    discount = check_real("discount", discount, at_least=0, at_most=1)
+    table = QTable(
+        sizes(env), initial=initial, learning_rate=learning_rate, record=record
+    )
+    course = Course(
+        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
+    )
     choose, q = EpsilonGreedy(epsilon, rng), table.q
     for state in course.episodes():
         choose.begin(course.number)
@@ -258,13 +275,13 @@ def td_prediction(
     -------
     Predicted with ``values`` (S,), ``visits`` (S,), and ``history`` (episodes + 1, S) if recorded.
     """
-    env, rng = numbered(env), expect.generator("seed", seed)
-    discount = expect.real("discount", discount, at_least=0, at_most=1)
+    env, rng = numbered(env), check_generator("seed", seed)
+    discount = check_real("discount", discount, at_least=0, at_most=1)
     rate = schedule("learning_rate", learning_rate)
     states, actions = sizes(env)
     choose = chooser(policy, states, actions, rng)
     course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
-    values, visits = [expect.real("initial", initial)] * states, [0] * states
+    values, visits = [check_real("initial", initial)] * states, [0] * states
     history = [np.array(values)]
     for state in course.episodes():
         while not course.over:
@@ -275,4 +292,6 @@ def td_prediction(
             state = successor
         if record:
             history.append(np.array(values))
-    return Predicted(np.array(values), np.array(visits), np.stack(history) if record else None)
+    return Predicted(
+        np.array(values), np.array(visits), np.stack(history) if record else None
+    )

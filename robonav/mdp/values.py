@@ -5,47 +5,55 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_array, check_instance, check_real
 
 from .evaluation import policy_evaluation
 from .models import FiniteMDP
 
 
-def bellman_policy_operator(mdp: FiniteMDP, policy: ArrayLike, values: ArrayLike) -> NDArray[np.float64]:
+def bellman_policy_operator(
+    mdp: FiniteMDP, policy: ArrayLike, values: ArrayLike
+) -> NDArray[np.float64]:
     """One evaluation sweep: r_pi + gamma T_pi V, (S,), the right-hand side of Eq. (2.6) and (2.14)."""
-    expect.instance("mdp", mdp, FiniteMDP)
+    check_instance("mdp", mdp, FiniteMDP)
     transitions, rewards = mdp.under(policy)
-    return rewards + mdp.discount * (transitions @ expect.array("values", values, shape=(mdp.states,)))
+    return rewards + mdp.discount * (
+        transitions @ check_array("values", values, shape=(mdp.states,))
+    )
 
 
-def bellman_optimality_operator(mdp: FiniteMDP, values: ArrayLike) -> NDArray[np.float64]:
+def bellman_optimality_operator(
+    mdp: FiniteMDP, values: ArrayLike
+) -> NDArray[np.float64]:
     """One sweep of value iteration: max_a of the backup of ``values``, (S,).
 
     This is Eq. (2.26). Eq. (2.13), which misses gamma and the expectation over s', means its fixed point.
     """
-    expect.instance("mdp", mdp, FiniteMDP)
+    check_instance("mdp", mdp, FiniteMDP)
     return mdp.backup(values).max(axis=1)
 
 
-def bellman_action_value_operator(mdp: FiniteMDP, action_values: ArrayLike) -> NDArray[np.float64]:
+def bellman_action_value_operator(
+    mdp: FiniteMDP, action_values: ArrayLike
+) -> NDArray[np.float64]:
     """One sweep of value iteration on action values: r(s, a) + gamma sum_s' T(s, a, s') max_b Q(s', b), (S, A).
 
     This is the right-hand side of Eq. (2.12), whose fixed point is Q*. Q-learning takes one sample of it at a time.
     """
-    expect.instance("mdp", mdp, FiniteMDP)
-    q = expect.array("action_values", action_values, shape=(mdp.states, mdp.actions))
+    check_instance("mdp", mdp, FiniteMDP)
+    q = check_array("action_values", action_values, shape=(mdp.states, mdp.actions))
     return mdp.backup(q.max(axis=1))
 
 
 def action_values(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     """Q of a policy, (S, A): take a, then follow the policy, Eq. (2.7) and (2.15)."""
-    expect.instance("mdp", mdp, FiniteMDP)
+    check_instance("mdp", mdp, FiniteMDP)
     return mdp.backup(policy_evaluation(mdp, policy))
 
 
 def advantage(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     """How much better than the policy it is to take a once, then follow it: Q - V, (S, A), Eq. (2.8)."""
-    expect.instance("mdp", mdp, FiniteMDP)
+    check_instance("mdp", mdp, FiniteMDP)
     values = policy_evaluation(mdp, policy)
     return mdp.backup(values) - values[:, None]
 
@@ -55,10 +63,12 @@ def is_optimal(mdp: FiniteMDP, policy: ArrayLike, *, tolerance: float = 1e-9) ->
 
     Without discount also that no state is worth less than to rest there for ever, where one can: see ``or_rest``.
     """
-    expect.instance("mdp", mdp, FiniteMDP)
-    expect.real("tolerance", tolerance, at_least=0)
+    check_instance("mdp", mdp, FiniteMDP)
+    check_real("tolerance", tolerance, at_least=0)
     values = policy_evaluation(mdp, policy)
-    return bool((or_rest(mdp, mdp.backup(values)).max(axis=1) - values).max() <= tolerance)
+    return bool(
+        (or_rest(mdp, mdp.backup(values)).max(axis=1) - values).max() <= tolerance
+    )
 
 
 def or_rest(mdp: FiniteMDP, q: NDArray[np.float64]) -> NDArray[np.float64]:

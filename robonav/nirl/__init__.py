@@ -1,31 +1,30 @@
 """Chapter 5: neural inverse reinforcement learning, the three methods beside it, and what came beside them."""
 
-from .apprenticeship import Apprenticeship, by_max_margin, by_projection, nearest_mixture, project
+from .apprenticeship import (
+    Apprenticeship,
+    by_max_margin,
+    by_projection,
+    nearest_mixture,
+    project,
+)
+from .benchmark_mdps import KINDS, TRUTH, terrain
 from .boltzmann import boltzmann
-from .choice import accuracy, balanced_accuracy
-from .courses import Course, ModelCourse, RobotCourse
-from .expectations import (
+from .feature_expectations import (
     average_by,
     discounted_to_go,
     empirical_expectations,
     feature_expectations,
     start_expectations,
 )
-from .featured import FeaturedMDP, Walks
 from .features import action_blocks, chosen_block
-from .improvement import (
-    BONUS,
-    NEUTRAL,
-    NOTHING,
-    OneStep,
-    SampledDescent,
-    into_unit,
-    rewards_of,
-    sarsa_targets,
+from .max_margin import Margin, widest_margin, widest_margin_subgradient
+from .maximum_entropy import (
+    MaximumEntropy,
+    SoftSolution,
+    maximum_entropy,
+    soft_maximum,
+    soft_value_iteration,
 )
-from .learning import Found, History, nirl, practise
-from .margin import Margin, widest_margin, widest_margin_subgradient
-from .max_entropy import MaximumEntropy, SoftSolution, maximum_entropy, soft_maximum, soft_value_iteration
 from .methods import (
     METHODS,
     Learned,
@@ -36,12 +35,31 @@ from .methods import (
     learn,
     learn_under,
 )
+from .model_selection import accuracy, balanced_accuracy
+from .nirl import Found, History, nirl, practise
+from .policy_improvement import (
+    BONUS,
+    NEUTRAL,
+    NOTHING,
+    OneStep,
+    SampledDescent,
+    into_unit,
+    rewards_of,
+    sarsa_targets,
+)
 from .refinement import Refined, most_frequent, most_telling
-from .relative_entropy import RelativeEntropy, dual_gradient, hoeffding_slack, importance, relative_entropy
-from .rewarding import ByContrast, ByEquation514, balance, contrast
+from .relative_entropy import (
+    RelativeEntropy,
+    dual_gradient,
+    hoeffding_slack,
+    importance,
+    relative_entropy,
+)
+from .reward_free_mdp import FeaturedMDP, Walks
+from .reward_update import ByContrast, ByEquation514, balance, contrast
 from .scirl import Classification, lstd_mu, shown_only, structured_classification
-from .steps import ENCODER, Steps, shown_steps
-from .toys import KINDS, TRUTH, terrain
+from .tasks import Course, ModelCourse, RobotCourse
+from .transitions import ENCODER, Steps, shown_steps
 
 __all__ = [
     "BONUS",

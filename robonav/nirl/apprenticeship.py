@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import nnls
 
-from robonav import expect
 from robonav.progress import Progress
+from robonav.validation import check_array, check_integer, check_real
 
-from .margin import widest_margin
+from .max_margin import widest_margin
 
 Floats = NDArray[np.float64]
 Found = TypeVar("Found")
@@ -64,7 +64,9 @@ def project(mean: Floats, found: Floats, expert: Floats) -> Floats:
     """
     along = found - mean
     length2 = along @ along
-    share = 0.0 if length2 == 0 else float(np.clip(along @ (expert - mean) / length2, 0, 1))
+    share = (
+        0.0 if length2 == 0 else float(np.clip(along @ (expert - mean) / length2, 0, 1))
+    )
     return mean + share * along
 
 
@@ -73,8 +75,8 @@ def nearest_mixture(expert: ArrayLike, found: ArrayLike) -> Floats:
 
     Non-negative least squares with the sum's equation weighted so heavily that it holds to rounding.
     """
-    mu = expect.array("expert", expert, shape=("K",))
-    rows = expect.array("found", found, shape=("n", len(mu)))
+    mu = check_array("expert", expert, shape=("K",))
+    rows = check_array("found", found, shape=("n", len(mu)))
     scale = max(abs(rows - mu).max(), np.finfo(float).tiny)
     heavy = 1e5
     stacked = np.vstack([(rows - mu).T / scale, np.full(len(rows), heavy)])
@@ -112,7 +114,9 @@ def by_projection(
         mean = found[0] if mean is None else project(mean, found[-1], mu)
         return mu - mean, float(np.linalg.norm(mu - mean))
 
-    return _learn(expert, solve, first, away_from_projection, tolerance, iterations, progress)
+    return _learn(
+        expert, solve, first, away_from_projection, tolerance, iterations, progress
+    )
 
 
 def by_max_margin(
@@ -146,10 +150,10 @@ def _learn(
     progress: Progress | None,
 ) -> Apprenticeship:
     """The loop of both methods; ``guess(expert, found)`` gives the next reward's weights and the distance left."""
-    mu = expect.array("expert", expert, shape=("K",))
-    enough = expect.real("tolerance", tolerance, at_least=0)
-    most = expect.integer("iterations", iterations, at_least=1)
-    policies, found = [first[0]], [expect.array("first", first[1], shape=mu.shape)]
+    mu = check_array("expert", expert, shape=("K",))
+    enough = check_real("tolerance", tolerance, at_least=0)
+    most = check_integer("iterations", iterations, at_least=1)
+    policies, found = [first[0]], [check_array("first", first[1], shape=mu.shape)]
     weights: list[Floats] = []
     distances: list[float] = []
     while True:
@@ -160,8 +164,12 @@ def _learn(
         policy, expectations = solve(theta)
         weights.append(theta)
         policies.append(policy)
-        found.append(expect.array("solve: feature expectations", expectations, shape=mu.shape))
+        found.append(
+            check_array("solve: feature expectations", expectations, shape=mu.shape)
+        )
         if progress is not None:
             progress(len(weights), most)
     rewards = np.stack(weights) if weights else np.empty((0, len(mu)))
-    return Apprenticeship(tuple(policies), np.stack(found), rewards, np.array(distances), mu)
+    return Apprenticeship(
+        tuple(policies), np.stack(found), rewards, np.array(distances), mu
+    )

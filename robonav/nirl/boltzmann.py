@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_array, check_real
 
 Floats = NDArray[np.float64]
 
@@ -21,6 +21,6 @@ def boltzmann(action_values: ArrayLike, eta: float) -> Floats:
     action_values : (..., A).
     eta : at least 0.
     """
-    z = expect.real("eta", eta, at_least=0) * expect.array("action_values", action_values)
+    z = check_real("eta", eta, at_least=0) * check_array("action_values", action_values)
     weights = np.exp(z - z.max(axis=-1, keepdims=True))
     return weights / weights.sum(axis=-1, keepdims=True)

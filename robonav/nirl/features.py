@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_array, check_integer
 
 Floats = NDArray[np.float64]
 
@@ -21,8 +21,8 @@ def action_blocks(state_features: ArrayLike, actions: int) -> Floats:
     state_features : phi(s) of M states, (M, k).
     actions : A.
     """
-    phi = expect.array("state_features", state_features, shape=("M", "k"))
-    count = expect.integer("actions", actions, at_least=1)
+    phi = check_array("state_features", state_features, shape=("M", "k"))
+    count = check_integer("actions", actions, at_least=1)
     m, k = phi.shape
     blocks = np.zeros((m, count, count, k))
     own = np.arange(count)
@@ -32,10 +32,12 @@ def action_blocks(state_features: ArrayLike, actions: int) -> Floats:
 
 def chosen_block(state_features: ArrayLike, chosen: ArrayLike, actions: int) -> Floats:
     """The features f(s_t, a_t) of one action a state: (M, A k), from phi(s_t) (M, k) and a_t (M,)."""
-    phi = expect.array("state_features", state_features, shape=("M", "k"))
-    taken = expect.array("chosen", chosen, shape=(len(phi),), dtype=np.int64)
+    phi = check_array("state_features", state_features, shape=("M", "k"))
+    taken = check_array("chosen", chosen, shape=(len(phi),), dtype=np.int64)
     if len(taken) and not 0 <= taken.min() <= taken.max() < actions:
-        raise ValueError(f"chosen must hold actions from 0 to {actions - 1}, got {taken.min()} to {taken.max()}")
+        raise ValueError(
+            f"chosen must hold actions from 0 to {actions - 1}, got {taken.min()} to {taken.max()}"
+        )
     blocks = np.zeros((len(phi), actions, phi.shape[1]))
     blocks[np.arange(len(phi)), taken] = phi
     return blocks.reshape(len(phi), -1)

@@ -8,23 +8,23 @@ from typing import Any
 
 import numpy as np
 
-from robonav import expect
 from robonav.lfd.demonstrations import Demonstrations
-from robonav.lfd.policy import NetworkPolicy
+from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
+from robonav.validation import check_generator, check_integer, check_one_of, check_real
 
 from .apprenticeship import by_projection
-from .choice import balanced_accuracy
-from .courses import RobotCourse, drive, start_at
-from .expectations import discounted_to_go, empirical_expectations
+from .feature_expectations import discounted_to_go, empirical_expectations
 from .features import action_blocks, chosen_block
-from .improvement import SampledDescent
-from .learning import Found, History, Practice, Score, nirl, practise
+from .model_selection import balanced_accuracy
+from .nirl import Found, History, Practice, Score, nirl, practise
+from .policy_improvement import SampledDescent
 from .refinement import Refined
 from .relative_entropy import relative_entropy
-from .rewarding import balance
+from .reward_update import balance
 from .scirl import lstd_mu, shown_only, structured_classification
-from .steps import Floats, Steps, shown_steps
+from .tasks import RobotCourse, drive, start_at
+from .transitions import Floats, Steps, shown_steps
 
 Refinement = Callable[[Any, Any, int], Refined]
 
@@ -48,7 +48,9 @@ class Learned:
     chosen: int
 
 
-def learn(demonstrations: Demonstrations, method: str = "nirl", seed: int = 0, **settings: Any) -> Learned:
+def learn(
+    demonstrations: Demonstrations, method: str = "nirl", seed: int = 0, **settings: Any
+) -> Learned:
     """Learn a reward and a policy from demonstrations: ``METHODS[method](demonstrations, seed=seed, **settings)``.
 
     Parameters
@@ -62,10 +64,14 @@ def learn(demonstrations: Demonstrations, method: str = "nirl", seed: int = 0, *
     ------
     ValueError, TypeError : for another method, demonstrations without an effective pair, or arguments out of bounds.
     """
-    return METHODS[expect.one_of("method", method, METHODS)](demonstrations, seed=seed, **settings)
+    return METHODS[check_one_of("method", method, METHODS)](
+        demonstrations, seed=seed, **settings
+    )
 
 
-def prepared(demonstrations: Demonstrations, course: RobotCourse, refine: Refinement | None) -> Steps:
+def prepared(
+    demonstrations: Demonstrations, course: RobotCourse, refine: Refinement | None
+) -> Steps:
     """The expert's decisions as the course's encoder sees them, refined if asked for.
 
     States count as equal where all that the network reads is equal.
@@ -73,7 +79,9 @@ def prepared(demonstrations: Demonstrations, course: RobotCourse, refine: Refine
     shown = shown_steps(demonstrations, course.encoder)
     if refine is None:
         return shown
-    return shown.with_actions(refine(shown.inputs.round(6), shown.actions, course.actions).actions)
+    return shown.with_actions(
+        refine(shown.inputs.round(6), shown.actions, course.actions).actions
+    )
 
 
 def learn_nirl(
@@ -94,7 +102,10 @@ def learn_nirl(
     settings : of :func:`~robonav.nirl.nirl`: iterations, eta, reward, improve, score and so on.
     """
     ground = course or RobotCourse()
-    return _learned(nirl(prepared(demonstrations, ground, refine), ground, seed=seed, **settings), ground)
+    return _learned(
+        nirl(prepared(demonstrations, ground, refine), ground, seed=seed, **settings),
+        ground,
+    )
 
 
 Expectations = Callable[[Steps, int, float], Floats]
@@ -103,7 +114,9 @@ Expectations = Callable[[Steps, int, float], Floats]
 
 def from_start(steps: Steps, actions: int, discount: float) -> Floats:
     """Discounted from each drive's first decision on: Eq. (5.13). What comes a dozen decisions later hardly counts."""
-    return empirical_expectations(chosen_block(steps.features, steps.actions, actions), steps.trajectory, discount)
+    return empirical_expectations(
+        chosen_block(steps.features, steps.actions, actions), steps.trajectory, discount
+    )
 
 
 def from_everywhere(steps: Steps, actions: int, discount: float) -> Floats:
@@ -142,14 +155,20 @@ def learn_apprenticeship(
     shown = prepared(demonstrations, ground, refine)
     better = improve or SampledDescent()
     each = max(
-        expect.integer("iterations", iterations, at_least=1) // expect.integer("guesses", guesses, at_least=1), 1
+        check_integer("iterations", iterations, at_least=1)
+        // check_integer("guesses", guesses, at_least=1),
+        1,
     )
     practice = Practice(shown, ground, hidden, eta, better, seed)
 
     def met() -> Floats:
         """Feature expectations of the latest policy; where it decided nothing there is nothing."""
         steps = practice.drive()
-        return expectations(steps, ground.actions, better.discount) if len(steps) else np.zeros_like(mu)
+        return (
+            expectations(steps, ground.actions, better.discount)
+            if len(steps)
+            else np.zeros_like(mu)
+        )
 
     def solve(weights: Floats) -> tuple[None, Floats]:
         for k in range(each):
@@ -193,16 +212,33 @@ def learn_relative_entropy(
     """
     ground = course or RobotCourse()
     shown = prepared(demonstrations, ground, refine)
-    better, rng = improve or SampledDescent(), expect.generator("seed", seed)
-    expert = segments(shown, ground.actions, better.discount, expect.integer("horizon", horizon, at_least=1))
-    random = random_segments(demonstrations, ground, expect.integer("samples", samples, at_least=1), horizon, rng)
+    better, rng = improve or SampledDescent(), check_generator("seed", seed)
+    expert = segments(
+        shown,
+        ground.actions,
+        better.discount,
+        check_integer("horizon", horizon, at_least=1),
+    )
+    random = random_segments(
+        demonstrations,
+        ground,
+        check_integer("samples", samples, at_least=1),
+        horizon,
+        rng,
+    )
     drawn = discounted_to_go(
-        chosen_block(random.features, random.actions, ground.actions), random.trajectory, better.discount
+        chosen_block(random.features, random.actions, ground.actions),
+        random.trajectory,
+        better.discount,
     )[np.flatnonzero(np.diff(random.trajectory, prepend=-1))]
-    eps = expect.real("slack", slack, at_least=0) * drawn.std(axis=0)
-    found = relative_entropy(expert.mean(axis=0), drawn, np.zeros(len(drawn)), slack=eps)
+    eps = check_real("slack", slack, at_least=0) * drawn.std(axis=0)
+    found = relative_entropy(
+        expert.mean(axis=0), drawn, np.zeros(len(drawn)), slack=eps
+    )
     theta = found.weights.reshape(ground.actions, -1)
-    return _learned(practise(shown, ground, theta, improve=better, seed=rng, **settings), ground)
+    return _learned(
+        practise(shown, ground, theta, improve=better, seed=rng, **settings), ground
+    )
 
 
 def segments(steps: Steps, actions: int, discount: float, horizon: int) -> Floats:
@@ -212,22 +248,33 @@ def segments(steps: Steps, actions: int, discount: float, horizon: int) -> Float
     beyond = np.arange(len(steps)) + horizon
     inside = beyond < len(steps)
     inside[inside] = steps.trajectory[beyond[inside]] == steps.trajectory[inside]
-    to_go[inside] -= discount**horizon * discounted_to_go(features, steps.trajectory, discount)[beyond[inside]]
+    to_go[inside] -= (
+        discount**horizon
+        * discounted_to_go(features, steps.trajectory, discount)[beyond[inside]]
+    )
     return to_go
 
 
 def random_segments(
-    demonstrations: Demonstrations, course: RobotCourse, samples: int, horizon: int, rng: np.random.Generator
+    demonstrations: Demonstrations,
+    course: RobotCourse,
+    samples: int,
+    horizon: int,
+    rng: np.random.Generator,
 ) -> Steps:
     """Segments of ``horizon`` decisions by chance, begun at poses where the expert had to decide."""
     pairs = demonstrations.effective
     begin = rng.integers(len(pairs), size=samples)
-    simulator = start_at(pairs.worlds[pairs.trajectory[begin]], pairs.poses[begin], pairs.speed)
+    simulator = start_at(
+        pairs.worlds[pairs.trajectory[begin]], pairs.poses[begin], pairs.speed
+    )
 
     def alike(inputs: Floats) -> Floats:
         return np.full((len(inputs), course.actions), 1 / course.actions)
 
-    return drive(simulator, alike, course.encoder, course.max_steps, rng, decisions=horizon)
+    return drive(
+        simulator, alike, course.encoder, course.max_steps, rng, decisions=horizon
+    )
 
 
 Estimate = Callable[[Steps, int, float], Floats]
@@ -245,7 +292,12 @@ def by_lstd(shown: Steps, actions: int, discount: float) -> Floats:
 def by_heuristic(shown: Steps, actions: int, discount: float) -> Floats:
     """Monte Carlo for the expert's own actions; gamma times that for all others (Klein et al. 2012)."""
     own = chosen_block(shown.features, shown.actions, actions)
-    return shown_only(discounted_to_go(own, shown.trajectory, discount), shown.actions, actions, discount)
+    return shown_only(
+        discounted_to_go(own, shown.trajectory, discount),
+        shown.actions,
+        actions,
+        discount,
+    )
 
 
 def learn_scirl(
@@ -276,9 +328,13 @@ def learn_scirl(
     better = improve or SampledDescent()
     mu = estimate(shown, ground.actions, better.discount)
     share = balance(shown.actions, ground.actions, power=power)
-    classified = structured_classification(mu, shown.actions, step_weights=share, ridge=ridge)
+    classified = structured_classification(
+        mu, shown.actions, step_weights=share, ridge=ridge
+    )
     theta = classified.weights.reshape(ground.actions, -1)
-    return _learned(practise(shown, ground, theta, improve=better, seed=seed, **settings), ground)
+    return _learned(
+        practise(shown, ground, theta, improve=better, seed=seed, **settings), ground
+    )
 
 
 METHODS: dict[str, Callable[..., Learned]] = {
@@ -303,9 +359,21 @@ def learn_under(
     """
     ground = course or RobotCourse()
     return _learned(
-        practise(shown_steps(demonstrations, ground.encoder), ground, weights, seed=seed, **settings), ground
+        practise(
+            shown_steps(demonstrations, ground.encoder),
+            ground,
+            weights,
+            seed=seed,
+            **settings,
+        ),
+        ground,
     )
 
 
 def _learned(found: Found, course: RobotCourse) -> Learned:
-    return Learned(NetworkPolicy(found.network, course.encoder), found.weights, found.history, found.chosen)
+    return Learned(
+        NetworkPolicy(found.network, course.encoder),
+        found.weights,
+        found.history,
+        found.chosen,
+    )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_array, check_integer
 
 Ints = NDArray[np.int64]
 
@@ -43,14 +43,20 @@ def counts(states: ArrayLike, shown: ArrayLike, actions: int) -> tuple[Ints, Int
     ------
     ValueError : if there is no step, shapes do not fit, or an action does not exist.
     """
-    own = expect.array("shown", shown, shape=("M",), dtype=np.int64)
+    own = check_array("shown", shown, shape=("M",), dtype=np.int64)
     if len(own) == 0:
-        raise ValueError("states must hold at least one step, got none: were all of them filtered out?")
-    if not 0 <= own.min() <= own.max() < expect.integer("actions", actions, at_least=1):
-        raise ValueError(f"shown must hold actions from 0 to {actions - 1}, got {own.min()} to {own.max()}")
+        raise ValueError(
+            "states must hold at least one step, got none: were all of them filtered out?"
+        )
+    if not 0 <= own.min() <= own.max() < check_integer("actions", actions, at_least=1):
+        raise ValueError(
+            f"shown must hold actions from 0 to {actions - 1}, got {own.min()} to {own.max()}"
+        )
     rows = np.asarray(states)
     if len(rows) != len(own):
-        raise ValueError(f"states must be as many as the actions shown, {len(own)}, got {len(rows)}")
+        raise ValueError(
+            f"states must be as many as the actions shown, {len(own)}, got {len(rows)}"
+        )
     _, which = np.unique(rows, axis=0, return_inverse=True)
     which = which.reshape(len(own))
     table = np.zeros((which.max() + 1, actions), dtype=np.int64)
@@ -81,4 +87,9 @@ def most_telling(states: ArrayLike, shown: ArrayLike, actions: int) -> Refined:
 
 def _refined(score: NDArray, which: Ints, table: Ints, shown: ArrayLike) -> Refined:
     actions = score.argmax(axis=1)[which]
-    return Refined(actions, actions != np.asarray(shown), len(table), int(((table > 0).sum(axis=1) > 1).sum()))
+    return Refined(
+        actions,
+        actions != np.asarray(shown),
+        len(table),
+        int(((table > 0).sum(axis=1) > 1).sum()),
+    )

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
 from scipy.special import logsumexp, softmax
 
-from robonav import expect
+from robonav.validation import check_array, check_integer, check_positive, check_real
 
 Floats = NDArray[np.float64]
 
@@ -52,7 +52,13 @@ def importance(weights: ArrayLike, samples: ArrayLike, log_ratios: ArrayLike) ->
     return np.asarray(softmax(features @ theta + ratios))
 
 
-def dual(weights: ArrayLike, expert: ArrayLike, samples: ArrayLike, log_ratios: ArrayLike, slack: ArrayLike) -> float:
+def dual(
+    weights: ArrayLike,
+    expert: ArrayLike,
+    samples: ArrayLike,
+    log_ratios: ArrayLike,
+    slack: ArrayLike,
+) -> float:
     """What is maximised: theta . mu_E - log Z(theta) - sum_i eps_i |theta_i|, Z estimated from the samples."""
     theta, features, ratios = _checked(weights, samples, log_ratios)
     mu, eps = _aims(expert, slack, len(theta))
@@ -61,7 +67,11 @@ def dual(weights: ArrayLike, expert: ArrayLike, samples: ArrayLike, log_ratios: 
 
 
 def dual_gradient(
-    weights: ArrayLike, expert: ArrayLike, samples: ArrayLike, log_ratios: ArrayLike, slack: ArrayLike
+    weights: ArrayLike,
+    expert: ArrayLike,
+    samples: ArrayLike,
+    log_ratios: ArrayLike,
+    slack: ArrayLike,
 ) -> Floats:
     """The (sub)gradient of :func:`dual`, (K,): mu_E - sum_tau importance(tau) f(tau) - eps sign(theta).
 
@@ -69,18 +79,22 @@ def dual_gradient(
     numerator and denominator, which leaves a gradient that is the same for every theta.
     """
     mu, eps = _aims(expert, slack, np.size(weights))
-    weighted = importance(weights, samples, log_ratios) @ np.asarray(samples, dtype=float)
+    weighted = importance(weights, samples, log_ratios) @ np.asarray(
+        samples, dtype=float
+    )
     return mu - weighted - eps * np.sign(np.asarray(weights, dtype=float))
 
 
-def hoeffding_slack(samples: ArrayLike, demonstrations: int, *, confidence: float = 0.95) -> Floats:
+def hoeffding_slack(
+    samples: ArrayLike, demonstrations: int, *, confidence: float = 0.95
+) -> Floats:
     """How far a mean over so many demonstrations may be off by chance, (K,): the paper's choice of eps.
 
     Hoeffding's bound, with the range of each trajectory feature among the samples (N, K) for its range.
     """
-    features = expect.array("samples", samples, shape=("N", "K"))
-    n = expect.integer("demonstrations", demonstrations, at_least=1)
-    doubt = 1 - expect.real("confidence", confidence, at_least=0, below=1)
+    features = check_array("samples", samples, shape=("N", "K"))
+    n = check_integer("demonstrations", demonstrations, at_least=1)
+    doubt = 1 - check_real("confidence", confidence, at_least=0, below=1)
     return np.asarray(np.sqrt(-np.log(doubt / 2) / (2 * n)) * np.ptp(features, axis=0))
 
 
@@ -110,18 +124,22 @@ def relative_entropy(
     ------
     ValueError : if there is no sample, or shapes do not fit.
     """
-    features = expect.array("samples", samples, shape=("N", "K"))
+    features = check_array("samples", samples, shape=("N", "K"))
     k = features.shape[1]
     mu, eps = _aims(expert, np.broadcast_to(np.asarray(slack, dtype=float), (k,)), k)
-    most = expect.positive("bound", bound)
-    scale = np.maximum(abs(features - mu).max(axis=0, initial=0), np.finfo(float).tiny)  # features of like size
+    most = check_positive("bound", bound)
+    scale = np.maximum(
+        abs(features - mu).max(axis=0, initial=0), np.finfo(float).tiny
+    )  # features of like size
 
     def negative(parts: Floats) -> tuple[float, Floats]:
         up, down = parts.reshape(2, k) / scale
         theta = up - down
         smooth = dual_gradient(theta, mu, features, log_ratios, np.zeros(k))
         value = dual(theta, mu, features, log_ratios, np.zeros(k)) - eps @ (up + down)
-        return -value, -np.concatenate([(smooth - eps) / scale, (-smooth - eps) / scale])
+        return -value, -np.concatenate(
+            [(smooth - eps) / scale, (-smooth - eps) / scale]
+        )
 
     found = minimize(
         negative,
@@ -129,26 +147,38 @@ def relative_entropy(
         jac=True,
         method="L-BFGS-B",
         bounds=[(0.0, most)] * (2 * k),
-        options={"maxiter": expect.integer("iterations", iterations, at_least=1), "maxfun": 20 * iterations},
+        options={
+            "maxiter": check_integer("iterations", iterations, at_least=1),
+            "maxfun": 20 * iterations,
+        },
     )
     up, down = found.x.reshape(2, k) / scale
     theta = up - down
     shares = importance(theta, features, log_ratios)
     return RelativeEntropy(
-        theta, dual(theta, mu, features, log_ratios, eps), mu - shares @ features, float(1 / (shares**2).sum())
+        theta,
+        dual(theta, mu, features, log_ratios, eps),
+        mu - shares @ features,
+        float(1 / (shares**2).sum()),
     )
 
 
-def _checked(weights: ArrayLike, samples: ArrayLike, log_ratios: ArrayLike) -> tuple[Floats, Floats, Floats]:
-    features = expect.array("samples", samples, shape=("N", "K"))
+def _checked(
+    weights: ArrayLike, samples: ArrayLike, log_ratios: ArrayLike
+) -> tuple[Floats, Floats, Floats]:
+    features = check_array("samples", samples, shape=("N", "K"))
     if len(features) == 0:
         raise ValueError("samples must hold at least one trajectory, got none")
-    theta = expect.array("weights", weights, shape=(features.shape[1],))
-    return theta, features, expect.array("log_ratios", log_ratios, shape=(len(features),))
+    theta = check_array("weights", weights, shape=(features.shape[1],))
+    return (
+        theta,
+        features,
+        check_array("log_ratios", log_ratios, shape=(len(features),)),
+    )
 
 
 def _aims(expert: ArrayLike, slack: ArrayLike, k: int) -> tuple[Floats, Floats]:
-    eps = expect.array("slack", slack, shape=(k,))
+    eps = check_array("slack", slack, shape=(k,))
     if (eps < 0).any():
         raise ValueError(f"slack must be at least 0, got {eps.min():g}")
-    return expect.array("expert", expert, shape=(k,)), eps
+    return check_array("expert", expert, shape=(k,)), eps

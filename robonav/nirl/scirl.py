@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect
+from robonav.validation import check_array, check_integer, check_positive, check_real
 
 Floats = NDArray[np.float64]
 
@@ -26,7 +26,12 @@ class Classification:
 
 
 def lstd_mu(
-    basis: ArrayLike, next_basis: ArrayLike, features: ArrayLike, discount: float, *, ridge: float = 1e-6
+    basis: ArrayLike,
+    next_basis: ArrayLike,
+    features: ArrayLike,
+    discount: float,
+    *,
+    ridge: float = 1e-6,
 ) -> Floats:
     """LSTD-mu: coefficients (n, K) with mu(s, a) close to psi(s, a) . coefficients, from single steps of the expert.
 
@@ -45,17 +50,21 @@ def lstd_mu(
     ------
     ValueError : if there is no step or shapes do not fit.
     """
-    psi = expect.array("basis", basis, shape=("M", "n"))
+    psi = check_array("basis", basis, shape=("M", "n"))
     if len(psi) == 0:
         raise ValueError("basis must hold at least one step, got none")
-    after = expect.array("next_basis", next_basis, shape=psi.shape)
-    f = expect.array("features", features, shape=(len(psi), "K"))
-    gamma = expect.real("discount", discount, at_least=0, at_most=1)
-    equations = psi.T @ (psi - gamma * after) + expect.positive("ridge", ridge) * len(psi) * np.eye(psi.shape[1])
+    after = check_array("next_basis", next_basis, shape=psi.shape)
+    f = check_array("features", features, shape=(len(psi), "K"))
+    gamma = check_real("discount", discount, at_least=0, at_most=1)
+    equations = psi.T @ (psi - gamma * after) + check_positive("ridge", ridge) * len(
+        psi
+    ) * np.eye(psi.shape[1])
     return np.linalg.solve(equations, psi.T @ f)
 
 
-def shown_only(expectations: ArrayLike, shown: ArrayLike, actions: int, discount: float) -> Floats:
+def shown_only(
+    expectations: ArrayLike, shown: ArrayLike, actions: int, discount: float
+) -> Floats:
     """mu_E(s, a) of every action, (M, A, K), where only the expert's own is known (Klein et al. 2012, section 5).
 
     The paper's heuristic: with another action the expert loses a step and then goes on as before, so that
@@ -67,7 +76,7 @@ def shown_only(expectations: ArrayLike, shown: ArrayLike, actions: int, discount
         :func:`~robonav.nirl.discounted_to_go`.
     shown : the expert's actions a_t, (M,).
     """
-    mu = expect.array("expectations", expectations, shape=("M", "K"))
+    mu = check_array("expectations", expectations, shape=("M", "K"))
     own = _actions(shown, len(mu), actions)
     every = np.repeat((discount * mu)[:, None], actions, axis=1)
     every[np.arange(len(mu)), own] = mu
@@ -88,10 +97,14 @@ def cost(
     (Taskar et al. 2005; Klein et al. 2012). With a* the action that comes out on top, mu(s, a*) - mu(s, a_E) is a
     step's share of the subgradient. Arguments as in :func:`structured_classification`.
     """
-    score = expect.array("theta", theta, shape=("K",))
-    mu = expect.array("expectations", expectations, shape=("M", "A", len(score)))
+    score = check_array("theta", theta, shape=("K",))
+    mu = check_array("expectations", expectations, shape=("M", "A", len(score)))
     own = _actions(shown, len(mu), mu.shape[1])
-    share = np.full(len(mu), 1 / len(mu)) if step_weights is None else np.asarray(step_weights, dtype=float)
+    share = (
+        np.full(len(mu), 1 / len(mu))
+        if step_weights is None
+        else np.asarray(step_weights, dtype=float)
+    )
     row = np.arange(len(mu))
     scores = mu @ score + (np.arange(mu.shape[1]) != own[:, None])
     top = scores.argmax(axis=1)
@@ -126,16 +139,20 @@ def structured_classification(
     ------
     ValueError : if there is no step, shapes do not fit or an action does not exist.
     """
-    mu = expect.array("expectations", expectations, shape=("M", "A", "K"))
+    mu = check_array("expectations", expectations, shape=("M", "A", "K"))
     if len(mu) == 0:
         raise ValueError("expectations must hold at least one step, got none")
     own = _actions(shown, len(mu), mu.shape[1])
-    decay, first = expect.real("ridge", ridge, at_least=0), expect.positive("rate", rate)
+    decay, first = check_real("ridge", ridge, at_least=0), check_positive("rate", rate)
     apart = np.linalg.norm(mu - mu[np.arange(len(mu)), own][:, None], axis=2)
     scale = max(apart.max(), np.finfo(float).tiny)
     mu = mu / scale  # the same classifier with weights in units of 1 / scale
-    theta, squares, total = np.zeros(mu.shape[2]), np.full(mu.shape[2], 1e-12), np.zeros(mu.shape[2])
-    costs = np.empty(expect.integer("iterations", iterations, at_least=2))
+    theta, squares, total = (
+        np.zeros(mu.shape[2]),
+        np.full(mu.shape[2], 1e-12),
+        np.zeros(mu.shape[2]),
+    )
+    costs = np.empty(check_integer("iterations", iterations, at_least=2))
     for k in range(iterations):
         costs[k], slope = cost(theta, mu, own, ridge=decay, step_weights=step_weights)
         squares += slope**2
@@ -146,7 +163,9 @@ def structured_classification(
 
 
 def _actions(shown: ArrayLike, steps: int, actions: int) -> NDArray[np.int64]:
-    own = expect.array("shown", shown, shape=(steps,), dtype=np.int64)
+    own = check_array("shown", shown, shape=(steps,), dtype=np.int64)
     if steps and not 0 <= own.min() <= own.max() < actions:
-        raise ValueError(f"shown must hold actions from 0 to {actions - 1}, got {own.min()} to {own.max()}")
+        raise ValueError(
+            f"shown must hold actions from 0 to {actions - 1}, got {own.min()} to {own.max()}"
+        )
     return own

@@ -5,21 +5,31 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from robonav import expect
+from robonav.validation import check_one_of
 
-from .deep import dqn
-from .exploration import boltzmann, choose, falling
-from .fitted import nfq
-from .neural import nnql, online
-from .practice import STARTS, TARGETS, Course
-from .rewards import COZY_DISTANCE, Property, reward, state_property
+from .dqn import dqn
+from .nfq import nfq
+from .nnql import nnql, online
+from .reward import COZY_DISTANCE, Property, reward, state_property
+from .schedules import boltzmann, choose, falling
 from .targets import clip, cross_entropy, q_targets, shift
+from .trainer import STARTS, TARGETS, Course
 from .training import Training, weight_changes
 
-METHODS: dict[str, Callable[..., Training]] = {"nnql": nnql, "online": online, "nfq": nfq, "dqn": dqn}
+METHODS: dict[str, Callable[..., Training]] = {
+    "nnql": nnql,
+    "online": online,
+    "nfq": nfq,
+    "dqn": dqn,
+}
 
 
-def train(method: str = "nnql", seeds: int | Sequence[int] = 16, episodes: int = 300, **settings: Any) -> Training:
+def train(
+    method: str = "nnql",
+    seeds: int | Sequence[int] = 16,
+    episodes: int = 300,
+    **settings: Any,
+) -> Training:
     """Train S networks by a method of this chapter: ``METHODS[method](seeds, episodes, **settings)``.
 
     Parameters
@@ -33,7 +43,7 @@ def train(method: str = "nnql", seeds: int | Sequence[int] = 16, episodes: int =
     ------
     ValueError, TypeError : for another method, or an argument out of bounds.
     """
-    return METHODS[expect.one_of("method", method, METHODS)](seeds, episodes, **settings)
+    return METHODS[check_one_of("method", method, METHODS)](seeds, episodes, **settings)
 
 
 __all__ = [

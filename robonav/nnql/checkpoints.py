@@ -14,28 +14,44 @@ from typing import Any
 
 import numpy as np
 
-from robonav import __version__, files
+from robonav import atomic
+from robonav._version import __version__
 
-from .learners import Learner
-from .practice import Diary
+from .agents import Learner
+from .trainer import Diary
 
 FORMAT = "robonav training 1"
 _DIARY = ("outcomes", "steps", "decisions", "returns")
 
 
-def save_checkpoint(path: str | Path, identity: dict[str, Any], learner: Learner, diary: Diary, done: int) -> None:
+def save_checkpoint(
+    path: str | Path,
+    identity: dict[str, Any],
+    learner: Learner,
+    diary: Diary,
+    done: int,
+) -> None:
     """Write what a training has come to after ``done`` episodes of every seed.
 
     ``identity`` says which training it is: seeds, settings, course.
     """
-    about = {"format": FORMAT, "version": __version__, "training": _digest(identity), "done": done}
-    arrays: dict[str, Any] = {f"about.{key}": np.array(value) for key, value in about.items()}
+    about = {
+        "format": FORMAT,
+        "version": __version__,
+        "training": _digest(identity),
+        "done": done,
+    }
+    arrays: dict[str, Any] = {
+        f"about.{key}": np.array(value) for key, value in about.items()
+    }
     arrays |= learner.state() | {name: getattr(diary, name) for name in _DIARY}
-    with files.whole(path) as file:
+    with atomic.atomic_write(path) as file:
         np.savez(file, **arrays)
 
 
-def load_checkpoint(path: str | Path, identity: dict[str, Any], learner: Learner, diary: Diary) -> int:
+def load_checkpoint(
+    path: str | Path, identity: dict[str, Any], learner: Learner, diary: Diary
+) -> int:
     """Put learner and diary where a file left them, and return the number of episodes done; 0 if there is no file.
 
     Raises
@@ -48,7 +64,10 @@ def load_checkpoint(path: str | Path, identity: dict[str, Any], learner: Learner
     try:
         with np.load(io.BytesIO(Path(path).read_bytes()), allow_pickle=False) as file:
             arrays = dict(file)
-        about = {key: arrays.pop(f"about.{key}").item() for key in ("format", "version", "training", "done")}
+        about = {
+            key: arrays.pop(f"about.{key}").item()
+            for key in ("format", "version", "training", "done")
+        }
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
         raise ValueError(f"{name} is not a whole checkpoint of robonav") from None
     if (about["format"], about["version"]) != (FORMAT, __version__):
@@ -56,7 +75,9 @@ def load_checkpoint(path: str | Path, identity: dict[str, Any], learner: Learner
             f"{name} was written by robonav {about['version']} ({about['format']}), expected {__version__} ({FORMAT})"
         )
     if about["training"] != _digest(identity):
-        raise ValueError(f"{name} belongs to a training with other seeds, settings or course")
+        raise ValueError(
+            f"{name} belongs to a training with other seeds, settings or course"
+        )
     for key in _DIARY:
         getattr(diary, key)[:] = arrays.pop(key)
     learner.restore(arrays)
@@ -72,7 +93,9 @@ def _digest(identity: dict[str, Any]) -> str:
 def _plain(value: Any) -> Any:
     fields = getattr(value, "__dataclass_fields__", None)
     if fields is not None:
-        return type(value).__qualname__, {name: _plain(getattr(value, name)) for name in fields}
+        return type(value).__qualname__, {
+            name: _plain(getattr(value, name)) for name in fields
+        }
     if isinstance(value, dict):
         return sorted((key, _plain(part)) for key, part in value.items())
     if isinstance(value, list | tuple):

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.lfd.network import Network, propagate
+from robonav.networks.multilayer_perceptron import Network, propagate
 
-from . import kernels
+from . import _fast
 
 if TYPE_CHECKING:
     import torch
@@ -25,7 +25,16 @@ class Networks(Protocol):
         """Logits (K, m, A) by the networks ``rows`` (K,), each for m inputs of its own: ``x`` (K, m, n)."""
 
     def descend(
-        self, rows: Rows, x: Array, y: Array, first: Rows, last: Rows, *, rate: Array, passes: int, tolerance: float
+        self,
+        rows: Rows,
+        x: Array,
+        y: Array,
+        first: Rows,
+        last: Rows,
+        *,
+        rate: Array,
+        passes: int,
+        tolerance: float,
     ) -> None:
         """Stochastic gradient descent on the cross-entropy, Eq. (4.11) and (4.12), for the networks ``rows`` (K,).
 
@@ -35,7 +44,13 @@ class Networks(Protocol):
         """
 
     def slopes(
-        self, rows: Rows, x: Array, actions: NDArray[np.int64], targets: Array, *, linear: bool
+        self,
+        rows: Rows,
+        x: Array,
+        actions: NDArray[np.int64],
+        targets: Array,
+        *,
+        linear: bool,
     ) -> tuple[Array, Array]:
         """Slopes (K, P) by the parameters, and costs (K,), of m examples of each of ``rows`` (K,).
 
@@ -61,19 +76,49 @@ class CompiledNetworks:
 
     def logits(self, rows: Rows, x: Array) -> Array:
         z = np.empty((*x.shape[:2], self._outputs))
-        kernels.logits(self._parameters, rows, x, z)
+        _fast.logits(self._parameters, rows, x, z)
         return z
 
     def descend(
-        self, rows: Rows, x: Array, y: Array, first: Rows, last: Rows, *, rate: Array, passes: int, tolerance: float
+        self,
+        rows: Rows,
+        x: Array,
+        y: Array,
+        first: Rows,
+        last: Rows,
+        *,
+        rate: Array,
+        passes: int,
+        tolerance: float,
     ) -> None:
-        kernels.descend(self._parameters, rows, x, y, first, last, rate, passes, tolerance)
+        _fast.descend(
+            self._parameters, rows, x, y, first, last, rate, passes, tolerance
+        )
 
     def slopes(
-        self, rows: Rows, x: Array, actions: NDArray[np.int64], targets: Array, *, linear: bool
+        self,
+        rows: Rows,
+        x: Array,
+        actions: NDArray[np.int64],
+        targets: Array,
+        *,
+        linear: bool,
     ) -> tuple[Array, Array]:
-        slope, costs = np.empty((len(rows), self._parameters.shape[1])), np.empty(len(rows))
-        kernels.slopes(self._parameters, rows, x, actions, targets, self._outputs, linear, slope, costs)
+        slope, costs = (
+            np.empty((len(rows), self._parameters.shape[1])),
+            np.empty(len(rows)),
+        )
+        _fast.slopes(
+            self._parameters,
+            rows,
+            x,
+            actions,
+            targets,
+            self._outputs,
+            linear,
+            slope,
+            costs,
+        )
         return slope, costs
 
     def subtract(self, rows: Rows, steps: Array) -> None:
@@ -103,7 +148,9 @@ class TorchNetworks:
             self._parameters = torch.tensor(packed(network), device=device)
         except (RuntimeError, AssertionError, TypeError) as error:
             reason = str(error).partition("\n")[0]
-            raise ValueError(f"device must be one that torch has, got {device!r}: {reason}") from None
+            raise ValueError(
+                f"device must be one that torch has, got {device!r}: {reason}"
+            ) from None
         self._sizes = network.sizes
 
     def logits(self, rows: Rows, x: Array) -> Array:
@@ -111,15 +158,30 @@ class TorchNetworks:
         return self._back_here(z)
 
     def descend(
-        self, rows: Rows, x: Array, y: Array, first: Rows, last: Rows, *, rate: Array, passes: int, tolerance: float
+        self,
+        rows: Rows,
+        x: Array,
+        y: Array,
+        first: Rows,
+        last: Rows,
+        *,
+        rate: Array,
+        passes: int,
+        tolerance: float,
     ) -> None:
-        going, before, counts = np.arange(len(rows)), np.full(len(rows), np.inf), last - first
+        going, before, counts = (
+            np.arange(len(rows)),
+            np.full(len(rows), np.inf),
+            last - first,
+        )
         for _ in range(passes):
             cost = np.zeros(len(rows))
             for step in range(int(counts[going].max(initial=0))):
                 k = going[step < counts[going]]
                 at = (rows[k], first[k] + step)
-                cost[k] += self._step(rows[k], self._there(x[at]), self._there(y[at]), rate[k])
+                cost[k] += self._step(
+                    rows[k], self._there(x[at]), self._there(y[at]), rate[k]
+                )
             cost /= np.maximum(counts, 1)
             going = going[np.abs(before - cost)[going] >= tolerance]
             before = cost
@@ -129,24 +191,44 @@ class TorchNetworks:
         import torch
 
         (_, hidden, q), z = self._propagate(rows, x[:, None])
-        self._parameters[rows] -= self._there(rate)[:, None] * self._slopes(rows, x[:, None], hidden, q - y[:, None])
-        return self._back_here((torch.nn.functional.softplus(z[:, 0]) - y * z[:, 0]).sum(dim=1))
+        self._parameters[rows] -= self._there(rate)[:, None] * self._slopes(
+            rows, x[:, None], hidden, q - y[:, None]
+        )
+        return self._back_here(
+            (torch.nn.functional.softplus(z[:, 0]) - y * z[:, 0]).sum(dim=1)
+        )
 
     def slopes(
-        self, rows: Rows, x: Array, actions: NDArray[np.int64], targets: Array, *, linear: bool
+        self,
+        rows: Rows,
+        x: Array,
+        actions: NDArray[np.int64],
+        targets: Array,
+        *,
+        linear: bool,
     ) -> tuple[Array, Array]:
         import torch
 
-        inputs, taken, wanted = self._there(x), self._there(actions)[..., None], self._there(targets)[..., None]
+        inputs, taken, wanted = (
+            self._there(x),
+            self._there(actions)[..., None],
+            self._there(targets)[..., None],
+        )
         (_, hidden, q), z = self._propagate(rows, inputs)
         answer, logit = (z if linear else q).gather(2, taken), z.gather(2, taken)
         huber = torch.nn.functional.huber_loss(answer, wanted, reduction="none")
-        costs = huber if linear else torch.nn.functional.softplus(logit) - wanted * logit
+        costs = (
+            huber if linear else torch.nn.functional.softplus(logit) - wanted * logit
+        )
         error = (answer - wanted).clamp(-1, 1) / x.shape[1]
-        slope = self._slopes(rows, inputs, hidden, torch.zeros_like(z).scatter(2, taken, error))
+        slope = self._slopes(
+            rows, inputs, hidden, torch.zeros_like(z).scatter(2, taken, error)
+        )
         return self._back_here(slope), self._back_here(costs.mean(dim=(1, 2)))
 
-    def _slopes(self, rows: Rows, x: torch.Tensor, hidden: torch.Tensor, d2: torch.Tensor) -> torch.Tensor:
+    def _slopes(
+        self, rows: Rows, x: torch.Tensor, hidden: torch.Tensor, d2: torch.Tensor
+    ) -> torch.Tensor:
         """Backpropagation, Eq. (3.14), (3.15): slopes (K, P) from the errors ``d2`` (K, m, A) of the outputs."""
         import torch
 
@@ -164,7 +246,9 @@ class TorchNetworks:
     def load(self, rows: Rows, parameters: Array) -> None:
         self._parameters[rows] = self._there(parameters)
 
-    def _propagate(self, rows: Rows, x: torch.Tensor) -> tuple[list[torch.Tensor], torch.Tensor]:
+    def _propagate(
+        self, rows: Rows, x: torch.Tensor
+    ) -> tuple[list[torch.Tensor], torch.Tensor]:
         import torch
 
         w1, b1, w2, b2 = self._unpacked(rows)
@@ -205,5 +289,8 @@ def network_of(parameters: Array, sizes: tuple[int, ...]) -> Network:
     n, h, a = sizes
     stack = parameters.shape[:-1]
     w1, b1, w2, b2 = np.split(parameters, np.cumsum([n * h, h, h * a]), axis=-1)
-    weights = w1.reshape(*stack, n, h).swapaxes(-1, -2), w2.reshape(*stack, h, a).swapaxes(-1, -2)
+    weights = (
+        w1.reshape(*stack, n, h).swapaxes(-1, -2),
+        w2.reshape(*stack, h, a).swapaxes(-1, -2),
+    )
     return Network(weights, (b1, b2))

@@ -11,7 +11,13 @@ Array = NDArray[np.float64]
 
 
 def q_targets(
-    q: Array, actions: NDArray[np.int64], rewards: Array, next_values: Array, *, alpha: float | Array, gamma: float
+    q: Array,
+    actions: NDArray[np.int64],
+    rewards: Array,
+    next_values: Array,
+    *,
+    alpha: float | Array,
+    gamma: float,
 ) -> Array:
     """Q-values (N, A) after one update, Eq. (4.9): that of the action taken moves, the others stay.
 

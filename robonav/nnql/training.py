@@ -11,17 +11,17 @@ from typing import Any, TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav import expect
-from robonav.lfd.network import Network, random_network, stacked
-from robonav.lfd.policy import NetworkPolicy
+from robonav.networks.multilayer_perceptron import Network, random_network, stacked
+from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import OUTCOMES, Encoder
+from robonav.validation import check_integer
 
+from .agents import Learner
 from .checkpoints import load_checkpoint, save_checkpoint
-from .exploration import Span, check_span
-from .learners import Learner
 from .networks import CompiledNetworks, Networks, TorchNetworks, network_of
-from .practice import ACTIONS, INITIAL, Course, Diary, Practice, chance
+from .schedules import Span, check_span
+from .trainer import ACTIONS, INITIAL, Course, Diary, Practice, chance
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,10 @@ class Training:
     @cached_property
     def policies(self) -> tuple[NetworkPolicy, ...]:
         """The greedy policy (Algorithm 9) of each seed."""
-        return tuple(NetworkPolicy(self.network[row], self.encoder) for row in range(len(self.seeds)))
+        return tuple(
+            NetworkPolicy(self.network[row], self.encoder)
+            for row in range(len(self.seeds))
+        )
 
 
 class Common(TypedDict, total=False):
@@ -140,22 +143,50 @@ def school(
     """
     course = course or Course()
     numbers = check_seeds(seeds)
-    expect.integer("episodes", episodes, at_least=1)
-    expect.integer("every", every, at_least=1)
-    sizes = (course.encoder.size, expect.integer("hidden", hidden, at_least=1), ACTIONS)
-    settings = {"temperature": check_span("temperature", temperature), "hidden": hidden, **settings}
-    start = stacked([random_network(sizes, seed=chance(seed, INITIAL)) for seed in numbers])
-    networks: Networks = CompiledNetworks(start) if device == "cpu" else TorchNetworks(start, device)
-    learner, diary = make_learner(networks, numbers, course), Diary(len(numbers), episodes, record=record)
-    identity = {"method": method, "seeds": numbers, "episodes": episodes, "course": course, "settings": settings}
+    check_integer("episodes", episodes, at_least=1)
+    check_integer("every", every, at_least=1)
+    sizes = (course.encoder.size, check_integer("hidden", hidden, at_least=1), ACTIONS)
+    settings = {
+        "temperature": check_span("temperature", temperature),
+        "hidden": hidden,
+        **settings,
+    }
+    start = stacked(
+        [random_network(sizes, seed=chance(seed, INITIAL)) for seed in numbers]
+    )
+    networks: Networks = (
+        CompiledNetworks(start) if device == "cpu" else TorchNetworks(start, device)
+    )
+    learner, diary = (
+        make_learner(networks, numbers, course),
+        Diary(len(numbers), episodes, record=record),
+    )
+    identity = {
+        "method": method,
+        "seeds": numbers,
+        "episodes": episodes,
+        "course": course,
+        "settings": settings,
+    }
     done = 0
     if checkpoint is not None:
         if record:
-            raise ValueError("record must be False with a checkpoint, which does not hold the history")
+            raise ValueError(
+                "record must be False with a checkpoint, which does not hold the history"
+            )
         done = load_checkpoint(checkpoint, identity, learner, diary)
     while done < episodes:
         last = episodes if checkpoint is None else min(done + every, episodes)
-        Practice(learner, course, numbers, episodes, temperature, diary, first=done, last=last).run(progress)
+        Practice(
+            learner,
+            course,
+            numbers,
+            episodes,
+            temperature,
+            diary,
+            first=done,
+            last=last,
+        ).run(progress)
         done = last
         if checkpoint is not None:
             save_checkpoint(checkpoint, identity, learner, diary, done)
@@ -174,8 +205,13 @@ def _training(
     parameters = learner.networks.parameters()
     history, paths = None, None
     if diary.record:
-        past = np.array([[*begun, parameters[row]] for row, begun in enumerate(diary.parameters)])
-        history, paths = network_of(past, sizes), tuple(tuple(drives) for drives in diary.paths)
+        past = np.array(
+            [[*begun, parameters[row]] for row, begun in enumerate(diary.parameters)]
+        )
+        history, paths = (
+            network_of(past, sizes),
+            tuple(tuple(drives) for drives in diary.paths),
+        )
     network = network_of(parameters, sizes)
     return Training(
         method, seeds, network, course.encoder, OUTCOMES[diary.outcomes], diary.steps, diary.decisions, diary.returns,
@@ -201,8 +237,10 @@ def weight_changes(history: Network, *, absolute: bool = False) -> Array:
 def check_seeds(seeds: int | Sequence[int]) -> tuple[int, ...]:
     """Seeds (S,), all different: 0 to S - 1 for a number S, or those given."""
     if isinstance(seeds, int | np.integer):
-        return tuple(range(expect.integer("seeds", seeds, at_least=1)))
-    numbers = tuple(expect.integer("seeds", seed, at_least=0) for seed in seeds)
+        return tuple(range(check_integer("seeds", seeds, at_least=1)))
+    numbers = tuple(check_integer("seeds", seed, at_least=0) for seed in seeds)
     if not numbers or len(set(numbers)) < len(numbers):
-        raise ValueError(f"seeds must be at least one, and all different, got {list(numbers)}")
+        raise ValueError(
+            f"seeds must be at least one, and all different, got {list(numbers)}"
+        )
     return numbers

@@ -10,13 +10,17 @@ from matplotlib.colors import LinearSegmentedColormap, to_rgba
 from matplotlib.patches import FancyArrowPatch, Rectangle
 from numpy.typing import ArrayLike
 
-from robonav import look
+from robonav import style
 from robonav.mdp import AlphaVectors, PoseGrid
 
-SURE = LinearSegmentedColormap.from_list("sure", [to_rgba(look.SKY, 0), to_rgba(look.SKY, 1), to_rgba(look.BLUE, 1)])
+SURE = LinearSegmentedColormap.from_list(
+    "sure", [to_rgba(style.SKY, 0), to_rgba(style.SKY, 1), to_rgba(style.BLUE, 1)]
+)
 
 
-def draw_belief(axes: Axes, belief: ArrayLike, cells: str, *, state: int | None = None) -> None:
+def draw_belief(
+    axes: Axes, belief: ArrayLike, cells: str, *, state: int | None = None
+) -> None:
     """A belief over a corridor's cells as bars; below them the corridor, its doors filled, the robot as a triangle.
 
     Parameters
@@ -26,25 +30,32 @@ def draw_belief(axes: Axes, belief: ArrayLike, cells: str, *, state: int | None 
     state : the cell where the robot truly is; not shown if left out.
     """
     b = np.asarray(belief, dtype=float)
-    axes.bar(np.arange(len(b)), b, width=0.9, color=look.BLUE)
+    axes.bar(np.arange(len(b)), b, width=0.9, color=style.BLUE)
     for place, letter in enumerate(cells):
         axes.add_patch(
             Rectangle(
                 (place - 0.45, -0.13),
                 0.9,
                 0.1,
-                facecolor=look.ORANGE if letter == "D" else "none",
-                edgecolor=look.INK,
+                facecolor=style.ORANGE if letter == "D" else "none",
+                edgecolor=style.INK,
                 linewidth=0.6,
             )
         )
     if state is not None:
-        axes.plot(state, -0.08, marker="^", color=look.VERMILION, markersize=7)
-    axes.set(ylim=(-0.16, 1.0), xlim=(-0.6, len(b) - 0.4), xticks=np.arange(len(b)), yticks=[0, 0.5, 1])
+        axes.plot(state, -0.08, marker="^", color=style.VERMILION, markersize=7)
+    axes.set(
+        ylim=(-0.16, 1.0),
+        xlim=(-0.6, len(b) - 0.4),
+        xticks=np.arange(len(b)),
+        yticks=[0, 0.5, 1],
+    )
     axes.grid(axis="x", visible=False)
 
 
-def draw_values_of_beliefs(axes: Axes, values: AlphaVectors, names: Sequence[str]) -> None:
+def draw_values_of_beliefs(
+    axes: Axes, values: AlphaVectors, names: Sequence[str]
+) -> None:
     """The value of a belief about two states: the upper edge of straight lines, one a vector.
 
     Parameters
@@ -52,7 +63,7 @@ def draw_values_of_beliefs(axes: Axes, values: AlphaVectors, names: Sequence[str
     values : with vectors (K, 2); the horizontal axis is the belief in the first state.
     names : of the actions.
     """
-    colours = (look.BLUE, look.ORANGE, look.GREEN, look.PURPLE, look.SKY)
+    colours = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.SKY)
     belief = np.linspace(0, 1, 501)
     both = np.stack([belief, 1 - belief], axis=1)
     lines = both @ values.vectors.T
@@ -70,7 +81,12 @@ def draw_values_of_beliefs(axes: Axes, values: AlphaVectors, names: Sequence[str
 
 
 def draw_pose_belief(
-    axes: Axes, grid: PoseGrid, belief: ArrayLike, *, pose: ArrayLike | None = None, arrows: int = 12
+    axes: Axes,
+    grid: PoseGrid,
+    belief: ArrayLike,
+    *,
+    pose: ArrayLike | None = None,
+    arrows: int = 12,
 ) -> None:
     """A belief about the pose: each cell as dark as its share, an arrow for each of the likeliest poses.
 
@@ -85,17 +101,39 @@ def draw_pose_belief(
     rows, columns = grid.free.shape
     extent = (0, columns * grid.cell, 0, rows * grid.cell)
     share = b.reshape(rows, columns, -1).sum(axis=2)
-    axes.imshow(np.sqrt(share / share.max()), cmap=SURE, extent=extent, origin="lower", interpolation="nearest")
-    walls = np.where(grid.free[..., None], to_rgba(look.OBSTACLE, 0), to_rgba(look.OBSTACLE, 0.9))
+    axes.imshow(
+        np.sqrt(share / share.max()),
+        cmap=SURE,
+        extent=extent,
+        origin="lower",
+        interpolation="nearest",
+    )
+    walls = np.where(
+        grid.free[..., None], to_rgba(style.OBSTACLE, 0), to_rgba(style.OBSTACLE, 0.9)
+    )
     axes.imshow(walls, extent=extent, origin="lower", interpolation="nearest")
     axes.add_patch(
-        Rectangle((0, 0), extent[1], extent[3], clip_on=False, facecolor="none", edgecolor=look.OBSTACLE, linewidth=1.5)
+        Rectangle(
+            (0, 0),
+            extent[1],
+            extent[3],
+            clip_on=False,
+            facecolor="none",
+            edgecolor=style.OBSTACLE,
+            linewidth=1.5,
+        )
     )
     likely = np.argsort(b)[::-1][:arrows]
     for x, y, heading in grid.poses[likely[b[likely] > 0.02 * b.max()]]:
         ahead = 2.5 * grid.cell * np.array([np.cos(heading), np.sin(heading)])
         axes.add_patch(
-            FancyArrowPatch((x, y), (x + ahead[0], y + ahead[1]), arrowstyle="->", mutation_scale=8, color=look.ORANGE)
+            FancyArrowPatch(
+                (x, y),
+                (x + ahead[0], y + ahead[1]),
+                arrowstyle="->",
+                mutation_scale=8,
+                color=style.ORANGE,
+            )
         )
     if pose is not None:
         draw_robot(axes, pose, size=1.3 * grid.cell)
@@ -108,27 +146,55 @@ def draw_robot(axes: Axes, pose: ArrayLike, *, size: float = 1.5) -> None:
     """The robot where it truly is: a triangle that points ahead."""
     x, y, heading = np.asarray(pose, dtype=float)
     corners = heading + np.array([0, 2.4, -2.4])
-    axes.fill(x + size * np.cos(corners), y + size * np.sin(corners), color=look.VERMILION, zorder=5)
+    axes.fill(
+        x + size * np.cos(corners),
+        y + size * np.sin(corners),
+        color=style.VERMILION,
+        zorder=5,
+    )
 
 
 def plot_uncertainty(axes: Axes, entropies: Mapping[str, ArrayLike]) -> None:
     """Entropy of a belief in bits after each step, one line a name."""
-    for colour, (name, bits) in zip((look.BLUE, look.ORANGE, look.GREEN, look.GREY), entropies.items(), strict=False):
-        axes.plot(np.arange(len(np.asarray(bits))), np.asarray(bits), "o-", color=colour, markersize=3, label=name)
+    for colour, (name, bits) in zip(
+        (style.BLUE, style.ORANGE, style.GREEN, style.GREY),
+        entropies.items(),
+        strict=False,
+    ):
+        axes.plot(
+            np.arange(len(np.asarray(bits))),
+            np.asarray(bits),
+            "o-",
+            color=colour,
+            markersize=3,
+            label=name,
+        )
     axes.set(xlabel="step", ylabel="uncertainty in bits", ylim=(0, None))
     axes.legend()
 
 
 def draw_pomdp(axes: Axes) -> None:
     """States, observations, beliefs, actions and rewards over time, and what depends on what (Fig. 2.3)."""
-    rows = {"action": 3.0, "belief": 2.0, "observation": 1.0, "state": 0.0, "reward": -1.0}
-    names = {"action": "a", "belief": "b", "observation": "o", "state": "s", "reward": "r"}
+    rows = {
+        "action": 3.0,
+        "belief": 2.0,
+        "observation": 1.0,
+        "state": 0.0,
+        "reward": -1.0,
+    }
+    names = {
+        "action": "a",
+        "belief": "b",
+        "observation": "o",
+        "state": "s",
+        "reward": "r",
+    }
     colours = {
-        "action": look.ORANGE,
-        "belief": look.BLUE,
-        "observation": look.GREEN,
-        "state": look.GREY,
-        "reward": look.VERMILION,
+        "action": style.ORANGE,
+        "belief": style.BLUE,
+        "observation": style.GREEN,
+        "state": style.GREY,
+        "reward": style.VERMILION,
     }
     times = ("t-1", "t", "t+1")
 
@@ -137,12 +203,24 @@ def draw_pomdp(axes: Axes) -> None:
 
     arrows: list[tuple[tuple[str, int], tuple[str, int]]] = []
     for time in range(len(times)):
-        arrows += [(("state", time), ("observation", time)), (("observation", time), ("belief", time))]
-        arrows += [(("belief", time), ("action", time)), (("state", time), ("reward", time))]
+        arrows += [
+            (("state", time), ("observation", time)),
+            (("observation", time), ("belief", time)),
+        ]
+        arrows += [
+            (("belief", time), ("action", time)),
+            (("state", time), ("reward", time)),
+        ]
         arrows += [(("action", time), ("reward", time))]
         if time + 1 < len(times):
-            arrows += [(("state", time), ("state", time + 1)), (("belief", time), ("belief", time + 1))]
-            arrows += [(("action", time), (kind, time + 1)) for kind in ("state", "observation", "belief")]
+            arrows += [
+                (("state", time), ("state", time + 1)),
+                (("belief", time), ("belief", time + 1)),
+            ]
+            arrows += [
+                (("action", time), (kind, time + 1))
+                for kind in ("state", "observation", "belief")
+            ]
     for start, end in arrows:
         bent = 0.22 if start[0] == "action" and end[0] == "reward" else 0.0
         axes.add_patch(
@@ -151,7 +229,7 @@ def draw_pomdp(axes: Axes) -> None:
                 node(*end),
                 arrowstyle="-|>",
                 mutation_scale=10,
-                color=look.INK,
+                color=style.INK,
                 linewidth=0.9,
                 shrinkA=13,
                 shrinkB=13,
@@ -168,9 +246,17 @@ def draw_pomdp(axes: Axes) -> None:
             )  # fmt: skip
             axes.annotate(f"${letter}_{{{index}}}$", (x, y), ha="center", va="center")
             if hidden and time == 0:
-                axes.annotate("hidden", (x - 0.75, y), ha="center", va="center", style="italic")
+                axes.annotate(
+                    "hidden", (x - 0.75, y), ha="center", va="center", style="italic"
+                )
         first = node(kind, 0)[0]
         if kind != "state":
-            axes.annotate(kind, (first - 0.75, rows[kind]), ha="center", va="center", style="italic")
+            axes.annotate(
+                kind,
+                (first - 0.75, rows[kind]),
+                ha="center",
+                va="center",
+                style="italic",
+            )
     axes.set(xlim=(-1.4, 6.8), ylim=(-1.5, 3.5), aspect="equal")
     axes.axis("off")

@@ -12,18 +12,20 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from robonav import files, look
+from robonav import atomic, style
 from robonav.experiments import Results
 
-from . import lfd, nirl, nnql, pictures
+from . import lfd, nirl, nnql, single_runs
 
-OURS, THESIS = look.BLUE, look.ORANGE
+OURS, THESIS = style.BLUE, style.ORANGE
 
 
 def case_labels(results: Results) -> list[str]:
     """One label a case: what varies among the cases, in order."""
     cases = results.experiment.cases
-    varied = [key for key in cases[0] if len({case[key] for case in cases}) > 1] or list(cases[0])
+    varied = [
+        key for key in cases[0] if len({case[key] for case in cases}) > 1
+    ] or list(cases[0])
     return [", ".join(f"{case[key]}" if isinstance(case[key], str) else f"{key} {case[key]}" for key in varied)
             for case in cases]  # fmt: skip
 
@@ -37,14 +39,21 @@ def draw_bars(results: Results, metric: str, label: str) -> Figure:
         summary = results.summary(metric, case)
         axes.barh(case, summary.mean, height=0.62, color=OURS, alpha=0.85)
         if not math.isnan(summary.low):
-            axes.plot([summary.low, summary.high], [case, case], color=look.INK, linewidth=2.5)
+            axes.plot(
+                [summary.low, summary.high],
+                [case, case],
+                color=style.INK,
+                linewidth=2.5,
+            )
         number = thesis[case]
         if number is not None:
             axes.plot(number, case, marker="D", color=THESIS, markersize=7)
     axes.set(yticks=list(cases), yticklabels=case_labels(results), xlabel=label)
     if any(number is not None for number in thesis):
         axes.plot([], [], "D", color=THESIS, label="thesis")
-        axes.plot([], [], color=OURS, linewidth=6, label="ours, 95 % interval over seeds")
+        axes.plot(
+            [], [], color=OURS, linewidth=6, label="ours, 95 % interval over seeds"
+        )
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
@@ -54,13 +63,27 @@ def draw_bars(results: Results, metric: str, label: str) -> Figure:
 def draw_bands(results: Results, metric: str, x_label: str, y_label: str) -> Figure:
     """A curve a case: the mean over seeds of a metric with a number a step, and a band from the worst to the best."""
     figure, axes = plt.subplots(figsize=(7, 4))
-    colours = [look.BLUE, look.VERMILION, look.GREEN, look.ORANGE, look.PURPLE, look.SKY]
+    colours = [
+        style.BLUE,
+        style.VERMILION,
+        style.GREEN,
+        style.ORANGE,
+        style.PURPLE,
+        style.SKY,
+    ]
     for case, name in enumerate(case_labels(results)):
         runs = results.values(metric, case)
         steps = np.arange(1, runs.shape[1] + 1)
         colour = colours[case % len(colours)]
         axes.plot(steps, runs.mean(axis=0), color=colour, label=name)
-        axes.fill_between(steps, runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.15, linewidth=0)
+        axes.fill_between(
+            steps,
+            runs.min(axis=0),
+            runs.max(axis=0),
+            color=colour,
+            alpha=0.15,
+            linewidth=0,
+        )
     axes.set(xlabel=x_label, ylabel=y_label)
     axes.legend()
     return figure
@@ -71,12 +94,26 @@ def draw_board(results: Results, metric: str) -> Figure:
     cases = results.experiment.cases
     methods = list(dict.fromkeys(str(case["method"]) for case in cases))
     settings = list(dict.fromkeys(str(case["setting"]) for case in cases))
-    means = np.reshape([results.summary(metric, place).mean for place in range(len(cases))], (len(methods), -1))
-    figure, axes = plt.subplots(figsize=(0.95 * len(settings) + 1.6, 0.42 * len(methods) + 2.2))
+    means = np.reshape(
+        [results.summary(metric, place).mean for place in range(len(cases))],
+        (len(methods), -1),
+    )
+    figure, axes = plt.subplots(
+        figsize=(0.95 * len(settings) + 1.6, 0.42 * len(methods) + 2.2)
+    )
     axes.imshow(means, cmap="Blues", vmin=0, vmax=110, aspect="auto")
     for (row, column), mean in np.ndenumerate(means):
-        axes.text(column, row, f"{mean:.0f}", ha="center", va="center", color="white" if mean > 60 else "black")
-    axes.set(xticks=range(len(settings)), yticks=range(len(methods)), yticklabels=methods)
+        axes.text(
+            column,
+            row,
+            f"{mean:.0f}",
+            ha="center",
+            va="center",
+            color="white" if mean > 60 else "black",
+        )
+    axes.set(
+        xticks=range(len(settings)), yticks=range(len(methods)), yticklabels=methods
+    )
     axes.set_xticklabels(settings, rotation=35, ha="left", rotation_mode="anchor")
     axes.tick_params(top=True, bottom=False, labeltop=True, labelbottom=False, length=0)
     axes.grid(False)
@@ -85,14 +122,14 @@ def draw_board(results: Results, metric: str) -> Figure:
 
 DRAWN: dict[str, Callable[[Results], Figure]] = {
     "leaderboard": partial(draw_board, metric="success"),
-    "figure-2.4": pictures.plot_gaps,
-    "figure-3.4": pictures.plot_paths,
-    "figure-4.2": pictures.plot_paths,
-    "figure-4.5": pictures.plot_paths,
-    "figure-5.3": pictures.plot_paths,
-    "figure-5.5": pictures.plot_paths,
-    "figure-5.6": pictures.plot_paths,
-    "figure-5.9": pictures.plot_paths,
+    "figure-2.4": single_runs.plot_gaps,
+    "figure-3.4": single_runs.plot_paths,
+    "figure-4.2": single_runs.plot_paths,
+    "figure-4.5": single_runs.plot_paths,
+    "figure-5.3": single_runs.plot_paths,
+    "figure-5.5": single_runs.plot_paths,
+    "figure-5.6": single_runs.plot_paths,
+    "figure-5.9": single_runs.plot_paths,
     "yardsticks": partial(draw_bars, metric="success", label="drives that arrive (%)"),
     "table-3.2": lfd.plot_demonstrations,
     "table-3.3": lfd.plot_iterations,
@@ -100,9 +137,13 @@ DRAWN: dict[str, Callable[[Results], Figure]] = {
     "figure-3.6": partial(draw_bars, metric="success", label="drives that arrive (%)"),
     "figure-3.7": lfd.plot_cost,
     "figure-3.8": lfd.plot_methods,
-    "figure-3.9": partial(draw_bars, metric="learned", label="length of drives, median (m)"),
+    "figure-3.9": partial(
+        draw_bars, metric="learned", label="length of drives, median (m)"
+    ),
     "figure-3.10": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "lfd-encodings": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "lfd-encodings": partial(
+        draw_bars, metric="success", label="drives that arrive (%)"
+    ),
     "lfd-margins": lfd.plot_margins,
     "table-4.2": nnql.plot_speeds,
     "table-4.3": nnql.plot_rates,
@@ -110,7 +151,9 @@ DRAWN: dict[str, Callable[[Results], Figure]] = {
     "figure-4.4": nnql.plot_learning,
     "figure-4.6": nnql.plot_learning,
     "figure-4.7": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "nnql-20-obstacles": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "nnql-20-obstacles": partial(
+        draw_bars, metric="success", label="drives that arrive (%)"
+    ),
     "nnql-circles": nnql.plot_variations,
     "nnql-tuning": nnql.plot_trials,
     "figure-5.4": nirl.plot_counts,
@@ -121,11 +164,17 @@ DRAWN: dict[str, Callable[[Results], Figure]] = {
     "figure-5.12": partial(draw_bars, metric="success", label="drives that arrive (%)"),
     "table-5.1": partial(draw_bars, metric="success", label="drives that arrive (%)"),
     "table-5.2": partial(nirl.plot_comparison, discount=0.65),
-    "nirl-controls": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "nirl-controls": partial(
+        draw_bars, metric="success", label="drives that arrive (%)"
+    ),
     "nirl-steps": nirl.plot_steps,
     "nirl-choice": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "nirl-transfer": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "nirl-refinement": partial(draw_bars, metric="success", label="drives that arrive (%)"),
+    "nirl-transfer": partial(
+        draw_bars, metric="success", label="drives that arrive (%)"
+    ),
+    "nirl-refinement": partial(
+        draw_bars, metric="success", label="drives that arrive (%)"
+    ),
     "nirl-tuning": nnql.plot_trials,
 }
 """How each experiment is drawn, by its name."""
@@ -136,9 +185,9 @@ def save_figure(results: Results, folder: Path) -> None:
     name = results.experiment.name
     if name not in DRAWN:
         return
-    with mpl.rc_context(look.STYLE | {"svg.hashsalt": name}):
+    with mpl.rc_context(style.STYLE | {"svg.hashsalt": name}):
         figure = DRAWN[name](results)
         for kind, silent in (("svg", "Date"), ("png", "Software")):
-            with files.whole(folder / f"{name}.{kind}") as file:
+            with atomic.atomic_write(folder / f"{name}.{kind}") as file:
                 figure.savefig(file, format=kind, metadata={silent: None})
         plt.close(figure)

@@ -9,26 +9,38 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from numpy.typing import ArrayLike
 
-from robonav import look
+from robonav import style
 
 COLOURS: dict[str, str] = {
-    "Q-learning": look.VERMILION,
-    "SARSA": look.BLUE,
-    "expected SARSA": look.GREEN,
-    "Monte Carlo": look.ORANGE,
-    "TD(0)": look.PURPLE,
-    "planned": look.GREY,
+    "Q-learning": style.VERMILION,
+    "SARSA": style.BLUE,
+    "expected SARSA": style.GREEN,
+    "Monte Carlo": style.ORANGE,
+    "TD(0)": style.PURPLE,
+    "planned": style.GREY,
 }
 
 
 def colour_of(name: str, place: int) -> str:
     """A method's own colour; for any other name one of the palette, by its place."""
-    others = (look.BLUE, look.VERMILION, look.GREEN, look.ORANGE, look.PURPLE, look.SKY)
+    others = (
+        style.BLUE,
+        style.VERMILION,
+        style.GREEN,
+        style.ORANGE,
+        style.PURPLE,
+        style.SKY,
+    )
     return COLOURS.get(name, others[place % len(others)])
 
 
 def plot_runs(
-    axes: Axes, curves: Mapping[str, ArrayLike], *, x: ArrayLike | None = None, window: int = 1, band: float = 80.0
+    axes: Axes,
+    curves: Mapping[str, ArrayLike],
+    *,
+    x: ArrayLike | None = None,
+    window: int = 1,
+    band: float = 80.0,
 ) -> None:
     """The mean over seeds of some numbers a training, and the band that holds the middle ``band`` per cent of them.
 
@@ -40,8 +52,12 @@ def plot_runs(
     """
     for place, (name, given) in enumerate(curves.items()):
         runs = np.atleast_2d(np.asarray(given, dtype=float))
-        smooth = np.stack([np.convolve(run, np.ones(window) / window, "valid") for run in runs])
-        at = (np.arange(1, runs.shape[1] + 1) if x is None else np.asarray(x))[window - 1 :]
+        smooth = np.stack(
+            [np.convolve(run, np.ones(window) / window, "valid") for run in runs]
+        )
+        at = (np.arange(1, runs.shape[1] + 1) if x is None else np.asarray(x))[
+            window - 1 :
+        ]
         low, high = np.percentile(smooth, [50 - band / 2, 50 + band / 2], axis=0)
         colour = colour_of(name, place)
         axes.fill_between(at, low, high, color=colour, alpha=0.2, linewidth=0)
@@ -72,25 +88,55 @@ def draw_walks(
         dark = cell in forbidden
         axes.add_patch(
             Rectangle(
-                (column, row), 1, 1, facecolor=look.OBSTACLE if dark else "none", edgecolor=look.INK, linewidth=0.5
+                (column, row),
+                1,
+                1,
+                facecolor=style.OBSTACLE if dark else "none",
+                edgecolor=style.INK,
+                linewidth=0.5,
             )
         )
     for place, (name, cells) in enumerate(walks.items()):
         down, across = np.divmod(np.asarray(cells), columns)
-        aside = 0.5 + 0.1 * (place - (len(walks) - 1) / 2)  # walks that share cells lie side by side
-        axes.plot(across + aside, down + aside, color=colour_of(name, place), linewidth=2.5, label=name)
+        aside = 0.5 + 0.1 * (
+            place - (len(walks) - 1) / 2
+        )  # walks that share cells lie side by side
+        axes.plot(
+            across + aside,
+            down + aside,
+            color=colour_of(name, place),
+            linewidth=2.5,
+            label=name,
+        )
     for marked, letter in ((start, "S"), (goal, "G")):
         if marked is not None:
             row, column = divmod(marked, columns)
-            axes.annotate(letter, (column + 0.18, row + 0.3), ha="center", va="center", weight="bold")
-    axes.set(xlim=(-0.05, columns + 0.05), ylim=(rows + 0.05, -0.05), aspect="equal", xticks=[], yticks=[])
+            axes.annotate(
+                letter,
+                (column + 0.18, row + 0.3),
+                ha="center",
+                va="center",
+                weight="bold",
+            )
+    axes.set(
+        xlim=(-0.05, columns + 0.05),
+        ylim=(rows + 0.05, -0.05),
+        aspect="equal",
+        xticks=[],
+        yticks=[],
+    )
     axes.grid(False)
     axes.spines[:].set_visible(False)
     if walks:
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
 
 
-def plot_estimates(axes: Axes, names: Sequence[str], truth: ArrayLike, estimates: Mapping[str, ArrayLike]) -> None:
+def plot_estimates(
+    axes: Axes,
+    names: Sequence[str],
+    truth: ArrayLike,
+    estimates: Mapping[str, ArrayLike],
+) -> None:
     """Estimated values of some states beside the true ones.
 
     Parameters
@@ -100,8 +146,22 @@ def plot_estimates(axes: Axes, names: Sequence[str], truth: ArrayLike, estimates
     estimates : (S,) by name.
     """
     places = np.arange(len(names))
-    axes.plot(places, np.asarray(truth), color=look.INK, linewidth=1, linestyle="--", label="true")
+    axes.plot(
+        places,
+        np.asarray(truth),
+        color=style.INK,
+        linewidth=1,
+        linestyle="--",
+        label="true",
+    )
     for place, (name, values) in enumerate(estimates.items()):
-        axes.plot(places, np.asarray(values), "o-", color=colour_of(name, place), markersize=4, label=name)
+        axes.plot(
+            places,
+            np.asarray(values),
+            "o-",
+            color=colour_of(name, place),
+            markersize=4,
+            label=name,
+        )
     axes.set_xticks(places, names)
     axes.legend()

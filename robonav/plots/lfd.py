@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, to_rgba
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import look
+from robonav import style
 from robonav.experiments import Results
 from robonav.lfd import Demonstrations, GridPlan, Plan
 from robonav.robot import Worlds, obstacle_tracks
@@ -21,39 +21,70 @@ from robonav.robot.drawing import draw_robot, draw_world
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-COLOURS = look.METHODS | {
-    "cloning": look.BLUE,
-    "DAgger": look.GREEN,
-    "1 neighbour": look.YELLOW,
-    "5 neighbours": look.ORANGE,
-    "15 neighbours": look.VERMILION,
+COLOURS = style.METHODS | {
+    "cloning": style.BLUE,
+    "DAgger": style.GREEN,
+    "1 neighbour": style.YELLOW,
+    "5 neighbours": style.ORANGE,
+    "15 neighbours": style.VERMILION,
 }
-CYCLE = (look.BLUE, look.GREEN, look.ORANGE, look.VERMILION, look.PURPLE, look.SKY)
+CYCLE = (
+    style.BLUE,
+    style.GREEN,
+    style.ORANGE,
+    style.VERMILION,
+    style.PURPLE,
+    style.SKY,
+)
 ARRIVE = "drives that arrive (%)"
-VISITED = LinearSegmentedColormap.from_list("visited", [to_rgba(look.SKY, 0.75), to_rgba(look.PURPLE, 0.75)])
+VISITED = LinearSegmentedColormap.from_list(
+    "visited", [to_rgba(style.SKY, 0.75), to_rgba(style.PURPLE, 0.75)]
+)
 
 
-def draw_search(axes: Axes, world: Worlds, made: Plan | GridPlan, *, colour: str = look.METHODS["A*"]) -> None:
+def draw_search(
+    axes: Axes,
+    world: Worlds,
+    made: Plan | GridPlan,
+    *,
+    colour: str = style.METHODS["A*"],
+) -> None:
     """A plan as stars and what its search visited as dots, light for early and dark for late (Fig. 3.4)."""
     draw_world(axes, world)
     if made.visited is not None:
         x, y = made.visited[:, 0], made.visited[:, 1]
-        axes.scatter(x, y, c=np.arange(len(x)), cmap=VISITED, s=1.5, linewidths=0, rasterized=True)
+        axes.scatter(
+            x,
+            y,
+            c=np.arange(len(x)),
+            cmap=VISITED,
+            s=1.5,
+            linewidths=0,
+            rasterized=True,
+        )
     axes.plot(*made.points.T, marker="*", markersize=4, linewidth=0.8, color=colour)
 
 
 def draw_ways(
-    axes: Axes, world: Worlds, ways: Mapping[str, ArrayLike], *, colours: Mapping[str, str] = look.METHODS
+    axes: Axes,
+    world: Worlds,
+    ways: Mapping[str, ArrayLike],
+    *,
+    colours: Mapping[str, str] = style.METHODS,
 ) -> None:
-    """Several ways (steps + 1, 2 or 3) over one map, named as in ``look.METHODS`` (Fig. 3.5, 3.9)."""
+    """Several ways (steps + 1, 2 or 3) over one map, named as in ``style.METHODS`` (Fig. 3.5, 3.9)."""
     draw_world(axes, world)
     for name, way in ways.items():
         x, y = np.asarray(way)[:, :2].T
-        axes.plot(x, y, color=colours.get(name, look.BLUE), linewidth=1.6, label=name)
+        axes.plot(x, y, color=colours.get(name, style.BLUE), linewidth=1.6, label=name)
 
 
 def draw_demonstrations(
-    figure: Figure, demonstrations: Demonstrations, drives: Sequence[int], *, columns: int = 4
+    figure: Figure,
+    demonstrations: Demonstrations,
+    drives: Sequence[int],
+    *,
+    columns: int = 4,
 ) -> None:
     """Some drives over their maps; steps that are learned from stand out (Fig. 3.6)."""
     rows = -(-len(drives) // columns)
@@ -61,13 +92,30 @@ def draw_demonstrations(
         axes = figure.add_subplot(rows, columns, place)
         draw_world(axes, demonstrations.worlds[drive])
         shown = demonstrations.drives([drive])
-        axes.plot(*shown.poses[:, :2].T, color=look.GREY, linewidth=1)
-        axes.plot(*shown.effective.poses[:, :2].T, color=look.METHODS["A*"], linestyle="none", marker=".", markersize=4)
-        axes.set(xticks=[], yticks=[], xlabel="", ylabel="", title=str(demonstrations.outcome[drive]))
+        axes.plot(*shown.poses[:, :2].T, color=style.GREY, linewidth=1)
+        axes.plot(
+            *shown.effective.poses[:, :2].T,
+            color=style.METHODS["A*"],
+            linestyle="none",
+            marker=".",
+            markersize=4,
+        )
+        axes.set(
+            xticks=[],
+            yticks=[],
+            xlabel="",
+            ylabel="",
+            title=str(demonstrations.outcome[drive]),
+        )
 
 
 def draw_moments(
-    figure: Figure, world: Worlds, path: NDArray[np.float64], moments: Sequence[int], *, colour: str = look.ROBOT
+    figure: Figure,
+    world: Worlds,
+    path: NDArray[np.float64],
+    moments: Sequence[int],
+    *,
+    colour: str = style.ROBOT,
 ) -> None:
     """A drive among moving obstacles at some moments: the robot, its way so far, the obstacles then (Fig. 3.10)."""
     tracks = obstacle_tracks(world, len(path) - 1)[0]
@@ -79,7 +127,9 @@ def draw_moments(
         axes.set(xticks=[], yticks=[], xlabel="", ylabel="", title=f"{moment} s")
 
 
-def draw_against(axes: Axes, results: Results, key: str, metric: str, *, thesis: bool = False) -> None:
+def draw_against(
+    axes: Axes, results: Results, key: str, metric: str, *, thesis: bool = False
+) -> None:
     """A metric against what one key of the cases says, a line for each setting of the others, with 95 % intervals.
 
     Parameters
@@ -89,19 +139,44 @@ def draw_against(axes: Axes, results: Results, key: str, metric: str, *, thesis:
     lines: dict[str, list[int]] = {}
     for place, case in enumerate(results.experiment.cases):
         others = {name: value for name, value in case.items() if name != key}
-        said = (f"{value}" if isinstance(value, str) else f"{name} {value}" for name, value in others.items())
+        said = (
+            f"{value}" if isinstance(value, str) else f"{name} {value}"
+            for name, value in others.items()
+        )
         lines.setdefault(", ".join(said), []).append(place)
     numbers = results.experiment.thesis.get(metric, ())
     for (name, places), colour in zip(lines.items(), cycle(CYCLE)):
         x = [float(results.experiment.cases[place][key]) for place in places]
         summaries = [results.summary(metric, place) for place in places]
         mean = np.array([summary.mean for summary in summaries])
-        reach = [mean - [summary.low for summary in summaries], [summary.high for summary in summaries] - mean]
+        reach = [
+            mean - [summary.low for summary in summaries],
+            [summary.high for summary in summaries] - mean,
+        ]
         own = COLOURS.get(name, colour)
-        axes.errorbar(x, mean, yerr=np.nan_to_num(reach), label=name, color=own, marker="o", markersize=4, capsize=2)
-        marked = [(here, numbers[place]) for here, place in zip(x, places, strict=True) if thesis]
+        axes.errorbar(
+            x,
+            mean,
+            yerr=np.nan_to_num(reach),
+            label=name,
+            color=own,
+            marker="o",
+            markersize=4,
+            capsize=2,
+        )
+        marked = [
+            (here, numbers[place])
+            for here, place in zip(x, places, strict=True)
+            if thesis
+        ]
     if thesis:
-        axes.plot(*zip(*marked, strict=True), color=look.INK, marker="D", linestyle="none", label="thesis")
+        axes.plot(
+            *zip(*marked, strict=True),
+            color=style.INK,
+            marker="D",
+            linestyle="none",
+            label="thesis",
+        )
     axes.set(xlabel=key)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, fontsize=9)
 
@@ -130,15 +205,30 @@ def plot_planners(results: Results) -> Figure:
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.4), sharey=True)
     cases = results.experiment.cases
     rows = np.arange(len(cases))
-    straight = np.array([np.hypot(80.0, float(case["target y"]) - 10) for case in cases])
+    straight = np.array(
+        [np.hypot(80.0, float(case["target y"]) - 10) for case in cases]
+    )
     for shift, name in ((-0.2, "modified"), (0.2, "grid")):
-        colour = look.METHODS["A*" if name == "modified" else "grid A*"]
+        colour = style.METHODS["A*" if name == "modified" else "grid A*"]
         length = [results.summary(name, row).mean for row in range(len(cases))]
-        nodes = [results.summary(f"{name} expands", row).mean for row in range(len(cases))]
-        left.barh(rows + shift, np.array(length) - straight, height=0.38, color=colour, label=f"{name} A*")
+        nodes = [
+            results.summary(f"{name} expands", row).mean for row in range(len(cases))
+        ]
+        left.barh(
+            rows + shift,
+            np.array(length) - straight,
+            height=0.38,
+            color=colour,
+            label=f"{name} A*",
+        )
         right.barh(rows + shift, nodes, height=0.38, color=colour)
-    labels = [f"target (90, {c['target y']}), {c['obstacles']} obstacles, cells {c['grid cell']} m" for c in cases]
-    left.set(yticks=rows, yticklabels=labels, xlabel="metres more than the straight line")
+    labels = [
+        f"target (90, {c['target y']}), {c['obstacles']} obstacles, cells {c['grid cell']} m"
+        for c in cases
+    ]
+    left.set(
+        yticks=rows, yticklabels=labels, xlabel="metres more than the straight line"
+    )
     right.set(xlabel="nodes expanded")
     left.invert_yaxis()
     left.legend(fontsize=8)
@@ -150,12 +240,22 @@ def plot_planners(results: Results) -> Figure:
 def plot_cost(results: Results) -> Figure:
     """The cost in training: mean and, shaded, least to largest over runs (Fig. 3.7)."""
     figure, axes = plt.subplots(figsize=(6.5, 3.6))
-    for case, (setting, colour) in enumerate(zip(results.experiment.cases, CYCLE, strict=False)):
+    for case, (setting, colour) in enumerate(
+        zip(results.experiment.cases, CYCLE, strict=False)
+    ):
         runs = results.values("cost", case)
         label = f"expert: {setting['expert']}; degrees {setting['degrees']}"
         axes.plot(runs.mean(axis=0), color=colour, label=label)
-        axes.fill_between(np.arange(runs.shape[1]), runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.2)
-    axes.axhline(0.91, color=look.INK, linewidth=1, linestyle="--", label="thesis, at 300: 0.91")
+        axes.fill_between(
+            np.arange(runs.shape[1]),
+            runs.min(axis=0),
+            runs.max(axis=0),
+            color=colour,
+            alpha=0.2,
+        )
+    axes.axhline(
+        0.91, color=style.INK, linewidth=1, linestyle="--", label="thesis, at 300: 0.91"
+    )
     axes.set(xlabel="iteration", ylabel="cost $J$")
     axes.legend(fontsize=8)
     return figure
@@ -165,7 +265,10 @@ def plot_methods(results: Results) -> Figure:
     """Success of methods against the number of obstacles, with 95 % intervals over runs (Fig. 3.8)."""
     figure, axes = plt.subplots(figsize=(6.5, 4.6))
     draw_against(axes, results, "obstacles", "success")
-    axes.set(ylabel=ARRIVE, xticks=sorted({int(case["obstacles"]) for case in results.experiment.cases}))
+    axes.set(
+        ylabel=ARRIVE,
+        xticks=sorted({int(case["obstacles"]) for case in results.experiment.cases}),
+    )
     return figure
 
 
@@ -179,12 +282,31 @@ def plot_margins(results: Results) -> Figure:
 
 def draw_rounds(axes: Axes, results: Results) -> None:
     """Success after each of DAgger's rounds, a line a number of obstacles: mean, and least to largest over runs."""
-    cases = [place for place, case in enumerate(results.experiment.cases) if case["method"] == "DAgger"]
+    cases = [
+        place
+        for place, case in enumerate(results.experiment.cases)
+        if case["method"] == "DAgger"
+    ]
     for case, colour in zip(cases, CYCLE, strict=False):
         runs = results.values("success by round", case)
         rounds = np.arange(runs.shape[1])
         obstacles = results.experiment.cases[case]["obstacles"]
-        axes.plot(rounds, runs.mean(axis=0), color=colour, marker="o", label=f"{obstacles} obstacles")
-        axes.fill_between(rounds, runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.15, linewidth=0)
-    axes.set(xlabel="round of DAgger (0: before the first)", ylabel=ARRIVE, xticks=rounds)
+        axes.plot(
+            rounds,
+            runs.mean(axis=0),
+            color=colour,
+            marker="o",
+            label=f"{obstacles} obstacles",
+        )
+        axes.fill_between(
+            rounds,
+            runs.min(axis=0),
+            runs.max(axis=0),
+            color=colour,
+            alpha=0.15,
+            linewidth=0,
+        )
+    axes.set(
+        xlabel="round of DAgger (0: before the first)", ylabel=ARRIVE, xticks=rounds
+    )
     axes.legend(fontsize=8)

@@ -11,18 +11,18 @@ from matplotlib.colors import to_rgb, to_rgba
 from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Rectangle
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import look
+from robonav import style
 from robonav.mdp import GridWorld, Trace
 from robonav.mdp.gridworld import STEPS
 
 # Cells are pale and what stands on them is dark, in the light theme and in the dark one; `grid_lab.js` does the same.
 ZERO, DARK, STRENGTH = "#F3F4F5", "#1F2328", 0.6
 PLANNERS: dict[str, str] = {
-    "value iteration": look.BLUE,
-    "policy iteration": look.VERMILION,
-    "modified policy iteration": look.GREEN,
-    "in place": look.ORANGE,
-    "prioritised": look.PURPLE,
+    "value iteration": style.BLUE,
+    "policy iteration": style.VERMILION,
+    "modified policy iteration": style.GREEN,
+    "in place": style.ORANGE,
+    "prioritised": style.PURPLE,
 }
 
 
@@ -45,30 +45,55 @@ def draw_grid(
     scale : value with the strongest colour; the largest of the values if not given.
     """
     for row, column in np.argwhere(grid.numbers < 0):
-        axes.add_patch(Rectangle((column, row), 1, 1, color=look.OBSTACLE))
+        axes.add_patch(Rectangle((column, row), 1, 1, color=style.OBSTACLE))
     shown = None if values is None else np.asarray(values, dtype=float)
-    ink = look.INK if shown is None else DARK
+    ink = style.INK if shown is None else DARK
     strongest = scale or (1.0 if shown is None else float(abs(shown).max()) or 1.0)
     for state, (row, column) in enumerate(grid.cells):
         face = "none" if shown is None else colour_of_value(shown[state] / strongest)
-        axes.add_patch(Rectangle((column, row), 1, 1, facecolor=face, edgecolor=look.INK, linewidth=0.6))
+        axes.add_patch(
+            Rectangle(
+                (column, row), 1, 1, facecolor=face, edgecolor=style.INK, linewidth=0.6
+            )
+        )
         _draw_meaning(axes, grid, state, ink)
         if shown is not None and digits >= 0 and not grid.terminal[state]:
             lower = 0.5 if policy is None else 0.78
             axes.text(
-                column + 0.5, row + lower, f"{shown[state]:.{digits}f}", fontsize=9, color=ink, ha="center", va="center"
+                column + 0.5,
+                row + lower,
+                f"{shown[state]:.{digits}f}",
+                fontsize=9,
+                color=ink,
+                ha="center",
+                va="center",
             )
     if policy is not None:
-        _draw_arrows(axes, grid, np.asarray(policy), up=0.5 if shown is None or digits < 0 else 0.38, ink=ink)
+        _draw_arrows(
+            axes,
+            grid,
+            np.asarray(policy),
+            up=0.5 if shown is None or digits < 0 else 0.38,
+            ink=ink,
+        )
     rows, columns = grid.shape
-    axes.set(xlim=(-0.02, columns + 0.02), ylim=(rows + 0.02, -0.02), aspect="equal", xticks=[], yticks=[])
+    axes.set(
+        xlim=(-0.02, columns + 0.02),
+        ylim=(rows + 0.02, -0.02),
+        aspect="equal",
+        xticks=[],
+        yticks=[],
+    )
     axes.grid(False)
     axes.spines[:].set_visible(False)
 
 
 def colour_of_value(share: float) -> tuple[float, float, float]:
     """The colour of a value, given as a share of the strongest, -1 to 1: blue where positive, red where negative."""
-    pale, full = np.array(to_rgb(ZERO)), np.array(to_rgb(look.BLUE if share > 0 else look.VERMILION))
+    pale, full = (
+        np.array(to_rgb(ZERO)),
+        np.array(to_rgb(style.BLUE if share > 0 else style.VERMILION)),
+    )
     red, green, blue = pale + STRENGTH * min(abs(share), 1.0) * (full - pale)
     return float(red), float(green), float(blue)
 
@@ -80,14 +105,39 @@ def _draw_meaning(axes: Axes, grid: GridWorld, state: int, ink: str) -> None:
     if grid.terminal[state]:
         reward = grid.cell_rewards[state] - grid.step_reward
         axes.add_patch(
-            Rectangle((column + 0.08, row + 0.08), 0.84, 0.84, facecolor="none", edgecolor=ink, linewidth=1.5)
+            Rectangle(
+                (column + 0.08, row + 0.08),
+                0.84,
+                0.84,
+                facecolor="none",
+                edgecolor=ink,
+                linewidth=1.5,
+            )
         )
-        axes.text(column + 0.5, row + 0.5, f"{reward:+g}", color=ink, fontsize=11, ha="center", va="center")
+        axes.text(
+            column + 0.5,
+            row + 0.5,
+            f"{reward:+g}",
+            color=ink,
+            fontsize=11,
+            ha="center",
+            va="center",
+        )
     elif symbol != ".":
-        axes.text(column + 0.13, row + 0.18, symbol, fontsize=8, color=ink, ha="center", va="center")
+        axes.text(
+            column + 0.13,
+            row + 0.18,
+            symbol,
+            fontsize=8,
+            color=ink,
+            ha="center",
+            va="center",
+        )
 
 
-def _draw_arrows(axes: Axes, grid: GridWorld, policy: NDArray, *, up: float, ink: str) -> None:
+def _draw_arrows(
+    axes: Axes, grid: GridWorld, policy: NDArray, *, up: float, ink: str
+) -> None:
     """An arrow for each action taken, ``up`` from the upper edge of its cell."""
     chances = policy if policy.ndim == 2 else np.eye(len(STEPS))[policy]
     for state in np.flatnonzero(~grid.terminal):
@@ -112,19 +162,42 @@ def _draw_arrows(axes: Axes, grid: GridWorld, policy: NDArray, *, up: float, ink
             )
 
 
-def _box(axes: Axes, middle: tuple[float, float], text: str, *, width: float = 1.9, height: float = 0.7) -> None:
+def _box(
+    axes: Axes,
+    middle: tuple[float, float],
+    text: str,
+    *,
+    width: float = 1.9,
+    height: float = 0.7,
+) -> None:
     corner = (middle[0] - width / 2, middle[1] - height / 2)
     shape = FancyBboxPatch(
-        corner, width, height, boxstyle="round,pad=0,rounding_size=0.12", facecolor=to_rgba(look.SKY, 0.25), ec=look.INK
+        corner,
+        width,
+        height,
+        boxstyle="round,pad=0,rounding_size=0.12",
+        facecolor=to_rgba(style.SKY, 0.25),
+        ec=style.INK,
     )
     axes.add_patch(shape)
     axes.text(*middle, text, ha="center", va="center")
 
 
-def _arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float], *, bend: float = 0.0) -> None:
+def _arrow(
+    axes: Axes,
+    start: tuple[float, float],
+    end: tuple[float, float],
+    *,
+    bend: float = 0.0,
+) -> None:
     axes.add_patch(
         FancyArrowPatch(
-            start, end, arrowstyle="-|>", mutation_scale=14, color=look.INK, connectionstyle=f"arc3,rad={bend}"
+            start,
+            end,
+            arrowstyle="-|>",
+            mutation_scale=14,
+            color=style.INK,
+            connectionstyle=f"arc3,rad={bend}",
         )
     )
 
@@ -138,9 +211,23 @@ def draw_interaction(axes: Axes) -> None:
     """The learner and its environment, step after step (Fig. 2.1)."""
     _box(axes, (0, 1.6), "agent")
     _box(axes, (0, 0), "environment")
-    for out, word, side in ((2.0, "action $A_t$", 1), (-2.0, "state $S_{t+1}$\nreward $R_{t+1}$", -1)):
-        axes.plot([side * 0.95, out, out, side * 0.95], [1.6, 1.6, 0, 0], color=look.INK, linewidth=1.2)
-        axes.text(out + side * 0.15, 0.8, word, ha="left" if side > 0 else "right", va="center")
+    for out, word, side in (
+        (2.0, "action $A_t$", 1),
+        (-2.0, "state $S_{t+1}$\nreward $R_{t+1}$", -1),
+    ):
+        axes.plot(
+            [side * 0.95, out, out, side * 0.95],
+            [1.6, 1.6, 0, 0],
+            color=style.INK,
+            linewidth=1.2,
+        )
+        axes.text(
+            out + side * 0.15,
+            0.8,
+            word,
+            ha="left" if side > 0 else "right",
+            va="center",
+        )
     _arrow(axes, (1.4, 0), (0.95, 0))
     _arrow(axes, (-1.4, 1.6), (-0.95, 1.6))
     _bare(axes, (-3.9, 3.9), (-0.5, 2.1))
@@ -149,11 +236,11 @@ def draw_interaction(axes: Axes) -> None:
 def draw_decision_network(axes: Axes, *, steps: int = 3) -> None:
     """States, actions and rewards of a run, and what depends on what (Fig. 2.2)."""
     for t in range(steps + 1):
-        _node(axes, (2.0 * t, 0), f"$S_{t}$", look.SKY)
+        _node(axes, (2.0 * t, 0), f"$S_{t}$", style.SKY)
         if t == steps:
             break
-        _node(axes, (2.0 * t + 0.9, 1.1), f"$A_{t}$", look.ORANGE)
-        _node(axes, (2.0 * t + 1.1, -1.1), f"$R_{t + 1}$", look.GREEN)
+        _node(axes, (2.0 * t + 0.9, 1.1), f"$A_{t}$", style.ORANGE)
+        _node(axes, (2.0 * t + 1.1, -1.1), f"$R_{t + 1}$", style.GREEN)
         _arrow(axes, (2.0 * t + 0.22, 0.26), (2.0 * t + 0.68, 0.84))
         _arrow(axes, (2.0 * t + 0.34, 0), (2.0 * t + 1.66, 0))
         _arrow(axes, (2.0 * t + 1.12, 0.84), (2.0 * t + 1.78, 0.27))
@@ -164,7 +251,9 @@ def draw_decision_network(axes: Axes, *, steps: int = 3) -> None:
 
 
 def _node(axes: Axes, middle: tuple[float, float], text: str, colour: str) -> None:
-    axes.add_patch(Circle(middle, 0.34, facecolor=to_rgba(colour, 0.3), edgecolor=look.INK))
+    axes.add_patch(
+        Circle(middle, 0.34, facecolor=to_rgba(colour, 0.3), edgecolor=style.INK)
+    )
     axes.text(*middle, text, ha="center", va="center")
 
 
@@ -175,14 +264,16 @@ def draw_evaluation_and_improvement(axes: Axes) -> None:
     _arrow(axes, (0.2, 0.38), (3.8, 0.38), bend=-0.35)
     _arrow(axes, (3.8, -0.38), (0.2, -0.38), bend=-0.35)
     axes.text(2, 1.32, r"evaluation: $V \to V^\pi$", ha="center", va="center")
-    axes.text(2, -1.32, r"improvement: $\pi \to \mathrm{greedy}(V)$", ha="center", va="center")
+    axes.text(
+        2, -1.32, r"improvement: $\pi \to \mathrm{greedy}(V)$", ha="center", va="center"
+    )
     _bare(axes, (-1, 5), (-1.7, 1.7))
 
 
 def draw_two_lines(axes: Axes) -> None:
     """Two lines that meet where values and policy are optimal, and the way there (Fig. 2.4(b))."""
-    axes.plot([0, 6], [2.2, 0], color=look.BLUE)
-    axes.plot([0, 6], [-2.2, 0], color=look.VERMILION)
+    axes.plot([0, 6], [2.2, 0], color=style.BLUE)
+    axes.plot([0, 6], [-2.2, 0], color=style.VERMILION)
     way = [(0.0, -0.6)]
     for step in range(7):  # straight to one line, then to the other
         side = 1 if step % 2 == 0 else -1
@@ -191,10 +282,10 @@ def draw_two_lines(axes: Axes) -> None:
         way.append((x, side * 2.2 * (1 - x / 6)))
     for start, end in itertools.pairwise(way):
         _arrow(axes, start, end)
-    axes.plot(6, 0, "o", color=look.INK, markersize=7)
+    axes.plot(6, 0, "o", color=style.INK, markersize=7)
     axes.text(6.15, 0, r"$V^*, \pi^*$", va="center")
-    axes.text(2.6, 1.75, r"$V = V^\pi$", color=look.BLUE)
-    axes.text(2.6, -1.95, r"$\pi = \mathrm{greedy}(V)$", color=look.VERMILION)
+    axes.text(2.6, 1.75, r"$V = V^\pi$", color=style.BLUE)
+    axes.text(2.6, -1.95, r"$\pi = \mathrm{greedy}(V)$", color=style.VERMILION)
     axes.text(-0.1, -0.6, r"$V, \pi$", ha="right", va="center")
     _bare(axes, (-0.8, 7.1), (-2.5, 2.5))
 
@@ -207,15 +298,33 @@ def plot_trace(axes: Axes, trace: Trace, *, least: float = 1e-8) -> None:
     least : smaller gaps are drawn at this height: on a logarithmic scale nothing is at 0.
     """
     steps = np.arange(len(trace.values))
-    gaps = {"from $V = V^\\pi$": trace.evaluation_gap, r"from $\pi = \mathrm{greedy}(V)$": trace.greedy_gap}
-    for (name, gap), colour, marker in zip(gaps.items(), (look.BLUE, look.VERMILION), "os", strict=True):
-        axes.plot(steps, np.maximum(gap, least), marker=marker, markersize=3.5, linewidth=1, color=colour, label=name)
+    gaps = {
+        "from $V = V^\\pi$": trace.evaluation_gap,
+        r"from $\pi = \mathrm{greedy}(V)$": trace.greedy_gap,
+    }
+    for (name, gap), colour, marker in zip(
+        gaps.items(), (style.BLUE, style.VERMILION), "os", strict=True
+    ):
+        axes.plot(
+            steps,
+            np.maximum(gap, least),
+            marker=marker,
+            markersize=3.5,
+            linewidth=1,
+            color=colour,
+            label=name,
+        )
     axes.set(yscale="log", xlabel="half step", ylabel="distance")
     axes.legend()
 
 
 def draw_value_plane(
-    axes: Axes, cloud: ArrayLike, paths: Mapping[str, ArrayLike], *, corners: ArrayLike, best: ArrayLike
+    axes: Axes,
+    cloud: ArrayLike,
+    paths: Mapping[str, ArrayLike],
+    *,
+    corners: ArrayLike,
+    best: ArrayLike,
 ) -> None:
     """Values of two states as points: those of all policies as a cloud, planners as paths through the plane.
 
@@ -227,10 +336,40 @@ def draw_value_plane(
     best : (2,), the optimal values.
     """
     points = np.asarray(cloud)
-    axes.plot(points[:, 0], points[:, 1], ".", color=look.SKY, markersize=2, alpha=0.35, zorder=0)
-    axes.plot(*np.asarray(corners).T, "s", color=look.INK, markersize=6, label="deterministic policies")
+    axes.plot(
+        points[:, 0],
+        points[:, 1],
+        ".",
+        color=style.SKY,
+        markersize=2,
+        alpha=0.35,
+        zorder=0,
+    )
+    axes.plot(
+        *np.asarray(corners).T,
+        "s",
+        color=style.INK,
+        markersize=6,
+        label="deterministic policies",
+    )
     for name, path in paths.items():
-        axes.plot(*np.asarray(path).T, "o-", color=PLANNERS[name], markersize=3.5, linewidth=1.2, label=name)
-    axes.plot(*np.asarray(best), "*", color=look.ORANGE, markersize=15, label="the best", zorder=5)
+        axes.plot(
+            *np.asarray(path).T,
+            "o-",
+            color=PLANNERS[name],
+            markersize=3.5,
+            linewidth=1.2,
+            label=name,
+        )
+    axes.plot(
+        *np.asarray(best),
+        "*",
+        color=style.ORANGE,
+        markersize=15,
+        label="the best",
+        zorder=5,
+    )
     axes.set(xlabel="value of state 0", ylabel="value of state 1")
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)  # the values may fill every corner
+    axes.legend(
+        loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2
+    )  # the values may fill every corner

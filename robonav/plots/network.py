@@ -12,16 +12,22 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, to_rgba
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import look
-from robonav.lfd.history import Training
-from robonav.lfd.network import Network
-from robonav.lfd.toys import EXTENT
+from robonav import style
+from robonav.networks.multilayer_perceptron import Network
+from robonav.networks.toy_datasets import EXTENT
+from robonav.networks.training_history import Training
 
-NO, YES = look.BLUE, look.ORANGE
-NEGATIVE, POSITIVE = look.VERMILION, look.BLUE
+NO, YES = style.BLUE, style.ORANGE
+NEGATIVE, POSITIVE = style.VERMILION, style.BLUE
 ANSWERS = LinearSegmentedColormap.from_list(
     "answers",
-    list(zip((0, 0.5, 0.5, 1), (to_rgba(NO, 0.45), to_rgba(NO, 0), to_rgba(YES, 0), to_rgba(YES, 0.5)), strict=True)),
+    list(
+        zip(
+            (0, 0.5, 0.5, 1),
+            (to_rgba(NO, 0.45), to_rgba(NO, 0), to_rgba(YES, 0), to_rgba(YES, 0.5)),
+            strict=True,
+        )
+    ),
 )
 
 
@@ -31,7 +37,11 @@ def unit_positions(sizes: Sequence[int]) -> list[NDArray[np.float64]]:
     layers = []
     for layer, size in enumerate(sizes):
         count = size + (layer < last)
-        layers.append(np.column_stack([np.full(count, float(layer)), (count - 1) / 2 - np.arange(count)]))
+        layers.append(
+            np.column_stack(
+                [np.full(count, float(layer)), (count - 1) / 2 - np.arange(count)]
+            )
+        )
     return layers
 
 
@@ -56,21 +66,56 @@ def draw_network(
     for layer, (here, there) in enumerate(pairwise(layers)):
         ends = there[1:] if layer + 2 < len(layers) else there
         lines = [[start, end] for end in ends for start in here]
-        axes.add_collection(LineCollection(lines, zorder=1, **_line_style(network, layer)))
+        axes.add_collection(
+            LineCollection(lines, zorder=1, **_line_style(network, layer))
+        )
     tallest = max(map(len, layers)) / 2
     for layer, positions in enumerate(layers):
         bias = layer + 1 < len(layers)
-        axes.scatter(positions[bias:, 0], positions[bias:, 1], 210, facecolor=look.SKY, edgecolor=look.INK, zorder=2)
+        axes.scatter(
+            positions[bias:, 0],
+            positions[bias:, 1],
+            210,
+            facecolor=style.SKY,
+            edgecolor=style.INK,
+            zorder=2,
+        )
         if bias:
-            axes.scatter(positions[0, 0], positions[0, 1], 210, facecolor=look.OBSTACLE, edgecolor=look.INK, zorder=2)
-            axes.annotate("+1", positions[0], ha="center", va="center", fontsize=8, color="white", zorder=3)
-        axes.annotate(f"$L_{layer + 1}$", (layer, -tallest - 0.3), ha="center", va="top")
+            axes.scatter(
+                positions[0, 0],
+                positions[0, 1],
+                210,
+                facecolor=style.OBSTACLE,
+                edgecolor=style.INK,
+                zorder=2,
+            )
+            axes.annotate(
+                "+1",
+                positions[0],
+                ha="center",
+                va="center",
+                fontsize=8,
+                color="white",
+                zorder=3,
+            )
+        axes.annotate(
+            f"$L_{layer + 1}$", (layer, -tallest - 0.3), ha="center", va="top"
+        )
     first = inputs or [f"$x_{{{unit + 1}}}$" for unit in range(sizes[0])]
     last = outputs or [f"$h_{{{unit + 1}}}$" for unit in range(sizes[-1])]
     for name, position in zip(first, layers[0][1:], strict=True):
-        axes.annotate(name, position, (-11, 0), textcoords="offset points", ha="right", va="center")
+        axes.annotate(
+            name,
+            position,
+            (-11, 0),
+            textcoords="offset points",
+            ha="right",
+            va="center",
+        )
     for name, position in zip(last, layers[-1], strict=True):
-        axes.annotate(name, position, (11, 0), textcoords="offset points", ha="left", va="center")
+        axes.annotate(
+            name, position, (11, 0), textcoords="offset points", ha="left", va="center"
+        )
     axes.set(xlim=(-0.7, len(sizes) - 0.3), ylim=(-tallest - 1, tallest + 0.1))
     axes.axis("off")
 
@@ -78,7 +123,7 @@ def draw_network(
 def _line_style(network: Network | None, layer: int) -> dict[str, Any]:
     """Even grey lines, or lines that show the weights and, from the bias unit, the bias."""
     if network is None:
-        return {"colors": look.INK, "linewidths": 0.7}
+        return {"colors": style.INK, "linewidths": 0.7}
     values = np.column_stack([network.biases[layer], network.weights[layer]]).ravel()
     strength = np.abs(values) / max(np.abs(values).max(), 1e-12)
     return {
@@ -88,7 +133,12 @@ def _line_style(network: Network | None, layer: int) -> dict[str, Any]:
     }
 
 
-def plot_costs(axes: Axes, trainings: Mapping[str, Training], *, colours: Mapping[str, str] | None = None) -> None:
+def plot_costs(
+    axes: Axes,
+    trainings: Mapping[str, Training],
+    *,
+    colours: Mapping[str, str] | None = None,
+) -> None:
     """Cost against iterations, a named curve a training (Fig. 3.7)."""
     for name, training in trainings.items():
         axes.plot(training.costs, label=name, color=(colours or {}).get(name))
@@ -97,10 +147,17 @@ def plot_costs(axes: Axes, trainings: Mapping[str, Training], *, colours: Mappin
         axes.legend()
 
 
-def plot_accuracies(axes: Axes, trainings: Mapping[str, Training], *, colours: Mapping[str, str] | None = None) -> None:
+def plot_accuracies(
+    axes: Axes,
+    trainings: Mapping[str, Training],
+    *,
+    colours: Mapping[str, str] | None = None,
+) -> None:
     """Examples answered as labelled, in per cent, against iterations (Table 3.3)."""
     for name, training in trainings.items():
-        axes.plot(100 * training.accuracies, label=name, color=(colours or {}).get(name))
+        axes.plot(
+            100 * training.accuracies, label=name, color=(colours or {}).get(name)
+        )
     axes.set(xlabel="iteration", ylabel="accuracy (%)")
     if len(trainings) > 1:
         axes.legend()
@@ -112,15 +169,28 @@ def draw_answers(axes: Axes, field: ArrayLike, x: ArrayLike, y: ArrayLike) -> No
     Parameters
     ----------
     axes : where to draw.
-    field : answers (R, R) from :func:`robonav.lfd.toys.field`.
+    field : answers (R, R) from :func:`robonav.networks.toy_datasets.field`.
     x, y : the examples (m, 2) and (m, 1).
     """
     square = (-EXTENT, EXTENT, -EXTENT, EXTENT)
     values, points, yes = np.asarray(field), np.asarray(x), np.asarray(y)[:, 0] > 0.5
-    axes.imshow(values, origin="lower", extent=square, cmap=ANSWERS, vmin=0, vmax=1, zorder=0)
+    axes.imshow(
+        values, origin="lower", extent=square, cmap=ANSWERS, vmin=0, vmax=1, zorder=0
+    )
     if values.min() < 0.5 < values.max():
-        axes.contour(values, [0.5], origin="lower", extent=square, colors=look.INK, linewidths=1.8)
-    axes.scatter(points[~yes, 0], points[~yes, 1], 16, marker="o", color=NO, linewidths=0)
-    axes.scatter(points[yes, 0], points[yes, 1], 22, marker="x", color=YES, linewidths=1.4)
+        axes.contour(
+            values,
+            [0.5],
+            origin="lower",
+            extent=square,
+            colors=style.INK,
+            linewidths=1.8,
+        )
+    axes.scatter(
+        points[~yes, 0], points[~yes, 1], 16, marker="o", color=NO, linewidths=0
+    )
+    axes.scatter(
+        points[yes, 0], points[yes, 1], 22, marker="x", color=YES, linewidths=1.4
+    )
     axes.set(xlabel="$x_1$", ylabel="$x_2$", aspect="equal")
     axes.grid(False)

@@ -11,14 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch, Wedge
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import look
+from robonav import style
 from robonav.experiments import Results
 from robonav.lfd import Demonstrations
-from robonav.nirl.steps import with_constant
+from robonav.nirl.transitions import with_constant
 from robonav.robot import COLLISION_DISTANCE, SENSOR_RANGE, Encoder, Worlds, sense
+from robonav.robot._fast import SECTOR
 from robonav.robot.drawing import draw_robot, draw_world
 from robonav.robot.encoding import TARGET_WIDTHS
-from robonav.robot.kernels import SECTOR
 
 from .nnql import ACTIONS, GOOD_AND_BAD, draw_rates
 
@@ -28,19 +28,33 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-_ARROW = {"arrowstyle": "-|>", "color": look.INK, "linewidth": 1.2}
+_ARROW = {"arrowstyle": "-|>", "color": style.INK, "linewidth": 1.2}
 
 
 def draw_key_points(
-    axes: Axes, world: Worlds, key_points: ArrayLike, path: ArrayLike, driven: ArrayLike | None = None
+    axes: Axes,
+    world: Worlds,
+    key_points: ArrayLike,
+    path: ArrayLike,
+    driven: ArrayLike | None = None,
 ) -> None:
     """Key points (K, 2) that a person gave, the smooth path (P, 2) through them, and what was driven (Fig. 5.3)."""
     draw_world(axes, world)
-    axes.plot(*np.asarray(path)[:, :2].T, color=look.SKY, linewidth=1.6, label="smooth path")
-    axes.plot(*np.asarray(key_points).T, "o", color=look.ORANGE, markersize=7, label="key points")
+    axes.plot(
+        *np.asarray(path)[:, :2].T, color=style.SKY, linewidth=1.6, label="smooth path"
+    )
+    axes.plot(
+        *np.asarray(key_points).T,
+        "o",
+        color=style.ORANGE,
+        markersize=7,
+        label="key points",
+    )
     if driven is not None:
         x, y = np.asarray(driven)[:, :2].T
-        axes.plot(x, y, ".", color=look.BLUE, markersize=5, label="robot, a dot a second")
+        axes.plot(
+            x, y, ".", color=style.BLUE, markersize=5, label="robot, a dot a second"
+        )
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, fontsize=8)
 
 
@@ -50,26 +64,48 @@ def draw_slips(axes: Axes, shown: Demonstrations, meant: ArrayLike) -> None:
     slipped = (np.asarray(meant) != shown.actions)[own]
     draw_world(axes, shown.worlds[0])
     x, y = shown.poses[own, :2].T
-    axes.plot(x, y, color=look.BLUE, linewidth=1.4, marker=".", markersize=4)
-    axes.plot(x[slipped], y[slipped], "o", color=look.VERMILION, markersize=8, fillstyle="none", linestyle="none")
-    axes.set(title=f"{slipped.sum()} of {len(slipped)} actions slipped", xlabel="", ylabel="")
+    axes.plot(x, y, color=style.BLUE, linewidth=1.4, marker=".", markersize=4)
+    axes.plot(
+        x[slipped],
+        y[slipped],
+        "o",
+        color=style.VERMILION,
+        markersize=8,
+        fillstyle="none",
+        linestyle="none",
+    )
+    axes.set(
+        title=f"{slipped.sum()} of {len(slipped)} actions slipped", xlabel="", ylabel=""
+    )
 
 
-def draw_margin(axes: Axes, expert: ArrayLike, others: ArrayLike, weights: ArrayLike) -> None:
+def draw_margin(
+    axes: Axes, expert: ArrayLike, others: ArrayLike, weights: ArrayLike
+) -> None:
     """Feature expectations of an expert (2,) and of others (n, 2), and the margin that a reward (2,) leaves between."""
-    mu, rivals, theta = (np.asarray(part, dtype=float) for part in (expert, others, weights))
+    mu, rivals, theta = (
+        np.asarray(part, dtype=float) for part in (expert, others, weights)
+    )
     nearest = rivals[(rivals @ theta).argmax()]
     foot = mu - ((mu - nearest) @ theta) * theta
     for x, y in (mu, foot):
-        axes.axline((x, y), (x - theta[1], y + theta[0]), color=look.INK, linestyle="--", linewidth=1)
-    arrow = {"arrowstyle": "-|>", "color": look.BLUE, "linewidth": 2}
+        axes.axline(
+            (x, y),
+            (x - theta[1], y + theta[0]),
+            color=style.INK,
+            linestyle="--",
+            linewidth=1,
+        )
+    arrow = {"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 2}
     axes.annotate("", (mu[0], mu[1]), (foot[0], foot[1]), arrowprops=arrow)
-    axes.plot(*rivals.T, "o", color=look.GREY, label="other policies")
-    axes.plot(*mu, "*", color=look.METHODS["A*"], markersize=15, label="expert")
+    axes.plot(*rivals.T, "o", color=style.GREY, label="other policies")
+    axes.plot(*mu, "*", color=style.METHODS["A*"], markersize=15, label="expert")
     axes.legend(loc="lower right")
 
 
-def animate_projection(corners: ArrayLike, expert: ArrayLike, found: ArrayLike, means: ArrayLike) -> FuncAnimation:
+def animate_projection(
+    corners: ArrayLike, expert: ArrayLike, found: ArrayLike, means: ArrayLike
+) -> FuncAnimation:
     """The projection method in a plane, a policy a frame.
 
     Parameters
@@ -80,55 +116,84 @@ def animate_projection(corners: ArrayLike, expert: ArrayLike, found: ArrayLike, 
     """
     from matplotlib.animation import FuncAnimation
 
-    hull, mu, policies, points = (np.asarray(part, dtype=float) for part in (corners, expert, found, means))
+    hull, mu, policies, points = (
+        np.asarray(part, dtype=float) for part in (corners, expert, found, means)
+    )
     figure, axes = plt.subplots(figsize=(4.8, 3.2))
 
     def draw(frame: int) -> list:
         axes.clear()
-        axes.fill(*hull.T, facecolor=look.GREY, alpha=0.15, edgecolor=look.INK)
+        axes.fill(*hull.T, facecolor=style.GREY, alpha=0.15, edgecolor=style.INK)
         if frame > 0:
-            axes.plot(*np.stack([points[frame - 1], policies[frame]]).T, color=look.SKY, linewidth=1)
-        axes.plot(*points[: frame + 1].T, ".-", color=look.BLUE, linewidth=1)
-        axes.plot(*policies[frame], "o", color=look.ORANGE, markersize=9)
-        axes.plot(*mu, "*", color=look.METHODS["A*"], markersize=14)
-        axes.set(aspect="equal", title=f"policy {frame + 1}: {np.linalg.norm(mu - points[frame]):.3f} from the expert")
+            axes.plot(
+                *np.stack([points[frame - 1], policies[frame]]).T,
+                color=style.SKY,
+                linewidth=1,
+            )
+        axes.plot(*points[: frame + 1].T, ".-", color=style.BLUE, linewidth=1)
+        axes.plot(*policies[frame], "o", color=style.ORANGE, markersize=9)
+        axes.plot(*mu, "*", color=style.METHODS["A*"], markersize=14)
+        axes.set(
+            aspect="equal",
+            title=f"policy {frame + 1}: {np.linalg.norm(mu - points[frame]):.3f} from the expert",
+        )
         return []
 
     return FuncAnimation(figure, draw, frames=len(points), interval=700)
 
 
-def draw_counts(axes: Axes, numbers: ArrayLike, counts: Mapping[str, ArrayLike], thesis: tuple[float, float]) -> None:
+def draw_counts(
+    axes: Axes,
+    numbers: ArrayLike,
+    counts: Mapping[str, ArrayLike],
+    thesis: tuple[float, float],
+) -> None:
     """Something counted a trajectory, mean and range over runs (R, n) by expert; the thesis's range grey (Fig. 5.4)."""
     x = np.asarray(numbers, dtype=float)
-    axes.axhspan(*thesis, color=look.GREY, alpha=0.25, linewidth=0, label="thesis")
-    colours = (look.METHODS["A*"], look.PURPLE, look.SKY, look.VERMILION)
+    axes.axhspan(*thesis, color=style.GREY, alpha=0.25, linewidth=0, label="thesis")
+    colours = (style.METHODS["A*"], style.PURPLE, style.SKY, style.VERMILION)
     for (name, runs), colour in zip(counts.items(), colours, strict=False):
         rows = np.asarray(runs, dtype=float)
-        axes.fill_between(x, rows.min(axis=0), rows.max(axis=0), color=colour, alpha=0.2, linewidth=0)
+        axes.fill_between(
+            x, rows.min(axis=0), rows.max(axis=0), color=colour, alpha=0.2, linewidth=0
+        )
         axes.plot(x, rows.mean(axis=0), "o-", color=colour, label=name, markersize=4)
     axes.set(xlabel="demonstrations", ylim=(0, None))
 
 
 def draw_course(axes: Axes, series: Mapping[str, ArrayLike], label: str) -> None:
     """A number an iteration (runs, n) by name: mean and range over runs."""
-    colours = (look.VERMILION, look.BLUE, look.GREEN, look.ORANGE)
+    colours = (style.VERMILION, style.BLUE, style.GREEN, style.ORANGE)
     for (name, given), colour in zip(series.items(), colours, strict=False):
         runs = np.atleast_2d(np.asarray(given, dtype=float))
         x = np.arange(1, runs.shape[1] + 1)
-        axes.fill_between(x, runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.2, linewidth=0)
+        axes.fill_between(
+            x, runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.2, linewidth=0
+        )
         axes.plot(x, runs.mean(axis=0), color=colour, label=name)
     axes.set(xlabel="iteration", ylabel=label)
     if len(series) > 1:
         axes.legend()
 
 
-def draw_densities(axes: Axes, obstacles: Sequence[int], rates: Mapping[str, ArrayLike], title: str) -> None:
+def draw_densities(
+    axes: Axes, obstacles: Sequence[int], rates: Mapping[str, ArrayLike], title: str
+) -> None:
     """Success (S, n) by method against the number of obstacles, mean and range over runs (Fig. 5.10)."""
     for name, given in rates.items():
         runs = np.asarray(given, dtype=float)
-        colour = look.METHODS.get(name, look.BLUE)
-        axes.fill_between(obstacles, runs.min(axis=0), runs.max(axis=0), color=colour, alpha=0.18, linewidth=0)
-        axes.plot(obstacles, runs.mean(axis=0), "o-", color=colour, label=name, markersize=4)
+        colour = style.METHODS.get(name, style.BLUE)
+        axes.fill_between(
+            obstacles,
+            runs.min(axis=0),
+            runs.max(axis=0),
+            color=colour,
+            alpha=0.18,
+            linewidth=0,
+        )
+        axes.plot(
+            obstacles, runs.mean(axis=0), "o-", color=colour, label=name, markersize=4
+        )
     axes.set(xlabel="obstacles", xticks=list(obstacles), ylim=(50, 101), title=title)
 
 
@@ -136,10 +201,26 @@ def draw_steps(axes: Axes, rates: Mapping[str, ArrayLike]) -> None:
     """Success of every run (S,) by step, from the top down, dots and their mean."""
     for row, (_, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
-        axes.plot(dots, row + 0.15 * np.sin(2.4 * np.arange(len(dots))), ".", color=look.BLUE, alpha=0.6, markersize=6)
-        axes.plot([dots.mean()] * 2, [row - 0.3, row + 0.3], color=look.BLUE, linewidth=2.5)
-        axes.annotate(f"{dots.mean():.0f} %", (103, row), va="center", annotation_clip=False)
-    axes.set(yticks=range(len(rates)), yticklabels=list(rates), xlim=(-2, 102), xlabel="drives that arrive (%)")
+        axes.plot(
+            dots,
+            row + 0.15 * np.sin(2.4 * np.arange(len(dots))),
+            ".",
+            color=style.BLUE,
+            alpha=0.6,
+            markersize=6,
+        )
+        axes.plot(
+            [dots.mean()] * 2, [row - 0.3, row + 0.3], color=style.BLUE, linewidth=2.5
+        )
+        axes.annotate(
+            f"{dots.mean():.0f} %", (103, row), va="center", annotation_clip=False
+        )
+    axes.set(
+        yticks=range(len(rates)),
+        yticklabels=list(rates),
+        xlim=(-2, 102),
+        xlabel="drives that arrive (%)",
+    )
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
 
@@ -153,28 +234,57 @@ def draw_choice(axes: Axes, scores: Mapping[str, ArrayLike], driven: ArrayLike) 
     driven : (n,) success in per cent.
     """
     success = np.asarray(driven, dtype=float)
-    for (name, given), colour in zip(scores.items(), (look.ORANGE, look.BLUE), strict=False):
+    for (name, given), colour in zip(
+        scores.items(), (style.ORANGE, style.BLUE), strict=False
+    ):
         score = np.asarray(given, dtype=float)
         best = int(score.argmax())
         axes.plot(100 * score, success, ".", color=colour, label=name, markersize=7)
-        axes.plot(100 * score[best], success[best], "o", color=colour, markersize=14, fillstyle="none")
-    axes.set(xlabel="decisions of the expert that are predicted (%)", ylabel="drives that arrive (%)", ylim=(-2, 102))
+        axes.plot(
+            100 * score[best],
+            success[best],
+            "o",
+            color=colour,
+            markersize=14,
+            fillstyle="none",
+        )
+    axes.set(
+        xlabel="decisions of the expert that are predicted (%)",
+        ylabel="drives that arrive (%)",
+        ylim=(-2, 102),
+    )
     axes.legend()
 
 
 def draw_black_boxes(axes: Axes) -> None:
     """A network seen from outside: a state in, five values out; or with the choice inside, one action (Fig. 5.2)."""
     for row, (inside, out) in enumerate(
-        (("network", [f"$Q(s, {a})$" for a in ACTIONS]), ("network,\nbest value", ["$a$"]))
+        (
+            ("network", [f"$Q(s, {a})$" for a in ACTIONS]),
+            ("network,\nbest value", ["$a$"]),
+        )
     ):
         axes.add_patch(
-            FancyBboxPatch((0.9, 0.15 - row), 0.8, 0.5, boxstyle="round,pad=0.05", facecolor=look.INK, alpha=0.3)
+            FancyBboxPatch(
+                (0.9, 0.15 - row),
+                0.8,
+                0.5,
+                boxstyle="round,pad=0.05",
+                facecolor=style.INK,
+                alpha=0.3,
+            )
         )
         axes.text(1.3, 0.4 - row, inside, ha="center", va="center")
         axes.text(0.15, 0.4 - row, "$s$", ha="center", va="center")
         axes.annotate("", (0.85, 0.4 - row), (0.25, 0.4 - row), arrowprops=_ARROW)
-        for place, text in zip(np.linspace(0.65, 0.15, len(out)) if len(out) > 1 else [0.4], out, strict=True):
-            axes.annotate("", (2.3, place - row), (1.75, place - row), arrowprops=_ARROW)
+        for place, text in zip(
+            np.linspace(0.65, 0.15, len(out)) if len(out) > 1 else [0.4],
+            out,
+            strict=True,
+        ):
+            axes.annotate(
+                "", (2.3, place - row), (1.75, place - row), arrowprops=_ARROW
+            )
             axes.text(2.38, place - row, text, va="center", fontsize=9)
     axes.set(xlim=(0, 3), ylim=(-1.0, 0.85))
     axes.axis("off")
@@ -183,7 +293,11 @@ def draw_black_boxes(axes: Axes) -> None:
 def names_of(encoder: Encoder) -> list[str]:
     """What each input of a reward is, the constant last."""
     sensors = [f"S{sensor}" for sensor in encoder.sensors]
-    sector = {"number": ["sector"], "signed": ["sector"], "sine-cosine": ["left", "ahead"]}
+    sector = {
+        "number": ["sector"],
+        "signed": ["sector"],
+        "sine-cosine": ["left", "ahead"],
+    }
     width = TARGET_WIDTHS[encoder.target]
     target = sector.get(encoder.target, [f"sector {k + 1}" for k in range(width)])
     walls = [f"wall {sensor}" for sensor in encoder.sensors] if encoder.walls else []
@@ -196,7 +310,11 @@ def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
     most = abs(theta).max() or 1.0
     image = axes.imshow(theta, cmap=GOOD_AND_BAD, vmin=-most, vmax=most, aspect="auto")
     names = names_of(encoder)
-    axes.set(xticks=range(len(names)), yticks=range(len(ACTIONS)), yticklabels=ACTIONS[: len(theta)])
+    axes.set(
+        xticks=range(len(names)),
+        yticks=range(len(ACTIONS)),
+        yticklabels=ACTIONS[: len(theta)],
+    )
     axes.set_xticklabels(names, rotation=60, ha="right", fontsize=8)
     axes.grid(False)
     axes.figure.colorbar(image, ax=axes, label="weight", pad=0.02)
@@ -211,20 +329,47 @@ def draw_likes(figure: Figure, weights: ArrayLike, encoder: Encoder) -> None:
         axes = figure.add_subplot(1, len(theta), place)
         for sensor, weight in zip(encoder.sensors, row, strict=True):
             middle = 90 + 2 * half * (sensor - 1)
-            face = look.BLUE if weight > 0 else look.VERMILION
-            wedge = Wedge((0, 0), SENSOR_RANGE, middle - half, middle + half, facecolor=face, alpha=abs(weight) / most)
+            face = style.BLUE if weight > 0 else style.VERMILION
+            wedge = Wedge(
+                (0, 0),
+                SENSOR_RANGE,
+                middle - half,
+                middle + half,
+                facecolor=face,
+                alpha=abs(weight) / most,
+            )
             axes.add_patch(wedge)
             rim = Wedge(
-                (0, 0), SENSOR_RANGE, middle - half, middle + half, fill=False, edgecolor=look.INK, linewidth=0.6
+                (0, 0),
+                SENSOR_RANGE,
+                middle - half,
+                middle + half,
+                fill=False,
+                edgecolor=style.INK,
+                linewidth=0.6,
             )
             axes.add_patch(rim)
-        draw_robot(axes, (0.0, 0.0, np.pi / 2), look.INK)
-        axes.set(xlim=(-10.5, 10.5), ylim=(-10.5, 10.5), aspect="equal", xticks=[], yticks=[], title=name)
+        draw_robot(axes, (0.0, 0.0, np.pi / 2), style.INK)
+        axes.set(
+            xlim=(-10.5, 10.5),
+            ylim=(-10.5, 10.5),
+            aspect="equal",
+            xticks=[],
+            yticks=[],
+            title=name,
+        )
         axes.grid(False)
         axes.spines[:].set_visible(False)
 
 
-def draw_reward_map(axes: Axes, world: Worlds, weights: ArrayLike, encoder: Encoder, *, spacing: float = 1.0) -> None:
+def draw_reward_map(
+    axes: Axes,
+    world: Worlds,
+    weights: ArrayLike,
+    encoder: Encoder,
+    *,
+    spacing: float = 1.0,
+) -> None:
     """Where in a world the reward of going on is high (blue) and low (red), for a robot that faces the target.
 
     Blank where nothing is in range, since nothing is decided there, and within a metre of an obstacle.
@@ -232,7 +377,9 @@ def draw_reward_map(axes: Axes, world: Worlds, weights: ArrayLike, encoder: Enco
     ticks = np.arange(spacing / 2, world.size, spacing)
     x, y = (part.ravel() for part in np.meshgrid(ticks, ticks))
     heading = np.arctan2(world.targets[0, 1] - y, world.targets[0, 0] - x)
-    sensing = sense(world[np.zeros(len(x), dtype=int)], np.column_stack([x, y, heading]))
+    sensing = sense(
+        world[np.zeros(len(x), dtype=int)], np.column_stack([x, y, heading])
+    )
     reward = with_constant(encoder(sensing)) @ np.asarray(weights, dtype=float)[0]
     reward[sensing.safe | (sensing.ranges.min(axis=1) < COLLISION_DISTANCE)] = np.nan
     most = np.nanmax(abs(reward))
@@ -245,13 +392,19 @@ def draw_reward_map(axes: Axes, world: Worlds, weights: ArrayLike, encoder: Enco
         vmax=most,
     )
     draw_world(axes, world)
-    axes.figure.colorbar(image, ax=axes, label="reward of going on", pad=0.02, shrink=0.8)
+    axes.figure.colorbar(
+        image, ax=axes, label="reward of going on", pad=0.02, shrink=0.8
+    )
 
 
 def of_runs(results: Results, metric: str, **wanted: object) -> Floats:
     """A metric of all cases that have the ``wanted`` values, in their order: (S, n), or (S, T) of a single series."""
     cases = results.experiment.cases
-    own = [k for k, case in enumerate(cases) if all(case[key] == value for key, value in wanted.items())]
+    own = [
+        k
+        for k, case in enumerate(cases)
+        if all(case[key] == value for key, value in wanted.items())
+    ]
     runs = [results.values(metric, k) for k in own]
     return runs[0] if runs[0].ndim == 2 else np.stack(runs, axis=1)
 
@@ -260,9 +413,19 @@ def plot_counts(results: Results) -> Figure:
     """Fig. 5.4 from its results."""
     figure, panels = plt.subplots(1, 2, figsize=(9, 3))
     cases = results.experiment.cases
-    experts, numbers = (list(dict.fromkeys(case[key] for case in cases)) for key in ("expert", "demonstrations"))
-    for axes, metric, thesis in zip(panels, ("samples", "states"), ((52, 55), (13, 19)), strict=True):
-        draw_counts(axes, numbers, {str(e): of_runs(results, metric, expert=e) for e in experts}, thesis)
+    experts, numbers = (
+        list(dict.fromkeys(case[key] for case in cases))
+        for key in ("expert", "demonstrations")
+    )
+    for axes, metric, thesis in zip(
+        panels, ("samples", "states"), ((52, 55), (13, 19)), strict=True
+    ):
+        draw_counts(
+            axes,
+            numbers,
+            {str(e): of_runs(results, metric, expert=e) for e in experts},
+            thesis,
+        )
     panels[0].set(ylabel="samples a trajectory")
     panels[1].set(ylabel="different states a trajectory")
     panels[0].legend()
@@ -273,7 +436,10 @@ def plot_course(results: Results, metric: str, label: str) -> Figure:
     """Fig. 5.7 or 5.8 from its results."""
     figure, axes = plt.subplots(figsize=(7, 3))
     cases = results.experiment.cases
-    series = {f"discount {case['discount']}": results.values(metric, k) for k, case in enumerate(cases)}
+    series = {
+        f"discount {case['discount']}": results.values(metric, k)
+        for k, case in enumerate(cases)
+    }
     draw_course(axes, series, label)
     return figure
 
@@ -283,7 +449,10 @@ def plot_changes(results: Results) -> Figure:
     figure, panels = plt.subplots(1, 2, figsize=(9, 2.8))
     cases = results.experiment.cases
     for axes, layer in zip(panels, ("first layer", "second layer"), strict=True):
-        series = {f"discount {case['discount']}": results.values(layer, k) for k, case in enumerate(cases)}
+        series = {
+            f"discount {case['discount']}": results.values(layer, k)
+            for k, case in enumerate(cases)
+        }
         draw_course(axes, series, "sum of absolute changes")
         axes.set(title=layer, ylim=(0, None))
     return figure
@@ -292,11 +461,15 @@ def plot_changes(results: Results) -> Figure:
 def plot_densities(results: Results) -> Figure:
     """Fig. 5.10 from its results, a panel a speed."""
     cases = results.experiment.cases
-    speeds, methods = (list(dict.fromkeys(case[key] for case in cases)) for key in ("speed", "method"))
+    speeds, methods = (
+        list(dict.fromkeys(case[key] for case in cases)) for key in ("speed", "method")
+    )
     obstacles = list(dict.fromkeys(int(case["obstacles"]) for case in cases))
     figure, panels = plt.subplots(1, len(speeds), figsize=(9, 3), sharey=True)
     for axes, speed in zip(panels, speeds, strict=True):
-        rates = {str(m): of_runs(results, "success", method=m, speed=speed) for m in methods}
+        rates = {
+            str(m): of_runs(results, "success", method=m, speed=speed) for m in methods
+        }
         draw_densities(axes, obstacles, rates, f"{speed:g} m/s")
     panels[0].set(ylabel="drives that arrive (%)")
     panels[0].legend(loc="lower left")
@@ -307,7 +480,13 @@ def plot_steps(results: Results) -> Figure:
     """The steps from Algorithm 10 as written to what works, from their results."""
     figure, axes = plt.subplots(figsize=(8, 4))
     cases = results.experiment.cases
-    draw_steps(axes, {str(case["step"]): results.values("success", k) for k, case in enumerate(cases)})
+    draw_steps(
+        axes,
+        {
+            str(case["step"]): results.values("success", k)
+            for k, case in enumerate(cases)
+        },
+    )
     return figure
 
 
@@ -315,10 +494,16 @@ def plot_comparison(results: Results, discount: float) -> Figure:
     """Table 5.2 with one discount from its results; controls and rules below the methods."""
     cases, thesis = results.experiment.cases, results.experiment.thesis["success"]
     own = [
-        k for k, case in enumerate(cases) if case["discount"] in (discount, "none") or "reward" in str(case["method"])
+        k
+        for k, case in enumerate(cases)
+        if case["discount"] in (discount, "none") or "reward" in str(case["method"])
     ]
     rates = {str(cases[k]["method"]): results.values("success", k) for k in own}
-    known = {str(case["method"]): rate for case, rate in zip(cases, thesis, strict=True) if rate is not None}
+    known = {
+        str(case["method"]): rate
+        for case, rate in zip(cases, thesis, strict=True)
+        if rate is not None
+    }
     figure, axes = plt.subplots(figsize=(7, 4))
     draw_rates(axes, rates, thesis=known)
     return figure

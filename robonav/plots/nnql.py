@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from numpy.typing import ArrayLike
 
-from robonav import look
+from robonav import style
 from robonav.experiments import Results
 from robonav.nnql import boltzmann
-from robonav.nnql.rewards import COZY_DISTANCE, REWARDS, reward_row
+from robonav.nnql.reward import COZY_DISTANCE, REWARDS, reward_row
 from robonav.robot import SENSOR_RANGE, Action, Sensing, Worlds
-from robonav.robot.kernels import RUNNING
+from robonav.robot._fast import RUNNING
 
 from .robot import draw_drives
 
@@ -25,25 +25,43 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 ACTIONS = [Action(a).name for a in range(5)]
-GOOD_AND_BAD = LinearSegmentedColormap.from_list("good and bad", [look.VERMILION, "#9A9A9A40", look.BLUE])
-ACTION_COLOURS = (look.BLUE, look.GREEN, look.SKY, look.ORANGE, look.VERMILION)
+GOOD_AND_BAD = LinearSegmentedColormap.from_list(
+    "good and bad", [style.VERMILION, "#9A9A9A40", style.BLUE]
+)
+ACTION_COLOURS = (style.BLUE, style.GREEN, style.SKY, style.ORANGE, style.VERMILION)
 
 
 def draw_rewards(axes: Axes) -> None:
     """The reward of a step by the least range before and after it, where the episode goes on (Table 4.1)."""
     distance = (np.arange(400) + 0.5) / 400 * (SENSOR_RANGE + 1)
     before, after = np.meshgrid(distance, distance)
-    row = reward_row(_seen(before), _seen(after), np.full(before.size, RUNNING, np.int8))
+    row = reward_row(
+        _seen(before), _seen(after), np.full(before.size, RUNNING, np.int8)
+    )
     extent = (0, SENSOR_RANGE + 1, 0, SENSOR_RANGE + 1)
     image = axes.imshow(
-        REWARDS[row].reshape(before.shape), extent=extent, origin="lower", cmap=GOOD_AND_BAD, vmin=-1, vmax=1
+        REWARDS[row].reshape(before.shape),
+        extent=extent,
+        origin="lower",
+        cmap=GOOD_AND_BAD,
+        vmin=-1,
+        vmax=1,
     )
     for border in (COZY_DISTANCE, SENSOR_RANGE):
-        axes.axvline(border, color=look.INK, linewidth=0.6)
-        axes.axhline(border, color=look.INK, linewidth=0.6)
+        axes.axvline(border, color=style.INK, linewidth=0.6)
+        axes.axhline(border, color=style.INK, linewidth=0.6)
     for place, name in ((2.5, "dangerous"), (7.5, "cozy"), (10.5, "safe")):
-        axes.annotate(name, (place, 11.1), ha="center", fontsize=8, annotation_clip=False)
-        axes.annotate(name, (11.1, place), va="center", fontsize=8, rotation=-90, annotation_clip=False)
+        axes.annotate(
+            name, (place, 11.1), ha="center", fontsize=8, annotation_clip=False
+        )
+        axes.annotate(
+            name,
+            (11.1, place),
+            va="center",
+            fontsize=8,
+            rotation=-90,
+            annotation_clip=False,
+        )
     axes.set(xlabel="least range before the step (m)", ylabel="after it (m)")
     axes.grid(False)
     axes.figure.colorbar(image, ax=axes, label="reward", pad=0.12)
@@ -56,11 +74,15 @@ def _seen(nearest: ArrayLike) -> Sensing:
     return Sensing(ranges, np.zeros((n, 9), bool), np.ones(n, int), np.zeros(n, bool))
 
 
-def draw_boltzmann(axes: Axes, q: ArrayLike, *, coldest: float = 0.01, hottest: float = 10.0) -> None:
+def draw_boltzmann(
+    axes: Axes, q: ArrayLike, *, coldest: float = 0.01, hottest: float = 10.0
+) -> None:
     """How likely each action is at temperatures from cold to hot, for Q-values (5,)."""
     temperatures = np.geomspace(coldest, hottest, 200)
     shares = boltzmann(np.tile(np.asarray(q, dtype=float), (200, 1)), temperatures)
-    for name, value, share, colour in zip(ACTIONS, np.asarray(q), shares.T, ACTION_COLOURS, strict=True):
+    for name, value, share, colour in zip(
+        ACTIONS, np.asarray(q), shares.T, ACTION_COLOURS, strict=True
+    ):
         axes.plot(temperatures, share, color=colour, label=f"{name}, Q = {value:g}")
     axes.set(xscale="log", xlabel="temperature $T$", ylabel="probability", ylim=(0, 1))
     axes.legend()
@@ -75,13 +97,17 @@ def animate_boltzmann(q: ArrayLike, temperatures: Sequence[float]) -> FuncAnimat
     def draw(frame: int) -> list:
         axes.clear()
         axes.bar(ACTIONS, boltzmann(q, temperatures[frame]), color=ACTION_COLOURS)
-        axes.set(ylim=(0, 1), ylabel="probability", title=f"$T$ = {temperatures[frame]:.2g}")
+        axes.set(
+            ylim=(0, 1), ylabel="probability", title=f"$T$ = {temperatures[frame]:.2g}"
+        )
         return []
 
     return FuncAnimation(figure, draw, frames=len(temperatures), interval=200)
 
 
-def draw_learning(axes: Axes, counts: Mapping[str, ArrayLike], *, size: int = 30) -> None:
+def draw_learning(
+    axes: Axes, counts: Mapping[str, ArrayLike], *, size: int = 30
+) -> None:
     """Successful episodes in every ``size``: mean over seeds, and a standard deviation around it (Fig. 4.4, 4.6).
 
     Parameters
@@ -92,14 +118,20 @@ def draw_learning(axes: Axes, counts: Mapping[str, ArrayLike], *, size: int = 30
         runs = np.atleast_2d(np.asarray(given, dtype=float))
         ends = size * np.arange(1, runs.shape[1] + 1)
         mean, spread = runs.mean(axis=0), runs.std(axis=0)
-        colour = look.METHODS.get(name, look.BLUE)
-        axes.fill_between(ends, mean - spread, mean + spread, color=colour, alpha=0.18, linewidth=0)
+        colour = style.METHODS.get(name, style.BLUE)
+        axes.fill_between(
+            ends, mean - spread, mean + spread, color=colour, alpha=0.18, linewidth=0
+        )
         axes.plot(ends, mean, color=colour, marker=".", label=name)
-    axes.set(xlabel="episode", ylabel=f"successes in {size} episodes", ylim=(0, size + 1))
+    axes.set(
+        xlabel="episode", ylabel=f"successes in {size} episodes", ylim=(0, size + 1)
+    )
     axes.legend()
 
 
-def draw_weight_changes(axes: Axes, changes: Mapping[str, ArrayLike], *, colour: str = look.BLUE) -> None:
+def draw_weight_changes(
+    axes: Axes, changes: Mapping[str, ArrayLike], *, colour: str = style.BLUE
+) -> None:
     """What the weights of one layer changed by in each episode, summed in one way or another (Fig. 4.3).
 
     Parameters
@@ -108,16 +140,31 @@ def draw_weight_changes(axes: Axes, changes: Mapping[str, ArrayLike], *, colour:
     """
     for (name, values), shade in zip(changes.items(), (1.0, 0.45), strict=False):
         runs = np.atleast_2d(np.asarray(values, dtype=float))
-        episodes, mean, spread = np.arange(1, runs.shape[1] + 1), runs.mean(axis=0), runs.std(axis=0)
-        axes.fill_between(episodes, mean - spread, mean + spread, color=colour, alpha=0.2 * shade, linewidth=0)
+        episodes, mean, spread = (
+            np.arange(1, runs.shape[1] + 1),
+            runs.mean(axis=0),
+            runs.std(axis=0),
+        )
+        axes.fill_between(
+            episodes,
+            mean - spread,
+            mean + spread,
+            color=colour,
+            alpha=0.2 * shade,
+            linewidth=0,
+        )
         axes.plot(episodes, mean, color=colour, alpha=shade, linewidth=1, label=name)
-    axes.axhline(0, color=look.INK, linewidth=0.6)
+    axes.axhline(0, color=style.INK, linewidth=0.6)
     axes.set(xlabel="episode")
     axes.legend()
 
 
 def animate_learning(
-    world: Worlds, paths: Sequence[ArrayLike], titles: Sequence[str], *, colour: str = look.ROBOT
+    world: Worlds,
+    paths: Sequence[ArrayLike],
+    titles: Sequence[str],
+    *,
+    colour: str = style.ROBOT,
 ) -> FuncAnimation:
     """One world, driven again and again: a path (steps + 1, 3) and a title a frame."""
     from matplotlib.animation import FuncAnimation
@@ -133,7 +180,12 @@ def animate_learning(
     return FuncAnimation(figure, draw, frames=len(paths), interval=500)
 
 
-def draw_rates(axes: Axes, rates: Mapping[str, ArrayLike], *, thesis: Mapping[str, float] | None = None) -> None:
+def draw_rates(
+    axes: Axes,
+    rates: Mapping[str, ArrayLike],
+    *,
+    thesis: Mapping[str, float] | None = None,
+) -> None:
     """Success of every seed as a dot, their mean as a line, the thesis's mean as a diamond; all in per cent.
 
     Parameters
@@ -143,13 +195,23 @@ def draw_rates(axes: Axes, rates: Mapping[str, ArrayLike], *, thesis: Mapping[st
     """
     for row, (name, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
-        colour = look.METHODS.get(name, look.BLUE)
-        height = row + 0.22 * np.sin(2.4 * np.arange(len(dots)))  # apart from one another, the same every time
+        colour = style.METHODS.get(name, style.BLUE)
+        height = row + 0.22 * np.sin(
+            2.4 * np.arange(len(dots))
+        )  # apart from one another, the same every time
         axes.plot(dots, height, ".", color=colour, alpha=0.6, markersize=5)
-        axes.plot([dots.mean()] * 2, [row - 0.35, row + 0.35], color=colour, linewidth=2.5)
+        axes.plot(
+            [dots.mean()] * 2, [row - 0.35, row + 0.35], color=colour, linewidth=2.5
+        )
         if thesis and name in thesis:
-            axes.plot(thesis[name], row, "D", color=look.INK, markersize=6, fillstyle="none")
-    axes.set(yticks=range(len(rates)), yticklabels=list(rates), xlabel="drives that arrive (%)")
+            axes.plot(
+                thesis[name], row, "D", color=style.INK, markersize=6, fillstyle="none"
+            )
+    axes.set(
+        yticks=range(len(rates)),
+        yticklabels=list(rates),
+        xlabel="drives that arrive (%)",
+    )
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
 
@@ -160,11 +222,16 @@ def draw_trials(axes: Axes, means: Mapping[str, ArrayLike]) -> None:
         rates = np.asarray(values, dtype=float)
         order = np.argsort(rates)
         across = place + 0.7 * (np.arange(len(rates)) / max(len(rates) - 1, 1) - 0.5)
-        colour = look.METHODS.get(name, look.BLUE)
+        colour = style.METHODS.get(name, style.BLUE)
         axes.plot(across, rates[order], ".", color=colour, markersize=8)
         first = int(np.flatnonzero(order == 0)[0])
-        axes.plot(across[first], rates[0], "x", color=look.INK, markersize=9)
-    axes.set(xticks=range(len(means)), xticklabels=list(means), ylabel="success (%)", ylim=(0, 102))
+        axes.plot(across[first], rates[0], "x", color=style.INK, markersize=9)
+    axes.set(
+        xticks=range(len(means)),
+        xticklabels=list(means),
+        ylabel="success (%)",
+        ylim=(0, 102),
+    )
     axes.grid(axis="x", visible=False)
 
 
@@ -172,13 +239,29 @@ def draw_endings(axes: Axes, endings: Mapping[str, tuple[float, float, float]]) 
     """How drives end, one bar a label: arrived, out of steps and collided, in per cent."""
     left = np.zeros(len(endings))
     rates = np.array(list(endings.values())).reshape(-1, 3)
-    kinds = (("arrived", look.GREEN), ("out of steps", look.ORANGE), ("collided", look.VERMILION))
+    kinds = (
+        ("arrived", style.GREEN),
+        ("out of steps", style.ORANGE),
+        ("collided", style.VERMILION),
+    )
     for (label, colour), width in zip(kinds, rates.T, strict=True):
-        axes.barh(range(len(endings)), width, left=left, color=colour, label=label, height=0.65)
+        axes.barh(
+            range(len(endings)),
+            width,
+            left=left,
+            color=colour,
+            label=label,
+            height=0.65,
+        )
         left += width
     for row, rate in enumerate(rates[:, 0]):
         axes.annotate(f"{rate:.1f} %", (101, row), va="center", annotation_clip=False)
-    axes.set(yticks=range(len(endings)), yticklabels=list(endings), xlim=(0, 100), xlabel="drives (%)")
+    axes.set(
+        yticks=range(len(endings)),
+        yticklabels=list(endings),
+        xlim=(0, 100),
+        xlabel="drives (%)",
+    )
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
@@ -188,7 +271,13 @@ def plot_learning(results: Results) -> Figure:
     """Fig. 4.4 or 4.6 from its results."""
     figure, axes = plt.subplots(figsize=(7, 3.8))
     cases = results.experiment.cases
-    draw_learning(axes, {str(case["method"]): results.values("successes", k) for k, case in enumerate(cases)})
+    draw_learning(
+        axes,
+        {
+            str(case["method"]): results.values("successes", k)
+            for k, case in enumerate(cases)
+        },
+    )
     return figure
 
 
@@ -196,8 +285,11 @@ def plot_weight_changes(results: Results) -> Figure:
     """Fig. 4.3 from its results, a panel a layer."""
     figure, panels = plt.subplots(1, 2, figsize=(9, 3))
     for panel, layer in zip(panels, ("first layer", "second layer"), strict=True):
-        ways = {str(case["sum"]): results.values(layer, k) for k, case in enumerate(results.experiment.cases)}
-        draw_weight_changes(panel, ways, colour=look.METHODS["nnql"])
+        ways = {
+            str(case["sum"]): results.values(layer, k)
+            for k, case in enumerate(results.experiment.cases)
+        }
+        draw_weight_changes(panel, ways, colour=style.METHODS["nnql"])
         panel.set(title=layer)
     return figure
 
@@ -205,10 +297,16 @@ def plot_weight_changes(results: Results) -> Figure:
 def plot_rates(results: Results) -> Figure:
     """Table 4.3 from its results."""
     cases = results.experiment.cases
-    rates = {str(case["robot"]): results.values("success", k) for k, case in enumerate(cases)}
+    rates = {
+        str(case["robot"]): results.values("success", k) for k, case in enumerate(cases)
+    }
     thesis = dict(zip(rates, results.experiment.thesis["success"], strict=True))
     figure, axes = plt.subplots(figsize=(7, 3.4))
-    draw_rates(axes, rates, thesis={name: mean for name, mean in thesis.items() if mean is not None})
+    draw_rates(
+        axes,
+        rates,
+        thesis={name: mean for name, mean in thesis.items() if mean is not None},
+    )
     return figure
 
 
@@ -220,8 +318,15 @@ def plot_speeds(results: Results) -> Figure:
         own = [k for k, case in enumerate(cases) if case["robot"] == name]
         speeds = [float(cases[k]["speed"]) for k in own]
         runs = np.array([results.values("success", k) for k in own])
-        colour = look.METHODS.get(name, look.BLUE)
-        axes.fill_between(speeds, runs.min(axis=1), runs.max(axis=1), color=colour, alpha=0.15, linewidth=0)
+        colour = style.METHODS.get(name, style.BLUE)
+        axes.fill_between(
+            speeds,
+            runs.min(axis=1),
+            runs.max(axis=1),
+            color=colour,
+            alpha=0.15,
+            linewidth=0,
+        )
         axes.plot(speeds, runs.mean(axis=1), color=colour, marker=".", label=name)
     axes.set(xlabel="speed (m/s)", ylabel="drives that arrive (%)", ylim=(0, 102))
     axes.legend()
@@ -232,7 +337,9 @@ def plot_trials(results: Results) -> Figure:
     """The trials of all methods from their results."""
     means: dict[str, list[float]] = {}
     for k, case in enumerate(results.experiment.cases):
-        means.setdefault(str(case["method"]), []).append(results.summary("success", k).mean)
+        means.setdefault(str(case["method"]), []).append(
+            results.summary("success", k).mean
+        )
     figure, axes = plt.subplots(figsize=(7, 3))
     draw_trials(axes, means)
     return figure
@@ -243,7 +350,10 @@ def plot_endings(results: Results, what: str) -> Figure:
     ends = {}
     for k, case in enumerate(results.experiment.cases):
         if case["what"] == what:
-            arrived, cut, collided = (results.summary(how, k).mean for how in ("success", "out of steps", "collision"))
+            arrived, cut, collided = (
+                results.summary(how, k).mean
+                for how in ("success", "out of steps", "collision")
+            )
             ends[str(case["choice"])] = (arrived, cut, collided)
     figure, axes = plt.subplots(figsize=(7, 0.42 * len(ends) + 1.3))
     draw_endings(axes, ends)
@@ -256,9 +366,14 @@ def plot_variations(results: Results) -> Figure:
     cases = results.experiment.cases
     for k in range(len(cases)):
         summary = results.summary("success", k)
-        axes.plot([summary.low, summary.high], [k, k], color=look.INK, linewidth=2)
-        axes.plot(summary.mean, k, "o", color=look.METHODS["nnql"])
+        axes.plot([summary.low, summary.high], [k, k], color=style.INK, linewidth=2)
+        axes.plot(summary.mean, k, "o", color=style.METHODS["nnql"])
     labels = [f"{case['what']}: {case['choice']}" for case in cases]
-    axes.set(yticks=range(len(cases)), yticklabels=labels, xlabel="drives that arrive (%)", xlim=(0, 102))
+    axes.set(
+        yticks=range(len(cases)),
+        yticklabels=labels,
+        xlabel="drives that arrive (%)",
+        xlim=(0, 102),
+    )
     axes.invert_yaxis()
     return figure

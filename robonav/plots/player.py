@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from robonav import expect
+from robonav.validation import check_integer
 
 if TYPE_CHECKING:
     from IPython.display import HTML
@@ -18,7 +18,13 @@ _ICON_FONT = re.compile(r"<link\b[^>]*font-awesome[^>]*>\s*", re.IGNORECASE)
 _BUTTON_TITLE = re.compile(r'<button title="([^"]+)"')
 
 
-def player(animation: Animation, *, description: str, frames_per_second: int = 8, loop: bool = True) -> HTML:
+def player(
+    animation: Animation,
+    *,
+    description: str,
+    frames_per_second: int = 8,
+    loop: bool = True,
+) -> HTML:
     """The animation's frames with buttons and a slider, as the last value of a notebook cell.
 
     Parameters
@@ -35,14 +41,21 @@ def player(animation: Animation, *, description: str, frames_per_second: int = 8
     from IPython.display import HTML
     from matplotlib import pyplot as plt
 
-    expect.integer("frames_per_second", frames_per_second, at_least=1)
+    check_integer("frames_per_second", frames_per_second, at_least=1)
     if not description.strip():
-        raise ValueError("description must say what the animation shows, got an empty text")
+        raise ValueError(
+            "description must say what the animation shows, got an empty text"
+        )
     page = _frames(animation, frames_per_second, "loop" if loop else "once")
     plt.close("all")  # else the notebook shows the last frame once more
     page = _ICON_FONT.sub("", page)
-    page = page.replace('<img id="_anim_img', f'<img alt="{html.escape(description)}" id="_anim_img')
-    page = page.replace('type="range" class="anim-slider"', 'type="range" aria-label="Frame" class="anim-slider"')
+    page = page.replace(
+        '<img id="_anim_img', f'<img alt="{html.escape(description)}" id="_anim_img'
+    )
+    page = page.replace(
+        'type="range" class="anim-slider"',
+        'type="range" aria-label="Frame" class="anim-slider"',
+    )
     return HTML(_BUTTON_TITLE.sub(r'<button title="\1" aria-label="\1"', page))
 
 
@@ -52,9 +65,16 @@ def _frames(animation: Animation, frames_per_second: int, mode: str) -> str:
 
     class Transparent(HTMLWriter):
         def grab_frame(self, **options: Any) -> None:
-            super().grab_frame(**{**options, "facecolor": "none"})  # matplotlib would lay it on white
+            super().grab_frame(
+                **{**options, "facecolor": "none"}
+            )  # matplotlib would lay it on white
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "animation.html")
-        animation.save(str(path), writer=Transparent(fps=frames_per_second, embed_frames=True, default_mode=mode))
+        animation.save(
+            str(path),
+            writer=Transparent(
+                fps=frames_per_second, embed_frames=True, default_mode=mode
+            ),
+        )
         return path.read_text("utf-8")

@@ -9,13 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import look
+from robonav import style
 from robonav.robot import SENSOR_RANGE, Simulator, Worlds, obstacle_tracks, sense
-from robonav.robot.drawing import (
-    draw_robot,
-    draw_sensors,
-    draw_world,
-)
+from robonav.robot.drawing import draw_robot, draw_sensors, draw_world
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -26,11 +22,19 @@ def draw_sectors(axes: Axes) -> None:
     """The robot from above with its nine sectors, numbered (Fig. 2.6); heading to the right."""
     draw_sensors(axes, (0.0, 0.0, 0.0), [SENSOR_RANGE] * 9, numbered=True)
     draw_robot(axes, (0.0, 0.0, 0.0))
-    axes.set(xlim=(-11, 11), ylim=(-11, 11), aspect="equal", xlabel="ahead (m)", ylabel="left (m)")
+    axes.set(
+        xlim=(-11, 11),
+        ylim=(-11, 11),
+        aspect="equal",
+        xlabel="ahead (m)",
+        ylabel="left (m)",
+    )
     axes.grid(False)
 
 
-def draw_sensing(axes: Axes, worlds: Worlds, pose: ArrayLike, *, around: float | None = None) -> None:
+def draw_sensing(
+    axes: Axes, worlds: Worlds, pose: ArrayLike, *, around: float | None = None
+) -> None:
     """What a robot at ``pose`` perceives in the first world, with the distances of Fig. 2.7.
 
     ``around`` shows so many metres about the robot instead of the whole map.
@@ -42,37 +46,67 @@ def draw_sensing(axes: Axes, worlds: Worlds, pose: ArrayLike, *, around: float |
     draw_robot(axes, placed)
     if around is None:
         target = worlds.targets[0]
-        axes.plot([x, target[0]], [y, target[1]], color=look.TARGET, linestyle=":", linewidth=1.2)
+        axes.plot(
+            [x, target[0]],
+            [y, target[1]],
+            color=style.TARGET,
+            linestyle=":",
+            linewidth=1.2,
+        )
         axes.annotate("$d_{r-t}$", ((x + target[0]) / 2, (y + target[1]) / 2), xytext=(6, -12),
-                      textcoords="offset points", color=look.TARGET)  # fmt: skip
+                      textcoords="offset points", color=style.TARGET)  # fmt: skip
     else:
         axes.set(xlim=(x - around, x + around), ylim=(y - around, y + around))
 
 
 def draw_drives(
-    axes: Axes, worlds: Worlds, paths: Sequence[ArrayLike], *, colour: str = look.ROBOT, labels: Sequence[str] = ()
+    axes: Axes,
+    worlds: Worlds,
+    paths: Sequence[ArrayLike],
+    *,
+    colour: str = style.ROBOT,
+    labels: Sequence[str] = (),
 ) -> None:
     """Paths (steps + 1, 3) over the first world's map, each from its start, a dot a step."""
     draw_world(axes, worlds)
     for k, path in enumerate(paths):
         x, y = np.asarray(path)[:, :2].T
-        axes.plot(x, y, color=colour, linewidth=1.2, marker=".", markersize=3, label=labels[k] if labels else None)
+        axes.plot(
+            x,
+            y,
+            color=colour,
+            linewidth=1.2,
+            marker=".",
+            markersize=3,
+            label=labels[k] if labels else None,
+        )
 
 
 def draw_maps(
     figure: Figure, worlds: Worlds, paths: Sequence[ArrayLike] = (), titles: Sequence[str] = (), *, columns: int = 4,
-    colour: str = look.ROBOT,
+    colour: str = style.ROBOT,
 ) -> None:  # fmt: skip
     """A grid of maps, one a world, with the path driven in each."""
     rows = -(-len(worlds) // columns)
     for i, world in enumerate(worlds):
         axes = figure.add_subplot(rows, columns, i + 1)
         draw_drives(axes, world, [paths[i]] if len(paths) else [], colour=colour)
-        axes.set(xticks=[], yticks=[], xlabel="", ylabel="", title=titles[i] if len(titles) else "")
+        axes.set(
+            xticks=[],
+            yticks=[],
+            xlabel="",
+            ylabel="",
+            title=titles[i] if len(titles) else "",
+        )
 
 
 def animate_drive(
-    world: Worlds, path: NDArray[np.float64], *, every: int = 1, colour: str = look.ROBOT, size: float = 4.6
+    world: Worlds,
+    path: NDArray[np.float64],
+    *,
+    every: int = 1,
+    colour: str = style.ROBOT,
+    size: float = 4.6,
 ) -> FuncAnimation:
     """A robot on its way through the first world, with what its sensors read, obstacles moving if they do.
 
@@ -106,11 +140,22 @@ def animate_drive(
 def draw_outcomes(axes: Axes, rates: dict[str, tuple[float, float, float]]) -> None:
     """Success rates in per cent with their intervals: label to (rate, low, high), all in 0..1."""
     for row, (label, (rate, low, high)) in enumerate(rates.items()):
-        colour = look.METHODS.get(label, look.BLUE)
+        colour = style.METHODS.get(label, style.BLUE)
         axes.barh(row, 100 * rate, color=colour, height=0.6)
-        axes.plot([100 * low, 100 * high], [row, row], color=look.INK, linewidth=2)
-        axes.annotate(f"{100 * rate:.1f} %", (100 * high, row), xytext=(6, 0), textcoords="offset points", va="center")
-    axes.set(yticks=range(len(rates)), yticklabels=list(rates), xlim=(0, 112), xlabel="drives that arrive (%)")
+        axes.plot([100 * low, 100 * high], [row, row], color=style.INK, linewidth=2)
+        axes.annotate(
+            f"{100 * rate:.1f} %",
+            (100 * high, row),
+            xytext=(6, 0),
+            textcoords="offset points",
+            va="center",
+        )
+    axes.set(
+        yticks=range(len(rates)),
+        yticklabels=list(rates),
+        xlim=(0, 112),
+        xlabel="drives that arrive (%)",
+    )
     axes.set_xticks(range(0, 101, 20))
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from robonav import expect, look
+from robonav import style
+from robonav.validation import check_one_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -46,53 +47,147 @@ WIDTH, HEIGHT = 0.64, 0.54  # of a box, in cells of the grid
 SCHEMES: dict[str, Scheme] = {
     "demonstration": Scheme(
         {
-            "expert": Box({"en": "expert", "fr": "expert"}, 0, 0, look.ORANGE),
-            "data": Box({"en": "effective\nexamples", "fr": "exemples\nutiles"}, 1, 0, look.ORANGE),
-            "network": Box({"en": "neural\nnetwork", "fr": "réseau de\nneurones"}, 2, 0, look.BLUE),
-            "world": Box({"en": "unknown\nmap", "fr": "carte\ninconnue"}, 1, 1, look.GREY),
-            "policy": Box({"en": "policy", "fr": "politique"}, 2, 1, look.BLUE),
+            "expert": Box({"en": "expert", "fr": "expert"}, 0, 0, style.ORANGE),
+            "data": Box(
+                {"en": "effective\nexamples", "fr": "exemples\nutiles"},
+                1,
+                0,
+                style.ORANGE,
+            ),
+            "network": Box(
+                {"en": "neural\nnetwork", "fr": "réseau de\nneurones"}, 2, 0, style.BLUE
+            ),
+            "world": Box(
+                {"en": "unknown\nmap", "fr": "carte\ninconnue"}, 1, 1, style.GREY
+            ),
+            "policy": Box({"en": "policy", "fr": "politique"}, 2, 1, style.BLUE),
         },
         (
             Arrow("expert", "data", {"en": "drives", "fr": "conduit"}),
             Arrow("data", "network", {"en": "train", "fr": "entraînent"}),
-            Arrow("network", "policy", {"en": "becomes", "fr": "devient"}, shift=(0.24, 0)),
-            Arrow("world", "policy", {"en": "senses", "fr": "perçoit"}, bend=-0.25, shift=(0, 0.21)),
-            Arrow("policy", "world", {"en": "moves", "fr": "agit"}, bend=-0.25, shift=(0, -0.21)),
+            Arrow(
+                "network", "policy", {"en": "becomes", "fr": "devient"}, shift=(0.24, 0)
+            ),
+            Arrow(
+                "world",
+                "policy",
+                {"en": "senses", "fr": "perçoit"},
+                bend=-0.25,
+                shift=(0, 0.21),
+            ),
+            Arrow(
+                "policy",
+                "world",
+                {"en": "moves", "fr": "agit"},
+                bend=-0.25,
+                shift=(0, -0.21),
+            ),
         ),
     ),
     "reinforcement": Scheme(
         {
-            "world": Box({"en": "map, new each\nepisode", "fr": "carte, nouvelle\nà chaque fois"}, 0, 0.5, look.GREY),
-            "policy": Box({"en": "stochastic\npolicy", "fr": "politique\nstochastique"}, 1, 0, look.GREEN),
-            "update": Box({"en": "Q-value\nupdate", "fr": "mise à jour\nde Q"}, 1, 1, look.GREEN),
-            "network": Box({"en": "neural\nnetwork", "fr": "réseau de\nneurones"}, 2, 0, look.GREEN),
-            "memory": Box({"en": "all pairs\nso far", "fr": "tout ce qui\nfut vécu"}, 2, 1, look.ORANGE),
+            "world": Box(
+                {
+                    "en": "map, new each\nepisode",
+                    "fr": "carte, nouvelle\nà chaque fois",
+                },
+                0,
+                0.5,
+                style.GREY,
+            ),
+            "policy": Box(
+                {"en": "stochastic\npolicy", "fr": "politique\nstochastique"},
+                1,
+                0,
+                style.GREEN,
+            ),
+            "update": Box(
+                {"en": "Q-value\nupdate", "fr": "mise à jour\nde Q"}, 1, 1, style.GREEN
+            ),
+            "network": Box(
+                {"en": "neural\nnetwork", "fr": "réseau de\nneurones"},
+                2,
+                0,
+                style.GREEN,
+            ),
+            "memory": Box(
+                {"en": "all pairs\nso far", "fr": "tout ce qui\nfut vécu"},
+                2,
+                1,
+                style.ORANGE,
+            ),
         },
         (
-            Arrow("policy", "world", {"en": "action", "fr": "action"}, shift=(-0.16, 0.10)),
-            Arrow("world", "update", {"en": "state, reward", "fr": "état,\nrécompense"}, shift=(-0.22, -0.16)),
+            Arrow(
+                "policy", "world", {"en": "action", "fr": "action"}, shift=(-0.16, 0.10)
+            ),
+            Arrow(
+                "world",
+                "update",
+                {"en": "state, reward", "fr": "état,\nrécompense"},
+                shift=(-0.22, -0.16),
+            ),
             Arrow("update", "memory", {"en": "adds", "fr": "ajoute"}),
-            Arrow("memory", "network", {"en": "train", "fr": "entraîne"}, shift=(0.22, 0)),
+            Arrow(
+                "memory", "network", {"en": "train", "fr": "entraîne"}, shift=(0.22, 0)
+            ),
             Arrow("network", "policy", {"en": "values", "fr": "valeurs"}),
         ),
     ),
     "inverse": Scheme(
         {
-            "expert": Box({"en": "expert", "fr": "expert"}, 0, 0, look.ORANGE),
-            "refined": Box({"en": "refined\nexamples", "fr": "exemples\nraffinés"}, 1, 0, look.ORANGE),
-            "reward": Box({"en": "reward\nfunction", "fr": "fonction de\nrécompense"}, 2, 0, look.VERMILION),
-            "world": Box({"en": "map", "fr": "carte"}, 0, 1, look.GREY),
-            "policy": Box({"en": "neural\npolicy", "fr": "politique\nneuronale"}, 1, 1, look.VERMILION),
-            "update": Box({"en": "SARSA\nupdate", "fr": "mise à jour\nSARSA"}, 2, 1, look.VERMILION),
+            "expert": Box({"en": "expert", "fr": "expert"}, 0, 0, style.ORANGE),
+            "refined": Box(
+                {"en": "refined\nexamples", "fr": "exemples\nraffinés"},
+                1,
+                0,
+                style.ORANGE,
+            ),
+            "reward": Box(
+                {"en": "reward\nfunction", "fr": "fonction de\nrécompense"},
+                2,
+                0,
+                style.VERMILION,
+            ),
+            "world": Box({"en": "map", "fr": "carte"}, 0, 1, style.GREY),
+            "policy": Box(
+                {"en": "neural\npolicy", "fr": "politique\nneuronale"},
+                1,
+                1,
+                style.VERMILION,
+            ),
+            "update": Box(
+                {"en": "SARSA\nupdate", "fr": "mise à jour\nSARSA"},
+                2,
+                1,
+                style.VERMILION,
+            ),
         },
         (
             Arrow("expert", "refined", {"en": "drives", "fr": "conduit"}),
             Arrow("refined", "reward", {"en": "margin", "fr": "marge"}),
             Arrow("reward", "update", {"en": "scores", "fr": "note"}, shift=(0.20, 0)),
             Arrow("update", "policy", {"en": "trains", "fr": "entraîne"}),
-            Arrow("policy", "reward", {"en": "compared", "fr": "comparée"}, shift=(-0.20, 0.04)),
-            Arrow("policy", "world", {"en": "moves", "fr": "agit"}, bend=-0.25, shift=(0, -0.21)),
-            Arrow("world", "policy", {"en": "senses", "fr": "perçoit"}, bend=-0.25, shift=(0, 0.21)),
+            Arrow(
+                "policy",
+                "reward",
+                {"en": "compared", "fr": "comparée"},
+                shift=(-0.20, 0.04),
+            ),
+            Arrow(
+                "policy",
+                "world",
+                {"en": "moves", "fr": "agit"},
+                bend=-0.25,
+                shift=(0, -0.21),
+            ),
+            Arrow(
+                "world",
+                "policy",
+                {"en": "senses", "fr": "perçoit"},
+                bend=-0.25,
+                shift=(0, 0.21),
+            ),
         ),
     ),
 }
@@ -111,8 +206,8 @@ def draw_scheme(axes: Axes, name: str, *, language: str = "en") -> None:
     ------
     ValueError : for another name or language.
     """
-    drawn = SCHEMES[expect.one_of("name", name, SCHEMES)]
-    expect.one_of("language", language, ("en", "fr"))
+    drawn = SCHEMES[check_one_of("name", name, SCHEMES)]
+    check_one_of("language", language, ("en", "fr"))
     for box in drawn.boxes.values():
         _draw_box(axes, box, language)
     for arrow in drawn.arrows:
@@ -135,7 +230,14 @@ def _draw_box(axes: Axes, box: Box, language: str) -> None:
         linewidth=2,
     )
     axes.add_patch(outline)
-    axes.text(box.column, box.row, box.texts[language], ha="center", va="center", fontsize=10.5)
+    axes.text(
+        box.column,
+        box.row,
+        box.texts[language],
+        ha="center",
+        va="center",
+        fontsize=10.5,
+    )
 
 
 def _draw_arrow(axes: Axes, drawn: Scheme, arrow: Arrow, language: str) -> None:
@@ -145,13 +247,26 @@ def _draw_arrow(axes: Axes, drawn: Scheme, arrow: Arrow, language: str) -> None:
         "",
         head,
         tail,
-        arrowprops={"arrowstyle": "-|>", "color": look.INK, "linewidth": 1.5, "shrinkA": 2, "shrinkB": 2},
+        arrowprops={
+            "arrowstyle": "-|>",
+            "color": style.INK,
+            "linewidth": 1.5,
+            "shrinkA": 2,
+            "shrinkB": 2,
+        },
     )
     middle = (
         (tail[0] + head[0]) / 2 + arrow.shift[0],
         (tail[1] + head[1]) / 2 - arrow.shift[1] - _lift(tail, head, arrow),
     )
-    axes.text(*middle, arrow.texts[language], ha="center", va="center", fontsize=9, style="italic")
+    axes.text(
+        *middle,
+        arrow.texts[language],
+        ha="center",
+        va="center",
+        fontsize=9,
+        style="italic",
+    )
 
 
 def _edge(box: Box, other: Box, bend: float) -> tuple[float, float]:
@@ -159,7 +274,10 @@ def _edge(box: Box, other: Box, bend: float) -> tuple[float, float]:
     across, down = other.column - box.column, other.row - box.row
     if abs(across) * HEIGHT >= abs(down) * WIDTH:
         side = 1 if across > 0 else -1
-        return box.column + side * WIDTH / 2, box.row + down * HEIGHT / 4 + side * bend * HEIGHT
+        return (
+            box.column + side * WIDTH / 2,
+            box.row + down * HEIGHT / 4 + side * bend * HEIGHT,
+        )
     side = 1 if down > 0 else -1
     return box.column + across * WIDTH / 4, box.row + side * HEIGHT / 2
 

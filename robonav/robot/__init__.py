@@ -1,5 +1,6 @@
 """Section 2.5: worlds, sensing, motion, and the Gymnasium environments."""
 
+from ._fast import ARRIVAL_DISTANCE, COLLISION_DISTANCE, SENSOR_RANGE
 from .encoding import (
     LFD_SENSORS,
     NNQL_SENSORS,
@@ -9,8 +10,7 @@ from .encoding import (
     lfd_state,
     nnql_state,
 )
-from .kernels import ARRIVAL_DISTANCE, COLLISION_DISTANCE, SENSOR_RANGE
-from .navigation import REFLEX, Navigation, Policy, freer_side, navigate, straight
+from .rollout import REFLEX, Navigation, Policy, freer_side, navigate, straight
 from .simulator import (
     OUTCOMES,
     Action,
@@ -21,8 +21,16 @@ from .simulator import (
     obstacle_tracks,
     sense,
 )
-from .storage import format_world, load_worlds, parse_world, save_worlds
-from .worlds import Worlds, clearance, concatenate, draw_worlds, make_world, random_worlds, world_keys
+from .world_files import format_world, load_worlds, parse_world, save_worlds
+from .worlds import (
+    Worlds,
+    clearance,
+    concatenate,
+    draw_worlds,
+    make_world,
+    random_worlds,
+    world_keys,
+)
 
 __all__ = [
     "ARRIVAL_DISTANCE",

@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Patch, Polygon, Rectangle, Wedge
 from numpy.typing import ArrayLike, NDArray
 
-from .. import look
-from . import kernels
+from robonav import style
+
+from . import _fast
 from .simulator import Simulator
 from .worlds import Worlds
 
@@ -22,9 +23,19 @@ ROBOT_LENGTH = 4.0  # metres; the robot is a point, its picture is not
 
 def prepare(axes: Axes, size: float) -> None:
     """A square map with its borders as walls and metres on both axes."""
-    axes.set(xlim=(-1, size + 1), ylim=(-1, size + 1), aspect="equal", xlabel="x (m)", ylabel="y (m)")
+    axes.set(
+        xlim=(-1, size + 1),
+        ylim=(-1, size + 1),
+        aspect="equal",
+        xlabel="x (m)",
+        ylabel="y (m)",
+    )
     axes.grid(False)
-    axes.add_patch(Rectangle((0, 0), size, size, fill=False, edgecolor=look.OBSTACLE, linewidth=1.5))
+    axes.add_patch(
+        Rectangle(
+            (0, 0), size, size, fill=False, edgecolor=style.OBSTACLE, linewidth=1.5
+        )
+    )
 
 
 def obstacle_patches(worlds: Worlds, centres: ArrayLike | None = None) -> list[Patch]:
@@ -33,13 +44,20 @@ def obstacle_patches(worlds: Worlds, centres: ArrayLike | None = None) -> list[P
     patches: list[Patch] = []
     for m in np.flatnonzero(worlds.kinds[0]):
         a, b, turned = worlds.shapes[0, m]
-        colour = look.MOVING if worlds.speeds[0, m] > 0 else look.OBSTACLE
-        if worlds.kinds[0, m] == kernels.CIRCLE:
+        colour = style.MOVING if worlds.speeds[0, m] > 0 else style.OBSTACLE
+        if worlds.kinds[0, m] == _fast.CIRCLE:
             patches.append(Circle(tuple(placed[m]), a, color=colour))
         else:
             corner = placed[m] - [a, b]
             patches.append(
-                Rectangle(tuple(corner), 2 * a, 2 * b, angle=np.degrees(turned), rotation_point="center", color=colour)
+                Rectangle(
+                    tuple(corner),
+                    2 * a,
+                    2 * b,
+                    angle=np.degrees(turned),
+                    rotation_point="center",
+                    color=colour,
+                )
             )
     return patches
 
@@ -49,9 +67,17 @@ def draw_world(axes: Axes, worlds: Worlds, centres: ArrayLike | None = None) -> 
     prepare(axes, worlds.size)
     for patch in obstacle_patches(worlds, centres):
         axes.add_patch(patch)
-    axes.plot(*worlds.starts[0], marker="s", color=look.ROBOT, markersize=6, linestyle="none")
+    axes.plot(
+        *worlds.starts[0], marker="s", color=style.ROBOT, markersize=6, linestyle="none"
+    )
     axes.add_patch(
-        Circle(tuple(worlds.targets[0]), kernels.ARRIVAL_DISTANCE, fill=False, edgecolor=look.TARGET, linewidth=2)
+        Circle(
+            tuple(worlds.targets[0]),
+            _fast.ARRIVAL_DISTANCE,
+            fill=False,
+            edgecolor=style.TARGET,
+            linewidth=2,
+        )
     )
 
 
@@ -63,24 +89,26 @@ def robot_outline(pose: ArrayLike) -> NDArray[np.float64]:
     return np.array([x, y]) + ROBOT_LENGTH / 2 * corners
 
 
-def draw_robot(axes: Axes, pose: ArrayLike, colour: str = look.ROBOT) -> Polygon:
+def draw_robot(axes: Axes, pose: ArrayLike, colour: str = style.ROBOT) -> Polygon:
     """The robot at ``pose`` (x, y, heading)."""
     artist = Polygon(robot_outline(pose), closed=True, color=colour, zorder=5)
     axes.add_patch(artist)
     return artist
 
 
-def draw_sensors(axes: Axes, pose: ArrayLike, ranges: Iterable[float], *, numbered: bool = False) -> list[Wedge]:
+def draw_sensors(
+    axes: Axes, pose: ArrayLike, ranges: Iterable[float], *, numbered: bool = False
+) -> list[Wedge]:
     """The nine sectors, each as far as it reads (Fig. 2.6); warm where something is near."""
     x, y, heading = np.asarray(pose, dtype=float)
-    half = np.degrees(kernels.SECTOR) / 2
+    half = np.degrees(_fast.SECTOR) / 2
     wedges = []
     for k, distance in enumerate(ranges):
         middle = np.degrees(heading) + 2 * half * k
-        near = distance < kernels.SENSOR_RANGE
+        near = distance < _fast.SENSOR_RANGE
         wedge = Wedge(
-            (x, y), distance, middle - half, middle + half, linewidth=0.6, edgecolor=look.ROBOT,
-            facecolor=look.ORANGE if near else look.SKY, alpha=0.35 if near else 0.15,
+            (x, y), distance, middle - half, middle + half, linewidth=0.6, edgecolor=style.ROBOT,
+            facecolor=style.ORANGE if near else style.SKY, alpha=0.35 if near else 0.15,
         )  # fmt: skip
         axes.add_patch(wedge)
         wedges.append(wedge)
@@ -88,7 +116,7 @@ def draw_sensors(axes: Axes, pose: ArrayLike, ranges: Iterable[float], *, number
             angle = np.radians(middle)
             axes.annotate(
                 str(k + 1), (x + 0.7 * distance * np.cos(angle), y + 0.7 * distance * np.sin(angle)),
-                ha="center", va="center", fontsize=9, color=look.INK,
+                ha="center", va="center", fontsize=9, color=style.INK,
             )  # fmt: skip
     return wedges
 
@@ -102,7 +130,9 @@ def draw_moment(axes: Axes, simulator: Simulator, i: int) -> None:
 
 def picture(simulator: Simulator, i: int, *, pixels: int = 480) -> NDArray[np.uint8]:
     """Robot i of a simulator now, as an image (pixels, pixels, 3)."""
-    figure = Figure(figsize=(4.8, 4.8), dpi=pixels / 4.8, facecolor="white", layout="constrained")
+    figure = Figure(
+        figsize=(4.8, 4.8), dpi=pixels / 4.8, facecolor="white", layout="constrained"
+    )
     canvas = FigureCanvasAgg(figure)
     draw_moment(figure.add_subplot(), simulator, i)
     canvas.draw()

@@ -8,15 +8,24 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import expect
-from .kernels import SECTOR, SENSOR_RANGE, SENSORS
+from robonav.validation import check_instance, check_integer, check_one_of
+
+from ._fast import SECTOR, SENSOR_RANGE, SENSORS
 from .simulator import Sensing
 
 DANGER_BORDERS = np.array([3, 7, 11, 15, 20, 25, 30]) * SENSOR_RANGE / 30
 """Table 3.1 in metres: its sensor sees 30 cm, ours 10 m. Below the first border, degree 7: collision."""
 
 LFD_SENSORS = (1, 2, 3, 4, 5, 6, 7, 8, 9)
-NNQL_SENSORS = (1, 2, 3, 4, 7, 8, 9)  # section 4.4.1: action B makes up for 5 and 6, which look back
+NNQL_SENSORS = (
+    1,
+    2,
+    3,
+    4,
+    7,
+    8,
+    9,
+)  # section 4.4.1: action B makes up for 5 and 6, which look back
 
 Floats = NDArray[np.float64]
 
@@ -29,8 +38,12 @@ def degree_of_danger(ranges: ArrayLike) -> NDArray[np.int64]:
     ValueError : if a range is negative or not a number.
     """
     if not (np.asarray(ranges) >= 0).all():
-        raise ValueError(f"ranges must be numbers from 0 on, in metres, got {np.min(ranges)}")
-    degrees: NDArray[np.int64] = len(DANGER_BORDERS) - np.searchsorted(DANGER_BORDERS, ranges, side="right")
+        raise ValueError(
+            f"ranges must be numbers from 0 on, in metres, got {np.min(ranges)}"
+        )
+    degrees: NDArray[np.int64] = len(DANGER_BORDERS) - np.searchsorted(
+        DANGER_BORDERS, ranges, side="right"
+    )
     return degrees
 
 
@@ -67,19 +80,26 @@ TARGET_WIDTHS = {"number": 1, "signed": 1, "one-hot": SENSORS, "sine-cosine": 2}
 
 
 def _columns(sensors: tuple[int, ...]) -> list[int]:
-    return [expect.integer("sensors", sensor, at_least=1, at_most=SENSORS) - 1 for sensor in sensors]
+    return [
+        check_integer("sensors", sensor, at_least=1, at_most=SENSORS) - 1
+        for sensor in sensors
+    ]
 
 
 def lfd_state(sensing: Sensing) -> NDArray[np.int64]:
     """The state of 11 numbers, Eq. (3.17): 9 degrees of danger, target region 1..9, target seen 0/1."""
-    return np.column_stack([degree_of_danger(sensing.ranges), sensing.target_region, sensing.target_seen])
+    return np.column_stack(
+        [degree_of_danger(sensing.ranges), sensing.target_region, sensing.target_seen]
+    )
 
 
 def nnql_state(sensing: Sensing) -> NDArray[np.int64]:
     """The state of 16 numbers, Eq. (4.5): 7 degrees of danger, target region 1..9, target seen 0/1, 7 wall flags."""
     columns = _columns(NNQL_SENSORS)
     degrees = degree_of_danger(sensing.ranges[:, columns])
-    return np.column_stack([degrees, sensing.target_region, sensing.target_seen, sensing.walls[:, columns]])
+    return np.column_stack(
+        [degrees, sensing.target_region, sensing.target_seen, sensing.walls[:, columns]]
+    )
 
 
 @dataclass(frozen=True)
@@ -102,14 +122,18 @@ class Encoder:
     target: str = "sine-cosine"
 
     def __post_init__(self) -> None:
-        _columns(expect.instance("sensors", self.sensors, tuple))
-        expect.instance("walls", self.walls, bool)
-        expect.one_of("target", self.target, TARGET_ENCODINGS)
+        _columns(check_instance("sensors", self.sensors, tuple))
+        check_instance("walls", self.walls, bool)
+        check_one_of("target", self.target, TARGET_ENCODINGS)
 
     @property
     def size(self) -> int:
         """Number of inputs."""
-        return len(self.sensors) * (2 if self.walls else 1) + TARGET_WIDTHS[self.target] + 1
+        return (
+            len(self.sensors) * (2 if self.walls else 1)
+            + TARGET_WIDTHS[self.target]
+            + 1
+        )
 
     def __call__(self, sensing: Sensing) -> Floats:
         """Inputs (N, size) of N robots."""

@@ -14,11 +14,20 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from .. import expect
-from .kernels import ARRIVED, COLLIDED, OUT_OF_STEPS, RUNNING, SENSOR_RANGE, SENSORS
-from .navigation import REFLEX
+from robonav.validation import check_instance, check_integer, check_one_of
+
+from ._fast import ARRIVED, COLLIDED, OUT_OF_STEPS, RUNNING, SENSOR_RANGE, SENSORS
+from .rollout import REFLEX
 from .simulator import NEVER, OUTCOMES, Reflex, Sensing, Simulator, check_actions
-from .worlds import MOVING_SPEEDS, SIZE, START, TARGET, Worlds, check_drawing, draw_worlds
+from .worlds import (
+    MOVING_SPEEDS,
+    SIZE,
+    START,
+    TARGET,
+    Worlds,
+    check_drawing,
+    draw_worlds,
+)
 
 MAX_STEPS = 500
 _OUTCOME_NAMES = OUTCOMES.astype(object)
@@ -27,7 +36,9 @@ Reward = Callable[[Sensing, Sensing, NDArray[np.int8]], ArrayLike]
 """``reward(before, after, outcome) -> (N,)``: what N robots sensed before and after a step, and outcome codes."""
 
 
-def arrival_or_collision(before: Sensing, after: Sensing, outcome: NDArray[np.int8]) -> NDArray[np.float64]:
+def arrival_or_collision(
+    before: Sensing, after: Sensing, outcome: NDArray[np.int8]
+) -> NDArray[np.float64]:
     """1 for arriving, -1 for colliding, else 0: (N,)."""
     return (outcome == ARRIVED).astype(float) - (outcome == COLLIDED)
 
@@ -101,41 +112,64 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         max_episode_steps: int = MAX_STEPS,
         render_mode: str | None = None,
     ) -> None:
-        self.num_envs = expect.integer("num_envs", num_envs, at_least=1)
-        expect.integer("max_episode_steps", max_episode_steps, at_least=1, at_most=NEVER)
-        if worlds is not None and len(expect.instance("worlds", worlds, Worlds)) == 0:
+        self.num_envs = check_integer("num_envs", num_envs, at_least=1)
+        check_integer("max_episode_steps", max_episode_steps, at_least=1, at_most=NEVER)
+        if worlds is not None and len(check_instance("worlds", worlds, Worlds)) == 0:
             raise ValueError("worlds must hold at least one world, got none")
         check_drawing(obstacles, moving, starts, targets, moving_speeds, SIZE)
         if reflex is not None and not callable(reflex):
-            raise TypeError(f"reflex must be callable as reflex(sensing, speed), or None, got {reflex!r}")
+            raise TypeError(
+                f"reflex must be callable as reflex(sensing, speed), or None, got {reflex!r}"
+            )
         if not callable(reward):
-            raise TypeError(f"reward must be callable as reward(before, after, outcome), got {type(reward).__name__}")
-        self.render_mode = expect.one_of("render_mode", render_mode, [None, *self.metadata["render_modes"]])
+            raise TypeError(
+                f"reward must be callable as reward(before, after, outcome), got {type(reward).__name__}"
+            )
+        self.render_mode = check_one_of(
+            "render_mode", render_mode, [None, *self.metadata["render_modes"]]
+        )
         self.worlds = worlds
         self.reward, self.reflex = reward, reflex
         self._drawn = (obstacles, moving, tuple(starts), tuple(targets), moving_speeds)
         self._generators = [np.random.default_rng()] * self.num_envs
         self.single_observation_space = observation_space()
         self.single_action_space = gymnasium.spaces.Discrete(6)
-        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.observation_space = batch_space(
+            self.single_observation_space, self.num_envs
+        )
         self.action_space = batch_space(self.single_action_space, self.num_envs)
-        self._robot: dict[str, Any] = {"speed": speed, "slip": slip, "noise": noise, "max_steps": max_episode_steps}
-        self.simulator = Simulator(self._next_worlds(np.arange(0)), **self._robot)  # empty until reset
+        self._robot: dict[str, Any] = {
+            "speed": speed,
+            "slip": slip,
+            "noise": noise,
+            "max_steps": max_episode_steps,
+        }
+        self.simulator = Simulator(
+            self._next_worlds(np.arange(0)), **self._robot
+        )  # empty until reset
         self.sensing = self.simulator.sense()
 
     def reset(
-        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: dict[str, Any] | None = None,
     ) -> tuple[dict[str, Any], dict[str, Any]]:
         """Start every robot anew; robot i is seeded with seed + i, as Gymnasium does.
 
         ``options={"worlds": ...}`` puts the robots into N given worlds.
         """
         self.seed(seed)
-        for option in expect.instance("options", options or {}, dict):
-            expect.one_of("options", option, ["worlds"])
+        for option in check_instance("options", options or {}, dict):
+            check_one_of("options", option, ["worlds"])
         given = (options or {}).get("worlds")
-        if given is not None and len(expect.instance("options['worlds']", given, Worlds)) != self.num_envs:
-            raise ValueError(f"options['worlds'] must hold {self.num_envs} worlds, got {len(given)}")
+        if (
+            given is not None
+            and len(check_instance("options['worlds']", given, Worlds)) != self.num_envs
+        ):
+            raise ValueError(
+                f"options['worlds'] must hold {self.num_envs} worlds, got {len(given)}"
+            )
         start = self._next_worlds(np.arange(self.num_envs)) if given is None else given
         slots = max(start.slots, self.simulator.worlds.slots)
         self.simulator = Simulator(start.with_slots(slots), **self._robot)
@@ -147,14 +181,19 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         """Give every robot its generator: from seed + i, from its own seed, or, the first time, by chance."""
         seeds: list[int | None]
         if isinstance(seed, Sequence):
-            seeds = [None if own is None else expect.integer("seed", own, at_least=0) for own in seed]
+            seeds = [
+                None if own is None else check_integer("seed", own, at_least=0)
+                for own in seed
+            ]
         elif seed is None:
             seeds = [None] * self.num_envs
         else:
-            first = expect.integer("seed", seed, at_least=0)
+            first = check_integer("seed", seed, at_least=0)
             seeds = [first + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
-            raise ValueError(f"seed must be a number or one for each of {self.num_envs} robots, got {len(seeds)}")
+            raise ValueError(
+                f"seed must be a number or one for each of {self.num_envs} robots, got {len(seeds)}"
+            )
         for i, own in enumerate(seeds):
             if own is not None or self._np_random is None:
                 self._generators[i], _ = seeding.np_random(own)
@@ -162,21 +201,33 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
 
     def step(
         self, actions: ArrayLike
-    ) -> tuple[dict[str, Any], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+    ) -> tuple[
+        dict[str, Any],
+        NDArray[np.float64],
+        NDArray[np.bool_],
+        NDArray[np.bool_],
+        dict[str, Any],
+    ]:
         """One second for all; see the class for what happens after the end of an episode."""
         reward, terminated, truncated, reflexes = self.advance(actions)
         return self._observation(), reward, terminated, truncated, self._info(reflexes)
 
     def advance(
         self, actions: ArrayLike
-    ) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], NDArray[np.int64]]:
+    ) -> tuple[
+        NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], NDArray[np.int64]
+    ]:
         """A step without its observation and info: rewards, terminated, truncated, reflexes, each (N,)."""
         if len(self.simulator) == 0:
             raise ValueError("step: call reset first")
         commands = check_actions(actions, (self.num_envs,))
         simulator, before, fresh = self.simulator, self.sensing, self._ended
         some_fresh = fresh.any()
-        reflexes = np.full(self.num_envs, -1) if self.reflex is None else self.reflex(before, simulator.speed)
+        reflexes = (
+            np.full(self.num_envs, -1)
+            if self.reflex is None
+            else self.reflex(before, simulator.speed)
+        )
         if some_fresh:
             reflexes[fresh] = -1
         simulator.step(np.where(reflexes < 0, commands, reflexes))
@@ -184,9 +235,13 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
             index = np.flatnonzero(fresh)
             simulator.restart(index, self._next_worlds(index))
         self.sensing = simulator.sense()
-        reward = np.array(self.reward(before, self.sensing, simulator.outcome), dtype=float)
+        reward = np.array(
+            self.reward(before, self.sensing, simulator.outcome), dtype=float
+        )
         if reward.shape != (self.num_envs,):
-            raise ValueError(f"reward must give an array of shape ({self.num_envs},), got {reward.shape}")
+            raise ValueError(
+                f"reward must give an array of shape ({self.num_envs},), got {reward.shape}"
+            )
         reward[fresh] = 0.0
         self._ended = simulator.outcome != RUNNING
         terminated = self._ended & (simulator.outcome != OUT_OF_STEPS)
@@ -205,9 +260,16 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
     def _next_worlds(self, robots: NDArray[np.int64]) -> Worlds:
         """The next world of each of these robots, drawn from its own generator."""
         if self.worlds is not None:
-            return self.worlds[[int(self._generators[i].integers(len(self.worlds))) for i in robots]]
-        raw = np.array([self._generators[i].bit_generator.random_raw() for i in robots], dtype="<u8")
-        return draw_worlds(raw.view("<u4").reshape(-1, 2).astype(np.uint32), *self._drawn)
+            return self.worlds[
+                [int(self._generators[i].integers(len(self.worlds))) for i in robots]
+            ]
+        raw = np.array(
+            [self._generators[i].bit_generator.random_raw() for i in robots],
+            dtype="<u8",
+        )
+        return draw_worlds(
+            raw.view("<u4").reshape(-1, 2).astype(np.uint32), *self._drawn
+        )
 
     def _observation(self) -> dict[str, Any]:
         read = self.sensing
@@ -235,11 +297,24 @@ class NavigationEnv(gymnasium.Env):
     world.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 10}  # type: ignore[misc]
+    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
+        "render_modes": ["human", "rgb_array"],
+        "render_fps": 10,
+    }
 
-    def __init__(self, *, render_mode: str | None = None, max_episode_steps: int = MAX_STEPS, **settings: Any) -> None:
-        self.render_mode = expect.one_of("render_mode", render_mode, [None, *self.metadata["render_modes"]])
-        self.batch = NavigationVectorEnv(1, max_episode_steps=max_episode_steps, **settings)
+    def __init__(
+        self,
+        *,
+        render_mode: str | None = None,
+        max_episode_steps: int = MAX_STEPS,
+        **settings: Any,
+    ) -> None:
+        self.render_mode = check_one_of(
+            "render_mode", render_mode, [None, *self.metadata["render_modes"]]
+        )
+        self.batch = NavigationVectorEnv(
+            1, max_episode_steps=max_episode_steps, **settings
+        )
         self._max_episode_steps = max_episode_steps
         self.observation_space = self.batch.single_observation_space
         self.action_space = self.batch.single_action_space
@@ -253,19 +328,31 @@ class NavigationEnv(gymnasium.Env):
         self.batch.seed(seed)
         self._np_random = self.batch.np_random
         self.batch.reset(options=options)
-        self.batch.simulator.max_steps = _limit_of_callers(default=self._max_episode_steps)
+        self.batch.simulator.max_steps = _limit_of_callers(
+            default=self._max_episode_steps
+        )
         if self.render_mode == "human":
             self.render()
         return self._observation(), self._info(-1)
 
-    def step(self, action: int) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
+    def step(
+        self, action: int
+    ) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
         """One second; ValueError or TypeError for an action that is not 0 to 5."""
         if len(self.batch.simulator) and self.batch.simulator.outcome[0] != RUNNING:
             raise ValueError("step: the episode has ended; call reset first")
-        reward, terminated, truncated, reflexes = self.batch.advance(check_actions(action, ())[None])
+        reward, terminated, truncated, reflexes = self.batch.advance(
+            check_actions(action, ())[None]
+        )
         if self.render_mode == "human":
             self.render()
-        return self._observation(), float(reward[0]), bool(terminated[0]), bool(truncated[0]), self._info(reflexes[0])
+        return (
+            self._observation(),
+            float(reward[0]),
+            bool(terminated[0]),
+            bool(truncated[0]),
+            self._info(reflexes[0]),
+        )
 
     def _observation(self) -> dict[str, Any]:
         read = self.batch.sensing

@@ -9,9 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import expect
-from . import kernels
-from .kernels import RUNNING
+from robonav.validation import (
+    check_array,
+    check_instance,
+    check_integer,
+    check_positive,
+    check_real,
+)
+
+from . import _fast
+from ._fast import RUNNING
 from .worlds import Worlds
 
 OUTCOMES = np.array(["running", "arrived", "collided", "out of steps"])
@@ -54,18 +61,28 @@ class Sensing:
 
     def __getitem__(self, index: slice | NDArray[Any]) -> Sensing:
         """The rows picked by a slice, a mask or indices."""
-        return Sensing(self.ranges[index], self.walls[index], self.target_region[index], self.target_seen[index])
+        return Sensing(
+            self.ranges[index],
+            self.walls[index],
+            self.target_region[index],
+            self.target_seen[index],
+        )
 
     @property
     def safe(self) -> NDArray[np.bool_]:
         """Safe states, Eq. (4.6): nothing in sensor range."""
-        return self.ranges.min(axis=1) >= kernels.SENSOR_RANGE
+        return self.ranges.min(axis=1) >= _fast.SENSOR_RANGE
 
     @staticmethod
     def empty(n: int) -> Sensing:
         """Rows to be filled in."""
-        shape = (n, kernels.SENSORS)
-        return Sensing(np.empty(shape), np.empty(shape, np.bool_), np.empty(n, np.int64), np.empty(n, np.bool_))
+        shape = (n, _fast.SENSORS)
+        return Sensing(
+            np.empty(shape),
+            np.empty(shape, np.bool_),
+            np.empty(n, np.int64),
+            np.empty(n, np.bool_),
+        )
 
 
 @dataclass(frozen=True)
@@ -79,7 +96,7 @@ class Reflex:
     def __call__(self, sensing: Sensing, speed: float) -> NDArray[np.int64]:
         """Commands (N,): ``Action.TO_TARGET``, ``Action.B``, or -1 where the policy decides."""
         commands = np.empty(len(sensing), dtype=np.int64)
-        kernels.in_threads(kernels.reflexes, len(sensing), sensing.ranges, speed, commands)
+        _fast.in_threads(_fast.reflexes, len(sensing), sensing.ranges, speed, commands)
         return commands
 
 
@@ -88,14 +105,20 @@ def check_actions(actions: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.int6
     try:
         given = np.asarray(actions)
     except ValueError:
-        raise TypeError("action must be whole numbers 0 to 5, got lists of several lengths") from None
+        raise TypeError(
+            "action must be whole numbers 0 to 5, got lists of several lengths"
+        ) from None
     if given.dtype.kind not in "iu":
         raise TypeError(f"action must be whole numbers 0 to 5, got {given.dtype}")
     if given.shape != shape:
         raise ValueError(f"action must have shape {shape}, got {given.shape}")
-    if given.size and given.astype(np.uint64).max() > kernels.BACKWARD:  # what is negative becomes very large
-        wrong = given[(given < 0) | (given > kernels.BACKWARD)].flat[0]
-        raise ValueError(f"action must be one of F, L30, L60, R30, R60, B (0 to 5), got {wrong}")
+    if (
+        given.size and given.astype(np.uint64).max() > _fast.BACKWARD
+    ):  # what is negative becomes very large
+        wrong = given[(given < 0) | (given > _fast.BACKWARD)].flat[0]
+        raise ValueError(
+            f"action must be one of F, L30, L60, R30, R60, B (0 to 5), got {wrong}"
+        )
     return given.astype(np.int64)
 
 
@@ -103,7 +126,7 @@ def check_slip(slip: ArrayLike | None) -> NDArray[np.float64]:
     """A matrix (6, 6) whose row a says how likely action a turns into each action; None for no slipping."""
     if slip is None:
         return NO_SLIP
-    matrix = expect.array("slip", slip, shape=(6, 6))
+    matrix = check_array("slip", slip, shape=(6, 6))
     if (matrix < 0).any() or not np.allclose(matrix.sum(axis=1), 1.0, atol=1e-9):
         raise ValueError("slip must have rows of probabilities that sum to 1")
     return np.ascontiguousarray(matrix)
@@ -111,7 +134,7 @@ def check_slip(slip: ArrayLike | None) -> NDArray[np.float64]:
 
 def neighbour_slip(probability: float) -> NDArray[np.float64]:
     """A slip matrix (6, 6): with ``probability`` a turn comes out 30 degrees off, to either side; B never slips."""
-    expect.real("probability", probability, at_least=0, at_most=1)
+    check_real("probability", probability, at_least=0, at_most=1)
     by_angle = [Action.R60, Action.R30, Action.F, Action.L30, Action.L60]
     matrix = np.eye(6)
     for k, action in enumerate(by_angle):
@@ -151,11 +174,13 @@ class Simulator:
         noise: float = 0.0,
         max_steps: int = NEVER,
     ) -> None:
-        self.worlds = expect.instance("worlds", worlds, Worlds)
-        self.speed = expect.positive("speed", speed)
+        self.worlds = check_instance("worlds", worlds, Worlds)
+        self.speed = check_positive("speed", speed)
         self.slip = check_slip(slip)
-        self.noise = expect.real("noise", noise, at_least=0)
-        self.max_steps = expect.integer("max_steps", max_steps, at_least=1, at_most=NEVER)
+        self.noise = check_real("noise", noise, at_least=0)
+        self.max_steps = check_integer(
+            "max_steps", max_steps, at_least=1, at_most=NEVER
+        )
         self._owns_worlds = False
         self.poses = worlds.start_poses
         self.centres = worlds.centres.copy()
@@ -169,8 +194,8 @@ class Simulator:
     def sense(self) -> Sensing:
         """What each robot perceives now."""
         w, read = self.worlds, Sensing.empty(len(self))
-        kernels.in_threads(
-            kernels.sense, len(self), w.kinds, w.shapes, self.centres, w.size, self.poses, w.targets, w.keys,
+        _fast.in_threads(
+            _fast.sense, len(self), w.kinds, w.shapes, self.centres, w.size, self.poses, w.targets, w.keys,
             self.steps, self.noise, read.ranges, read.walls, read.target_region, read.target_seen,
         )  # fmt: skip
         return read
@@ -182,12 +207,18 @@ class Simulator:
         ------
         ValueError : if the commands are not N whole numbers 0 to 6.
         """
-        fits = isinstance(commands, np.ndarray) and commands.dtype == np.int64 and commands.shape == self.outcome.shape
+        fits = (
+            isinstance(commands, np.ndarray)
+            and commands.dtype == np.int64
+            and commands.shape == self.outcome.shape
+        )
         if not fits or (commands.astype(np.uint64) > Action.TO_TARGET).any():
-            raise ValueError(f"commands must be an array of {len(self)} whole numbers 0 to 6, got {commands!r}")
+            raise ValueError(
+                f"commands must be an array of {len(self)} whole numbers 0 to 6, got {commands!r}"
+            )
         w = self.worlds
-        kernels.in_threads(
-            kernels.step, len(self), w.kinds, w.shapes, w.speeds, w.keys, w.size, w.targets, self.slip, self.speed,
+        _fast.in_threads(
+            _fast.step, len(self), w.kinds, w.shapes, w.speeds, w.keys, w.size, w.targets, self.slip, self.speed,
             self.max_steps, commands, self.poses, self.centres, self.headings, self.steps, self.outcome,
         )  # fmt: skip
 
@@ -206,7 +237,16 @@ class Simulator:
         if not self._owns_worlds:  # those handed in stay as they are
             self.worlds, self._owns_worlds = self.worlds[:], True
         worlds = worlds.with_slots(self.worlds.slots)
-        for name in ("kinds", "shapes", "centres", "speeds", "headings", "starts", "targets", "keys"):
+        for name in (
+            "kinds",
+            "shapes",
+            "centres",
+            "speeds",
+            "headings",
+            "starts",
+            "targets",
+            "keys",
+        ):
             getattr(self.worlds, name)[index] = getattr(worlds, name)
         self.poses[index] = worlds.start_poses
         self.centres[index], self.headings[index] = worlds.centres, worlds.headings
@@ -221,7 +261,7 @@ def sense(worlds: Worlds, poses: ArrayLike, *, noise: float = 0.0) -> Sensing:
     ValueError : if poses are not finite, not (N, 3), or outside the map.
     """
     simulator = Simulator(worlds, noise=noise)
-    placed = expect.array("poses", poses, shape=(len(worlds), 3))
+    placed = check_array("poses", poses, shape=(len(worlds), 3))
     if (placed[:, :2] < 0).any() or (placed[:, :2] > worlds.size).any():
         raise ValueError(f"poses must lie in the map, 0 to {worlds.size:g} m")
     simulator.poses = np.ascontiguousarray(placed)
@@ -230,14 +270,14 @@ def sense(worlds: Worlds, poses: ArrayLike, *, noise: float = 0.0) -> Sensing:
 
 def obstacle_tracks(worlds: Worlds, steps: int) -> NDArray[np.float64]:
     """Where the obstacles are (N, steps + 1, M, 2) over time: the robot does not move them."""
-    expect.instance("worlds", worlds, Worlds)
-    expect.integer("steps", steps, at_least=0, at_most=NEVER)
+    check_instance("worlds", worlds, Worlds)
+    check_integer("steps", steps, at_least=0, at_most=NEVER)
     centres, headings = worlds.centres.copy(), worlds.headings.copy()
     track = [centres.copy()]
     for step in range(steps):
         now = np.full(len(worlds), step, dtype=np.int64)
-        kernels.in_threads(
-            kernels.drift, len(worlds), worlds.kinds, worlds.shapes, worlds.speeds, worlds.keys, now, worlds.size,
+        _fast.in_threads(
+            _fast.drift, len(worlds), worlds.kinds, worlds.shapes, worlds.speeds, worlds.keys, now, worlds.size,
             centres, headings,
         )  # fmt: skip
         track.append(centres.copy())

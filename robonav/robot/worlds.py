@@ -10,8 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import expect
-from . import kernels
+from robonav.validation import (
+    check_array,
+    check_instance,
+    check_integer,
+    check_positive,
+    check_real,
+)
+
+from . import _fast
 
 SIZE = 100.0
 START, TARGET = (10.0, 10.0), (90.0, 90.0)
@@ -67,26 +74,36 @@ class Worlds:
             "keys": ((n, 2), np.uint32),
         }
         for name, (shape, dtype) in wanted.items():
-            checked = expect.array(f"worlds: {name}", getattr(self, name), shape=shape, dtype=dtype)
+            checked = check_array(
+                f"worlds: {name}", getattr(self, name), shape=shape, dtype=dtype
+            )
             object.__setattr__(self, name, np.array(checked, order="C"))
-        object.__setattr__(self, "size", expect.positive("worlds: size", self.size))
-        expect.integer("worlds: obstacle slots", m, at_most=kernels.MAX_OBSTACLES)
+        object.__setattr__(self, "size", check_positive("worlds: size", self.size))
+        check_integer("worlds: obstacle slots", m, at_most=_fast.MAX_OBSTACLES)
         self._check_obstacles()
         self._check_endpoints()
 
     def _check_obstacles(self) -> None:
-        there = self.kinds != kernels.NOTHING
-        circles, rectangles = self.kinds == kernels.CIRCLE, self.kinds == kernels.RECTANGLE
+        there = self.kinds != _fast.NOTHING
+        circles, rectangles = self.kinds == _fast.CIRCLE, self.kinds == _fast.RECTANGLE
         if (there & ~circles & ~rectangles).any():
-            raise ValueError("worlds: kinds must be 0 (nothing), 1 (circle) or 2 (rectangle)")
+            raise ValueError(
+                "worlds: kinds must be 0 (nothing), 1 (circle) or 2 (rectangle)"
+            )
         if (self.shapes[circles][:, 0] <= 0).any():
-            raise ValueError(f"worlds: radius must be positive, got {self.shapes[circles][:, 0].min():g}")
+            raise ValueError(
+                f"worlds: radius must be positive, got {self.shapes[circles][:, 0].min():g}"
+            )
         if (self.shapes[rectangles][:, :2] <= 0).any():
-            raise ValueError(f"worlds: sides must be positive, got {2 * self.shapes[rectangles][:, :2].min():g}")
+            raise ValueError(
+                f"worlds: sides must be positive, got {2 * self.shapes[rectangles][:, :2].min():g}"
+            )
         if self.shapes[circles][:, 1:].any():
             raise ValueError("worlds: shapes of circles must be a radius, 0 and 0")
         if (self.speeds[there] < 0).any():
-            raise ValueError(f"worlds: obstacle speed must be at least 0, got {self.speeds[there].min():g}")
+            raise ValueError(
+                f"worlds: obstacle speed must be at least 0, got {self.speeds[there].min():g}"
+            )
         outside = (self.centres[there] < 0) | (self.centres[there] > self.size)
         if outside.any():
             where = self.centres[there][outside.any(axis=1)][0]
@@ -94,12 +111,18 @@ class Worlds:
                 f"worlds: obstacles must have their centre in the map, 0 to {self.size:g} m, got {_point(where)}"
             )
 
-        reach = np.where(circles, self.shapes[..., 0], np.hypot(self.shapes[..., 0], self.shapes[..., 1]))
+        reach = np.where(
+            circles,
+            self.shapes[..., 0],
+            np.hypot(self.shapes[..., 0], self.shapes[..., 1]),
+        )
         moving = there & (self.speeds > 0)
         near = np.minimum(self.centres, self.size - self.centres).min(axis=-1)
         if (moving & (near < reach)).any():
             where = self.centres[moving & (near < reach)][0]
-            raise ValueError(f"worlds: moving obstacles must lie wholly in the map, got one at {_point(where)}")
+            raise ValueError(
+                f"worlds: moving obstacles must lie wholly in the map, got one at {_point(where)}"
+            )
         if (moving & (self.speeds > FASTEST)).any():
             raise ValueError(
                 f"worlds: obstacle speed must be at most {FASTEST:g} m/s, got {self.speeds[moving].max():g}"
@@ -109,12 +132,14 @@ class Worlds:
         for name, points in (("start", self.starts), ("target", self.targets)):
             if ((points < 0) | (points > self.size)).any():
                 bad = points[((points < 0) | (points > self.size)).any(axis=1)][0]
-                raise ValueError(f"worlds: {name} must lie in the map, 0 to {self.size:g} m, got {_point(bad)}")
+                raise ValueError(
+                    f"worlds: {name} must lie in the map, 0 to {self.size:g} m, got {_point(bad)}"
+                )
             for i, gap in enumerate(clearance(self, points)):
-                if gap < kernels.COLLISION_DISTANCE:
+                if gap < _fast.COLLISION_DISTANCE:
                     raise ValueError(
                         f"worlds: {name} {_point(points[i])} of world {i} must be at least "
-                        f"{kernels.COLLISION_DISTANCE:g} m clear of obstacles and borders, got {gap:.3g} m"
+                        f"{_fast.COLLISION_DISTANCE:g} m clear of obstacles and borders, got {gap:.3g} m"
                     )
 
     def __len__(self) -> int:
@@ -122,10 +147,14 @@ class Worlds:
 
     def __getitem__(self, index: int | slice | ArrayLike) -> Worlds:
         """Worlds picked by a slice, indices or a mask, copied; one whole number gives a batch of one."""
-        if not isinstance(index, slice) and (isinstance(index, bool | tuple) or np.ndim(index) > 1):
-            raise TypeError(f"worlds are picked by a whole number, a slice, a list or a mask, got {index!r}")
+        if not isinstance(index, slice) and (
+            isinstance(index, bool | tuple) or np.ndim(index) > 1
+        ):
+            raise TypeError(
+                f"worlds are picked by a whole number, a slice, a list or a mask, got {index!r}"
+            )
         if not isinstance(index, slice) and np.ndim(index) == 0:
-            number = expect.integer("world", index)
+            number = check_integer("world", index)
             if not -len(self) <= number < len(self):
                 raise IndexError(f"world {number} of a batch of {len(self)}")
             index = [number]
@@ -152,21 +181,38 @@ class Worlds:
         padded = self[:]
         for name in ("kinds", "shapes", "centres", "speeds", "headings"):
             value = getattr(self, name)
-            object.__setattr__(padded, name, np.pad(value, [(0, 0), (0, more)] + [(0, 0)] * (value.ndim - 2)))
+            object.__setattr__(
+                padded,
+                name,
+                np.pad(value, [(0, 0), (0, more)] + [(0, 0)] * (value.ndim - 2)),
+            )
         return padded
 
     @property
     def start_poses(self) -> Floats:
         """Poses (N, 3) at the start: x, y and heading; the robot faces its target."""
-        bearing = np.arctan2(self.targets[:, 1] - self.starts[:, 1], self.targets[:, 0] - self.starts[:, 0])
+        bearing = np.arctan2(
+            self.targets[:, 1] - self.starts[:, 1],
+            self.targets[:, 0] - self.starts[:, 0],
+        )
         return np.column_stack([self.starts, bearing])
 
     def digest(self) -> str:
         """SHA-256 of the worlds to the micrometre: equal for equal worlds on any machine."""
-        lengths = (self.shapes, self.centres, self.speeds, self.headings, self.starts, self.targets, self.size)
+        lengths = (
+            self.shapes,
+            self.centres,
+            self.speeds,
+            self.headings,
+            self.starts,
+            self.targets,
+            self.size,
+        )
         parts = [np.round(np.asarray(part) * 1e6).astype("<i8") for part in lengths]
         parts += [self.kinds.astype("<i1"), self.keys.astype("<u4")]
-        return hashlib.sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in parts)).hexdigest()
+        return hashlib.sha256(
+            b"".join(np.ascontiguousarray(part).tobytes() for part in parts)
+        ).hexdigest()
 
 
 def _point(place: Floats) -> str:
@@ -175,11 +221,22 @@ def _point(place: Floats) -> str:
 
 def clearance(worlds: Worlds, points: ArrayLike) -> Floats:
     """Distance (N,) in metres from one point of each world (N, 2) to its nearest obstacle or border."""
-    expect.instance("worlds", worlds, Worlds)
-    places = expect.array("points", points, shape=(len(worlds), 2))
+    check_instance("worlds", worlds, Worlds)
+    places = check_array("points", points, shape=(len(worlds), 2))
     return np.array(
         [
-            kernels.swept_clearance(w.kinds[0], w.shapes[0], w.centres[0], w.centres[0], w.size, x, y, x, y, np.inf)
+            _fast.swept_clearance(
+                w.kinds[0],
+                w.shapes[0],
+                w.centres[0],
+                w.centres[0],
+                w.size,
+                x,
+                y,
+                x,
+                y,
+                np.inf,
+            )
             for w, (x, y) in zip(worlds, places, strict=True)
         ]
     )
@@ -194,7 +251,9 @@ def world_keys(n: int, seed: int) -> NDArray[np.uint32]:
         z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
         z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
         z = z ^ (z >> np.uint64(31))
-    return np.column_stack([z & np.uint64(0xFFFFFFFF), z >> np.uint64(32)]).astype(np.uint32)
+    return np.column_stack([z & np.uint64(0xFFFFFFFF), z >> np.uint64(32)]).astype(
+        np.uint32
+    )
 
 
 def random_worlds(
@@ -226,11 +285,11 @@ def random_worlds(
     ------
     ValueError : if an argument is out of bounds, or no solvable map was found in 1000 draws.
     """
-    expect.integer("n", n, at_least=0, at_most=MOST_WORLDS)
+    check_integer("n", n, at_least=0, at_most=MOST_WORLDS)
     check_drawing(obstacles, moving, starts, targets, moving_speeds, size)
     if isinstance(seed, np.random.Generator):
         seed = int(seed.integers(2**63))
-    keys = world_keys(n, expect.integer("seed", seed, at_least=0))
+    keys = world_keys(n, check_integer("seed", seed, at_least=0))
     return draw_worlds(keys, obstacles, moving, starts, targets, moving_speeds, size)
 
 
@@ -243,15 +302,21 @@ def check_drawing(
     size: float,
 ) -> None:
     """Refuse settings from which no worlds can be drawn, see :func:`random_worlds`."""
-    expect.integer("obstacles", obstacles, at_least=0)
-    expect.integer("moving", moving, at_least=0)
-    expect.integer("obstacles + moving", obstacles + moving, at_most=kernels.MAX_OBSTACLES)
-    expect.real("size", size, at_least=30, at_most=LARGEST_MAP)
+    check_integer("obstacles", obstacles, at_least=0)
+    check_integer("moving", moving, at_least=0)
+    check_integer("obstacles + moving", obstacles + moving, at_most=_fast.MAX_OBSTACLES)
+    check_real("size", size, at_least=30, at_most=LARGEST_MAP)
     for name, points in (("starts", starts), ("targets", targets)):
-        ends = expect.array(name, points, shape=("number", 2))
-        if len(ends) == 0 or (ends < kernels.SPARE).any() or (ends > size - kernels.SPARE).any():
-            raise ValueError(f"{name} must be points in the map, {kernels.SPARE:g} m or more from its borders")
-    slowest, fastest = expect.array("moving_speeds", moving_speeds, shape=(2,))
+        ends = check_array(name, points, shape=("number", 2))
+        if (
+            len(ends) == 0
+            or (ends < _fast.SPARE).any()
+            or (ends > size - _fast.SPARE).any()
+        ):
+            raise ValueError(
+                f"{name} must be points in the map, {_fast.SPARE:g} m or more from its borders"
+            )
+    slowest, fastest = check_array("moving_speeds", moving_speeds, shape=(2,))
     if not 0 <= slowest <= fastest <= FASTEST:
         raise ValueError(
             f"moving_speeds must be the least and the greatest, from 0 to {FASTEST:g} m/s, got {slowest:g}, {fastest:g}"
@@ -273,8 +338,8 @@ def draw_worlds(
     shapes, centres = np.zeros((n, m, 3)), np.zeros((n, m, 2))
     speeds, headings = np.zeros((n, m)), np.zeros((n, m))
     chosen, found = np.zeros((n, 4)), np.zeros(n, dtype=np.bool_)
-    kernels.in_threads(
-        kernels.draw_worlds, n, keys, obstacles, moving, float(moving_speeds[0]), float(moving_speeds[1]), float(size),
+    _fast.in_threads(
+        _fast.draw_worlds, n, keys, obstacles, moving, float(moving_speeds[0]), float(moving_speeds[1]), float(size),
         np.array(starts, dtype=float), np.array(targets, dtype=float), ATTEMPTS, kinds, shapes, centres, speeds,
         headings, chosen, found, worth=8,
     )  # fmt: skip
@@ -283,8 +348,20 @@ def draw_worlds(
             f"obstacles must leave a way to the target: {ATTEMPTS} draws with {obstacles} standing and "
             f"{moving} moving obstacles in {size:g} m gave no solvable map; take fewer"
         )
-    drawn = Worlds.__new__(Worlds)  # right by construction: the checks would cost more than the drawing
-    values = (kinds, shapes, centres, speeds, headings, chosen[:, :2].copy(), chosen[:, 2:].copy(), keys, float(size))
+    drawn = Worlds.__new__(
+        Worlds
+    )  # right by construction: the checks would cost more than the drawing
+    values = (
+        kinds,
+        shapes,
+        centres,
+        speeds,
+        headings,
+        chosen[:, :2].copy(),
+        chosen[:, 2:].copy(),
+        keys,
+        float(size),
+    )
     for field, value in zip(fields(Worlds), values, strict=True):
         object.__setattr__(drawn, field.name, value)
     return drawn
@@ -306,10 +383,19 @@ def make_world(
     circles : (x, y, radius) each, in metres.
     rectangles : (x, y, length, width, angle) each, in metres and degrees.
     """
-    round_ones: Any = expect.array("circles", circles, shape=("number", 3)) if len(circles) else []
-    square_ones: Any = expect.array("rectangles", rectangles, shape=("number", 5)) if len(rectangles) else []
-    rows = [(kernels.CIRCLE, x, y, radius, 0.0, 0.0) for x, y, radius in round_ones]
-    rows += [(kernels.RECTANGLE, x, y, a / 2, b / 2, np.radians(turned)) for x, y, a, b, turned in square_ones]
+    round_ones: Any = (
+        check_array("circles", circles, shape=("number", 3)) if len(circles) else []
+    )
+    square_ones: Any = (
+        check_array("rectangles", rectangles, shape=("number", 5))
+        if len(rectangles)
+        else []
+    )
+    rows = [(_fast.CIRCLE, x, y, radius, 0.0, 0.0) for x, y, radius in round_ones]
+    rows += [
+        (_fast.RECTANGLE, x, y, a / 2, b / 2, np.radians(turned))
+        for x, y, a, b, turned in square_ones
+    ]
     table = np.array(rows, dtype=float).reshape(len(rows), 6)
     return Worlds(
         kinds=table[None, :, 0].astype(np.int8),
@@ -319,7 +405,7 @@ def make_world(
         headings=np.zeros((1, len(rows))),
         starts=np.array([start], dtype=float),
         targets=np.array([target], dtype=float),
-        keys=expect.array("key", [key], shape=(1, 2), dtype=np.uint32),
+        keys=check_array("key", [key], shape=(1, 2), dtype=np.uint32),
         size=size,
     )
 
@@ -329,9 +415,11 @@ def concatenate(batches: Sequence[Worlds]) -> Worlds:
     if len(batches) == 0:
         raise ValueError("batches must hold at least one batch of worlds")
     for batch in batches:
-        expect.instance("batches", batch, Worlds)
+        check_instance("batches", batch, Worlds)
     if len({batch.size for batch in batches}) > 1:
-        raise ValueError(f"batches must have one map size, got {sorted({batch.size for batch in batches})}")
+        raise ValueError(
+            f"batches must have one map size, got {sorted({batch.size for batch in batches})}"
+        )
     slots = max(batch.slots for batch in batches)
     padded = [batch.with_slots(slots) for batch in batches]
     joined = {

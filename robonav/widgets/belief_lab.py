@@ -9,10 +9,10 @@ import numpy as np
 import traitlets
 from numpy.typing import NDArray
 
-from robonav import expect
 from robonav.mdp import corridor, without_sensing
+from robonav.validation import check_integer
 
-from .shared import front_end, packed, style
+from .shared import front_end, packed, style_sheet
 
 SENSORS: Mapping[str, float | None] = {
     "right 9 times in 10": 0.9,
@@ -20,14 +20,18 @@ SENSORS: Mapping[str, float | None] = {
     "always right": 1.0,
     "no sensing at all": None,
 }
-WHEELS: Mapping[str, float] = {"1 move in 10 fails": 0.1, "no move fails": 0.0, "3 moves in 10 fail": 0.3}
+WHEELS: Mapping[str, float] = {
+    "1 move in 10 fails": 0.1,
+    "no move fails": 0.0,
+    "3 moves in 10 fail": 0.3,
+}
 
 
 class BeliefLab(anywidget.AnyWidget):
     """Move and sense; see the prediction, the likelihood and the belief of every cell."""
 
     _esm = front_end("belief_lab")
-    _css = style("belief_lab")
+    _css = style_sheet("belief_lab")
     data = traitlets.Dict().tag(sync=True)
 
 
@@ -51,28 +55,44 @@ def belief_lab(
     ------
     ValueError : if there is no corridor, sensor or wheel to choose.
     """
-    for name, choices in (("corridors", corridors), ("sensors", sensors), ("wheels", wheels)):
+    for name, choices in (
+        ("corridors", corridors),
+        ("sensors", sensors),
+        ("wheels", wheels),
+    ):
         if not choices:
             raise ValueError(f"{name} must hold at least one choice, got none")
     return BeliefLab(
         data={
-            "corridors": [{"name": name, "cells": cells} for name, cells in corridors.items()],
+            "corridors": [
+                {"name": name, "cells": cells} for name, cells in corridors.items()
+            ],
             "sensors": list(sensors),
             "wheels": list(wheels),
             "transitions": [
-                [packed(corridor(cells, slip=slip).mdp.transitions) for slip in wheels.values()]
+                [
+                    packed(corridor(cells, slip=slip).mdp.transitions)
+                    for slip in wheels.values()
+                ]
                 for cells in corridors.values()
             ],
             "observations": [
-                [packed(_observations(cells, accuracy)) for accuracy in sensors.values()]
+                [
+                    packed(_observations(cells, accuracy))
+                    for accuracy in sensors.values()
+                ]
                 for cells in corridors.values()
             ],
-            "seed": expect.integer("seed", seed, at_least=0),
+            "seed": check_integer("seed", seed, at_least=0),
         }
     )
 
 
 def _observations(cells: str, accuracy: float | None) -> NDArray[np.float64]:
     """Z (3, S, O) of a corridor seen with some accuracy, or not at all."""
-    pomdp = without_sensing(corridor(cells).mdp) if accuracy is None else corridor(cells, accuracy=accuracy)
+    pomdp = (
+        without_sensing(corridor(cells).mdp)
+        if accuracy is None
+        else corridor(cells, accuracy=accuracy)
+    )
     return np.asarray(pomdp.observations)

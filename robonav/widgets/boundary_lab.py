@@ -10,17 +10,17 @@ import anywidget
 import numpy as np
 import traitlets
 
-from robonav.lfd.history import Training
-from robonav.lfd.toys import EXTENT
+from robonav.networks.toy_datasets import EXTENT
+from robonav.networks.training_history import Training
 
-from .shared import front_end, packed, packed_network, style
+from .shared import front_end, packed, packed_network, style_sheet
 
 
 class BoundaryLab(anywidget.AnyWidget):
     """Choose a problem, a network and a way to train; step through the training; probe the answer anywhere."""
 
     _esm = front_end("boundary_lab")
-    _css = style("boundary_lab")
+    _css = style_sheet("boundary_lab")
     data = traitlets.Dict().tag(sync=True)
 
 
@@ -54,12 +54,24 @@ def boundary_lab(
     return BoundaryLab(
         data={
             "controls": [
-                {"label": label, "options": list(options), "value": list(options).index(choice)}
-                for (label, options), choice in zip(controls.items(), first, strict=True)
+                {
+                    "label": label,
+                    "options": list(options),
+                    "value": list(options).index(choice),
+                }
+                for (label, options), choice in zip(
+                    controls.items(), first, strict=True
+                )
             ],
-            "runs": [_run(combination, runs[combination], frames) for combination in combinations],
+            "runs": [
+                _run(combination, runs[combination], frames)
+                for combination in combinations
+            ],
             "examples": [
-                {"x": np.round(examples[problem][0], 4).tolist(), "y": examples[problem][1][:, 0].tolist()}
+                {
+                    "x": np.round(examples[problem][0], 4).tolist(),
+                    "y": examples[problem][1][:, 0].tolist(),
+                }
                 for problem in next(iter(controls.values()))
             ],
             "frames": list(frames),
@@ -68,10 +80,14 @@ def boundary_lab(
     )
 
 
-def _run(combination: tuple[str, ...], training: Training, frames: Sequence[int]) -> dict[str, Any]:
+def _run(
+    combination: tuple[str, ...], training: Training, frames: Sequence[int]
+) -> dict[str, Any]:
     """One training as the page reads it; single precision is more than a picture shows."""
     if training.networks is None:
-        raise ValueError(f"runs[{combination}] must hold the network of every iteration: train with record=True")
+        raise ValueError(
+            f"runs[{combination}] must hold the network of every iteration: train with record=True"
+        )
     shown = np.minimum(frames, training.iterations)
     return {
         "networks": packed_network(training.networks[shown], np.float32),

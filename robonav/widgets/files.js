@@ -105,7 +105,7 @@ export function demonstrationFile({ base, steps, speed, outcome }) {
 const base64 = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
 
 /**
- * The policy in a file that robonav.lfd.save_weights wrote.
+ * The policy in a file that robonav.networks.save_weights wrote.
  * @param {ArrayBuffer} buffer
  * @returns {{network: PackedNetwork, encoder: Encoder, temperature: number}}
  */

@@ -12,11 +12,12 @@ import numpy as np
 import traitlets
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import expect, look
+from robonav import style
 from robonav.mdp import Cell, FiniteMDP, GridWorld
 from robonav.mdp.improvement import shortfalls
+from robonav.validation import check_array
 
-from .shared import front_end, packed, style
+from .shared import front_end, packed, style_sheet
 
 
 @dataclass(frozen=True)
@@ -59,17 +60,28 @@ def replay(
     ------
     ValueError : if there are not as many values, policies and walks as steps.
     """
-    held = expect.array("values", values, shape=(len(steps), mdp.states))
-    chosen = expect.array("policies", policies, shape=held.shape, dtype=np.intp)
+    held = check_array("values", values, shape=(len(steps), mdp.states))
+    chosen = check_array("policies", policies, shape=held.shape, dtype=np.intp)
     if walks and len(walks) != len(steps):
-        raise ValueError(f"walks must be as many as steps, {len(steps)}, got {len(walks)}")
+        raise ValueError(
+            f"walks must be as many as steps, {len(steps)}, got {len(walks)}"
+        )
     compared = zip(steps, *shortfalls(mdp, held, chosen, best=best), strict=True)
-    return Replay(held, chosen, [f"{step}: {_judged(off, lost)}" for step, off, lost in compared], walks)
+    return Replay(
+        held,
+        chosen,
+        [f"{step}: {_judged(off, lost)}" for step, off, lost in compared],
+        walks,
+    )
 
 
 def _judged(off: float, lost: float) -> str:
     close = "values exact" if off < 5e-4 else f"values off by up to {off:.3g}"
-    return f"{close}, arrows optimal" if lost < 5e-4 else f"{close}, the arrows lose up to {lost:.3g}"
+    return (
+        f"{close}, arrows optimal"
+        if lost < 5e-4
+        else f"{close}, the arrows lose up to {lost:.3g}"
+    )
 
 
 Solver = Callable[[GridWorld, tuple[str, ...]], Mapping[str, Replay]]
@@ -79,10 +91,12 @@ class GridLab(anywidget.AnyWidget):
     """Choose a setting; step through what each method did; touch a cell. With a kernel: draw a map and solve it."""
 
     _esm = front_end("grid_lab")
-    _css = style("grid_lab")
+    _css = style_sheet("grid_lab")
     data = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, data: dict[str, Any], solve: Solver | None, legend: Mapping[str, Cell]) -> None:
+    def __init__(
+        self, data: dict[str, Any], solve: Solver | None, legend: Mapping[str, Cell]
+    ) -> None:
         super().__init__(data=data)
         self._solve, self._legend = solve, legend
         self.on_msg(self._answer)
@@ -94,7 +108,9 @@ class GridLab(anywidget.AnyWidget):
         elif message.get("ask") == "solve" and self._solve is not None:
             try:
                 grid = GridWorld(str(message["text"]), legend=self._legend)
-                replays = self._solve(grid, tuple(str(choice) for choice in message["choices"]))
+                replays = self._solve(
+                    grid, tuple(str(choice) for choice in message["choices"])
+                )
                 self.send({"grid": _layout(grid), "run": _run(replays)})
             except (ValueError, TypeError) as error:
                 self.send({"error": str(error)})
@@ -123,14 +139,21 @@ def grid_lab(
     ------
     ValueError : if a combination is missing, or a replay is of another grid.
     """
-    offered = {"map": list(grids), **{label: list(options) for label, options in controls.items()}}
+    offered = {
+        "map": list(grids),
+        **{label: list(options) for label, options in controls.items()},
+    }
     combinations = list(product(*offered.values()))
     first = tuple(start) or combinations[0]
     for combination in (*combinations, first):
         if combination not in runs:
             raise ValueError(f"runs must hold replays for {combination}")
         for name, shown in runs[combination].items():
-            expect.array(f"values of {name}", shown.values, shape=(len(shown.said), grids[combination[0]].states))
+            check_array(
+                f"values of {name}",
+                shown.values,
+                shape=(len(shown.said), grids[combination[0]].states),
+            )
     return GridLab(
         {
             "grids": [_layout(grid) for grid in grids.values()],
@@ -139,10 +162,14 @@ def grid_lab(
                 for (label, options), choice in zip(offered.items(), first, strict=True)
             ],
             "runs": [_run(runs[combination]) for combination in combinations],
-            "wall": look.OBSTACLE,
+            "wall": style.OBSTACLE,
         },
         solve,
-        {symbol: cell for grid in grids.values() for symbol, cell in grid.legend.items()},
+        {
+            symbol: cell
+            for grid in grids.values()
+            for symbol, cell in grid.legend.items()
+        },
     )
 
 

@@ -10,12 +10,12 @@ import numpy as np
 import traitlets
 from numpy.typing import ArrayLike
 
-from robonav import expect
 from robonav.lfd.demonstrations import LEARNED
 from robonav.nirl import Steps
 from robonav.robot import Encoder, Worlds
+from robonav.validation import check_array, check_positive, check_real
 
-from .shared import front_end, packed, style
+from .shared import front_end, packed, style_sheet
 from .simulator import page_world
 
 TARGET_FEATURES = {
@@ -30,7 +30,7 @@ class RewardLab(anywidget.AnyWidget):
     """Push a weight of the reward; see where the reward is high, and what the robot does then."""
 
     _esm = front_end("simulator", "maps", "reward_lab")
-    _css = style("maps", "reward_lab")
+    _css = style_sheet("maps", "reward_lab")
     data = traitlets.Dict().tag(sync=True)
 
 
@@ -60,20 +60,29 @@ def reward_lab(
     ------
     ValueError : if the weights do not fit the encoder, or there is no world or decision.
     """
-    theta = expect.array("reward_weights", reward_weights, shape=(LEARNED, encoder.size + 1))
+    theta = check_array(
+        "reward_weights", reward_weights, shape=(LEARNED, encoder.size + 1)
+    )
     if not worlds or not len(others) or not len(shown):
         raise ValueError("worlds, others and shown must each hold at least one")
     return RewardLab(
         data={
             "theta": packed(theta),
-            "encoder": {"sensors": list(encoder.sensors), "walls": encoder.walls, "target": encoder.target},
+            "encoder": {
+                "sensors": list(encoder.sensors),
+                "walls": encoder.walls,
+                "target": encoder.target,
+            },
             "features": _features(encoder),
             "inputs": packed(shown.inputs),
             "actions": packed(shown.actions, np.uint8),
-            "worlds": [{"name": name, "world": page_world(world)} for name, world in worlds.items()],
+            "worlds": [
+                {"name": name, "world": page_world(world)}
+                for name, world in worlds.items()
+            ],
             "others": [page_world(world) for world in others],
-            "discount": expect.real("discount", discount, at_least=0, below=1),
-            "speed": expect.positive("speed", speed),
+            "discount": check_real("discount", discount, at_least=0, below=1),
+            "speed": check_positive("speed", speed),
         }
     )
 
@@ -81,7 +90,12 @@ def reward_lab(
 def _features(encoder: Encoder) -> list[dict[str, Any]]:
     """Names of the features, in the encoder's order, and what each is about."""
     named = [("danger", f"danger in sector {sensor}") for sensor in encoder.sensors]
-    named += [("target", name) for name in (*TARGET_FEATURES[encoder.target], "target seen")]
+    named += [
+        ("target", name) for name in (*TARGET_FEATURES[encoder.target], "target seen")
+    ]
     if encoder.walls:
         named += [("wall", f"wall in sector {sensor}") for sensor in encoder.sensors]
-    return [{"kind": kind, "name": name} for kind, name in (*named, ("constant", "constant"))]
+    return [
+        {"kind": kind, "name": name}
+        for kind, name in (*named, ("constant", "constant"))
+    ]

@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 import anywidget
 import traitlets
 
-from robonav import expect
-from robonav.lfd.policy import NetworkPolicy
+from robonav.networks.policy import NetworkPolicy
 from robonav.robot import Worlds
+from robonav.validation import check_positive
 
-from .shared import front_end, style
+from .shared import front_end, style_sheet
 from .simulator import page_policy, page_world
 
 RULES = ("straight", "freer side")
@@ -21,7 +21,7 @@ class RobotPlayground(anywidget.AnyWidget):
     """Drag obstacles, let a policy drive or drive yourself, take the drive away as a demonstration."""
 
     _esm = front_end("simulator", "maps", "files", "robot_playground")
-    _css = style("maps", "robot_playground")
+    _css = style_sheet("maps", "robot_playground")
     data = traitlets.Dict().tag(sync=True)
 
 
@@ -45,14 +45,20 @@ def robot_playground(
     """
     if not worlds:
         raise ValueError("worlds must hold at least one, got none")
-    chosen = [expect.positive("speeds", speed) for speed in speeds]
+    chosen = [check_positive("speeds", speed) for speed in speeds]
     if 2.0 not in chosen:
         raise ValueError(f"speeds must hold 2 m/s, got {chosen}")
-    networks = [{"name": name, **page_policy(policy)} for name, policy in (policies or {}).items()]
+    networks = [
+        {"name": name, **page_policy(policy)}
+        for name, policy in (policies or {}).items()
+    ]
     rules = [{"name": f"rule: {rule}", "rule": rule} for rule in RULES]
     return RobotPlayground(
         data={
-            "worlds": [{"name": name, "world": page_world(world)} for name, world in worlds.items()],
+            "worlds": [
+                {"name": name, "world": page_world(world)}
+                for name, world in worlds.items()
+            ],
             "policies": [*networks, *rules],
             "speeds": chosen,
         }

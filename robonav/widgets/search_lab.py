@@ -12,11 +12,11 @@ import anywidget
 import numpy as np
 import traitlets
 
-from robonav import expect
 from robonav.lfd import GridPlan, Plan, plan, plan_on_grid
 from robonav.robot import Worlds
+from robonav.validation import check_array
 
-from .shared import front_end, packed, style
+from .shared import front_end, packed, style_sheet
 from .simulator import page_world
 
 Found = TypeVar("Found", Plan, GridPlan)
@@ -27,11 +27,15 @@ class SearchLab(anywidget.AnyWidget):
     """Choose a map, a margin and a cell; watch both searches. With a kernel: put the target elsewhere."""
 
     _esm = front_end("simulator", "maps", "search_lab")
-    _css = style("maps", "search_lab")
+    _css = style_sheet("maps", "search_lab")
     data = traitlets.Dict().tag(sync=True)
 
     def __init__(
-        self, worlds: Mapping[str, Worlds], margins: Sequence[float], cells: Sequence[float], speed: float
+        self,
+        worlds: Mapping[str, Worlds],
+        margins: Sequence[float],
+        cells: Sequence[float],
+        speed: float,
     ) -> None:
         self._worlds = list(worlds.values())
         self._settings = list(product(margins, cells))
@@ -44,8 +48,15 @@ class SearchLab(anywidget.AnyWidget):
         super().__init__(
             data={
                 "worlds": [page_world(world) for world in self._worlds],
-                "controls": [{"label": label, "options": options, "value": 0} for label, options in offered.items()],
-                "runs": [_both(world, *setting, speed) for world in self._worlds for setting in self._settings],
+                "controls": [
+                    {"label": label, "options": options, "value": 0}
+                    for label, options in offered.items()
+                ],
+                "runs": [
+                    _both(world, *setting, speed)
+                    for world in self._worlds
+                    for setting in self._settings
+                ],
                 "speed": speed,
             }
         )
@@ -59,9 +70,11 @@ class SearchLab(anywidget.AnyWidget):
             try:
                 world, margin, cell = (int(choice) for choice in message["chosen"])
                 count = len(self.data["controls"][2]["options"])
-                target = expect.array("target", message["target"], shape=(2,))
+                target = check_array("target", message["target"], shape=(2,))
                 elsewhere = replace(self._worlds[world], targets=target[None])
-                run = _both(elsewhere, *self._settings[margin * count + cell], self._speed)
+                run = _both(
+                    elsewhere, *self._settings[margin * count + cell], self._speed
+                )
                 self.send({"target": target.tolist(), "run": run})
             except (ValueError, TypeError) as error:
                 self.send({"error": str(error)})
@@ -96,12 +109,23 @@ def search_lab(
     return SearchLab(worlds, margins, cells, speed)
 
 
-def _both(world: Worlds, margin: float, cell: float, speed: float) -> list[dict[str, Any]]:
+def _both(
+    world: Worlds, margin: float, cell: float, speed: float
+) -> list[dict[str, Any]]:
     """The two searches as the page reads them."""
-    by_actions, seconds = _timed(lambda: plan(world, margin=margin, cell=cell, speed=speed, record=True))
-    on_grid, longer = _timed(lambda: plan_on_grid(world, margin=margin, cell=cell, record=True))
+    by_actions, seconds = _timed(
+        lambda: plan(world, margin=margin, cell=cell, speed=speed, record=True)
+    )
+    on_grid, longer = _timed(
+        lambda: plan_on_grid(world, margin=margin, cell=cell, record=True)
+    )
     return [
-        {"kind": "actions", "steps": len(by_actions.actions), "seconds": seconds, **_told(by_actions)},
+        {
+            "kind": "actions",
+            "steps": len(by_actions.actions),
+            "seconds": seconds,
+            **_told(by_actions),
+        },
         {"kind": "grid", "steps": None, "seconds": longer, **_told(on_grid)},
     ]
 

@@ -1,4 +1,4 @@
-"""What all widgets share: one front-end file made of several, one look, arrays packed for the page."""
+"""What all widgets share: one front-end file made of several, one style, arrays packed for the page."""
 
 from __future__ import annotations
 
@@ -11,11 +11,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from robonav import look
-from robonav.lfd.network import Network
+from robonav import style
+from robonav.networks.multilayer_perceptron import Network
 
 HERE = Path(__file__).parent
-PALETTE = {name: getattr(look, name) for name in dir(look) if name.isupper() and isinstance(getattr(look, name), str)}
+PALETTE = {
+    name: getattr(style, name)
+    for name in dir(style)
+    if name.isupper() and isinstance(getattr(style, name), str)
+}
 
 
 def front_end(*names: str) -> str:
@@ -27,9 +31,11 @@ def front_end(*names: str) -> str:
     return "\n".join([f"export const PALETTE = {json.dumps(PALETTE)};", *parts])
 
 
-def style(*names: str) -> str:
+def style_sheet(*names: str) -> str:
     """The style sheet of a widget: ``shared.css`` and the named files."""
-    return "\n".join((HERE / f"{name}.css").read_text("utf-8") for name in ("shared", *names))
+    return "\n".join(
+        (HERE / f"{name}.css").read_text("utf-8") for name in ("shared", *names)
+    )
 
 
 def packed(array: ArrayLike, dtype: DTypeLike = np.float64) -> dict[str, Any]:
@@ -51,4 +57,6 @@ def packed_network(network: Network, dtype: DTypeLike = np.float64) -> dict[str,
 def spread_out(last: int, count: int) -> Sequence[int]:
     """Some ``count`` of the iterations 0 to ``last``, close together at first, where most happens."""
     steps = np.geomspace(1, last + 1, count) - 1
-    return sorted({*range(min(last, 5) + 1), *np.rint(steps).astype(int).tolist(), last})
+    return sorted(
+        {*range(min(last, 5) + 1), *np.rint(steps).astype(int).tolist(), last}
+    )

@@ -1,4 +1,4 @@
-// The simulator in the page: robonav/robot/kernels.py in JavaScript, one robot at a time, held to Python by replayed drives.
+// The simulator in the page: robonav/robot/_fast.py in JavaScript, one robot at a time, held to Python by replayed drives.
 
 /**
  * @typedef {{circle: boolean, x: number, y: number, a: number, b: number, turned: number, speed: number, heading: number}} Obstacle
@@ -23,7 +23,7 @@ export const ROBOT = {
 };
 const [DRIFTING, CHOOSING, ITEMS, TURN_PROBABILITY] = [2, 5, 1024, 0.1];
 
-// ---- Random numbers: the hash of kernels.py -------------------------------------------------------------------------
+// ---- Random numbers: the hash of _fast.py -------------------------------------------------------------------------
 
 function mix(word) {
   let x = word >>> 0;

@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from robonav.lfd.policy import NetworkPolicy
+from robonav.networks.policy import NetworkPolicy
 from robonav.robot import Worlds
-from robonav.robot.kernels import CIRCLE
+from robonav.robot._fast import CIRCLE
 
 from .shared import packed_network
 
 CHOOSING = 5
-"""For what the page draws random numbers when a policy leaves its action to chance; see ``uniform`` in kernels.py."""
+"""For what the page draws random numbers when a policy leaves its action to chance; see ``uniform`` in _fast.py."""
 
 
 def page_world(world: Worlds) -> dict[str, Any]:
@@ -45,6 +45,10 @@ def page_policy(policy: NetworkPolicy) -> dict[str, Any]:
     encoder = policy.encoder
     return {
         "network": packed_network(policy.network),
-        "encoder": {"sensors": list(encoder.sensors), "walls": encoder.walls, "target": encoder.target},
+        "encoder": {
+            "sensors": list(encoder.sensors),
+            "walls": encoder.walls,
+            "target": encoder.target,
+        },
         "temperature": policy.temperature,
     }

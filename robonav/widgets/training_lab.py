@@ -14,9 +14,9 @@ import numpy as np
 import traitlets
 from numpy.typing import ArrayLike
 
-from robonav import expect
+from robonav.validation import check_array
 
-from .shared import front_end, packed, style
+from .shared import front_end, packed, style_sheet
 
 PAUSE = 0.05  # seconds between two messages to the page
 
@@ -44,7 +44,7 @@ class TrainingLab(anywidget.AnyWidget):
     """Choose settings; step through the learning; keep one run to compare. With a kernel: train, watch, cancel."""
 
     _esm = front_end("training_lab")
-    _css = style("training_lab")
+    _css = style_sheet("training_lab")
     data = traitlets.Dict().tag(sync=True)
 
     def __init__(self, data: dict[str, Any], train: Trainer | None) -> None:
@@ -61,10 +61,16 @@ class TrainingLab(anywidget.AnyWidget):
             self.send({"kernel": self._train is not None})
         elif asked == "cancel":
             self._cancelled.set()
-        elif asked == "train" and self._train is not None and (self._thread is None or not self._thread.is_alive()):
+        elif (
+            asked == "train"
+            and self._train is not None
+            and (self._thread is None or not self._thread.is_alive())
+        ):
             self._cancelled.clear()
             choices = tuple(str(choice) for choice in message["choices"])
-            self._thread = threading.Thread(target=self._run, args=(self._train, choices), daemon=True)
+            self._thread = threading.Thread(
+                target=self._run, args=(self._train, choices), daemon=True
+            )
             self._thread.start()  # apart, so that a cancellation is heard
 
     def _run(self, train: Trainer, choices: tuple[str, ...]) -> None:
@@ -79,7 +85,9 @@ class TrainingLab(anywidget.AnyWidget):
                     told = time.monotonic()
                     self.send({"done": done, "total": total, "live": _packed(curves)})
             self.send({"ended": "done"})
-        except Exception as error:  # the thread's last word: the page shows it, or nobody would
+        except (
+            Exception
+        ) as error:  # the thread's last word: the page shows it, or nobody would
             self.send({"error": f"{type(error).__name__}: {error}"})
 
 
@@ -111,15 +119,25 @@ def training_lab(
     first = tuple(start) or combinations[0]
     for combination in (*combinations, first):
         if combination not in runs or set(runs[combination]) != set(measures):
-            raise ValueError(f"runs must hold for {combination} the curves {', '.join(measures)}")
+            raise ValueError(
+                f"runs must hold for {combination} the curves {', '.join(measures)}"
+            )
     return TrainingLab(
         {
             "controls": [
-                {"label": label, "options": list(options), "value": list(options).index(choice)}
-                for (label, options), choice in zip(controls.items(), first, strict=True)
+                {
+                    "label": label,
+                    "options": list(options),
+                    "value": list(options).index(choice),
+                }
+                for (label, options), choice in zip(
+                    controls.items(), first, strict=True
+                )
             ],
             "step": step,
-            "measures": [{"name": name, "label": label} for name, label in measures.items()],
+            "measures": [
+                {"name": name, "label": label} for name, label in measures.items()
+            ],
             "runs": [_packed(runs[combination]) for combination in combinations],
         },
         train,
@@ -132,12 +150,15 @@ def _packed(curves: Curves) -> dict[str, Any]:
 
 
 def _drawn(name: str, curve: Curve) -> dict[str, Any]:
-    steps = expect.array(f"steps of {name}", curve.steps, shape=("T",))
+    steps = check_array(f"steps of {name}", curve.steps, shape=("T",))
     values = np.atleast_2d(np.asarray(curve.values, dtype=float))
-    seeds = expect.array(f"values of {name}", values, shape=("S", len(steps)))
+    seeds = check_array(f"values of {name}", values, shape=("S", len(steps)))
     shown = (seeds.mean(axis=0), seeds.min(axis=0), seeds.max(axis=0))
     return {
         "seeds": len(seeds),
         "steps": packed(steps, np.float32),
-        **{part: packed(line, np.float32) for part, line in zip(("mean", "low", "high"), shown, strict=True)},
+        **{
+            part: packed(line, np.float32)
+            for part, line in zip(("mean", "low", "high"), shown, strict=True)
+        },
     }

@@ -15,9 +15,17 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import BrowserContext, ConsoleMessage, Page, Route, sync_playwright
+from playwright.sync_api import (
+    BrowserContext,
+    ConsoleMessage,
+    Page,
+    Route,
+    sync_playwright,
+)
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "book" / "_ext"))  # where screenshots.py finds it, too
+sys.path.append(
+    str(Path(__file__).resolve().parents[2] / "book" / "_ext")
+)  # where screenshots.py finds it, too
 
 from check_site import ROOT as ROOT
 from check_site import SITE as SITE
@@ -42,7 +50,12 @@ PATIENCE = 60_000  # milliseconds: the machine may be slow, and busy with other 
 
 def executable() -> str | None:
     """Where this machine's Chromium is, if it has one."""
-    return next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    return next(
+        filter(
+            None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))
+        ),
+        None,
+    )
 
 
 @dataclass
@@ -105,14 +118,19 @@ def visiting(context: BrowserContext) -> Iterator[Visit]:
         visit.page.close()
 
 
-def swipe(page: Page, start: tuple[float, float], end: tuple[float, float], *, steps: int = 8) -> None:
+def swipe(
+    page: Page, start: tuple[float, float], end: tuple[float, float], *, steps: int = 8
+) -> None:
     """Draw a finger over the screen, from one place of the window to another."""
     session = page.context.new_cdp_session(page)
     session.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
     for step in range(steps + 1):
         x, y = (a + (b - a) * step / steps for a, b in zip(start, end, strict=True))
         kind = "touchStart" if step == 0 else "touchMove"
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y}]})
+        session.send(
+            "Input.dispatchTouchEvent",
+            {"type": kind, "touchPoints": [{"x": x, "y": y}]},
+        )
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
     session.send("Emulation.setTouchEmulationEnabled", {"enabled": False})
     session.detach()

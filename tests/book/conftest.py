@@ -7,7 +7,17 @@ from pathlib import Path
 
 import pytest
 import yaml
-from browser import DESKTOP, PATIENCE, ROOT, SITE, Visit, chromium, executable, served, visiting
+from browser import (
+    DESKTOP,
+    PATIENCE,
+    ROOT,
+    SITE,
+    Visit,
+    chromium,
+    executable,
+    served,
+    visiting,
+)
 from check_site import pages
 from playwright.sync_api import BrowserContext, expect
 

@@ -55,16 +55,30 @@ def frames_a_second(address: str) -> tuple[float, float]:
 
 
 def main() -> None:
-    listed = sys.argv[1:] or list(pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))))
+    listed = sys.argv[1:] or list(
+        pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8")))
+    )
     with served(SITE) as address:
         for page in listed:
             took = min(seconds_to_open(address, page) for _ in range(VISITS))
             heavy = weight(page)
-            signs = [sign for sign, over in (("slow", took > SLOWEST), ("heavy", heavy > HEAVIEST)) if over]
-            print(f"{page:32} {heavy / 1e6:5.2f} MB {1000 * took:6.0f} ms  {' '.join(signs)}", flush=True)
+            signs = [
+                sign
+                for sign, over in (
+                    ("slow", took > SLOWEST),
+                    ("heavy", heavy > HEAVIEST),
+                )
+                if over
+            ]
+            print(
+                f"{page:32} {heavy / 1e6:5.2f} MB {1000 * took:6.0f} ms  {' '.join(signs)}",
+                flush=True,
+            )
         if "book/playground" in listed:
             mean, slowest = frames_a_second(address)
-            print(f"playground, 30 obstacles: {mean:.0f} frames a second, 99 in 100 at {slowest:.0f} or more")
+            print(
+                f"playground, 30 obstacles: {mean:.0f} frames a second, 99 in 100 at {slowest:.0f} or more"
+            )
     whole = sum(path.stat().st_size for path in SITE.rglob("*") if path.is_file())
     print(f"whole site: {whole / 1e6:.1f} MB of {WHOLE_SITE / 1e6:.0f}")
 

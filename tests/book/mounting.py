@@ -24,7 +24,9 @@ MOUNT = """async ([module, style, data, asked]) => {
 }"""
 
 
-def mounted(visit: Visit, address: str, widget: Any, *, kernel: bool = False) -> Locator:
+def mounted(
+    visit: Visit, address: str, widget: Any, *, kernel: bool = False
+) -> Locator:
     """The widget at the foot of a short page; with ``kernel``, what it asks is answered by the widget in Python."""
     assert isinstance(widget, anywidget.AnyWidget)
     visit.open(f"{address}/book/cite.html")

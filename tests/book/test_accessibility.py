@@ -27,13 +27,22 @@ BASELINE = [
 def ours(violation: list[str]) -> bool:
     """Whether a violation is not in the baseline."""
     rule, selector, source = violation
-    return not any(rule == known and (part in selector or part in source) for known, part in BASELINE)
+    return not any(
+        rule == known and (part in selector or part in source)
+        for known, part in BASELINE
+    )
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_nothing_serious_of_ours(visit: Visit, http: str, page_name: str, scheme: str) -> None:
+def test_nothing_serious_of_ours(
+    visit: Visit, http: str, page_name: str, scheme: str
+) -> None:
     visit.page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
     visit.open(f"{http}/{page_name}.html")
-    visit.page.evaluate("() => { window.define = undefined; }")  # else axe hands itself to require.js
+    visit.page.evaluate(
+        "() => { window.define = undefined; }"
+    )  # else axe hands itself to require.js
     visit.page.evaluate(AXE.read_text("utf-8"))
-    assert [violation for violation in visit.page.evaluate(RUN) if ours(violation)] == []
+    assert [
+        violation for violation in visit.page.evaluate(RUN) if ours(violation)
+    ] == []

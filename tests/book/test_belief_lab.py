@@ -21,9 +21,12 @@ PLANS = {
 }
 ACTIONS = {"← Left": 0, "Right →": 1, "Stay and sense": 2}
 STATUS = re.compile(
-    r"saw a (?P<seen>wall|door) \(chance (?P<chance>[\d.]+) %\)|sensed nothing|knows the plan", re.DOTALL
+    r"saw a (?P<seen>wall|door) \(chance (?P<chance>[\d.]+) %\)|sensed nothing|knows the plan",
+    re.DOTALL,
 )
-KNOWN = re.compile(r"Likeliest cell (?P<cell>\d+) with (?P<share>[\d.]+) %; uncertainty (?P<bits>[\d.]+) bits")
+KNOWN = re.compile(
+    r"Likeliest cell (?P<cell>\d+) with (?P<share>[\d.]+) %; uncertainty (?P<bits>[\d.]+) bits"
+)
 
 
 @pytest.fixture(params=["desktop", "phone"])
@@ -31,7 +34,9 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
     """The lab on the opened page: served to a desktop, or from disk on a phone."""
     desktop = request.param == "desktop"
     visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
-    visit.open(f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/partial-observation.html")
+    visit.open(
+        f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/partial-observation.html"
+    )
     found = visit.page.locator(".belief-lab")
     found.wait_for()
     yield found
@@ -39,7 +44,11 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
 
 
 def choose(lab: Locator, plan: str, sensor: str, wheels: str) -> None:
-    for label, option in (("corridor", plan), ("door sensor", sensor), ("wheels", wheels)):
+    for label, option in (
+        ("corridor", plan),
+        ("door sensor", sensor),
+        ("wheels", wheels),
+    ):
         lab.get_by_label(label, exact=True).select_option(option)
 
 
@@ -52,7 +61,10 @@ def status(lab: Locator, step: int) -> str:
 
 def bars(lab: Locator) -> list[int]:
     """The whole per cents over the bars, 0 where none is written."""
-    return [int(text or 0) for text in lab.locator("svg text[y]:not([class])").all_text_contents()]
+    return [
+        int(text or 0)
+        for text in lab.locator("svg text[y]:not([class])").all_text_contents()
+    ]
 
 
 def assert_same(lab: Locator, step: int, belief: np.ndarray) -> None:
@@ -63,7 +75,9 @@ def assert_same(lab: Locator, step: int, belief: np.ndarray) -> None:
     assert float(known["bits"]) == pytest.approx(mdp.entropy(belief), abs=0.00501)
     written = bars(lab)
     assert len(written) == len(belief)
-    np.testing.assert_allclose(written, np.where(belief >= 0.005, 100 * belief, 0), atol=0.501)
+    np.testing.assert_allclose(
+        written, np.where(belief >= 0.005, 100 * belief, 0), atol=0.501
+    )
 
 
 @pytest.mark.parametrize(
@@ -74,12 +88,22 @@ def assert_same(lab: Locator, step: int, belief: np.ndarray) -> None:
         ("one door in the middle", "always right", 1.0, "no move fails", 0.0),
     ],
 )
-def test_every_click_is_believed_as_python_would(lab, plan, sensor, accuracy, wheels, slip):
+def test_every_click_is_believed_as_python_would(
+    lab, plan, sensor, accuracy, wheels, slip
+):
     choose(lab, plan, sensor, wheels)
     pomdp = mdp.corridor(PLANS[plan], accuracy=accuracy, slip=slip)
     belief = pomdp.uniform()
     assert_same(lab, 0, belief)
-    buttons = ["Right →", "Right →", "Stay and sense", "← Left", "← Left", "← Left", "Right →"]
+    buttons = [
+        "Right →",
+        "Right →",
+        "Stay and sense",
+        "← Left",
+        "← Left",
+        "← Left",
+        "Right →",
+    ]
     for step, button in enumerate(buttons, start=1):
         lab.get_by_role("button", name=button).click()
         seen = STATUS.search(status(lab, step))
@@ -121,4 +145,6 @@ def test_a_new_run_an_undo_and_the_robot(lab):
     status(lab, 1)
     lab.get_by_role("button", name="New run").click()
     status(lab, 0)
-    expect(lab.get_by_role("img")).to_have_attribute("aria-label", re.compile("doors in 2, 8, 10"))
+    expect(lab.get_by_role("img")).to_have_attribute(
+        "aria-label", re.compile("doors in 2, 8, 10")
+    )

@@ -11,7 +11,11 @@ from browser import PHONE, ROOT, Visit
 from playwright.sync_api import Error as PlaywrightError
 from playwright.sync_api import Locator
 
-WITH_WIDGETS = [path.stem for path in sorted(ROOT.glob("book/*.md")) if "robonav.widgets" in path.read_text("utf-8")]
+WITH_WIDGETS = [
+    path.stem
+    for path in sorted(ROOT.glob("book/*.md"))
+    if "robonav.widgets" in path.read_text("utf-8")
+]
 MIDDLE = """(lab) => lab.querySelectorAll(".player input").forEach((track) => {
   track.value = Math.ceil(track.max / 2);
   track.dispatchEvent(new Event("input"));
@@ -23,7 +27,12 @@ SHOWN = """(lab) => [
   ...[...lab.querySelectorAll("details")].map((fold) => fold.open),
 ].join()"""
 CHANGED = f"([lab, before]) => ({SHOWN})(lab) !== before"
-NEXT_STEP = ("door sensor", "wheels", "speed", "steps a second")  # set what is shown from the next step on
+NEXT_STEP = (
+    "door sensor",
+    "wheels",
+    "speed",
+    "steps a second",
+)  # set what is shown from the next step on
 
 
 @contextmanager
@@ -39,7 +48,11 @@ def something_changes(lab: Locator, control: str) -> Iterator[None]:
 
 
 def visible(lab: Locator, what: str) -> list[Locator]:
-    return [control for control in lab.locator(what).all() if control.is_visible() and control.is_enabled()]
+    return [
+        control
+        for control in lab.locator(what).all()
+        if control.is_visible() and control.is_enabled()
+    ]
 
 
 def choose_everything(lab: Locator) -> None:
@@ -48,7 +61,10 @@ def choose_everything(lab: Locator) -> None:
         name = chooser.get_attribute("aria-label")
         if name in NEXT_STEP:
             continue
-        count, first = chooser.locator("option").count(), chooser.evaluate("(list) => list.selectedIndex")
+        count, first = (
+            chooser.locator("option").count(),
+            chooser.evaluate("(list) => list.selectedIndex"),
+        )
         for index in (0 if first == count - 1 else count - 1, first):
             with something_changes(lab, f"choice {index} of {name}"):
                 chooser.select_option(index=index)
@@ -68,9 +84,14 @@ def press_everything(lab: Locator) -> None:
     for button in visible(lab, "button, input[type=checkbox], summary"):
         if button.is_disabled() or "Download" in button.inner_text():
             continue
-        with something_changes(lab, button.get_attribute("aria-label") or button.inner_text()):
+        with something_changes(
+            lab, button.get_attribute("aria-label") or button.inner_text()
+        ):
             button.click()
-        if button.get_attribute("aria-label") == "Pause" or button.inner_text() == "Pause":
+        if (
+            button.get_attribute("aria-label") == "Pause"
+            or button.inner_text() == "Pause"
+        ):
             button.click()
 
 

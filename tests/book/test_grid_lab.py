@@ -30,7 +30,9 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
     """The lab on the opened page: served to a desktop, or from disk on a phone."""
     desktop = request.param == "desktop"
     visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
-    visit.open(f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/dynamic-programming.html")
+    visit.open(
+        f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/dynamic-programming.html"
+    )
     found = visit.page.locator(".grid-lab")
     found.wait_for()
     yield found
@@ -38,7 +40,9 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
 
 
 def choose(lab: Locator, *options: str) -> None:
-    for label, option in zip(("map", "discount", "slip", "cost of a step"), options, strict=True):
+    for label, option in zip(
+        ("map", "discount", "slip", "cost of a step"), options, strict=True
+    ):
         lab.get_by_label(label, exact=True).select_option(option)
 
 
@@ -48,7 +52,12 @@ def track(lab: Locator) -> Locator:
 
 def shown(lab: Locator, which: int) -> tuple[list[float], list[int]]:
     """The values and arrows of one picture, ends left out."""
-    texts = lab.locator("figure").nth(which).locator('svg text[text-anchor="middle"]').all_text_contents()
+    texts = (
+        lab.locator("figure")
+        .nth(which)
+        .locator('svg text[text-anchor="middle"]')
+        .all_text_contents()
+    )
     values = [float(text.replace("−", "-")) for text in texts if "." in text]
     turns = (
         lab.locator("figure")
@@ -63,16 +72,31 @@ def shown(lab: Locator, which: int) -> tuple[list[float], list[int]]:
 
 @pytest.mark.parametrize(
     ("name", "discount", "slip", "cost", "frame"),
-    [("two rooms", "0.9", "0.2", "0.04", 3), ("two rooms", "0.99", "0.5", "0.3", 20), ("4 x 3", "0.5", "0", "0", 2)],
+    [
+        ("two rooms", "0.9", "0.2", "0.04", 3),
+        ("two rooms", "0.99", "0.5", "0.3", 20),
+        ("4 x 3", "0.5", "0", "0", 2),
+    ],
 )
-def test_every_setting_shows_its_own_sweeps_and_policies(lab, name, discount, slip, cost, frame):
+def test_every_setting_shows_its_own_sweeps_and_policies(
+    lab, name, discount, slip, cost, frame
+):
     choose(lab, name, discount, slip, cost)
-    track(lab).evaluate("(input, at) => { input.value = at; input.dispatchEvent(new Event('input')); }", frame)
+    track(lab).evaluate(
+        "(input, at) => { input.value = at; input.dispatchEvent(new Event('input')); }",
+        frame,
+    )
     settings = {"slip": float(slip), "step_reward": -float(cost)}
-    grid = mdp.four_by_three(**settings) if name == "4 x 3" else mdp.GridWorld(TWO_ROOMS, legend=EXITS, **settings)
+    grid = (
+        mdp.four_by_three(**settings)
+        if name == "4 x 3"
+        else mdp.GridWorld(TWO_ROOMS, legend=EXITS, **settings)
+    )
     model = grid.mdp(float(discount))
     swept = mdp.value_iteration(model, 0.02, record=True)
-    iterated = mdp.policy_iteration(model, start=np.zeros(model.states, dtype=int), record=True)
+    iterated = mdp.policy_iteration(
+        model, start=np.zeros(model.states, dtype=int), record=True
+    )
     for which, (history, policies) in enumerate(
         ((swept.history, swept.policies), (iterated.history, iterated.policies))
     ):
@@ -115,11 +139,18 @@ def test_the_mark_follows_touch_and_arrow_keys(lab):
     expect(status).to_contain_text("Row 1, column 1: ")
     grids = lab.get_by_role("group", name="Grids")
     grids.focus()
-    for key in ("ArrowRight", "ArrowRight", "ArrowRight", "ArrowDown"):  # over the wall in between
+    for key in (
+        "ArrowRight",
+        "ArrowRight",
+        "ArrowRight",
+        "ArrowDown",
+    ):  # over the wall in between
         lab.page.keyboard.press(key)
     expect(status).to_contain_text("Row 2, column 5: ")
     lab.locator("figure").nth(1).locator("rect.cell").last.click()
-    expect(status).to_have_text("Row 5, column 7: the episode ends here. Arriving earns 1 on top of the step.")
+    expect(status).to_have_text(
+        "Row 5, column 7: the episode ends here. Arriving earns 1 on top of the step."
+    )
     lab.page.keyboard.press("ArrowUp")
     expect(status).to_contain_text("Row 4, column 7")
     lab.page.keyboard.press("ArrowDown")
@@ -147,7 +178,9 @@ def test_the_best_with_time_short_is_pythons(visit, site):
     lab = visit.page.locator(".grid-lab")
     lab.get_by_label("slip", exact=True).select_option("0.2")
     lab.get_by_label("cost of a step").select_option("0.04")
-    track(lab).evaluate("(input) => { input.value = 11; input.dispatchEvent(new Event('input')); }")
+    track(lab).evaluate(
+        "(input) => { input.value = 11; input.dispatchEvent(new Event('input')); }"
+    )
     expect(lab.locator("figure .told")).to_have_text("12 steps to go")
     grid = mdp.four_by_three(slip=0.2, step_reward=-0.04)
     plan = mdp.backward_induction(grid.mdp(1.0), 12)
@@ -161,11 +194,23 @@ def test_learners_and_their_walks_are_pythons(visit, site):
     lab = visit.page.locator(".grid-lab")
     lab.get_by_label("exploring ε").select_option("0.2")
     lab.get_by_label("learning rate α").select_option("0.5")
-    track(lab).evaluate("(input) => { input.value = 9; input.dispatchEvent(new Event('input')); }")
+    track(lab).evaluate(
+        "(input) => { input.value = 9; input.dispatchEvent(new Event('input')); }"
+    )
     ends = {"X": mdp.Cell(reward=-99.0, ends=True), "G": mdp.Cell(ends=True)}
-    cliff = mdp.GridWorld("." * 7 + "\n" + "." * 7 + "\n" + "." * 7 + "\nSXXXXXG", legend=ends, step_reward=-1.0)
+    cliff = mdp.GridWorld(
+        "." * 7 + "\n" + "." * 7 + "\n" + "." * 7 + "\nSXXXXXG",
+        legend=ends,
+        step_reward=-1.0,
+    )
     for which, learn in enumerate((mdp.q_learning, mdp.sarsa)):
-        options = {"discount": 1.0, "learning_rate": 0.5, "epsilon": 0.2, "seed": 1, "record": True}
+        options = {
+            "discount": 1.0,
+            "learning_rate": 0.5,
+            "epsilon": 0.2,
+            "seed": 1,
+            "record": True,
+        }
         learned = learn(cliff.environment(), 50, **options)
         said = f"after episode 50, which collected {learned.returns[49]:.0f}"
         expect(lab.locator("figure .told").nth(which)).to_have_text(said)
@@ -173,16 +218,33 @@ def test_learners_and_their_walks_are_pythons(visit, site):
         q = learned.history[50][~cliff.terminal]
         np.testing.assert_allclose(values, q.max(axis=1), atol=0.051)
         assert arrows == q.argmax(axis=1).tolist()
-        walk = lab.locator("figure").nth(which).locator("svg path[stroke='#E69F00']").get_attribute("d")
-        places = [tuple(map(float, place.split())) for place in re.split("[ML]", walk)[1:]]
-        assert places == [(64 * (c + 0.5), 64 * (r + 0.5)) for r, c in cliff.cells[learned.walks[49]]]
+        walk = (
+            lab.locator("figure")
+            .nth(which)
+            .locator("svg path[stroke='#E69F00']")
+            .get_attribute("d")
+        )
+        places = [
+            tuple(map(float, place.split())) for place in re.split("[ML]", walk)[1:]
+        ]
+        assert places == [
+            (64 * (c + 0.5), 64 * (r + 0.5)) for r, c in cliff.cells[learned.walks[49]]
+        ]
 
 
 def test_with_a_kernel_a_map_of_ones_own_is_solved(visit, http):
     def solve(grid, choices=()):
         swept = mdp.value_iteration(grid.mdp(0.9), record=True)
         steps = [f"sweep {k}" for k in range(len(swept.history))]
-        return {"sweeps": replay(grid.mdp(0.9), swept.history, swept.policies, best=swept.values, steps=steps)}
+        return {
+            "sweeps": replay(
+                grid.mdp(0.9),
+                swept.history,
+                swept.policies,
+                best=swept.values,
+                steps=steps,
+            )
+        }
 
     given, drawn = mdp.GridWorld("S.G"), mdp.GridWorld("S..\n.#G")
     widget = grid_lab({"map": given}, {}, {("map",): solve(given)}, solve=solve)
@@ -199,6 +261,8 @@ def test_with_a_kernel_a_map_of_ones_own_is_solved(visit, http):
     track(lab).press("End")
     expect(lab.locator("figure .told")).to_contain_text("arrows optimal")
     values, arrows = shown(lab, 0)
-    np.testing.assert_allclose(values, mdp.value_iteration(drawn.mdp(0.9)).values[:4], atol=0.0051)
+    np.testing.assert_allclose(
+        values, mdp.value_iteration(drawn.mdp(0.9)).values[:4], atol=0.0051
+    )
     assert arrows[2] == 2
     assert visit.errors == []

@@ -61,7 +61,9 @@ class Asker:
         self.client.execute_interactive(code, timeout=PATIENCE, output_hook=hear)
         return "".join(printed)
 
-    def ask(self, widget: str, question: dict[str, Any], until: str) -> list[dict[str, Any]]:
+    def ask(
+        self, widget: str, question: dict[str, Any], until: str
+    ) -> list[dict[str, Any]]:
         """What a widget says, up to an answer that holds a certain word."""
         content = {"comm_id": widget, "data": {"method": "custom", "content": question}}
         self.client.shell_channel.send(self.client.session.msg("comm_msg", content))
@@ -69,7 +71,10 @@ class Asker:
         while True:
             message = self.client.get_iopub_msg(timeout=PATIENCE)
             assert message["msg_type"] not in ("error", "stream"), message["content"]
-            if message["msg_type"] == "comm_msg" and message["content"]["data"].get("method") == "custom":
+            if (
+                message["msg_type"] == "comm_msg"
+                and message["content"]["data"].get("method") == "custom"
+            ):
                 answers.append(message["content"]["data"]["content"])
                 assert "error" not in answers[-1], answers[-1]
                 if until in answers[-1]:
@@ -94,10 +99,15 @@ def test_every_lab_says_that_a_kernel_is_there(kernel):
 
 
 @pytest.mark.parametrize("discount", ["0", "0.9", "0.99"])
-@pytest.mark.parametrize("text", [".G", "S . X\n. # .\n. . G", "\n".join([". " * 12] * 11 + [". " * 11 + "G"])])
+@pytest.mark.parametrize(
+    "text",
+    [".G", "S . X\n. # .\n. . G", "\n".join([". " * 12] * 11 + [". " * 11 + "G"])],
+)
 def test_maps_are_solved(kernel, discount, text):
     asker, (grids, *_) = kernel
-    (answer,) = asker.ask(grids, {"ask": "solve", "text": text, "choices": [discount]}, "run")
+    (answer,) = asker.ask(
+        grids, {"ask": "solve", "text": text, "choices": [discount]}, "run"
+    )
     assert len(answer["grid"]["cells"]) == answer["run"][0]["values"]["shape"][1]
 
 
@@ -105,7 +115,9 @@ def test_maps_are_solved(kernel, discount, text):
 def test_ways_are_found(kernel, chosen):
     asker, (_, searches, _) = kernel
     for target in ([2, 2], [50, 90], [98, 98]):
-        (answer,) = asker.ask(searches, {"ask": "search", "chosen": chosen, "target": target}, "run")
+        (answer,) = asker.ask(
+            searches, {"ask": "search", "chosen": chosen, "target": target}, "run"
+        )
         assert [search["kind"] for search in answer["run"]] == ["actions", "grid"]
 
 

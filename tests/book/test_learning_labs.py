@@ -19,7 +19,9 @@ NAMES = [experiment.name for experiment in labs.EXPERIMENTS]
 def page(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Locator]:
     desktop = request.param == "desktop"
     visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
-    visit.open(f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/learning-labs.html")
+    visit.open(
+        f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/learning-labs.html"
+    )
     yield visit.page.locator("article")
     assert visit.errors == []
 
@@ -28,17 +30,25 @@ def page(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[L
 def test_curves_are_the_committed_results(page, name):
     lab = page.locator(".training-lab").nth(NAMES.index(name))
     results = load_results(labs.RESULTS, labs.EXPERIMENTS[NAMES.index(name)])
-    for index in (0, len(results.experiment.cases) // 2, len(results.experiment.cases) - 1):
+    for index in (
+        0,
+        len(results.experiment.cases) // 2,
+        len(results.experiment.cases) - 1,
+    ):
         for label, choice in results.experiment.cases[index].items():
             lab.get_by_label(label, exact=True).select_option(str(choice))
         said = lab.locator(".status")
         expect(said).to_have_text(re.compile(r"^(Iteration|Episode) (300|140): "))
-        numbers = re.findall(r"(-?[\d.]+) \((-?[\d.]+) to (-?[\d.]+)\)", said.inner_text())
+        numbers = re.findall(
+            r"(-?[\d.]+) \((-?[\d.]+) to (-?[\d.]+)\)", said.inner_text()
+        )
         assert len(numbers) == len(labs.STEPS[name])
         for measure, shown in zip(labs.STEPS[name], numbers, strict=True):
             last = results.values(measure, index)[:, -1]
             expected = [last.mean(), last.min(), last.max()]
-            assert [float(number) for number in shown] == pytest.approx(expected, rel=6e-3, abs=5e-4)
+            assert [float(number) for number in shown] == pytest.approx(
+                expected, rel=6e-3, abs=5e-4
+            )
 
 
 def test_the_learned_reward_drives_better_than_its_opposite(page):
@@ -50,5 +60,7 @@ def test_the_learned_reward_drives_better_than_its_opposite(page):
         return int(re.search(r"arrives in (\d+)", score.inner_text())[1])
 
     learned = arrivals()
-    lab.get_by_label("begin with the reward").select_option("the opposite: all weights turned round")
+    lab.get_by_label("begin with the reward").select_option(
+        "the opposite: all weights turned round"
+    )
     assert arrivals() < learned

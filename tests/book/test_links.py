@@ -7,7 +7,14 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-LOADED = {"script": "src", "img": "src", "iframe": "src", "video": "src", "audio": "src", "source": "src"}
+LOADED = {
+    "script": "src",
+    "img": "src",
+    "iframe": "src",
+    "video": "src",
+    "audio": "src",
+    "source": "src",
+}
 
 
 class Anchors(HTMLParser):
@@ -24,7 +31,11 @@ class Anchors(HTMLParser):
         self.anchors.update(found[name] for name in ("id", "name") if name in found)
         if tag == "a" and "href" in found:
             self.links.append(found["href"])
-        if tag == "link" and "canonical" not in found.get("rel", "") and "href" in found:
+        if (
+            tag == "link"
+            and "canonical" not in found.get("rel", "")
+            and "href" in found
+        ):
             self.loaded.append(found["href"])
         if tag in LOADED and LOADED[tag] in found:
             self.loaded.append(found[LOADED[tag]])
@@ -48,16 +59,26 @@ def broken(page: Path, address: str) -> bool:
         target /= "index.html"
     if not target.is_file():
         return True
-    return bool(parts.fragment) and target.suffix == ".html" and unquote(parts.fragment) not in read(target).anchors
+    return (
+        bool(parts.fragment)
+        and target.suffix == ".html"
+        and unquote(parts.fragment) not in read(target).anchors
+    )
 
 
 def test_links_and_anchors_exist(site: Path, page_name: str) -> None:
     page = site / f"{page_name}.html"
     found = read(page)
-    assert [address for address in found.links + found.loaded if broken(page, address)] == []
+    assert [
+        address for address in found.links + found.loaded if broken(page, address)
+    ] == []
 
 
 def test_nothing_is_loaded_from_elsewhere(site: Path, page_name: str) -> None:
     found = read(site / f"{page_name}.html")
-    assert [address for address in found.loaded if urlsplit(address).scheme in ("http", "https")] == []
+    assert [
+        address
+        for address in found.loaded
+        if urlsplit(address).scheme in ("http", "https")
+    ] == []
     assert [address for address in found.loaded if address.startswith("//")] == []

@@ -14,19 +14,23 @@ import pytest
 from browser import DESKTOP, PHONE, Visit
 from playwright.sync_api import Locator, expect
 
-from robonav import lfd
-from robonav.lfd import toys
+from robonav import networks
+from robonav.networks import toy_datasets
 
 PAGE = "book/neural-network.html"
 ACTIONS = ["F", "L30", "L60", "R30", "R60"]
 
 
 @pytest.fixture(params=["desktop", "phone"])
-def labs(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[list[Locator]]:
+def labs(
+    request: pytest.FixtureRequest, visit: Visit, site: Path
+) -> Iterator[list[Locator]]:
     """The boundary lab and the network lab on the opened page: served to a desktop, or from disk on a phone."""
     desktop = request.param == "desktop"
     visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
-    visit.open(f"{request.getfixturevalue('http') if desktop else site.as_uri()}/{PAGE}")
+    visit.open(
+        f"{request.getfixturevalue('http') if desktop else site.as_uri()}/{PAGE}"
+    )
     found = visit.page.locator(".robonav")
     found.nth(1).wait_for()
     yield [found.nth(0), found.nth(1)]
@@ -44,26 +48,41 @@ def numbers(lab: Locator) -> list[float]:
 def set_slider(lab: Locator, label: str, step: int) -> None:
     """Move a slider as a hand does: the page hears the same event."""
     lab.get_by_label(label, exact=True).and_(lab.locator("input")).evaluate(
-        "(input, step) => { input.value = step; input.dispatchEvent(new Event('input')); }", step
+        "(input, step) => { input.value = step; input.dispatchEvent(new Event('input')); }",
+        step,
     )
 
 
 def held(lab: Locator, key: str) -> dict[str, Any]:
     """The data that the page keeps for the widget which holds ``key``."""
-    text = lab.page.locator('script[type="application/vnd.jupyter.widget-state+json"]').first.text_content()
+    text = lab.page.locator(
+        'script[type="application/vnd.jupyter.widget-state+json"]'
+    ).first.text_content()
     states = json.loads(text or "")["state"].values()
-    return next(state["state"]["data"] for state in states if key in state["state"].get("data", {}))
+    return next(
+        state["state"]["data"]
+        for state in states
+        if key in state["state"].get("data", {})
+    )
 
 
 def unpacked(array: dict[str, Any]) -> np.ndarray:
-    return np.frombuffer(base64.b64decode(array["data"]), dtype=array["dtype"]).reshape(array["shape"])
+    return np.frombuffer(base64.b64decode(array["data"]), dtype=array["dtype"]).reshape(
+        array["shape"]
+    )
 
 
 @pytest.mark.parametrize(
     ("problem", "hidden", "first", "rate", "iteration"),
-    [("corners", 2, "random", 3, 150), ("island", 3, "all zero", 30, 7), ("moons", 8, "random again", 0.3, 56)],
+    [
+        ("corners", 2, "random", 3, 150),
+        ("island", 3, "all zero", 30, 7),
+        ("moons", 8, "random again", 0.3, 56),
+    ],
 )
-def test_every_setting_shows_its_own_training(labs, problem, hidden, first, rate, iteration):
+def test_every_setting_shows_its_own_training(
+    labs, problem, hidden, first, rate, iteration
+):
     lab = labs[0]
     for label, option in {
         "problem": problem,
@@ -76,13 +95,23 @@ def test_every_setting_shows_its_own_training(labs, problem, hidden, first, rate
     set_slider(lab, "probe x₁", 10)
     set_slider(lab, "probe x₂", 45)
 
-    seed, spread = {"random": (1, 1.0), "random again": (2, 1.0), "all zero": (1, 0.0)}[first]
-    start = lfd.random_network((2, hidden, 1), seed=seed, spread=spread)
-    x, y = toys.PROBLEMS[problem](100, seed=0)
-    training = lfd.gradient_descent(
-        start, x, y, rate=rate, iterations=iteration, regularisation=0.01, objective=lfd.CROSS_ENTROPY
+    seed, spread = {"random": (1, 1.0), "random again": (2, 1.0), "all zero": (1, 0.0)}[
+        first
+    ]
+    start = networks.random_network((2, hidden, 1), seed=seed, spread=spread)
+    x, y = toy_datasets.PROBLEMS[problem](100, seed=0)
+    training = networks.gradient_descent(
+        start,
+        x,
+        y,
+        rate=rate,
+        iterations=iteration,
+        regularisation=0.01,
+        objective=networks.CROSS_ENTROPY,
     )
-    expect(lab.locator(".status")).to_have_text(re.compile(rf"^Iteration {iteration}\b"))
+    expect(lab.locator(".status")).to_have_text(
+        re.compile(rf"^Iteration {iteration}\b")
+    )
     shown, cost, right, *probe, answer = numbers(lab)
     assert shown == iteration
     assert cost == pytest.approx(training.costs[-1], abs=6e-4)
@@ -96,7 +125,9 @@ def test_the_probe_follows_a_touch_on_the_plane(labs):
     plane.scroll_into_view_if_needed()
     box = plane.bounding_box()
     plane.click(position={"x": box["width"] * 0.25, "y": box["height"] * 0.75})
-    expect(labs[0].locator(".status")).to_contain_text(re.compile(r"-0\.7[3-7], -0\.7[3-7]"))
+    expect(labs[0].locator(".status")).to_contain_text(
+        re.compile(r"-0\.7[3-7], -0\.7[3-7]")
+    )
 
 
 @pytest.mark.parametrize("which", [0, 1])
@@ -131,7 +162,7 @@ def test_time_moves_by_button_keyboard_and_play(labs, which):
 def test_the_robots_network_answers_as_python_does(labs):
     lab = labs[1]
     data = held(lab, "situations")
-    stack = lfd.Network(
+    stack = networks.Network(
         tuple(unpacked(weight) for weight in data["networks"]["weights"]),
         tuple(unpacked(bias) for bias in data["networks"]["biases"]),
     )
@@ -146,8 +177,12 @@ def test_the_robots_network_answers_as_python_does(labs):
         set_slider(lab, "target in sector", int(state[9]) - 1)
         set_slider(lab, "target seen", int(state[10]))
         p = stack[frame].forward(np.array(state) / np.array([7] * 9 + [9, 1]))
-        shown = lab.locator("svg text").filter(has_text=re.compile(r"^(F|[LR][36]0) \d"))
-        expect(shown).to_have_text([f"{name} {answer:.2f}" for name, answer in zip(ACTIONS, p, strict=True)])
+        shown = lab.locator("svg text").filter(
+            has_text=re.compile(r"^(F|[LR][36]0) \d")
+        )
+        expect(shown).to_have_text(
+            [f"{name} {answer:.2f}" for name, answer in zip(ACTIONS, p, strict=True)]
+        )
         expect(lab.locator(".status")).to_contain_text(f"({ACTIONS[p.argmax()]})")
 
 
@@ -156,10 +191,15 @@ def test_touching_a_sector_puts_an_obstacle_there(labs):
     picture = lab.locator("svg.dial")
     picture.scroll_into_view_if_needed()
     width = picture.bounding_box()["width"]
-    ahead = {"x": width / 2, "y": width / 2 - width * (110 / 284) * 0.3}  # 3 m ahead of the robot: degree 5
+    ahead = {
+        "x": width / 2,
+        "y": width / 2 - width * (110 / 284) * 0.3,
+    }  # 3 m ahead of the robot: degree 5
     picture.click(position=ahead)
     expect(picture).to_have_attribute("aria-label", re.compile("danger 5,"))
-    picture.click(position={"x": width / 2, "y": 4})  # outside the circle: the target, ahead
+    picture.click(
+        position={"x": width / 2, "y": 4}
+    )  # outside the circle: the target, ahead
     expect(picture).to_have_attribute("aria-label", re.compile("target in sector 1$"))
 
 
@@ -169,5 +209,7 @@ def test_moments_of_the_demonstrations_come_back(labs):
     for index in (0, 3, len(data["situations"]) - 1):
         lab.get_by_label("a moment of a demonstration").select_option(index=index)
         degrees = ", ".join(map(str, data["situations"][index]["state"][:9]))
-        expect(lab.locator("svg.dial")).to_have_attribute("aria-label", re.compile(f"danger {degrees};"))
+        expect(lab.locator("svg.dial")).to_have_attribute(
+            "aria-label", re.compile(f"danger {degrees};")
+        )
         expect(lab.locator(".status")).to_contain_text("the expert")

@@ -18,7 +18,9 @@ BROKEN = """() => ({
   pictures: [...document.images].filter((image) => image.complete && !image.naturalWidth).map((image) => image.src),
   unnamed: [...document.images].filter((image) => !image.alt && image.offsetParent).map((image) => image.src),
 })"""
-OVERHANG = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
+OVERHANG = (
+    "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
+)
 ILLEGIBLE = """() => [...document.querySelectorAll(".robonav svg text")].filter((text) => {
   const picture = text.ownerSVGElement;
   const [inner, outer] = [text, picture].map((element) => element.getBoundingClientRect());
@@ -37,17 +39,31 @@ def test_page_is_quiet_and_complete(visit: Visit, address: str, page_name: str) 
     visit.open(f"{address}/{page_name}.html")
     assert visit.external == []
     assert visit.errors == []
-    visit.page.add_style_tag(content="* { content-visibility: visible !important; }")  # lay out what is far below, too
-    assert visit.page.evaluate(BROKEN) == {"formulas": [], "cut": [], "pictures": [], "unnamed": []}
+    visit.page.add_style_tag(
+        content="* { content-visibility: visible !important; }"
+    )  # lay out what is far below, too
+    assert visit.page.evaluate(BROKEN) == {
+        "formulas": [],
+        "cut": [],
+        "pictures": [],
+        "unnamed": [],
+    }
 
 
-def test_widgets_take_up_room_and_are_photographed(visit: Visit, http: str, page_name: str) -> None:
+def test_widgets_take_up_room_and_are_photographed(
+    visit: Visit, http: str, page_name: str
+) -> None:
     visit.open(f"{http}/{page_name}.html")
     visit.page.wait_for_function(
         "() => [...document.querySelectorAll('.widget-subarea > *')].every((widget) => widget.clientHeight > 10)"
     )
-    for which, widget in enumerate(visit.page.locator(".widget-subarea .robonav").all()):
-        picture = PICTURES / f"{page_name.removeprefix('book/').replace('/', '-')}-{which}.png"
+    for which, widget in enumerate(
+        visit.page.locator(".widget-subarea .robonav").all()
+    ):
+        picture = (
+            PICTURES
+            / f"{page_name.removeprefix('book/').replace('/', '-')}-{which}.png"
+        )
         widget.screenshot(path=picture)
         assert picture.stat().st_size > 1_000
     assert visit.page.evaluate(ILLEGIBLE) == []
@@ -64,7 +80,9 @@ def test_page_fits_a_phone(visit: Visit, http: str, page_name: str) -> None:
 def test_search_finds_a_page(visit: Visit, address: str, size: dict[str, int]) -> None:
     visit.page.set_viewport_size(size)
     visit.open(f"{address}/search.html?q=policy")
-    visit.page.wait_for_selector("#search-results ul.search li a[href*='book/intro.html']")  # results come one by one
+    visit.page.wait_for_selector(
+        "#search-results ul.search li a[href*='book/intro.html']"
+    )  # results come one by one
     assert visit.external == []
     assert visit.errors == []
 
@@ -74,21 +92,33 @@ def test_first_page_leads_into_the_book(visit: Visit, address: str) -> None:
     visit.page.wait_for_url("**/book/intro.html")
 
 
-def test_a_notebook_is_saved_by_its_button(visit: Visit, address: str, site: Path) -> None:
+def test_a_notebook_is_saved_by_its_button(
+    visit: Visit, address: str, site: Path
+) -> None:
     visit.open(f"{address}/book/playground.html")
     visit.page.get_by_label("Download this page").click()
     with visit.page.expect_download() as download:
         visit.page.locator(".dropdown-menu a", has_text=".ipynb").click()
     assert download.value.suggested_filename == "playground.ipynb"
     saved = json.loads(Path(download.value.path()).read_text("utf-8"))
-    assert saved == json.loads((site / "_sources/book/playground.ipynb").read_text("utf-8"))
+    assert saved == json.loads(
+        (site / "_sources/book/playground.ipynb").read_text("utf-8")
+    )
 
 
 def test_page_is_light(site: Path, page_name: str) -> None:
     built = site / f"{page_name}.html"
-    images = {tag for tag in site.glob("_images/*") if tag.name in built.read_text("utf-8")}
-    assert built.stat().st_size + sum(image.stat().st_size for image in images) <= LARGEST_PAGE
+    images = {
+        tag for tag in site.glob("_images/*") if tag.name in built.read_text("utf-8")
+    }
+    assert (
+        built.stat().st_size + sum(image.stat().st_size for image in images)
+        <= LARGEST_PAGE
+    )
 
 
 def test_site_is_light(site: Path) -> None:
-    assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) <= LARGEST_SITE
+    assert (
+        sum(path.stat().st_size for path in site.rglob("*") if path.is_file())
+        <= LARGEST_SITE
+    )

@@ -11,12 +11,17 @@ import pytest
 from browser import DESKTOP, PHONE, Visit, swipe
 from playwright.sync_api import Locator, expect
 
-from robonav.experiments.methods import method, methods
-from robonav.lfd import NetworkPolicy, Weights, load_demonstrations, random_network, save_weights
+from robonav.benchmark.policies import method, methods
+from robonav.lfd import load_demonstrations
+from robonav.networks import NetworkPolicy, Weights, random_network, save_weights
 from robonav.robot import Encoder, freer_side, navigate, random_worlds, sense
 
 ME = "you, with the arrow keys"
-GREEDY = [name for name in methods() if isinstance(method(name), NetworkPolicy) and method(name).temperature == 0]
+GREEDY = [
+    name
+    for name in methods()
+    if isinstance(method(name), NetworkPolicy) and method(name).temperature == 0
+]
 
 
 @pytest.fixture(params=["desktop", "phone"])
@@ -24,7 +29,9 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
     """The playground on its page: served to a desktop, or from disk on a phone."""
     desktop = request.param == "desktop"
     visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
-    visit.open(f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/playground.html")
+    visit.open(
+        f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/playground.html"
+    )
     found = visit.page.locator(".robonav")
     found.locator("canvas").wait_for()
     yield found
@@ -42,23 +49,32 @@ def status(lab: Locator) -> Locator:
 def drive_to_the_end(lab: Locator) -> str:
     """Lets the chosen driver go as fast as it may, and gives what is said at the end."""
     pace = lab.get_by_label("steps a second", exact=True).and_(lab.locator("input"))
-    pace.evaluate("(input) => { input.value = input.max; input.dispatchEvent(new Event('input')); }")
+    pace.evaluate(
+        "(input) => { input.value = input.max; input.dispatchEvent(new Event('input')); }"
+    )
     lab.get_by_role("button", name="Drive", exact=True).click()
     expect(status(lab)).to_contain_text(re.compile("Arrived|Collided"))
     return status(lab).inner_text()
 
 
 def test_rules_end_as_in_python(lab):
-    for world, made in (("20 obstacles", random_worlds(1, 20, seed=42)), ("10 standing, 10 moving", None)):
+    for world, made in (
+        ("20 obstacles", random_worlds(1, 20, seed=42)),
+        ("10 standing, 10 moving", None),
+    ):
         choose(lab, "world", world)
         choose(lab, "who drives", "rule: freer side")
         expected = navigate(freer_side, made or random_worlds(1, 10, 10, seed=44))
         said = drive_to_the_end(lab)
-        assert said == f"{expected.outcome[0].capitalize()} after {expected.steps[0]} s."
+        assert (
+            said == f"{expected.outcome[0].capitalize()} after {expected.steps[0]} s."
+        )
 
 
 def test_every_driver_drives(lab):
-    drivers = lab.get_by_label("who drives", exact=True).locator("option").all_text_contents()
+    drivers = (
+        lab.get_by_label("who drives", exact=True).locator("option").all_text_contents()
+    )
     assert len(drivers) == 1 + len(methods())
     for driver in drivers:
         choose(lab, "who drives", driver)
@@ -76,7 +92,12 @@ def test_readings_are_pythons(lab):
     for _ in range(6):
         lab.get_by_role("button", name="One step").click()
     expect(status(lab)).to_contain_text("6 s, target in sector")
-    path = navigate(lambda seen, rng: np.zeros(len(seen), dtype=int), world, max_steps=6, record_paths=True).paths[0]
+    path = navigate(
+        lambda seen, rng: np.zeros(len(seen), dtype=int),
+        world,
+        max_steps=6,
+        record_paths=True,
+    ).paths[0]
     seen = sense(world, path[-1:])
     rows = lab.locator(".readings tbody tr").all()
     for row, distance in zip(rows, seen.ranges[0], strict=True):
@@ -121,7 +142,9 @@ def test_fields_follow_what_moves_but_not_while_one_types(lab):
     before = x.input_value(), y.input_value()
     x.focus()
     for _ in range(3):
-        lab.get_by_role("button", name="One step").evaluate("(button) => button.click()")  # the focus stays
+        lab.get_by_role("button", name="One step").evaluate(
+            "(button) => button.click()"
+        )  # the focus stays
     expect(status(lab)).to_contain_text("3 s")
     assert x.input_value() == before[0]
     expect(y).not_to_have_value(before[1])
@@ -164,32 +187,46 @@ def test_a_drive_of_ones_own_is_a_demonstration_for_python(lab, tmp_path):
     world = random_worlds(1, 10, seed=41)
     assert mine.worlds.digest() == world.digest()
     assert len(mine) == 5
-    np.testing.assert_allclose(sense(world[np.zeros(5, dtype=int)], mine.poses).ranges, mine.sensing.ranges, atol=1e-9)
+    np.testing.assert_allclose(
+        sense(world[np.zeros(5, dtype=int)], mine.poses).ranges,
+        mine.sensing.ranges,
+        atol=1e-9,
+    )
 
 
 def test_weights_of_ones_own_drive(lab, tmp_path):
     encoder = Encoder(target="signed")
-    own = NetworkPolicy(random_network((encoder.size, 4, 5), seed=5, spread=3.0), encoder)
+    own = NetworkPolicy(
+        random_network((encoder.size, 4, 5), seed=5, spread=3.0), encoder
+    )
     save_weights(tmp_path / "own.safetensors", Weights(own.network, "own", encoder))
     (tmp_path / "bad.safetensors").write_bytes(b"nothing")
     upload = lab.get_by_label("Weights to drive with")
     upload.set_input_files(tmp_path / "bad.safetensors")
-    expect(lab.get_by_text("The file must hold weights saved by robonav")).to_be_visible()
+    expect(
+        lab.get_by_text("The file must hold weights saved by robonav")
+    ).to_be_visible()
     upload.set_input_files(tmp_path / "own.safetensors")
     expect(lab.get_by_text("own.safetensors drives now.")).to_be_visible()
     choose(lab, "world", "20 obstacles")
-    expected = navigate(own, random_worlds(1, 20, seed=42), max_steps=40, record_paths=True)
+    expected = navigate(
+        own, random_worlds(1, 20, seed=42), max_steps=40, record_paths=True
+    )
     for _ in range(len(expected.paths[0]) - 1):
         lab.get_by_role("button", name="One step").click()
     x, y = (f"{value:.1f}".removesuffix(".0") for value in expected.paths[0][-1][:2])
-    expect(lab.locator("canvas")).to_have_attribute("aria-label", re.compile(re.escape(f"Robot at {x}, {y}. ")))
+    expect(lab.locator("canvas")).to_have_attribute(
+        "aria-label", re.compile(re.escape(f"Robot at {x}, {y}. "))
+    )
 
 
 @pytest.mark.parametrize("name", GREEDY[:1])
 def test_what_a_network_thinks_is_pythons(lab, name):
     choose(lab, "world", "30 obstacles")
     policy, world = method(name), random_worlds(1, 30, seed=43)
-    lab.get_by_label("who drives", exact=True).select_option(index=methods()[2:].index(name))
+    lab.get_by_label("who drives", exact=True).select_option(
+        index=methods()[2:].index(name)
+    )
     path = navigate(policy, world, max_steps=6, record_paths=True).paths[0]
     for _ in range(6):
         lab.get_by_role("button", name="One step").click()

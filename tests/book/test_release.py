@@ -17,11 +17,26 @@ from browser import executable
 def test_the_wheel_installs_and_is_whole(tmp_path: Path) -> None:
     wheel = release.build_wheel(tmp_path / "wheels")
     assert wheel.read_bytes() == release.build_wheel(tmp_path / "again").read_bytes()
-    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--target", tmp_path / "to"]
+    pip = [
+        sys.executable,
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--no-index",
+        "--no-deps",
+        "--target",
+        tmp_path / "to",
+    ]
     subprocess.run([*pip, wheel], check=True, timeout=600)
-    code = "import robonav, robonav.look; print(robonav.__file__)"
+    code = "import robonav, robonav.style; print(robonav.__file__)"
     found = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path / "to", capture_output=True, text=True, check=True, timeout=600
+        [sys.executable, "-c", code],
+        cwd=tmp_path / "to",
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=600,
     )
     assert found.stdout.startswith(str(tmp_path / "to"))
     names = zipfile.ZipFile(wheel).namelist()
@@ -31,16 +46,27 @@ def test_the_wheel_installs_and_is_whole(tmp_path: Path) -> None:
 
 
 def test_a_notebooks_first_cell_installs_the_books_own_release() -> None:
-    assert f'"https://a.b/book/_static/{release.wheel_name()}"' in release.first_cell("https://a.b/book/")
+    assert f'"https://a.b/book/_static/{release.wheel_name()}"' in release.first_cell(
+        "https://a.b/book/"
+    )
     assert f'"{release.wheel_name()}"' in release.first_cell("")
-    compile(release.first_cell("").replace("%pip", "# %pip").replace("is None:", "is None: pass"), "cell", "exec")
+    compile(
+        release.first_cell("")
+        .replace("%pip", "# %pip")
+        .replace("is None:", "is None: pass"),
+        "cell",
+        "exec",
+    )
 
 
 @pytest.mark.parametrize(
     ("origin", "page"),
     [
         ("https://github.com/some/book.git\n", "https://github.com/some/book"),
-        ("https://name:token@gitlab.com/group/sub/book", "https://gitlab.com/group/sub/book"),
+        (
+            "https://name:token@gitlab.com/group/sub/book",
+            "https://gitlab.com/group/sub/book",
+        ),
         ("git@github.com:some/book.git", "https://github.com/some/book"),
         ("ssh://git@bitbucket.org/some/book.git", "https://bitbucket.org/some/book"),
         ("/home/me/book", None),
@@ -52,7 +78,9 @@ def test_where_a_page_can_be_edited(origin: str, page: str | None) -> None:
     assert edit_page.page_of(origin) == page
 
 
-def test_a_repository_that_is_named_comes_first(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_repository_that_is_named_comes_first(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setenv("REPOSITORY", "https://git.example/our/book/")
     assert edit_page.repository() == "https://git.example/our/book"
 
@@ -96,11 +124,19 @@ c"</script><a href="../_static/file.whl">this file</a>
     assert article["id"] == "book-robot"
     assert article.h1["id"] == "book-robot--top"
     assert article.h1.get_text() == "Title"
-    assert [details.has_attr("open") for details in article.find_all("details")] == [True]
-    assert article.table is not None  # an output in a fold is printed, a cell's code is not
-    assert article.img["src"] == "data:bc"  # the frame half-way, without its line's break
+    assert [details.has_attr("open") for details in article.find_all("details")] == [
+        True
+    ]
+    assert (
+        article.table is not None
+    )  # an output in a fold is printed, a cell's code is not
+    assert (
+        article.img["src"] == "data:bc"
+    )  # the frame half-way, without its line's break
     assert article.a is None  # a file of this machine
-    assert [script.get("type") for script in article.find_all("script")] == ["application/vnd.jupyter.widget-view+json"]
+    assert [script.get("type") for script in article.find_all("script")] == [
+        "application/vnd.jupyter.widget-view+json"
+    ]
 
 
 def test_some_pages_are_printed(site: Path, tmp_path: Path) -> None:
@@ -108,9 +144,19 @@ def test_some_pages_are_printed(site: Path, tmp_path: Path) -> None:
         pytest.skip("Chromium is not installed")
     document = tmp_path / "some.html"
     whole = print_book.joined(["book/cite", "book/playground"])
-    document.write_text(whole.replace("<head>", f'<head><base href="{site.as_uri()}/">'), "utf-8")
+    document.write_text(
+        whole.replace("<head>", f'<head><base href="{site.as_uri()}/">'), "utf-8"
+    )
     code = "import print_book, sys; from pathlib import Path; print_book.print_to(*map(Path, sys.argv[1:]))"
-    command = [sys.executable, "-c", code, tmp_path / "some.pdf", document]  # apart: one browser's loop a process
-    subprocess.run(command, cwd=Path(print_book.__file__).parent, check=True, timeout=600)
+    command = [
+        sys.executable,
+        "-c",
+        code,
+        tmp_path / "some.pdf",
+        document,
+    ]  # apart: one browser's loop a process
+    subprocess.run(
+        command, cwd=Path(print_book.__file__).parent, check=True, timeout=600
+    )
     assert (tmp_path / "some.pdf").read_bytes().startswith(b"%PDF")
     assert (tmp_path / "some.pdf").stat().st_size > 50_000

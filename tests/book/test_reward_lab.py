@@ -12,7 +12,7 @@ from playwright.sync_api import Locator, expect
 
 from robonav.lfd import demonstrate
 from robonav.nirl import ENCODER, shown_steps
-from robonav.nirl.steps import with_constant
+from robonav.nirl.transitions import with_constant
 from robonav.robot import navigate, random_worlds
 from robonav.widgets.reward_lab import reward_lab
 
@@ -45,12 +45,18 @@ def driven(theta, worlds):
 def shows(lab: Locator, theta: np.ndarray, world: str) -> None:
     """The lab says of this reward what Python says."""
     here, there = driven(theta, WORLDS[world]), driven(theta, OTHERS)
-    verbs = {"arrived": "arrives after", "collided": "collides after", "out of steps": "is still on its way after"}
+    verbs = {
+        "arrived": "arrives after",
+        "collided": "collides after",
+        "out of steps": "is still on its way after",
+    }
     ended = f"With this reward the robot {verbs[here.outcome[0]]} {here.steps[0]} s."
     expect(lab.locator(".status")).to_contain_text(ended)
     agreed = 100 * np.mean((SHOWN.features @ theta.T).argmax(axis=1) == SHOWN.actions)
     score = lab.locator("p.told")
-    expect(score).to_contain_text(f"is the expert's in {agreed:.1f} % of {len(SHOWN)} decisions")
+    expect(score).to_contain_text(
+        f"is the expert's in {agreed:.1f} % of {len(SHOWN)} decisions"
+    )
     counted = [int((there.outcome == end).sum()) for end in verbs]
     expect(score).to_contain_text(
         f"Of 10 other maps the robot arrives in {counted[0]}, collides in {counted[1]} and gets lost in {counted[2]}."
@@ -58,8 +64,11 @@ def shows(lab: Locator, theta: np.ndarray, world: str) -> None:
 
 
 def push(lab: Locator, step: int) -> None:
-    lab.get_by_label("push this weight", exact=True).and_(lab.locator("input")).evaluate(
-        "(input, step) => { input.value = step; input.dispatchEvent(new Event('input')); }", step
+    lab.get_by_label("push this weight", exact=True).and_(
+        lab.locator("input")
+    ).evaluate(
+        "(input, step) => { input.value = step; input.dispatchEvent(new Event('input')); }",
+        step,
     )
 
 
@@ -106,8 +115,12 @@ def test_a_touched_weight_is_in_hand(lab):
     picture = lab.locator("svg.weights")
     picture.locator("rect").nth(2 * (ENCODER.size + 1) + 3).click()
     expect(lab.get_by_label("for", exact=True)).to_have_value("L60")
-    expect(lab.get_by_label("weight of", exact=True)).to_have_value("danger in sector 4")
-    expect(picture).to_have_attribute("aria-label", re.compile("danger in sector 4 is marked"))
+    expect(lab.get_by_label("weight of", exact=True)).to_have_value(
+        "danger in sector 4"
+    )
+    expect(picture).to_have_attribute(
+        "aria-label", re.compile("danger in sector 4 is marked")
+    )
 
 
 def test_the_drive_can_be_stepped_through(lab):

@@ -40,7 +40,9 @@ def painted(lab: Locator, which: int) -> int:
     return lab.locator("canvas").nth(which).evaluate(PAINTED)
 
 
-@pytest.mark.parametrize(("name", "margin", "cell"), [("ten", 2, 1), ("thirty", 4, 2), ("thirty", 1, 4)])
+@pytest.mark.parametrize(
+    ("name", "margin", "cell"), [("ten", 2, 1), ("thirty", 4, 2), ("thirty", 1, 4)]
+)
 def test_every_setting_shows_its_own_searches(lab, name, margin, cell):
     lab.get_by_label("map", exact=True).select_option(name)
     lab.get_by_label("margin kept").select_option(f"{margin} m")
@@ -49,7 +51,9 @@ def test_every_setting_shows_its_own_searches(lab, name, margin, cell):
     on_grid = plan_on_grid(WORLDS[name], margin=margin, cell=cell)
     for which, found in enumerate((by_actions, on_grid)):
         ended = f"done after {found.expanded} nodes: {found.length:.1f} m"
-        expect(told(lab).nth(which)).to_have_text(ended if found.found else f"{found.expanded} nodes, and no way found")
+        expect(told(lab).nth(which)).to_have_text(
+            ended if found.found else f"{found.expanded} nodes, and no way found"
+        )
     cells = lab.locator("tbody tr").first.locator("td")
     if by_actions.found:
         steps = len(by_actions.actions)
@@ -67,7 +71,9 @@ def test_nodes_appear_as_they_are_expanded(lab):
     assert painted(lab, 1) < full[1]
     track(lab).press("ArrowRight")
     lab.get_by_label("One on").click()
-    expect(told(lab).first).to_have_text(f"{round(most * 0.02**2)} nodes, still searching")
+    expect(told(lab).first).to_have_text(
+        f"{round(most * 0.02**2)} nodes, still searching"
+    )
     lab.get_by_label("Play").click()
     expect(told(lab).nth(1)).to_have_text(re.compile("^done after"))
     lab.get_by_label("Pause").click()
@@ -93,7 +99,9 @@ def test_with_a_kernel_a_target_is_searched_for(visit, http):
     canvas = lab.locator("canvas").first
     canvas.scroll_into_view_if_needed()
     side = canvas.bounding_box()["width"]
-    canvas.click(position={"x": side * 0.86, "y": side * 0.14})  # by the old target, where no obstacle stands
+    canvas.click(
+        position={"x": side * 0.86, "y": side * 0.14}
+    )  # by the old target, where no obstacle stands
     expect(lab.get_by_label("target x (m)")).to_have_value("88")
     expect(lab.locator(".status")).to_have_text("")
     expect(told(lab).first).not_to_have_text(before)
@@ -118,5 +126,7 @@ def test_the_page_on_demonstrations_searches_as_python_does(visit, site, size):
     for name, world in maps.items():
         lab.get_by_label("map", exact=True).select_option(name)
         for which, found in enumerate((plan(world), plan_on_grid(world))):
-            expect(told(lab).nth(which)).to_have_text(f"done after {found.expanded} nodes: {found.length:.1f} m")
+            expect(told(lab).nth(which)).to_have_text(
+                f"done after {found.expanded} nodes: {found.length:.1f} m"
+            )
     assert visit.errors == []

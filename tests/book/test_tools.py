@@ -39,7 +39,9 @@ def test_lists_and_ranges_of_numbers(text: str, expected: set[tuple[int, ...]]) 
     assert thesis_index.numbers(text) == expected
 
 
-def test_citations_are_found_in_docstrings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_citations_are_found_in_docstrings(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     package = tmp_path / "robonav"
     package.mkdir()
     (package / "chapter.py").write_text(
@@ -49,7 +51,11 @@ def test_citations_are_found_in_docstrings(tmp_path: Path, monkeypatch: pytest.M
     )
     monkeypatch.setattr(thesis_index, "PACKAGE", package)
     one, three = "robonav.chapter.one", "robonav.chapter.Two.three"
-    assert thesis_index.cited("equations") == {(2, 9): [one, three], (2, 10): [one], (4, 1): [three]}
+    assert thesis_index.cited("equations") == {
+        (2, 9): [one, three],
+        (2, 10): [one],
+        (4, 1): [three],
+    }
     assert list(thesis_index.cited("equations")) == [(2, 9), (2, 10), (4, 1)]
     assert thesis_index.cited("algorithms") == {(2,): [one]}
     assert thesis_index.cited("figures") == {(3, 10): [one]}
@@ -57,29 +63,37 @@ def test_citations_are_found_in_docstrings(tmp_path: Path, monkeypatch: pytest.M
 
 def test_docstring_is_cut_and_the_code_stays() -> None:
     source = '@cache\ndef f(x):\n    """Twice x.\n\n    More.\n    """\n\n    y = 2 * x\n    return y\n'
-    assert package_code.without_docstring(source) == "@cache\ndef f(x):\n    y = 2 * x\n    return y\n"
+    assert (
+        package_code.without_docstring(source)
+        == "@cache\ndef f(x):\n    y = 2 * x\n    return y\n"
+    )
     bare = "def f(x):\n    return x\n"
     assert package_code.without_docstring(bare) == bare
 
 
 def test_names_are_resolved_through_modules_classes_and_fields() -> None:
-    import robonav.look
+    import robonav.style
     from robonav.plots.schemes import Box
 
-    assert package_code.resolve("robonav.look.STYLE") is robonav.look.STYLE
+    assert package_code.resolve("robonav.style.STYLE") is robonav.style.STYLE
     assert package_code.resolve("robonav.plots.schemes.Box") is Box
     assert package_code.resolve("robonav.plots.schemes.Box.texts").name == "texts"
     with pytest.raises(ImportError):
-        package_code.resolve("robonav.look.NOTHING")
+        package_code.resolve("robonav.style.NOTHING")
     with pytest.raises(AttributeError):
         package_code.resolve("robonav.plots.schemes.Box.nothing")
 
 
 def test_names_of_code_may_break_between_their_words_alone() -> None:
-    context = {"body": '<span class="pre">mdp.q_learning(rate)</span> a.b <span class="pre">0.5, &lt;x&gt;</span>'}
+    context = {
+        "body": '<span class="pre">mdp.q_learning(rate)</span> a.b <span class="pre">0.5, &lt;x&gt;</span>'
+    }
     package_code.let_names_break(None, "page", "page.html", context, None)  # type: ignore[arg-type]
     name, number = "mdp.<wbr>q_<wbr>learning(<wbr>rate)", "0.5, &lt;x&gt;"
-    assert context["body"] == f'<span class="pre">{name}</span> a.b <span class="pre">{number}</span>'
+    assert (
+        context["body"]
+        == f'<span class="pre">{name}</span> a.b <span class="pre">{number}</span>'
+    )
 
 
 def test_docstrings_become_lists_under_bold_titles() -> None:
@@ -111,7 +125,9 @@ def test_signatures_have_names_and_defaults_but_no_types() -> None:
 
     assert reference.signature("train", train).endswith(".drive, 1))")
     assert " at 0x" not in reference.signature("train", train)
-    assert reference.signature("Way", Enum("Way", ["LEFT", "RIGHT"])) == "Way: LEFT, RIGHT"
+    assert (
+        reference.signature("Way", Enum("Way", ["LEFT", "RIGHT"])) == "Way: LEFT, RIGHT"
+    )
 
 
 def test_methods_are_those_a_class_defines_and_documents() -> None:
@@ -144,8 +160,12 @@ def test_methods_are_those_a_class_defines_and_documents() -> None:
 def test_everything_public_is_documented(chapter: str) -> None:
     module = importlib.import_module(f"robonav.{chapter}")
     public = [getattr(module, name) for name in module.__all__]
-    called = [found for found in public if inspect.isclass(found) or inspect.isroutine(found)]
-    assert [found.__name__ for found in called if not reference.own_docstring(found)] == []
+    called = [
+        found for found in public if inspect.isclass(found) or inspect.isroutine(found)
+    ]
+    assert [
+        found.__name__ for found in called if not reference.own_docstring(found)
+    ] == []
 
 
 MYST = """(here)=
@@ -174,20 +194,23 @@ Its caption.
 Secret.
 ```
 
-```{source} robonav.expect.positive
+```{source} robonav.validation.positive
 ```
 """
 
 
 def test_pages_become_plain_markdown() -> None:
     plain = notebooks.plain(MYST)
-    assert "Text (Ng 2000; Abbeel 2004) and Xia 2015: see\n(2.24), (2.1), (2.2), the notes." in plain
+    assert (
+        "Text (Ng 2000; Abbeel 2004) and Xia 2015: see\n(2.24), (2.1), (2.2), the notes."
+        in plain
+    )
     assert "By Theorem 2.2, Table 3.2 and the figure of trials in Notation." in plain
     assert "$$\nV = r \\tag{2.26}\n$$" in plain
     assert "$$\na = b\n$$" in plain
     assert "> **Admonition Mind**\n>\n> A *word* policy." in plain
     assert "![A robot.](picture.png)\n\nIts caption." in plain
-    assert "robonav.expect.positive??" in plain
+    assert "robonav.validation.positive??" in plain
     for left_over in ("Secret", "{", ":::", ":alt:", ":class:", "(here)="):
         assert left_over not in plain.replace("\\tag{2.26}", "")
 
@@ -223,7 +246,9 @@ def test_notebooks_are_valid_reproducible_and_without_outputs(tmp_path: Path) ->
     assert notebook == notebooks.notebook_of(page)
 
 
-def test_a_notebook_that_was_changed_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_notebook_that_was_changed_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "_toc.yml").write_text("root: page\n")
     (tmp_path / "page.md").write_text(PAGE.replace("![A dot.](dot.png)", ""))
     monkeypatch.setattr(notebooks, "ROOT", tmp_path)
@@ -233,7 +258,9 @@ def test_a_notebook_that_was_changed_is_kept(tmp_path: Path, monkeypatch: pytest
     notebooks.write_all(target.parent)
     assert target.read_text() == "mine"
     newer = target.stat().st_mtime + 10
-    monkeypatch.setattr(notebooks, "notebook_of", lambda source: nbformat.v4.new_notebook())
+    monkeypatch.setattr(
+        notebooks, "notebook_of", lambda source: nbformat.v4.new_notebook()
+    )
     os.utime(tmp_path / "page.md", (newer, newer))
     notebooks.write_all(target.parent)
     assert target.read_text() != "mine"
@@ -258,10 +285,20 @@ def test_digest_sees_code_and_names_but_not_byte_code(tmp_path: Path) -> None:
         ("word " * 200, None),
         ("word " * 20, "holds fewer than 400 characters"),
         ("word " * 200 + "Traceback (most recent call last)", "shows a failed cell"),
-        ("word " * 200 + '<div class="system-message">', "shows a directive or role that did not parse"),
+        (
+            "word " * 200 + '<div class="system-message">',
+            "shows a directive or role that did not parse",
+        ),
         ("word " * 200 + "<code>{eq}</code>", "shows an unresolved reference"),
-        ("word " * 200 + "moving $w \\leftarrow w + 1$", "shows a formula that did not parse"),
-        ("word " * 200 + '<span class="math">\\(\\alpha\\)</span><code>\\dots</code>', None),
+        (
+            "word " * 200 + "moving $w \\leftarrow w + 1$",
+            "shows a formula that did not parse",
+        ),
+        (
+            "word " * 200
+            + '<span class="math">\\(\\alpha\\)</span><code>\\dots</code>',
+            None,
+        ),
     ],
 )
 def test_a_page_that_failed_is_found(

@@ -19,16 +19,30 @@ STEPS = np.arange(0, 201, 2)
 
 def run(rate: str, units: str) -> dict[str, Curve]:
     arrivals = np.outer([0.8, 1.0, 1.2], STEPS) * float(rate) / 4 + float(units)
-    return {"cost": Curve(STEPS, np.exp(-float(rate) * STEPS / 50)), "success": Curve(STEPS, arrivals)}
+    return {
+        "cost": Curve(STEPS, np.exp(-float(rate) * STEPS / 50)),
+        "success": Curve(STEPS, arrivals),
+    }
 
 
-RUNS = {(rate, units): run(rate, units) for rate in CONTROLS["rate"] for units in CONTROLS["units"]}
+RUNS = {
+    (rate, units): run(rate, units)
+    for rate in CONTROLS["rate"]
+    for units in CONTROLS["units"]
+}
 GO = threading.Event()
 
 
 def train(choices):
     for done in range(1, 4):
-        yield done, 3, {"cost": Curve(range(done), np.full(done, 0.5)), "success": Curve(range(done), np.full(done, 9))}
+        yield (
+            done,
+            3,
+            {
+                "cost": Curve(range(done), np.full(done, 0.5)),
+                "success": Curve(range(done), np.full(done, 9)),
+            },
+        )
         if choices == ("1", "8"):
             assert GO.wait(60)
     if choices == ("0.5", "8"):
@@ -64,14 +78,21 @@ def status(lab: Locator) -> Locator:
 def test_every_setting_shows_its_own_run(lab, rate, units):
     choose(lab, rate, units)
     track(lab).press("Home")
-    expect(status(lab)).to_have_text(f"Episode 0: cost J 1; success (%) {units} ({units} to {units}).")
+    expect(status(lab)).to_have_text(
+        f"Episode 0: cost J 1; success (%) {units} ({units} to {units})."
+    )
     for _ in range(3):
         track(lab).press("ArrowRight")
     expect(status(lab)).to_contain_text("Episode 6: ")
-    numbers = [float(number) for number in re.findall(r"[\d.]+\d|\d+", status(lab).inner_text())]
+    numbers = [
+        float(number)
+        for number in re.findall(r"[\d.]+\d|\d+", status(lab).inner_text())
+    ]
     curves = RUNS[rate, units]
     cost, arrivals = curves["cost"].values[3], curves["success"].values[:, 3]
-    assert numbers[1:] == pytest.approx([cost, arrivals.mean(), arrivals.min(), arrivals.max()], rel=6e-3)
+    assert numbers[1:] == pytest.approx(
+        [cost, arrivals.mean(), arrivals.min(), arrivals.max()], rel=6e-3
+    )
 
 
 def test_time_moves_by_button_touch_and_play(lab):
@@ -84,14 +105,18 @@ def test_time_moves_by_button_touch_and_play(lab):
     box = picture.bounding_box()
     picture.click(position={"x": box["width"] * 54 / 330 + 2, "y": box["height"] / 2})
     expect(status(lab)).to_contain_text(re.compile("Episode [0-4]: "))
-    expect(picture).to_have_attribute("aria-label", re.compile("cost J over the training; at episode [0-4]: "))
+    expect(picture).to_have_attribute(
+        "aria-label", re.compile("cost J over the training; at episode [0-4]: ")
+    )
 
 
 def test_a_run_is_kept_to_compare(lab):
     choose(lab, "0.1", "2")
     lab.get_by_role("button", name="Keep to compare").click()
     choose(lab, "1", "8")
-    expect(lab.locator(".told")).to_contain_text("Kept (dashed; rate 0.1, units 2): cost J 0.67")
+    expect(lab.locator(".told")).to_contain_text(
+        "Kept (dashed; rate 0.1, units 2): cost J 0.67"
+    )
     expect(status(lab)).to_contain_text("cost J 0.0183")
     lab.get_by_role("button", name="Drop what is kept").click()
     expect(lab.locator(".told")).to_have_text("")
@@ -104,7 +129,10 @@ def test_without_a_kernel_nothing_offers_to_train(lab):
 def test_with_a_kernel_a_run_is_trained_watched_and_cancelled(visit, http):
     lab = mounted(visit, http, widget(), kernel=True)
     note = lab.locator("fieldset [role=status]")
-    cancel, begin = lab.get_by_role("button", name="Cancel"), lab.get_by_role("button", name="Train")
+    cancel, begin = (
+        lab.get_by_role("button", name="Cancel"),
+        lab.get_by_role("button", name="Train"),
+    )
     for rate in ("0.1", "0.5"):  # the least, and one in between
         choose(lab, rate, "2")
         begin.click()

@@ -62,14 +62,22 @@ REPRODUCED = """
 
 
 def results(folder):
-    return {p.name: p.read_bytes() for p in Path(folder).iterdir() if p.is_file() and ".machine." not in p.name}
+    return {
+        p.name: p.read_bytes()
+        for p in Path(folder).iterdir()
+        if p.is_file() and ".machine." not in p.name
+    }
 
 
 def run(script, *arguments, folder):
     path = folder / "on_a_cluster.py"
     path.write_text(textwrap.dedent(script))
     done = subprocess.run(
-        [sys.executable, path, folder / "there", *arguments], capture_output=True, text=True, timeout=900, check=False
+        [sys.executable, path, folder / "there", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=900,
+        check=False,
     )
     assert done.returncode == 0, done.stderr[-3000:]
     return done.stdout
@@ -77,10 +85,16 @@ def run(script, *arguments, folder):
 
 def test_a_cluster_with_a_dying_worker_gives_the_same_bytes(tmp_path):
     said = run(KILLED, folder=tmp_path)
-    here, there = results(tmp_path / "there" / "here"), results(tmp_path / "there" / "there")
+    here, there = (
+        results(tmp_path / "there" / "here"),
+        results(tmp_path / "there" / "there"),
+    )
     assert set(here) == {"slow.csv", "slow.json"}
     assert here == there
-    assert "a run of deadly killed every worker that did it, perhaps for want of memory" in said
+    assert (
+        "a run of deadly killed every worker that did it, perhaps for want of memory"
+        in said
+    )
 
 
 @pytest.fixture(scope="module")
@@ -110,4 +124,6 @@ def test_the_first_seeds_are_those_of_the_committed_results(name, alone):
     for case in range(len(known.cases)):
         for metric in {row.metric for row in quick.rows}:
             again = quick.values(metric, case)
-            assert committed.values(metric, case)[: len(again)] == pytest.approx(again, rel=1e-3), metric
+            assert committed.values(metric, case)[: len(again)] == pytest.approx(
+                again, rel=1e-3
+            ), metric

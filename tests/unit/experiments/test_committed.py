@@ -8,11 +8,19 @@ import pytest
 from scipy import stats
 
 from robonav.experiments import RESULTS, experiment, load_results, names, reproduce
-from robonav.experiments.running import run_unit
-from robonav.experiments.store import FORMAT
+from robonav.experiments.runner.results import FORMAT
+from robonav.experiments.runner.run import run_unit
 
-CHANCE = 1e-5  # that a number of another machine falls outside: two thousand are looked at
-RATES = {"success", "success, cold", "collision", "out of steps", "SPL"}  # per cent of drives
+CHANCE = (
+    1e-5  # that a number of another machine falls outside: two thousand are looked at
+)
+RATES = {
+    "success",
+    "success, cold",
+    "collision",
+    "out of steps",
+    "SPL",
+}  # per cent of drives
 DRIVES = {"leaderboard": 20, "figure-5.10": 20}  # of a quick run; of all others 100
 
 
@@ -29,9 +37,15 @@ def test_committed_results_are_of_the_code_as_it_is(name):
     assert (about["format"], about["scale"]) == (FORMAT, "thesis")
     assert about["settings"] == settled(known.settings)
     rows = load_results(RESULTS, known).rows
-    expected = {(case, seed) for case in range(len(known.cases)) for seed in range(known.seeds["thesis"])}
+    expected = {
+        (case, seed)
+        for case in range(len(known.cases))
+        for seed in range(known.seeds["thesis"])
+    }
     assert {(row.case, row.seed) for row in rows} == expected
-    assert {metric for metric, numbers in known.thesis.items() if any(numbers)} <= {row.metric for row in rows}
+    assert {metric for metric, numbers in known.thesis.items() if any(numbers)} <= {
+        row.metric for row in rows
+    }
 
 
 def foretold(values, runs, drives):
@@ -46,11 +60,15 @@ def foretold(values, runs, drives):
     if drives:
         chance = (drives * mean / 100 + 2) / (drives + 4)
         variance += 1e4 * chance * (1 - chance) / drives
-    reach = stats.t.ppf(1 - CHANCE / 2, len(values) - 1) * math.sqrt(variance / runs + deviation**2 / len(values))
+    reach = stats.t.ppf(1 - CHANCE / 2, len(values) - 1) * math.sqrt(
+        variance / runs + deviation**2 / len(values)
+    )
     return mean - reach, mean + reach
 
 
-@pytest.mark.parametrize("name", [name for name in names() if not experiment(name).shortened])
+@pytest.mark.parametrize(
+    "name", [name for name in names() if not experiment(name).shortened]
+)
 def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_path):
     """All of an experiment, run again on this machine, with this code."""
     known = experiment(name)
@@ -58,7 +76,9 @@ def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_pa
     drives = DRIVES.get(name, 100)
     for case, settings in enumerate(known.cases):
         for metric in sorted({row.metric for row in quick.rows if row.case == case}):
-            again, values = (results.values(metric, case) for results in (quick, committed))
+            again, values = (
+                results.values(metric, case) for results in (quick, committed)
+            )
             assert again.shape[1:] == values.shape[1:], (settings, metric)
             if values.ndim > 1:  # a curve, by its mean
                 again, values = again.mean(axis=1), values.mean(axis=1)
@@ -69,19 +89,27 @@ def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_pa
             assert low <= again.mean() <= high, (settings, metric, values.mean())
 
 
-@pytest.mark.parametrize("name", [name for name in names() if experiment(name).shortened])
+@pytest.mark.parametrize(
+    "name", [name for name in names() if experiment(name).shortened]
+)
 def test_what_is_shortened_gives_the_same_kinds_of_numbers(name):
     known, committed = experiment(name), load_results(RESULTS, experiment(name))
     assert "shorten" not in known.shortened  # it says how
     _, rows, _ = run_unit(known, (0, 0), "quick")
-    assert {row.metric for row in rows} == {row.metric for row in committed.rows if row.case == 0}
+    assert {row.metric for row in rows} == {
+        row.metric for row in committed.rows if row.case == 0
+    }
     assert all(math.isfinite(row.value) for row in rows)
 
 
 def test_a_prediction_by_hand():
     """Of four runs one more: Student's t with three degrees of freedom, sqrt(1 + 1/4) deviations wide."""
     low, high = foretold([90.0, 92, 94, 96], 1, 0)
-    reach = stats.t.ppf(1 - CHANCE / 2, 3) * np.std([90, 92, 94, 96], ddof=1) * math.sqrt(5 / 4)
+    reach = (
+        stats.t.ppf(1 - CHANCE / 2, 3)
+        * np.std([90, 92, 94, 96], ddof=1)
+        * math.sqrt(5 / 4)
+    )
     assert (low, high) == pytest.approx((93 - reach, 93 + reach))
     wider = foretold([90.0, 92, 94, 96], 1, 50)
     assert wider[0] < low < high < wider[1]

@@ -15,14 +15,20 @@ def results(request):
 
 def test_every_combination_is_there_in_the_order_of_its_choices(results):
     offered = labs.offered(results)
-    cases = [tuple(str(choice) for choice in case.values()) for case in results.experiment.cases]
+    cases = [
+        tuple(str(choice) for choice in case.values())
+        for case in results.experiment.cases
+    ]
     assert cases == list(product(*offered.values()))
 
 
 def test_every_number_is_taken_where_it_is_said_to_be(results):
     for metric, steps in labs.STEPS[results.experiment.name].items():
         for case in range(len(results.experiment.cases)):
-            assert results.values(metric, case).shape == (results.experiment.seeds["thesis"], len(steps))
+            assert results.values(metric, case).shape == (
+                results.experiment.seeds["thesis"],
+                len(steps),
+            )
 
 
 @pytest.mark.parametrize(("name", "case"), [("lab-lfd", 3), ("lab-nirl", 0)])
@@ -31,11 +37,15 @@ def test_a_run_comes_out_again(name, case):
     kept = load_results(labs.RESULTS, experiment)
     again = experiment.run(experiment.cases[case], 1, "thesis")
     for metric in labs.STEPS[name]:
-        np.testing.assert_allclose(kept.values(metric, case)[1], again[metric], rtol=1e-6, err_msg=metric)
+        np.testing.assert_allclose(
+            kept.values(metric, case)[1], again[metric], rtol=1e-6, err_msg=metric
+        )
 
 
 def test_a_quick_run_is_a_short_one():
     experiment = labs.EXPERIMENTS[1]
     numbers = experiment.run(experiment.cases[0], 0, "quick")
     assert 0 < len(numbers["success"]) <= len(labs.STEPS["lab-nnql"]["success"])
-    np.testing.assert_allclose(numbers["success"] + numbers["collision"] <= 100 + 1e-9, True)
+    np.testing.assert_allclose(
+        numbers["success"] + numbers["collision"] <= 100 + 1e-9, True
+    )

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from robonav.experiments import RESULTS, experiment, load_results
-from robonav.experiments.report import short
+from robonav.experiments.runner.report import short
 
 BOOK = Path(__file__).parents[3] / "book"
 PAGE = (BOOK / "reproduction.md").read_text() if BOOK.is_dir() else ""
@@ -41,7 +41,15 @@ QUOTED = [  # what a row says first, experiment, metric, case, what is quoted: m
 def test_what_a_row_quotes_is_what_was_measured(row, name, metric, wanted, which, form):
     (line,) = [line for line in PAGE.splitlines() if line.startswith(f"| {row}")]
     results = load_results(RESULTS, experiment(name))
-    fitting = [place for place, case in enumerate(results.experiment.cases) if wanted.items() <= case.items()]
+    fitting = [
+        place
+        for place, case in enumerate(results.experiment.cases)
+        if wanted.items() <= case.items()
+    ]
     summary = results.summary(metric, fitting[which])
-    shown = short(summary).replace(" [", " % [") if form == "interval" else f"{getattr(summary, form):.1f}"
+    shown = (
+        short(summary).replace(" [", " % [")
+        if form == "interval"
+        else f"{getattr(summary, form):.1f}"
+    )
     assert shown in line

@@ -1,11 +1,19 @@
 """Tables of results for people."""
 
 from robonav.experiments import Experiment, Results
-from robonav.experiments.experiment import Row
-from robonav.experiments.report import as_json, as_markdown, as_table, as_text, short
-from robonav.experiments.statistics import summarise
+from robonav.experiments.runner.experiment import Row
+from robonav.experiments.runner.report import (
+    as_json,
+    as_markdown,
+    as_table,
+    as_text,
+    short,
+)
+from robonav.experiments.runner.statistics import summarise
 
-CASES = [{"method": m, "obstacles": n, "speed": 2.0} for m in ("a", "b") for n in (10, 20)]
+CASES = [
+    {"method": m, "obstacles": n, "speed": 2.0} for m in ("a", "b") for n in (10, 20)
+]
 EXPERIMENT = Experiment(
     name="table-0.0",
     title="A made-up table",
@@ -18,9 +26,19 @@ EXPERIMENT = Experiment(
 
 def results() -> Results:
     """Two seeds; the last case has a metric of its own and lacks another."""
-    rows = [Row(case, seed, "success", 0, 90.0 - 10 * case + 2 * seed) for case in range(4) for seed in range(2)]
-    rows += [Row(case, seed, "length", 0, 100.0) for case in range(3) for seed in range(2)]
-    rows += [Row(0, seed, "curve", step, float(step)) for seed in range(2) for step in range(3)]
+    rows = [
+        Row(case, seed, "success", 0, 90.0 - 10 * case + 2 * seed)
+        for case in range(4)
+        for seed in range(2)
+    ]
+    rows += [
+        Row(case, seed, "length", 0, 100.0) for case in range(3) for seed in range(2)
+    ]
+    rows += [
+        Row(0, seed, "curve", step, float(step))
+        for seed in range(2)
+        for step in range(3)
+    ]
     return Results(EXPERIMENT, "quick", tuple(rows))
 
 
@@ -33,14 +51,19 @@ def test_markdown_shows_what_varies_ours_and_the_thesis():
 
 
 def test_a_table_of_two_dimensions():
-    lines = as_table(results(), "length", rows="method", columns="obstacles").splitlines()
+    lines = as_table(
+        results(), "length", rows="method", columns="obstacles"
+    ).splitlines()
     assert lines[0] == "| method | 10 | 20 |"
     assert lines[3] == "| b | 100.0 [100.0, 100.0] |  |"
 
 
 def test_a_case_without_a_metric_is_no_error():
     shown = as_json([results()])[0]["cases"]
-    assert set(shown[0]["metrics"]) == {"success", "length"}  # a curve is no single number
+    assert set(shown[0]["metrics"]) == {
+        "success",
+        "length",
+    }  # a curve is no single number
     assert set(shown[3]["metrics"]) == {"success"}
     assert "b, obstacles 20" in as_text(results())
 

@@ -14,20 +14,26 @@ import pytest
 
 from robonav.errors import WorkerLost
 from robonav.experiments import Experiment, experiment, load_results, names, reproduce
-from robonav.experiments.running import _on_worker
-from robonav.experiments.store import code, load_run, run_file
+from robonav.experiments.runner.results import code, load_run, run_file
+from robonav.experiments.runner.run import _on_worker
 
 
 def roll(case, seed, scale):
     rng = np.random.default_rng([seed, case["sides"]])
-    return {"throws": rng.integers(1, case["sides"] + 1, 5).astype(float), "mean": rng.random() / 3}
+    return {
+        "throws": rng.integers(1, case["sides"] + 1, 5).astype(float),
+        "mean": rng.random() / 3,
+    }
 
 
 def toy(run=roll, **changes):
     settings = {
         "name": "toy",
         "title": "Dice",
-        "cases": [{"sides": 6, "kind": "plain"}, {"sides": 20, "kind": "odd, and quoted"}],
+        "cases": [
+            {"sides": 6, "kind": "plain"},
+            {"sides": 20, "kind": "odd, and quoted"},
+        ],
         "run": run,
         "seeds": {"quick": 4, "thesis": 40},
     }
@@ -35,7 +41,11 @@ def toy(run=roll, **changes):
 
 
 def content(folder):
-    return {p.name: p.read_bytes() for p in Path(folder).iterdir() if p.is_file() and ".machine." not in p.name}
+    return {
+        p.name: p.read_bytes()
+        for p in Path(folder).iterdir()
+        if p.is_file() and ".machine." not in p.name
+    }
 
 
 def test_results_read_back(tmp_path):
@@ -45,7 +55,9 @@ def test_results_read_back(tmp_path):
     assert back.rows == results.rows
     assert results.values("throws", 1).shape == (4, 5)
     assert results.values("mean", 0).shape == (4,)
-    np.testing.assert_array_equal(results.values("throws", 1)[2], roll({"sides": 20}, 2, "quick")["throws"])
+    np.testing.assert_array_equal(
+        results.values("throws", 1)[2], roll({"sides": 20}, 2, "quick")["throws"]
+    )
 
 
 def test_workers_do_not_change_a_byte(tmp_path):
@@ -56,7 +68,9 @@ def test_workers_do_not_change_a_byte(tmp_path):
 
 def test_progress_counts_every_run(tmp_path):
     seen = []
-    reproduce(toy(), tmp_path, jobs=1, progress=lambda done, total: seen.append((done, total)))
+    reproduce(
+        toy(), tmp_path, jobs=1, progress=lambda done, total: seen.append((done, total))
+    )
     assert seen == [(done, 8) for done in range(9)]
 
 
@@ -71,14 +85,20 @@ def test_finished_runs_are_not_run_again(tmp_path):
     assert content(tmp_path) == before
 
 
-@pytest.mark.parametrize("damage", [b"", b"{", b'{"rows": [], "sha256": "0", "seconds": 1}', "truncate", "digit"])
+@pytest.mark.parametrize(
+    "damage",
+    [b"", b"{", b'{"rows": [], "sha256": "0", "seconds": 1}', "truncate", "digit"],
+)
 def test_a_damaged_run_is_noticed_and_run_again(tmp_path, damage):
     reproduce(toy(), tmp_path, jobs=1)
     before = content(tmp_path)
     path = run_file(tmp_path, toy(), "quick", 1, 2)
     whole = path.read_bytes()
     at = whole.index(b"0.")
-    broken = {"truncate": whole[: len(whole) // 2], "digit": whole[: at + 3] + b"7" + whole[at + 4 :]}
+    broken = {
+        "truncate": whole[: len(whole) // 2],
+        "digit": whole[: at + 3] + b"7" + whole[at + 4 :],
+    }
     path.write_bytes(broken.get(damage, damage) if isinstance(damage, str) else damage)
     assert load_run(path) is None
     reproduce(toy(), tmp_path, jobs=1)
@@ -120,13 +140,18 @@ def test_a_killed_experiment_goes_on_where_it_was(tmp_path):
             reproduce(slowly, sys.argv[1], jobs=1)
         """)
     )
-    reference = subprocess.run([sys.executable, script, tmp_path / "whole"], capture_output=True, text=True)
+    reference = subprocess.run(
+        [sys.executable, script, tmp_path / "whole"], capture_output=True, text=True
+    )
     assert reference.returncode == 0, reference.stderr
     cut = tmp_path / "cut"
     for number in range(3):
         started = subprocess.Popen([sys.executable, script, cut])
         deadline = time.monotonic() + 60
-        while len(list(cut.rglob("*-*.json"))) <= 2 * number and time.monotonic() < deadline:
+        while (
+            len(list(cut.rglob("*-*.json"))) <= 2 * number
+            and time.monotonic() < deadline
+        ):
             time.sleep(0.02)
         os.kill(started.pid, signal.SIGKILL)
         started.wait()
@@ -143,7 +168,10 @@ def test_a_killed_experiment_goes_on_where_it_was(tmp_path):
         ({"scale": "huge"}, "scale must be one of quick, thesis"),
         ({"backend": "ray"}, "backend must be one of joblib, dask"),
         ({"backend": "dask"}, "scheduler must be the address"),
-        ({"scheduler": "tcp://127.0.0.1:8786"}, "scheduler must come with backend dask"),
+        (
+            {"scheduler": "tcp://127.0.0.1:8786"},
+            "scheduler must come with backend dask",
+        ),
         ({"jobs": 0}, "jobs must be a number of processes"),
     ],
 )
@@ -179,7 +207,9 @@ def test_a_run_that_always_kills_its_process_is_one_sentence(tmp_path):
     def deadly(case, seed, scale):
         os.kill(os.getpid(), signal.SIGKILL)
 
-    with pytest.raises(WorkerLost, match="toy lost 4 processes, perhaps for want of memory"):
+    with pytest.raises(
+        WorkerLost, match="toy lost 4 processes, perhaps for want of memory"
+    ):
         reproduce(toy(deadly), tmp_path, jobs=2)
 
 
@@ -191,7 +221,7 @@ def test_a_worker_with_other_code_is_refused():
 
 def test_a_run_kept_from_other_code_is_run_again(tmp_path, monkeypatch):
     before = run_file(tmp_path, toy(), "quick", 0, 0)
-    monkeypatch.setattr("robonav.experiments.store.code", lambda: "another")
+    monkeypatch.setattr("robonav.experiments.runner.results.code", lambda: "another")
     assert run_file(tmp_path, toy(), "quick", 0, 0) != before
 
 
@@ -208,8 +238,10 @@ def test_the_machine_is_told(tmp_path):
 
 
 def test_a_scheduler_that_does_not_answer_is_one_sentence(tmp_path, monkeypatch):
-    monkeypatch.setattr("robonav.experiments.running.ANSWER", 0.5)
-    with pytest.raises(ValueError, match="scheduler must be the address of one that answers, got tcp"):
+    monkeypatch.setattr("robonav.experiments.runner.run.ANSWER", 0.5)
+    with pytest.raises(
+        ValueError, match="scheduler must be the address of one that answers, got tcp"
+    ):
         reproduce(toy(), tmp_path, backend="dask", scheduler="tcp://127.0.0.1:1")
 
 
@@ -229,7 +261,9 @@ def test_experiments_that_make_no_sense_are_refused(changes, message):
 
 def test_a_run_that_gives_no_number_is_refused(tmp_path):
     with pytest.raises(ValueError, match="mean must hold finite numbers"):
-        reproduce(toy(lambda case, seed, scale: {"mean": float("nan")}), tmp_path, jobs=1)
+        reproduce(
+            toy(lambda case, seed, scale: {"mean": float("nan")}), tmp_path, jobs=1
+        )
 
 
 def test_the_catalogue(tmp_path):

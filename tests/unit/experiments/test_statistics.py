@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from robonav.experiments import Improvement, bootstrap_interval, probability_of_improvement, summarise
+from robonav.experiments import (
+    Improvement,
+    bootstrap_interval,
+    probability_of_improvement,
+    summarise,
+)
 
 
 def test_a_summary_by_hand():
@@ -17,7 +22,13 @@ def test_a_summary_by_hand():
 def test_the_interval_is_the_percentile_bootstrap_of_the_mean():
     values = np.random.default_rng(1).normal(90, 3, 40)
     low, high = bootstrap_interval(values)
-    theirs = stats.bootstrap((values,), np.mean, method="percentile", n_resamples=20_000, rng=np.random.default_rng(2))
+    theirs = stats.bootstrap(
+        (values,),
+        np.mean,
+        method="percentile",
+        n_resamples=20_000,
+        rng=np.random.default_rng(2),
+    )
     np.testing.assert_allclose([low, high], theirs.confidence_interval, atol=0.05)
 
 
@@ -33,7 +44,9 @@ def test_the_interval_covers_the_truth_about_as_often_as_it_says():
 def test_more_seeds_a_narrower_interval_more_episodes_none():
     """The unit is the seed: four numbers stay four, however many navigations stand behind each."""
     few, many = np.array([80.0, 90, 85, 95]), np.tile([80.0, 90, 85, 95], 25)
-    width = [high - low for low, high in (bootstrap_interval(few), bootstrap_interval(many))]
+    width = [
+        high - low for low, high in (bootstrap_interval(few), bootstrap_interval(many))
+    ]
     assert width[1] < width[0] / 3
 
 
@@ -62,7 +75,12 @@ def test_the_interval_of_an_improvement_draws_runs_of_both_methods_anew():
         return (ours[..., :, None] > theirs[..., None, :]).mean(axis=(-2, -1))
 
     low, high = stats.bootstrap(
-        (a, b), wins, method="percentile", n_resamples=4_000, rng=np.random.default_rng(5), batch=100
+        (a, b),
+        wins,
+        method="percentile",
+        n_resamples=4_000,
+        rng=np.random.default_rng(5),
+        batch=100,
     ).confidence_interval
     got = probability_of_improvement(a, b)
     np.testing.assert_allclose([got.low, got.high], [low, high], atol=0.01)

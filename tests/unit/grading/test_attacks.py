@@ -161,9 +161,11 @@ TAMPERS = {
         except OSError: pass
         def improve(*a): return 0
     """,
-    "sends what is no reply": SENDS + "    def improve(*a): send(frame('ready')); return 0",
+    "sends what is no reply": SENDS
+    + "    def improve(*a): send(frame('ready')); return 0",
     "sends noise": SENDS + "    def improve(*a): send(os.urandom(4096)); return 0",
-    "declares a huge frame": SENDS + "    def improve(*a): send(struct.pack('>II', 2**31, 2**31)); return 0",
+    "declares a huge frame": SENDS
+    + "    def improve(*a): send(struct.pack('>II', 2**31, 2**31)); return 0",
     "declares a huge array": SENDS
     + """
     def improve(*a):
@@ -365,7 +367,8 @@ RESOURCES = {
     "an answer too large": "import numpy as np\ndef improve(*a): return np.zeros(1 << 24)",
     "a string too large": "def improve(*a): return 'x' * (1 << 26)",
     "endless output": "import sys\ndef improve(*a):\n    while True: sys.stdout.write('x' * 65536)",
-    "endless answers": SENDS + "    def improve(*a):\n        while True: send(b'x' * 65536)",
+    "endless answers": SENDS
+    + "    def improve(*a):\n        while True: send(b'x' * 65536)",
     "a full disk": """
         def improve(*a):
             files = []
@@ -423,7 +426,11 @@ def tiers():
     """Each tier that can run here, and an interpreter that it can read; the official one always."""
     yield "official", None
     for python in (None, "/usr/bin/python3"):
-        if hasattr(os, "geteuid") and os.geteuid() == 0 and probe.fault("restricted", python) is None:
+        if (
+            hasattr(os, "geteuid")
+            and os.geteuid() == 0
+            and probe.fault("restricted", python) is None
+        ):
             yield "restricted", python
             break
     yield "practice", None
@@ -431,7 +438,9 @@ def tiers():
 
 def cases():
     for tier, python in tiers():
-        for name, source in {name: source for kind in KINDS[tier] for name, source in kind.items()}.items():
+        for name, source in {
+            name: source for kind in KINDS[tier] for name, source in kind.items()
+        }.items():
             if tier != "practice" or name not in NOT_IN_PRACTICE:
                 yield pytest.param(tier, python, source, id=f"{tier}-{name}")
 
@@ -439,7 +448,12 @@ def cases():
 def submitted(source):
     constants = f"PATH = {str(COURSE.solutions / ATTACKED.file)!r}\nROOT = {str(COURSE.root)!r}\n"
     honest = (COURSE.solutions / HONEST.file).read_bytes()
-    return Submission({ATTACKED.file: (constants + textwrap.dedent(source)).encode(), HONEST.file: honest})
+    return Submission(
+        {
+            ATTACKED.file: (constants + textwrap.dedent(source)).encode(),
+            HONEST.file: honest,
+        }
+    )
 
 
 def attack(tier, python, source):
@@ -447,7 +461,10 @@ def attack(tier, python, source):
     session = Session(submitted(source), tier, limits=LIMITS, python=python)
     start = time.monotonic()
     try:
-        grades = [graded(COURSE, exercise, session, Solutions(COURSE)) for exercise in (ATTACKED, HONEST)]
+        grades = [
+            graded(COURSE, exercise, session, Solutions(COURSE))
+            for exercise in (ATTACKED, HONEST)
+        ]
     finally:
         session.close()
     return *grades, time.monotonic() - start
@@ -457,10 +474,15 @@ def attack(tier, python, source):
 def attacks(request):
     """The attacks that were selected, several at once: most of their time is waiting for a deadline."""
     selected = [
-        item.callspec.params for item in request.session.items if "attacks" in getattr(item, "fixturenames", ())
+        item.callspec.params
+        for item in request.session.items
+        if "attacks" in getattr(item, "fixturenames", ())
     ]
     with ThreadPoolExecutor(4) as pool:
-        yield {tuple(p.values()): pool.submit(attack, p["tier"], p["python"], p["source"]) for p in selected}
+        yield {
+            tuple(p.values()): pool.submit(attack, p["tier"], p["python"], p["source"])
+            for p in selected
+        }
 
 
 @pytest.mark.parametrize(("tier", "python", "source"), list(cases()))
@@ -468,7 +490,9 @@ def test_an_attack_earns_nothing_and_harms_nobody(tier, python, source, attacks)
     if tier == "official" and (fault := probe.fault(tier)):
         pytest.skip(fault)
     attacked, honest, seconds = attacks[tier, python, source].result()
-    assert attacked["state"] not in ("correct", "partial", "grader-fault"), attacked["feedback"]
+    assert attacked["state"] not in ("correct", "partial", "grader-fault"), attacked[
+        "feedback"
+    ]
     assert attacked["points"] == 0
     assert honest["state"] == "correct", honest["feedback"]
     assert seconds < LIMITS.exercise_seconds + SLACK

@@ -37,7 +37,12 @@ def test_a_stub_has_everything_but_the_solution():
 
 
 @pytest.mark.parametrize(
-    "source", ["def add(x): pass", SOURCE.replace("    ### END SOLUTION\n", ""), SOURCE + "### END SOLUTION\n"]
+    "source",
+    [
+        "def add(x): pass",
+        SOURCE.replace("    ### END SOLUTION\n", ""),
+        SOURCE + "### END SOLUTION\n",
+    ],
 )
 def test_a_source_without_marks_is_named(source):
     with pytest.raises(ValueError, match="add must have its solution between"):
@@ -48,10 +53,14 @@ def test_what_is_in_the_repository_is_up_to_date():
     assert build.outdated(COURSE) == []
 
 
-@pytest.mark.parametrize("exercise", COURSE.exercises.values(), ids=lambda exercise: exercise.name)
+@pytest.mark.parametrize(
+    "exercise", COURSE.exercises.values(), ids=lambda exercise: exercise.name
+)
 def test_every_stub_has_a_signature_with_types_and_says_its_shapes(exercise):
     text = (COURSE.stubs / exercise.file).read_text()
-    (function,) = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)]
+    (function,) = [
+        node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)
+    ]
     assert function.name == exercise.name
     assert function.returns is not None
     assert all(argument.annotation for argument in function.args.args)
@@ -66,20 +75,34 @@ def test_every_stub_has_a_signature_with_types_and_says_its_shapes(exercise):
 def test_the_manifest_has_six_exercises_a_chapter_of_every_kind():
     for chapter, exercises in COURSE.chapters():
         assert len(exercises) >= 6, chapter
-        assert {exercise.difficulty for exercise in exercises} == {"warm-up", "exercise", "project"}
+        assert {exercise.difficulty for exercise in exercises} == {
+            "warm-up",
+            "exercise",
+            "project",
+        }
 
 
 @pytest.mark.parametrize("chapter", [chapter for chapter, _ in COURSE.chapters()])
 def test_notebooks_are_valid_and_carry_what_nbgrader_reads(chapter):
     handed_out = nbformat.read(COURSE.stubs / f"{chapter}.ipynb", as_version=4)
-    source = nbformat.read(COURSE.solutions / f"nbgrader/source/{chapter}/{chapter}.ipynb", as_version=4)
+    source = nbformat.read(
+        COURSE.solutions / f"nbgrader/source/{chapter}/{chapter}.ipynb", as_version=4
+    )
     for notebook in (handed_out, source):
         nbformat.validate(notebook)
-        graded = [cell.metadata.nbgrader for cell in notebook.cells if cell.cell_type == "code"]
+        graded = [
+            cell.metadata.nbgrader
+            for cell in notebook.cells
+            if cell.cell_type == "code"
+        ]
         assert len({meta.grade_id for meta in graded}) == len(graded)
         points = sum(meta.points for meta in graded if meta.grade)
-        assert points == sum(e.points for e in COURSE.exercises.values() if e.chapter == chapter)
-        assert all(meta.solution != meta.grade and meta.schema_version == 3 for meta in graded)
+        assert points == sum(
+            e.points for e in COURSE.exercises.values() if e.chapter == chapter
+        )
+        assert all(
+            meta.solution != meta.grade and meta.schema_version == 3 for meta in graded
+        )
     assert "BEGIN SOLUTION" not in json.dumps(handed_out)
     assert json.dumps(source).count("BEGIN SOLUTION") == len(source.cells) // 3
     taken = definitions((COURSE.stubs / f"{chapter}.ipynb").read_bytes())
@@ -89,12 +112,19 @@ def test_notebooks_are_valid_and_carry_what_nbgrader_reads(chapter):
 
 def test_building_writes_what_differs_and_removes_what_has_no_source(tmp_path):
     for folder in ("solutions", "tests/exercises", "exercises"):
-        subprocess.run(["cp", "-r", "--parents", folder, tmp_path], cwd=COURSE.root, check=True)
+        subprocess.run(
+            ["cp", "-r", "--parents", folder, tmp_path], cwd=COURSE.root, check=True
+        )
     (tmp_path / "exercises/ch2/improve.py").write_text("spoiled")
     (tmp_path / "exercises/ch2/old.py").write_text("")
     (tmp_path / "exercises/ch2.ipynb").unlink()
     stale = ["exercises/ch2.ipynb", "exercises/ch2/improve.py", "exercises/ch2/old.py"]
-    check = subprocess.run([ROBONAV, "exercises", "build", "--check"], cwd=tmp_path, capture_output=True, text=True)
+    check = subprocess.run(
+        [ROBONAV, "exercises", "build", "--check"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+    )
     assert check.returncode == 1
     assert [line for line in check.stdout.splitlines() if "out of date" in line] == [
         f"out of date: {name}" for name in stale
@@ -107,26 +137,48 @@ def test_building_writes_what_differs_and_removes_what_has_no_source(tmp_path):
 def test_a_student_with_the_zip_alone_checks_an_answer(tmp_path):
     build.students_zip(COURSE, tmp_path / "students.zip")
     build.students_zip(COURSE, tmp_path / "again.zip")
-    assert (tmp_path / "students.zip").read_bytes() == (tmp_path / "again.zip").read_bytes()
+    assert (tmp_path / "students.zip").read_bytes() == (
+        tmp_path / "again.zip"
+    ).read_bytes()
     with zipfile.ZipFile(tmp_path / "students.zip") as archive:
         assert not [name for name in archive.namelist() if "solution" in name]
-        assert not [name for name in archive.namelist() if b"### BEGIN" in archive.read(name)]
+        assert not [
+            name for name in archive.namelist() if b"### BEGIN" in archive.read(name)
+        ]
         archive.extractall(tmp_path)
     home = tmp_path / "robonav-exercises"
 
     def check(*arguments):
-        done = subprocess.run([ROBONAV, "check", *arguments], cwd=home, capture_output=True, text=True, timeout=120)
+        done = subprocess.run(
+            [ROBONAV, "check", *arguments],
+            cwd=home,
+            capture_output=True,
+            text=True,
+            timeout=120,
+        )
         return done.returncode, done.stdout + done.stderr
 
     code, said = check("2.2")
-    assert (code, "Not begun yet: write improve in exercises/ch2/improve.py" in said) == (1, True)
+    assert (
+        code,
+        "Not begun yet: write improve in exercises/ch2/improve.py" in said,
+    ) == (1, True)
     stub = (home / "exercises/ch2/improve.py").read_text()
     (home / "exercises/ch2/improve.py").write_text(
         stub.replace('raise NotImplementedError("improve is yours to write")', TRY)
     )
     code, said = check("2.2")
-    documented = (COURSE.root / "book/students.md").read_text().split("```text\n")[1].partition("```")[0]
-    assert [line for line in documented.splitlines() if "…" not in line and line not in said.splitlines()] == []
+    documented = (
+        (COURSE.root / "book/students.md")
+        .read_text()
+        .split("```text\n")[1]
+        .partition("```")[0]
+    )
+    assert [
+        line
+        for line in documented.splitlines()
+        if "…" not in line and line not in said.splitlines()
+    ] == []
     assert len(documented.splitlines()) == len(said.splitlines())
     answer = (COURSE.solutions / "ch2/improve.py").read_text()
     (home / "exercises/ch2/improve.py").write_text(answer.replace("> tolerance", "> 0"))
@@ -156,13 +208,21 @@ def test_a_cell_of_the_notebook_checks_an_answer(capsys):
     ("arguments", "sentence"),
     [
         (["check", "9.9"], "no exercise '9.9'"),
-        (["grade", "/nowhere", "--out", "/tmp/never", "--practice"], "must be a folder of submissions"),
-        (["grade", ".", "--out", "/tmp/never", "--secret", "/nowhere"], "the secret cannot be read"),
+        (
+            ["grade", "/nowhere", "--out", "/tmp/never", "--practice"],
+            "must be a folder of submissions",
+        ),
+        (
+            ["grade", ".", "--out", "/tmp/never", "--secret", "/nowhere"],
+            "the secret cannot be read",
+        ),
         (["check", "--submission", "/nowhere"], "must be a folder, a zip"),
     ],
 )
 def test_a_wrong_input_is_one_line_and_code_2(arguments, sentence):
-    done = subprocess.run([ROBONAV, *arguments], capture_output=True, text=True, cwd=COURSE.root)
+    done = subprocess.run(
+        [ROBONAV, *arguments], capture_output=True, text=True, cwd=COURSE.root
+    )
     assert done.returncode == 2
     assert sentence in done.stderr
     assert "Traceback" not in done.stderr

@@ -34,7 +34,11 @@ def folder(tmp_path):
     """Six students: full points in 2.2, a name that is a formula, one that is markup, an attack, a zip, nothing."""
     place = tmp_path / "class"
     place.mkdir()
-    for name, text in {"anna": PASSES, "=1+1": PASSES.replace(">", "<"), "carl": "import os\nos._exit(0)"}.items():
+    for name, text in {
+        "anna": PASSES,
+        "=1+1": PASSES.replace(">", "<"),
+        "carl": "import os\nos._exit(0)",
+    }.items():
         (place / name / "ch2").mkdir(parents=True)
         (place / name / "ch2/improve.py").write_text(text)
     (place / "<b>bo<").mkdir()
@@ -42,7 +46,9 @@ def folder(tmp_path):
     (place / "eve").mkdir()
     with zipfile.ZipFile(place / "döra.zip", "w") as archive:
         archive.writestr("ch2/improve.py", PASSES)
-    (place / "<b>bo<" / "improve.py").write_text("def improve(*a): raise ValueError('<script>alert(1)</script>')")
+    (place / "<b>bo<" / "improve.py").write_text(
+        "def improve(*a): raise ValueError('<script>alert(1)</script>')"
+    )
     (place / ".DS_Store").write_text("")
     (place / "readme.txt").write_text("")
     (place / "<fay>.rar").write_text("")
@@ -56,7 +62,9 @@ def course(tmp_path):
     for part in ("tests/exercises", "solutions/ch2", "solutions/wrong/ch2"):
         shutil.copytree(COURSE.root / part, place / part)
     manifest = place / "tests/exercises/manifest.toml"
-    manifest.write_text("[[exercise]]".join(manifest.read_text().split("[[exercise]]")[:4]))
+    manifest.write_text(
+        "[[exercise]]".join(manifest.read_text().split("[[exercise]]")[:4])
+    )
     return Course(place)
 
 
@@ -67,7 +75,11 @@ def quick(monkeypatch):
 
     def count(marking, taken, ids=()):
         marked.append((len(taken.files), tuple(ids)))
-        exercises = [exercise for exercise in COURSE.exercises.values() if not ids or exercise.id in ids]
+        exercises = [
+            exercise
+            for exercise in COURSE.exercises.values()
+            if not ids or exercise.id in ids
+        ]
         entries = [
             {
                 "id": e.id,
@@ -78,14 +90,22 @@ def quick(monkeypatch):
             }
             for e in exercises
         ]
-        return {"points": 0, "max_points": 44, "tier": marking.tier, "exercises": entries}
+        return {
+            "points": 0,
+            "max_points": 44,
+            "tier": marking.tier,
+            "exercises": entries,
+        }
 
     monkeypatch.setattr(classroom, "mark", count)
     return marked
 
 
 def records(out):
-    return {path.parent.name: json.loads(path.read_text()) for path in out.glob("students/*/grade.json")}
+    return {
+        path.parent.name: json.loads(path.read_text())
+        for path in out.glob("students/*/grade.json")
+    }
 
 
 def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_path):
@@ -93,7 +113,11 @@ def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_pat
         pytest.skip(fault)
     out, seen = tmp_path / "out", []
     grade_class(
-        Marking(course, "official"), folder, out, jobs=2, progress=lambda done, total: seen.append((done, total))
+        Marking(course, "official"),
+        folder,
+        out,
+        jobs=2,
+        progress=lambda done, total: seen.append((done, total)),
     )
     assert seen == [(n, 6) for n in range(1, 7)]
     graded = records(out)
@@ -101,11 +125,22 @@ def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_pat
         "anna": 4, "=1+1": 0, "<b>bo<": 0, "carl": 0, "döra": 4, "eve": 0,
     }  # fmt: skip
     states = {name: record["exercises"][1]["state"] for name, record in graded.items()}
-    assert (states["carl"], states["<b>bo<"], states["eve"]) == ("error", "error", "missing")
+    assert (states["carl"], states["<b>bo<"], states["eve"]) == (
+        "error",
+        "error",
+        "missing",
+    )
 
     with (out / "gradebook.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    assert [row["student"] for row in rows] == ["<b>bo<", "'=1+1", "anna", "carl", "döra", "eve"]
+    assert [row["student"] for row in rows] == [
+        "<b>bo<",
+        "'=1+1",
+        "anna",
+        "carl",
+        "döra",
+        "eve",
+    ]
     assert [row["points"] for row in rows] == ["0", "0", "4", "0", "4", "0"]
     assert rows[2]["2.2"] == "4"
 
@@ -113,7 +148,10 @@ def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_pat
     assert "<b>bo" not in overview
     assert "&lt;b&gt;bo" in overview
     assert "students/anna/feedback.html" in overview
-    assert "no folder, zip, notebook or Python file: &lt;fay&gt;.rar, readme.txt." in overview
+    assert (
+        "no folder, zip, notebook or Python file: &lt;fay&gt;.rar, readme.txt."
+        in overview
+    )
     assert "students/%3D1%2B1/feedback.html" in overview
     feedback = (out / "students" / "<b>bo<" / "feedback.html").read_text()
     assert "<script>" not in feedback
@@ -122,7 +160,10 @@ def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_pat
     results = json.loads((out / "students/anna/results.json").read_text())
     assert results["score"] == 4
     assert sum(test["score"] for test in results["tests"]) == 4
-    assert sum(test["max_score"] for test in results["tests"]) == graded["anna"]["max_points"]
+    assert (
+        sum(test["max_score"] for test in results["tests"])
+        == graded["anna"]["max_points"]
+    )
     suite = ElementTree.parse(out / "students/anna/junit.xml").getroot()
     assert suite.get("failures") == "2"
     assert len(suite.findall("testcase/failure")) == 2
@@ -156,8 +197,13 @@ def test_a_fault_of_the_grader_is_graded_again(folder, tmp_path, quick, monkeypa
     grade_class(HERE, folder, out, jobs=1)
     assert "2.1" in (out / "gradebook.csv").read_text().splitlines()[3]
     assert "To be graded again" in (out / "students/anna/feedback.html").read_text()
-    assert "2.1" in json.loads((out / "students/anna/results.json").read_text())["output"]
-    assert ElementTree.parse(out / "students/anna/junit.xml").getroot().get("errors") == "1"
+    assert (
+        "2.1" in json.loads((out / "students/anna/results.json").read_text())["output"]
+    )
+    assert (
+        ElementTree.parse(out / "students/anna/junit.xml").getroot().get("errors")
+        == "1"
+    )
     monkeypatch.setattr(classroom, "mark", honest)
     grade_class(HERE, folder, out, jobs=1)
     assert len(quick) == 6 + 2
@@ -175,7 +221,11 @@ def test_one_student_or_one_exercise_again(folder, tmp_path, quick):
     after = records(out)
     for name, record in after.items():
         changed = [
-            new["id"] for new, old in zip(record["exercises"], before[name]["exercises"], strict=True) if new != old
+            new["id"]
+            for new, old in zip(
+                record["exercises"], before[name]["exercises"], strict=True
+            )
+            if new != old
         ]
         assert changed == (list(COURSE.exercises) if name == "carl" else ["2.3"])
     grade_class(HERE, folder, out, jobs=1, again=["anna"], ids=["2.1"])
@@ -187,9 +237,13 @@ def test_a_scheduler_gets_a_few_submissions_at_once(tmp_path, quick, monkeypatch
     place, out, held = tmp_path / "class", tmp_path / "out", []
     for number in range(20):
         (place / f"student{number:02}").mkdir(parents=True)
-    with distributed.LocalCluster(1, threads_per_worker=1, processes=False, dashboard_address=":0") as cluster:
+    with distributed.LocalCluster(
+        1, threads_per_worker=1, processes=False, dashboard_address=":0"
+    ) as cluster:
         read = classroom.submission.taken
-        monkeypatch.setattr(classroom.submission, "taken", lambda path: held.append(path) or read(path))
+        monkeypatch.setattr(
+            classroom.submission, "taken", lambda path: held.append(path) or read(path)
+        )
         seen = []
         grade_class(
             HERE,
@@ -230,7 +284,10 @@ def test_an_unknown_student_is_named(folder, tmp_path):
 
 
 def test_two_runs_do_not_meet(folder, tmp_path):
-    with classroom._alone(tmp_path / "out"), pytest.raises(ValueError, match="another run"):
+    with (
+        classroom._alone(tmp_path / "out"),
+        pytest.raises(ValueError, match="another run"),
+    ):
         grade_class(HERE, folder, tmp_path / "out")
 
 
@@ -247,8 +304,16 @@ def test_an_exception_in_the_grader_is_a_fault_not_a_crash(monkeypatch):
 def documented():
     """The points that the instructors' page gives for the example class."""
     page = (COURSE.root / "book/instructors.md").read_text()
-    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("| ")]
-    return {row[0]: [int(points) for points in row[1:5]] for row in rows if len(row) == 6 and row[1].isdigit()}
+    rows = [
+        [cell.strip() for cell in line.split("|")[1:-1]]
+        for line in page.splitlines()
+        if line.startswith("| ")
+    ]
+    return {
+        row[0]: [int(points) for points in row[1:5]]
+        for row in rows
+        if len(row) == 6 and row[1].isdigit()
+    }
 
 
 def test_the_example_class_gets_the_documented_results(tmp_path, monkeypatch):
@@ -285,7 +350,11 @@ def test_what_gradescope_runs_writes_what_gradescope_reads(tmp_path):
 
 
 def written(out):
-    return {str(path.relative_to(out)): path.read_bytes() for path in out.rglob("*") if path.is_file()}
+    return {
+        str(path.relative_to(out)): path.read_bytes()
+        for path in out.rglob("*")
+        if path.is_file()
+    }
 
 
 def run(course, seconds, *arguments, jobs):
@@ -310,7 +379,9 @@ cli.app({["grade", *map(str, arguments), "--jobs", str(jobs)]!r})
         command.kill()
         return command.wait()
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["robonav.cli", "robonav.grading.classroom", "joblib", "jinja2", "tqdm"])
+    context.set_forkserver_preload(
+        ["robonav.cli", "robonav.grading.classroom", "joblib", "jinja2", "tqdm"]
+    )
     process = context.Process(target=exec, args=(code, {}))
     process.start()
     process.join(seconds)
@@ -332,11 +403,27 @@ def test_a_run_killed_twenty_times_ends_as_one_that_was_not(folder, course, tmp_
     assert written(whole / "1") == written(whole / "2")
     for kill in range(20):
         jobs = 1 if kill % 4 else 2
-        ended = run(course, moments.uniform(0.2, 0.9) * usual[jobs], folder, "--out", cut, jobs=jobs) == 0
-        graded = {path: path.stat().st_mtime_ns for path in cut.glob("students/*/grade.json")}
-        assert all(graded.get(path) == time_ns for path, time_ns in seen.items()), f"graded again after kill {kill}"
+        ended = (
+            run(
+                course,
+                moments.uniform(0.2, 0.9) * usual[jobs],
+                folder,
+                "--out",
+                cut,
+                jobs=jobs,
+            )
+            == 0
+        )
+        graded = {
+            path: path.stat().st_mtime_ns for path in cut.glob("students/*/grade.json")
+        }
+        assert all(graded.get(path) == time_ns for path, time_ns in seen.items()), (
+            f"graded again after kill {kill}"
+        )
         seen = graded
-        if ended and (finished := finished + 1) < 4:  # start over while there are kills left
+        if (
+            ended and (finished := finished + 1) < 4
+        ):  # start over while there are kills left
             shutil.rmtree(cut)
             seen = {}
     assert run(course, 120, folder, "--out", cut, jobs=2) == 0

@@ -9,13 +9,21 @@ from hypothesis.extra import numpy as hnp
 from robonav.grading.compare import call, difference, without_answer
 
 FLOATS = hnp.arrays(
-    float, hnp.array_shapes(max_dims=3), elements=st.floats(-(2.0**20), 2.0**20, width=32, allow_subnormal=False)
+    float,
+    hnp.array_shapes(max_dims=3),
+    elements=st.floats(-(2.0**20), 2.0**20, width=32, allow_subnormal=False),
 )
 
 
 @given(FLOATS)
 def test_the_same_numbers_in_any_dress_agree(array):
-    for dress in (array, array.tolist(), array.astype(np.float32), [*array], np.asfortranarray(array)):
+    for dress in (
+        array,
+        array.tolist(),
+        array.astype(np.float32),
+        [*array],
+        np.asfortranarray(array),
+    ):
         assert difference(dress, array) is None
 
 
@@ -31,7 +39,11 @@ def test_a_changed_number_is_found_where_it_is(array, data):
     ("got", "expected", "says"),
     [
         (None, np.zeros(3), "expected an array of shape (3,), got None"),
-        ([1, 2], np.zeros(3), "expected an array of shape (3,), got an array of shape (2,)"),
+        (
+            [1, 2],
+            np.zeros(3),
+            "expected an array of shape (3,), got an array of shape (2,)",
+        ),
         ([[1], [1, 2]], np.zeros(3), "got a list of 2"),
         (["1", "2", "3"], np.zeros(3), "got a list of 3"),
         (np.zeros((3, 1)), np.zeros(3), "got an array of shape (3, 1)"),
@@ -41,12 +53,20 @@ def test_a_changed_number_is_found_where_it_is(array, data):
         ([2], np.array([True]), "at [0] expected True, got 2"),
         (1.0, 2.0, "expected 2, got 1"),
         ((1, 2), (1, 2, 3), "expected 3 parts, got 2 parts"),
-        ((np.zeros(2), 1), (np.zeros(2), 2), "in part 1 of the answer, expected 2, got 1"),
+        (
+            (np.zeros(2), 1),
+            (np.zeros(2), 2),
+            "in part 1 of the answer, expected 2, got 1",
+        ),
         (np.zeros(2), {"a": 1}, "expected a dict of 1, got an array of shape (2,)"),
         ({"a": 2}, {"a": 1}, "in ['a'] of the answer, expected 1, got 2"),
         ("no", "yes", "expected a string, got a string"),
         (1, None, "expected None, got a whole number"),
-        ([1e308, -1e308], np.array([-1e308, 1e308]), "at [0] expected -1e+308, got 1e+308"),
+        (
+            [1e308, -1e308],
+            np.array([-1e308, 1e308]),
+            "at [0] expected -1e+308, got 1e+308",
+        ),
         ([2**64 - 1], np.array([-1]), "at [0] expected -1, got 18446744073709551615"),
     ],
 )
@@ -73,14 +93,25 @@ def test_these_agree(got, expected):
 def test_strings_are_never_made_an_array_of():
     """Of the width of the longest, here 160 GB."""
     got = ["x" * 400_000, *[""] * 100_000]
-    assert difference(got, np.zeros(3)) == "expected an array of shape (3,), got a list of 100001"
-    assert difference([1, [None, "a"]], np.zeros(2)) == "expected an array of shape (2,), got a list of 2"
+    assert (
+        difference(got, np.zeros(3))
+        == "expected an array of shape (3,), got a list of 100001"
+    )
+    assert (
+        difference([1, [None, "a"]], np.zeros(2))
+        == "expected an array of shape (2,), got a list of 2"
+    )
 
 
 def test_what_came_can_be_left_out():
-    for problem in (difference([0.0, 7.0], np.zeros(2)), difference((1, np.zeros((1234, 0))), (1, np.zeros(3)))):
+    for problem in (
+        difference([0.0, 7.0], np.zeros(2)),
+        difference((1, np.zeros((1234, 0))), (1, np.zeros(3))),
+    ):
         assert "expected" in without_answer(problem)
-        assert not {"7", "1234", "got"} & set(without_answer(problem).replace("(", " ").replace(",", " ").split())
+        assert not {"7", "1234", "got"} & set(
+            without_answer(problem).replace("(", " ").replace(",", " ").split()
+        )
 
 
 def test_a_small_number_among_small_ones_counts():
@@ -89,8 +120,11 @@ def test_a_small_number_among_small_ones_counts():
 
 def test_a_call_shows_small_arguments_or_only_their_kinds():
     arguments = (np.array([1.5, 2.0]), 0.25, [1, 2], np.zeros(1000), {"key": "word"})
-    assert call("f", arguments, numbers=True).startswith("f([1.5, 2. ], 0.25, [1, 2], an array of shape (1000,), {")
+    assert call("f", arguments, numbers=True).startswith(
+        "f([1.5, 2. ], 0.25, [1, 2], an array of shape (1000,), {"
+    )
     hidden = call("f", arguments, numbers=False)
     assert (
-        hidden == "f(an array of shape (2,), a number, an array of shape (2,), an array of shape (1000,), a dict of 1)"
+        hidden
+        == "f(an array of shape (2,), a number, an array of shape (2,), an array of shape (1000,), a dict of 1)"
     )

@@ -12,7 +12,9 @@ from robonav.grading.parts import PUBLIC, parts_of
 from robonav.grading.reference import Solutions, mistakes, solution
 
 COURSE = Course.around(Path(__file__).parent)
-SOLUTIONS = Solutions(COURSE)  # which knows the answers to all cases that were asked before
+SOLUTIONS = Solutions(
+    COURSE
+)  # which knows the answers to all cases that were asked before
 EXERCISES = list(COURSE.exercises.values())
 MISTAKES = [
     pytest.param(exercise, function, id=f"{exercise.name}-{name}")
@@ -50,7 +52,11 @@ def test_the_parts_share_out_the_points(exercise):
     assert sum(points for _, points in parts_of(COURSE, exercise)) == exercise.points
 
 
-@pytest.mark.parametrize("way", [lambda answer: answer, as_lists, as_singles], ids=["plain", "lists", "singles"])
+@pytest.mark.parametrize(
+    "way",
+    [lambda answer: answer, as_lists, as_singles],
+    ids=["plain", "lists", "singles"],
+)
 def test_the_solution_scores_full(exercise, way):
     function = solution(COURSE, exercise)
     result = grade(exercise, lambda *arguments: way(function(*arguments)))
@@ -59,7 +65,10 @@ def test_the_solution_scores_full(exercise, way):
 
 
 def test_another_way_to_write_it_scores_full(exercise):
-    result = grade(exercise, getattr(trusted(COURSE.solutions / "otherwise" / exercise.file), exercise.name))
+    result = grade(
+        exercise,
+        getattr(trusted(COURSE.solutions / "otherwise" / exercise.file), exercise.name),
+    )
     assert result["state"] == "correct", result["feedback"]
 
 
@@ -84,7 +93,21 @@ def test_every_exercise_knows_some_mistakes(exercise):
 
 @pytest.mark.parametrize(
     "nonsense",
-    [None, 0, -1.5, float("nan"), True, "text", [], [[1], [1, 2]], {}, {"a": 1}, (), np.zeros(0), np.zeros((1, 1, 1))],
+    [
+        None,
+        0,
+        -1.5,
+        float("nan"),
+        True,
+        "text",
+        [],
+        [[1], [1, 2]],
+        {},
+        {"a": 1},
+        (),
+        np.zeros(0),
+        np.zeros((1, 1, 1)),
+    ],
     ids=repr,
 )
 def test_nonsense_scores_little_and_never_blames_the_grader(exercise, nonsense):
@@ -115,9 +138,15 @@ def test_an_axis_too_many_is_wrong_though_it_would_broadcast(exercise):
     function = solution(COURSE, exercise)
 
     def widened(value):
-        return [widened(part) for part in value] if isinstance(value, tuple) else np.asarray(value)[..., None]
+        return (
+            [widened(part) for part in value]
+            if isinstance(value, tuple)
+            else np.asarray(value)[..., None]
+        )
 
-    assert grade(exercise, lambda *arguments: widened(function(*arguments)))["points"] == 0
+    assert (
+        grade(exercise, lambda *arguments: widened(function(*arguments)))["points"] == 0
+    )
 
 
 def test_the_solution_leaves_its_arguments_alone(exercise):

@@ -18,11 +18,20 @@ ARRAYS = st.sampled_from(frames.DTYPES).flatmap(
     lambda dtype: hnp.arrays(dtype, hnp.array_shapes(min_dims=0, min_side=0))
 )
 TEXT = st.text(st.characters(exclude_categories=["Cs"]))
-LEAVES = st.one_of(st.none(), st.booleans(), st.integers(-(2**63), 2**64 - 1), st.floats(allow_nan=True), TEXT, ARRAYS)
+LEAVES = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(-(2**63), 2**64 - 1),
+    st.floats(allow_nan=True),
+    TEXT,
+    ARRAYS,
+)
 VALUES = st.recursive(
     LEAVES,
     lambda inner: st.one_of(
-        st.lists(inner, max_size=4), st.lists(inner, max_size=4).map(tuple), st.dictionaries(TEXT, inner, max_size=4)
+        st.lists(inner, max_size=4),
+        st.lists(inner, max_size=4).map(tuple),
+        st.dictionaries(TEXT, inner, max_size=4),
     ),
     max_leaves=12,
 )
@@ -33,12 +42,20 @@ def same(one, other):
     if type(one) is not type(other):
         return False
     if isinstance(one, np.ndarray):
-        return one.dtype == other.dtype and one.shape == other.shape and one.tobytes() == other.tobytes()
+        return (
+            one.dtype == other.dtype
+            and one.shape == other.shape
+            and one.tobytes() == other.tobytes()
+        )
     if isinstance(one, list | tuple):
         return len(one) == len(other) and all(map(same, one, other))
     if isinstance(one, dict):
-        return list(one) == list(other) and all(same(one[key], other[key]) for key in one)
-    return one == other or (isinstance(one, float) and math.isnan(one) and math.isnan(other))
+        return list(one) == list(other) and all(
+            same(one[key], other[key]) for key in one
+        )
+    return one == other or (
+        isinstance(one, float) and math.isnan(one) and math.isnan(other)
+    )
 
 
 def made(value, arrays=(), body=b""):
@@ -60,7 +77,9 @@ def test_a_stream_keeps_frames_apart(values):
         frames.read(stream)
 
 
-@pytest.mark.parametrize("scalar", [np.float32(0.5), np.int8(-3), np.bool_(True), np.float64("inf")])
+@pytest.mark.parametrize(
+    "scalar", [np.float32(0.5), np.int8(-3), np.bool_(True), np.float64("inf")]
+)
 def test_numpy_scalars_arrive_as_python_numbers(scalar):
     assert same(frames.decode(frames.encode(scalar)), scalar.item())
 
@@ -154,7 +173,15 @@ def test_what_is_no_frame_is_refused(frame):
 
 
 @pytest.mark.parametrize(
-    "text", [b"NaN", b"1e999", b"[" * 200_000, b"1" * 10_000, b'{"value":1}', b'{"value":1,"arrays":{}}']
+    "text",
+    [
+        b"NaN",
+        b"1e999",
+        b"[" * 200_000,
+        b"1" * 10_000,
+        b'{"value":1}',
+        b'{"value":1,"arrays":{}}',
+    ],
 )
 def test_a_header_that_is_no_header_is_refused(text):
     for header in (text, b'{"value":' + text + b',"arrays":[]}'):
@@ -185,10 +212,21 @@ def test_any_bytes_give_a_value_or_a_frame_error(junk):
 
 
 JSON = st.recursive(
-    st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(), st.sampled_from(frames.DTYPES)),
+    st.one_of(
+        st.none(),
+        st.booleans(),
+        st.integers(),
+        st.floats(),
+        st.text(),
+        st.sampled_from(frames.DTYPES),
+    ),
     lambda inner: st.one_of(
         st.lists(inner, max_size=4),
-        st.dictionaries(st.sampled_from(["float", "tuple", "dict", "array", "other"]), inner, max_size=2),
+        st.dictionaries(
+            st.sampled_from(["float", "tuple", "dict", "array", "other"]),
+            inner,
+            max_size=2,
+        ),
     ),
     max_leaves=15,
 )
@@ -206,6 +244,8 @@ def test_any_header_gives_a_value_or_a_frame_error(value, arrays, body):
 def test_a_frame_with_changed_bytes_gives_a_value_or_a_frame_error(value, data):
     frame = bytearray(frames.encode(value))
     for _ in range(data.draw(st.integers(1, 4))):
-        frame[data.draw(st.integers(0, len(frame) - 1))] = data.draw(st.integers(0, 255))
+        frame[data.draw(st.integers(0, len(frame) - 1))] = data.draw(
+            st.integers(0, 255)
+        )
     with suppress(FrameError):
         frames.decode(bytes(frame))

@@ -54,18 +54,38 @@ def test_magics_and_cells_that_do_not_parse_do_no_harm():
 
 
 def test_a_cell_that_is_timed_is_python_still():
-    assert set(names("%%time\ndef f(): return 1", "%%capture out\n%precision 3\ng = lambda: 2")) == {"f", "g"}
+    assert set(
+        names("%%time\ndef f(): return 1", "%%capture out\n%precision 3\ng = lambda: 2")
+    ) == {"f", "g"}
 
 
 def test_a_definition_that_does_not_parse_is_told_from_none():
-    cells = ["%matplotlib inline\nimport math", "x = (", "def improve(q):\n    return q.argmax(axis=1", "def f(): pass"]
-    notebook = json.dumps({"cells": [{"cell_type": "code", "source": cell} for cell in cells]}).encode()
-    assert str(broken(notebook, "improve")) == "'(' was never closed in line 2 of the cell that defines improve"
-    assert broken(notebook, "impro") is broken(notebook, "f") is broken(notebook, "x") is None
+    cells = [
+        "%matplotlib inline\nimport math",
+        "x = (",
+        "def improve(q):\n    return q.argmax(axis=1",
+        "def f(): pass",
+    ]
+    notebook = json.dumps(
+        {"cells": [{"cell_type": "code", "source": cell} for cell in cells]}
+    ).encode()
+    assert (
+        str(broken(notebook, "improve"))
+        == "'(' was never closed in line 2 of the cell that defines improve"
+    )
+    assert (
+        broken(notebook, "impro")
+        is broken(notebook, "f")
+        is broken(notebook, "x")
+        is None
+    )
 
 
 def test_a_missing_library_is_passed_over():
-    assert set(names("import no_such_library\nimport math", "def f(): return 1")) == {"math", "f"}
+    assert set(names("import no_such_library\nimport math", "def f(): return 1")) == {
+        "math",
+        "f",
+    }
 
 
 def test_the_last_definition_counts():
@@ -80,12 +100,23 @@ def test_lists_of_lines_are_a_source_too():
         ]
     }
     assert [
-        node.name for node in definitions(json.dumps(notebook).encode()).body if isinstance(node, ast.FunctionDef)
+        node.name
+        for node in definitions(json.dumps(notebook).encode()).body
+        if isinstance(node, ast.FunctionDef)
     ] == ["f"]
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"{}", b"[]", b'{"cells": 3}', b'{"cells": [{"cell_type": "code"}]}', b"[" * 100_000, b"\xff"]
+    "content",
+    [
+        b"",
+        b"{}",
+        b"[]",
+        b'{"cells": 3}',
+        b'{"cells": [{"cell_type": "code"}]}',
+        b"[" * 100_000,
+        b"\xff",
+    ],
 )
 def test_what_is_no_notebook_is_named(content):
     with pytest.raises(ValueError, match="no notebook"):

@@ -29,29 +29,58 @@ def answer(exercise):
     return {line.strip() for line in body.splitlines() if len(line.strip()) > 30}
 
 
-@pytest.mark.parametrize("solutions", ["", "1"], ids=["for students", "for instructors"])
+@pytest.mark.parametrize(
+    "solutions", ["", "1"], ids=["for students", "for instructors"]
+)
 def test_solutions_stand_in_the_instructors_build_alone(tmp_path, solutions):
     pytest.importorskip("sphinx_exercise")
-    (tmp_path / "conf.py").write_text(CONFIGURATION.format(folder=str(COURSE.root / "book/_ext")))
-    (tmp_path / "index.md").write_text((COURSE.root / "book/exercises-5.md").read_text())
+    (tmp_path / "conf.py").write_text(
+        CONFIGURATION.format(folder=str(COURSE.root / "book/_ext"))
+    )
+    (tmp_path / "index.md").write_text(
+        (COURSE.root / "book/exercises-5.md").read_text()
+    )
     subprocess.run(
-        [sys.executable, "-m", "sphinx", "-q", "-b", "html", tmp_path, tmp_path / "built"],
+        [
+            sys.executable,
+            "-m",
+            "sphinx",
+            "-q",
+            "-b",
+            "html",
+            tmp_path,
+            tmp_path / "built",
+        ],
         env={**os.environ, "SOLUTIONS": solutions},
         check=True,
         capture_output=True,
     )
-    page = html.unescape(re.sub("<[^>]+>", "", (tmp_path / "built/index.html").read_text()))
-    exercises = [exercise for exercise in COURSE.exercises.values() if exercise.chapter == "ch5"]
+    page = html.unescape(
+        re.sub("<[^>]+>", "", (tmp_path / "built/index.html").read_text())
+    )
+    exercises = [
+        exercise for exercise in COURSE.exercises.values() if exercise.chapter == "ch5"
+    ]
     for exercise in exercises:
         assert f"{exercise.id} {exercise.title}" in page
-        assert bool([line for line in answer(exercise) if line in page]) == bool(solutions), exercise.id
+        assert bool([line for line in answer(exercise) if line in page]) == bool(
+            solutions
+        ), exercise.id
     assert page.count("Known mistakes") == (len(exercises) if solutions else 0)
     for path in (tmp_path / "built").rglob("*"):
         assert path.is_dir() or b"BEGIN SOLUTION" not in path.read_bytes()
 
 
 def test_no_line_of_an_answer_stands_in_the_package_or_on_a_page():
-    elsewhere = [*(COURSE.root / "robonav").rglob("*.py"), *(COURSE.root / "book").glob("*.md")]
-    written = {line.strip() for path in elsewhere for line in path.read_text().splitlines()}
-    found = {exercise.id: answer(exercise) & written for exercise in COURSE.exercises.values()}
+    elsewhere = [
+        *(COURSE.root / "robonav").rglob("*.py"),
+        *(COURSE.root / "book").glob("*.md"),
+    ]
+    written = {
+        line.strip() for path in elsewhere for line in path.read_text().splitlines()
+    }
+    found = {
+        exercise.id: answer(exercise) & written
+        for exercise in COURSE.exercises.values()
+    }
     assert {id: lines for id, lines in found.items() if lines} == {}

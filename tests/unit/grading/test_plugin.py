@@ -31,11 +31,27 @@ def _official():
 def run(*arguments, folder, **environment):
     """The command's exit code, output, and the grade it wrote, if any."""
     grade = folder / "written.json"
-    command = [sys.executable, "-m", "pytest", *map(str, arguments), "--grade-json", str(grade)]
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        *map(str, arguments),
+        "--grade-json",
+        str(grade),
+    ]
     done = subprocess.run(
-        command, cwd=COURSE.root, env={**os.environ, **environment}, capture_output=True, text=True, timeout=120
+        command,
+        cwd=COURSE.root,
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        timeout=120,
     )
-    return done.returncode, done.stdout + done.stderr, json.loads(grade.read_text()) if grade.is_file() else None
+    return (
+        done.returncode,
+        done.stdout + done.stderr,
+        json.loads(grade.read_text()) if grade.is_file() else None,
+    )
 
 
 def submit(folder, **files):
@@ -52,9 +68,16 @@ def test_solutions_score_full_in_the_agreed_format(tmp_path):
     assert code == 0
     assert list(grade) == ["points", "max_points", "tier", "exercises"]
     assert grade["tier"] == "official"
-    assert grade["points"] == grade["max_points"] == sum(e.points for e in COURSE.exercises.values())
+    assert (
+        grade["points"]
+        == grade["max_points"]
+        == sum(e.points for e in COURSE.exercises.values())
+    )
     assert [entry["id"] for entry in grade["exercises"]] == list(COURSE.exercises)
-    assert all(list(entry) == ["id", "points", "max_points", "state", "feedback"] for entry in grade["exercises"])
+    assert all(
+        list(entry) == ["id", "points", "max_points", "state", "feedback"]
+        for entry in grade["exercises"]
+    )
     assert {entry["state"] for entry in grade["exercises"]} == {"correct"}
     assert f"{grade['points']} of {grade['max_points']} points" in output
 
@@ -67,23 +90,53 @@ def test_stubs_score_nothing_and_are_named_missing(tmp_path):
     assert len(grade["exercises"]) == len(COURSE.exercises)
 
 
-@pytest.mark.parametrize("choice", [("-k", "improve"), ("-k", "2.2"), ("--exercise", "2.2"), ("--exercise", "improve")])
+@pytest.mark.parametrize(
+    "choice",
+    [
+        ("-k", "improve"),
+        ("-k", "2.2"),
+        ("--exercise", "2.2"),
+        ("--exercise", "improve"),
+    ],
+)
 def test_one_exercise_alone(tmp_path, choice):
-    code, _, grade = run(TESTS, "--submission", submit(tmp_path, improve=PASSES), *choice, folder=tmp_path)
+    code, _, grade = run(
+        TESTS,
+        "--submission",
+        submit(tmp_path, improve=PASSES),
+        *choice,
+        folder=tmp_path,
+    )
     assert code == 0
-    assert [(entry["id"], entry["points"]) for entry in grade["exercises"]] == [("2.2", 4)]
+    assert [(entry["id"], entry["points"]) for entry in grade["exercises"]] == [
+        ("2.2", 4)
+    ]
     assert grade["max_points"] == 4
 
 
 def test_some_parts_of_an_exercise_are_no_grade_of_it(tmp_path):
-    _, _, grade = run(TESTS, "--submission", COURSE.solutions, "-k", "where_actions_tie and improve", folder=tmp_path)
+    _, _, grade = run(
+        TESTS,
+        "--submission",
+        COURSE.solutions,
+        "-k",
+        "where_actions_tie and improve",
+        folder=tmp_path,
+    )
     (entry,) = grade["exercises"]
     assert (entry["points"], entry["state"]) == (None, "grader-fault")
 
 
 def test_partial_credit_and_a_hint(tmp_path):
     greedy = PASSES.replace("> tolerance", "> 0")
-    _, output, grade = run(TESTS, "--submission", submit(tmp_path, improve=greedy), "-k", "2.2", folder=tmp_path)
+    _, output, grade = run(
+        TESTS,
+        "--submission",
+        submit(tmp_path, improve=greedy),
+        "-k",
+        "2.2",
+        folder=tmp_path,
+    )
     (entry,) = grade["exercises"]
     assert (entry["points"], entry["state"]) == (3, "partial")
     assert "A gain no larger than the tolerance" in entry["feedback"]
@@ -92,13 +145,18 @@ def test_partial_credit_and_a_hint(tmp_path):
 
 def test_the_class_runner_gives_the_same_grade(tmp_path):
     submission = submit(
-        tmp_path, improve=PASSES.replace("> tolerance", "> 0"), bounds="import os\nos._exit(0)", track=""
+        tmp_path,
+        improve=PASSES.replace("> tolerance", "> 0"),
+        bounds="import os\nos._exit(0)",
+        track="",
     )
     _, _, grade = run(TESTS, "--submission", submission, folder=tmp_path)
     assert grade == mark(Marking(COURSE, "official"), read(submission))
 
 
-@pytest.mark.parametrize("kind", ["zip", "zip in a folder", "notebook", "notebook beside stubs", "file"])
+@pytest.mark.parametrize(
+    "kind", ["zip", "zip in a folder", "notebook", "notebook beside stubs", "file"]
+)
 def test_every_kind_of_submission(tmp_path, kind):
     place = tmp_path / "handed in"
     place.mkdir()
@@ -110,7 +168,11 @@ def test_every_kind_of_submission(tmp_path, kind):
         "assert False",
         "!rm -rf /tmp/nothing",
     ]
-    notebook = {"cells": [{"cell_type": "code", "source": cell.splitlines(True)} for cell in cells]}
+    notebook = {
+        "cells": [
+            {"cell_type": "code", "source": cell.splitlines(True)} for cell in cells
+        ]
+    }
     match kind:
         case "zip" | "zip in a folder":
             with zipfile.ZipFile(place / "mine.zip", "w") as archive:
@@ -124,7 +186,9 @@ def test_every_kind_of_submission(tmp_path, kind):
         case "file":
             submission = place / "improve.py"
             submission.write_text(PASSES)
-    _, output, grade = run(TESTS, "--submission", submission, "-k", "2.2", folder=tmp_path)
+    _, output, grade = run(
+        TESTS, "--submission", submission, "-k", "2.2", folder=tmp_path
+    )
     assert grade["points"] == 4, output
 
 
@@ -132,10 +196,22 @@ def test_what_a_submission_brings_along_never_runs_here(tmp_path):
     """Configuration, plugins, packages and tests of the submission's own, tried from every side."""
     submission = submit(tmp_path, improve=PASSES)
     touch = f"open({str(tmp_path / 'ran')!r}, 'a').write(__file__ + '\\n')\n"
-    for name in ("conftest.py", "sitecustomize.py", "usercustomize.py", "evil.py", "numpy/__init__.py", "pytest.py"):
+    for name in (
+        "conftest.py",
+        "sitecustomize.py",
+        "usercustomize.py",
+        "evil.py",
+        "numpy/__init__.py",
+        "pytest.py",
+    ):
         (submission / name).parent.mkdir(exist_ok=True)
         (submission / name).write_text(touch)
-    for name in ("robonav/__init__.py", "tests/exercises/test_ch2.py", "tests/exercises/conftest.py", "test_mine.py"):
+    for name in (
+        "robonav/__init__.py",
+        "tests/exercises/test_ch2.py",
+        "tests/exercises/conftest.py",
+        "test_mine.py",
+    ):
         (submission / name).parent.mkdir(parents=True, exist_ok=True)
         (submission / name).write_text(touch)
     shutil.copy(COURSE.tests / "manifest.toml", submission / "tests/exercises")
@@ -143,13 +219,27 @@ def test_what_a_submission_brings_along_never_runs_here(tmp_path):
     shutil.copy(submission / "pytest.ini", submission / "tests/exercises")
     # Not ("--submission", submission, TESTS): before any plugin is there to say that it is an option's value, pytest
     # takes the first path it sees for the tests and reads the pytest.ini there. The documentation puts the tests first.
-    orders = [(TESTS, "--submission", submission), (f"--submission={submission}", TESTS)]
+    orders = [
+        (TESTS, "--submission", submission),
+        (f"--submission={submission}", TESTS),
+    ]
     for order in orders:
-        _, output, grade = run(*order, "-k", "2.2", folder=tmp_path, PYTEST_ADDOPTS="-q")
+        _, output, grade = run(
+            *order, "-k", "2.2", folder=tmp_path, PYTEST_ADDOPTS="-q"
+        )
         assert grade["points"] == 4, output
         assert not (tmp_path / "ran").exists(), (tmp_path / "ran").read_text()
-    command = [str(Path(sys.executable).with_name("pytest")), TESTS, "--submission", ".", "-k", "2.2"]
-    done = subprocess.run(command, cwd=submission, capture_output=True, text=True, timeout=120)
+    command = [
+        str(Path(sys.executable).with_name("pytest")),
+        TESTS,
+        "--submission",
+        ".",
+        "-k",
+        "2.2",
+    ]
+    done = subprocess.run(
+        command, cwd=submission, capture_output=True, text=True, timeout=120
+    )
     assert "4 of 4 points" in done.stdout, done.stdout + done.stderr
     assert not (tmp_path / "ran").exists(), (tmp_path / "ran").read_text()
 
@@ -170,7 +260,9 @@ def crib():
     known = {}
 
     def learn(*arguments):
-        known[repr([getattr(a, "tolist", lambda a=a: a)() for a in arguments])] = function(*arguments).tolist()
+        known[repr([getattr(a, "tolist", lambda a=a: a)() for a in arguments])] = (
+            function(*arguments).tolist()
+        )
         return function(*arguments)
 
     from robonav.grading.check import Here, graded
@@ -193,35 +285,74 @@ def improve(q, policy, tolerance):
 """
 
 
-def test_answers_known_by_heart_fail_on_secret_cases_and_leak_none_of_them(tmp_path, crib):
+def test_answers_known_by_heart_fail_on_secret_cases_and_leak_none_of_them(
+    tmp_path, crib
+):
     secret = tmp_path / "secret"
     secret.write_text("not for students")
     submission = submit(tmp_path, improve=crib)
     _, _, public = run(TESTS, "--submission", submission, "-k", "2.2", folder=tmp_path)
     assert public["points"] == 4
-    by_file = run(TESTS, "--submission", submission, "-k", "2.2", "--secret", secret, folder=tmp_path)
-    by_environment = run(
-        TESTS, "--submission", submission, "-k", "2.2", folder=tmp_path, ROBONAV_SECRET="not for students"
+    by_file = run(
+        TESTS,
+        "--submission",
+        submission,
+        "-k",
+        "2.2",
+        "--secret",
+        secret,
+        folder=tmp_path,
     )
-    other = run(TESTS, "--submission", submission, "-k", "2.2", folder=tmp_path, ROBONAV_SECRET="another")
+    by_environment = run(
+        TESTS,
+        "--submission",
+        submission,
+        "-k",
+        "2.2",
+        folder=tmp_path,
+        ROBONAV_SECRET="not for students",
+    )
+    other = run(
+        TESTS,
+        "--submission",
+        submission,
+        "-k",
+        "2.2",
+        folder=tmp_path,
+        ROBONAV_SECRET="another",
+    )
     assert by_file[2] == by_environment[2]
     for _, _, grade in (by_file, other):
         (entry,) = grade["exercises"]
         assert (entry["points"], entry["state"]) == (0, "error")
         assert "[[" not in entry["feedback"]
         assert "expected" in entry["feedback"]
-        assert not [said for said in ("1234", "got", "line") if said in entry["feedback"]]
+        assert not [
+            said for said in ("1234", "got", "line") if said in entry["feedback"]
+        ]
         assert "not for students" not in entry["feedback"]
 
 
 def test_honest_answers_score_full_on_secret_cases(tmp_path):
-    _, _, grade = run(TESTS, "--submission", COURSE.solutions, folder=tmp_path, ROBONAV_SECRET="a word")
+    _, _, grade = run(
+        TESTS,
+        "--submission",
+        COURSE.solutions,
+        folder=tmp_path,
+        ROBONAV_SECRET="a word",
+    )
     assert grade["points"] == grade["max_points"]
 
 
 def test_no_marks_without_a_sandbox(tmp_path):
     code, output, grade = run(
-        TESTS, "--submission", COURSE.solutions, "--tier", "practice", folder=tmp_path, ROBONAV_SECRET="a word"
+        TESTS,
+        "--submission",
+        COURSE.solutions,
+        "--tier",
+        "practice",
+        folder=tmp_path,
+        ROBONAV_SECRET="a word",
     )
     assert code == pytest.ExitCode.USAGE_ERROR
     assert "no marks in the practice tier" in output
@@ -230,7 +361,14 @@ def test_no_marks_without_a_sandbox(tmp_path):
 
 def test_practice_says_that_it_is_practice(tmp_path):
     _, output, grade = run(
-        TESTS, "--submission", submit(tmp_path, improve=PASSES), "-k", "2.2", "--tier", "practice", folder=tmp_path
+        TESTS,
+        "--submission",
+        submit(tmp_path, improve=PASSES),
+        "-k",
+        "2.2",
+        "--tier",
+        "practice",
+        folder=tmp_path,
     )
     assert (grade["tier"], grade["points"]) == ("practice", 4)
     assert "practice" in output
@@ -239,12 +377,17 @@ def test_practice_says_that_it_is_practice(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (("--submission", "/nowhere"), "must be a folder, a zip, a notebook or a Python file"),
+        (
+            ("--submission", "/nowhere"),
+            "must be a folder, a zip, a notebook or a Python file",
+        ),
         (("--submission", ".", "--secret", "/nowhere"), "the secret cannot be read"),
         (("--submission", ".", "--exercise", "9.9"), "no exercise '9.9'"),
     ],
 )
-def test_a_wrong_argument_is_one_clear_line_and_leaves_no_old_grade(tmp_path, arguments, sentence):
+def test_a_wrong_argument_is_one_clear_line_and_leaves_no_old_grade(
+    tmp_path, arguments, sentence
+):
     (tmp_path / "written.json").write_text("{}")
     code, output, grade = run(TESTS, *arguments, folder=tmp_path)
     assert code == pytest.ExitCode.USAGE_ERROR
@@ -257,10 +400,14 @@ def test_a_fault_of_the_grader_is_no_zero(tmp_path):
     """A course whose solution to one exercise fails: its points are open, its neighbour's are not."""
     for folder in ("tests/exercises", "solutions"):
         shutil.copytree(COURSE.root / folder, tmp_path / "course" / folder)
-    (tmp_path / "course/solutions/ch2/improve.py").write_text("def improve(*a): raise RuntimeError('broken')")
+    (tmp_path / "course/solutions/ch2/improve.py").write_text(
+        "def improve(*a): raise RuntimeError('broken')"
+    )
     tests = tmp_path / "course/tests/exercises"
     chosen = ("--exercise", "improve", "--exercise", "bounds")
     _, _, grade = run(tests, "--submission", COURSE.solutions, *chosen, folder=tmp_path)
-    states = {entry["id"]: (entry["state"], entry["points"]) for entry in grade["exercises"]}
+    states = {
+        entry["id"]: (entry["state"], entry["points"]) for entry in grade["exercises"]
+    }
     assert states == {"2.2": ("grader-fault", None), "2.3": ("correct", 4)}
     assert grade["points"] == 4

@@ -22,7 +22,9 @@ def probed():
     yield "practice", None
     if hasattr(os, "geteuid") and os.geteuid() == 0:
         yield from [
-            ("restricted", python) for python in (None, "/usr/bin/python3") if not probe.fault("restricted", python)
+            ("restricted", python)
+            for python in (None, "/usr/bin/python3")
+            if not probe.fault("restricted", python)
         ][:1]
 
 
@@ -53,16 +55,16 @@ def ask(worker, *arguments, seconds=30.0):
 
 def test_values_cross_unchanged(start):
     worker = loaded(start())
-    reply = ask(worker, 1, [2.5, "three"], np.arange(4, dtype=np.int16), {"five": (None, True)})
+    reply = ask(
+        worker, 1, [2.5, "three"], np.arange(4, dtype=np.int16), {"five": (None, True)}
+    )
     one, two, array, five = reply["value"]
     assert (one, two, five) == (1, [2.5, "three"], {"five": (None, True)})
     assert array.dtype == np.int16
 
 
 def test_every_exercise_has_a_process_of_its_own(start):
-    source = (
-        b"import os, builtins\nn = getattr(builtins, 'n', 0) + 1\nbuiltins.n = n\ndef echo(): return n, os.getpid()"
-    )
+    source = b"import os, builtins\nn = getattr(builtins, 'n', 0) + 1\nbuiltins.n = n\ndef echo(): return n, os.getpid()"  # noqa: E501
     worker = start({"ch2/echo.py": source})
     seen = []
     for _ in range(3):
@@ -71,12 +73,18 @@ def test_every_exercise_has_a_process_of_its_own(start):
     assert [n for n, _ in seen] == [1, 1, 1]
 
 
-def test_what_an_exercise_leaves_behind_is_gone_when_it_has_ended(monkeypatch, tmp_path):
+def test_what_an_exercise_leaves_behind_is_gone_when_it_has_ended(
+    monkeypatch, tmp_path
+):
     """Its removal takes no time of the next one."""
     if not sandbox.sys.platform.startswith("linux"):
         pytest.skip("only where the worker can fork")
     monkeypatch.setattr(sandbox.tempfile, "tempdir", str(tmp_path))
-    worker = sandbox.start("practice", {"ch2/echo.py": b"def echo():\n    open('../left', 'w').close()"}, Limits())
+    worker = sandbox.start(
+        "practice",
+        {"ch2/echo.py": b"def echo():\n    open('../left', 'w').close()"},
+        Limits(),
+    )
     ask(loaded(worker))
     assert list(tmp_path.rglob("left"))
     assert worker.ask({"do": "end"}, 30) == {"ended": 0}
@@ -114,7 +122,9 @@ def echo(what):
 def test_what_is_printed_goes_nowhere(start):
     worker = loaded(
         start(
-            {"ch2/echo.py": b"import os\nprint('x' * 10**6)\ndef echo():\n    os.write(1, b'y' * 10**6)\n    return 1"}
+            {
+                "ch2/echo.py": b"import os\nprint('x' * 10**6)\ndef echo():\n    os.write(1, b'y' * 10**6)\n    return 1"  # noqa: E501
+            }
         )
     )
     assert ask(worker) == {"id": 2, "value": 1}
@@ -129,7 +139,10 @@ def echo(): return os.environ["OPENBLAS_NUM_THREADS"], float((np.eye(300) @ np.e
 
 
 def test_a_module_out_of_reach_is_named(start):
-    for module, says in (("robonav.mdp", "the exercise asks for your own"), ("scipy", "standard library and numpy")):
+    for module, says in (
+        ("robonav.mdp", "the exercise asks for your own"),
+        ("scipy", "standard library and numpy"),
+    ):
         worker = start({"ch2/echo.py": f"import {module}\ndef echo(): pass".encode()})
         raised = worker.ask(LOAD, 30)["raised"]
         assert raised["kind"] == "ModuleNotFoundError"
@@ -157,7 +170,11 @@ def test_a_request_that_is_no_frame_is_our_own_fault(start):
 
 def test_where_pipes_cannot_be_waited_for_a_watchdog_keeps_the_deadline(monkeypatch):
     """As on Windows."""
-    worker = sandbox.start("practice", {"ch2/echo.py": b"import time\ndef echo(s): time.sleep(s); return s"}, Limits())
+    worker = sandbox.start(
+        "practice",
+        {"ch2/echo.py": b"import time\ndef echo(s): time.sleep(s); return s"},
+        Limits(),
+    )
     monkeypatch.setattr(worker, "_exchange", worker._exchange_watched)
     for stream in (worker._requests, worker._replies):
         os.set_blocking(stream.fileno(), True)
@@ -192,14 +209,18 @@ def test_the_probe_finds_a_sandbox_that_leaks(monkeypatch):
 
 def test_importing_the_grader_is_light():
     code = "import sys, robonav.grading.run, robonav.grading.classroom; print(*sys.modules)"
-    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout.split()
     assert not {"torch", "numba", "matplotlib"} & set(loaded)
 
 
 def run_filter(program, machine, call, first_argument=0):
     """A small interpreter of classic BPF: what the kernel would do with a system call."""
     data = {0: call, 4: confine.MACHINES[machine][1], 16: first_argument}
-    steps = [struct.unpack_from("=HBBI", program, at) for at in range(0, len(program), 8)]
+    steps = [
+        struct.unpack_from("=HBBI", program, at) for at in range(0, len(program), 8)
+    ]
     at = accumulator = 0
     while True:
         code, then, otherwise, value = steps[at]
@@ -209,7 +230,10 @@ def run_filter(program, machine, call, first_argument=0):
             case confine.RETURN:
                 return value
             case _:
-                tests = {confine.EQUAL: accumulator == value, confine.AT_LEAST: accumulator >= value}
+                tests = {
+                    confine.EQUAL: accumulator == value,
+                    confine.AT_LEAST: accumulator >= value,
+                }
                 tests[confine.HAS_BITS] = bool(accumulator & value)
                 at += then if tests[code] else otherwise
         at += 1
@@ -228,8 +252,14 @@ def test_the_filter_refuses_what_it_lists_and_nothing_else(machine):
             assert result == confine.REFUSE | 38
         else:
             assert result == confine.ALLOW, call
-    assert run_filter(program, machine, clone, confine.CLONE_THREAD | 0x3D0F00) == confine.ALLOW
-    assert run_filter(program, machine, confine.PRLIMIT[column], 4321) == confine.REFUSE | 1
+    assert (
+        run_filter(program, machine, clone, confine.CLONE_THREAD | 0x3D0F00)
+        == confine.ALLOW
+    )
+    assert (
+        run_filter(program, machine, confine.PRLIMIT[column], 4321)
+        == confine.REFUSE | 1
+    )
     if machine == "x86_64":
         assert run_filter(program, machine, 0x40000000 + 59) == confine.REFUSE | 1
 

@@ -20,21 +20,43 @@ def zipped(folder, entries, name="work.zip"):
 
 
 def test_a_folder_gives_its_python_files_and_notebooks_alone(tmp_path):
-    for name in ("ch2/a.py", "ch2.ipynb", "data.csv", ".git/b.py", "__pycache__/c.py", "venv/lib/d.py", ".hidden.py"):
+    for name in (
+        "ch2/a.py",
+        "ch2.ipynb",
+        "data.csv",
+        ".git/b.py",
+        "__pycache__/c.py",
+        "venv/lib/d.py",
+        ".hidden.py",
+    ):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(name)
     assert read(tmp_path).files == {"ch2/a.py": b"ch2/a.py", "ch2.ipynb": b"ch2.ipynb"}
 
 
 def test_a_zip_gives_the_same(tmp_path):
-    path = zipped(tmp_path, [("x/ch2/a.py", "a"), ("x/", ""), ("__MACOSX/x/._a.py", "?"), ("x/data.bin", "d")])
+    path = zipped(
+        tmp_path,
+        [
+            ("x/ch2/a.py", "a"),
+            ("x/", ""),
+            ("__MACOSX/x/._a.py", "?"),
+            ("x/data.bin", "d"),
+        ],
+    )
     assert read(path).files == {"x/ch2/a.py": b"a"}
 
 
 def test_names_and_contents_make_the_digest():
-    digests = {Submission(files).digest for files in ({}, {"a.py": b""}, {"b.py": b""}, {"a.py": b"b"}, {"a.pyb": b""})}
+    digests = {
+        Submission(files).digest
+        for files in ({}, {"a.py": b""}, {"b.py": b""}, {"a.py": b"b"}, {"a.pyb": b""})
+    }
     assert len(digests) == 5
-    assert Submission({"a.py": b"1", "b.py": b"2"}).digest == Submission({"b.py": b"2", "a.py": b"1"}).digest
+    assert (
+        Submission({"a.py": b"1", "b.py": b"2"}).digest
+        == Submission({"b.py": b"2", "a.py": b"1"}).digest
+    )
 
 
 def test_a_link_to_a_file_is_refused_and_a_linked_folder_is_not_entered(tmp_path):
@@ -60,7 +82,16 @@ def test_a_pipe_is_refused_and_not_waited_for(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "name", ["../a.py", "/etc/a.py", "x/../../a.py", "C:\\a.py", "C:a.py", "x\\..\\a.py", "a\nb.py"]
+    "name",
+    [
+        "../a.py",
+        "/etc/a.py",
+        "x/../../a.py",
+        "C:\\a.py",
+        "C:a.py",
+        "x\\..\\a.py",
+        "a\nb.py",
+    ],
 )
 def test_a_zip_that_leaves_its_folder_is_refused(tmp_path, name):
     entry = zipfile.ZipInfo("placeholder")
@@ -82,7 +113,13 @@ def test_too_much_is_refused_before_it_is_held(tmp_path):
     with pytest.raises(Refused, match="more than"):
         read(bomb)
     with pytest.raises(Refused, match="more than"):
-        read(zipped(tmp_path, [(f"{n}.py", "") for n in range(submission.MOST_FILES + 1)], "many.zip"))
+        read(
+            zipped(
+                tmp_path,
+                [(f"{n}.py", "") for n in range(submission.MOST_FILES + 1)],
+                "many.zip",
+            )
+        )
 
 
 @pytest.mark.filterwarnings("ignore:Duplicate name")
@@ -90,11 +127,18 @@ def test_the_same_file_many_times_is_as_much(tmp_path):
     """Each of a few bytes packed, and of megabytes to unpack; the last one alone would be kept."""
     with pytest.raises(Refused, match="more than"):
         read(zipped(tmp_path, [("a.py", b"0" * (1 << 20))] * 9))
-    assert read(zipped(tmp_path, [("a.py", b"first"), ("a.py", b"last")])).files == {"a.py": b"last"}
+    assert read(zipped(tmp_path, [("a.py", b"first"), ("a.py", b"last")])).files == {
+        "a.py": b"last"
+    }
 
 
-@pytest.mark.parametrize("kind", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
-def test_a_zip_may_be_packed_in_any_way_and_is_refused_where_it_is_damaged(tmp_path, kind):
+@pytest.mark.parametrize(
+    "kind",
+    [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA],
+)
+def test_a_zip_may_be_packed_in_any_way_and_is_refused_where_it_is_damaged(
+    tmp_path, kind
+):
     with zipfile.ZipFile(tmp_path / "A.ZIP", "w", kind) as archive:
         archive.writestr("a.py", "x = 1\n" * 50)
     assert read(tmp_path / "A.ZIP").files == {"a.py": b"x = 1\n" * 50}
@@ -106,7 +150,9 @@ def test_a_zip_may_be_packed_in_any_way_and_is_refused_where_it_is_damaged(tmp_p
 
 
 @pytest.mark.parametrize("lost", [".", "ch2"])
-def test_a_folder_that_cannot_be_read_is_refused_and_not_empty(tmp_path, monkeypatch, lost):
+def test_a_folder_that_cannot_be_read_is_refused_and_not_empty(
+    tmp_path, monkeypatch, lost
+):
     (tmp_path / "anna/ch2").mkdir(parents=True)
     (tmp_path / "anna/ch2/a.py").write_text("")
 
@@ -132,16 +178,23 @@ def test_a_broken_zip_is_refused(tmp_path, content):
 
 @given(st.data())
 def test_a_damaged_zip_is_read_or_refused(tmp_path_factory, data):
-    path = zipped(tmp_path_factory.mktemp("zip"), [("ch2/a.py", "x = 1\n" * 50), ("b.ipynb", "{}")])
+    path = zipped(
+        tmp_path_factory.mktemp("zip"),
+        [("ch2/a.py", "x = 1\n" * 50), ("b.ipynb", "{}")],
+    )
     content = bytearray(path.read_bytes())
     for _ in range(data.draw(st.integers(1, 5))):
-        content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
+        content[data.draw(st.integers(0, len(content) - 1))] = data.draw(
+            st.integers(0, 255)
+        )
     path.write_bytes(content)
     assert isinstance(taken(path), Submission | Refused)
 
 
 def test_what_is_no_submission_is_named(tmp_path):
-    with pytest.raises(ValueError, match="must be a folder, a zip, a notebook or a Python file"):
+    with pytest.raises(
+        ValueError, match="must be a folder, a zip, a notebook or a Python file"
+    ):
         read(tmp_path / "nothing")
     (tmp_path / "essay.docx").write_text("")
     with pytest.raises(ValueError, match=r"essay\.docx"):

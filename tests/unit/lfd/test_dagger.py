@@ -6,7 +6,6 @@ import pytest
 from robonav.lfd import (
     ComputerExpert,
     NeighbourPolicy,
-    NetworkPolicy,
     advised,
     dagger,
     demonstrate,
@@ -14,6 +13,7 @@ from robonav.lfd import (
     learn_neighbours,
     learn_policy,
 )
+from robonav.networks import NetworkPolicy
 from robonav.robot import REFLEX, Encoder, navigate, random_worlds, straight
 
 
@@ -30,7 +30,9 @@ def gone_straight():
 def test_the_policy_drives_and_the_expert_advises(gone_straight):
     drives = navigate(straight, gone_straight.worlds, record_paths=True)
     assert gone_straight.outcome.tolist() == drives.outcome.tolist()
-    assert np.array_equal(gone_straight.poses, np.concatenate([path[:-1] for path in drives.paths]))
+    assert np.array_equal(
+        gone_straight.poses, np.concatenate([path[:-1] for path in drives.paths])
+    )
     assert (gone_straight.effective.actions != 0).any()
 
 
@@ -41,11 +43,21 @@ def test_advice_is_the_first_action_of_a_plan_from_here(gone_straight):
         world = gone_straight.worlds[int(gone_straight.trajectory[row])]
 
         class Here:
-            worlds, poses, centres, speed = world, gone_straight.poses[row][None], world.centres, 2.0
+            worlds, poses, centres, speed = (
+                world,
+                gone_straight.poses[row][None],
+                world.centres,
+                2.0,
+            )
 
         own = ComputerExpert()(Here, np.array([0]))[0]
-        followed = row - 1 >= 0 and gone_straight.trajectory[row - 1] == gone_straight.trajectory[row]
-        assert gone_straight.actions[row] == own or (followed and gone_straight.actions[row - 1] == 0)
+        followed = (
+            row - 1 >= 0
+            and gone_straight.trajectory[row - 1] == gone_straight.trajectory[row]
+        )
+        assert gone_straight.actions[row] == own or (
+            followed and gone_straight.actions[row - 1] == 0
+        )
 
 
 def test_joined_sets(shown, gone_straight):
@@ -65,7 +77,9 @@ def test_a_round_of_dagger_beats_cloning_little(shown):
     few = shown.drives(range(3))
     unseen = random_worlds(300, 20, seed=73)
     gathered = dagger(few, [random_worlds(15, 20, seed=74)], seed=1, iterations=100)
-    cloned, mended = (navigate(policy, unseen).success.mean() for policy in gathered.policies)
+    cloned, mended = (
+        navigate(policy, unseen).success.mean() for policy in gathered.policies
+    )
     assert mended > cloned + 0.05
     assert mended > 0.9
     assert gathered.policy is gathered.policies[-1]
@@ -84,15 +98,24 @@ def test_each_round_adds_advice_on_its_own_worlds_to_everything_before(shown):
         assert np.array_equal(made.demonstrations[number + 1].poses, gathered.poses)
         assert np.array_equal(made.demonstrations[number + 1].actions, gathered.actions)
         learned = learn_policy(gathered, seed=2, iterations=20)
-        assert np.array_equal(made.policies[number + 1].network.weights[0], learned.network.weights[0])
+        assert np.array_equal(
+            made.policies[number + 1].network.weights[0], learned.network.weights[0]
+        )
 
 
 def test_dagger_asks_the_expert_it_is_given(shown):
     def always_left(simulator, asked):
         return np.full(len(asked), 2)
 
-    made = dagger(shown, [random_worlds(3, 20, seed=82)], expert=lambda: always_left, iterations=20)
-    added = made.demonstrations[1].drives(np.arange(len(shown.worlds), len(shown.worlds) + 3))
+    made = dagger(
+        shown,
+        [random_worlds(3, 20, seed=82)],
+        expert=lambda: always_left,
+        iterations=20,
+    )
+    added = made.demonstrations[1].drives(
+        np.arange(len(shown.worlds), len(shown.worlds) + 3)
+    )
     assert set(added.effective.actions) == {2}
 
 
@@ -101,7 +124,9 @@ def test_a_drive_that_is_stopped_early_gives_no_more_advice(shown):
     whole, cut = advised(straight, worlds), advised(straight, worlds, max_steps=7)
     assert (cut.lengths <= 7).all()
     assert set(cut.outcome[whole.lengths > 7]) == {"out of steps"}
-    first = np.concatenate([np.flatnonzero(whole.trajectory == drive)[:7] for drive in range(3)])
+    first = np.concatenate(
+        [np.flatnonzero(whole.trajectory == drive)[:7] for drive in range(3)]
+    )
     assert np.array_equal(cut.actions, whole.actions[first])
     made = dagger(shown, [worlds], iterations=10, max_steps=7)
     assert made.demonstrations[1].lengths[len(shown.worlds) :].max() <= 7
@@ -153,7 +178,9 @@ def test_neighbours_vote(shown, k):
     distance = np.linalg.norm(x[:, None] - policy.states, axis=2)
     for row, answer in enumerate(policy(other, np.random.default_rng(0))):
         nearest = distance[row].argsort(kind="stable")
-        if distance[row][nearest[k - 1]] == pytest.approx(distance[row][nearest[k]], abs=1e-12):
+        if distance[row][nearest[k - 1]] == pytest.approx(
+            distance[row][nearest[k]], abs=1e-12
+        ):
             continue  # a tie about who is among the k
         votes = np.bincount(policy.actions[nearest[:k]], minlength=5)
         assert votes[answer] == votes.max()
@@ -170,7 +197,10 @@ def test_of_equal_votes_the_nearer_neighbour_has_the_last(shown):
 
 def test_neighbours_beat_going_straight(shown):
     unseen = random_worlds(200, 20, seed=78)
-    assert navigate(learn_neighbours(shown), unseen).success.mean() > navigate(straight, unseen).success.mean() + 0.2
+    assert (
+        navigate(learn_neighbours(shown), unseen).success.mean()
+        > navigate(straight, unseen).success.mean() + 0.2
+    )
 
 
 def test_too_many_neighbours(shown):

@@ -6,7 +6,12 @@ import zipfile
 import numpy as np
 import pytest
 
-from robonav.lfd import demonstrate, learn_policy, load_demonstrations, save_demonstrations
+from robonav.lfd import (
+    demonstrate,
+    learn_policy,
+    load_demonstrations,
+    save_demonstrations,
+)
 from robonav.robot import neighbour_slip, random_worlds
 
 
@@ -49,12 +54,17 @@ def test_no_drives_round_trip(tmp_path):
 
 def test_equal_demonstrations_give_equal_arrays_without_objects(written):
     with zipfile.ZipFile(written) as archive:
-        assert not any(b"'O'" in archive.read(name)[:128] for name in archive.namelist())
+        assert not any(
+            b"'O'" in archive.read(name)[:128] for name in archive.namelist()
+        )
 
 
 def test_another_version(written):
     changed(written, format=np.array("robonav demonstrations 2"))
-    with pytest.raises(ValueError, match=r"drives.npz has the format 'robonav demonstrations 2', expected '.* 1'"):
+    with pytest.raises(
+        ValueError,
+        match=r"drives.npz has the format 'robonav demonstrations 2', expected '.* 1'",
+    ):
         load_demonstrations(written)
 
 
@@ -86,7 +96,9 @@ def test_cut_off_and_scrambled_files(written):
         for place in rng.integers(len(whole), size=20):
             scrambled[place] ^= int(rng.integers(1, 256))
         written.write_bytes(scrambled)
-        with pytest.raises(ValueError, match=r"\Adrives\.npz [^\n]+\Z"):  # zip keeps a checksum of everything
+        with pytest.raises(
+            ValueError, match=r"\Adrives\.npz [^\n]+\Z"
+        ):  # zip keeps a checksum of everything
             load_demonstrations(written)
 
 
@@ -100,7 +112,8 @@ def test_pickled_objects_are_never_loaded(written, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     changed(written, **{name: np.array([Intruder()], dtype=object)})
     with pytest.raises(
-        ValueError, match=r"drives\.npz holds a pickled object, which could run code and is never loaded"
+        ValueError,
+        match=r"drives\.npz holds a pickled object, which could run code and is never loaded",
     ):
         load_demonstrations(written)
     assert not (tmp_path / "intruder").exists()

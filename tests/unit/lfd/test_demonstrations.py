@@ -5,7 +5,16 @@ import pytest
 
 from robonav.lfd import ComputerExpert, Demonstrations, demonstrate, record
 from robonav.lfd.demonstrations import executed
-from robonav.robot import REFLEX, Action, Simulator, concatenate, make_world, neighbour_slip, random_worlds, sense
+from robonav.robot import (
+    REFLEX,
+    Action,
+    Simulator,
+    concatenate,
+    make_world,
+    neighbour_slip,
+    random_worlds,
+    sense,
+)
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +48,9 @@ def test_effective_pairs(shown):
     assert 0 < len(pairs) < len(shown)
     assert (pairs.sensing.ranges.min(axis=1) < 10).all()
     assert (pairs.actions < 5).all()
-    assert len(pairs) == int(((shown.sensing.ranges.min(axis=1) < 10) & (shown.actions < 5)).sum())
+    assert len(pairs) == int(
+        ((shown.sensing.ranges.min(axis=1) < 10) & (shown.actions < 5)).sum()
+    )
     assert len(pairs.effective) == len(pairs)
 
 
@@ -77,7 +88,9 @@ def test_a_plan_is_made_where_the_last_was_left():
     shown = record(slipping, worlds, slip=neighbour_slip(0.4))
     assert steady.plans < asked / 2
     assert slipping.plans > 1.5 * steady.plans
-    assert np.array_equal(shown.actions, record(Counting(), worlds, slip=neighbour_slip(0.4)).actions)
+    assert np.array_equal(
+        shown.actions, record(Counting(), worlds, slip=neighbour_slip(0.4)).actions
+    )
 
 
 def test_a_slipping_expert_shows_what_was_executed():
@@ -85,7 +98,10 @@ def test_a_slipping_expert_shows_what_was_executed():
     shown = demonstrate(worlds, slip=neighbour_slip(0.3))
     same = shown.trajectory[1:] == shown.trajectory[:-1]
     decided = same & (shown.actions[:-1] < 5) & ~shown.sensing.safe[:-1]
-    assert np.array_equal(executed(shown.poses[:-1], shown.poses[1:])[decided], shown.actions[:-1][decided])
+    assert np.array_equal(
+        executed(shown.poses[:-1], shown.poses[1:])[decided],
+        shown.actions[:-1][decided],
+    )
     commands = REFLEX(shown.sensing, shown.speed)
     assert np.array_equal(shown.actions[commands >= 0], commands[commands >= 0])
 
@@ -119,7 +135,10 @@ def test_steps_in_safe_states_are_not_learned_from():
 
 def test_out_of_steps():
     shown = record(
-        lambda simulator, asked: np.full(len(asked), Action.R60), random_worlds(2, 0, seed=1), reflex=None, max_steps=7
+        lambda simulator, asked: np.full(len(asked), Action.R60),
+        random_worlds(2, 0, seed=1),
+        reflex=None,
+        max_steps=7,
     )
     assert shown.outcome.tolist() == ["out of steps"] * 2
     assert shown.lengths.tolist() == [7, 7]
@@ -132,19 +151,36 @@ def test_no_worlds_no_steps():
 
 
 def broken(shown, **changed):
-    values = {name: getattr(shown, name) for name in Demonstrations.__dataclass_fields__}
+    values = {
+        name: getattr(shown, name) for name in Demonstrations.__dataclass_fields__
+    }
     return Demonstrations(**(values | changed))
 
 
 def test_what_does_not_fit_is_refused(shown):
     for changed, message in [
         ({"actions": shown.actions[1:]}, "demonstrations: actions must have shape"),
-        ({"actions": shown.actions + 5}, "demonstrations: actions must lie in 0..6, got"),
-        ({"trajectory": shown.trajectory[::-1]}, "demonstrations: trajectory must ascend"),
-        ({"trajectory": shown.trajectory + 1}, "demonstrations: trajectory must lie in 0..7"),
+        (
+            {"actions": shown.actions + 5},
+            "demonstrations: actions must lie in 0..6, got",
+        ),
+        (
+            {"trajectory": shown.trajectory[::-1]},
+            "demonstrations: trajectory must ascend",
+        ),
+        (
+            {"trajectory": shown.trajectory + 1},
+            "demonstrations: trajectory must lie in 0..7",
+        ),
         ({"speed": 0}, "demonstrations: speed must be greater than 0"),
-        ({"outcome": np.full(8, "lost")}, "demonstrations: outcome must be one of arrived"),
-        ({"poses": np.full_like(shown.poses, np.nan)}, "demonstrations: poses must hold finite numbers"),
+        (
+            {"outcome": np.full(8, "lost")},
+            "demonstrations: outcome must be one of arrived",
+        ),
+        (
+            {"poses": np.full_like(shown.poses, np.nan)},
+            "demonstrations: poses must hold finite numbers",
+        ),
     ]:
         with pytest.raises(ValueError, match=message):
             broken(shown, **changed)
@@ -157,12 +193,17 @@ def test_what_does_not_fit_is_refused(shown):
 def test_sensing_is_raw(shown):
     rows = np.flatnonzero(shown.trajectory == 2)
     worlds = concatenate([shown.worlds[2]] * len(rows))
-    assert np.array_equal(sense(worlds, shown.poses[rows]).ranges, shown.sensing.ranges[rows])
+    assert np.array_equal(
+        sense(worlds, shown.poses[rows]).ranges, shown.sensing.ranges[rows]
+    )
 
 
 def test_a_world_without_a_way_is_named():
     walled = make_world(rectangles=[(50, 50, 6, 96, 0)])
-    with pytest.raises(ValueError, match=r"worlds\[1\] must have a way from start to target at 2 m/s, and has none"):
+    with pytest.raises(
+        ValueError,
+        match=r"worlds\[1\] must have a way from start to target at 2 m/s, and has none",
+    ):
         demonstrate(concatenate([make_world(), walled]))
 
 
@@ -172,8 +213,18 @@ def test_a_world_without_a_way_is_named():
         ("x", {}, TypeError, "worlds must be Worlds, got str"),
         (make_world(), {"margin": 51}, ValueError, "margin must be at most 50, got 51"),
         (make_world(), {"margin": 0.5}, ValueError, "margin must be at least 1"),
-        (make_world(), {"margin": "wide"}, TypeError, "margin must be a number, got 'wide'"),
-        (make_world(), {"speed": "fast"}, TypeError, "speed must be a number, got 'fast'"),
+        (
+            make_world(),
+            {"margin": "wide"},
+            TypeError,
+            "margin must be a number, got 'wide'",
+        ),
+        (
+            make_world(),
+            {"speed": "fast"},
+            TypeError,
+            "speed must be a number, got 'fast'",
+        ),
     ],
 )
 def test_wrong_arguments_get_a_sentence(worlds, options, error, message):

@@ -20,7 +20,7 @@ from robonav.mdp import (
     without_sensing,
 )
 from robonav.mdp.belief_planning import backup
-from robonav.mdp.planning import value_iteration
+from robonav.mdp.dynamic_programming import value_iteration
 
 
 def tiger_by_counting(accuracy, discount, furthest=12):
@@ -34,7 +34,10 @@ def tiger_by_counting(accuracy, discount, furthest=12):
     up = accuracy * left + (1 - accuracy) * (1 - left)
     values = np.zeros(len(heard))
     for _ in range(int(40 / (1 - discount))):
-        above, below = np.append(values[1:], values[-1]), np.append(values[0], values[:-1])
+        above, below = (
+            np.append(values[1:], values[-1]),
+            np.append(values[0], values[:-1]),
+        )
         listen = -1 + discount * (up * above + (1 - up) * below)
         open_left = -100 * left + 10 * (1 - left) + discount * values[furthest]
         open_right = -100 * (1 - left) + 10 * left + discount * values[furthest]
@@ -50,38 +53,60 @@ def expectimax(pomdp, belief, horizon):
     best = -np.inf
     for action in range(pomdp.mdp.actions):
         successors, probabilities = beliefs.successors(belief, action)
-        ahead = sum(p * expectimax(pomdp, b, horizon - 1) for b, p in zip(successors, probabilities, strict=True))
+        ahead = sum(
+            p * expectimax(pomdp, b, horizon - 1)
+            for b, p in zip(successors, probabilities, strict=True)
+        )
         best = max(best, beliefs.reward(belief, action) + pomdp.mdp.discount * ahead)
     return best
 
 
-@pytest.mark.parametrize(("accuracy", "discount"), [(0.85, 0.95), (0.85, 0.75), (0.65, 0.9)])
+@pytest.mark.parametrize(
+    ("accuracy", "discount"), [(0.85, 0.95), (0.85, 0.75), (0.65, 0.9)]
+)
 def test_the_tigers_value(accuracy, discount):
     pomdp = tiger(accuracy=accuracy, discount=discount)
-    policy = point_based_value_iteration(pomdp, spread_beliefs(pomdp, [0.5, 0.5], 40), tolerance=1e-9)
-    assert policy.value([0.5, 0.5]) == pytest.approx(tiger_by_counting(accuracy, discount), abs=1e-5)
+    policy = point_based_value_iteration(
+        pomdp, spread_beliefs(pomdp, [0.5, 0.5], 40), tolerance=1e-9
+    )
+    assert policy.value([0.5, 0.5]) == pytest.approx(
+        tiger_by_counting(accuracy, discount), abs=1e-5
+    )
 
 
 def test_the_tigers_value_as_published():
     pomdp = tiger()
     policy = point_based_value_iteration(pomdp, spread_beliefs(pomdp, [0.5, 0.5], 40))
     assert policy.value([0.5, 0.5]) == pytest.approx(19.371, abs=1e-3)
-    assert [policy.action([p, 1 - p]) for p in (0.02, 0.15, 0.5, 0.85, 0.98)] == [1, 0, 0, 0, 2]
+    assert [policy.action([p, 1 - p]) for p in (0.02, 0.15, 0.5, 0.85, 0.98)] == [
+        1,
+        0,
+        0,
+        0,
+        2,
+    ]
 
 
 def test_the_policy_earns_what_it_says():
     pomdp = tiger(discount=0.75)
     policy = point_based_value_iteration(pomdp, spread_beliefs(pomdp, [0.5, 0.5], 40))
     weights = 0.75 ** np.arange(40)
-    earned = [weights @ belief_walk(pomdp, policy.action, 40, seed=seed).rewards for seed in range(400)]
-    assert np.mean(earned) == pytest.approx(float(policy.value([0.5, 0.5])), abs=3 * np.std(earned) / 20)
+    earned = [
+        weights @ belief_walk(pomdp, policy.action, 40, seed=seed).rewards
+        for seed in range(400)
+    ]
+    assert np.mean(earned) == pytest.approx(
+        float(policy.value([0.5, 0.5])), abs=3 * np.std(earned) / 20
+    )
 
 
 def test_qmdp_listens_for_another_reason_and_promises_too_much():
     """Believing that all will be known after one step, it waits for that as long as opening looks worse."""
     pomdp = tiger()
     optimist = qmdp(pomdp)
-    assert optimist.value([0.5, 0.5]) == pytest.approx(10 / 0.05 - 1 - 10, abs=1e-4)  # 10 for ever, but for one listen
+    assert optimist.value([0.5, 0.5]) == pytest.approx(
+        10 / 0.05 - 1 - 10, abs=1e-4
+    )  # 10 for ever, but for one listen
     exact = point_based_value_iteration(pomdp, spread_beliefs(pomdp, [0.5, 0.5], 40))
     beliefs = np.stack([np.linspace(0, 1, 21), 1 - np.linspace(0, 1, 21)], axis=1)
     assert (optimist.value(beliefs) > exact.value(beliefs)).all()
@@ -92,7 +117,10 @@ def test_qmdp_never_pays_for_a_look():
     pomdp = fork()
     doubt = [0.5, 0.5, 0.0]
     assert qmdp(pomdp).action(doubt) == 0
-    assert belief_walk(pomdp, qmdp(pomdp).action, 20, belief=doubt, seed=0).rewards.sum() == 0
+    assert (
+        belief_walk(pomdp, qmdp(pomdp).action, 20, belief=doubt, seed=0).rewards.sum()
+        == 0
+    )
     policy = point_based_value_iteration(pomdp, spread_beliefs(pomdp, doubt, 10))
     assert policy.value(doubt) == pytest.approx(-1 + 0.9 * 10)
     for seed in range(5):
@@ -102,13 +130,17 @@ def test_qmdp_never_pays_for_a_look():
 
 
 def test_a_sign_that_costs_too_much_is_not_read():
-    policy = point_based_value_iteration(fork(sign_cost=9.5), spread_beliefs(fork(), [0.5, 0.5, 0.0], 10))
+    policy = point_based_value_iteration(
+        fork(sign_cost=9.5), spread_beliefs(fork(), [0.5, 0.5, 0.0], 10)
+    )
     assert policy.value([0.5, 0.5, 0.0]) == pytest.approx(0, abs=1e-5)
 
 
 def random_pomdp(seed, discount=0.6):
     rng = np.random.default_rng(seed)
-    mdp = FiniteMDP(rng.dirichlet(np.ones(3), (2, 3)), rng.normal(size=(3, 2)), discount)
+    mdp = FiniteMDP(
+        rng.dirichlet(np.ones(3), (2, 3)), rng.normal(size=(3, 2)), discount
+    )
     return POMDP(mdp, rng.dirichlet(np.ones(2), (2, 3)))
 
 
@@ -121,7 +153,9 @@ def test_backups_from_zero_are_the_finite_horizon(seed):
     """
     pomdp = random_pomdp(seed)
     start = np.full(3, 1 / 3)
-    reachable = np.concatenate([[start], *(BeliefMDP(pomdp).successors(start, a)[0] for a in range(2))])
+    reachable = np.concatenate(
+        [[start], *(BeliefMDP(pomdp).successors(start, a)[0] for a in range(2))]
+    )
     values = AlphaVectors(np.zeros((1, 3)), np.zeros(1, dtype=int))
     for horizon in (1, 2):
         values = backup(pomdp, reachable, values)
@@ -133,7 +167,9 @@ def test_backups_from_zero_are_the_finite_horizon(seed):
 def test_point_based_values_lie_below_the_truth_and_qmdp_above(seed):
     pomdp = random_pomdp(seed)
     start = np.full(3, 1 / 3)
-    below = point_based_value_iteration(pomdp, spread_beliefs(pomdp, start, 60)).value(start)
+    below = point_based_value_iteration(pomdp, spread_beliefs(pomdp, start, 60)).value(
+        start
+    )
     above = qmdp(pomdp).value(start)
     horizon = 6
     tail = 0.6**horizon * abs(pomdp.mdp.rewards).max() / 0.4
@@ -150,7 +186,9 @@ def test_with_a_clear_view_both_are_the_mdps_own_plan():
     planned = value_iteration(mdp, 1e-9)
     policy = point_based_value_iteration(clear, np.eye(4), tolerance=1e-10)
     np.testing.assert_allclose(policy.value(np.eye(4)), planned.values, atol=1e-6)
-    np.testing.assert_allclose(qmdp(clear, tolerance=1e-9).value(np.eye(4)), planned.values, atol=1e-6)
+    np.testing.assert_allclose(
+        qmdp(clear, tolerance=1e-9).value(np.eye(4)), planned.values, atol=1e-6
+    )
     assert [policy.action(b) for b in np.eye(4)] == planned.policy.tolist()
 
 
@@ -197,8 +235,14 @@ def test_there_are_no_more_vectors_than_points():
     [
         (np.zeros((0, 2)), "beliefs must hold at least one belief"),
         ([0.5, 0.5], r"beliefs must have shape \(N, 2\)"),
-        ([[0.5, 0.5], [1, 1]], "beliefs must be a distribution over the 2 states, got sum 2"),
-        ([[0.5, 0.5], [1.5, -0.5]], "beliefs must be a distribution over the 2 states, got a probability of -0.5"),
+        (
+            [[0.5, 0.5], [1, 1]],
+            "beliefs must be a distribution over the 2 states, got sum 2",
+        ),
+        (
+            [[0.5, 0.5], [1.5, -0.5]],
+            "beliefs must be a distribution over the 2 states, got a probability of -0.5",
+        ),
     ],
 )
 def test_points_are_beliefs(beliefs, sentence):
@@ -216,7 +260,12 @@ def test_only_beliefs_have_a_value():
 
 
 @pytest.mark.parametrize(
-    "plan", [qmdp, lambda m: spread_beliefs(m, [1, 0], 2), lambda m: point_based_value_iteration(m, [[1, 0]])]
+    "plan",
+    [
+        qmdp,
+        lambda m: spread_beliefs(m, [1, 0], 2),
+        lambda m: point_based_value_iteration(m, [[1, 0]]),
+    ],
 )
 def test_a_model_without_observations_is_refused(plan):
     with pytest.raises(TypeError, match="pomdp must be POMDP, got FiniteMDP"):
@@ -225,7 +274,9 @@ def test_a_model_without_observations_is_refused(plan):
 
 def test_too_few_backups_warn_and_say_how_far_it_was():
     pomdp = tiger()
-    with pytest.warns(ConvergenceWarning, match="after 3 backups with a value still rising by"):
+    with pytest.warns(
+        ConvergenceWarning, match="after 3 backups with a value still rising by"
+    ):
         point_based_value_iteration(pomdp, [[0.5, 0.5]], max_iterations=3)
 
 

@@ -35,12 +35,18 @@ from robonav.mdp import (
 
 def dirichlet_mdp(seed, *, states=8, actions=3, discount=0.9):
     rng = np.random.default_rng(seed)
-    return FiniteMDP(rng.dirichlet(np.ones(states), (actions, states)), rng.normal(size=(states, actions)), discount)
+    return FiniteMDP(
+        rng.dirichlet(np.ones(states), (actions, states)),
+        rng.normal(size=(states, actions)),
+        discount,
+    )
 
 
 def two_exits():
     """The 4x4 grid of Sutton and Barto's Example 4.1: every step costs 1, two opposite corners end."""
-    return GridWorld("E...\n....\n....\n...E", legend={"E": Cell(ends=True)}, step_reward=-1).mdp(1.0)
+    return GridWorld(
+        "E...\n....\n....\n...E", legend={"E": Cell(ends=True)}, step_reward=-1
+    ).mdp(1.0)
 
 
 def test_random_walk_of_example_4_1():
@@ -56,8 +62,27 @@ def test_random_walk_of_example_4_1():
     for sweeps, first_row in published.items():
         with pytest.warns(ConvergenceWarning):
             found = iterative_policy_evaluation(mdp, uniform, max_iterations=sweeps)
-        np.testing.assert_allclose(found.values[:4], first_row, atol=0.0501)  # printed to one decimal, cut or rounded
-    expected = [0, -14, -20, -22, -14, -18, -20, -20, -20, -20, -18, -14, -22, -20, -14, 0]
+        np.testing.assert_allclose(
+            found.values[:4], first_row, atol=0.0501
+        )  # printed to one decimal, cut or rounded
+    expected = [
+        0,
+        -14,
+        -20,
+        -22,
+        -14,
+        -18,
+        -20,
+        -20,
+        -20,
+        -20,
+        -18,
+        -14,
+        -22,
+        -20,
+        -14,
+        0,
+    ]
     np.testing.assert_allclose(policy_evaluation(mdp, uniform), expected, atol=1e-9)
 
 
@@ -98,11 +123,17 @@ def test_values_solve_the_bellman_equations(seed, discount, stochastic):
     rng = np.random.default_rng(seed)
     policy = rng.dirichlet(np.ones(3), 8) if stochastic else rng.integers(3, size=8)
     values = policy_evaluation(mdp, policy)
-    np.testing.assert_allclose(bellman_policy_operator(mdp, policy, values), values, atol=1e-9)
+    np.testing.assert_allclose(
+        bellman_policy_operator(mdp, policy, values), values, atol=1e-9
+    )
     q = action_values(mdp, policy)
     probabilities = policies.probabilities(policy, 8, 3)
-    np.testing.assert_allclose((probabilities * q).sum(axis=1), values, atol=1e-9)  # Eq. (2.6)
-    np.testing.assert_allclose((probabilities * advantage(mdp, policy)).sum(axis=1), 0, atol=1e-9)  # of Eq. (2.8)
+    np.testing.assert_allclose(
+        (probabilities * q).sum(axis=1), values, atol=1e-9
+    )  # Eq. (2.6)
+    np.testing.assert_allclose(
+        (probabilities * advantage(mdp, policy)).sum(axis=1), 0, atol=1e-9
+    )  # of Eq. (2.8)
 
 
 @settings(deadline=None)
@@ -114,7 +145,8 @@ def test_sweeps_stop_within_the_tolerance(seed, discount, tolerance):
     assert abs(found.values - policy_evaluation(mdp, policy)).max() <= tolerance
     assert found.history.shape == (found.iterations + 1, 8)
     np.testing.assert_allclose(
-        found.history[1:], [bellman_policy_operator(mdp, policy, before) for before in found.history[:-1]]
+        found.history[1:],
+        [bellman_policy_operator(mdp, policy, before) for before in found.history[:-1]],
     )
 
 
@@ -124,13 +156,22 @@ def test_many_states_are_solved_to_rounding(discount, local):
     """Beyond elimination's reach: neighbours only (a long corridor), and successors anywhere."""
     states = 3000
     rng = np.random.default_rng(1)
-    away = rng.integers(-1, 2, (states, 3)) if local else rng.integers(0, states, (states, 3))
+    away = (
+        rng.integers(-1, 2, (states, 3))
+        if local
+        else rng.integers(0, states, (states, 3))
+    )
     reached = np.clip(np.arange(states)[:, None] + away, 0, states - 1)
     chances = rng.dirichlet(np.ones(3), states)
-    transitions = sp.csr_array((chances.ravel(), (np.repeat(np.arange(states), 3), reached.ravel())), (states, states))
+    transitions = sp.csr_array(
+        (chances.ravel(), (np.repeat(np.arange(states), 3), reached.ravel())),
+        (states, states),
+    )
     mdp = FiniteMDP([transitions], rng.normal(size=(states, 1)), discount)
     values = policy_evaluation(mdp, np.zeros(states, dtype=int))
-    wrong = abs(bellman_policy_operator(mdp, np.zeros(states, dtype=int), values) - values).max()
+    wrong = abs(
+        bellman_policy_operator(mdp, np.zeros(states, dtype=int), values) - values
+    ).max()
     assert wrong <= 1e-13 * max(abs(values).max(), 1)
 
 
@@ -141,7 +182,11 @@ def test_values_are_the_mean_of_simulated_returns():
     walkers = 20_000
     state, total = np.zeros(walkers, dtype=int), np.zeros(walkers)
     for step in range(60):
-        action = (rng.random((walkers, 1)) > policy[state].cumsum(axis=1)).sum(axis=1).clip(max=2)
+        action = (
+            (rng.random((walkers, 1)) > policy[state].cumsum(axis=1))
+            .sum(axis=1)
+            .clip(max=2)
+        )
         total += 0.8**step * mdp.rewards[state, action]
         reach = mdp.transitions[action, state].cumsum(axis=1)
         state = (rng.random((walkers, 1)) > reach).sum(axis=1).clip(max=7)
@@ -152,7 +197,10 @@ def test_values_are_the_mean_of_simulated_returns():
 def test_without_discount_a_policy_that_never_ends_has_no_value():
     mdp = two_exits()
     always_up = np.zeros(16, dtype=int)
-    with pytest.raises(ValueError, match=r"must not collect rewards for ever where discount is 1, .* state 1 "):
+    with pytest.raises(
+        ValueError,
+        match=r"must not collect rewards for ever where discount is 1, .* state 1 ",
+    ):
         policy_evaluation(mdp, always_up)
 
 
@@ -166,7 +214,9 @@ def test_optimality_is_recognised():
     mdp = dirichlet_mdp(3)
     best = policy_iteration(mdp)
     assert is_optimal(mdp, best.policy)
-    np.testing.assert_allclose(bellman_optimality_operator(mdp, best.values), best.values, atol=1e-9)
+    np.testing.assert_allclose(
+        bellman_optimality_operator(mdp, best.values), best.values, atol=1e-9
+    )
     other = best.policy.copy()
     other[2] = (other[2] + 1) % 3
     assert not is_optimal(mdp, other)
@@ -183,7 +233,9 @@ def test_optimal_action_values_are_where_the_operator_on_them_rests(seed, discou
         ahead = sum(mdp.transitions[a, s, t] * max(q[t]) for t in range(4))
         assert swept[s, a] == pytest.approx(mdp.rewards[s, a] + discount * ahead)
     best = mdp.backup(policy_iteration(mdp).values)
-    np.testing.assert_allclose(bellman_action_value_operator(mdp, best), best, atol=1e-8)
+    np.testing.assert_allclose(
+        bellman_action_value_operator(mdp, best), best, atol=1e-8
+    )
     gap = abs(swept - bellman_action_value_operator(mdp, other)).max()
     assert gap <= discount * abs(q - other).max() + 1e-12
     with pytest.raises(ValueError, match=r"action_values must have shape \(4, 3\)"):
@@ -191,7 +243,9 @@ def test_optimal_action_values_are_where_the_operator_on_them_rests(seed, discou
 
 
 def test_giving_up_is_said_once_with_the_distance():
-    with pytest.warns(ConvergenceWarning, match=r"gave up after 3 iterations: .* by 1, where 1e-06"):
+    with pytest.warns(
+        ConvergenceWarning, match=r"gave up after 3 iterations: .* by 1, where 1e-06"
+    ):
         iterative_policy_evaluation(two_exits(), np.full(16, 2), max_iterations=3)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -199,7 +253,16 @@ def test_giving_up_is_said_once_with_the_distance():
 
 
 @settings(max_examples=5, deadline=None)
-@given(st.sampled_from([{"tolerance": 0}, {"tolerance": -1.0}, {"max_iterations": 0}, {"start": np.zeros(3)}]))
+@given(
+    st.sampled_from(
+        [
+            {"tolerance": 0},
+            {"tolerance": -1.0},
+            {"max_iterations": 0},
+            {"start": np.zeros(3)},
+        ]
+    )
+)
 def test_wrong_options_are_refused(options):
     with pytest.raises(ValueError, match=next(iter(options))):
         iterative_policy_evaluation(dirichlet_mdp(0), np.zeros(8, dtype=int), **options)
@@ -211,10 +274,22 @@ GRID = GridWorld("..G")
 @pytest.mark.parametrize(
     "call",
     [
-        *(value_iteration, policy_iteration, modified_policy_iteration, in_place_value_iteration, prioritized_sweeping),
+        *(
+            value_iteration,
+            policy_iteration,
+            modified_policy_iteration,
+            in_place_value_iteration,
+            prioritized_sweeping,
+        ),
         generalized_policy_iteration,
-        *(lambda grid, f=f: f(grid, [1, 1, 0]) for f in (policy_evaluation, iterative_policy_evaluation)),
-        *(lambda grid, f=f: f(grid, [1, 1, 0]) for f in (action_values, advantage, is_optimal)),
+        *(
+            lambda grid, f=f: f(grid, [1, 1, 0])
+            for f in (policy_evaluation, iterative_policy_evaluation)
+        ),
+        *(
+            lambda grid, f=f: f(grid, [1, 1, 0])
+            for f in (action_values, advantage, is_optimal)
+        ),
         lambda grid: bellman_policy_operator(grid, [1, 1, 0], np.zeros(3)),
         lambda grid: bellman_optimality_operator(grid, np.zeros(3)),
         lambda grid: backward_induction(grid, 3),

@@ -15,12 +15,17 @@ from robonav.mdp import (
 )
 from robonav.mdp.exploration import EpsilonGreedy, constant, schedule
 
-VALUES = arrays(float, st.tuples(st.integers(1, 6), st.integers(1, 5)), elements=st.sampled_from([-1.0, 0.0, 2.5]))
+VALUES = arrays(
+    float,
+    st.tuples(st.integers(1, 6), st.integers(1, 5)),
+    elements=st.sampled_from([-1.0, 0.0, 2.5]),
+)
 
 
 def test_epsilon_greedy_by_hand():
     np.testing.assert_allclose(
-        epsilon_greedy([[1, 3, 2, 0], [5, 5, 0, 0]], 0.2), [[0.05, 0.85, 0.05, 0.05], [0.45, 0.45, 0.05, 0.05]]
+        epsilon_greedy([[1, 3, 2, 0], [5, 5, 0, 0]], 0.2),
+        [[0.05, 0.85, 0.05, 0.05], [0.45, 0.45, 0.05, 0.05]],
     )
 
 
@@ -40,7 +45,9 @@ def test_the_quick_draw_follows_the_policy(values, epsilon):
     choose.begin(0)
     drawn = np.bincount([choose(values) for _ in range(20_000)], minlength=3) / 20_000
     np.testing.assert_allclose(drawn, epsilon_greedy(values, epsilon), atol=0.015)
-    assert choose.expected(values) == pytest.approx(epsilon_greedy(values, epsilon) @ values)
+    assert choose.expected(values) == pytest.approx(
+        epsilon_greedy(values, epsilon) @ values
+    )
 
 
 def test_epsilon_follows_its_schedule():
@@ -49,7 +56,9 @@ def test_epsilon_follows_its_schedule():
     for episode in range(12):
         choose.begin(episode)
         seen.append(choose.epsilon)
-    np.testing.assert_allclose(seen, [1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0, 0], atol=1e-12)
+    np.testing.assert_allclose(
+        seen, [1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0, 0], atol=1e-12
+    )
 
 
 def test_decays_by_hand():
@@ -74,7 +83,9 @@ def test_decays_by_hand():
     ],
 )
 def test_rates_outside_their_range_are_refused(make, rate):
-    with pytest.raises(ValueError, match=r"(value|start|end) must be (at least 0|finite)"):
+    with pytest.raises(
+        ValueError, match=r"(value|start|end) must be (at least 0|finite)"
+    ):
         make(rate)
 
 
@@ -82,9 +93,13 @@ def test_rates_outside_their_range_are_refused(make, rate):
 def test_rates_of_ones_own_schedule_are_checked_as_they_come(rate):
     falling = schedule("learning_rate", lambda n: 0.5 if n < 3 else rate)
     assert falling(2) == 0.5
-    with pytest.raises(ValueError, match=r"learning_rate\(3\) must be (at least 0|finite)"):
+    with pytest.raises(
+        ValueError, match=r"learning_rate\(3\) must be (at least 0|finite)"
+    ):
         falling(3)
-    with pytest.raises(TypeError, match=r"learning_rate\(0\) must be a number, got 'fast'"):
+    with pytest.raises(
+        TypeError, match=r"learning_rate\(0\) must be a number, got 'fast'"
+    ):
         schedule("learning_rate", lambda n: "fast")(0)
 
 

@@ -30,7 +30,9 @@ def grids(draw):
     cells = st.text(alphabet=".#SGX~$", min_size=columns, max_size=columns)
     lines = draw(st.lists(cells, min_size=rows, max_size=rows))
     text = "\n".join(["." + lines[0][1:], *lines[1:]])  # at least one cell to be in
-    return GridWorld(text, legend=MUD, slip=draw(st.floats(0, 1)), step_reward=draw(st.floats(-1, 1)))
+    return GridWorld(
+        text, legend=MUD, slip=draw(st.floats(0, 1)), step_reward=draw(st.floats(-1, 1))
+    )
 
 
 def test_the_map_is_read_row_by_row(grid):
@@ -56,7 +58,9 @@ def test_a_slip_goes_aside_and_ice_slips_more(grid):
     up, right = mdp.transitions[0].toarray(), mdp.transitions[1].toarray()
     np.testing.assert_allclose(right[3, [4, 0, 7]], [0.8, 0.1, 0.1])
     np.testing.assert_allclose(up[4, [1, 3, 5]], [1 / 3, 1 / 3, 1 / 3])
-    assert mdp.rewards[9, 3] == pytest.approx(-1 + 0.8 * -5 + 0.1 * -1)  # to the mud, or to the pit, or nowhere
+    assert mdp.rewards[9, 3] == pytest.approx(
+        -1 + 0.8 * -5 + 0.1 * -1
+    )  # to the mud, or to the pit, or nowhere
     assert mdp.rewards[2].tolist() == [0, 0, 0, 0]
 
 
@@ -111,21 +115,30 @@ def test_the_environment_behaves_as_the_model_says(grid):
     for action, matrix in enumerate(mdp.transitions):
         expected = matrix.toarray()
         often = tries[action] > 50
-        error = np.sqrt(expected * (1 - expected) / np.maximum(tries[action], 1)[:, None])
+        error = np.sqrt(
+            expected * (1 - expected) / np.maximum(tries[action], 1)[:, None]
+        )
         off = abs(counts[action] / np.maximum(tries[action], 1)[:, None] - expected)
         assert (off <= 4 * error + 1e-12)[often].all()
     often = tries.T > 50
-    np.testing.assert_allclose((rewards / np.maximum(tries.T, 1))[often], mdp.rewards[often], atol=0.6)
+    np.testing.assert_allclose(
+        (rewards / np.maximum(tries.T, 1))[often], mdp.rewards[often], atol=0.6
+    )
 
 
 def test_gymnasium_s_checker_is_content(grid):
-    check_env(gym.wrappers.TimeLimit(grid.environment(), 50).unwrapped, skip_render_check=True)
+    check_env(
+        gym.wrappers.TimeLimit(grid.environment(), 50).unwrapped, skip_render_check=True
+    )
 
 
 def test_seeds_reproduce_a_walk(grid):
     def walk(seed):
         env = grid.environment()
-        return [env.reset(seed=seed)[0], *(env.step(action % 4)[0] for action in range(30))]
+        return [
+            env.reset(seed=seed)[0],
+            *(env.step(action % 4)[0] for action in range(30)),
+        ]
 
     assert walk(3) == walk(3)
     assert walk(3) != walk(4)

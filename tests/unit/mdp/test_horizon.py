@@ -8,7 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robonav.mdp import FiniteMDP, backward_induction, horizon_evaluation, policy_iteration
+from robonav.mdp import (
+    FiniteMDP,
+    backward_induction,
+    horizon_evaluation,
+    policy_iteration,
+)
 
 
 @settings(max_examples=25, deadline=None)
@@ -16,10 +21,14 @@ from robonav.mdp import FiniteMDP, backward_induction, horizon_evaluation, polic
 def test_no_plan_of_all_beats_it(seed, horizon, discount):
     """Every sequence of decision rules, one action a state and step, tried out."""
     rng = np.random.default_rng(seed)
-    mdp = FiniteMDP(rng.dirichlet(np.ones(2), (2, 2)), rng.normal(size=(2, 2)), discount)
+    mdp = FiniteMDP(
+        rng.dirichlet(np.ones(2), (2, 2)), rng.normal(size=(2, 2)), discount
+    )
     final = rng.normal(size=2)
     best = np.full(2, -np.inf)
-    for plan in itertools.product(itertools.product(range(2), repeat=2), repeat=horizon):
+    for plan in itertools.product(
+        itertools.product(range(2), repeat=2), repeat=horizon
+    ):
         values = final
         for rule in reversed(plan):
             values = mdp.backup(values)[np.arange(2), rule]
@@ -36,7 +45,9 @@ def test_a_long_horizon_comes_to_the_infinite_one():
     best = policy_iteration(mdp)
     found = backward_induction(mdp, 200)
     np.testing.assert_allclose(found.values[0], best.values, atol=1e-9)
-    np.testing.assert_allclose(horizon_evaluation(mdp, best.policy, 200), best.values, atol=1e-9)
+    np.testing.assert_allclose(
+        horizon_evaluation(mdp, best.policy, 200), best.values, atol=1e-9
+    )
 
 
 def test_frozen_lake_within_its_100_steps():
@@ -45,14 +56,21 @@ def test_frozen_lake_within_its_100_steps():
     limited = backward_induction(mdp, 100)
     patient = horizon_evaluation(mdp, policy_iteration(mdp).policy, 100)
     assert 0.73 < patient[0] < limited.values[0, 0] < 14 / 17
-    assert (np.diff(limited.values[:, 0]) <= 1e-12).all()  # the more steps to go, the better
+    assert (
+        np.diff(limited.values[:, 0]) <= 1e-12
+    ).all()  # the more steps to go, the better
 
 
 def test_a_policy_earns_its_steps_and_what_stands_at_the_end():
     """By hand: from 0 to 1 and to and fro between them, 1 for each step out of 0, discount 0.5, 8 and 16 at the end."""
     mdp = FiniteMDP([[[0, 1], [1, 0]]], [[1], [0]], 0.5)
-    np.testing.assert_allclose(horizon_evaluation(mdp, [0, 0], 3, final_values=[8, 16]), [1 + 0.25 + 2, 0.5 + 1])
-    np.testing.assert_allclose(horizon_evaluation(mdp, [0, 0], 0, final_values=[8, 16]), [8, 16])
+    np.testing.assert_allclose(
+        horizon_evaluation(mdp, [0, 0], 3, final_values=[8, 16]),
+        [1 + 0.25 + 2, 0.5 + 1],
+    )
+    np.testing.assert_allclose(
+        horizon_evaluation(mdp, [0, 0], 0, final_values=[8, 16]), [8, 16]
+    )
 
 
 @pytest.mark.parametrize("horizon", [-1, 2.5])

@@ -28,7 +28,9 @@ def test_it_ends_where_both_lines_meet(mdp, sweeps):
     trace = generalized_policy_iteration(mdp, sweeps=sweeps)
     best = policy_iteration(mdp)
     np.testing.assert_allclose(trace.values[-1], best.values, atol=1e-6)
-    np.testing.assert_allclose(policy_evaluation(mdp, trace.policies[-1]), best.values, atol=1e-9)
+    np.testing.assert_allclose(
+        policy_evaluation(mdp, trace.policies[-1]), best.values, atol=1e-9
+    )
     assert trace.evaluation_gap[-1] <= mdp.stopping_distance(1e-6)
     assert trace.greedy_gap[-1] <= 1e-9
     assert trace.improves.tolist() == [False, True] * (len(trace.improves) // 2)
@@ -50,7 +52,9 @@ def test_one_sweep_is_value_iteration(mdp):
     trace = generalized_policy_iteration(mdp, start_policy=swept.policies[0])
     evaluated = trace.values[1::2]
     shared = min(len(evaluated), swept.iterations)
-    np.testing.assert_allclose(evaluated[:shared], swept.history[1 : shared + 1], atol=1e-12)
+    np.testing.assert_allclose(
+        evaluated[:shared], swept.history[1 : shared + 1], atol=1e-12
+    )
 
 
 def test_exact_evaluation_is_policy_iteration(mdp):
@@ -63,16 +67,32 @@ def test_exact_evaluation_is_policy_iteration(mdp):
 
 def test_gaps_are_zero_exactly_on_their_lines():
     mdp = FiniteMDP([[[1.0, 0], [0, 1]], [[0, 1], [1, 0]]], [[0, 0], [1, 0]], 0.5)
-    trace = generalized_policy_iteration(mdp, sweeps=math.inf, start_policy=np.array([0, 0]))
-    assert trace.evaluation_gap.tolist() == [1, 0, 1, 0, 0]  # off by the reward at first, then by what is new
-    assert trace.greedy_gap.tolist() == [0, 1, 0, 0, 0]  # under V = (0, 2) going to state 1 promises 1
+    trace = generalized_policy_iteration(
+        mdp, sweeps=math.inf, start_policy=np.array([0, 0])
+    )
+    assert trace.evaluation_gap.tolist() == [
+        1,
+        0,
+        1,
+        0,
+        0,
+    ]  # off by the reward at first, then by what is new
+    assert trace.greedy_gap.tolist() == [
+        0,
+        1,
+        0,
+        0,
+        0,
+    ]  # under V = (0, 2) going to state 1 promises 1
     assert trace.values[-1].tolist() == [1, 2]
 
 
 def test_an_action_that_ties_stays():
     same = FiniteMDP(np.stack([np.full((4, 4), 0.25)] * 3), np.ones((4, 3)), 0.9)
     start = np.array([2, 1, 0, 1])
-    assert (generalized_policy_iteration(same, start_policy=start).policies == start).all()
+    assert (
+        generalized_policy_iteration(same, start_policy=start).policies == start
+    ).all()
 
 
 @pytest.mark.parametrize("sweeps", [100, math.inf])
@@ -80,7 +100,9 @@ def test_it_ends_where_actions_tie_in_large_values(sweeps):
     """Most cells cannot reach the goal: all their actions are worth -1e8, to rounding."""
     walled = "##..#\n..#.#\n#....\n.#..#\n#.##G"
     grid = GridWorld(walled, legend={"G": Cell(ends=True)}, slip=0.2, step_reward=-1e5)
-    trace = generalized_policy_iteration(grid.mdp(0.999), sweeps=sweeps, tolerance=0.1, max_rounds=500)
+    trace = generalized_policy_iteration(
+        grid.mdp(0.999), sweeps=sweeps, tolerance=0.1, max_rounds=500
+    )
     assert (trace.policies[-1] == trace.policies[-2]).all()
     np.testing.assert_allclose(trace.values[-1][:-1], -1e8, atol=0.1)
 
@@ -95,7 +117,9 @@ def test_it_ends_only_when_no_action_changes_any_more(mdp):
 def test_without_discount_it_may_rest_too():
     mdp = GridWorld(". . X").mdp(1.0)
     for sweeps in (1, math.inf):
-        trace = generalized_policy_iteration(mdp, sweeps=sweeps, start_policy=np.array([1, 1, 0]))
+        trace = generalized_policy_iteration(
+            mdp, sweeps=sweeps, start_policy=np.array([1, 1, 0])
+        )
         np.testing.assert_array_equal(trace.values[-1], [0, 0, 0])
 
 

@@ -27,15 +27,20 @@ REWARDS = st.lists(st.floats(-10, 10), min_size=1, max_size=30)
 @given(REWARDS, st.floats(0, 1))
 def test_discounted_return_is_the_sum_of_its_definition(rewards, discount):
     expected = [
-        sum(discount**later * reward for later, reward in enumerate(rewards[step:])) for step in range(len(rewards))
+        sum(discount**later * reward for later, reward in enumerate(rewards[step:]))
+        for step in range(len(rewards))
     ]
-    np.testing.assert_allclose(discounted_return(rewards, discount), expected, atol=1e-9)
+    np.testing.assert_allclose(
+        discounted_return(rewards, discount), expected, atol=1e-9
+    )
 
 
 def drawn_as(element):
     """An element of a discrete space as text, whatever its numbers are kept in."""
     return (
-        " ".join(str(part) for piece in element for part in np.ravel(piece)) if np.iterable(element) else str(element)
+        " ".join(str(part) for piece in element for part in np.ravel(piece))
+        if np.iterable(element)
+        else str(element)
     )
 
 
@@ -49,7 +54,13 @@ def test_discounted_return_of_nothing_is_nothing():
         spaces.Discrete(5),
         spaces.Discrete(5, start=-2),
         spaces.MultiDiscrete([3, 4, 2]),
-        spaces.Tuple([spaces.Discrete(3), spaces.Discrete(4, start=1), spaces.MultiDiscrete([2, 2])]),
+        spaces.Tuple(
+            [
+                spaces.Discrete(3),
+                spaces.Discrete(4, start=1),
+                spaces.MultiDiscrete([2, 2]),
+            ]
+        ),
     ],
 )
 def test_every_element_of_a_space_gets_its_own_number(space):
@@ -115,12 +126,21 @@ class TwoWheels(gym.Env):
 
 
 @pytest.mark.parametrize(
-    "actions", [spaces.MultiDiscrete([2, 3]), spaces.Tuple([spaces.Discrete(2), spaces.Discrete(3)])]
+    "actions",
+    [
+        spaces.MultiDiscrete([2, 3]),
+        spaces.Tuple([spaces.Discrete(2), spaces.Discrete(3)]),
+    ],
 )
 def test_actions_may_have_several_parts(actions):
-    earned = [rollouts(TwoWheels(actions), [a], 1, max_steps=1, seed=0)[0].rewards[0] for a in range(6)]
+    earned = [
+        rollouts(TwoWheels(actions), [a], 1, max_steps=1, seed=0)[0].rewards[0]
+        for a in range(6)
+    ]
     assert earned == [0, 1, 2, 10, 11, 12]
-    learned = q_learning(TwoWheels(actions), 200, discount=0.0, epsilon=1.0, learning_rate=1.0, seed=0)
+    learned = q_learning(
+        TwoWheels(actions), 200, discount=0.0, epsilon=1.0, learning_rate=1.0, seed=0
+    )
     assert learned.q.tolist() == [earned]
 
 
@@ -162,7 +182,14 @@ def test_an_endless_episode_is_cut_off():
     assert not episode.terminated
 
 
-@pytest.mark.parametrize("env", [gym.make("CartPole-v1"), gym.make_vec("FrozenLake-v1", num_envs=2), "FrozenLake-v1"])
+@pytest.mark.parametrize(
+    "env",
+    [
+        gym.make("CartPole-v1"),
+        gym.make_vec("FrozenLake-v1", num_envs=2),
+        "FrozenLake-v1",
+    ],
+)
 def test_what_is_not_discrete_is_refused(env):
     with pytest.raises(TypeError, match="env"):
         rollouts(env, [0], 1, seed=0)
@@ -178,7 +205,24 @@ def test_a_stochastic_policy_draws_as_often_as_it_says():
 
 def test_frozen_lake_without_slipping_is_walked_to_the_goal():
     lake = gym.make("FrozenLake-v1", is_slippery=False)
-    path = [1, 0, 0, 0, 1, 0, 0, 0, 2, 1, 0, 0, 0, 2, 2, 0]  # down, down, right, down, right, right
+    path = [
+        1,
+        0,
+        0,
+        0,
+        1,
+        0,
+        0,
+        0,
+        2,
+        1,
+        0,
+        0,
+        0,
+        2,
+        2,
+        0,
+    ]  # down, down, right, down, right, right
     (episode,) = rollouts(lake, path, 1, seed=0)
     assert episode.states.tolist() == [0, 4, 8, 9, 13, 14, 15]
     assert episode.rewards.sum() == 1

@@ -7,7 +7,16 @@ from gymnasium import spaces
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robonav.mdp import OneHot, Tiles, linear_q_learning, linear_sarsa, q_learning, rollouts, sarsa, with_constant
+from robonav.mdp import (
+    OneHot,
+    Tiles,
+    linear_q_learning,
+    linear_sarsa,
+    q_learning,
+    rollouts,
+    sarsa,
+    with_constant,
+)
 
 UNIT = st.floats(0, 1)
 
@@ -19,7 +28,9 @@ def test_one_hot_is_one_number_for_each_pair():
     assert with_constant(features)(1).shape == (2, 7)
 
 
-@pytest.mark.parametrize(("linear", "tabular"), [(linear_sarsa, sarsa), (linear_q_learning, q_learning)])
+@pytest.mark.parametrize(
+    ("linear", "tabular"), [(linear_sarsa, sarsa), (linear_q_learning, q_learning)]
+)
 def test_with_one_feature_a_pair_it_is_the_table(linear, tabular):
     cliff = gym.make("CliffWalking-v1")
     options = {"learning_rate": 0.5, "discount": 0.97, "seed": 3, "record": True}
@@ -34,7 +45,9 @@ def test_with_one_feature_a_pair_it_is_the_table(linear, tabular):
 def test_the_constant_is_a_weight_like_the_others():
     """One step, reward -1, all values 0 before: each active feature, f_0 included, moves by alpha * delta."""
     cliff = gym.make("CliffWalking-v1")
-    learned = linear_sarsa(cliff, 1, with_constant(OneHot(48, 4)), learning_rate=0.1, max_steps=1, seed=0)
+    learned = linear_sarsa(
+        cliff, 1, with_constant(OneHot(48, 4)), learning_rate=0.1, max_steps=1, seed=0
+    )
     moved = learned.weights[learned.weights != 0]
     assert learned.weights[0] == pytest.approx(0.1 * learned.returns[0])
     np.testing.assert_allclose(moved, [0.1 * learned.returns[0]] * 2)
@@ -55,7 +68,14 @@ class TwoRooms(gym.Env):
 @pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
 def test_what_comes_after_the_end_is_worth_nothing(learn):
     """Both rooms share their one feature, so that looking beyond the end would count the 1 again and again."""
-    learned = learn(TwoRooms(), 60, lambda state: np.ones((1, 1)), learning_rate=0.5, discount=1.0, seed=0)
+    learned = learn(
+        TwoRooms(),
+        60,
+        lambda state: np.ones((1, 1)),
+        learning_rate=0.5,
+        discount=1.0,
+        seed=0,
+    )
     assert learned.weights[0] == pytest.approx(1)
 
 
@@ -63,7 +83,15 @@ def test_what_comes_after_the_end_is_worth_nothing(learn):
 def test_the_learning_rate_follows_its_schedule_over_episodes(learn):
     """Half of the way to 1, none of it, a quarter of what is left."""
     rates = [0.5, 0.0, 0.25]
-    learned = learn(TwoRooms(), 3, OneHot(2, 1), learning_rate=rates.__getitem__, discount=1.0, seed=0, record=True)
+    learned = learn(
+        TwoRooms(),
+        3,
+        OneHot(2, 1),
+        learning_rate=rates.__getitem__,
+        discount=1.0,
+        seed=0,
+        record=True,
+    )
     np.testing.assert_allclose(learned.history[:, 0], [0, 0.5, 0.5, 0.625])
 
 
@@ -82,14 +110,19 @@ class Switch(gym.Env):
 @pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
 def test_exploring_follows_its_schedule_over_episodes(learn):
     """Blind for 100 episodes, then never again: from there on every episode pays."""
-    learned = learn(Switch(), 200, OneHot(1, 2), epsilon=lambda n: float(n < 100), seed=0)
+    learned = learn(
+        Switch(), 200, OneHot(1, 2), epsilon=lambda n: float(n < 100), seed=0
+    )
     assert 20 < learned.returns[:100].sum() < 80
     assert (learned.returns[100:] == 1).all()
 
 
 @pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
 def test_features_have_one_length(learn):
-    with pytest.raises(ValueError, match=r"features must give shape \(1, 1\) for every state, .* got \(1, 2\)"):
+    with pytest.raises(
+        ValueError,
+        match=r"features must give shape \(1, 1\) for every state, .* got \(1, 2\)",
+    ):
         learn(TwoRooms(), 1, lambda state: np.ones((1, 1 + state)), seed=0)
 
 
@@ -119,7 +152,10 @@ def test_tilings_are_shifted_differently_in_each_direction():
     """
     k = np.arange(8)
     np.testing.assert_allclose(TILES.shifts, np.stack([k / 8, 3 * k % 8 / 8], axis=1))
-    here, there = (set(TILES.active(at).tolist()) for at in ((0.5, 0.8), (0.5 - 1 / 32, 0.8 + 1 / 20)))
+    here, there = (
+        set(TILES.active(at).tolist())
+        for at in ((0.5, 0.8), (0.5 - 1 / 32, 0.8 + 1 / 20))
+    )
     kept = [i for i in k if i / 8 >= 1 / 8 and 3 * i % 8 / 8 < 7 / 8]
     assert len(here & there) == len(kept) == 6
 
@@ -142,8 +178,21 @@ def test_neighbours_share_tiles_and_strangers_do_not():
     here = set(TILES.active((0.5, 1.0)).tolist())
     assert len(here & set(TILES.active((0.51, 1.0)).tolist())) >= 7
     assert not here & set(TILES.active((0.9, 1.9)).tolist())
-    steps = [len(here & set(TILES.active((0.5 + shift / 32, 1.0)).tolist())) for shift in range(9)]
-    assert steps == [8, 7, 6, 5, 4, 3, 2, 1, 0]  # one tiling of the eight lets go at each eighth of a tile
+    steps = [
+        len(here & set(TILES.active((0.5 + shift / 32, 1.0)).tolist()))
+        for shift in range(9)
+    ]
+    assert steps == [
+        8,
+        7,
+        6,
+        5,
+        4,
+        3,
+        2,
+        1,
+        0,
+    ]  # one tiling of the eight lets go at each eighth of a tile
 
 
 def test_outside_counts_as_on_the_edge():
@@ -158,8 +207,12 @@ def test_tiles_carry_what_was_learned_to_places_never_seen():
     def features(state):
         return tiles(np.divmod(state, 12))
 
-    learned = linear_sarsa(cliff, 400, features, learning_rate=0.05, discount=1.0, seed=0)
-    (walk,) = rollouts(cliff, learned.q(range(48)).argmax(axis=1), 1, max_steps=60, seed=0)
+    learned = linear_sarsa(
+        cliff, 400, features, learning_rate=0.05, discount=1.0, seed=0
+    )
+    (walk,) = rollouts(
+        cliff, learned.q(range(48)).argmax(axis=1), 1, max_steps=60, seed=0
+    )
     assert walk.terminated
     assert -25 < walk.rewards.sum() <= -13
 
@@ -167,8 +220,19 @@ def test_tiles_carry_what_was_learned_to_places_never_seen():
 def test_any_observation_will_do():
     """A car on a hill: two real numbers, no table."""
     car = gym.make("MountainCar-v0")
-    tiles = Tiles(low=(-1.2, -0.07), high=(0.6, 0.07), tiles=(8, 8), tilings=8, actions=3)
-    learned = linear_sarsa(car, 60, tiles, learning_rate=0.5 / 8, discount=1.0, epsilon=0.0, max_steps=2000, seed=0)
+    tiles = Tiles(
+        low=(-1.2, -0.07), high=(0.6, 0.07), tiles=(8, 8), tilings=8, actions=3
+    )
+    learned = linear_sarsa(
+        car,
+        60,
+        tiles,
+        learning_rate=0.5 / 8,
+        discount=1.0,
+        epsilon=0.0,
+        max_steps=2000,
+        seed=0,
+    )
     assert learned.q([np.array([-0.5, 0.0])]).shape == (1, 3)
     assert np.isfinite(learned.weights).all()
 
@@ -178,7 +242,14 @@ def test_too_large_a_step_is_named(learn):
     cliff = gym.make("CliffWalking-v1")
     tiles = Tiles(low=(0, 0), high=(4, 12), tiles=(2, 2), tilings=16, actions=4)
     with pytest.raises(ValueError, match="learning_rate is too large"):
-        learn(cliff, 200, lambda state: tiles(np.divmod(state, 12)), learning_rate=1.0, discount=1.0, seed=0)
+        learn(
+            cliff,
+            200,
+            lambda state: tiles(np.divmod(state, 12)),
+            learning_rate=1.0,
+            discount=1.0,
+            seed=0,
+        )
 
 
 @pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
@@ -190,7 +261,9 @@ def test_features_must_fit_the_actions(learn):
 @pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
 def test_seeds_reproduce(learn):
     lake = gym.make("FrozenLake-v1")
-    first, again, other = (learn(lake, 40, OneHot(16, 4), epsilon=0.5, seed=seed) for seed in (1, 1, 2))
+    first, again, other = (
+        learn(lake, 40, OneHot(16, 4), epsilon=0.5, seed=seed) for seed in (1, 1, 2)
+    )
     np.testing.assert_array_equal(first.weights, again.weights)
     np.testing.assert_array_equal(first.lengths, again.lengths)
     assert (first.lengths != other.lengths).any()
@@ -209,4 +282,13 @@ def test_seeds_reproduce(learn):
 )
 def test_tiles_check_their_numbers(wrong):
     with pytest.raises(ValueError, match="must"):
-        Tiles(**{"low": (0.0, 0.0), "high": (1.0, 1.0), "tiles": (2, 2), "tilings": 2, "actions": 2, **wrong})
+        Tiles(
+            **{
+                "low": (0.0, 0.0),
+                "high": (1.0, 1.0),
+                "tiles": (2, 2),
+                "tilings": 2,
+                "actions": 2,
+                **wrong,
+            }
+        )

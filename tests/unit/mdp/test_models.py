@@ -17,7 +17,11 @@ def random_mdp(seed, *, states=6, actions=3, discount=0.9, sparse=False, spread=
     rng = np.random.default_rng(seed)
     transitions = rng.dirichlet(np.full(states, spread), size=(actions, states))
     rewards = rng.normal(size=(states, actions))
-    return FiniteMDP([sp.csr_array(t) for t in transitions] if sparse else transitions, rewards, discount)
+    return FiniteMDP(
+        [sp.csr_array(t) for t in transitions] if sparse else transitions,
+        rewards,
+        discount,
+    )
 
 
 def brute_backup(transitions, rewards, discount, values):
@@ -26,7 +30,9 @@ def brute_backup(transitions, rewards, discount, values):
     q = np.zeros((states, actions))
     for s in range(states):
         for a in range(actions):
-            q[s, a] = rewards[s, a] + discount * sum(transitions[a, s, t] * values[t] for t in range(states))
+            q[s, a] = rewards[s, a] + discount * sum(
+                transitions[a, s, t] * values[t] for t in range(states)
+            )
     return q
 
 
@@ -49,28 +55,39 @@ def test_chain_of_a_policy_averages_over_its_actions(seed, sparse):
     probabilities = rng.dirichlet(np.ones(mdp.actions), size=mdp.states)
     dense = random_mdp(seed).transitions
     transitions, rewards = mdp.under(probabilities)
-    np.testing.assert_allclose(transitions.toarray(), np.einsum("sa,ast->st", probabilities, dense), atol=1e-12)
+    np.testing.assert_allclose(
+        transitions.toarray(), np.einsum("sa,ast->st", probabilities, dense), atol=1e-12
+    )
     np.testing.assert_allclose(rewards, (probabilities * mdp.rewards).sum(axis=1))
     actions = rng.integers(mdp.actions, size=mdp.states)
     transitions, rewards = mdp.under(actions)
-    np.testing.assert_array_equal(transitions.toarray(), dense[actions, np.arange(mdp.states)])
+    np.testing.assert_array_equal(
+        transitions.toarray(), dense[actions, np.arange(mdp.states)]
+    )
     np.testing.assert_array_equal(rewards, mdp.rewards[np.arange(mdp.states), actions])
 
 
-@pytest.mark.parametrize("form", [sp.csr_matrix, sp.csr_array, sp.coo_array, sp.lil_matrix, sp.csc_array])
+@pytest.mark.parametrize(
+    "form", [sp.csr_matrix, sp.csr_array, sp.coo_array, sp.lil_matrix, sp.csc_array]
+)
 def test_every_sparse_form_serves(form):
     dense = random_mdp(3, spread=0.1).transitions
     dense = np.where(dense < 1e-3, 0, dense)
     dense /= dense.sum(axis=2, keepdims=True)
     mdp = FiniteMDP([form(t) for t in dense], np.zeros((6, 3)), 0.9)
-    np.testing.assert_array_equal(mdp.rows.toarray(), dense.swapaxes(0, 1).reshape(-1, 6))
+    np.testing.assert_array_equal(
+        mdp.rows.toarray(), dense.swapaxes(0, 1).reshape(-1, 6)
+    )
     assert mdp.is_sparse
     assert len(mdp.transitions) == mdp.actions == 3
 
 
 def test_wide_indices_serve_too():
     narrow = random_mdp(4, sparse=True)
-    wide = [sp.csr_array((t.data, t.indices.astype(np.int64), t.indptr.astype(np.int64))) for t in narrow.transitions]
+    wide = [
+        sp.csr_array((t.data, t.indices.astype(np.int64), t.indptr.astype(np.int64)))
+        for t in narrow.transitions
+    ]
     solution = value_iteration(FiniteMDP(wide, narrow.rewards, narrow.discount))
     np.testing.assert_array_equal(solution.values, value_iteration(narrow).values)
 
@@ -95,16 +112,41 @@ HALF, STAY = np.full((1, 2, 2), 0.5), np.eye(2)[None]
     ("transitions", "rewards", "discount", "sentence"),
     [
         (0.9 * STAY, [[0], [0]], 0.9, r"must sum to 1 .* got 0.9 at action 0, state 0"),
-        ([sp.csr_array(STAY[0]), sp.csr_array([[1, 0], [0.5, 0.4]])], np.zeros((2, 2)), 0.9, "action 1, state 1"),
+        (
+            [sp.csr_array(STAY[0]), sp.csr_array([[1, 0], [0.5, 0.4]])],
+            np.zeros((2, 2)),
+            0.9,
+            "action 1, state 1",
+        ),
         ([[[1.5, -0.5], [0, 1]]], [[0], [0]], 0.9, "negative probabilities"),
-        ([sp.csr_array([[1.5, -0.5], [0, 1]])], [[0], [0]], 0.9, "negative probabilities"),
+        (
+            [sp.csr_array([[1.5, -0.5], [0, 1]])],
+            [[0], [0]],
+            0.9,
+            "negative probabilities",
+        ),
         (HALF, [[0, 0]], 0.9, r"rewards must have shape \(2, 1\), got \(1, 2\)"),
         (HALF, [[np.nan], [0]], 0.9, "rewards must hold finite"),
         ([[[np.inf, 0], [0, 1]]], [[0], [0]], 0.9, "transitions must hold finite"),
-        ([sp.csr_array([[np.nan, 0], [0, 1]])], [[0], [0]], 0.9, "transitions must hold finite"),
+        (
+            [sp.csr_array([[np.nan, 0], [0, 1]])],
+            [[0], [0]],
+            0.9,
+            "transitions must hold finite",
+        ),
         (np.eye(2), [[0], [0]], 0.9, r"transitions must have shape \(A, S, S\)"),
-        (np.ones((1, 2, 3)) / 3, [[0], [0]], 0.9, r"transitions must have shape \(A, S, S\), got \(1, 2, 3\)"),
-        ([sp.eye_array(2), sp.eye_array(3)], np.zeros((2, 2)), 0.9, r"got \(3, 3\) at action 1"),
+        (
+            np.ones((1, 2, 3)) / 3,
+            [[0], [0]],
+            0.9,
+            r"transitions must have shape \(A, S, S\), got \(1, 2, 3\)",
+        ),
+        (
+            [sp.eye_array(2), sp.eye_array(3)],
+            np.zeros((2, 2)),
+            0.9,
+            r"got \(3, 3\) at action 1",
+        ),
         (np.zeros((0, 2, 2)), np.zeros((2, 0)), 0.9, "at least one action"),
         (HALF, [[0], [0]], 1.1, "discount must be at least 0 and at most 1, got 1.1"),
         (HALF, [[0], [0]], np.nan, "discount must be finite"),
@@ -112,12 +154,16 @@ HALF, STAY = np.full((1, 2, 2), 0.5), np.eye(2)[None]
         (STAY, [[0], [1]], 1, "terminal state .* got 1 with state 1 unable"),
     ],
 )
-def test_wrong_models_are_refused_in_one_sentence(transitions, rewards, discount, sentence):
+def test_wrong_models_are_refused_in_one_sentence(
+    transitions, rewards, discount, sentence
+):
     with pytest.raises(ValueError, match=sentence):
         FiniteMDP(transitions, rewards, discount)
 
 
-@pytest.mark.parametrize("transitions", [sp.eye_array(2), [sp.eye_array(2), np.eye(2)], "nonsense"])
+@pytest.mark.parametrize(
+    "transitions", [sp.eye_array(2), [sp.eye_array(2), np.eye(2)], "nonsense"]
+)
 def test_wrong_types_are_refused(transitions):
     with pytest.raises(TypeError, match="transitions must"):
         FiniteMDP(transitions, np.zeros((2, 1)), 0.9)
@@ -165,7 +211,9 @@ def test_rewards_of_the_state_reached_are_averaged():
     reached = np.random.default_rng(5).normal(size=transitions.shape)
     expected = np.einsum("ast,ast->sa", transitions, reached)
     np.testing.assert_allclose(expected_rewards(transitions, reached), expected)
-    np.testing.assert_allclose(expected_rewards([sp.csr_array(t) for t in transitions], reached), expected)
+    np.testing.assert_allclose(
+        expected_rewards([sp.csr_array(t) for t in transitions], reached), expected
+    )
 
 
 def test_stopping_distance_at_both_ends():
@@ -193,7 +241,9 @@ def test_tables_of_gymnasium_become_models():
     assert (mdp.states, mdp.actions) == (16, 4)
     assert np.flatnonzero(mdp.terminal).tolist() == [5, 7, 11, 12, 15]
     assert mdp.rewards[14, 2] == pytest.approx(1 / 3)  # right, from beside the goal
-    np.testing.assert_allclose(mdp.transitions[0].toarray()[0, [0, 4]], [2 / 3, 1 / 3])  # left, in the corner
+    np.testing.assert_allclose(
+        mdp.transitions[0].toarray()[0, [0, 4]], [2 / 3, 1 / 3]
+    )  # left, in the corner
 
 
 END, ON = (1.0, 0, 1.0, True), (1.0, 0, 0.0, False)
@@ -202,7 +252,10 @@ END, ON = (1.0, 0, 1.0, True), (1.0, 0, 0.0, False)
 @pytest.mark.parametrize(
     ("table", "sentence"),
     [
-        ({0: {0: [END], 1: [ON]}}, "always or never: .* got state 0, in which it may end and may go on"),
+        (
+            {0: {0: [END], 1: [ON]}},
+            "always or never: .* got state 0, in which it may end and may go on",
+        ),
         ({}, "as many actions in every state, and for at least one"),
         ({0: {}}, "as many actions in every state"),
         ({0: {0: [END]}, 1: {0: [END], 1: [END]}}, "as many actions in every state"),
@@ -219,11 +272,17 @@ def test_tables_that_make_no_model_are_refused(table, sentence):
 
 def test_a_goal_passed_on_from_where_nobody_comes_is_an_end_all_the_same():
     """State 1 ends the episode that begins in 0. Only from 2, where no episode passes, would it go on."""
-    table = {0: {0: [(1.0, 1, 1.0, True)]}, 1: {0: [(1.0, 0, 0.0, False)]}, 2: {0: [(1.0, 1, 0.0, False)]}}
+    table = {
+        0: {0: [(1.0, 1, 1.0, True)]},
+        1: {0: [(1.0, 0, 0.0, False)]},
+        2: {0: [(1.0, 1, 0.0, False)]},
+    }
     env = SimpleNamespace(P=table, initial_state_distrib=np.array([1.0, 0, 0]))
     assert FiniteMDP.from_gymnasium(env, 0.9).terminal.tolist() == [False, True, False]
     env.initial_state_distrib = np.array([0.5, 0, 0.5])
-    with pytest.raises(ValueError, match="got state 1, in which it may end and may go on"):
+    with pytest.raises(
+        ValueError, match="got state 1, in which it may end and may go on"
+    ):
         FiniteMDP.from_gymnasium(env, 0.9)
 
 

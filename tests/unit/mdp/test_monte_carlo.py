@@ -5,7 +5,13 @@ import numpy as np
 import pytest
 from gymnasium import spaces
 
-from robonav.mdp import FiniteMDP, linear_decay, monte_carlo_control, monte_carlo_prediction, rollouts
+from robonav.mdp import (
+    FiniteMDP,
+    linear_decay,
+    monte_carlo_control,
+    monte_carlo_prediction,
+    rollouts,
+)
 from robonav.mdp.monte_carlo import counted_visits
 
 VISITS = ["first", "every"]
@@ -33,7 +39,10 @@ def test_visits_counted_by_hand():
 
 def test_first_and_every_visit_of_one_episode():
     """After T steps in the loop the first visit's return is T, the mean over every visit (T + 1) / 2."""
-    first, every = (monte_carlo_prediction(Loop(), [0, 0], 1, visit=visit, discount=1.0, seed=4) for visit in VISITS)
+    first, every = (
+        monte_carlo_prediction(Loop(), [0, 0], 1, visit=visit, discount=1.0, seed=4)
+        for visit in VISITS
+    )
     steps = every.visits[0]
     assert steps > 2
     assert first.values[0] == steps
@@ -45,7 +54,9 @@ def test_first_and_every_visit_of_one_episode():
 
 @pytest.mark.parametrize("visit", VISITS)
 def test_both_tend_to_the_value(visit):
-    predicted = monte_carlo_prediction(Loop(), [0, 0], 4000, visit=visit, discount=1.0, seed=0)
+    predicted = monte_carlo_prediction(
+        Loop(), [0, 0], 4000, visit=visit, discount=1.0, seed=0
+    )
     assert predicted.values[0] == pytest.approx(1 / (1 - Loop.p), rel=0.04)
 
 
@@ -56,7 +67,9 @@ def test_prediction_agrees_with_the_model_on_frozen_lake(visit):
     blind = np.zeros(16)
     for _ in range(1000):
         blind = mdp.backup(blind).mean(axis=1)
-    predicted = monte_carlo_prediction(lake, np.full((16, 4), 0.25), 12_000, visit=visit, discount=0.9, seed=0)
+    predicted = monte_carlo_prediction(
+        lake, np.full((16, 4), 0.25), 12_000, visit=visit, discount=0.9, seed=0
+    )
     seen = predicted.visits > 500
     assert seen.sum() >= 8
     np.testing.assert_allclose(predicted.values[seen], blind[seen], atol=0.02)
@@ -65,7 +78,9 @@ def test_prediction_agrees_with_the_model_on_frozen_lake(visit):
 @pytest.mark.parametrize("visit", VISITS)
 def test_control_finds_the_way_over_firm_ice(visit):
     lake = gym.make("FrozenLake-v1", is_slippery=False)
-    learned = monte_carlo_control(lake, 1500, visit=visit, discount=0.9, epsilon=linear_decay(1, 0.1, 700), seed=0)
+    learned = monte_carlo_control(
+        lake, 1500, visit=visit, discount=0.9, epsilon=linear_decay(1, 0.1, 700), seed=0
+    )
     (walk,) = rollouts(lake, learned.policy, 1, seed=0)
     assert walk.rewards.sum() == 1
     assert len(walk.actions) == 6
@@ -104,13 +119,17 @@ class Switch(gym.Env):
 
 
 def test_exploring_follows_its_schedule_over_episodes():
-    learned = monte_carlo_control(Switch(), 200, epsilon=lambda n: float(n < 100), seed=0)
+    learned = monte_carlo_control(
+        Switch(), 200, epsilon=lambda n: float(n < 100), seed=0
+    )
     assert 20 < learned.returns[:100].sum() < 80
     assert (learned.returns[100:] == 1).all()
 
 
 def test_seeds_reproduce():
-    first, again, other = (monte_carlo_control(Loop(), 50, seed=seed, record=True) for seed in (1, 1, 2))
+    first, again, other = (
+        monte_carlo_control(Loop(), 50, seed=seed, record=True) for seed in (1, 1, 2)
+    )
     np.testing.assert_array_equal(first.history, again.history)
     assert (first.lengths != other.lengths).any()
     assert first.history.shape == (51, 2, 1)

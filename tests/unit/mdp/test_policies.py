@@ -9,8 +9,12 @@ from robonav.mdp import greedy_actions, greedy_mixture, policies
 
 
 def test_both_forms_say_the_same():
-    np.testing.assert_array_equal(policies.probabilities([2, 0], 2, 3), [[0, 0, 1], [1, 0, 0]])
-    np.testing.assert_array_equal(policies.probabilities([[0.5, 0.5], [1, 0]], 2, 2), [[0.5, 0.5], [1, 0]])
+    np.testing.assert_array_equal(
+        policies.probabilities([2, 0], 2, 3), [[0, 0, 1], [1, 0, 0]]
+    )
+    np.testing.assert_array_equal(
+        policies.probabilities([[0.5, 0.5], [1, 0]], 2, 2), [[0.5, 0.5], [1, 0]]
+    )
     np.testing.assert_array_equal(policies.uniform(2, 4), np.full((2, 4), 0.25))
 
 
@@ -24,7 +28,11 @@ def test_both_forms_say_the_same():
         (np.full((2, 3), 0.3), ValueError, "one distribution a state"),
         ([[2, -1, 0], [1, 0, 0]], ValueError, "one distribution a state"),
         (np.full((3, 3), 1 / 3), ValueError, r"policy must have shape \(2, 3\)"),
-        ([[1, 0, 0], [1, 0]], TypeError, "policy must be an array of numbers, got list"),
+        (
+            [[1, 0, 0], [1, 0]],
+            TypeError,
+            "policy must be an array of numbers, got list",
+        ),
         (["up", "down"], TypeError, "policy must be an array of numbers, got list"),
         (1, ValueError, "policy must have shape"),
     ],
@@ -44,7 +52,9 @@ def test_greedy_actions_are_those_within_the_tolerance(seed):
             assert flags.tolist() == [max(row) - value <= tolerance for value in row]
     mixture = greedy_mixture(q)
     np.testing.assert_allclose(mixture.sum(axis=1), 1)
-    np.testing.assert_allclose((mixture * q).sum(axis=1), q.max(axis=1))  # greedy in the sense below Eq. (2.13)
+    np.testing.assert_allclose(
+        (mixture * q).sum(axis=1), q.max(axis=1)
+    )  # greedy in the sense below Eq. (2.13)
 
 
 def test_what_is_no_rounding_breaks_a_tie():

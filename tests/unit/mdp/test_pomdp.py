@@ -8,7 +8,17 @@ import scipy.sparse as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robonav.mdp import POMDP, BeliefMDP, FiniteMDP, bayes, belief_walk, corridor, entropy, tiger, without_sensing
+from robonav.mdp import (
+    POMDP,
+    BeliefMDP,
+    FiniteMDP,
+    bayes,
+    belief_walk,
+    corridor,
+    entropy,
+    tiger,
+    without_sensing,
+)
 
 SEEDS = st.integers(0, 10**6)
 
@@ -31,7 +41,9 @@ def random_pomdp(seed, states=4, actions=3, observations=3, sparse=False):
 
 def history_posterior(pomdp, start, actions, observations):
     """The belief after a history, by summing the probability of every path of states that could have made it."""
-    transitions = [np.asarray(m.todense()) if sp.issparse(m) else m for m in pomdp.mdp.transitions]
+    transitions = [
+        np.asarray(m.todense()) if sp.issparse(m) else m for m in pomdp.mdp.transitions
+    ]
     posterior = np.zeros(pomdp.mdp.states)
     for path in itertools.product(range(pomdp.mdp.states), repeat=len(actions) + 1):
         probability = start[path[0]]
@@ -47,7 +59,9 @@ def history_posterior(pomdp, start, actions, observations):
 def test_the_update_is_bayes_over_whole_histories(seed, sparse):
     pomdp, rng = random_pomdp(seed, sparse=sparse)
     start = rng.dirichlet(np.ones(4))
-    run = belief_walk(pomdp, lambda belief: int(rng.integers(3)), 4, belief=start, seed=rng)
+    run = belief_walk(
+        pomdp, lambda belief: int(rng.integers(3)), 4, belief=start, seed=rng
+    )
     joint = history_posterior(pomdp, start, run.actions, run.observations)
     np.testing.assert_allclose(run.beliefs[-1], joint / joint.sum(), atol=1e-10)
     np.testing.assert_allclose(run.beliefs.sum(axis=1), 1, atol=1e-12)
@@ -61,9 +75,20 @@ def test_observation_probabilities_and_rewards_are_their_sums(seed):
     belief = rng.dirichlet(np.ones(4))
     t, z, r = pomdp.mdp.transitions, pomdp.observations, pomdp.mdp.rewards
     for a in range(3):
-        expected = [sum(belief[s] * t[a, s, s2] * z[a, s2, o] for s in range(4) for s2 in range(4)) for o in range(3)]
-        np.testing.assert_allclose(pomdp.observation_probabilities(belief, a), expected, atol=1e-12)
-        assert pomdp.expected_rewards(belief)[a] == pytest.approx(sum(belief[s] * r[s, a] for s in range(4)))
+        expected = [
+            sum(
+                belief[s] * t[a, s, s2] * z[a, s2, o]
+                for s in range(4)
+                for s2 in range(4)
+            )
+            for o in range(3)
+        ]
+        np.testing.assert_allclose(
+            pomdp.observation_probabilities(belief, a), expected, atol=1e-12
+        )
+        assert pomdp.expected_rewards(belief)[a] == pytest.approx(
+            sum(belief[s] * r[s, a] for s in range(4))
+        )
 
 
 @settings(deadline=None)
@@ -75,7 +100,9 @@ def test_on_average_observing_changes_nothing(seed):
     for action in range(3):
         beliefs, probabilities = BeliefMDP(pomdp).successors(belief, action)
         assert probabilities.sum() == pytest.approx(1)
-        np.testing.assert_allclose(probabilities @ beliefs, pomdp.predict(belief, action), atol=1e-12)
+        np.testing.assert_allclose(
+            probabilities @ beliefs, pomdp.predict(belief, action), atol=1e-12
+        )
 
 
 @settings(deadline=None)
@@ -87,13 +114,23 @@ def test_tau_sums_the_observations_that_lead_to_a_belief(seed):
     beliefs = BeliefMDP(pomdp)
     for action in range(3):
         probabilities = pomdp.observation_probabilities(belief, action)
-        reached = [pomdp.update(belief, action, o) if probabilities[o] > 0 else None for o in range(3)]
+        reached = [
+            pomdp.update(belief, action, o) if probabilities[o] > 0 else None
+            for o in range(3)
+        ]
         for successor in (b for b in reached if b is not None):
             expected = sum(
-                p for p, b in zip(probabilities, reached, strict=True) if b is not None and np.allclose(b, successor)
+                p
+                for p, b in zip(probabilities, reached, strict=True)
+                if b is not None and np.allclose(b, successor)
             )
-            assert beliefs.transition(belief, action, successor) == pytest.approx(expected)
-        assert beliefs.transition(belief, action, np.roll(belief, 1)) in (0, pytest.approx(1))
+            assert beliefs.transition(belief, action, successor) == pytest.approx(
+                expected
+            )
+        assert beliefs.transition(belief, action, np.roll(belief, 1)) in (
+            0,
+            pytest.approx(1),
+        )
         assert beliefs.reward(belief, action) == pomdp.expected_rewards(belief)[action]
     assert beliefs.discount == 0.9
 
@@ -109,7 +146,10 @@ def test_the_tiger_heard_once_and_twice():
     pomdp = tiger()
     once = pomdp.update([0.5, 0.5], 0, 0)
     np.testing.assert_allclose(once, [0.85, 0.15])
-    np.testing.assert_allclose(pomdp.update(once, 0, 0), [0.85**2 / (0.85**2 + 0.15**2), 0.15**2 / (0.85**2 + 0.15**2)])
+    np.testing.assert_allclose(
+        pomdp.update(once, 0, 0),
+        [0.85**2 / (0.85**2 + 0.15**2), 0.15**2 / (0.85**2 + 0.15**2)],
+    )
     np.testing.assert_allclose(pomdp.update(once, 0, 1), [0.5, 0.5])
 
 
@@ -118,13 +158,20 @@ def test_the_state_that_comes_is_observed_not_the_one_that_was():
     pomdp = corridor(".D.", accuracy=0.9, slip=0.2)
     prior = pomdp.predict([1, 0, 0], 1)
     np.testing.assert_allclose(prior, [0.2, 0.8, 0])
-    np.testing.assert_allclose(pomdp.observation_probabilities([1, 0, 0], 1)[1], 0.8 * 0.9 + 0.2 * 0.1)
-    np.testing.assert_allclose(pomdp.update([1, 0, 0], 1, 1), [0.2 * 0.1 / 0.74, 0.8 * 0.9 / 0.74, 0])
+    np.testing.assert_allclose(
+        pomdp.observation_probabilities([1, 0, 0], 1)[1], 0.8 * 0.9 + 0.2 * 0.1
+    )
+    np.testing.assert_allclose(
+        pomdp.update([1, 0, 0], 1, 1), [0.2 * 0.1 / 0.74, 0.8 * 0.9 / 0.74, 0]
+    )
 
 
 def test_an_observation_that_cannot_be_is_an_error_that_says_so():
     pomdp = corridor("D..", accuracy=1.0, slip=0.0)
-    with pytest.raises(ValueError, match="observation must be possible: 1 has probability zero after action 1"):
+    with pytest.raises(
+        ValueError,
+        match="observation must be possible: 1 has probability zero after action 1",
+    ):
         pomdp.update([1, 0, 0], 1, 1)
     with pytest.raises(ValueError, match="probability zero in every state"):
         bayes(np.array([1.0, 0.0]), np.array([0.0, 1.0]))
@@ -133,8 +180,18 @@ def test_an_observation_that_cannot_be_is_an_error_that_says_so():
 @pytest.mark.parametrize(
     ("belief", "action", "observation", "message"),
     [
-        ([0.5, 0.6], 0, 0, "belief must be a distribution over the 2 states, got sum 1.1"),
-        ([1.5, -0.5], 0, 0, "belief must be a distribution over the 2 states, got a probability of -0.5"),
+        (
+            [0.5, 0.6],
+            0,
+            0,
+            "belief must be a distribution over the 2 states, got sum 1.1",
+        ),
+        (
+            [1.5, -0.5],
+            0,
+            0,
+            "belief must be a distribution over the 2 states, got a probability of -0.5",
+        ),
         ([1.0], 0, 0, r"belief must have shape \(2,\)"),
         ([0.5, np.nan], 0, 0, "belief must hold finite numbers"),
         ([0.5, 0.5], 3, 0, "action must be at most 2, got 3"),
@@ -149,7 +206,9 @@ def test_wrong_arguments_get_one_clear_sentence(belief, action, observation, mes
 
 def test_observations_are_checked():
     mdp = tiger().mdp
-    with pytest.raises(ValueError, match=r"observations must have shape \(3, 2, O\), got \(2, 2, 2\)"):
+    with pytest.raises(
+        ValueError, match=r"observations must have shape \(3, 2, O\), got \(2, 2, 2\)"
+    ):
         POMDP(mdp, np.full((2, 2, 2), 0.5))
     wrong = np.full((3, 2, 2), 0.5)
     wrong[1, 0] = [0.7, 0.7]
@@ -162,9 +221,15 @@ def test_observations_are_checked():
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (([0.5, 0.5], [0.1, -0.9]), "likelihood must hold no negative numbers, got -0.9"),
+        (
+            ([0.5, 0.5], [0.1, -0.9]),
+            "likelihood must hold no negative numbers, got -0.9",
+        ),
         (([0.5, -0.5], [0.1, 0.9]), "prior must hold no negative numbers, got -0.5"),
-        (([0.5, 0.5], [0.1, 0.2, 0.7]), r"likelihood must have shape \(2,\), got \(3,\)"),
+        (
+            ([0.5, 0.5], [0.1, 0.2, 0.7]),
+            r"likelihood must have shape \(2,\), got \(3,\)",
+        ),
         (([0.5, 0.5], [0.1, np.nan]), "likelihood must hold finite numbers"),
     ],
 )
@@ -191,13 +256,25 @@ def test_only_a_belief_has_an_entropy(belief):
         ({"state": -1}, ValueError, "state must be at least 0, got -1"),
         ({"state": 99}, ValueError, "state must be at most 1, got 99"),
         ({"choose": lambda belief: 99}, ValueError, "action must be at most 2, got 99"),
-        ({"choose": lambda belief: 0.5}, TypeError, "action must be a whole number, got 0.5"),
+        (
+            {"choose": lambda belief: 0.5},
+            TypeError,
+            "action must be a whole number, got 0.5",
+        ),
         ({"pomdp": tiger().mdp}, TypeError, "pomdp must be POMDP, got FiniteMDP"),
     ],
 )
 def test_walks_check_what_they_are_given(options, error, sentence):
     with pytest.raises(error, match=sentence):
-        belief_walk(**{"pomdp": tiger(), "choose": lambda belief: 0, "steps": 2, "seed": 0, **options})
+        belief_walk(
+            **{
+                "pomdp": tiger(),
+                "choose": lambda belief: 0,
+                "steps": 2,
+                "seed": 0,
+                **options,
+            }
+        )
 
 
 def test_only_an_mdp_can_be_robbed_of_its_sensing():
@@ -220,7 +297,9 @@ def test_without_sensing_the_belief_is_the_markov_chain_alone():
     pomdp, rng = random_pomdp(3)
     blind = without_sensing(pomdp.mdp)
     belief = rng.dirichlet(np.ones(4))
-    np.testing.assert_allclose(blind.update(belief, 1, 0), belief @ pomdp.mdp.transitions[1])
+    np.testing.assert_allclose(
+        blind.update(belief, 1, 0), belief @ pomdp.mdp.transitions[1]
+    )
 
 
 def test_entropy_in_bits():
@@ -230,9 +309,13 @@ def test_entropy_in_bits():
 
 
 def test_walks_reproduce():
-    runs = [belief_walk(corridor(), lambda belief: 1, 30, seed=seed) for seed in (1, 1, 2)]
+    runs = [
+        belief_walk(corridor(), lambda belief: 1, 30, seed=seed) for seed in (1, 1, 2)
+    ]
     np.testing.assert_array_equal(runs[0].beliefs, runs[1].beliefs)
-    assert (runs[0].states != runs[2].states).any() or (runs[0].observations != runs[2].observations).any()
+    assert (runs[0].states != runs[2].states).any() or (
+        runs[0].observations != runs[2].observations
+    ).any()
     assert runs[0].beliefs.shape == (31, 15)
 
 
@@ -258,4 +341,6 @@ def test_a_corridor_is_made_of_doors_and_walls(cells):
 def test_a_ring_closes():
     ring = corridor("D...", slip=0.0, ring=True)
     np.testing.assert_allclose(ring.predict([1, 0, 0, 0], 0), [0, 0, 0, 1])
-    np.testing.assert_allclose(corridor("D...", slip=0.0).predict([1, 0, 0, 0], 0), [1, 0, 0, 0])
+    np.testing.assert_allclose(
+        corridor("D...", slip=0.0).predict([1, 0, 0, 0], 0), [1, 0, 0, 0]
+    )

@@ -27,7 +27,9 @@ class Corridor(gym.Env):
 
     def __init__(self, rooms=5):
         self.rooms = rooms
-        self.observation_space = spaces.Discrete(rooms + 1)  # the last one is where episodes end
+        self.observation_space = spaces.Discrete(
+            rooms + 1
+        )  # the last one is where episodes end
 
     def reset(self, *, seed=None, options=None):
         super().reset(seed=seed)
@@ -37,7 +39,13 @@ class Corridor(gym.Env):
     def step(self, action):
         self.room += 2 * action - 1
         ended = not 0 <= self.room < self.rooms
-        return self.rooms if ended else self.room, float(self.room == self.rooms), ended, False, {}
+        return (
+            self.rooms if ended else self.room,
+            float(self.room == self.rooms),
+            ended,
+            False,
+            {},
+        )
 
 
 class Ladder(gym.Env):
@@ -80,7 +88,15 @@ def test_a_reward_travels_one_room_back_an_episode(learn):
 
 @pytest.mark.parametrize("learn", CONTROL)
 def test_what_comes_after_the_end_is_worth_nothing(learn):
-    learned = learn(Corridor(1), 50, learning_rate=1.0, epsilon=1.0, initial=7.0, discount=1.0, seed=0)
+    learned = learn(
+        Corridor(1),
+        50,
+        learning_rate=1.0,
+        epsilon=1.0,
+        initial=7.0,
+        discount=1.0,
+        seed=0,
+    )
     np.testing.assert_allclose(learned.q, [[0, 1], [7, 7]])
 
 
@@ -103,7 +119,13 @@ class Fork(gym.Env):
 
     def step(self, action):
         self.state += 1
-        return self.state, 10.0 * (self.state == 2 and action == 0), self.state == 2, False, {}
+        return (
+            self.state,
+            10.0 * (self.state == 2 and action == 0),
+            self.state == 2,
+            False,
+            {},
+        )
 
 
 @pytest.mark.parametrize(
@@ -120,7 +142,9 @@ def test_targets_by_hand(learn, value):
 
 def test_sarsas_target_is_the_action_that_follows():
     """With a learning rate of 1 the first value is 0.9 times 10 or 0, whichever was drawn, and 4.5 on average."""
-    learned = sarsa(Fork(), 2000, discount=0.9, learning_rate=1.0, epsilon=1.0, seed=0, record=True)
+    learned = sarsa(
+        Fork(), 2000, discount=0.9, learning_rate=1.0, epsilon=1.0, seed=0, record=True
+    )
     settled = learned.history[100:, 0]
     assert set(np.unique(settled)) == {0.0, 9.0}
     assert settled.mean() == pytest.approx(4.5, abs=0.4)
@@ -129,7 +153,14 @@ def test_sarsas_target_is_the_action_that_follows():
 def test_q_learning_tends_to_the_plan_on_frozen_lake():
     lake = gym.make("FrozenLake-v1", max_episode_steps=1000)
     planned = optimal_q(FiniteMDP.from_gymnasium(lake, 0.9))
-    learned = q_learning(lake, 12_000, discount=0.9, learning_rate=polynomial_decay(0.77), epsilon=0.5, seed=0)
+    learned = q_learning(
+        lake,
+        12_000,
+        discount=0.9,
+        learning_rate=polynomial_decay(0.77),
+        epsilon=0.5,
+        seed=0,
+    )
     seen = learned.visits.min(axis=1) > 300
     assert seen.sum() >= 9
     np.testing.assert_allclose(learned.q[seen], planned[seen], atol=0.03)
@@ -140,7 +171,14 @@ def test_sarsa_learns_the_value_of_exploring(learn):
     """With epsilon 1 the policy is blind whatever is learned, and its values are known."""
     lake = gym.make("FrozenLake-v1", max_episode_steps=1000)
     blind = policy_q(FiniteMDP.from_gymnasium(lake, 0.9), np.full((16, 4), 0.25))
-    learned = learn(lake, 12_000, discount=0.9, learning_rate=polynomial_decay(0.77), epsilon=1.0, seed=0)
+    learned = learn(
+        lake,
+        12_000,
+        discount=0.9,
+        learning_rate=polynomial_decay(0.77),
+        epsilon=1.0,
+        seed=0,
+    )
     seen = learned.visits.min(axis=1) > 500
     np.testing.assert_allclose(learned.q[seen], blind[seen], atol=0.02)
 
@@ -168,12 +206,28 @@ def test_exploring_follows_its_schedule_over_episodes(learn):
 @pytest.mark.parametrize("learn", [sarsa, expected_sarsa])
 def test_sarsa_tends_to_the_plan_where_exploring_fades(learn):
     """Singh et al. (2000): greedy in the limit, and every pair tried for ever."""
-    fork = FiniteMDP([[[0, 1, 0], [0, 0, 1], [0, 0, 1]]] * 2, [[0, 0], [10, 0], [0, 0]], 0.9)
-    learned = learn(
-        Fork(), 4000, discount=0.9, learning_rate=polynomial_decay(0.77), epsilon=harmonic_decay(1.0, 50), seed=0
+    fork = FiniteMDP(
+        [[[0, 1, 0], [0, 0, 1], [0, 0, 1]]] * 2, [[0, 0], [10, 0], [0, 0]], 0.9
     )
-    np.testing.assert_allclose(learned.q, optimal_q(fork), atol=0.7)  # rare tries lag behind
-    blind = learn(Fork(), 4000, discount=0.9, learning_rate=polynomial_decay(0.77), epsilon=1.0, seed=0)
+    learned = learn(
+        Fork(),
+        4000,
+        discount=0.9,
+        learning_rate=polynomial_decay(0.77),
+        epsilon=harmonic_decay(1.0, 50),
+        seed=0,
+    )
+    np.testing.assert_allclose(
+        learned.q, optimal_q(fork), atol=0.7
+    )  # rare tries lag behind
+    blind = learn(
+        Fork(),
+        4000,
+        discount=0.9,
+        learning_rate=polynomial_decay(0.77),
+        epsilon=1.0,
+        seed=0,
+    )
     assert abs(blind.q - optimal_q(fork)).max() > 3
 
 
@@ -196,11 +250,15 @@ def best_while_exploring(mdp, epsilon, sweeps=5000):
 )
 def test_the_cliff_is_walked_boldly_or_safely(learn, epsilon, learning_rate, reward):
     cliff = gym.make("CliffWalking-v1")
-    learned = learn(cliff, 1500, discount=1.0, learning_rate=learning_rate, epsilon=epsilon, seed=0)
+    learned = learn(
+        cliff, 1500, discount=1.0, learning_rate=learning_rate, epsilon=epsilon, seed=0
+    )
     (walk,) = rollouts(cliff, learned.policy, 1, max_steps=100, seed=0)
     assert walk.terminated
     assert walk.rewards.sum() == reward
-    exact = best_while_exploring(FiniteMDP.from_gymnasium(cliff, 1.0), 0 if learn is q_learning else epsilon)
+    exact = best_while_exploring(
+        FiniteMDP.from_gymnasium(cliff, 1.0), 0 if learn is q_learning else epsilon
+    )
     (ideal,) = rollouts(cliff, exact.argmax(axis=1), 1, max_steps=100, seed=0)
     assert ideal.rewards.sum() == reward  # not luck: this is where the algorithm tends
     often = learned.visits > 1000
@@ -210,7 +268,10 @@ def test_the_cliff_is_walked_boldly_or_safely(learn, epsilon, learning_rate, rew
 
 def test_bold_costs_more_while_learning():
     cliff = gym.make("CliffWalking-v1")
-    bold, safe = (learn(cliff, 500, discount=1.0, learning_rate=0.5, seed=0).returns for learn in (q_learning, sarsa))
+    bold, safe = (
+        learn(cliff, 500, discount=1.0, learning_rate=0.5, seed=0).returns
+        for learn in (q_learning, sarsa)
+    )
     assert bold[100:].mean() < safe[100:].mean() - 10
 
 
@@ -218,7 +279,9 @@ def test_taxi_is_driven_optimally_from_every_start():
     taxi = gym.make("Taxi-v4")
     mdp = FiniteMDP.from_gymnasium(taxi, 0.99)
     planned = optimal_q(mdp, 400)
-    learned = q_learning(taxi, 5000, discount=0.99, learning_rate=1.0, epsilon=0.0, initial=20.0, seed=0)
+    learned = q_learning(
+        taxi, 5000, discount=0.99, learning_rate=1.0, epsilon=0.0, initial=20.0, seed=0
+    )
     starts = taxi.unwrapped.initial_state_distrib > 0
     greedy = np.eye(6)[learned.policy]
     achieved = (greedy * policy_q(mdp, greedy, 400)).sum(axis=1)
@@ -229,14 +292,21 @@ def test_taxi_is_driven_optimally_from_every_start():
 def test_td_finds_the_random_walk_of_sutton_and_barto():
     """Example 6.2: from the middle of five rooms, the chance to end on the right is 1/6 ... 5/6."""
     predicted = td_prediction(
-        Corridor(5), np.full((6, 2), 0.5), 4000, discount=1.0, learning_rate=harmonic_decay(0.5, 100), seed=1
+        Corridor(5),
+        np.full((6, 2), 0.5),
+        4000,
+        discount=1.0,
+        learning_rate=harmonic_decay(0.5, 100),
+        seed=1,
     )
     np.testing.assert_allclose(predicted.values[:5], np.arange(1, 6) / 6, atol=0.03)
     assert predicted.values[5] == 0
 
 
 def test_td_prediction_ends_and_cuts_off_like_q_learning():
-    ended = td_prediction(Corridor(1), [1, 1], 20, discount=1.0, learning_rate=1.0, initial=5.0, seed=0)
+    ended = td_prediction(
+        Corridor(1), [1, 1], 20, discount=1.0, learning_rate=1.0, initial=5.0, seed=0
+    )
     np.testing.assert_allclose(ended.values, [1, 5])
     cut = td_prediction(Ladder(), [0], 300, discount=0.5, learning_rate=0.5, seed=0)
     assert cut.values[0] == pytest.approx(2)
@@ -245,7 +315,9 @@ def test_td_prediction_ends_and_cuts_off_like_q_learning():
 @pytest.mark.parametrize("learn", CONTROL)
 def test_seeds_reproduce(learn):
     lake = gym.make("FrozenLake-v1")
-    first, again, other = (learn(lake, 60, epsilon=0.5, seed=seed, record=True) for seed in (1, 1, 2))
+    first, again, other = (
+        learn(lake, 60, epsilon=0.5, seed=seed, record=True) for seed in (1, 1, 2)
+    )
     np.testing.assert_array_equal(first.history, again.history)
     np.testing.assert_array_equal(first.lengths, again.lengths)
     assert (first.lengths != other.lengths).any()
@@ -255,14 +327,24 @@ def test_seeds_reproduce(learn):
 
 def test_predictions_reproduce_too():
     lake, blind = gym.make("FrozenLake-v1"), np.full((16, 4), 0.25)
-    first, again, other = (td_prediction(lake, blind, 60, seed=seed, initial=1.0, record=True) for seed in (1, 1, 2))
+    first, again, other = (
+        td_prediction(lake, blind, 60, seed=seed, initial=1.0, record=True)
+        for seed in (1, 1, 2)
+    )
     np.testing.assert_array_equal(first.history, again.history)
     assert (first.history != other.history).any()
 
 
 @pytest.mark.parametrize("learn", CONTROL)
 def test_the_record_begins_with_the_start_and_ends_with_the_result(learn):
-    learned = learn(Corridor(4), 30, initial=0.25, epsilon=linear_decay(1, 0, 20), seed=0, record=True)
+    learned = learn(
+        Corridor(4),
+        30,
+        initial=0.25,
+        epsilon=linear_decay(1, 0, 20),
+        seed=0,
+        record=True,
+    )
     assert learned.history.shape == (31, 5, 2)
     assert (learned.history[0] == 0.25).all()
     np.testing.assert_array_equal(learned.history[-1], learned.q)
@@ -294,5 +376,7 @@ def test_a_wrong_number_gets_one_clear_sentence(learn, options, message):
 
 def test_progress_is_told():
     heard = []
-    q_learning(Corridor(), 3, seed=0, progress=lambda done, total: heard.append((done, total)))
+    q_learning(
+        Corridor(), 3, seed=0, progress=lambda done, total: heard.append((done, total))
+    )
     assert heard == [(1, 3), (2, 3), (3, 3)]

@@ -7,9 +7,9 @@ import pytest
 
 from robonav import nirl
 from robonav.mdp import policies
+from robonav.mdp.dynamic_programming import policy_iteration
 from robonav.mdp.evaluation import policy_evaluation
 from robonav.mdp.gridworld import GridWorld
-from robonav.mdp.planning import policy_iteration
 from robonav.nirl import FeaturedMDP
 
 
@@ -24,12 +24,17 @@ class Case:
 
     def value(self, policy):
         """What a policy is really worth from the start."""
-        return float(self.task.starts @ policy_evaluation(self.task.with_reward(self.truth), policy))
+        return float(
+            self.task.starts
+            @ policy_evaluation(self.task.with_reward(self.truth), policy)
+        )
 
     def loss(self, policy):
         """What a policy loses, as a share of the gap between the expert's value and a random policy's."""
         best = self.value(self.expert)
-        return (best - self.value(policy)) / (best - self.value(policies.uniform(self.task.states, self.task.actions)))
+        return (best - self.value(policy)) / (
+            best - self.value(policies.uniform(self.task.states, self.task.actions))
+        )
 
     def best(self, weights):
         """The best policy for a learned reward."""

@@ -35,22 +35,31 @@ def test_states_of_several_numbers():
 
 
 @settings(deadline=None)
-@given(arrays(np.int64, 30, elements=st.integers(0, 4)), arrays(np.int64, 30, elements=st.integers(0, 4)))
+@given(
+    arrays(np.int64, 30, elements=st.integers(0, 4)),
+    arrays(np.int64, 30, elements=st.integers(0, 4)),
+)
 def test_refined_demonstrations_are_consistent_and_stay_so(states, shown):
     once = most_frequent(states, shown, 5)
     for state in set(states):
         mine = once.actions[states == state]
         assert len(set(mine)) == 1
-        assert (shown[states == state] == mine[0]).sum() == np.bincount(shown[states == state]).max()
+        assert (shown[states == state] == mine[0]).sum() == np.bincount(
+            shown[states == state]
+        ).max()
     again = most_frequent(states, once.actions, 5)
     assert not again.changed.any()
     assert again.inconsistent == 0
 
 
 def test_nothing_to_refine_gets_a_sentence():
-    with pytest.raises(ValueError, match="at least one step, got none: were all of them filtered out"):
+    with pytest.raises(
+        ValueError, match="at least one step, got none: were all of them filtered out"
+    ):
         most_frequent(np.empty((0, 3), dtype=int), [], 5)
-    with pytest.raises(ValueError, match="shown must hold actions from 0 to 4, got 0 to 6"):
+    with pytest.raises(
+        ValueError, match="shown must hold actions from 0 to 4, got 0 to 6"
+    ):
         most_frequent([1, 1], [0, 6], 5)
 
 

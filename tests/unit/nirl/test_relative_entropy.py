@@ -25,7 +25,9 @@ THETAS = arrays(float, 3, elements=st.floats(-3, 3).map(lambda x: round(x, 3)))
 def test_two_weights_give_two_gradients(one, other):
     """The regression that matters: weights that cancel would give the same gradient for every theta."""
     slack = np.zeros(3)
-    apart = dual_gradient(one, EXPERT, SAMPLES, RATIOS, slack) - dual_gradient(other, EXPERT, SAMPLES, RATIOS, slack)
+    apart = dual_gradient(one, EXPERT, SAMPLES, RATIOS, slack) - dual_gradient(
+        other, EXPERT, SAMPLES, RATIOS, slack
+    )
     assert np.allclose(apart, 0, atol=1e-12) == (np.linalg.norm(one - other) < 1e-9)
 
 
@@ -33,8 +35,12 @@ def test_two_weights_give_two_gradients(one, other):
 @given(THETAS.filter(lambda theta: (abs(theta) > 1e-2).all()))
 def test_the_gradient_is_that_of_the_dual(theta):
     slack = np.array([0.1, 0.0, 0.3])
-    numerical = approx_fprime(theta, lambda t: dual(t, EXPERT, SAMPLES, RATIOS, slack), 1e-6)
-    np.testing.assert_allclose(dual_gradient(theta, EXPERT, SAMPLES, RATIOS, slack), numerical, atol=1e-4)
+    numerical = approx_fprime(
+        theta, lambda t: dual(t, EXPERT, SAMPLES, RATIOS, slack), 1e-6
+    )
+    np.testing.assert_allclose(
+        dual_gradient(theta, EXPERT, SAMPLES, RATIOS, slack), numerical, atol=1e-4
+    )
 
 
 def test_importance_weights_undo_the_sampling():
@@ -45,34 +51,70 @@ def test_importance_weights_undo_the_sampling():
     samples = actions.sum(axis=1, keepdims=True).astype(float)
     log_ratios = 3 * np.log(0.5) - np.log(biased[actions.astype(int)]).sum(axis=1)
     assert uniform.sum() == 1
-    assert importance([0.0], samples, log_ratios) @ samples == pytest.approx([1.5], abs=0.03)
+    assert importance([0.0], samples, log_ratios) @ samples == pytest.approx(
+        [1.5], abs=0.03
+    )
     # and exp(theta f) turns a fair coin into one that falls on 1 with e^theta / (1 + e^theta)
-    assert importance([1.0], samples, log_ratios) @ samples == pytest.approx([3 / (1 + np.exp(-1))], abs=0.05)
+    assert importance([1.0], samples, log_ratios) @ samples == pytest.approx(
+        [3 / (1 + np.exp(-1))], abs=0.05
+    )
 
 
 def test_it_finds_the_tilt_of_all_trajectories():
     """Every trajectory of a small world enumerated, tilted by a known reward, sampled with another policy."""
     rng, reward = np.random.default_rng(0), np.array([0.7, -0.4])
-    transitions, features = rng.dirichlet(np.ones(3), (2, 3)), rng.normal(size=(3, 2, 2))
+    transitions, features = (
+        rng.dirichlet(np.ones(3), (2, 3)),
+        rng.normal(size=(3, 2, 2)),
+    )
     policy = rng.dirichlet(np.ones(2), 3)
-    walks = [(states, actions) for states in product(range(3), repeat=3) for actions in product(range(2), repeat=3)]
+    walks = [
+        (states, actions)
+        for states in product(range(3), repeat=3)
+        for actions in product(range(2), repeat=3)
+    ]
     seen = np.array(
-        [sum(0.8**t * features[s, a] for t, (s, a) in enumerate(zip(*walk, strict=True))) for walk in walks]
+        [
+            sum(
+                0.8**t * features[s, a]
+                for t, (s, a) in enumerate(zip(*walk, strict=True))
+            )
+            for walk in walks
+        ]
     )
     world = np.array(
-        [np.prod([transitions[a, s, t] for a, s, t in zip(acts, ss, ss[1:], strict=False)]) for ss, acts in walks]
+        [
+            np.prod(
+                [
+                    transitions[a, s, t]
+                    for a, s, t in zip(acts, ss, ss[1:], strict=False)
+                ]
+            )
+            for ss, acts in walks
+        ]
     )
-    ratio = np.array([np.prod([0.5 / policy[s, a] for s, a in zip(*walk, strict=True)]) for walk in walks])
+    ratio = np.array(
+        [
+            np.prod([0.5 / policy[s, a] for s, a in zip(*walk, strict=True)])
+            for walk in walks
+        ]
+    )
     tilted = world * np.exp(seen @ reward)
     drawn = rng.choice(len(walks), 100_000, p=world / ratio / (world / ratio).sum())
-    learned = relative_entropy(tilted @ seen / tilted.sum(), seen[drawn], np.log(ratio[drawn]))
+    learned = relative_entropy(
+        tilted @ seen / tilted.sum(), seen[drawn], np.log(ratio[drawn])
+    )
     np.testing.assert_allclose(learned.weights, reward, atol=0.05)
 
 
 def test_the_maximum_has_no_gradient_left():
     learned = relative_entropy(EXPERT, SAMPLES, RATIOS)
     np.testing.assert_allclose(learned.gap, 0, atol=1e-4)
-    np.testing.assert_allclose(dual_gradient(learned.weights, EXPERT, SAMPLES, RATIOS, np.zeros(3)), 0, atol=1e-4)
+    np.testing.assert_allclose(
+        dual_gradient(learned.weights, EXPERT, SAMPLES, RATIOS, np.zeros(3)),
+        0,
+        atol=1e-4,
+    )
     assert 1 < learned.effective_samples <= 50
 
 
@@ -83,7 +125,9 @@ def test_slack_keeps_the_gap_within_bounds_and_weights_sparse():
     silent = abs(learned.weights) < 1e-9
     assert silent.any()
     active = ~silent
-    np.testing.assert_allclose(learned.gap[active], slack[active] * np.sign(learned.weights[active]), atol=1e-3)
+    np.testing.assert_allclose(
+        learned.gap[active], slack[active] * np.sign(learned.weights[active]), atol=1e-3
+    )
 
 
 def test_an_expert_that_no_sample_resembles_stays_finite():
@@ -92,7 +136,9 @@ def test_an_expert_that_no_sample_resembles_stays_finite():
 
 
 def test_no_samples_get_a_sentence():
-    with pytest.raises(ValueError, match="samples must hold at least one trajectory, got none"):
+    with pytest.raises(
+        ValueError, match="samples must hold at least one trajectory, got none"
+    ):
         relative_entropy([1.0], np.empty((0, 1)), [])
 
 
@@ -105,21 +151,29 @@ def test_slack_shrinks_with_demonstrations():
 def first_features(case, walks):
     """Discounted features of whole walks, (N, K)."""
     shown = case.task.features[walks.states, walks.actions]
-    return np.einsum("t,ntk->nk", case.task.discount ** np.arange(shown.shape[1]), shown)
+    return np.einsum(
+        "t,ntk->nk", case.task.discount ** np.arange(shown.shape[1]), shown
+    )
 
 
 def learn(case, policy, steps, slack):
     """From 500 walks of the expert and 20,000 of a sampling policy, equally long."""
-    expert = first_features(case, case.task.walk(case.expert, 500, steps, seed=9)).mean(axis=0)
+    expert = first_features(case, case.task.walk(case.expert, 500, steps, seed=9)).mean(
+        axis=0
+    )
     walks = case.task.walk(policy, 20_000, steps, seed=1)
     log_ratios = -np.log(4 * policy[walks.states, walks.actions]).sum(axis=1)
-    return relative_entropy(expert, first_features(case, walks), log_ratios, slack=slack)
+    return relative_entropy(
+        expert, first_features(case, walks), log_ratios, slack=slack
+    )
 
 
 @pytest.mark.parametrize("share", [0.5, 0.7])
 def test_its_reward_makes_the_expert_again(terrain, share):
     """Sampled from a policy that does what the expert does in part of its steps: uniform ones hardly ever arrive."""
-    policy = (1 - share) * policies.uniform(terrain.task.states, 4) + share * np.eye(4)[terrain.expert]
+    policy = (1 - share) * policies.uniform(terrain.task.states, 4) + share * np.eye(4)[
+        terrain.expert
+    ]
     learned = learn(terrain, policy, 30, 0.01)
     assert terrain.loss(terrain.best(learned.weights)) < 0.05
 

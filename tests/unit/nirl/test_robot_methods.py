@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from robonav.lfd.computer_expert import demonstrate
 from robonav.lfd.demonstrations import LEARNED
-from robonav.lfd.experts import demonstrate
 from robonav.nirl import (
     ENCODER,
     METHODS,
@@ -27,8 +27,8 @@ from robonav.nirl import (
     most_frequent,
     shown_steps,
 )
-from robonav.nirl.courses import drive
 from robonav.nirl.methods import prepared, random_segments, segments
+from robonav.nirl.tasks import drive
 from robonav.robot import Simulator, navigate, random_worlds
 
 SMALL = {"improve": SampledDescent(samples=500), "iterations": 3}
@@ -48,8 +48,12 @@ def always(action):
 def test_a_practice_drive_is_a_drive(action):
     """The same policy ends alike in practice and in ``navigate``."""
     worlds = random_worlds(40, 20, seed=3)
-    driven = navigate(lambda sensing, rng: np.full(len(sensing), action), worlds, max_steps=200)
-    steps = drive(Simulator(worlds, 2.0), always(action), ENCODER, 200, np.random.default_rng(0))
+    driven = navigate(
+        lambda sensing, rng: np.full(len(sensing), action), worlds, max_steps=200
+    )
+    steps = drive(
+        Simulator(worlds, 2.0), always(action), ENCODER, 200, np.random.default_rng(0)
+    )
     np.testing.assert_array_equal(steps.failed, driven.collision)
     np.testing.assert_array_equal(steps.arrived, driven.success)
     assert (steps.actions == action).all()
@@ -75,7 +79,11 @@ def test_segments_stop_after_their_horizon(demonstrations):
     found = segments(shown, LEARNED, 0.65, 3)
     block = chosen_block(shown.features, shown.actions, LEARNED)
     for t in range(len(shown) - 3):
-        inside = [block[t + k] * 0.65**k for k in range(3) if shown.trajectory[t + k] == shown.trajectory[t]]
+        inside = [
+            block[t + k] * 0.65**k
+            for k in range(3)
+            if shown.trajectory[t + k] == shown.trajectory[t]
+        ]
         np.testing.assert_allclose(found[t], sum(inside), atol=1e-9)
 
 
@@ -100,33 +108,49 @@ def test_two_kinds_of_expectations(demonstrations):
     shown = shown_steps(demonstrations)
     start, everywhere = (f(shown, LEARNED, 0.65) for f in (from_start, from_everywhere))
     constants = (np.arange(1, LEARNED + 1) * (ENCODER.size + 1)) - 1
-    assert start[constants].sum() == pytest.approx(1 / 0.35, rel=1e-3)  # a constant feature adds up to 1 / (1 - gamma)
+    assert start[constants].sum() == pytest.approx(
+        1 / 0.35, rel=1e-3
+    )  # a constant feature adds up to 1 / (1 - gamma)
     assert everywhere[constants].sum() < 1 / 0.35
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_every_method_learns_and_repeats(demonstrations, method):
-    settings = dict(SMALL, course=COURSE) | ({"guesses": 3} if method == "apprenticeship" else {})
+    settings = dict(SMALL, course=COURSE) | (
+        {"guesses": 3} if method == "apprenticeship" else {}
+    )
     one, same = (learn(demonstrations, method, seed=1, **settings) for _ in range(2))
     assert one.reward_weights.shape == (LEARNED, ENCODER.size + 1)
-    np.testing.assert_array_equal(one.policy.network.weights[0], same.policy.network.weights[0])
+    np.testing.assert_array_equal(
+        one.policy.network.weights[0], same.policy.network.weights[0]
+    )
     np.testing.assert_array_equal(one.reward_weights, same.reward_weights)
     assert len(one.history.costs) == 3
     assert np.isfinite(one.history.costs).all()
-    assert navigate(one.policy, random_worlds(3, 10, seed=0), max_steps=20).outcome.shape == (3,)
+    assert navigate(
+        one.policy, random_worlds(3, 10, seed=0), max_steps=20
+    ).outcome.shape == (3,)
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_one_trajectory_is_enough(demonstrations, method):
-    settings = dict(SMALL, course=COURSE) | ({"guesses": 3} if method == "apprenticeship" else {})
-    learned = learn(demonstrations[demonstrations.trajectory == 0], method, seed=0, **settings)
+    settings = dict(SMALL, course=COURSE) | (
+        {"guesses": 3} if method == "apprenticeship" else {}
+    )
+    learned = learn(
+        demonstrations[demonstrations.trajectory == 0], method, seed=0, **settings
+    )
     assert np.isfinite(learned.reward_weights).all()
 
 
 def test_algorithm_10_to_the_letter_runs(demonstrations):
     to_the_letter = {"reward": ByEquation514(), "improve": OneStep(), "score": accuracy}
-    learned = learn(demonstrations, seed=0, course=COURSE, iterations=3, **to_the_letter)
-    assert learned.history.accuracies[learned.chosen] == learned.history.accuracies.max()
+    learned = learn(
+        demonstrations, seed=0, course=COURSE, iterations=3, **to_the_letter
+    )
+    assert (
+        learned.history.accuracies[learned.chosen] == learned.history.accuracies.max()
+    )
     assert np.isfinite(learned.history.costs).all()
 
 
@@ -146,7 +170,9 @@ def test_an_apprentice_by_the_widest_margin(demonstrations, expectations):
 @pytest.mark.parametrize("method", METHODS)
 def test_an_action_never_shown(demonstrations, method):
     lefts = demonstrations[~np.isin(demonstrations.actions, [3, 4])]
-    settings = dict(SMALL, course=COURSE) | ({"guesses": 3} if method == "apprenticeship" else {})
+    settings = dict(SMALL, course=COURSE) | (
+        {"guesses": 3} if method == "apprenticeship" else {}
+    )
     learned = learn(lefts, method, seed=0, **settings)
     assert np.isfinite(learned.reward_weights).all()
     assert np.isfinite(learned.history.balanced).all()
@@ -155,15 +181,22 @@ def test_an_action_never_shown(demonstrations, method):
 @pytest.mark.parametrize("method", METHODS)
 def test_nothing_to_learn_from_gets_a_sentence(demonstrations, method):
     nothing = demonstrations[:0]
-    with pytest.raises(ValueError, match=r"must hold an effective pair.*got none in 0 steps"):
+    with pytest.raises(
+        ValueError, match=r"must hold an effective pair.*got none in 0 steps"
+    ):
         learn(nothing, method, seed=0)
     safe = demonstrations[demonstrations.sensing.safe]
-    with pytest.raises(ValueError, match=rf"must hold an effective pair.*got none in {len(safe)} steps"):
+    with pytest.raises(
+        ValueError, match=rf"must hold an effective pair.*got none in {len(safe)} steps"
+    ):
         learn(safe, method, seed=0)
 
 
 def test_another_method_gets_a_sentence(demonstrations):
-    with pytest.raises(ValueError, match="method must be one of nirl, apprenticeship, relative_entropy, scirl"):
+    with pytest.raises(
+        ValueError,
+        match="method must be one of nirl, apprenticeship, relative_entropy, scirl",
+    ):
         learn(demonstrations, "magic")
 
 
@@ -171,7 +204,9 @@ def test_refinement_makes_demonstrations_consistent(demonstrations):
     """The same sensing with two actions: the rarer one goes."""
     pairs = demonstrations.effective
     thrice = np.repeat(np.arange(5), 3)
-    actions = np.where(np.arange(15) % 3 == 0, (pairs.actions[thrice] + 1) % 5, pairs.actions[thrice])
+    actions = np.where(
+        np.arange(15) % 3 == 0, (pairs.actions[thrice] + 1) % 5, pairs.actions[thrice]
+    )
     doubled = replace(
         pairs[np.zeros(0, int)],
         trajectory=np.zeros(15, int),
@@ -188,9 +223,13 @@ def test_refinement_makes_demonstrations_consistent(demonstrations):
 
 def test_a_reward_can_be_taken_elsewhere(demonstrations):
     theta = np.zeros((LEARNED, ENCODER.size + 1))
-    learned = learn_under(demonstrations, theta, course=replace(COURSE, speed=1.0), seed=0, iterations=2)
+    learned = learn_under(
+        demonstrations, theta, course=replace(COURSE, speed=1.0), seed=0, iterations=2
+    )
     assert (learned.reward_weights == 0).all()
     neutral = SampledDescent(ends=NEUTRAL, samples=2000)
-    idle = learn_under(demonstrations, theta, course=COURSE, seed=0, iterations=2, improve=neutral)
+    idle = learn_under(
+        demonstrations, theta, course=COURSE, seed=0, iterations=2, improve=neutral
+    )
     outputs = idle.history.networks[-1].forward(shown_steps(demonstrations).inputs)
     assert abs(outputs - 0.5).mean() < 0.1

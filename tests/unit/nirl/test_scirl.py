@@ -30,9 +30,14 @@ def test_the_subgradient_is_that_of_the_cost(theta, ridge):
 
     numerical = approx_fprime(theta, at, 1e-7)
     analytic = cost(theta, MU, SHOWN, ridge=ridge)[1]
-    if not np.allclose(analytic, numerical, atol=1e-4):  # at a kink it need only support the cost from below
+    if not np.allclose(
+        analytic, numerical, atol=1e-4
+    ):  # at a kink it need only support the cost from below
         others = theta + np.random.default_rng(1).normal(size=(50, 4))
-        assert all(at(other) >= at(theta) + analytic @ (other - theta) - 1e-9 for other in others)
+        assert all(
+            at(other) >= at(theta) + analytic @ (other - theta) - 1e-9
+            for other in others
+        )
 
 
 def test_a_separable_case_is_separated():
@@ -52,13 +57,20 @@ def test_weights_do_not_hang_on_the_unit_of_the_features():
 
 def test_only_the_shown_action_is_known():
     every = shown_only([[2.0, 4.0], [6.0, 8.0]], [1, 0], 3, 0.5)
-    np.testing.assert_allclose(every, [[[1, 2], [2, 4], [1, 2]], [[6, 8], [3, 4], [3, 4]]])
+    np.testing.assert_allclose(
+        every, [[[1, 2], [2, 4], [1, 2]], [[6, 8], [3, 4], [3, 4]]]
+    )
 
 
 def steps_of(case, walks, steps, policy, seed):
     """Walks as single steps: states, actions, and what followed each but the last."""
     drawn = case.task.walk(policy, walks, steps, seed=seed)
-    return drawn.states[:, :-1].ravel(), drawn.actions[:, :-1].ravel(), drawn.states[:, 1:].ravel(), drawn
+    return (
+        drawn.states[:, :-1].ravel(),
+        drawn.actions[:, :-1].ravel(),
+        drawn.states[:, 1:].ravel(),
+        drawn,
+    )
 
 
 def lstd(case, walks, policy, seed):
@@ -107,7 +119,11 @@ def test_scirl_with_monte_carlo(terrain):
     task, drawn = terrain.task, terrain.task.walk(noisy(terrain), 3000, 40, seed=3)
     features = task.features[drawn.states, drawn.actions].reshape(-1, 4)
     pairs = (drawn.states * 4 + drawn.actions).ravel()
-    mu = average_by(pairs, discounted_to_go(features, drawn.trajectory, task.discount), task.states * 4)
+    mu = average_by(
+        pairs,
+        discounted_to_go(features, drawn.trajectory, task.discount),
+        task.states * 4,
+    )
     mu = mu.reshape(task.states, 4, -1)
     seen = np.isfinite(mu).all(axis=(1, 2)) & ~terrain.grid.terminal
     learned = structured_classification(mu[seen], terrain.expert[seen])
@@ -123,7 +139,9 @@ def test_scirl_with_the_heuristic(scattered):
     features = task.features[drawn.states, drawn.actions].reshape(drawn.states.size, -1)
     shown = drawn.actions.ravel()
     to_go = discounted_to_go(features, drawn.trajectory, task.discount)
-    learned = structured_classification(shown_only(to_go, shown, 4, task.discount), shown, ridge=1e-2)
+    learned = structured_classification(
+        shown_only(to_go, shown, 4, task.discount), shown, ridge=1e-2
+    )
     assert scattered.loss(scattered.best(learned.weights)) < 0.05
 
 
@@ -138,7 +156,9 @@ def test_no_steps_get_a_sentence():
         structured_classification(np.empty((0, 3, 2)), [])
     with pytest.raises(ValueError, match="at least one step, got none"):
         lstd_mu(np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2)), 0.9)
-    with pytest.raises(ValueError, match="shown must hold actions from 0 to 2, got 0 to 5"):
+    with pytest.raises(
+        ValueError, match="shown must hold actions from 0 to 2, got 0 to 5"
+    ):
         structured_classification(np.ones((2, 3, 2)), [0, 5])
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from robonav.lfd.backpropagation import cross_entropy_gradient
-from robonav.lfd.network import Network, random_network, stacked
+from robonav.networks.backpropagation import cross_entropy_gradient
+from robonav.networks.multilayer_perceptron import Network, random_network, stacked
 from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of, packed
 from robonav.nnql.targets import cross_entropy
 
@@ -22,7 +22,9 @@ def on_torch(network):
 def pairs(networks, length=12, seed=1):
     """Examples with as many zeros as sensing has, and targets in [0, 1]."""
     rng = np.random.default_rng(seed)
-    x = rng.random((networks, length, SIZES[0])) * (rng.random((networks, length, SIZES[0])) < 0.4)
+    x = rng.random((networks, length, SIZES[0])) * (
+        rng.random((networks, length, SIZES[0])) < 0.4
+    )
     return x, rng.random((networks, length, SIZES[-1]))
 
 
@@ -35,8 +37,14 @@ def plain_descent(network: Network, x, y, rate, passes, tolerance):
             cost += cross_entropy(label, network.logits(one)) / len(x)
             slope = cross_entropy_gradient(network, one[None], label[None])
             network = Network(
-                tuple(w - rate * d for w, d in zip(network.weights, slope.weights, strict=True)),
-                tuple(b - rate * d for b, d in zip(network.biases, slope.biases, strict=True)),
+                tuple(
+                    w - rate * d
+                    for w, d in zip(network.weights, slope.weights, strict=True)
+                ),
+                tuple(
+                    b - rate * d
+                    for b, d in zip(network.biases, slope.biases, strict=True)
+                ),
             )
         done += 1
         if abs(before - cost) < tolerance:
@@ -59,14 +67,24 @@ def test_logits_are_those_of_chapter_3(make):
 def test_descent_is_a_plain_loop_over_the_pairs(make, passes, tolerance):
     network, (x, y) = stack(), pairs(4)
     networks, rows = make(network), np.array([0, 2, 3])
-    first, last, rate = np.array([0, 5, 3]), np.array([12, 12, 4]), np.array([0.3, 0.1, 0.5])
-    networks.descend(rows, x, y, first, last, rate=rate, passes=passes, tolerance=tolerance)
+    first, last, rate = (
+        np.array([0, 5, 3]),
+        np.array([12, 12, 4]),
+        np.array([0.3, 0.1, 0.5]),
+    )
+    networks.descend(
+        rows, x, y, first, last, rate=rate, passes=passes, tolerance=tolerance
+    )
     expected, took = [network[0], network[1], network[2], network[3]], []
     for k, row in enumerate(rows):
         own = slice(first[k], last[k])
-        expected[row], done = plain_descent(network[int(row)], x[row, own], y[row, own], rate[k], passes, tolerance)
+        expected[row], done = plain_descent(
+            network[int(row)], x[row, own], y[row, own], rate[k], passes, tolerance
+        )
         took.append(done)
-    np.testing.assert_allclose(networks.parameters(), packed(stacked(expected)), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(
+        networks.parameters(), packed(stacked(expected)), rtol=1e-9, atol=1e-12
+    )
     if tolerance:
         assert len(set(took)) > 1  # they settled, each in its own time
         assert max(took) < passes
@@ -80,7 +98,14 @@ def test_no_network_hears_of_another():
     for row in range(4):
         alone = CompiledNetworks(stacked([network[row]]))
         arguments["rate"] = np.array([0.3])
-        alone.descend(np.array([0]), x[row : row + 1], y[row : row + 1], zero[:1], zero[:1] + 12, **arguments)
+        alone.descend(
+            np.array([0]),
+            x[row : row + 1],
+            y[row : row + 1],
+            zero[:1],
+            zero[:1] + 12,
+            **arguments,
+        )
         np.testing.assert_array_equal(together.parameters()[row], alone.parameters()[0])
 
 
@@ -91,15 +116,25 @@ def test_slopes_are_those_that_torch_derives(make, linear):
 
     network, (x, _) = stack(), pairs(3)
     rng = np.random.default_rng(4)
-    actions, targets = rng.integers(5, size=(3, 12)), 4 * rng.random((3, 12)) - 2 if linear else rng.random((3, 12))
+    actions, targets = (
+        rng.integers(5, size=(3, 12)),
+        4 * rng.random((3, 12)) - 2 if linear else rng.random((3, 12)),
+    )
     rows = np.array([1, 3, 0])
     slopes, costs = make(network).slopes(rows, x, actions, targets, linear=linear)
     for k, row in enumerate(rows):
-        leaves = [torch.tensor(a, requires_grad=True) for a in (*network[int(row)].weights, *network[int(row)].biases)]
+        leaves = [
+            torch.tensor(a, requires_grad=True)
+            for a in (*network[int(row)].weights, *network[int(row)].biases)
+        ]
         w1, w2, b1, b2 = leaves
         z = torch.sigmoid(torch.tensor(x[k]) @ w1.T + b1) @ w2.T + b2
         taken = z.gather(1, torch.tensor(actions[k])[:, None])[:, 0]
-        loss = torch.nn.functional.huber_loss if linear else torch.nn.functional.binary_cross_entropy_with_logits
+        loss = (
+            torch.nn.functional.huber_loss
+            if linear
+            else torch.nn.functional.binary_cross_entropy_with_logits
+        )
         cost = loss(taken, torch.tensor(targets[k]))
         d1, d2, c1, c2 = torch.autograd.grad(cost, leaves)
         wanted = torch.cat([part.flatten() for part in (d1.T, c1, d2.T, c2)])
@@ -122,6 +157,12 @@ def test_parameters_are_copied_in_and_out(make):
 def test_there_and_back():
     network = stack()
     again = network_of(packed(network), SIZES)
-    for ours, theirs in zip((*again.weights, *again.biases), (*network.weights, *network.biases), strict=True):
+    for ours, theirs in zip(
+        (*again.weights, *again.biases),
+        (*network.weights, *network.biases),
+        strict=True,
+    ):
         np.testing.assert_array_equal(ours, theirs)
-    np.testing.assert_array_equal(network_of(packed(network)[2], SIZES).weights[1], network.weights[1][2])
+    np.testing.assert_array_equal(
+        network_of(packed(network)[2], SIZES).weights[1], network.weights[1][2]
+    )

@@ -9,10 +9,15 @@ import pytest
 from robonav.nnql import METHODS, Course, nnql, train, weight_changes
 from robonav.nnql.checkpoints import load_checkpoint
 from robonav.nnql.networks import CompiledNetworks
-from robonav.nnql.practice import STARTS, TARGETS
+from robonav.nnql.trainer import STARTS, TARGETS
 from robonav.robot import NNQL_SENSORS, Encoder, navigate, random_worlds
 
-SMALL = {"nnql": {}, "online": {}, "nfq": {"collect": 4, "sweeps": 2, "epochs": 15}, "dqn": {"batch": 8, "refresh": 30}}
+SMALL = {
+    "nnql": {},
+    "online": {},
+    "nfq": {"collect": 4, "sweeps": 2, "epochs": 15},
+    "dqn": {"batch": 8, "refresh": 30},
+}
 
 
 def same(one, other, row, other_row):
@@ -21,13 +26,17 @@ def same(one, other, row, other_row):
     np.testing.assert_array_equal(one.steps[row], other.steps[other_row])
     np.testing.assert_array_equal(one.returns[row], other.returns[other_row])
     for mine, theirs in zip(
-        (*one.network.weights, *one.network.biases), (*other.network.weights, *other.network.biases), strict=True
+        (*one.network.weights, *one.network.biases),
+        (*other.network.weights, *other.network.biases),
+        strict=True,
     ):
         np.testing.assert_array_equal(mine[row], theirs[other_row])
 
 
 @pytest.mark.parametrize(("method", "pairs"), [("nnql", 30), ("online", 1)])
-def test_nnql_trains_on_the_whole_episode_and_online_learning_on_its_latest_step(method, pairs, monkeypatch):
+def test_nnql_trains_on_the_whole_episode_and_online_learning_on_its_latest_step(
+    method, pairs, monkeypatch
+):
     trained_on, descend = [], CompiledNetworks.descend
 
     def watched(networks, rows, x, y, first, last, **options):
@@ -36,7 +45,9 @@ def test_nnql_trains_on_the_whole_episode_and_online_learning_on_its_latest_step
 
     monkeypatch.setattr(CompiledNetworks, "descend", watched)
     training = train(method, seeds=1, episodes=4, course=Course(max_steps=30))
-    expected = [(max(k - pairs, 0), k) for n in training.decisions[0] for k in range(1, n + 1)]
+    expected = [
+        (max(k - pairs, 0), k) for n in training.decisions[0] for k in range(1, n + 1)
+    ]
     assert trained_on == expected
     assert training.decisions.max() > 5
 
@@ -45,19 +56,32 @@ def test_nnql_trains_on_the_whole_episode_and_online_learning_on_its_latest_step
 def test_seeds_together_are_seeds_apart(method):
     together = train(method, seeds=[4, 0, 9], episodes=12, **SMALL[method])
     for row, seed in enumerate((4, 0, 9)):
-        same(together, train(method, seeds=[seed], episodes=12, **SMALL[method]), row, 0)
+        same(
+            together, train(method, seeds=[seed], episodes=12, **SMALL[method]), row, 0
+        )
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_an_interrupted_training_ends_as_one_that_was_not(method, tmp_path):
-    path, whole = tmp_path / "training", train(method, seeds=3, episodes=13, **SMALL[method])
+    path, whole = (
+        tmp_path / "training",
+        train(method, seeds=3, episodes=13, **SMALL[method]),
+    )
 
     def interrupt(done, total):
         if done > total / 2:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        train(method, seeds=3, episodes=13, checkpoint=path, every=4, progress=interrupt, **SMALL[method])
+        train(
+            method,
+            seeds=3,
+            episodes=13,
+            checkpoint=path,
+            every=4,
+            progress=interrupt,
+            **SMALL[method],
+        )
     counted = []
     resumed = train(
         method, seeds=3, episodes=13, checkpoint=path, every=4,
@@ -67,15 +91,24 @@ def test_an_interrupted_training_ends_as_one_that_was_not(method, tmp_path):
     assert counted[-1] == (39, 39)
     for row in range(3):
         same(resumed, whole, row, row)
-    finished = train(method, seeds=3, episodes=13, checkpoint=path, every=4, **SMALL[method])
+    finished = train(
+        method, seeds=3, episodes=13, checkpoint=path, every=4, **SMALL[method]
+    )
     same(finished, whole, 0, 0)
 
 
 def test_a_checkpoint_of_another_training_is_refused(tmp_path):
     path = tmp_path / "training"
     nnql(2, 4, checkpoint=path)
-    for other in ({"gamma": 0.8}, {"course": Course(obstacles=20)}, {"course": Course(reward=lambda b, a, o: 0 * o)}):
-        with pytest.raises(ValueError, match="training belongs to a training with other seeds, settings or course"):
+    for other in (
+        {"gamma": 0.8},
+        {"course": Course(obstacles=20)},
+        {"course": Course(reward=lambda b, a, o: 0 * o)},
+    ):
+        with pytest.raises(
+            ValueError,
+            match="training belongs to a training with other seeds, settings or course",
+        ):
             nnql(2, 4, checkpoint=path, **other)
     with pytest.raises(ValueError, match="belongs to a training with other"):
         nnql(3, 4, checkpoint=path)
@@ -103,7 +136,9 @@ def test_rewards_that_differ_only_in_a_number_are_other_trainings(tmp_path):
         nnql(2, 4, checkpoint=path, course=Course(reward=paying(rows[2])))
 
 
-def test_a_checkpoint_of_another_version_or_a_torn_one_is_refused(tmp_path, monkeypatch):
+def test_a_checkpoint_of_another_version_or_a_torn_one_is_refused(
+    tmp_path, monkeypatch
+):
     path = tmp_path / "training"
     nnql(2, 4, checkpoint=path)
     monkeypatch.setattr("robonav.nnql.checkpoints.__version__", "9.9")
@@ -125,7 +160,10 @@ def test_a_short_training_learns_and_its_curve_rises():
     assert curve[-1] > curve[0] + 0.3
     assert curve[-1] > 0.75
     worlds = random_worlds(200, seed=7, starts=STARTS, targets=TARGETS)
-    rates = [navigate(policy, worlds, 2.5, 400).success.mean() for policy in training.policies]
+    rates = [
+        navigate(policy, worlds, 2.5, 400).success.mean()
+        for policy in training.policies
+    ]
     assert np.mean(rates) > 0.85
 
 
@@ -134,9 +172,13 @@ def test_history_and_paths_when_asked_for():
     assert training.history.stack == (2, 7)
     same_end = training.history.weights[0][:, -1] == training.network.weights[0]
     assert same_end.all()
-    assert (training.history.weights[0][:, 0] != training.history.weights[0][:, -1]).any()
+    assert (
+        training.history.weights[0][:, 0] != training.history.weights[0][:, -1]
+    ).any()
     for row in range(2):
-        assert [len(path) - 1 for path in training.paths[row]] == training.steps[row].tolist()
+        assert [len(path) - 1 for path in training.paths[row]] == training.steps[
+            row
+        ].tolist()
     same(training, nnql(2, 6), 1, 1)
 
 
@@ -156,7 +198,9 @@ def test_the_training_of_one_seed():
 
 def test_weight_changes_add_up_over_a_training():
     training = nnql(2, 6, record=True)
-    signed, absolute = (weight_changes(training.history, absolute=kind) for kind in (False, True))
+    signed, absolute = (
+        weight_changes(training.history, absolute=kind) for kind in (False, True)
+    )
     assert signed.shape == absolute.shape == (2, 6, 2)
     for layer in range(2):
         w, b = training.history.weights[layer], training.history.biases[layer]
@@ -178,9 +222,13 @@ def test_worlds_of_training_never_meet_those_of_a_table():
     course = Course()
     practised = course.worlds([0, 1, 7], 0, 50)
     assert len({tuple(key) for key in practised.keys}) == 150
-    np.testing.assert_array_equal(course.worlds([7], 0, 90).keys[:50], practised.keys[100:])
+    np.testing.assert_array_equal(
+        course.worlds([7], 0, 90).keys[:50], practised.keys[100:]
+    )
     np.testing.assert_array_equal(course.worlds([7], 20, 50).keys, practised.keys[120:])
-    asked = {tuple(key) for seed in range(200) for key in random_worlds(1, seed=seed).keys}
+    asked = {
+        tuple(key) for seed in range(200) for key in random_worlds(1, seed=seed).keys
+    }
     assert not asked & {tuple(key) for key in practised.keys}
 
 
@@ -190,11 +238,17 @@ def test_every_encoding_trains():
         training = nnql(1, 2, course=Course(encoder=encoder))
         assert training.network.sizes == (encoder.size, 8, 5)
         assert training.policies[0].encoder == encoder
-    assert nnql(1, 2, course=Course(encoder=Encoder(NNQL_SENSORS, True, "number"))).network.sizes == (16, 8, 5)
+    assert nnql(
+        1, 2, course=Course(encoder=Encoder(NNQL_SENSORS, True, "number"))
+    ).network.sizes == (16, 8, 5)
 
 
 def test_moving_obstacles_and_another_reward():
-    course = Course(obstacles=5, moving=5, reward=lambda before, after, outcome: np.full(len(outcome), 0.5))
+    course = Course(
+        obstacles=5,
+        moving=5,
+        reward=lambda before, after, outcome: np.full(len(outcome), 0.5),
+    )
     training = nnql(2, 5, course=course)
     np.testing.assert_array_equal(training.returns, 0.5 * training.decisions)
     assert training.returns.max() > 0.5
@@ -203,7 +257,10 @@ def test_moving_obstacles_and_another_reward():
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"method": "sarsa"}, "method must be one of nnql, online, nfq, dqn, got 'sarsa'"),
+        (
+            {"method": "sarsa"},
+            "method must be one of nnql, online, nfq, dqn, got 'sarsa'",
+        ),
         ({"seeds": 0}, "seeds must be at least 1, got 0"),
         ({"seeds": [1, 1]}, "seeds must be at least one, and all different"),
         ({"seeds": []}, "seeds must be at least one"),

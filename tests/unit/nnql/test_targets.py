@@ -12,7 +12,11 @@ q_values = arrays(float, (6, 5), elements=st.floats(-3, 3))
 
 @given(q_values, st.floats(0, 1), st.floats(0, 1))
 def test_only_the_taken_action_moves(q, alpha, gamma):
-    actions, rewards, following = np.arange(6) % 5, np.linspace(-1, 1, 6), np.linspace(0, 1, 6)
+    actions, rewards, following = (
+        np.arange(6) % 5,
+        np.linspace(-1, 1, 6),
+        np.linspace(0, 1, 6),
+    )
     updated = q_targets(q, actions, rewards, following, alpha=alpha, gamma=gamma)
     for k, a in enumerate(actions):
         wanted = q[k, a] + alpha * (rewards[k] + gamma * following[k] - q[k, a])
@@ -56,7 +60,9 @@ def test_the_two_readings_differ():
 def test_the_cost_is_equation_4_11_as_mended():
     z, y = np.array([0.3, -1.2, 2.0, 0.0, -0.5]), np.array([1.0, 0.0, 0.3, 0.5, 0.9])
     q = 1 / (1 + np.exp(-z))
-    np.testing.assert_allclose(cross_entropy(y, z), -(y * np.log(q) + (1 - y) * np.log(1 - q)).sum())
+    np.testing.assert_allclose(
+        cross_entropy(y, z), -(y * np.log(q) + (1 - y) * np.log(1 - q)).sum()
+    )
 
 
 def test_the_cost_is_least_at_its_target_and_the_printed_one_is_not():
@@ -64,9 +70,13 @@ def test_the_cost_is_least_at_its_target_and_the_printed_one_is_not():
     mended = cross_entropy(0.3, np.log(q / (1 - q))[:, None])
     printed = -(0.3 * np.log(q) + 0.7 * (1 - np.log(q)))
     assert np.isclose(q[mended.argmin()], 0.3)
-    assert q[printed.argmin()] == q[0]  # the smaller Q, the smaller the printed cost, whatever the target
+    assert (
+        q[printed.argmin()] == q[0]
+    )  # the smaller Q, the smaller the printed cost, whatever the target
 
 
 def test_the_cost_is_finite_where_the_network_is_certain():
-    np.testing.assert_allclose(cross_entropy([[1.0, 0.0]], [[800.0, -800.0]]), 0, atol=1e-12)
+    np.testing.assert_allclose(
+        cross_entropy([[1.0, 0.0]], [[800.0, -800.0]]), 0, atol=1e-12
+    )
     np.testing.assert_allclose(cross_entropy([[0.0]], [[800.0]]), 800)

@@ -6,9 +6,15 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 
-from robonav import look
+from robonav import style
 from robonav.mdp import AlphaVectors, PoseGrid
-from robonav.plots.belief import draw_belief, draw_pomdp, draw_pose_belief, draw_values_of_beliefs, plot_uncertainty
+from robonav.plots.belief import (
+    draw_belief,
+    draw_pomdp,
+    draw_pose_belief,
+    draw_values_of_beliefs,
+    plot_uncertainty,
+)
 
 
 @pytest.fixture
@@ -21,20 +27,30 @@ def test_a_bar_a_cell_a_filled_box_a_door(axes):
     draw_belief(axes, [0.2, 0.5, 0.3], ".D.", state=2)
     bars, boxes = axes.patches[:3], axes.patches[3:]
     np.testing.assert_allclose([bar.get_height() for bar in bars], [0.2, 0.5, 0.3])
-    filled = [mpl.colors.to_hex(box.get_facecolor()) == look.ORANGE.lower() for box in boxes]
+    filled = [
+        mpl.colors.to_hex(box.get_facecolor()) == style.ORANGE.lower() for box in boxes
+    ]
     assert filled == [False, True, False]
     assert axes.lines[0].get_xdata()[0] == 2
     axes.figure.canvas.draw()
 
 
 def test_the_thick_line_is_the_upper_edge(axes):
-    values = AlphaVectors(np.array([[4.0, 0.0], [0.0, 4.0], [3.0, 3.0]]), np.array([1, 2, 0]))
+    values = AlphaVectors(
+        np.array([[4.0, 0.0], [0.0, 4.0], [3.0, 3.0]]), np.array([1, 2, 0])
+    )
     draw_values_of_beliefs(axes, values, ["wait", "left", "right"])
     thick = [line for line in axes.lines if line.get_linewidth() > 2]
     edge = np.nanmax([line.get_ydata() for line in thick], axis=0)
     belief = thick[0].get_xdata()
-    np.testing.assert_allclose(edge, values.value(np.stack([belief, 1 - belief], axis=1)))
-    assert {text.get_text() for text in axes.get_legend().get_texts()} == {"wait", "left", "right"}
+    np.testing.assert_allclose(
+        edge, values.value(np.stack([belief, 1 - belief], axis=1))
+    )
+    assert {text.get_text() for text in axes.get_legend().get_texts()} == {
+        "wait",
+        "left",
+        "right",
+    }
 
 
 def test_poses_are_summed_over_headings_and_pointed_out(axes):

@@ -31,9 +31,18 @@ def test_a_window_averages_and_stands_at_its_end(axes):
 
 
 def test_walks_pass_through_their_cells(axes):
-    draw_walks(axes, (2, 3), {"bold": [3, 0, 1, 2, 5], "safe": [3, 4, 5]}, forbidden=[4], start=3, goal=5)
+    draw_walks(
+        axes,
+        (2, 3),
+        {"bold": [3, 0, 1, 2, 5], "safe": [3, 4, 5]},
+        forbidden=[4],
+        start=3,
+        goal=5,
+    )
     bold, safe = axes.lines
-    np.testing.assert_array_equal(np.floor(bold.get_xydata()), [[0, 1], [0, 0], [1, 0], [2, 0], [2, 1]])
+    np.testing.assert_array_equal(
+        np.floor(bold.get_xydata()), [[0, 1], [0, 0], [1, 0], [2, 0], [2, 1]]
+    )
     np.testing.assert_array_equal(np.floor(safe.get_xydata()), [[0, 1], [1, 1], [2, 1]])
     assert bold.get_color() != safe.get_color()
     assert [text.get_text() for text in axes.texts] == ["S", "G"]

@@ -4,8 +4,14 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from robonav.experiments.experiment import Experiment, Results, Row
-from robonav.experiments.lfd import EXPERIMENTS, FIGURE_3_5, FIGURE_3_8, TABLE_3_2, TABLE_3_3
+from robonav.experiments.chapter3.tables import (
+    EXPERIMENTS,
+    FIGURE_3_5,
+    FIGURE_3_8,
+    TABLE_3_2,
+    TABLE_3_3,
+)
+from robonav.experiments.runner.experiment import Experiment, Results, Row
 from robonav.lfd import demonstrate, plan
 from robonav.plots import lfd as draw
 from robonav.plots.experiments import DRAWN
@@ -44,7 +50,10 @@ def test_demonstrations_and_the_thesis():
 def test_iterations():
     figure = draw.plot_iterations(made_up(TABLE_3_3, ["accuracy", "success"]))
     assert len(figure.axes) == 2
-    assert any(np.array_equal(line.get_ydata(), np.arange(7) * 10 + 71) for line in figure.axes[0].get_lines())
+    assert any(
+        np.array_equal(line.get_ydata(), np.arange(7) * 10 + 71)
+        for line in figure.axes[0].get_lines()
+    )
 
 
 def test_planners():
@@ -61,7 +70,11 @@ def test_methods_rounds_and_margins():
     draw.draw_rounds(axes, results)
     assert [line.get_ydata()[0] for line in axes.get_lines()] == [61, 131, 201]
     figure = draw.plot_methods(made_up(FIGURE_3_8, ["success"]))
-    assert {text.get_text() for text in figure.axes[0].get_legend().get_texts()} >= {"straight", "cloning", "DAgger"}
+    assert {text.get_text() for text in figure.axes[0].get_legend().get_texts()} >= {
+        "straight",
+        "cloning",
+        "DAgger",
+    }
     by_name = {experiment.name: experiment for experiment in EXPERIMENTS}
     figure = draw.plot_margins(made_up(by_name["lfd-margins"], ["success"]))
     assert len(figure.axes[0].get_legend().get_texts()) == 4

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Rectangle
 
-from robonav import look, mdp
+from robonav import mdp, style
 from robonav.plots import mdp as draw
 
 
@@ -35,8 +35,12 @@ def test_a_grid_shows_walls_values_and_arrows(axes):
     for value in solution.values[~grid.terminal]:
         assert f"{value:.2f}" in shown
     assert len(arrows(axes)) == 9
-    wall = [patch for patch in axes.patches if isinstance(patch, Rectangle) and patch.get_xy() == (1, 1)]
-    assert wall[0].get_facecolor() == mpl.colors.to_rgba(look.OBSTACLE)
+    wall = [
+        patch
+        for patch in axes.patches
+        if isinstance(patch, Rectangle) and patch.get_xy() == (1, 1)
+    ]
+    assert wall[0].get_facecolor() == mpl.colors.to_rgba(style.OBSTACLE)
     axes.figure.canvas.draw()
 
 
@@ -82,7 +86,9 @@ def test_schemes_name_their_parts(axes, scheme, named):
 
 
 def test_a_trace_is_drawn_as_it_is(axes):
-    trace = mdp.generalized_policy_iteration(mdp.four_by_three().mdp(0.9), sweeps=math.inf)
+    trace = mdp.generalized_policy_iteration(
+        mdp.four_by_three().mdp(0.9), sweeps=math.inf
+    )
     draw.plot_trace(axes, trace, least=1e-8)
     evaluation, greedy = (line.get_ydata() for line in axes.lines)
     np.testing.assert_allclose(evaluation, np.maximum(trace.evaluation_gap, 1e-8))

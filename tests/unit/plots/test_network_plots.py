@@ -7,10 +7,17 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from robonav.lfd import toys
-from robonav.lfd.network import Network, random_network
-from robonav.lfd.training import fit
-from robonav.plots.network import NEGATIVE, POSITIVE, draw_answers, draw_network, plot_accuracies, plot_costs
+from robonav.networks import toy_datasets
+from robonav.networks.multilayer_perceptron import Network, random_network
+from robonav.networks.optimisers import fit
+from robonav.plots.network import (
+    NEGATIVE,
+    POSITIVE,
+    draw_answers,
+    draw_network,
+    plot_accuracies,
+    plot_costs,
+)
 
 
 @pytest.fixture
@@ -38,27 +45,41 @@ def test_lines_show_sign_and_size_of_weights_and_bias(axes):
     draw_network(axes, (2, 1), network=network, inputs=["a", "b"], outputs=["c"])
     lines = axes.collections[0]
     signs = [POSITIVE, NEGATIVE, POSITIVE]  # the bias comes first
-    np.testing.assert_allclose(lines.get_colors()[:, :3], [mpl.colors.to_rgb(colour) for colour in signs])
+    np.testing.assert_allclose(
+        lines.get_colors()[:, :3], [mpl.colors.to_rgb(colour) for colour in signs]
+    )
     assert np.argsort(lines.get_linewidths()).tolist() == [0, 2, 1]
     assert {"a", "b", "c", "+1"} <= {text.get_text() for text in axes.texts}
 
 
 def test_curves_are_the_history(axes):
-    x, y = toys.corners(30, seed=0)
-    trainings = {f"seed {seed}": fit(x, y, hidden=2, iterations=10, seed=seed) for seed in (0, 1)}
+    x, y = toy_datasets.corners(30, seed=0)
+    trainings = {
+        f"seed {seed}": fit(x, y, hidden=2, iterations=10, seed=seed) for seed in (0, 1)
+    }
     plot_costs(axes, trainings, colours={"seed 0": "red"})
     np.testing.assert_array_equal(axes.lines[1].get_ydata(), trainings["seed 1"].costs)
     assert axes.lines[0].get_color() == "red"
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == list(trainings)
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == list(
+        trainings
+    )
     plot_accuracies(axes, {"one": trainings["seed 0"]})
-    np.testing.assert_array_equal(axes.lines[-1].get_ydata(), 100 * trainings["seed 0"].accuracies)
+    np.testing.assert_array_equal(
+        axes.lines[-1].get_ydata(), 100 * trainings["seed 0"].accuracies
+    )
 
 
 def test_answers_are_drawn_with_their_boundary_and_examples(axes):
-    x, y = toys.corners(30, seed=0)
+    x, y = toy_datasets.corners(30, seed=0)
     network = random_network((2, 3, 1), seed=0, spread=3)
-    draw_answers(axes, toys.field(network, resolution=20), x, y)
-    np.testing.assert_allclose(axes.images[0].get_array(), toys.field(network, resolution=20))
-    shown = [collection.get_offsets() for collection in axes.collections if len(collection.get_offsets()) > 1]
+    draw_answers(axes, toy_datasets.field(network, resolution=20), x, y)
+    np.testing.assert_allclose(
+        axes.images[0].get_array(), toy_datasets.field(network, resolution=20)
+    )
+    shown = [
+        collection.get_offsets()
+        for collection in axes.collections
+        if len(collection.get_offsets()) > 1
+    ]
     assert sorted(map(len, shown)) == sorted([int(y.sum()), int(30 - y.sum())])
     axes.figure.canvas.draw()

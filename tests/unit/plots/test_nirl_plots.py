@@ -6,10 +6,15 @@ import pytest
 from matplotlib import pyplot as plt
 from matplotlib.colors import to_rgb
 
-from robonav import lfd, look, nirl
+from robonav import lfd, nirl, style
 from robonav.experiments import Results
-from robonav.experiments.experiment import Row
-from robonav.experiments.nirl import FIGURE_5_4, FIGURE_5_7, FIGURE_5_10, TABLE_5_2
+from robonav.experiments.chapter5.tables import (
+    FIGURE_5_4,
+    FIGURE_5_7,
+    FIGURE_5_10,
+    TABLE_5_2,
+)
+from robonav.experiments.runner.experiment import Row
 from robonav.plots import nirl as draw
 from robonav.robot import Encoder, neighbour_slip, random_worlds
 
@@ -18,7 +23,7 @@ mpl.use("Agg")
 
 @pytest.fixture
 def axes():
-    with mpl.rc_context(look.STYLE):
+    with mpl.rc_context(style.STYLE):
         figure, axes = plt.subplots()
         yield axes
         figure.canvas.draw()
@@ -55,13 +60,21 @@ def test_projection_moves_a_policy_a_frame():
 
 def test_key_points_and_what_was_driven(axes):
     world = random_worlds(1, 3, seed=0)
-    draw.draw_key_points(axes, world, [[30.0, 40.0]], np.array([[10.0, 10], [90, 90]]), np.array([[11.0, 12, 0]]))
+    draw.draw_key_points(
+        axes,
+        world,
+        [[30.0, 40.0]],
+        np.array([[10.0, 10], [90, 90]]),
+        np.array([[11.0, 12, 0]]),
+    )
     assert [30.0] in [list(line.get_xdata()) for line in axes.lines]
     assert [11.0] in [list(line.get_xdata()) for line in axes.lines]
 
 
 def test_slips_are_ringed(axes):
-    shown = lfd.record(lfd.ComputerExpert(), random_worlds(1, 20, seed=4), slip=neighbour_slip(0.3))
+    shown = lfd.record(
+        lfd.ComputerExpert(), random_worlds(1, 20, seed=4), slip=neighbour_slip(0.3)
+    )
     meant = shown.actions.copy()
     meant[3] = (meant[3] + 1) % 5
     draw.draw_slips(axes, shown, meant)
@@ -82,8 +95,8 @@ def test_likes_are_blue_and_fears_are_red():
     figure = plt.figure()
     draw.draw_likes(figure, weights, nirl.ENCODER)
     ahead, _, left, _ = figure.axes[0].patches[:4]
-    assert ahead.get_facecolor() == (*to_rgb(look.VERMILION), 1.0)
-    assert left.get_facecolor() == (*to_rgb(look.BLUE), 0.5)
+    assert ahead.get_facecolor() == (*to_rgb(style.VERMILION), 1.0)
+    assert left.get_facecolor() == (*to_rgb(style.BLUE), 0.5)
     assert len(figure.axes) == 5
     plt.close(figure)
 
@@ -113,7 +126,9 @@ def test_the_choice_rings_the_best_of_each_score(axes):
 
 
 def test_a_course_is_the_mean_of_its_runs(axes):
-    draw.draw_course(axes, {"0.65": [[1.0, 3, 5], [3.0, 3, 3]], "0.9": [[0.0, 0, 0]]}, "margin")
+    draw.draw_course(
+        axes, {"0.65": [[1.0, 3, 5], [3.0, 3, 3]], "0.9": [[0.0, 0, 0]]}, "margin"
+    )
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), [2, 3, 4])
     np.testing.assert_array_equal(axes.lines[0].get_xdata(), [1, 2, 3])
     assert axes.get_legend() is not None
@@ -123,11 +138,17 @@ def test_results_find_their_panels():
     counts = draw.plot_counts(made_up(FIGURE_5_4, ("samples", "states")))
     own = [line for line in counts.axes[0].lines if line.get_label() == "human"]
     np.testing.assert_array_equal(own[0].get_ydata(), 100 * np.arange(6, 12) + 10)
-    course = draw.plot_course(made_up(FIGURE_5_7, ("margin",), steps=4), "margin", "margin")
-    np.testing.assert_array_equal(course.axes[0].lines[0].get_ydata(), 10 + np.arange(4))
+    course = draw.plot_course(
+        made_up(FIGURE_5_7, ("margin",), steps=4), "margin", "margin"
+    )
+    np.testing.assert_array_equal(
+        course.axes[0].lines[0].get_ydata(), 10 + np.arange(4)
+    )
     densities = draw.plot_densities(made_up(FIGURE_5_10, ("success",)))
     assert [axes.get_title() for axes in densities.axes] == ["1 m/s", "2 m/s", "3 m/s"]
-    np.testing.assert_array_equal(densities.axes[1].lines[0].get_ydata(), 100 * np.arange(6, 12) + 10)
+    np.testing.assert_array_equal(
+        densities.axes[1].lines[0].get_ydata(), 100 * np.arange(6, 12) + 10
+    )
     comparison = draw.plot_comparison(made_up(TABLE_5_2, ("success",)), 0.9)
     labels = [label.get_text() for label in comparison.axes[0].get_yticklabels()]
     assert labels[:4] == ["nirl", "apprenticeship", "relative_entropy", "scirl"]

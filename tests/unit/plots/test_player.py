@@ -41,7 +41,9 @@ def test_frames_let_the_page_through():
 
 
 def test_nothing_comes_from_elsewhere():
-    assert not re.search(r'(src|href)="https?:', player(moving_dot(), description="A dot moves.").data)
+    assert not re.search(
+        r'(src|href)="https?:', player(moving_dot(), description="A dot moves.").data
+    )
 
 
 def test_no_figure_is_left_open():
@@ -55,5 +57,7 @@ def test_description_and_speed_are_checked():
         player(animation, description=" ")
     with pytest.raises(ValueError, match="frames_per_second must be at least 1"):
         player(animation, description="A dot moves.", frames_per_second=0)
-    animation._draw_was_started = True  # matplotlib warns of animations that are never drawn
+    animation._draw_was_started = (
+        True  # matplotlib warns of animations that are never drawn
+    )
     plt.close("all")

@@ -22,7 +22,20 @@ from robonav.robot import (
 
 @pytest.mark.parametrize(
     ("centimetres", "degree"),
-    [(0, 7), (2.9, 7), (3, 6), (6.9, 6), (7, 5), (11, 4), (14.9, 4), (15, 3), (20, 2), (25, 1), (29.9, 1), (30, 0)],
+    [
+        (0, 7),
+        (2.9, 7),
+        (3, 6),
+        (6.9, 6),
+        (7, 5),
+        (11, 4),
+        (14.9, 4),
+        (15, 3),
+        (20, 2),
+        (25, 1),
+        (29.9, 1),
+        (30, 0),
+    ],
 )
 def test_table_3_1(centimetres, degree):
     assert degree_of_danger(centimetres * 10 / 30) == degree
@@ -36,7 +49,9 @@ def test_danger_never_grows_with_distance(ranges):
 def some_sensing(n=50):
     worlds = random_worlds(n, 15, seed=3)
     rng = np.random.default_rng(0)
-    return sense(worlds, np.column_stack([rng.uniform(1, 99, (n, 2)), rng.uniform(-3, 3, n)]))
+    return sense(
+        worlds, np.column_stack([rng.uniform(1, 99, (n, 2)), rng.uniform(-3, 3, n)])
+    )
 
 
 def test_the_state_of_eleven_numbers():
@@ -89,7 +104,10 @@ def test_default_encoders_have_the_thesis_sizes_with_a_number_for_the_sector():
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
-    [(((0,),), "sensors must be at least 1"), (((1,), False, "polar"), "target must be one of number, signed")],
+    [
+        (((0,),), "sensors must be at least 1"),
+        (((1,), False, "polar"), "target must be one of number, signed"),
+    ],
 )
 def test_bad_encoders_are_refused_with_a_sentence(arguments, message):
     with pytest.raises(ValueError, match=message):

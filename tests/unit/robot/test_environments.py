@@ -20,7 +20,9 @@ def test_importing_robonav_registers_the_environment():
     assert NAME in gymnasium.registry
 
 
-@pytest.mark.parametrize("settings", [{}, {"obstacles": 0}, {"moving": 3, "noise": 0.2}, {"reflex": None}])
+@pytest.mark.parametrize(
+    "settings", [{}, {"obstacles": 0}, {"moving": 3, "noise": 0.2}, {"reflex": None}]
+)
 def test_checker_has_nothing_to_say(settings):
     check_env(gymnasium.make(NAME, **settings).unwrapped)
 
@@ -51,11 +53,16 @@ def equal(one, other):
         assert np.asarray(one[key]).dtype == np.asarray(other[key]).dtype, key
 
 
-@pytest.mark.parametrize("settings", [{"obstacles": 15, "moving": 3}, {"obstacles": 25, "reflex": None, "noise": 0.3}])
+@pytest.mark.parametrize(
+    "settings",
+    [{"obstacles": 15, "moving": 3}, {"obstacles": 25, "reflex": None, "noise": 0.3}],
+)
 def test_vector_environment_equals_gymnasiums_over_the_single_one(settings):
     n = 6
     settings = settings | {"max_episode_steps": 40}
-    native = gymnasium.make_vec(NAME, n, vectorization_mode="vector_entry_point", **settings)
+    native = gymnasium.make_vec(
+        NAME, n, vectorization_mode="vector_entry_point", **settings
+    )
     synced = SyncVectorEnv([lambda: gymnasium.make(NAME, **settings)] * n)
     assert native.observation_space == synced.observation_space
     assert native.action_space == synced.action_space
@@ -72,7 +79,9 @@ def test_vector_environment_equals_gymnasiums_over_the_single_one(settings):
             assert a.dtype == b.dtype
         equal(one[4], other[4])
         seen.update(one[4]["outcome"])
-        assert all(one[0][key] in space for key, space in native.observation_space.items())
+        assert all(
+            one[0][key] in space for key, space in native.observation_space.items()
+        )
     assert seen >= {"running", "collided", "out of steps"}
 
 
@@ -94,7 +103,11 @@ def run(env, seed, steps=60):
 
 def test_same_seed_same_run_other_seed_other_run():
     env = gymnasium.make(NAME, obstacles=20, moving=3)
-    (first, seen), (again, seen_again), (other, _) = run(env, 1), run(env, 1), run(env, 2)
+    (first, seen), (again, seen_again), (other, _) = (
+        run(env, 1),
+        run(env, 1),
+        run(env, 2),
+    )
     np.testing.assert_array_equal(first, again)
     equal(seen, seen_again)
     assert (first != other).any()
@@ -130,7 +143,9 @@ def test_out_of_steps_is_truncation_single_and_vector():
     for _ in range(5):
         *_, terminated, truncated, info = env.step(0)
     assert (terminated, truncated, info["outcome"]) == (False, True, "out of steps")
-    batch = gymnasium.make_vec(NAME, 3, vectorization_mode="vector_entry_point", max_episode_steps=5)
+    batch = gymnasium.make_vec(
+        NAME, 3, vectorization_mode="vector_entry_point", max_episode_steps=5
+    )
     batch.reset(seed=0)
     for _ in range(5):
         *_, terminated, truncated, info = batch.step(np.zeros(3, int))
@@ -173,7 +188,9 @@ def test_given_worlds_are_the_worlds_driven():
         env.reset()
         assert env.batch.simulator.worlds.digest() in [w.digest() for w in worlds]
     env = NavigationVectorEnv(2, obstacles=4, max_episode_steps=1)
-    env.reset(options={"worlds": random_worlds(2, 9, seed=3)})  # more obstacles than the environment draws
+    env.reset(
+        options={"worlds": random_worlds(2, 9, seed=3)}
+    )  # more obstacles than the environment draws
     for _ in range(3):
         observation, *_ = env.step(np.zeros(2, int))
     assert as_sensing(observation).ranges.shape == (2, 9)
@@ -186,7 +203,11 @@ def test_given_worlds_are_the_worlds_driven():
         ({"obstacles": -1}, ValueError, "obstacles must be at least 0"),
         ({"reward": 3}, TypeError, "reward must be callable"),
         ({"render_mode": "ansi"}, ValueError, "render_mode must be one of"),
-        ({"worlds": random_worlds(0, seed=0)}, ValueError, "worlds must hold at least one"),
+        (
+            {"worlds": random_worlds(0, seed=0)},
+            ValueError,
+            "worlds must hold at least one",
+        ),
         ({"max_episode_steps": 0}, ValueError, "max_episode_steps must be at least 1"),
     ],
 )
@@ -195,7 +216,9 @@ def test_bad_settings_are_refused_with_a_sentence(settings, error, message):
         NavigationEnv(**settings)
 
 
-@pytest.mark.parametrize(("action", "error"), [(6, ValueError), (-1, ValueError), (1.5, TypeError)])
+@pytest.mark.parametrize(
+    ("action", "error"), [(6, ValueError), (-1, ValueError), (1.5, TypeError)]
+)
 def test_unknown_actions_are_refused_with_a_sentence(action, error):
     env = NavigationEnv()
     env.reset(seed=0)
@@ -228,7 +251,10 @@ def test_worlds_of_another_size_are_not_mixed_in():
     env = NavigationVectorEnv(2, max_episode_steps=1, obstacles=5)
     env.reset(seed=0, options={"worlds": small})
     env.step(np.zeros(2, int))
-    with pytest.raises(ValueError, match="worlds must have the map size of those they replace, 40 m, got 100 m"):
+    with pytest.raises(
+        ValueError,
+        match="worlds must have the map size of those they replace, 40 m, got 100 m",
+    ):
         env.step(np.zeros(2, int))
     assert env.simulator.worlds.size == 40
 
@@ -236,14 +262,20 @@ def test_worlds_of_another_size_are_not_mixed_in():
 @pytest.mark.parametrize("vector", [False, True])
 def test_what_a_reader_does_to_an_observation_changes_nothing(vector):
     def poses(spoil):
-        env = NavigationVectorEnv(1, obstacles=25) if vector else NavigationEnv(obstacles=25)
+        env = (
+            NavigationVectorEnv(1, obstacles=25)
+            if vector
+            else NavigationEnv(obstacles=25)
+        )
         observation, info = env.reset(seed=3)
         seen = []
         for _ in range(20):
             if spoil:
                 observation["ranges"] *= 0
                 observation["walls"][...] = 1
-            observation, _, terminated, _, info = env.step(np.zeros(1, int) if vector else 0)
+            observation, _, terminated, _, info = env.step(
+                np.zeros(1, int) if vector else 0
+            )
             seen.append(np.ravel(info["pose"]))
             if np.all(terminated):
                 break
@@ -256,13 +288,25 @@ def test_what_a_reader_does_to_an_observation_changes_nothing(vector):
     ("settings", "error", "message"),
     [
         ({"obstacles": 20_000}, ValueError, r"obstacles \+ moving must be at most"),
-        ({"moving_speeds": ("a", "b")}, TypeError, "moving_speeds must be an array of numbers"),
+        (
+            {"moving_speeds": ("a", "b")},
+            TypeError,
+            "moving_speeds must be an array of numbers",
+        ),
         ({"moving_speeds": (1,)}, ValueError, r"moving_speeds must have shape \(2,\)"),
-        ({"moving_speeds": (0.9, 0.4)}, ValueError, "moving_speeds must be the least and the greatest"),
+        (
+            {"moving_speeds": (0.9, 0.4)},
+            ValueError,
+            "moving_speeds must be the least and the greatest",
+        ),
         ({"starts": 5}, ValueError, "starts must have shape"),
         ({"worlds": "x"}, TypeError, "worlds must be Worlds, got str"),
         ({"reflex": False}, TypeError, "reflex must be callable"),
-        ({"max_episode_steps": 10**30}, ValueError, "max_episode_steps must be at most"),
+        (
+            {"max_episode_steps": 10**30},
+            ValueError,
+            "max_episode_steps must be at most",
+        ),
     ],
 )
 def test_settings_that_would_fail_later_are_refused_at_once(settings, error, message):

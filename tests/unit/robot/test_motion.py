@@ -25,9 +25,16 @@ from robonav.robot import (
     sense,
     straight,
 )
-from robonav.robot.kernels import RUNNING, swept_clearance
+from robonav.robot._fast import RUNNING, swept_clearance
 
-TURNS = {Action.F: 0, Action.L30: 30, Action.L60: 60, Action.R30: -30, Action.R60: -60, Action.B: 0}
+TURNS = {
+    Action.F: 0,
+    Action.L30: 30,
+    Action.L60: 60,
+    Action.R30: -30,
+    Action.R60: -60,
+    Action.B: 0,
+}
 
 
 def shape_polygon(worlds, m, centre):
@@ -72,29 +79,55 @@ def test_clearance_of_a_step_agrees_with_shapely():
         m = i % 12
         x0, y0 = np.clip(world.centres[0, m] + rng.uniform(-8, 8, 2), 1, 99)
         length, angle = rng.uniform(0, 4), rng.uniform(0, 2 * np.pi)
-        x1, y1 = np.clip([x0 + length * np.cos(angle), y0 + length * np.sin(angle)], 1, 99)
+        x1, y1 = np.clip(
+            [x0 + length * np.cos(angle), y0 + length * np.sin(angle)], 1, 99
+        )
         line = shapely.LineString([(x0, y0), (x1, y1)])
         expected = shapely.box(0, 0, 100, 100).exterior.distance(line)
         for k in range(12):
-            expected = min(expected, line.distance(shape_polygon(world, k, world.centres[0, k])))
+            expected = min(
+                expected, line.distance(shape_polygon(world, k, world.centres[0, k]))
+            )
         got = swept_clearance(
-            world.kinds[0], world.shapes[0], world.centres[0], world.centres[0], 100.0, x0, y0, x1, y1, np.inf
+            world.kinds[0],
+            world.shapes[0],
+            world.centres[0],
+            world.centres[0],
+            100.0,
+            x0,
+            y0,
+            x1,
+            y1,
+            np.inf,
         )
-        assert abs(got - expected) < 1e-4  # shapely's circle is a polygon of 1024 corners
+        assert (
+            abs(got - expected) < 1e-4
+        )  # shapely's circle is a polygon of 1024 corners
 
 
 def test_clearance_against_a_moving_obstacle_agrees_with_many_moments():
     rng = np.random.default_rng(4)
     for _ in range(200):
-        world = make_world(rectangles=[(50, 50, *rng.uniform(3, 8, 2), rng.uniform(0, 180))])
+        world = make_world(
+            rectangles=[(50, 50, *rng.uniform(3, 8, 2), rng.uniform(0, 180))]
+        )
         start, end = 50 + rng.uniform(-6, 6, 2), 50 + rng.uniform(-6, 6, 2)
         drift = rng.uniform(-1, 1, 2)
         got = swept_clearance(
-            world.kinds[0], world.shapes[0], world.centres[0], world.centres[0] + drift, 100.0, *start, *end, np.inf
+            world.kinds[0],
+            world.shapes[0],
+            world.centres[0],
+            world.centres[0] + drift,
+            100.0,
+            *start,
+            *end,
+            np.inf,
         )
         moments = np.linspace(0, 1, 400)
         seen = [
-            shape_polygon(world, 0, world.centres[0, 0] + t * drift).distance(shapely.Point(start + t * (end - start)))
+            shape_polygon(world, 0, world.centres[0, 0] + t * drift).distance(
+                shapely.Point(start + t * (end - start))
+            )
             for t in moments
         ]
         assert got <= min(seen) + 1e-9
@@ -102,7 +135,9 @@ def test_clearance_against_a_moving_obstacle_agrees_with_many_moments():
 
 
 def test_a_fast_step_does_not_jump_a_thin_obstacle():
-    world = make_world(rectangles=[(12, 50, 0.5, 20, 0)], start=(9, 50), target=(90, 50))
+    world = make_world(
+        rectangles=[(12, 50, 0.5, 20, 0)], start=(9, 50), target=(90, 50)
+    )
     result = navigate(straight, world, speed=6.0, reflex=None)
     assert result.outcome[0] == "collided"
     assert result.steps[0] == 1
@@ -110,7 +145,9 @@ def test_a_fast_step_does_not_jump_a_thin_obstacle():
 
 @pytest.mark.parametrize(("gap", "outcome"), [(0.999, "collided"), (1.0, "running")])
 def test_collision_is_nearer_than_a_metre(gap, outcome):
-    simulator = Simulator(make_world(circles=[(50, 50 + 3 + gap, 3)], start=(40, 50)), 2.0)
+    simulator = Simulator(
+        make_world(circles=[(50, 50 + 3 + gap, 3)], start=(40, 50)), 2.0
+    )
     simulator.poses[0] = [49, 50, 0]
     simulator.step(np.array([Action.F]))
     assert OUTCOMES[simulator.outcome[0]] == outcome
@@ -149,7 +186,11 @@ def test_after_the_end_a_robot_stands_still():
 def test_moving_obstacles_never_leave_and_go_at_their_speed():
     worlds = random_worlds(50, obstacles=3, moving=10, seed=9)
     tracks = obstacle_tracks(worlds, 1000)
-    reach = np.where(worlds.kinds == 1, worlds.shapes[..., 0], np.hypot(worlds.shapes[..., 0], worlds.shapes[..., 1]))
+    reach = np.where(
+        worlds.kinds == 1,
+        worlds.shapes[..., 0],
+        np.hypot(worlds.shapes[..., 0], worlds.shapes[..., 1]),
+    )
     assert (tracks >= reach[:, None, :, None] - 1e-9).all()
     assert (tracks <= 100 - reach[:, None, :, None] + 1e-9).all()
     steps = np.linalg.norm(np.diff(tracks, axis=1), axis=-1)
@@ -215,7 +256,9 @@ def test_without_reflexes_the_policy_decides_every_step():
     assert calls[0] == 3
     calls.clear()
     navigate(policy, worlds)
-    assert sum(calls) < 5 * 3  # in an empty map it is asked near the target's corner only, if at all
+    assert (
+        sum(calls) < 5 * 3
+    )  # in an empty map it is asked near the target's corner only, if at all
 
 
 # Uncertainty of motion
@@ -230,7 +273,9 @@ def test_slips_come_as_often_as_the_matrix_says():
     turned = np.round(np.degrees(simulator.poses[:, 2])).astype(int)
     share = {angle: (turned == angle).mean() for angle in (-30, 0, 30)}
     for angle, expected in ((-30, 0.15), (0, 0.7), (30, 0.15)):
-        assert abs(share[angle] - expected) < 4 * math.sqrt(expected * (1 - expected) / n)
+        assert abs(share[angle] - expected) < 4 * math.sqrt(
+            expected * (1 - expected) / n
+        )
     assert sum(share.values()) == 1
 
 
@@ -241,9 +286,13 @@ def test_backing_never_slips_to_a_neighbour():
 
 def test_noise_and_slips_do_not_depend_on_the_batch():
     worlds = random_worlds(40, obstacles=10, moving=2, seed=21)
-    together = navigate(straight, worlds, noise=0.3, slip=neighbour_slip(0.2), record_paths=True)
+    together = navigate(
+        straight, worlds, noise=0.3, slip=neighbour_slip(0.2), record_paths=True
+    )
     for i in (0, 17, 39):
-        alone = navigate(straight, worlds[i], noise=0.3, slip=neighbour_slip(0.2), record_paths=True)
+        alone = navigate(
+            straight, worlds[i], noise=0.3, slip=neighbour_slip(0.2), record_paths=True
+        )
         assert alone.outcome[0] == together.outcome[i]
         np.testing.assert_array_equal(alone.paths[0], together.paths[i])
 
@@ -271,10 +320,15 @@ def test_same_seed_same_run_other_seed_other_run():
         return rng.integers(5, size=len(read))
 
     worlds = random_worlds(30, obstacles=15, seed=1)
-    first, again, other = (navigate(dice, worlds, seed=s, record_paths=True) for s in (5, 5, 6))
+    first, again, other = (
+        navigate(dice, worlds, seed=s, record_paths=True) for s in (5, 5, 6)
+    )
     for a, b in zip(first.paths, again.paths, strict=True):
         np.testing.assert_array_equal(a, b)
-    assert any(a.shape != b.shape or (a != b).any() for a, b in zip(first.paths, other.paths, strict=True))
+    assert any(
+        a.shape != b.shape or (a != b).any()
+        for a, b in zip(first.paths, other.paths, strict=True)
+    )
 
 
 # Bad input
@@ -300,9 +354,21 @@ def test_bad_settings_are_refused_with_a_sentence(settings, error, message):
 @pytest.mark.parametrize(
     ("policy", "error", "message"),
     [
-        (lambda read, rng: np.full(len(read), 7), ValueError, "action must be one of F, L30"),
-        (lambda read, rng: np.zeros(len(read)), TypeError, "action must be whole numbers"),
-        (lambda read, rng: np.zeros(len(read) + 1, int), ValueError, r"action must have shape \(1,\)"),
+        (
+            lambda read, rng: np.full(len(read), 7),
+            ValueError,
+            "action must be one of F, L30",
+        ),
+        (
+            lambda read, rng: np.zeros(len(read)),
+            TypeError,
+            "action must be whole numbers",
+        ),
+        (
+            lambda read, rng: np.zeros(len(read) + 1, int),
+            ValueError,
+            r"action must have shape \(1,\)",
+        ),
         ("straight", TypeError, "policy must be callable"),
     ],
 )
@@ -312,10 +378,19 @@ def test_bad_policies_are_refused_with_a_sentence(policy, error, message):
 
 
 @pytest.mark.parametrize(
-    "commands", [np.array([99, 99]), np.array([-7, 0]), np.array([0]), np.array([0.0, 0.0]), [0, 0]]
+    "commands",
+    [
+        np.array([99, 99]),
+        np.array([-7, 0]),
+        np.array([0]),
+        np.array([0.0, 0.0]),
+        [0, 0],
+    ],
 )
 def test_the_simulator_refuses_commands_it_does_not_know(commands):
-    with pytest.raises(ValueError, match="commands must be an array of 2 whole numbers 0 to 6"):
+    with pytest.raises(
+        ValueError, match="commands must be an array of 2 whole numbers 0 to 6"
+    ):
         Simulator(random_worlds(2, seed=0)).step(commands)
 
 

@@ -21,7 +21,7 @@ from robonav.robot import (
     save_worlds,
     straight,
 )
-from robonav.robot.kernels import CIRCLE, RECTANGLE, reachable
+from robonav.robot._fast import CIRCLE, RECTANGLE, reachable
 
 FROZEN_DIGESTS = [
     "e7423afab328a43eb6f57bbb310c7f93bd050907c3767dd95178730c6e80b9bc",
@@ -31,7 +31,10 @@ FROZEN_DIGESTS = [
 
 def test_the_generator_is_frozen():
     """Difficulty is fixed, not chosen per result: these worlds never change."""
-    digests = [random_worlds(200, obstacles, moving, seed=2015).digest() for obstacles, moving in ((10, 0), (20, 10))]
+    digests = [
+        random_worlds(200, obstacles, moving, seed=2015).digest()
+        for obstacles, moving in ((10, 0), (20, 10))
+    ]
     assert digests == FROZEN_DIGESTS
 
 
@@ -68,7 +71,9 @@ def test_every_world_has_a_way_through_by_another_flood_fill():
     x, y = np.meshgrid(np.arange(101.0), np.arange(101.0), indexing="ij")
     for world in worlds:
         free = np.minimum(np.minimum(x, 100 - x), np.minimum(y, 100 - y)) >= 2
-        for kind, centre, (a, b, turned) in zip(world.kinds[0], world.centres[0], world.shapes[0], strict=True):
+        for kind, centre, (a, b, turned) in zip(
+            world.kinds[0], world.centres[0], world.shapes[0], strict=True
+        ):
             dx, dy = x - centre[0], y - centre[1]
             if kind == CIRCLE:
                 free &= np.hypot(dx, dy) - a >= 2
@@ -87,20 +92,27 @@ def test_flood_fill_agrees_with_scipy_where_there_may_be_no_way():
     }
     for expected, rectangles in walls.items():
         w = make_world(rectangles=rectangles)
-        got = reachable(w.kinds[0], w.shapes[0], w.centres[0], 100.0, 10.0, 10.0, 90.0, 90.0, 2.0)
+        got = reachable(
+            w.kinds[0], w.shapes[0], w.centres[0], 100.0, 10.0, 10.0, 90.0, 90.0, 2.0
+        )
         assert got is expected
 
 
 def test_starts_and_targets_are_chosen_among_those_given():
     starts, targets = [(10, 10), (90, 10)], [(90, 90), (10, 90)]
     worlds = random_worlds(200, seed=3, starts=starts, targets=targets)
-    pairs = {(tuple(s), tuple(t)) for s, t in zip(worlds.starts, worlds.targets, strict=True)}
+    pairs = {
+        (tuple(s), tuple(t)) for s, t in zip(worlds.starts, worlds.targets, strict=True)
+    }
     assert pairs == {(s, t) for s in starts for t in targets}
 
 
 def test_going_straight_is_the_yardstick():
     """How hard the maps are: about a third, an eighth, a twentieth of them can be crossed without looking."""
-    rates = [navigate(straight, random_worlds(1000, n, seed=11)).success.mean() for n in (10, 20, 30)]
+    rates = [
+        navigate(straight, random_worlds(1000, n, seed=11)).success.mean()
+        for n in (10, 20, 30)
+    ]
     np.testing.assert_allclose(rates, [0.37, 0.13, 0.05], atol=0.05)
 
 
@@ -150,7 +162,14 @@ def test_text_is_easy_to_write():
 
 @pytest.mark.parametrize(
     "line",
-    ["circle 40 50", "circle 40 radius 3", "square 1 2 3", "rectangle 4 5 sides 3", "start 10", "circle 4 5 radius x"],
+    [
+        "circle 40 50",
+        "circle 40 radius 3",
+        "square 1 2 3",
+        "rectangle 4 5 sides 3",
+        "start 10",
+        "circle 4 5 radius x",
+    ],
 )
 def test_text_that_cannot_be_read_names_the_line(line):
     with pytest.raises(ValueError, match="line 2 of the world must be like"):
@@ -217,7 +236,9 @@ def test_other_files_are_refused_with_a_sentence(tmp_path):
     np.savez(path, format=np.array("robonav worlds 1"), kinds=np.zeros((1, 1)))
     with pytest.raises(ValueError, match="differs in"):
         load_worlds(path)
-    np.savez(path, format=np.array("robonav worlds 1"), kinds=np.array([{}], dtype=object))
+    np.savez(
+        path, format=np.array("robonav worlds 1"), kinds=np.array([{}], dtype=object)
+    )
     with pytest.raises(ValueError, match="damaged or of another kind"):
         load_worlds(path)
 
@@ -226,7 +247,14 @@ def test_shapes_that_do_not_fit_are_refused():
     good = random_worlds(2, 3, seed=0)
     with pytest.raises(ValueError, match="speeds must have shape"):
         Worlds(
-            good.kinds, good.shapes, good.centres, good.speeds[:1], good.headings, good.starts, good.targets, good.keys
+            good.kinds,
+            good.shapes,
+            good.centres,
+            good.speeds[:1],
+            good.headings,
+            good.starts,
+            good.targets,
+            good.keys,
         )
 
 
@@ -237,7 +265,11 @@ def test_a_file_with_any_byte_changed_is_read_or_refused_with_a_sentence(tmp_pat
     rng = np.random.default_rng(0)
     refused = 0
     for at in rng.choice(len(content), 400, replace=False):
-        path.write_bytes(content[:at] + bytes([content[at] ^ int(rng.integers(1, 256))]) + content[at + 1 :])
+        path.write_bytes(
+            content[:at]
+            + bytes([content[at] ^ int(rng.integers(1, 256))])
+            + content[at + 1 :]
+        )
         try:
             load_worlds(path)
         except ValueError:
@@ -248,7 +280,10 @@ def test_a_file_with_any_byte_changed_is_read_or_refused_with_a_sentence(tmp_pat
 def test_the_digest_sees_everything():
     worlds = random_worlds(1, 2, 2, seed=5)
     for name in ("headings", "speeds", "centres", "starts"):
-        changed = replace(worlds, **{name: getattr(worlds, name) + 0.001 * (getattr(worlds, name) != 0)})
+        changed = replace(
+            worlds,
+            **{name: getattr(worlds, name) + 0.001 * (getattr(worlds, name) != 0)},
+        )
         assert changed.digest() != worlds.digest(), name
 
 
@@ -260,7 +295,10 @@ def test_the_digest_sees_everything():
         ({"keys": [[-1, 0]]}, "keys must hold whole numbers"),
         ({"shapes": [[[3, -50, 0]]]}, "shapes of circles must be a radius, 0 and 0"),
         ({"speeds": [[500.0]]}, "obstacle speed must be at most 4"),
-        ({"speeds": [[0.5]], "centres": [[[50.0, 2.0]]]}, "moving obstacles must lie wholly in the map"),
+        (
+            {"speeds": [[0.5]], "centres": [[[50.0, 2.0]]]},
+            "moving obstacles must lie wholly in the map",
+        ),
     ],
 )
 def test_values_are_not_bent_into_shape(change, message):
@@ -272,12 +310,28 @@ def test_values_are_not_bent_into_shape(change, message):
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     [
-        (lambda: make_world(circles=[(1, 2)]), ValueError, r"circles must have shape \(number, 3\)"),
-        (lambda: make_world(circles=[("a", 2, 3)]), TypeError, "circles must be an array of numbers"),
+        (
+            lambda: make_world(circles=[(1, 2)]),
+            ValueError,
+            r"circles must have shape \(number, 3\)",
+        ),
+        (
+            lambda: make_world(circles=[("a", 2, 3)]),
+            TypeError,
+            "circles must be an array of numbers",
+        ),
         (lambda: make_world(key=(-1, 0)), ValueError, "key must hold whole numbers"),
         (lambda: make_world(size=10**400), ValueError, "size must be finite"),
-        (lambda: parse_world("start 10 10\nstart 20 20"), ValueError, "line 2 of the world"),
-        (lambda: parse_world("circle 50 50 radius 3 towards 90"), ValueError, "line 1 of the world"),
+        (
+            lambda: parse_world("start 10 10\nstart 20 20"),
+            ValueError,
+            "line 2 of the world",
+        ),
+        (
+            lambda: parse_world("circle 50 50 radius 3 towards 90"),
+            ValueError,
+            "line 1 of the world",
+        ),
         (lambda: parse_world(5), TypeError, "text must be str"),
         (lambda: navigate(straight, "x"), TypeError, "worlds must be Worlds"),
         (lambda: concatenate(["x"]), TypeError, "batches must be Worlds"),

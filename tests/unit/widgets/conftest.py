@@ -26,7 +26,9 @@ def node(tmp_path):
             f"const result = (() => {{ {body} }})();\nconsole.log(JSON.stringify(result));",
             "utf-8",
         )
-        done = subprocess.run([program, tmp_path / "run.mjs"], capture_output=True, text=True, timeout=600)
+        done = subprocess.run(
+            [program, tmp_path / "run.mjs"], capture_output=True, text=True, timeout=600
+        )
         assert done.returncode == 0, done.stderr
         return json.loads(done.stdout)
 

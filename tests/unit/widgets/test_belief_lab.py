@@ -18,7 +18,10 @@ return steps.map(({ belief, prior, ...step }) =>
 
 
 def as_page(pomdp):
-    return {"transitions": packed(pomdp.mdp.transitions), "observations": packed(pomdp.observations)}
+    return {
+        "transitions": packed(pomdp.mdp.transitions),
+        "observations": packed(pomdp.observations),
+    }
 
 
 @pytest.mark.parametrize("sensor", range(len(SENSORS)))
@@ -29,13 +32,18 @@ def test_a_run_in_the_page_is_believed_as_python_would(node, sensor, wheel):
     pomdp = corridor(PLANS["long"], accuracy=accuracy or 0.5, slip=slip)
     if accuracy is None:
         pomdp = without_sensing(pomdp.mdp)
-    model = {"transitions": lab.data["transitions"][0][wheel], "observations": lab.data["observations"][0][sensor]}
+    model = {
+        "transitions": lab.data["transitions"][0][wheel],
+        "observations": lab.data["observations"][0][sensor],
+    }
     steps = node("belief_lab", WALK, {"model": model, "seed": 5, "steps": 200})
     belief = pomdp.uniform()
     np.testing.assert_allclose(steps[0]["belief"], belief, rtol=0, atol=1e-12)
     for step in steps[1:]:
         action, observation = step["action"], step["observation"]
-        np.testing.assert_allclose(step["prior"], pomdp.predict(belief, action), rtol=0, atol=1e-9)
+        np.testing.assert_allclose(
+            step["prior"], pomdp.predict(belief, action), rtol=0, atol=1e-9
+        )
         probability = pomdp.observation_probabilities(belief, action)[observation]
         assert step["probability"] == pytest.approx(probability, abs=1e-9)
         belief = pomdp.update(belief, action, observation)
@@ -51,7 +59,9 @@ def test_any_pomdp_is_updated_as_in_python(node):
     belief = rng.dirichlet(np.ones(6))
     body = """const pomdp = page.pomdpOf(data.model), b = Float64Array.from(data.belief);
     return [0, 1, 2].map((a) => [0, 1, 2, 3].map((o) => [...page.update(pomdp, b, a, o).belief]));"""
-    seen = node("belief_lab", body, {"model": as_page(pomdp), "belief": belief.tolist()})
+    seen = node(
+        "belief_lab", body, {"model": as_page(pomdp), "belief": belief.tolist()}
+    )
     expected = [[pomdp.update(belief, a, o) for o in range(4)] for a in range(3)]
     np.testing.assert_allclose(seen, expected, rtol=0, atol=1e-12)
 
@@ -73,9 +83,15 @@ def test_the_pages_chance_is_fair_and_repeats(node):
     found = node("belief_lab", body, 3)
     assert found["seen"] == found["again"] != found["other"]
     assert 0 <= min(found["seen"]) < max(found["seen"]) < 1
-    assert np.histogram(found["seen"], 20, (0, 1))[0] == pytest.approx(np.full(20, 1000), abs=130)
-    assert np.corrcoef(found["seen"][1:], found["seen"][:-1])[0, 1] == pytest.approx(0, abs=0.03)
-    assert np.corrcoef(found["seen"], found["other"])[0, 1] == pytest.approx(0, abs=0.03)
+    assert np.histogram(found["seen"], 20, (0, 1))[0] == pytest.approx(
+        np.full(20, 1000), abs=130
+    )
+    assert np.corrcoef(found["seen"][1:], found["seen"][:-1])[0, 1] == pytest.approx(
+        0, abs=0.03
+    )
+    assert np.corrcoef(found["seen"], found["other"])[0, 1] == pytest.approx(
+        0, abs=0.03
+    )
     assert found["counts"][1] == 0
     assert found["counts"][0] / 20_000 == pytest.approx(0.2, abs=0.012)
 
@@ -85,7 +101,11 @@ def test_the_lab_holds_every_combination():
     assert [entry["cells"] for entry in data["corridors"]] == list(PLANS.values())
     assert np.shape(data["transitions"]) == (2, len(WHEELS))
     assert np.shape(data["observations"]) == (2, len(SENSORS))
-    assert data["observations"][1][3]["shape"] == [3, 5, 1]  # no sensing: all that can be observed is one thing
+    assert data["observations"][1][3]["shape"] == [
+        3,
+        5,
+        1,
+    ]  # no sensing: all that can be observed is one thing
 
 
 def test_the_lab_needs_something_to_choose():

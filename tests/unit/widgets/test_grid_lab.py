@@ -29,11 +29,19 @@ def grid():
 def test_a_replay_says_how_far_each_frame_is_from_the_best(grid):
     model, shown = grid.mdp(0.9), solved(grid)
     best = mdp.policy_iteration(model).values
-    assert shown.said[0].startswith(f"sweep 0: values off by up to {abs(best).max():.3g}, ")
+    assert shown.said[0].startswith(
+        f"sweep 0: values off by up to {abs(best).max():.3g}, "
+    )
     lost = (best - mdp.policy_evaluation(model, shown.policies[0])).max()
     assert shown.said[0].endswith(f"the arrows lose up to {lost:.3g}")
     assert shown.said[-1].endswith("arrows optimal")
-    exact = replay(model, [best], [mdp.policy_iteration(model).policy], best=best, steps=["the best"])
+    exact = replay(
+        model,
+        [best],
+        [mdp.policy_iteration(model).policy],
+        best=best,
+        steps=["the best"],
+    )
     assert exact.said == ["the best: values exact, arrows optimal"]
 
 
@@ -51,14 +59,20 @@ def test_the_lab_holds_every_combination(grid):
     other = mdp.GridWorld("..G")
     controls = {"discount": ["0.5", "0.9"]}
     grids = {"wide": grid, "narrow": other}
-    runs = {(name, d): {"sweeps": solved(grids[name], float(d))} for name in grids for d in controls["discount"]}
+    runs = {
+        (name, d): {"sweeps": solved(grids[name], float(d))}
+        for name in grids
+        for d in controls["discount"]
+    }
     lab = grid_lab(grids, controls, runs, start=("narrow", "0.9"))
     assert [control["label"] for control in lab.data["controls"]] == ["map", "discount"]
     assert [control["value"] for control in lab.data["controls"]] == [1, 1]
     assert [run[0]["values"]["shape"][1] for run in lab.data["runs"]] == [10, 10, 3, 3]
     assert lab.data["grids"][0]["ends"] == [6, 9]
     assert lab.data["grids"][0]["rewards"][6] == 1
-    with pytest.raises(ValueError, match=r"runs must hold replays for \('wide', '0.7'\)"):
+    with pytest.raises(
+        ValueError, match=r"runs must hold replays for \('wide', '0.7'\)"
+    ):
         grid_lab(grids, {"discount": ["0.5", "0.7"]}, runs)
     with pytest.raises(ValueError, match="values of sweeps must have shape"):
         grid_lab({"wide": other}, {}, {("wide",): {"sweeps": solved(grid)}})
@@ -71,7 +85,12 @@ def test_a_map_of_the_reader_is_solved_or_its_fault_named(grid):
         asked.append(choices)
         return {"sweeps": solved(drawn)}
 
-    lab = grid_lab({"map": grid}, {"slip": ["0"]}, {("map", "0"): {"sweeps": solved(grid)}}, solve=solve)
+    lab = grid_lab(
+        {"map": grid},
+        {"slip": ["0"]},
+        {("map", "0"): {"sweeps": solved(grid)}},
+        solve=solve,
+    )
     answers = []
     lab.send = answers.append
     lab._answer(lab, {"ask": "kernel"}, [])
@@ -93,10 +112,20 @@ def test_the_map_that_the_editor_offers_first_is_solved_as_it_is():
         seen.append(drawn)
         return {"sweeps": solved(drawn)}
 
-    lab = grid_lab({"4 x 3": world}, {}, {("4 x 3",): {"sweeps": solved(world)}}, solve=solve)
+    lab = grid_lab(
+        {"4 x 3": world}, {}, {("4 x 3",): {"sweeps": solved(world)}}, solve=solve
+    )
     answers = []
     lab.send = answers.append
-    lab._answer(lab, {"ask": "solve", "text": "\n".join(lab.data["grids"][0]["rows"]), "choices": []}, [])
+    lab._answer(
+        lab,
+        {
+            "ask": "solve",
+            "text": "\n".join(lab.data["grids"][0]["rows"]),
+            "choices": [],
+        },
+        [],
+    )
     assert answers[0]["grid"] == lab.data["grids"][0]
     np.testing.assert_array_equal(seen[0].terminal, world.terminal)
 
@@ -114,33 +143,65 @@ def test_cells_have_the_colours_of_the_drawings(node):
     shares = [-2, -1, -0.3, 0, 0.01, 0.5, 1]
     seen = node("grid_lab", "return data.map(page.colourOf);", shares)
     for share, colour in zip(shares, seen, strict=True):
-        rgb = [int(part) for part in colour.removeprefix("rgb(").removesuffix(")").split(",")]
-        np.testing.assert_allclose(rgb, 255 * np.array(colour_of_value(share)), atol=1.01)
+        rgb = [
+            int(part)
+            for part in colour.removeprefix("rgb(").removesuffix(")").split(",")
+        ]
+        np.testing.assert_allclose(
+            rgb, 255 * np.array(colour_of_value(share)), atol=1.01
+        )
 
 
 def test_numbers_are_short(node):
     values = [0, 0.004, -0.004, -0.5, 1.234, 9.949, 9.96, -12.34, 99.6, -123.4]
-    expected = ["0.00", "0.00", "0.00", "−0.50", "1.23", "9.95", "10.0", "−12.3", "100", "−123"]
+    expected = [
+        "0.00",
+        "0.00",
+        "0.00",
+        "−0.50",
+        "1.23",
+        "9.95",
+        "10.0",
+        "−12.3",
+        "100",
+        "−123",
+    ]
     assert node("grid_lab", "return data.map(page.short);", values) == expected
 
 
 def test_the_mark_moves_over_walls_and_stops_at_borders(node, grid):
     body = "return data.moves.map(([state, move]) => page.beside(data.cells, state, move));"
     up, right, down, left = (0, -1), (1, 0), (0, 1), (-1, 0)
-    moves = [(0, up), (0, right), (1, right), (1, left), (7, up), (8, right), (9, down), (2, left), (5, up)]
+    moves = [
+        (0, up),
+        (0, right),
+        (1, right),
+        (1, left),
+        (7, up),
+        (8, right),
+        (9, down),
+        (2, left),
+        (5, up),
+    ]
     seen = node("grid_lab", body, {"cells": grid.cells.tolist(), "moves": moves})
     assert seen == [0, 1, 2, 0, 3, 9, 9, 1, 5]
 
 
 def test_frames_reach_the_page_and_stay_at_the_end(node, grid):
     shown = solved(grid)
-    lab = grid_lab({"map": grid}, {}, {("map",): {"sweeps": Replay(shown.values, shown.policies, shown.said)}})
+    lab = grid_lab(
+        {"map": grid},
+        {},
+        {("map",): {"sweeps": Replay(shown.values, shown.policies, shown.said)}},
+    )
     body = """const { last, at } = page.framesOf(data, 10);
       return [last, [0, 2, last, last + 5].map((f) => { const a = at(f);
         return [[...a.values], [...a.policy], a.said, a.walk]; })];"""
     last, frames = node("grid_lab", body, lab.data["runs"][0][0])
     assert last == len(shown.said) - 1
-    for place, (values, policy, said, walk) in zip([0, 2, last, last], frames, strict=True):
+    for place, (values, policy, said, walk) in zip(
+        [0, 2, last, last], frames, strict=True
+    ):
         np.testing.assert_allclose(values, shown.values[place], atol=1e-6)
         assert policy == shown.policies[place].tolist()
         assert said == shown.said[place]
@@ -150,7 +211,11 @@ def test_frames_reach_the_page_and_stay_at_the_end(node, grid):
 def test_walks_reach_the_page(grid):
     frames = np.zeros((2, grid.states)), np.zeros((2, grid.states), dtype=int)
     shown = replay(
-        grid.mdp(0.9), *frames, best=frames[0][0], steps=["a", "b"], walks=[np.array([7, 3, 0]), np.array([7])]
+        grid.mdp(0.9),
+        *frames,
+        best=frames[0][0],
+        steps=["a", "b"],
+        walks=[np.array([7, 3, 0]), np.array([7])],
     )
     lab = grid_lab({"map": grid}, {}, {("map",): {"learning": shown}})
     assert lab.data["runs"][0][0]["walks"] == [[7, 3, 0], [7]]

@@ -8,13 +8,20 @@ from itertools import product
 import numpy as np
 import pytest
 
-from robonav.lfd import toys
-from robonav.lfd.network import Network, random_network, stacked
-from robonav.lfd.training import fit, gradient_descent
+from robonav.networks import toy_datasets
+from robonav.networks.multilayer_perceptron import Network, random_network, stacked
+from robonav.networks.optimisers import fit, gradient_descent
 from robonav.robot import Encoder, lfd_state, random_worlds, sense
 from robonav.widgets.boundary_lab import boundary_lab
 from robonav.widgets.network_lab import network_lab
-from robonav.widgets.shared import PALETTE, front_end, packed, packed_network, spread_out, style
+from robonav.widgets.shared import (
+    PALETTE,
+    front_end,
+    packed,
+    packed_network,
+    spread_out,
+    style_sheet,
+)
 
 
 @pytest.fixture
@@ -33,7 +40,9 @@ def node(tmp_path):
             f"const result = (() => {{ {body} }})();\nconsole.log(JSON.stringify(result));",
             "utf-8",
         )
-        done = subprocess.run([program, tmp_path / "run.mjs"], capture_output=True, text=True, timeout=60)
+        done = subprocess.run(
+            [program, tmp_path / "run.mjs"], capture_output=True, text=True, timeout=60
+        )
         assert done.returncode == 0, done.stderr
         return json.loads(done.stdout)
 
@@ -43,7 +52,11 @@ def node(tmp_path):
 @pytest.mark.parametrize("dtype", ["float64", "float32", "int32", "uint8"])
 def test_arrays_reach_the_page_as_they_are(node, dtype):
     array = np.arange(12).reshape(3, 4) * (0.1 if dtype.startswith("f") else 1)
-    seen = node("network_lab", "const a = page.unpack(data); return [a.shape, [...a.values]];", packed(array, dtype))
+    seen = node(
+        "network_lab",
+        "const a = page.unpack(data); return [a.shape, [...a.values]];",
+        packed(array, dtype),
+    )
     assert seen == [[3, 4], array.astype(dtype).ravel().tolist()]
 
 
@@ -55,14 +68,20 @@ def test_the_page_propagates_as_python_does(node, sizes):
       return [0, 1, 2, 3].map((i) => data.x.map((x) => {
         const { activations, z } = page.propagate(at(i), x);
         return [...activations.at(-1), ...z, ...activations[1]]; }));"""
-    seen = np.array(node("network_lab", body, {"stack": packed_network(stack), "x": x.tolist()}))
-    expected = np.concatenate([stack.forward(x), stack.logits(x), stack.activations(x)[1]], axis=-1)
+    seen = np.array(
+        node("network_lab", body, {"stack": packed_network(stack), "x": x.tolist()})
+    )
+    expected = np.concatenate(
+        [stack.forward(x), stack.logits(x), stack.activations(x)[1]], axis=-1
+    )
     np.testing.assert_allclose(seen, expected, rtol=0, atol=1e-12)
 
 
 def test_the_page_encodes_states_as_python_does(node):
     rng = np.random.default_rng(0)
-    poses = np.column_stack([rng.uniform(2, 98, (40, 2)), rng.uniform(-np.pi, np.pi, 40)])
+    poses = np.column_stack(
+        [rng.uniform(2, 98, (40, 2)), rng.uniform(-np.pi, np.pi, 40)]
+    )
     sensing = sense(random_worlds(40, obstacles=30, seed=3), poses)
     states = lfd_state(sensing)
     seen = node("network_lab", "return data.map(page.encode);", states.tolist())
@@ -70,14 +89,23 @@ def test_the_page_encodes_states_as_python_does(node):
 
 
 def test_largest_is_the_first_of_equals(node):
-    assert node("network_lab", "return data.map(page.largest);", [[1, 3, 2], [2, 2], [-1]]) == [1, 0, 0]
+    assert node(
+        "network_lab", "return data.map(page.largest);", [[1, 3, 2], [2, 2], [-1]]
+    ) == [1, 0, 0]
 
 
 def test_the_answers_on_the_plane_are_the_networks(node):
-    middle = random_network((2, 3, 1), seed=1, spread=4).weights[0], np.array([[3.0, -3.0, 2.0]])
-    network = Network(middle, (np.zeros(3), np.array([-1.0])))  # undecided in the middle
+    middle = (
+        random_network((2, 3, 1), seed=1, spread=4).weights[0],
+        np.array([[3.0, -3.0, 2.0]]),
+    )
+    network = Network(
+        middle, (np.zeros(3), np.array([-1.0]))
+    )  # undecided in the middle
     body = "return [...page.field(page.networks(data)(), 1.5, 12)];"
-    pixels = np.array(node("boundary_lab", body, packed_network(network))).reshape(12, 12, 4)
+    pixels = np.array(node("boundary_lab", body, packed_network(network))).reshape(
+        12, 12, 4
+    )
     middles = ((np.arange(12) + 0.5) / 12 - 0.5) * 3
     across, down = np.meshgrid(middles, -middles)
     answers = network.forward(np.stack([across, down], axis=-1))[..., 0]
@@ -86,15 +114,34 @@ def test_the_answers_on_the_plane_are_the_networks(node):
     edge[:, :-1] |= yes[:, :-1] != yes[:, 1:]
     edge[:-1] |= yes[:-1] != yes[1:]
     assert 0 < edge.sum() < edge.size
-    np.testing.assert_allclose(pixels[~edge][:, 3], 280 * abs(answers - 0.5)[~edge], atol=0.51)
+    np.testing.assert_allclose(
+        pixels[~edge][:, 3], 280 * abs(answers - 0.5)[~edge], atol=0.51
+    )
     assert (pixels[edge][:, 3] == 255).all()
-    colours = [[int(PALETTE[name][at : at + 2], 16) for at in (1, 3, 5)] for name in ("BLUE", "ORANGE")]
-    np.testing.assert_array_equal(pixels[~edge][:, :3], np.array(colours)[yes[~edge].astype(int)])
+    colours = [
+        [int(PALETTE[name][at : at + 2], 16) for at in (1, 3, 5)]
+        for name in ("BLUE", "ORANGE")
+    ]
+    np.testing.assert_array_equal(
+        pixels[~edge][:, :3], np.array(colours)[yes[~edge].astype(int)]
+    )
 
 
 def test_lines_of_hidden_units_end_on_the_square(node):
-    lines = [[1, 0, 0.5], [0, 2, -1], [1, 1, 0], [3, -1, 0.7], [1, 1, 9], [0, 0, 1], [0, 1, 5]]
-    ends = node("boundary_lab", "return data.map(([a, b, c]) => page.crossing(a, b, c, 1.5));", lines)
+    lines = [
+        [1, 0, 0.5],
+        [0, 2, -1],
+        [1, 1, 0],
+        [3, -1, 0.7],
+        [1, 1, 9],
+        [0, 0, 1],
+        [0, 1, 5],
+    ]
+    ends = node(
+        "boundary_lab",
+        "return data.map(([a, b, c]) => page.crossing(a, b, c, 1.5));",
+        lines,
+    )
     assert ends[4:] == [None, None, None]
     for (w1, w2, b), found in zip(lines[:4], ends[:4], strict=True):
         for x, y in found:
@@ -113,25 +160,39 @@ def test_network_lab_holds_the_training_it_was_given():
     assert shown[-1] == training.iterations
     assert shown == sorted(set(shown))
     assert lab.data["networks"]["weights"][0]["shape"] == [len(shown), 8, 11]
-    assert lab.data["situations"] == [{"name": "a moment", "state": [0] * 9 + [3, 0], "action": 2}]
+    assert lab.data["situations"] == [
+        {"name": "a moment", "state": [0] * 9 + [3, 0], "action": 2}
+    ]
     assert len(json.dumps(lab.data)) < 60_000
 
 
 def test_boundary_lab_holds_every_combination():
-    problem = toys.corners(30, seed=0)
+    problem = toy_datasets.corners(30, seed=0)
     controls = {"problem": ["corners"], "hidden": ["1", "2"], "rate": ["1", "3"]}
     runs = {
         key: gradient_descent(
-            random_network((2, int(key[1]), 1), seed=0), *problem, rate=float(key[2]), iterations=8, record=True
+            random_network((2, int(key[1]), 1), seed=0),
+            *problem,
+            rate=float(key[2]),
+            iterations=8,
+            record=True,
         )
         for key in product(*controls.values())
     }
-    lab = boundary_lab(controls, runs, {"corners": problem}, frames=[0, 4, 20], start=("corners", "2", "1"))
+    lab = boundary_lab(
+        controls,
+        runs,
+        {"corners": problem},
+        frames=[0, 4, 20],
+        start=("corners", "2", "1"),
+    )
     assert [control["value"] for control in lab.data["controls"]] == [0, 1, 0]
     assert [run["networks"]["sizes"][1] for run in lab.data["runs"]] == [1, 1, 2, 2]
     assert lab.data["runs"][0]["networks"]["weights"][0]["shape"] == [3, 1, 2]
     with pytest.raises(ValueError, match="runs must hold a training for"):
-        boundary_lab(controls | {"rate": ["1", "9"]}, runs, {"corners": problem}, frames=[0])
+        boundary_lab(
+            controls | {"rate": ["1", "9"]}, runs, {"corners": problem}, frames=[0]
+        )
 
 
 def test_what_cannot_be_shown_is_refused():
@@ -144,7 +205,12 @@ def test_what_cannot_be_shown_is_refused():
     with pytest.raises(ValueError, match="at least one moment"):
         network_lab(fit(x, y, iterations=2, record=True), {})
     with pytest.raises(ValueError, match="record=True"):
-        boundary_lab({"p": ["c"]}, {("c",): fit(x[:, :2], y[:, :1], iterations=1)}, {"c": (x, y)}, frames=[0])
+        boundary_lab(
+            {"p": ["c"]},
+            {("c",): fit(x[:, :2], y[:, :1], iterations=1)},
+            {"c": (x, y)},
+            frames=[0],
+        )
 
 
 @pytest.mark.parametrize(("last", "count"), [(0, 5), (3, 10), (300, 60), (1000, 2)])
@@ -159,4 +225,4 @@ def test_frames_start_dense_and_reach_the_end(last, count):
 def test_colours_and_styles_are_the_books():
     assert front_end("network_lab").startswith('export const PALETTE = {"')
     assert PALETTE["ROBOT"] in front_end("network_lab")
-    assert ".robonav .dial" in style("network_lab")
+    assert ".robonav .dial" in style_sheet("network_lab")

@@ -8,9 +8,9 @@ import pytest
 
 from robonav.lfd import demonstrate
 from robonav.nirl import ENCODER, into_unit, rewards_of, shown_steps
-from robonav.nirl.steps import with_constant
+from robonav.nirl.transitions import with_constant
 from robonav.robot import Reflex, Simulator, navigate, random_worlds
-from robonav.robot.kernels import ARRIVED, COLLIDED, RUNNING
+from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 from robonav.widgets.reward_lab import reward_lab
 from robonav.widgets.simulator import page_world
 
@@ -36,7 +36,9 @@ def page(node):
 def lab(shown, theta, **changes):
     worlds, others = {"one": random_worlds(1, 20, seed=5)}, random_worlds(3, 20, seed=6)
     return reward_lab(
-        **{"reward_weights": theta, "encoder": ENCODER, "shown": shown} | changes, worlds=worlds, others=others
+        **{"reward_weights": theta, "encoder": ENCODER, "shown": shown} | changes,
+        worlds=worlds,
+        others=others,
     )
 
 
@@ -50,8 +52,12 @@ def test_rewards_and_judgements_are_pythons(page, shown, theta):
       return { all, ...page.judged(theta, shown) };"""
     seen = page(body, data)
     np.testing.assert_allclose(seen["all"], shown.features @ theta.T, atol=1e-12)
-    assert seen["scale"] == pytest.approx(np.percentile(abs(rewards_of(theta, shown)), 95), abs=1e-12)
-    assert seen["agreement"] == np.mean((shown.features @ theta.T).argmax(axis=1) == shown.actions)
+    assert seen["scale"] == pytest.approx(
+        np.percentile(abs(rewards_of(theta, shown)), 95), abs=1e-12
+    )
+    assert seen["agreement"] == np.mean(
+        (shown.features @ theta.T).argmax(axis=1) == shown.actions
+    )
 
 
 def plan(shown, theta, depth):
@@ -76,11 +82,21 @@ def test_a_robot_that_looks_no_further_drives_as_in_python(page, shown, theta):
     expected = navigate(policy, worlds, SPEED, 200, record_paths=True)
     body = """return data.worlds.map((world) => page.drive(data.plan, world))
       .map(({ poses, outcome }) => ({ poses, outcome }));"""
-    drives = page(body, {"plan": plan(shown, theta, 1), "worlds": [page_world(world) for world in worlds]})
+    drives = page(
+        body,
+        {
+            "plan": plan(shown, theta, 1),
+            "worlds": [page_world(world) for world in worlds],
+        },
+    )
     assert {"arrived", "collided"} <= {drive["outcome"] for drive in drives}
-    for drive, path, outcome in zip(drives, expected.paths, expected.outcome, strict=True):
+    for drive, path, outcome in zip(
+        drives, expected.paths, expected.outcome, strict=True
+    ):
         assert drive["outcome"] == outcome.replace("out of steps", "running")
-        np.testing.assert_allclose([list(pose.values()) for pose in drive["poses"]], path, rtol=0, atol=1e-9)
+        np.testing.assert_allclose(
+            [list(pose.values()) for pose in drive["poses"]], path, rtol=0, atol=1e-9
+        )
 
 
 def worths(theta, scale, simulator, depth):
@@ -100,7 +116,11 @@ def worths(theta, scale, simulator, depth):
         asked = after.outcome[0] == RUNNING and Reflex()(after.sense(), SPEED)[0] < 0
         rest = {ARRIVED: 1.0, COLLIDED: 0.0}.get(int(after.outcome[0]))
         if rest is None:
-            rest = max(worths(theta, scale, after, depth - 1)) if depth > 1 and asked else 0.5
+            rest = (
+                max(worths(theta, scale, after, depth - 1))
+                if depth > 1 and asked
+                else 0.5
+            )
         found.append((1 - DISCOUNT) * units[action] + DISCOUNT * rest)
     return found
 
@@ -122,12 +142,17 @@ def test_looking_ahead_is_worth_what_brute_force_says(page, shown, theta):
         for _ in range(12 + int(rng.integers(20))):
             own = Reflex()(simulator.sense(), SPEED)
             simulator.step(np.where(own < 0, 0, own))
-        if simulator.outcome[0] != RUNNING or Reflex()(simulator.sense(), SPEED)[0] >= 0:
+        if (
+            simulator.outcome[0] != RUNNING
+            or Reflex()(simulator.sense(), SPEED)[0] >= 0
+        ):
             continue
         here = replace(world, centres=simulator.centres, headings=simulator.headings)
         x, y, heading = simulator.poses[0].tolist()
         pose = {"x": x, "y": y, "heading": heading}
-        moments.append({"world": page_world(here), "pose": pose, "step": int(simulator.steps[0])})
+        moments.append(
+            {"world": page_world(here), "pose": pose, "step": int(simulator.steps[0])}
+        )
         expected.append(worths(theta, setting["scale"], simulator, 2))
     assert len(moments) >= 4
     body = """return data.moments.map((moment) =>
@@ -138,15 +163,22 @@ def test_looking_ahead_is_worth_what_brute_force_says(page, shown, theta):
 
 def test_percentiles_are_numpys(page):
     values = np.random.default_rng(0).normal(size=37)
-    seen = page("return [0, 0.5, 0.95, 1].map((share) => page.percentile(data, share));", values.tolist())
-    np.testing.assert_allclose(seen, np.percentile(values, [0, 50, 95, 100]), atol=1e-12)
+    seen = page(
+        "return [0, 0.5, 0.95, 1].map((share) => page.percentile(data, share));",
+        values.tolist(),
+    )
+    np.testing.assert_allclose(
+        seen, np.percentile(values, [0, 50, 95, 100]), atol=1e-12
+    )
 
 
 @pytest.mark.parametrize("target", ["number", "signed", "one-hot", "sine-cosine"])
 def test_every_feature_has_a_name(shown, target):
     encoder = replace(ENCODER, target=target)
     steps = shown_steps(demonstrate(random_worlds(2, 20, seed=3)), encoder)
-    features = lab(steps, np.zeros((5, encoder.size + 1)), encoder=encoder).data["features"]
+    features = lab(steps, np.zeros((5, encoder.size + 1)), encoder=encoder).data[
+        "features"
+    ]
     assert len(features) == encoder.size + 1
     assert features[-1]["kind"] == "constant"
 

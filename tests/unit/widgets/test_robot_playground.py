@@ -6,9 +6,10 @@ from functools import partial
 import numpy as np
 import pytest
 
-from robonav.lfd import NetworkPolicy, load_demonstrations
-from robonav.lfd.network import random_network
-from robonav.lfd.weights import Weights, save_weights
+from robonav.lfd import load_demonstrations
+from robonav.networks import NetworkPolicy
+from robonav.networks.multilayer_perceptron import random_network
+from robonav.networks.weights import Weights, save_weights
 from robonav.robot import Encoder, freer_side, navigate, random_worlds
 from robonav.widgets.robot_playground import robot_playground
 from robonav.widgets.simulator import page_policy, page_world
@@ -23,13 +24,17 @@ def page(node):
 
 
 @pytest.mark.parametrize(("obstacles", "moving"), [(12, 0), (6, 6), (0, 0)])
-def test_a_drive_saved_by_the_page_is_a_demonstration(page, tmp_path, obstacles, moving):
+def test_a_drive_saved_by_the_page_is_a_demonstration(
+    page, tmp_path, obstacles, moving
+):
     world = random_worlds(1, obstacles, moving, seed=4)
     body = """
       const drive = page.makeDrive(data, 2.5);
       while (drive.outcome === "running" && drive.step < 300) drive.go(page.freerSide(drive.sensing));
     """
-    (tmp_path / "drive.npz").write_bytes(base64.b64decode(page(body + FILE, page_world(world))))
+    (tmp_path / "drive.npz").write_bytes(
+        base64.b64decode(page(body + FILE, page_world(world)))
+    )
     got = load_demonstrations(tmp_path / "drive.npz")
     expected = navigate(freer_side, world, 2.5, record_paths=True)
     assert got.worlds.digest() == world.digest()
@@ -46,7 +51,9 @@ def test_an_edited_world_is_driven_and_saved_as_edited(page, tmp_path):
       drive.go(0);
     """
     world = random_worlds(1, 2, seed=4)
-    (tmp_path / "drive.npz").write_bytes(base64.b64decode(page(body + FILE, page_world(world))))
+    (tmp_path / "drive.npz").write_bytes(
+        base64.b64decode(page(body + FILE, page_world(world)))
+    )
     got = load_demonstrations(tmp_path / "drive.npz")
     assert got.worlds.slots == 3
     assert got.worlds.shapes[0, 2, 0] == 5
@@ -56,24 +63,38 @@ def test_an_edited_world_is_driven_and_saved_as_edited(page, tmp_path):
 def test_weights_saved_by_python_drive_in_the_page(page, tmp_path):
     encoder = Encoder(target="signed")
     policy = NetworkPolicy(random_network((encoder.size, 6, 5), seed=3), encoder)
-    save_weights(tmp_path / "own.safetensors", Weights(policy.network, "own", encoder, temperature=0.3))
+    save_weights(
+        tmp_path / "own.safetensors",
+        Weights(policy.network, "own", encoder, temperature=0.3),
+    )
     content = base64.b64encode((tmp_path / "own.safetensors").read_bytes()).decode()
-    got = page("return page.weightsFromFile(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)).buffer);", content)
+    got = page(
+        "return page.weightsFromFile(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)).buffer);",
+        content,
+    )
     assert got["network"]["sizes"] == [11, 6, 5]
     expected = page_policy(policy)
-    assert got["network"]["weights"][0]["data"] == expected["network"]["weights"][0]["data"]
+    assert (
+        got["network"]["weights"][0]["data"]
+        == expected["network"]["weights"][0]["data"]
+    )
     assert got["encoder"]["target"] == "signed"
     assert got["temperature"] == 0.3
 
 
-@pytest.mark.parametrize("content", [b"", b"no weights at all", b"\x02\0\0\0\0\0\0\0{}"])
+@pytest.mark.parametrize(
+    "content", [b"", b"no weights at all", b"\x02\0\0\0\0\0\0\0{}"]
+)
 def test_files_that_hold_no_weights_are_refused_with_a_sentence(page, content):
     body = """
       try { page.weightsFromFile(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)).buffer); }
       catch (error) { return error.message; }
     """
     said = page(body, base64.b64encode(content).decode())
-    assert said == "The file must hold weights saved by robonav: it is damaged or of another kind."
+    assert (
+        said
+        == "The file must hold weights saved by robonav: it is damaged or of another kind."
+    )
 
 
 def test_a_network_that_does_not_fit_what_it_reads_is_refused(page, tmp_path):
@@ -101,15 +122,28 @@ def test_the_page_gets_worlds_and_policies():
         {"easy": random_worlds(1, 3, seed=0)},
         {"own": NetworkPolicy(random_network((encoder.size, 5), seed=0), encoder)},
     )
-    assert [policy["name"] for policy in lab.data["policies"]] == ["own", "rule: straight", "rule: freer side"]
+    assert [policy["name"] for policy in lab.data["policies"]] == [
+        "own",
+        "rule: straight",
+        "rule: freer side",
+    ]
     assert len(lab.data["worlds"][0]["world"]["obstacles"]) == 3
 
 
 @pytest.mark.parametrize(
-    "encoder", [Encoder(), Encoder((1, 2), walls=True, target="one-hot"), Encoder(target="number")]
+    "encoder",
+    [
+        Encoder(),
+        Encoder((1, 2), walls=True, target="one-hot"),
+        Encoder(target="number"),
+    ],
 )
 def test_every_input_of_a_network_has_a_name(page, encoder):
-    shown = {"sensors": list(encoder.sensors), "walls": encoder.walls, "target": encoder.target}
+    shown = {
+        "sensors": list(encoder.sensors),
+        "walls": encoder.walls,
+        "target": encoder.target,
+    }
     names = page("return page.inputsOf(data);", shown)
     assert len(names) == encoder.size
     assert names[: len(encoder.sensors)] == [str(sensor) for sensor in encoder.sensors]

@@ -16,7 +16,11 @@ def lab():
 
 def search_in(node, packed):
     files = ("simulator", "maps", "search_lab")
-    return node(files, "const s = page.searchOf(data); return { ...s, visited: [...s.visited] };", packed)
+    return node(
+        files,
+        "const s = page.searchOf(data); return { ...s, visited: [...s.visited] };",
+        packed,
+    )
 
 
 def test_searches_reach_the_page_as_they_went(node, lab):
@@ -45,7 +49,10 @@ def test_frames_go_from_nothing_to_all_nodes(node):
 def test_a_search_says_what_it_has_come_to(node):
     body = "return [3, 9, 99].map((n) => page.progressOf({ expanded: 9, found: data, length: 7.25 }, n));"
     files = ("simulator", "maps", "search_lab")
-    assert node(files, body, True) == ["3 nodes, still searching", *["done after 9 nodes: 7.3 m"] * 2]
+    assert node(files, body, True) == [
+        "3 nodes, still searching",
+        *["done after 9 nodes: 7.3 m"] * 2,
+    ]
     assert node(files, body, False)[1] == "9 nodes, and no way found"
 
 

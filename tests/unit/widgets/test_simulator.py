@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numba import njit
 
-from robonav.experiments.methods import method, methods
-from robonav.lfd.network import random_network
-from robonav.lfd.policy import NetworkPolicy
+from robonav.benchmark.policies import method, methods
+from robonav.networks.multilayer_perceptron import random_network
+from robonav.networks.policy import NetworkPolicy
 from robonav.robot import (
     OUTCOMES,
     TARGET_ENCODINGS,
@@ -23,7 +23,7 @@ from robonav.robot import (
     sense,
     straight,
 )
-from robonav.robot.kernels import DRIFTING, RUNNING, uniform
+from robonav.robot._fast import DRIFTING, RUNNING, uniform
 from robonav.widgets.simulator import CHOOSING, page_policy, page_world
 
 DRIVE = """
@@ -55,19 +55,30 @@ def policies():
     rng = np.random.default_rng(5)
     for target in TARGET_ENCODINGS:
         encoder = Encoder(walls=target == "signed", target=target)
-        yield target, NetworkPolicy(random_network((encoder.size, 8, 5), seed=rng, spread=2.0), encoder)
+        yield (
+            target,
+            NetworkPolicy(
+                random_network((encoder.size, 8, 5), seed=rng, spread=2.0), encoder
+            ),
+        )
 
 
 @pytest.fixture(scope="module")
 def thousand():
     """A thousand worlds, standing and moving, and the same for the page."""
-    worlds = concatenate([random_worlds(500, 20, seed=37), random_worlds(500, 10, 10, seed=38)])
+    worlds = concatenate(
+        [random_worlds(500, 20, seed=37), random_worlds(500, 10, 10, seed=38)]
+    )
     return worlds, [page_world(world) for world in worlds]
 
 
-@pytest.mark.parametrize(("rule", "policy"), [("straight", straight), ("freer side", freer_side)])
+@pytest.mark.parametrize(
+    ("rule", "policy"), [("straight", straight), ("freer side", freer_side)]
+)
 @pytest.mark.parametrize("speed", [2.0, 3.5])
-def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(node, thousand, rule, policy, speed):
+def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(
+    node, thousand, rule, policy, speed
+):
     worlds, shown = thousand
     drives = navigate(policy, worlds, speed, 100, record_paths=True)
     same(node, shown, {"rule": rule}, speed, 100, drives.paths, drives.outcome)
@@ -75,7 +86,9 @@ def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(node, thousand, 
 
 @pytest.mark.parametrize(("target", "policy"), [*policies()])
 def test_networks_drive_in_the_page_as_in_python(node, target, policy):
-    worlds = concatenate([random_worlds(60, 15, seed=33), random_worlds(40, 8, 8, seed=34)])
+    worlds = concatenate(
+        [random_worlds(60, 15, seed=33), random_worlds(40, 8, 8, seed=34)]
+    )
     drives = navigate(policy, worlds, 2.5, 200, record_paths=True)
     same(node, worlds, page_policy(policy), 2.5, 200, drives.paths, drives.outcome)
 
@@ -83,8 +96,14 @@ def test_networks_drive_in_the_page_as_in_python(node, target, policy):
 def same(node, worlds, packed, speed, steps, paths, outcomes):
     """The page drives these paths, pose by pose."""
     shown = worlds if isinstance(worlds, list) else [page_world(w) for w in worlds]
-    drives = node("simulator", DRIVE, {"worlds": shown, "policy": packed, "speed": speed, "steps": steps})
-    assert drives["outcomes"] == [end.replace("out of steps", "running") for end in outcomes]
+    drives = node(
+        "simulator",
+        DRIVE,
+        {"worlds": shown, "policy": packed, "speed": speed, "steps": steps},
+    )
+    assert drives["outcomes"] == [
+        end.replace("out of steps", "running") for end in outcomes
+    ]
     assert drives["lengths"] == [len(path) for path in paths]
     driven = np.frombuffer(base64.b64decode(drives["poses"])).reshape(-1, 3)
     np.testing.assert_allclose(driven, np.concatenate(paths), rtol=0, atol=1e-9)
@@ -104,7 +123,11 @@ class Seeded:
     """A policy that draws its chances as the page does: by world, step and action."""
 
     def __init__(self, policy, worlds, speed, steps):
-        self.policy, self.simulator, self.steps = policy, Simulator(worlds, speed, max_steps=steps), steps
+        self.policy, self.simulator, self.steps = (
+            policy,
+            Simulator(worlds, speed, max_steps=steps),
+            steps,
+        )
 
     def drive(self):
         """The paths and outcomes of all drives."""
@@ -123,17 +146,23 @@ class Seeded:
             if (simulator.outcome != RUNNING).all():
                 break
         assert (ended > 0).all()
-        return [np.array(poses)[: ended[i] + 1, i] for i in range(n)], OUTCOMES[simulator.outcome]
+        return [np.array(poses)[: ended[i] + 1, i] for i in range(n)], OUTCOMES[
+            simulator.outcome
+        ]
 
 
 def test_chance_drives_in_the_page_as_in_python(node):
     encoder = Encoder()
     network = random_network((encoder.size, 8, 5), seed=2, spread=2.0)
     policy = NetworkPolicy(network, encoder, temperature=1.5)
-    worlds = concatenate([random_worlds(60, 15, seed=35), random_worlds(40, 8, 8, seed=36)])
+    worlds = concatenate(
+        [random_worlds(60, 15, seed=35), random_worlds(40, 8, 8, seed=36)]
+    )
     paths, outcomes = Seeded(policy, worlds, 2.0, 200).drive()
     same(node, worlds, page_policy(policy), 2.0, 200, paths, outcomes)
-    greedy = navigate(NetworkPolicy(network, encoder), worlds, 2.0, 200, record_paths=True)
+    greedy = navigate(
+        NetworkPolicy(network, encoder), worlds, 2.0, 200, record_paths=True
+    )
     assert sum(len(a) != len(b) for a, b in zip(paths, greedy.paths, strict=True)) > 10
 
 
@@ -155,7 +184,9 @@ NETWORKS = [name for name in methods() if isinstance(method(name), NetworkPolicy
 
 
 @pytest.mark.parametrize("name", NETWORKS)
-def test_shipped_policies_drive_a_thousand_worlds_in_the_page_as_in_python(node, thousand, name):
+def test_shipped_policies_drive_a_thousand_worlds_in_the_page_as_in_python(
+    node, thousand, name
+):
     policy = method(name)
     worlds, shown = thousand
     if policy.temperature > 0:
@@ -167,9 +198,13 @@ def test_shipped_policies_drive_a_thousand_worlds_in_the_page_as_in_python(node,
 
 
 def test_random_numbers_are_pythons(node):
-    keys = np.array([[0, 0], [1, 2], [2**32 - 1, 2**31], [123456789, 987654321]], dtype=np.uint32)
+    keys = np.array(
+        [[0, 0], [1, 2], [2**32 - 1, 2**31], [123456789, 987654321]], dtype=np.uint32
+    )
     counters = [(0, 0, 0), (1, 5, 1), (499, 1023, 7), (2**20 - 1, 1000, 3)]
-    expected = [[uniform(key, DRIFTING, *counter) for counter in counters] for key in keys]
+    expected = [
+        [uniform(key, DRIFTING, *counter) for counter in counters] for key in keys
+    ]
     seen = node(
         "simulator",
         f"return data.keys.map((key) => data.counters.map((c) => page.uniform(key, {DRIFTING}, ...c)));",
@@ -209,7 +244,9 @@ def test_sensing_is_pythons_everywhere(node):
             "poses": [{"x": x, "y": y, "heading": h} for x, y, h in poses.tolist()],
         },
     )
-    np.testing.assert_allclose([s["ranges"] for s in seen], read.ranges, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(
+        [s["ranges"] for s in seen], read.ranges, rtol=0, atol=1e-9
+    )
     np.testing.assert_array_equal([s["walls"] for s in seen], read.walls)
     np.testing.assert_array_equal([s["region"] for s in seen], read.target_region)
     np.testing.assert_array_equal([s["seen"] for s in seen], read.target_seen)

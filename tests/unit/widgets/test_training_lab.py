@@ -18,12 +18,18 @@ def run(rate, hidden):
     return {"cost": Curve(steps, cost), "success": Curve([0, 50, 100], success)}
 
 
-RUNS = {(rate, hidden): run(rate, hidden) for rate in CONTROLS["rate"] for hidden in CONTROLS["hidden"]}
+RUNS = {
+    (rate, hidden): run(rate, hidden)
+    for rate in CONTROLS["rate"]
+    for hidden in CONTROLS["hidden"]
+}
 
 
 def lab(train=None, **changes):
     return training_lab(
-        **{"controls": CONTROLS, "runs": RUNS, "measures": MEASURES} | changes, step="step", train=train
+        **{"controls": CONTROLS, "runs": RUNS, "measures": MEASURES} | changes,
+        step="step",
+        train=train,
     )
 
 
@@ -44,17 +50,26 @@ def test_every_combination_reaches_the_page(node):
     assert [control["value"] for control in data["controls"]] == [1, 1]
     seen = node("training_lab", "return data.map(page.curvesOf);", data["runs"])
     for curves, expected in zip(seen, RUNS.values(), strict=True):
-        np.testing.assert_allclose(curves["cost"]["mean"], expected["cost"].values, rtol=1e-6)
+        np.testing.assert_allclose(
+            curves["cost"]["mean"], expected["cost"].values, rtol=1e-6
+        )
         assert curves["cost"]["steps"] == expected["cost"].steps.tolist()
         for part, of in (("mean", np.mean), ("low", np.min), ("high", np.max)):
-            np.testing.assert_allclose(curves["success"][part], of(expected["success"].values, axis=0), rtol=1e-6)
+            np.testing.assert_allclose(
+                curves["success"][part],
+                of(expected["success"].values, axis=0),
+                rtol=1e-6,
+            )
     assert [seen[0]["cost"]["seeds"], seen[0]["success"]["seeds"]] == [1, 2]
 
 
 def test_readings_are_the_last_ones_taken(node):
     data = lab().data["runs"][0]
     body = "const curves = page.curvesOf(data); return [0, 49, 50, 100].map((s) => page.reading(curves.success, s));"
-    assert node("training_lab", body, data) == ["7.5 (5 to 10)"] * 2 + ["27.5 (25 to 30)", "46.3 (45 to 47.5)"]
+    assert node("training_lab", body, data) == ["7.5 (5 to 10)"] * 2 + [
+        "27.5 (25 to 30)",
+        "46.3 (45 to 47.5)",
+    ]
     body = "return [7, 0.12345, 12.345, 1234.5].map(page.digits);"
     assert node("training_lab", body, None) == ["7", "0.123", "12.3", "1235"]
 
@@ -65,7 +80,9 @@ def trainer(choices):
 
 
 def test_a_training_is_told_bit_by_bit():
-    answers = answers_of(lab(trainer), {"ask": "kernel"}, {"ask": "train", "choices": ["0.1", "2"]})
+    answers = answers_of(
+        lab(trainer), {"ask": "kernel"}, {"ask": "train", "choices": ["0.1", "2"]}
+    )
     assert answers[0] == {"kernel": True}
     assert [(answer["done"], answer["total"]) for answer in answers[1:-1]][-1] == (5, 5)
     assert answers[-2]["live"]["cost"]["steps"]["shape"] == [5]
@@ -109,13 +126,22 @@ def test_what_fails_in_a_training_is_said():
 
 
 def test_without_a_trainer_nothing_is_trained():
-    assert answers_of(lab(), {"ask": "kernel"}, {"ask": "train", "choices": ["1", "2"]}) == [{"kernel": False}]
+    assert answers_of(
+        lab(), {"ask": "kernel"}, {"ask": "train", "choices": ["1", "2"]}
+    ) == [{"kernel": False}]
 
 
 def test_what_cannot_be_shown_is_refused():
-    with pytest.raises(ValueError, match=r"runs must hold for \('0.3', '2'\) the curves cost, success"):
+    with pytest.raises(
+        ValueError, match=r"runs must hold for \('0.3', '2'\) the curves cost, success"
+    ):
         lab(controls={"rate": ["0.3"], "hidden": ["2"]})
     with pytest.raises(ValueError, match="runs must hold for"):
         lab(measures={"cost": "cost J"})
     with pytest.raises(ValueError, match="values of cost must have shape"):
-        lab(runs={key: curves | {"cost": Curve([0, 1], [1])} for key, curves in RUNS.items()})
+        lab(
+            runs={
+                key: curves | {"cost": Curve([0, 1], [1])}
+                for key, curves in RUNS.items()
+            }
+        )

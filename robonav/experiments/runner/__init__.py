@@ -1,0 +1,1 @@
+"""Run experiments, keep and summarise their results."""

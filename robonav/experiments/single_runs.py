@@ -1,0 +1,189 @@
+"""Figures of the thesis that show single drives, plans and demonstrations: their paths as numbers.
+
+Every case is one panel. Its world is drawn from seeds named in the case; ``x`` and ``y`` are the path in metres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from robonav import mdp
+from robonav.benchmark.policies import fingerprint, method
+from robonav.lfd import (
+    ComputerExpert,
+    demonstrate_by_hand,
+    plan,
+    plan_on_grid,
+    record,
+    sketch,
+)
+from robonav.nnql import Course, Training, train
+from robonav.robot import Worlds, navigate, neighbour_slip, random_worlds
+
+from .runner.experiment import Case, Experiment
+
+Numbers = dict[str, NDArray[np.float64] | float]
+
+ONCE = {"quick": 1, "thesis": 1}
+SEED = 4_010  # of the worlds that are shown
+EPISODES = 300
+LEARNER = 3  # seed of the robot whose training Fig. 4.2 shows
+EVERY = 4  # of so many nodes visited, one is kept
+FAR = {"starts": ((10.0, 50.0), (50.0, 10.0)), "targets": ((90.0, 85.0), (50.0, 90.0))}
+
+
+def world_of(case: Case) -> Worlds:
+    """The world (a batch of one) that a panel shows."""
+    if "episode" in case:
+        return Course().worlds([LEARNER], 0, EPISODES)[int(case["episode"]) - 1]
+    ends: dict[str, Any] = FAR if case.get("starts") == "new" else {}
+    drawn = random_worlds(
+        int(case["world"]) + 1,
+        int(case["obstacles"]),
+        int(case.get("moving", 0)),
+        seed=SEED,
+        **ends,
+    )
+    return drawn[int(case["world"])]
+
+
+def path_of(poses: ArrayLike) -> Numbers:
+    """The x and y of poses (T, 2 or more)."""
+    x, y = np.asarray(poses, dtype=float)[:, :2].T
+    return {"x": x, "y": y}
+
+
+def drive(case: Case, seed: int, scale: str) -> Numbers:
+    """A method's drive through the panel's world."""
+    done = navigate(
+        method(str(case["method"])),
+        world_of(case),
+        float(case["speed"]),
+        record_paths=True,
+        seed=seed,
+    )
+    assert done.paths is not None
+    return path_of(done.paths[0]) | {"arrived": float(done.success[0])}
+
+
+def search(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 3.4: the path that a planner finds, and some of the nodes that it expands on the way."""
+    planners: dict[str, Callable[..., Any]] = {
+        "modified A*": plan,
+        "grid A*": plan_on_grid,
+    }
+    made = planners[str(case["planner"])](world_of(case), margin=2.0, record=True)
+    visited = path_of(made.visited[::EVERY])
+    found = {"length": made.length, "expanded": float(made.expanded)}
+    return (
+        path_of(made.points)
+        | {"visited x": visited["x"], "visited y": visited["y"]}
+        | found
+    )
+
+
+@lru_cache(maxsize=1)
+def learned() -> Training:
+    """The one training that Fig. 4.2 looks into."""
+    return train("nnql", seeds=[LEARNER], episodes=EPISODES, record=True)
+
+
+def episode(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 4.2: the path of one episode of training."""
+    number = int(case["episode"]) - 1
+    training = learned()
+    assert training.paths is not None
+    return path_of(training.paths[0][number]) | {
+        "arrived": float(training.successes[0, number])
+    }
+
+
+def by_hand(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 5.3 and 5.6: a demonstration through key points."""
+    world = world_of(case)
+    shown = demonstrate_by_hand(world, sketch(world, seed=seed))
+    return path_of(shown.poses) | {"effective pairs": float(len(shown.effective))}
+
+
+def slipping(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 5.5: an expert whose turns come out otherwise."""
+    slip = neighbour_slip(float(case["slip"]))
+    happened = record(ComputerExpert(), world_of(case), slip=slip)
+    meant = record(ComputerExpert(), world_of(case), slip=slip, labels=ComputerExpert())
+    return path_of(happened.poses) | {
+        "slipped": float((happened.actions != meant.actions).sum())
+    }
+
+
+def trace(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 2.4: how far values and policy are from each other's line after each half step."""
+    exits = {"G": mdp.Cell(reward=1, ends=True), "X": mdp.Cell(reward=-1, ends=True)}
+    grid = mdp.GridWorld("S...\n.#.X\n...G", legend=exits, slip=0.2, step_reward=-0.04)
+    found = mdp.generalized_policy_iteration(
+        grid.mdp(0.9), sweeps=int(case["sweeps"]), tolerance=1e-6
+    )
+    return {"evaluation gap": found.evaluation_gap, "improvement gap": found.greedy_gap}
+
+
+def panels(
+    name: str,
+    title: str,
+    run: Callable[..., Numbers],
+    cases: Sequence[Case],
+    **settings: Any,
+) -> Experiment:
+    """A figure with a panel a case, each made once."""
+    return Experiment(
+        name=name,
+        title=title,
+        cases=cases,
+        run=run,
+        seeds=ONCE,
+        settings={"worlds": SEED} | settings,
+    )
+
+
+def shipped(
+    name: str, title: str, methods: Sequence[str], **case: str | float | int
+) -> Experiment:
+    """A figure of shipped policies, four worlds each."""
+    cases = [
+        {"method": one, "world": world, "speed": 2.0, **case}
+        for one in methods
+        for world in range(4)
+    ]
+    return panels(
+        name, title, drive, cases, methods={one: fingerprint(one) for one in methods}
+    )
+
+
+EXPERIMENTS = (
+    panels("figure-2.4", "Generalized policy iteration: between two lines", trace,
+           [{"sweeps": sweeps} for sweeps in (1, 5, 1000)]),
+    panels(
+        "figure-3.4",
+        "What modified and grid A* visit",
+        search,
+        [{"planner": planner, "world": 0, "obstacles": 10} for planner in ("modified A*", "grid A*")],
+    ),
+    panels(
+        "figure-4.2",
+        "One robot's path in eight of its 300 episodes",
+        episode,
+        [{"episode": number} for number in (1, 20, 50, 100, 150, 200, 250, 300)],
+        learner=LEARNER,
+    ),
+    shipped("figure-4.5", "NNQL in new maps, from new starts to new targets", ["nnql"], obstacles=12, starts="new"),
+    panels("figure-5.3", "Demonstrations by hand, through key points", by_hand,
+           [{"world": world, "obstacles": 20} for world in range(2)]),
+    panels("figure-5.5", "Demonstrations whose actions slip", slipping,
+           [{"world": 0, "obstacles": 20, "slip": slip} for slip in (0.3, 0.03)]),
+    panels("figure-5.6", "More demonstrations by hand", by_hand,
+           [{"world": world, "obstacles": 20} for world in range(2, 6)]),
+    shipped("figure-5.9", "NIRL in new maps", ["nirl"], obstacles=20, starts="new"),
+)  # fmt: skip

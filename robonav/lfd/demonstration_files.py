@@ -1,0 +1,137 @@
+"""Demonstrations in files, so that recordings can be kept, sent, and brought from elsewhere.
+
+A file is a NumPy npz archive, which any language that can write a zip of arrays can make. It holds no Python objects.
+
+=================  ===========  =====================================================================================
+array              shape        what
+=================  ===========  =====================================================================================
+format             ()           the text ``robonav demonstrations 1``
+speed              ()           m/s
+trajectory         (K,)         whole number: the drive that each step belongs to, from 0, ascending
+actions            (K,)         whole number: 0 F, 1 L30, 2 L60, 3 R30, 4 R60, 5 B, 6 turn to the target and go
+poses              (K, 3)       x, y in metres and heading in radians, before each action
+ranges             (K, 9)       metres, 10 where nothing is in range; column 0 looks ahead, counter-clockwise
+walls              (K, 9)       true or false: whether the nearest thing is the map's border
+target_region      (K,)         whole number 1..9
+target_seen        (K,)         true or false
+outcome            (D,)         whole number: 1 arrived, 2 collided, 3 out of steps
+worlds.kinds, ...               the fields of ``robonav.robot.Worlds``, D of them
+=================  ===========  =====================================================================================
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robonav import atomic
+from robonav.robot import OUTCOMES, Sensing, Worlds
+from robonav.validation import check_array, check_instance
+
+from .demonstrations import Demonstrations
+
+FORMAT = "robonav demonstrations 1"
+_STEPS = ("trajectory", "actions", "poses", "speed")
+_SENSED = {
+    "ranges": float,
+    "walls": bool,
+    "target_region": np.int64,
+    "target_seen": bool,
+}
+_WORLDS = tuple(field.name for field in fields(Worlds))
+
+
+def save_demonstrations(path: str | Path, demonstrations: Demonstrations) -> None:
+    """Write demonstrations as npz, in the format of this module; whole or not at all."""
+    check_instance("demonstrations", demonstrations, Demonstrations)
+    arrays: dict[str, Any] = {name: getattr(demonstrations, name) for name in _STEPS}
+    arrays |= {name: getattr(demonstrations.sensing, name) for name in _SENSED}
+    arrays |= {
+        f"worlds.{name}": getattr(demonstrations.worlds, name) for name in _WORLDS
+    }
+    order = np.argsort(OUTCOMES)
+    arrays["outcome"] = order[
+        np.searchsorted(OUTCOMES, demonstrations.outcome, sorter=order)
+    ].astype(np.int8)
+    with atomic.atomic_write(path) as file:
+        np.savez_compressed(file, format=np.array(FORMAT), **arrays)
+
+
+def load_demonstrations(path: str | Path) -> Demonstrations:
+    """Read what :func:`save_demonstrations`, or anything else that keeps to the format, wrote.
+
+    Raises
+    ------
+    FileNotFoundError : if there is no such file.
+    ValueError : if the file is damaged, of another kind or version, holds a pickled object, lacks an array, or holds
+        what no demonstration can be.
+    """
+    name = Path(path).name
+    arrays = _read(path, name)
+    written = str(arrays.pop("format", ""))
+    if written != FORMAT:
+        raise ValueError(f"{name} has the format {written!r}, expected {FORMAT!r}")
+    wanted = {*_STEPS, *_SENSED, "outcome", *(f"worlds.{field}" for field in _WORLDS)}
+    if wanted != set(arrays):
+        raise ValueError(
+            f"{name} differs from {FORMAT!r} in {', '.join(sorted(wanted ^ set(arrays)))}"
+        )
+    try:
+        return _demonstrations(arrays)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} does not hold demonstrations: {error}") from None
+
+
+def _read(path: str | Path, name: str) -> dict[str, NDArray[Any]]:
+    """Every array of an archive; one sentence if it cannot be read."""
+    with open(path, "rb") as file:
+        try:
+            with np.load(file, allow_pickle=False) as archive:
+                return {key: archive[key] for key in archive.files}
+        except (
+            Exception
+        ) as error:  # a damaged zip or header can end in almost any of them
+            if "Object arrays" in str(error):  # numpy's words for one inside an archive
+                raise ValueError(
+                    f"{name} holds a pickled object, which could run code and is never loaded"
+                ) from None
+            raise ValueError(f"{name} is damaged, or no npz archive") from None
+
+
+def _demonstrations(arrays: Mapping[str, NDArray[Any]]) -> Demonstrations:
+    """Demonstrations from the arrays of a file, each checked."""
+    steps = check_array("actions", arrays["actions"], shape=("K",)).shape[0]
+    shapes = {
+        "ranges": (steps, 9),
+        "walls": (steps, 9),
+        "target_region": (steps,),
+        "target_seen": (steps,),
+    }
+    sensed = {
+        key: check_array(key, arrays[key], shape=shapes[key], dtype=dtype)
+        for key, dtype in _SENSED.items()
+    }
+    within = {"ranges": (0, 10), "target_region": (1, 9)}
+    for key, (least, most) in within.items():
+        if ((sensed[key] < least) | (sensed[key] > most)).any():
+            raise ValueError(f"{key} must lie in {least}..{most}")
+    outcome = check_array("outcome", arrays["outcome"], shape=("D",), dtype=np.int64)
+    if len(outcome) and not 1 <= outcome.min() <= outcome.max() <= 3:
+        raise ValueError(
+            f"outcome must lie in 1..3, got {outcome.min()}..{outcome.max()}"
+        )
+    worlds = {field: arrays[f"worlds.{field}"] for field in _WORLDS}
+    return Demonstrations(
+        worlds=Worlds(**(worlds | {"size": worlds["size"].item()})),
+        trajectory=arrays["trajectory"],
+        sensing=Sensing(**sensed),
+        actions=arrays["actions"],
+        poses=arrays["poses"],
+        speed=arrays["speed"].item(),
+        outcome=OUTCOMES[outcome],
+    )

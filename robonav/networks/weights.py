@@ -1,0 +1,166 @@
+"""Trained networks in files: safetensors, with what made them, so that they can be made again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save
+
+from robonav import atomic
+from robonav._version import __version__
+from robonav.robot.encoding import Encoder
+from robonav.validation import check_real
+
+from .multilayer_perceptron import Array, Network
+
+FORMAT = "robonav weights 1"
+
+
+@dataclass(frozen=True, eq=False)
+class Weights:
+    """A trained network and what made it.
+
+    Parameters
+    ----------
+    network : the network, or a stack of them.
+    method : how it was trained: ``"lfd"``, ``"nnql"``, ...
+    encoder : how raw sensing becomes the network's inputs.
+    made : anything else that it takes to train it again (seed, number of demonstrations, ...), as JSON knows it.
+    temperature : at which the policy draws its actions, see :class:`NetworkPolicy`; 0 leaves nothing to chance.
+    version : of robonav, when it was trained.
+
+    Raises
+    ------
+    ValueError : if the encoder gives another number of inputs than the network takes, or the temperature is negative.
+    """
+
+    network: Network
+    method: str
+    encoder: Encoder
+    made: Mapping[str, Any] = field(default_factory=dict)
+    temperature: float = 0.0
+    version: str = __version__
+
+    def __post_init__(self) -> None:
+        object.__setattr__(
+            self, "temperature", check_real("temperature", self.temperature, at_least=0)
+        )
+        given, taken = self.encoder.size, self.network.sizes[0]
+        if given != taken:
+            raise ValueError(
+                f"network must take the {given} inputs its encoder gives, got one of {taken}"
+            )
+
+
+def save_weights(path: str | Path, weights: Weights) -> None:
+    """Write a safetensors file: tensors ``weights.1``, ``biases.1``, ... (as the thesis counts) and what made them.
+
+    The same weights give the same bytes.
+
+    Raises
+    ------
+    TypeError : if ``weights.made`` holds what JSON does not know.
+    """
+    network = weights.network
+    tensors = {
+        f"weights.{layer}": array
+        for layer, array in enumerate(network.weights, start=1)
+    }
+    tensors |= {
+        f"biases.{layer}": array for layer, array in enumerate(network.biases, start=1)
+    }
+    about = {
+        "format": FORMAT,
+        "method": weights.method,
+        "encoder": asdict(weights.encoder),
+        "made": dict(weights.made),
+        "temperature": weights.temperature,
+        "version": weights.version,
+    }
+    try:
+        note = json.dumps(about, sort_keys=True, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise TypeError(f"made must hold only what JSON knows: {error}") from None
+    contiguous = {name: np.ascontiguousarray(array) for name, array in tensors.items()}
+    with atomic.atomic_write(path) as file:
+        file.write(save(contiguous, metadata={"robonav": note}))
+
+
+def load_weights(path: str | Path) -> Weights:
+    """Read what :func:`save_weights` wrote.
+
+    Raises
+    ------
+    FileNotFoundError : if there is no such file.
+    ValueError : if it is no safetensors file, not one of ours, of another format, or does not hold a network.
+    """
+    name = Path(path).name
+    try:
+        with safe_open(str(path), framework="numpy") as file:
+            note = (file.metadata() or {}).get("robonav")
+            tensors = {key: file.get_tensor(key) for key in file.keys()}  # noqa: SIM118 - not a mapping
+    except (SafetensorError, TypeError, ValueError):
+        raise ValueError(f"{name} is not a whole safetensors file") from None
+    about = _about(name, note)
+    try:
+        network = _network(tensors)
+        encoder = about["encoder"]
+        encoder = Encoder(
+            tuple(encoder["sensors"]), encoder["walls"], encoder["target"]
+        )
+        return Weights(
+            network,
+            about["method"],
+            encoder,
+            about["made"],
+            about["temperature"],
+            about["version"],
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(
+            f"{name} does not hold a network and its encoder: {error}"
+        ) from None
+
+
+def _network(tensors: dict[str, Array]) -> Network:
+    """The network in numbered tensors; KeyError or ValueError if they are not one."""
+    layers = range(1, len(tensors) // 2 + 1)
+    names = [f"{kind}.{layer}" for kind in ("weights", "biases") for layer in layers]
+    if set(names) != set(tensors):
+        raise ValueError(f"its tensors are {', '.join(sorted(tensors))}")
+    arrays = [tensors[name] for name in names]
+    return Network(tuple(arrays[: len(layers)]), tuple(arrays[len(layers) :]))
+
+
+def _about(name: str, note: str | None) -> dict[str, Any]:
+    """What made the weights, checked: one sentence for a foreign file, one for another version."""
+    if note is None:
+        raise ValueError(
+            f"{name} was not written by robonav: it does not say what made it"
+        )
+    try:
+        about = json.loads(note)
+        written = about["format"]
+    except (ValueError, TypeError, KeyError, RecursionError):
+        raise ValueError(
+            f"{name} was not written by robonav: its note cannot be read"
+        ) from None
+    if written != FORMAT:
+        raise ValueError(f"{name} has the format {written!r}, expected {FORMAT!r}")
+    kinds: dict[str, Any] = {
+        "method": str,
+        "encoder": dict,
+        "made": dict,
+        "temperature": (int, float),
+        "version": str,
+    }
+    wrong = [key for key, kind in kinds.items() if not isinstance(about.get(key), kind)]
+    if wrong:
+        raise ValueError(f"{name} does not say its {', '.join(wrong)}")
+    return about

@@ -1,0 +1,195 @@
+"""Where a learner practises: the robot in new maps, or a finite MDP with known truth (step 4 of Algorithm 10)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robonav.lfd.demonstrations import LEARNED
+from robonav.nnql.schedules import choose
+from robonav.robot import REFLEX, Encoder, Simulator, Worlds, random_worlds
+from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
+from robonav.validation import check_integer, check_positive
+
+from .reward_free_mdp import FeaturedMDP
+from .transitions import ENCODER, Floats, Ints, Steps
+
+Chances = Callable[[Floats], Floats]
+"""``chances(inputs (N, k)) -> (N, A)``: how likely a policy is to take each action."""
+
+
+class Course(Protocol):
+    """Anything a policy can practise on."""
+
+    @property
+    def inputs(self) -> int:
+        """k, the number of a policy's inputs."""
+
+    @property
+    def actions(self) -> int:
+        """A."""
+
+    def drive(self, chances: Chances, rng: np.random.Generator) -> Steps:
+        """A few drives with a policy, each from a new start."""
+
+
+@dataclass(frozen=True)
+class RobotCourse:
+    """The robot in new random maps; its reflexes act as ever, and only what the policy decided is kept.
+
+    Attributes
+    ----------
+    trajectories : drives at a time, each in a map of its own.
+    obstacles, moving : of the maps.
+    speed : m/s.
+    max_steps : seconds after which a drive is called off.
+    encoder : phi.
+    """
+
+    trajectories: int = 10
+    obstacles: int = 20
+    moving: int = 0
+    speed: float = 2.0
+    max_steps: int = 200
+    encoder: Encoder = ENCODER
+
+    def __post_init__(self) -> None:
+        check_integer("trajectories", self.trajectories, at_least=1)
+        check_integer("max_steps", self.max_steps, at_least=1)
+        check_positive("speed", self.speed)
+
+    @property
+    def inputs(self) -> int:
+        return self.encoder.size
+
+    @property
+    def actions(self) -> int:
+        return LEARNED
+
+    def drive(self, chances: Chances, rng: np.random.Generator) -> Steps:
+        """``trajectories`` drives, each in a map that was never driven before."""
+        worlds = random_worlds(self.trajectories, self.obstacles, self.moving, seed=rng)
+        return drive(
+            Simulator(worlds, self.speed), chances, self.encoder, self.max_steps, rng
+        )
+
+
+def drive(
+    simulator: Simulator,
+    chances: Chances,
+    encoder: Encoder,
+    seconds: int,
+    rng: np.random.Generator,
+    *,
+    decisions: int | None = None,
+) -> Steps:
+    """Let N robots go until they arrive, collide, have driven for ``seconds`` or taken ``decisions`` decisions."""
+    n = len(simulator)
+    running = np.arange(n)
+    taken, outcome = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int8)
+    rows: list[tuple[Ints, Floats, Ints, Ints]] = []
+    for second in range(seconds):
+        if len(running) == 0:
+            break
+        sensing = simulator.sense()
+        commands = REFLEX(sensing, simulator.speed)
+        asked = commands < 0
+        if asked.any():
+            inputs = encoder(sensing[asked])
+            actions = choose(chances(inputs), rng.random(len(inputs)))
+            commands[asked] = actions
+            taken[running[asked]] += 1
+            rows.append(
+                (running[asked], inputs, actions, np.full(len(actions), second))
+            )
+        simulator.step(commands)
+        outcome[running] = simulator.outcome
+        over = simulator.outcome != RUNNING
+        if decisions is not None:
+            over |= taken[running] >= decisions
+        if over.any():
+            running = running[~over]
+            simulator.keep(~over)
+    return _by_drive(rows, encoder.size, outcome)
+
+
+def _by_drive(
+    rows: list[tuple[Ints, Floats, Ints, Ints]], width: int, outcome: NDArray[np.int8]
+) -> Steps:
+    """Decisions by drive from decisions by time."""
+    nothing = (
+        np.empty(0, np.int64),
+        np.empty((0, width)),
+        np.empty(0, np.int64),
+        np.empty(0, np.int64),
+    )
+    owner, inputs, actions, when = (
+        np.concatenate(part) for part in zip(nothing, *rows, strict=True)
+    )
+    order = np.argsort(owner, kind="stable")
+    return Steps(
+        inputs[order],
+        actions[order],
+        owner[order],
+        when[order],
+        outcome == COLLIDED,
+        outcome == ARRIVED,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class ModelCourse:
+    """A finite MDP as a course: one input a state. A drive ends in a terminal state, or after ``steps``.
+
+    Attributes
+    ----------
+    mdp : S states, A actions.
+    trajectories : drives at a time.
+    steps : of each at most.
+    """
+
+    mdp: FeaturedMDP
+    trajectories: int = 10
+    steps: int = 40
+
+    @property
+    def inputs(self) -> int:
+        return self.mdp.states
+
+    @property
+    def actions(self) -> int:
+        return self.mdp.actions
+
+    def drive(self, chances: Chances, rng: np.random.Generator) -> Steps:
+        """``trajectories`` walks."""
+        return self.shown(chances(np.eye(self.mdp.states)), self.trajectories, seed=rng)
+
+    def shown(
+        self, policy: Floats, walks: int, *, seed: int | np.random.Generator
+    ) -> Steps:
+        """Walks by a known policy, (S,) actions or (S, A) probabilities: an expert's demonstrations, say."""
+        walked = self.mdp.walk(policy, walks, self.steps, seed=seed)
+        alive = ~self.mdp.terminal[walked.states]
+        trajectory = walked.trajectory[alive.ravel()]
+        when = np.broadcast_to(np.arange(self.steps), alive.shape)[alive]
+        inputs = np.eye(self.mdp.states)[walked.states[alive]]
+        over = ~alive[:, -1]
+        return Steps(
+            inputs,
+            walked.actions[alive],
+            trajectory,
+            when,
+            np.zeros(walks, dtype=bool),
+            over,
+        )
+
+
+def start_at(worlds: Worlds, poses: Floats, speed: float) -> Simulator:
+    """Robots put at ``poses`` (N, 3), one in each of N worlds whose obstacles stand where they start."""
+    simulator = Simulator(worlds, speed)
+    simulator.poses = np.ascontiguousarray(poses, dtype=float)
+    return simulator

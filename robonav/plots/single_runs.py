@@ -1,0 +1,79 @@
+"""Figures whose panels are single drives, plans and demonstrations, from the numbers of ``experiments.pictures``."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+
+from robonav import style
+from robonav.experiments import Results
+from robonav.experiments.single_runs import world_of
+
+from .robot import draw_drives
+
+COLUMNS = 4
+
+
+def plot_paths(results: Results) -> Figure:
+    """A map a case with the path in it; what a search visited as dots behind."""
+    cases = results.experiment.cases
+    columns = min(len(cases), COLUMNS)
+    rows = -(-len(cases) // columns)
+    figure, panels = plt.subplots(
+        rows, columns, figsize=(2.6 * columns, 2.9 * rows), squeeze=False
+    )
+    for place, (case, axes) in enumerate(zip(cases, panels.flat, strict=True)):
+        metrics = {row.metric for row in results.rows if row.case == place}
+        if "visited x" in metrics:
+            visited = [results.values(f"visited {letter}", place)[0] for letter in "xy"]
+            axes.plot(*visited, ".", color=style.SKY, markersize=1.5, zorder=0)
+        path = np.column_stack([results.values(letter, place)[0] for letter in "xy"])
+        draw_drives(axes, world_of(case), [path])
+        axes.set(
+            xticks=[],
+            yticks=[],
+            xlabel="",
+            ylabel="",
+            title=_title(results, place, metrics),
+        )
+    return figure
+
+
+def plot_gaps(results: Results) -> Figure:
+    """Fig. 2.4: both distances after each half step, a panel a case."""
+    cases = results.experiment.cases
+    figure, panels = plt.subplots(
+        1, len(cases), figsize=(3.2 * len(cases), 2.8), sharey=True
+    )
+    for place, (case, axes) in enumerate(zip(cases, panels, strict=True)):
+        for metric, colour in (
+            ("evaluation gap", style.BLUE),
+            ("improvement gap", style.ORANGE),
+        ):
+            axes.semilogy(
+                results.values(metric, place)[0] + 1e-12, color=colour, label=metric
+            )
+        axes.set(
+            xlabel="half step", title=f"{case['sweeps']} sweeps", ylim=(1e-8, None)
+        )
+    panels[0].legend()
+    return figure
+
+
+def _title(results: Results, place: int, metrics: set[str]) -> str:
+    """What the panel shows: whatever varies among the cases, and how it ended."""
+    cases = results.experiment.cases
+    varies = [
+        key
+        for key in cases[0]
+        if key != "world" and len({case[key] for case in cases}) > 1
+    ]
+    chosen = {key: cases[place][key] for key in varies}
+    said = [
+        value if isinstance(value, str) else f"{key} {value}"
+        for key, value in chosen.items()
+    ]
+    if "arrived" in metrics:
+        said.append("arrived" if results.values("arrived", place)[0] else "failed")
+    return ", ".join(said)

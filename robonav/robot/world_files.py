@@ -1,0 +1,178 @@
+"""Worlds to and from files: a whole batch as npz, one world as text that a person can read and write."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from robonav import atomic
+from robonav.validation import check_array, check_instance
+
+from . import _fast
+from .worlds import SIZE, START, TARGET, Worlds
+
+FORMAT = "robonav worlds 1"
+
+
+def save_worlds(path: str | Path, worlds: Worlds) -> None:
+    """Write a batch as npz (format "robonav worlds 1": the fields of ``Worlds`` by name)."""
+    check_instance("worlds", worlds, Worlds)
+    arrays: dict[str, Any] = {
+        field.name: getattr(worlds, field.name) for field in fields(Worlds)
+    }
+    with atomic.atomic_write(path) as file:
+        np.savez_compressed(file, format=np.array(FORMAT), **arrays)
+
+
+def load_worlds(path: str | Path) -> Worlds:
+    """Read what :func:`save_worlds` wrote.
+
+    Raises
+    ------
+    ValueError : if the file is damaged, of another format, or its worlds are not valid.
+    """
+    try:
+        with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+    except FileNotFoundError:
+        raise
+    except Exception:  # a damaged archive can end in almost any of them
+        raise ValueError(
+            f"path must be a file of worlds, but {path} is damaged or of another kind"
+        ) from None
+    if str(arrays.pop("format", "")) != FORMAT:
+        raise ValueError(
+            f"path must be a file in the format {FORMAT!r}, but {path} is not"
+        )
+    missing = {field.name for field in fields(Worlds)} ^ set(arrays)
+    if missing:
+        raise ValueError(
+            f"path must hold the fields of Worlds, but {path} differs in {', '.join(sorted(missing))}"
+        )
+    size = check_array("size", arrays.pop("size"), shape=()).item()
+    return Worlds(**arrays, size=size)
+
+
+def format_world(worlds: Worlds) -> str:
+    """One world (a batch of one) as text, which :func:`parse_world` reads back to the last bits of its angles."""
+    if len(check_instance("worlds", worlds, Worlds)) != 1:
+        raise ValueError(f"worlds must be a batch of one, got {len(worlds)}")
+    start, target, key = worlds.starts[0], worlds.targets[0], worlds.keys[0]
+    lines = [
+        "# metres, degrees and seconds",
+        f"size {worlds.size!r}",
+        f"start {float(start[0])!r} {float(start[1])!r}",
+        f"target {float(target[0])!r} {float(target[1])!r}",
+        f"key {key[0]} {key[1]}",
+    ]
+    for m in np.flatnonzero(worlds.kinds[0]):
+        x, y = (float(v) for v in worlds.centres[0, m])
+        a, b, turned = (float(v) for v in worlds.shapes[0, m])
+        if worlds.kinds[0, m] == _fast.CIRCLE:
+            line = f"circle {x!r} {y!r} radius {a!r}"
+        else:
+            line = f"rectangle {x!r} {y!r} sides {2 * a!r} {2 * b!r} turned {float(np.degrees(turned))!r}"
+        if worlds.speeds[0, m] > 0:
+            heading = float(np.degrees(worlds.headings[0, m]))
+            line += f" speed {float(worlds.speeds[0, m])!r} towards {heading!r}"
+        lines.append(line)
+    return "\n".join(lines) + "\n"
+
+
+def parse_world(text: str) -> Worlds:
+    """One world from text: a line each for size, start, target, key (all may be left out) and obstacles.
+
+    ::
+
+        size 100
+        start 10 10
+        target 90 90
+        circle 40 50 radius 3
+        rectangle 60 30 sides 8 4 turned 45
+        circle 70 70 radius 2 speed 0.5 towards 90    # moves
+
+    Raises
+    ------
+    ValueError : naming the line that cannot be read, or if the world is not valid.
+    """
+    header: dict[str, list[float]] = {
+        "size": [SIZE],
+        "start": [*START],
+        "target": [*TARGET],
+        "key": [0, 0],
+    }
+    rows, seen = [], set()
+    for number, line in enumerate(
+        check_instance("text", text, str).splitlines(), start=1
+    ):
+        words = line.partition("#")[0].split()
+        if not words:
+            continue
+        try:
+            if words[0] in header:
+                values = [float(word) for word in words[1:]]
+                if len(values) != len(header[words[0]]) or words[0] in seen:
+                    raise ValueError
+                seen.add(words[0])
+                header[words[0]] = values
+            else:
+                rows.append(_parse_obstacle(words))
+        except (ValueError, KeyError):
+            raise ValueError(
+                f"line {number} of the world must be like 'circle 40 50 radius 3' or 'rectangle 60 30 sides 8 4 "
+                f"turned 45', perhaps with 'speed 0.5 towards 90', or 'size', 'start', 'target', 'key' and numbers; "
+                f"got {line.strip()!r}"
+            ) from None
+    table = np.array(rows, dtype=float).reshape(len(rows), 8)
+    key = header["key"]
+    if any(not 0 <= word < 2**32 or word != int(word) for word in key):
+        raise ValueError(f"key must be two whole numbers of 32 bits, got {key}")
+    return Worlds(
+        kinds=table[None, :, 0].astype(np.int8),
+        centres=table[None, :, 1:3],
+        shapes=table[None, :, 3:6],
+        speeds=table[None, :, 6],
+        headings=table[None, :, 7],
+        starts=np.array([header["start"]]),
+        targets=np.array([header["target"]]),
+        keys=np.array([key]).astype(np.uint32),
+        size=header["size"][0],
+    )
+
+
+def _parse_obstacle(words: list[str]) -> tuple[float, ...]:
+    """Kind, x, y, shape, speed and heading of one obstacle line; ValueError or KeyError if it does not read so."""
+    kind, rest = words[0], words[1:]
+    lengths = {"circle": {"radius": 1}, "rectangle": {"sides": 2, "turned": 1}}[
+        kind
+    ] | {"speed": 1, "towards": 1}
+    x, y = (float(word) for word in rest[:2])
+    rest = rest[2:]
+    values: dict[str, list[float]] = {}
+    while rest:
+        name = rest.pop(0)
+        if name in values or len(rest) < lengths[name]:
+            raise ValueError
+        values[name] = [float(rest.pop(0)) for _ in range(lengths[name])]
+    if "towards" in values and "speed" not in values:
+        raise ValueError
+    speed, towards = (
+        values.get("speed", [0.0])[0],
+        np.radians(values.get("towards", [0.0])[0]),
+    )
+    if kind == "circle":
+        return _fast.CIRCLE, x, y, values["radius"][0], 0.0, 0.0, speed, towards
+    length, width = values["sides"]
+    return (
+        _fast.RECTANGLE,
+        x,
+        y,
+        length / 2,
+        width / 2,
+        np.radians(values.get("turned", [0.0])[0]),
+        speed,
+        towards,
+    )

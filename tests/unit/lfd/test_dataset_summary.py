@@ -1,0 +1,48 @@
+"""What a set of demonstrations holds, counted again by hand."""
+
+import numpy as np
+import pytest
+
+from robonav.lfd import demonstrate, labelled_states, overview
+from robonav.robot import Encoder, random_worlds
+
+
+def test_an_overview_counts():
+    shown = demonstrate(random_worlds(6, 12, seed=21))
+    held = overview(shown)
+    x, y = labelled_states(shown, Encoder(target="number"))
+    assert (held.drives, held.arrived, held.steps, held.effective) == (
+        6,
+        6,
+        len(shown),
+        len(x),
+    )
+    assert held.states == len({tuple(row) for row in x.round(6)})
+    assert held.states < held.effective
+    assert held.actions.tolist() == y.sum(axis=0).tolist()
+    assert held.closest == shown.sensing.ranges.min() < 10
+    text = str(held)
+    assert text.startswith(
+        f"6 drives, 6 arrived\n{len(shown)} steps, {len(x)} to learn from, in {held.states} "
+    )
+    assert f"F {held.actions[0] / len(x):.0%}, L30" in text
+
+
+def test_nothing_shown_nothing_held():
+    held = overview(demonstrate(random_worlds(0, 5, seed=1)))
+    assert (held.drives, held.steps, held.effective, held.states, held.closest) == (
+        0,
+        0,
+        0,
+        0,
+        10,
+    )
+    assert np.array_equal(held.actions, np.zeros(5))
+    assert "F 0%" in str(held)
+
+
+def test_only_demonstrations():
+    with pytest.raises(
+        TypeError, match="demonstrations must be Demonstrations, got str"
+    ):
+        overview("x")

@@ -1,0 +1,188 @@
+"""Max-margin: quadratic program against brute force and against subgradient steps; projection (Abbeel and Ng 2004)."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from scipy.optimize import linprog
+
+from robonav.nirl import (
+    by_max_margin,
+    by_projection,
+    nearest_mixture,
+    project,
+    start_expectations,
+    widest_margin,
+    widest_margin_subgradient,
+)
+
+POINTS = st.integers(1, 6).flatmap(
+    lambda n: arrays(
+        float, (n, 2), elements=st.floats(-3, 3).map(lambda x: round(x, 3))
+    )
+)
+
+
+def brute_force(expert, others):
+    """Try every direction of the plane."""
+    angles = np.linspace(0, 2 * np.pi, 200_001)
+    directions = np.stack([np.cos(angles), np.sin(angles)])
+    return max(((expert - others) @ directions).min(axis=0).max(), 0.0)
+
+
+@settings(deadline=None)
+@given(POINTS)
+def test_the_margin_is_the_widest_of_all_directions(others):
+    expert = np.array([0.4, -0.2])
+    found = widest_margin(expert, others)
+    assert found.margin == pytest.approx(brute_force(expert, others), abs=1e-4)
+    assert np.linalg.norm(found.weights) <= 1 + 1e-9
+    assert ((expert - others) @ found.weights).min() == pytest.approx(
+        found.margin, abs=1e-9
+    )
+
+
+@settings(deadline=None, max_examples=20)
+@given(arrays(float, (5, 3), elements=st.floats(-3, 3).map(lambda x: round(x, 2))))
+def test_subgradient_steps_come_to_the_same(others):
+    expert = np.array([2.0, -1.0, 0.5])
+    exact = widest_margin(expert, others).margin
+    stepped = widest_margin_subgradient(expert, others, iterations=3000).margin
+    assert stepped <= exact + 1e-9
+    assert stepped == pytest.approx(
+        exact, abs=0.03 * np.linalg.norm(expert - others, axis=1).max()
+    )
+
+
+@settings(deadline=None)
+@given(arrays(float, (4, 3), elements=st.floats(-2, 2).map(lambda x: round(x, 3))))
+def test_no_margin_exactly_where_the_expert_is_a_mixture(others):
+    """An independent library decides whether the expert lies in the convex hull."""
+    expert = others.mean(axis=0) + np.array([0.3, 0.0, 0.0])
+    hull = linprog(
+        np.zeros(4),
+        A_eq=np.vstack([others.T, np.ones(4)]),
+        b_eq=[*expert, 1],
+        bounds=(0, None),
+    )
+    margin = widest_margin(expert, others).margin
+    assume(not 0 < margin < 1e-5)
+    assert (margin == 0) == hull.success
+
+
+def test_an_expert_no_better_than_itself():
+    same = widest_margin([1.0, 2.0], [[1.0, 2.0]])
+    assert same.margin == 0
+    assert same.weights.tolist() == [0, 0]
+    with pytest.raises(ValueError, match="at least one policy, got none"):
+        widest_margin([1.0], np.empty((0, 1)))
+
+
+@settings(deadline=None)
+@given(*[arrays(float, 3, elements=st.floats(-3, 3))] * 3)
+def test_projection_is_the_nearest_point_between(mean, found, expert):
+    reached = project(mean, found, expert)
+    shares = np.linspace(0, 1, 2001)[:, None]
+    tried = np.linalg.norm(mean + shares * (found - mean) - expert, axis=1).min()
+    assert np.linalg.norm(reached - expert) <= tried + 1e-9
+
+
+def test_the_nearest_mixture_of_a_square():
+    corners = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
+    inside = nearest_mixture([0.25, 0.5], corners)
+    np.testing.assert_allclose(inside @ corners, [0.25, 0.5], atol=1e-6)
+    outside = nearest_mixture([2.0, 0.5], corners)
+    np.testing.assert_allclose(outside, [0, 0.5, 0.5, 0], atol=1e-6)
+
+
+@pytest.fixture(params=[by_projection, by_max_margin])
+def method(request):
+    return request.param
+
+
+def solver(case):
+    def solve(weights):
+        policy = case.best(weights)
+        return policy, start_expectations(case.task, policy)
+
+    return solve
+
+
+def learn(case, method, expert, **options):
+    solve = solver(case)
+    first = np.zeros(case.task.states, dtype=int)
+    return method(
+        expert, solve, (first, start_expectations(case.task, first)), **options
+    )
+
+
+def test_the_apprentice_matches_the_expert(terrain, method):
+    """With the expert's exact expectations: distances fall, and the mixture is worth what the expert is."""
+    learned = learn(
+        terrain, method, start_expectations(terrain.task, terrain.expert), iterations=30
+    )
+    assert (np.diff(learned.distances) <= 1e-9).all()
+    assert learned.distances[-1] < 1e-3
+    values = np.array([terrain.value(policy) for policy in learned.policies])
+    assert learned.mixture @ values == pytest.approx(
+        terrain.value(terrain.expert), abs=1e-2
+    )
+    assert terrain.loss(learned.policies[learned.closest]) < 0.05
+    assert len(learned.policies) == len(learned.weights) + 1 == len(learned.distances)
+
+
+def test_the_apprentice_of_random_rewards(scattered, method):
+    learned = learn(
+        scattered,
+        method,
+        start_expectations(scattered.task, scattered.expert),
+        iterations=40,
+    )
+    assert scattered.loss(learned.policies[learned.closest]) < 0.05
+
+
+def test_the_apprentice_of_demonstrations(terrain, method):
+    """From 200 walks instead of the model."""
+    from robonav.nirl import empirical_expectations
+
+    walks = terrain.task.walk(terrain.expert, 200, 60, seed=5)
+    shown = terrain.task.features[walks.states, walks.actions].reshape(-1, 4)
+    expert = empirical_expectations(shown, walks.trajectory, terrain.task.discount)
+    learned = learn(terrain, method, expert, iterations=20)
+    assert terrain.loss(learned.policies[learned.closest]) < 0.05
+
+
+def test_both_ways_walk_the_same_first_step(terrain):
+    """Against one policy, the widest margin and the projection point the same way."""
+    expert = start_expectations(terrain.task, terrain.expert)
+    a, b = (
+        learn(terrain, way, expert, iterations=1).weights[0]
+        for way in (by_projection, by_max_margin)
+    )
+    np.testing.assert_allclose(a / np.linalg.norm(a), b / np.linalg.norm(b), atol=1e-6)
+
+
+def test_a_projection_never_lies_beyond_the_best_policy(terrain):
+    """So the bound in ``project`` changes nothing of the paper's method where rewards are solved exactly."""
+    learned = learn(
+        terrain,
+        by_projection,
+        start_expectations(terrain.task, terrain.expert),
+        iterations=20,
+    )
+    mean = learned.expectations[0]
+    for found in learned.expectations[1:]:
+        share = (
+            (found - mean) @ (learned.expert - mean) / ((found - mean) @ (found - mean))
+        )
+        assert 0 <= share <= 1
+        mean = mean + share * (found - mean)
+    assert np.linalg.norm(learned.expert - mean) == pytest.approx(learned.distances[-1])
+
+
+def test_an_expert_met_at_once_ends_it(terrain, method):
+    first = start_expectations(terrain.task, np.zeros(terrain.task.states, dtype=int))
+    learned = learn(terrain, method, first)
+    assert len(learned.policies) == 1
+    assert learned.distances.tolist() == [0]

@@ -1,0 +1,135 @@
+"""Soft backups and maximum entropy (Ziebart et al. 2008, 2010)."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from scipy.optimize import check_grad, minimize
+from scipy.special import softmax
+
+from robonav.errors import ConvergenceWarning
+from robonav.mdp.dynamic_programming import value_iteration
+from robonav.mdp.models import FiniteMDP
+from robonav.nirl import (
+    boltzmann,
+    empirical_expectations,
+    maximum_entropy,
+    soft_maximum,
+    soft_value_iteration,
+    start_expectations,
+)
+
+
+@settings(deadline=None)
+@given(arrays(float, 5, elements=st.floats(-100, 100)), st.floats(1e-3, 10))
+def test_soft_maximum_lies_just_above_the_hard_one(q, temperature):
+    soft = soft_maximum(q, temperature)
+    assert q.max() - 1e-9 <= soft <= q.max() + temperature * np.log(5) + 1e-9
+
+
+def test_soft_backup_becomes_the_hard_one_as_it_cools(scattered):
+    mdp = scattered.task.with_reward(scattered.truth)
+    hard = value_iteration(mdp, tolerance=1e-10).values
+    errors = []
+    for temperature in (1.0, 0.1, 0.01, 0.001):
+        soft = soft_value_iteration(mdp, temperature=temperature).values
+        assert (soft >= hard - 1e-8).all()
+        errors.append((soft - hard).max())
+    bound = np.array([1.0, 0.1, 0.01, 0.001]) * np.log(4) / (1 - mdp.discount)
+    assert (np.array(errors) <= bound + 1e-8).all()
+    assert (np.diff(errors) < 0).all()
+
+
+def test_one_state_in_closed_form():
+    """Two actions that stay: V = T log(e^(r0/T) + e^(r1/T)) / (1 - gamma)."""
+    mdp = FiniteMDP(np.ones((2, 1, 1)), [[0.3, -0.7]], 0.9)
+    soft = soft_value_iteration(mdp, temperature=0.5)
+    assert soft.values[0] == pytest.approx(
+        0.5 * np.log(np.exp(0.6) + np.exp(-1.4)) / 0.1
+    )
+    np.testing.assert_allclose(soft.policy, boltzmann(soft.q, 2.0))
+
+
+def test_no_policy_collects_more_reward_and_entropy():
+    """An optimiser over all stochastic policies, scored by a linear system, comes to the soft values and no further."""
+    rng = np.random.default_rng(0)
+    transitions, rewards, heat = (
+        rng.dirichlet(np.ones(3), (2, 3)),
+        rng.normal(size=(3, 2)),
+        0.7,
+    )
+    soft = soft_value_iteration(FiniteMDP(transitions, rewards, 0.8), temperature=heat)
+
+    def worth(logits):
+        policy = softmax(logits.reshape(3, 2), axis=1)
+        gained = (policy * (rewards - heat * np.log(policy))).sum(axis=1)
+        return np.linalg.solve(
+            np.eye(3) - 0.8 * np.einsum("sa,ast->st", policy, transitions), gained
+        )[0]
+
+    found = minimize(lambda logits: -worth(logits), rng.normal(size=6))
+    assert -found.fun == pytest.approx(soft.values[0], abs=1e-6)
+    np.testing.assert_allclose(
+        softmax(found.x.reshape(3, 2), axis=1), soft.policy, atol=1e-3
+    )
+
+
+def test_a_budget_too_small_warns(scattered):
+    with pytest.warns(ConvergenceWarning, match="gave up after 3 sweeps"):
+        soft_value_iteration(
+            scattered.task.with_reward(scattered.truth), max_iterations=3
+        )
+
+
+def test_gradient_of_the_log_likelihood_is_the_gap(terrain):
+    """d/dtheta of the soft value from the start is the soft policy's feature expectations."""
+    task, rng = terrain.task, np.random.default_rng(3)
+
+    def soft(theta):
+        return soft_value_iteration(task.with_reward(theta))
+
+    error = check_grad(
+        lambda theta: task.starts @ soft(theta).values,
+        lambda theta: start_expectations(task, soft(theta).policy),
+        rng.normal(size=4),
+    )
+    assert error < 1e-4
+
+
+def test_it_matches_the_features_of_a_soft_expert(terrain):
+    """A soft driver's weights are found again, but for the one direction in which every policy earns the same.
+
+    One unit for every step and 1 / (1 - gamma) on arrival is worth 1 / (1 - gamma) whatever is done.
+    """
+    task = terrain.task
+    driver = soft_value_iteration(task.with_reward(terrain.truth)).policy
+    learned = maximum_entropy(task, start_expectations(task, driver), ridge=0.0)
+    assert learned.gaps[-1] < 1e-3
+    pointless = np.array([1, 1, 1, 1 / (1 - task.discount)])
+    gap = learned.weights - terrain.truth
+    np.testing.assert_allclose(gap, gap[0] * pointless, atol=0.1)
+    np.testing.assert_allclose(learned.policy, driver, atol=0.01)
+    assert (np.diff(learned.log_likelihoods) > -1e-6).all()
+
+
+@pytest.mark.parametrize("demonstrations", [None, 100])
+def test_its_reward_makes_the_expert_again(terrain, demonstrations):
+    task = terrain.task
+    if demonstrations is None:
+        expert = start_expectations(task, terrain.expert)
+    else:
+        walks = task.walk(terrain.expert, demonstrations, 60, seed=2)
+        expert = empirical_expectations(
+            task.features[walks.states, walks.actions].reshape(-1, 4),
+            walks.trajectory,
+            task.discount,
+        )
+    learned = maximum_entropy(task, expert, ridge=1e-3)
+    assert terrain.loss(terrain.best(learned.weights)) < 0.05
+
+
+def test_random_rewards(scattered):
+    expert = start_expectations(scattered.task, scattered.expert)
+    learned = maximum_entropy(scattered.task, expert, ridge=1e-4)
+    assert scattered.loss(scattered.best(learned.weights)) < 0.05

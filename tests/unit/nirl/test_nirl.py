@@ -1,0 +1,384 @@
+"""Neural policy iteration and NIRL: targets, gradients, choice, gridworlds (sections 5.5.3 and 5.5.4, Algorithm 10)."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from robonav.networks.multilayer_perceptron import Network, random_network
+from robonav.nirl import (
+    NEUTRAL,
+    NOTHING,
+    ByContrast,
+    ByEquation514,
+    ModelCourse,
+    OneStep,
+    SampledDescent,
+    Steps,
+    accuracy,
+    action_blocks,
+    balance,
+    balanced_accuracy,
+    contrast,
+    discounted_to_go,
+    into_unit,
+    nirl,
+    practise,
+    rewards_of,
+    sarsa_targets,
+)
+from robonav.nirl._fast import descend
+
+RNG = np.random.default_rng(0)
+
+
+def made_up(decisions=12, inputs=3, actions=4, drives=3, seed=0):
+    """Steps with random contents."""
+    rng = np.random.default_rng(seed)
+    trajectory = np.sort(rng.integers(drives, size=decisions))
+    return Steps(
+        rng.normal(size=(decisions, inputs)),
+        rng.integers(actions, size=decisions),
+        trajectory,
+        np.arange(decisions),
+        np.arange(drives) % 2 == 1,
+        np.arange(drives) % 2 == 0,
+    )
+
+
+# -- rewards and targets -----------------------------------------------------------------------------------------------
+
+
+def test_rewards_are_theta_times_the_blocks():
+    steps, theta = made_up(), RNG.normal(size=(4, 4))
+    blocks = action_blocks(steps.features, 4)[np.arange(12), steps.actions]
+    np.testing.assert_allclose(rewards_of(theta, steps), blocks @ theta.ravel())
+
+
+def test_sarsa_by_hand():
+    """0.5 + 0.8 (1 + 0.65 * 0.4 - 0.5)."""
+    np.testing.assert_allclose(
+        sarsa_targets([0.5], [1.0], [0.4], alpha=0.8, discount=0.65), [1.108]
+    )
+
+
+@settings(deadline=None)
+@given(
+    arrays(float, 20, elements=st.floats(-9, 9).map(lambda x: round(x, 3))),
+    st.floats(0.1, 50),
+)
+def test_scaled_rewards_lie_in_the_unit_interval_whatever_their_unit(rewards, unit):
+    scaled = into_unit(rewards)
+    assert scaled.min() >= 0
+    assert scaled.max() <= 1
+    np.testing.assert_allclose(into_unit(unit * rewards), scaled, atol=1e-9)
+    np.testing.assert_allclose(into_unit(-rewards), 1 - scaled, atol=1e-9)
+    assert (np.diff(scaled[np.argsort(rewards)]) >= 0).all()
+
+
+def test_no_reward_is_neither_good_nor_bad():
+    assert into_unit(np.zeros(3)).tolist() == [0.5, 0.5, 0.5]
+
+
+def test_after_is_the_next_decision_of_the_same_drive():
+    steps = Steps(
+        np.zeros((4, 1)),
+        np.zeros(4, int),
+        np.array([0, 0, 2, 2]),
+        np.arange(4),
+        *np.zeros((2, 3), bool),
+    )
+    assert steps.after.tolist() == [1, -1, 3, -1]
+
+
+# -- the compiled descent ----------------------------------------------------------------------------------------------
+
+
+def cross_entropy(network, x, action, target):
+    q = network.forward(x)[action]
+    return -(target * np.log(q) + (1 - target) * np.log(1 - q))
+
+
+def moved(network, part, index, by):
+    """The network with one number changed."""
+    arrays_ = {
+        "weights": [w.copy() for w in network.weights],
+        "biases": [b.copy() for b in network.biases],
+    }
+    arrays_[part[0]][part[1]][index] += by
+    return Network(tuple(arrays_["weights"]), tuple(arrays_["biases"]))
+
+
+@pytest.mark.parametrize("follows", [True, False])
+def test_one_step_is_minus_rate_times_the_numerical_gradient(follows):
+    network = random_network((3, 5, 4), seed=1)
+    x = np.array([[0.3, 0.0, -1.2], [0.7, 0.1, 0.4]])
+    actions, rewards, ends = (
+        np.array([2, 1]),
+        np.array([0.2, 0.0]),
+        np.array([0.9, 0.9]),
+    )
+    after = np.array([1, -1]) if follows else np.array([-1, -1])
+    q, following = (
+        network.forward(x[0])[2],
+        network.forward(x[1])[1] if follows else 0.9,
+    )
+    target = q + 0.8 * (0.2 + 0.65 * following - q)
+    w1, w2 = (np.ascontiguousarray(w.T) for w in network.weights)
+    b1, b2 = (b.copy() for b in network.biases)
+    cost = descend(
+        w1, b1, w2, b2, x, actions, rewards, after, ends, np.array([0]), 0.8, 0.65, 1e-4
+    )
+    assert cost == pytest.approx(cross_entropy(network, x[0], 2, target))
+    after_step = {
+        ("weights", 0): w1.T,
+        ("biases", 0): b1,
+        ("weights", 1): w2.T,
+        ("biases", 1): b2,
+    }
+    for part, reached in after_step.items():
+        before = getattr(network, part[0])[part[1]]
+        for index in np.ndindex(before.shape):
+            up, down = (
+                cross_entropy(moved(network, part, index, e), x[0], 2, target)
+                for e in (1e-6, -1e-6)
+            )
+            slope = (up - down) / 2e-6
+            assert (reached - before)[index] == pytest.approx(-1e-4 * slope, abs=1e-9)
+
+
+def test_it_finds_the_values_of_a_chain():
+    """Three decisions in a row with rewards 1, 0, 1 (in [0, 1]) and then the best for ever: y = (1 - gamma) Q."""
+    inputs = np.eye(3)
+    steps = Steps(
+        inputs,
+        np.zeros(3, int),
+        np.zeros(3, int),
+        np.arange(3),
+        np.array([False]),
+        np.array([True]),
+    )
+    theta = np.array([[1.0, -1.0, 1.0, 0.0]])
+    improve = SampledDescent(discount=0.5, alpha=1.0, rate=(2.0, 2.0), samples=20_000)
+    network = improve(
+        random_network((3, 6, 1), seed=0), [steps], theta, 0.0, np.random.default_rng(0)
+    ).network
+    third = 0.5 * 1 + 0.5 * 1
+    second = 0.5 * 0 + 0.5 * third
+    first = 0.5 * 1 + 0.5 * second
+    np.testing.assert_allclose(
+        network.forward(inputs)[:, 0], [first, second, third], atol=0.02
+    )
+
+
+def test_only_the_last_drives_are_remembered():
+    old, new = made_up(seed=1), made_up(seed=2)
+    start = random_network((3, 5, 4), seed=0)
+    theta = RNG.normal(size=(4, 4))
+    improve = SampledDescent(replay=1, samples=50)
+    both = improve(start, [old, new], theta, 0.0, np.random.default_rng(0)).network
+    alone = improve(start, [new], theta, 0.0, np.random.default_rng(0)).network
+    np.testing.assert_array_equal(both.weights[0], alone.weights[0])
+
+
+def test_the_step_to_the_letter_is_a_gradient_step():
+    """With targets (5.16), cut to [0, 1], for the taken action, and no change asked of the others."""
+    steps, theta = made_up(), RNG.normal(size=(4, 4))
+    network = random_network((3, 5, 4), seed=1)
+    stepped, cost = OneStep(rate=0.1)(network, [steps], theta, 0.0, RNG)
+    again, lower = OneStep(rate=0.1)(stepped, [steps], theta, 0.0, RNG)
+    assert lower < cost
+    outputs = network.forward(steps.inputs)
+    q = outputs[np.arange(12), steps.actions]
+    following = np.where(steps.after >= 0, np.append(q[1:], 0), 0)
+    target = np.clip(q + 0.8 * (rewards_of(theta, steps) + 0.65 * following - q), 0, 1)
+    slope = np.zeros(4)
+    np.add.at(slope, steps.actions, (q - target) / 12)
+    np.testing.assert_allclose(
+        stepped.biases[1], network.biases[1] - 0.1 * slope, atol=1e-12
+    )
+    assert again is not stepped
+
+
+# -- rewards from demonstrations ---------------------------------------------------------------------------------------
+
+
+def test_contrast_is_the_gradient_of_the_margin():
+    shown, theta = made_up(), RNG.normal(size=(4, 4))
+    chances = RNG.dirichlet(np.ones(4), 12)
+    weights = balance(shown.actions, 4)
+
+    def margin(t):
+        r = shown.features @ t.T
+        return weights @ (r[np.arange(12), shown.actions] - (chances * r).sum(axis=1))
+
+    slope = contrast(shown, chances, weights)
+    for index in np.ndindex(4, 4):
+        step = np.zeros((4, 4))
+        step[index] = 1e-5
+        assert (margin(theta + step) - margin(theta - step)) / 2e-5 == pytest.approx(
+            slope[index], abs=1e-8
+        )
+
+
+def test_nothing_to_learn_from_an_expert_one_already_equals():
+    shown = made_up()
+    np.testing.assert_allclose(
+        contrast(shown, np.eye(4)[shown.actions], balance(shown.actions, 4)),
+        0,
+        atol=1e-15,
+    )
+
+
+def test_balance_makes_actions_count_alike():
+    actions = np.array([0] * 8 + [2] * 2)
+    weights = balance(actions, 5)
+    assert weights[actions == 0].sum() == pytest.approx(weights[actions == 2].sum())
+    np.testing.assert_allclose(balance(actions, 5, power=0.0), 0.1)
+
+
+def test_equation_514_finds_the_least_squares_fit():
+    """Without a constraint that binds, it is what numpy's least squares finds: the learner's own values, explained."""
+    shown = made_up(decisions=40)
+    values = np.full((40, 4), 0.01) + 0.001 * RNG.random((40, 4))
+    theta = ByEquation514(discount=0.65, ridge=0.0, steps=20_000)(
+        shown, values, values, np.zeros((4, 4)), 1
+    )
+    mu = discounted_to_go(
+        action_blocks(shown.features, 4)[np.arange(40), shown.actions],
+        shown.trajectory,
+        0.65,
+    )
+    fitted, *_ = np.linalg.lstsq(mu, values[np.arange(40), shown.actions], rcond=None)
+    np.testing.assert_allclose(mu @ theta.ravel(), mu @ fitted, atol=1e-4)
+    assert np.linalg.norm(theta) <= 1
+
+
+# -- choice ------------------------------------------------------------------------------------------------------------
+
+
+def test_plain_accuracy_likes_one_action_for_everything():
+    """The trap: three quarters go forward. Balanced accuracy knows better."""
+    shown = np.array([0] * 75 + [1] * 10 + [2] * 5 + [3] * 10)
+    forward = np.zeros(100, int)
+    careful = shown.copy()
+    careful[:35] = 1
+    assert accuracy(forward, shown) == 0.75 > accuracy(careful, shown)
+    assert balanced_accuracy(forward, shown) == pytest.approx(0.25)
+    assert balanced_accuracy(careful, shown) == pytest.approx((40 / 75 + 3) / 4)
+
+
+# -- the whole algorithm, where the truth is known ---------------------------------------------------------------------
+
+
+def learn(case):
+    course = ModelCourse(case.task, steps=30)
+    shown = course.shown(case.expert, 100, seed=1)
+    improve = SampledDescent(discount=case.task.discount, samples=8000)
+    return nirl(
+        shown,
+        course,
+        iterations=150,
+        hidden=30,
+        improve=improve,
+        reward=ByContrast(power=0.5),
+        seed=0,
+    )
+
+
+def greedy(case, found):
+    return found.network.decide(np.eye(case.task.states))
+
+
+def test_nirl_on_ground_of_four_kinds(terrain):
+    found = learn(terrain)
+    assert terrain.loss(greedy(terrain, found)) < 0.05
+    history = found.history
+    assert history.margins[-20:].mean() < 0.2 * history.margins[0]
+    assert history.balanced[found.chosen] == history.balanced.max()
+    assert (np.linalg.norm(history.weights, axis=(1, 2)) <= 1 + 1e-9).all()
+    assert history.changes.shape == (150, 2)
+    by_hand = abs(history.networks.weights[1][1] - history.networks.weights[1][0]).sum()
+    assert history.changes[0, 1] == pytest.approx(by_hand)
+
+
+def test_nirl_on_random_rewards(scattered):
+    assert scattered.loss(greedy(scattered, learn(scattered))) < 0.05
+
+
+def test_without_a_reward_nothing_is_learned(terrain):
+    """The control: all rewards alike and neutral ends leave every action alike, whatever is practised."""
+    course = ModelCourse(terrain.task, steps=30)
+    shown = course.shown(terrain.expert, 20, seed=1)
+    nothing = np.zeros((4, terrain.task.states + 1))
+    found = practise(
+        shown,
+        course,
+        nothing,
+        iterations=20,
+        improve=SampledDescent(ends=NEUTRAL),
+        seed=0,
+    )
+    latest = found.history.networks[-1]
+    assert np.ptp(latest.forward(np.eye(terrain.task.states))) < 0.1
+
+
+def test_the_true_reward_makes_an_expert(terrain):
+    """The solver alone: expected rewards of each cell and action given, practice finds a policy as good."""
+    task = terrain.task
+    theta = np.zeros((4, task.states + 1))
+    theta[:, :-1] = (task.features @ terrain.truth).T
+    course = ModelCourse(task, steps=30)
+    shown = course.shown(terrain.expert, 20, seed=1)
+    improve = SampledDescent(discount=task.discount, ends=(0.5, 0.5))
+    found = practise(
+        shown, course, theta, iterations=150, hidden=30, improve=improve, seed=0
+    )
+    assert terrain.loss(greedy(terrain, found)) < 0.15
+
+
+def test_it_ends_when_the_margin_is_small(terrain):
+    course = ModelCourse(terrain.task)
+    shown = course.shown(terrain.expert, 5, seed=1)
+    found = nirl(shown, course, iterations=50, tolerance=1e9, seed=0)
+    assert len(found.history.margins) == 1
+
+
+def test_the_same_seed_gives_the_same_numbers(terrain):
+    course = ModelCourse(terrain.task)
+    shown = course.shown(terrain.expert, 5, seed=1)
+    one, same, other = (
+        nirl(
+            shown, course, iterations=3, improve=SampledDescent(ends=NOTHING), seed=s
+        ).history.networks.weights[0]
+        for s in (0, 0, 1)
+    )
+    np.testing.assert_array_equal(one, same)
+    assert (one != other).any()
+
+
+def test_nothing_shown_gets_a_sentence(terrain):
+    course = ModelCourse(terrain.task)
+    shown = course.shown(terrain.expert, 5, seed=1)
+    with pytest.raises(
+        ValueError,
+        match="shown must hold at least one decision of the expert, got none",
+    ):
+        nirl(made_up(decisions=0, drives=1), course, seed=0)
+    with pytest.raises(
+        ValueError, match="shown must hold actions from 0 to 3, got 7 to 7"
+    ):
+        nirl(shown.with_actions(np.full(len(shown), 7)), course, seed=0)
+    with pytest.raises(
+        ValueError, match="shown must hold at least one decision, got none"
+    ):
+        balanced_accuracy([], [])
+
+
+@pytest.mark.parametrize(
+    "setting", [{"discount": 1.0}, {"alpha": 0.0}, {"samples": 0}, {"ends": (0.0, 2.0)}]
+)
+def test_settings_out_of_bounds_get_a_sentence(setting):
+    with pytest.raises(ValueError, match=next(iter(setting))):
+        SampledDescent(**setting)

@@ -1,0 +1,461 @@
+"""What each method makes of its steps: against a plain loop, and on a small problem whose values are known."""
+
+import numpy as np
+import pytest
+from scipy.special import expit
+
+from robonav.mdp import FiniteMDP, value_iteration
+from robonav.networks.backpropagation import cross_entropy_gradient
+from robonav.networks.multilayer_perceptron import Network, random_network, stacked
+from robonav.nnql.agents import Accumulating, Learner, Steps
+from robonav.nnql.dqn import Replaying, adam
+from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of, packed
+from robonav.nnql.nfq import Fitting, rprop
+from robonav.nnql.replay_buffer import Memory
+
+GAMMA = 0.7
+END = 3  # a corridor of states 0 to 3: action 0 goes left, 1 right; 3 is the end and worth 1
+
+
+def corridor_values():
+    """Q* (3, 2) of the corridor."""
+    transitions, rewards = np.zeros((2, 4, 4)), np.zeros((4, 2))
+    for state in range(END):
+        transitions[0, state, max(state - 1, 0)] = transitions[1, state, state + 1] = 1
+    transitions[:, END, END] = 1
+    rewards[END - 1, 1] = 1
+    mdp = FiniteMDP(transitions, rewards, GAMMA)
+    return mdp.backup(value_iteration(mdp, tolerance=1e-9).values)[:END]
+
+
+def corridor_steps(learner, n, seeds=2, seed=0):
+    """Random steps in the corridor, one of each seed at a time."""
+    rng, rows = np.random.default_rng(seed), np.arange(seeds)
+    for k in range(n):
+        state, action = rng.integers(END, size=seeds), rng.integers(2, size=seeds)
+        reached = np.where(action == 1, state + 1, np.maximum(state - 1, 0))
+        inputs, after = np.eye(4)[state], np.eye(4)[reached]
+        done = reached == END
+        values = learner.values(rows, inputs)
+        yield (
+            rows,
+            Steps(
+                inputs,
+                values,
+                action,
+                done.astype(float),
+                after,
+                done,
+                np.full(seeds, k / n),
+            ),
+        )
+
+
+def networks(sizes=(4, 8, 2), seeds=2):
+    return CompiledNetworks(
+        stacked([random_network(sizes, seed=k) for k in range(seeds)])
+    )
+
+
+def learned_values(learner):
+    return np.stack(
+        [learner.values(np.full(END, row), np.eye(4)[:END]) for row in range(2)]
+    )
+
+
+def test_nfq_converges_to_the_known_values():
+    learner = Fitting(
+        networks(),
+        (2, 4),
+        gamma=GAMMA,
+        collect=1,
+        sweeps=12,
+        epochs=300,
+        tolerance=1e-9,
+    )
+    for rows, steps in corridor_steps(learner, 60):
+        learner.observe(rows, steps)
+    learner.close(np.arange(2), np.array([1, 1]))
+    np.testing.assert_allclose(
+        learned_values(learner), [corridor_values()] * 2, atol=0.02
+    )
+
+
+def test_nfq_looks_at_nothing_beyond_the_end():
+    learner, rows = (
+        Fitting(
+            networks(),
+            (2, 4),
+            gamma=GAMMA,
+            collect=1,
+            sweeps=3,
+            epochs=300,
+            tolerance=0,
+        ),
+        np.arange(2),
+    )
+    x, last = np.eye(4)[[2, 2]], np.array([True, True])
+    learner.observe(
+        rows,
+        Steps(
+            x,
+            x[:, :2],
+            np.array([1, 1]),
+            np.full(2, 0.3),
+            np.eye(4)[[3, 3]],
+            last,
+            np.zeros(2),
+        ),
+    )
+    learner.close(rows, np.array([1, 1]))
+    np.testing.assert_allclose(learner.values(rows, x)[:, 1], 0.3, atol=0.01)
+
+
+def test_dqn_draws_from_all_that_was_ever_made(monkeypatch):
+    drawn, draw = [], Memory.draw
+    monkeypatch.setattr(
+        Memory,
+        "draw",
+        lambda memory, rows, steps: drawn.append(steps) or draw(memory, rows, steps),
+    )
+    learner = Replaying(
+        networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=10, refresh=50
+    )
+    for rows, steps in corridor_steps(learner, 200):
+        learner.observe(rows, steps)
+    latest = np.array(drawn[-100:])  # (100, 2, 10) of between 100 and 200 steps
+    made = np.arange(101, 201)[:, None, None]
+    assert (latest < made).all()
+    np.testing.assert_allclose((latest / made).mean(), 0.5, atol=0.03)
+    np.testing.assert_allclose((latest < made / 4).mean(), 0.25, atol=0.04)
+    assert (latest[:, 0] != latest[:, 1]).any()
+
+
+def test_dqn_converges_to_the_known_values():
+    learner = Replaying(
+        networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=16, refresh=50
+    )
+    for rows, steps in corridor_steps(learner, 900):
+        learner.observe(rows, steps)
+    np.testing.assert_allclose(
+        learned_values(learner), [corridor_values()] * 2, atol=0.04
+    )
+
+
+def test_online_learning_converges_to_the_known_values():
+    settings = {
+        "pairs": 1,
+        "alpha": (0.8, 0.1),
+        "rate": (1.0, 0.1),
+        "rescale": "clip",
+        "passes": 4,
+        "tolerance": 0,
+    }
+    learner = Accumulating(networks(), (2, 3000, 4, 2), gamma=GAMMA, **settings)
+    for rows, steps in corridor_steps(learner, 3000):
+        learner.observe(rows, steps)
+    np.testing.assert_allclose(
+        learned_values(learner), [corridor_values()] * 2, atol=0.04
+    )
+
+
+def random_steps(n, inputs=6, actions=3, seed=3):
+    rng = np.random.default_rng(seed)
+    for k in range(n):
+        yield (
+            rng.random(inputs), int(rng.integers(actions)), float(rng.uniform(-1, 1)), rng.random(inputs),
+            bool(rng.random() < 0.2), k / n,
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize("pairs", [1, 4, 100])
+def test_accumulated_training_is_a_plain_loop(pairs):
+    """Algorithm 8, lines 9 to 16, for one robot: chapter 3's network and gradient, one pair after the other."""
+    network = random_network((6, 8, 3), seed=5)
+    learner = Accumulating(
+        CompiledNetworks(stacked([network])), (1, 50, 6, 3), pairs=pairs, alpha=(0.8, 0.1), gamma=GAMMA,
+        rate=(0.3, 0.05), rescale="clip", passes=2, tolerance=0.0,
+    )  # fmt: skip
+    gathered = []
+    for k, (x, action, reward, reached, terminal, fraction) in enumerate(
+        random_steps(40)
+    ):
+        if k == 25:  # a new episode
+            learner.close(np.array([0]), np.array([1]))
+            gathered = []
+        rows, one = np.array([0]), np.array([fraction])
+        values = learner.values(rows, x[None])
+        np.testing.assert_allclose(values[0], network.forward(x), rtol=1e-9)
+        learner.observe(
+            rows,
+            Steps(
+                x[None],
+                values,
+                np.array([action]),
+                np.array([reward]),
+                reached[None],
+                np.array([terminal]),
+                one,
+            ),
+        )
+        target = network.forward(x)
+        following = 0 if terminal else network.forward(reached).max()
+        target[action] += (
+            0.8
+            * (0.1 / 0.8) ** fraction
+            * (reward + GAMMA * following - target[action])
+        )
+        gathered.append((x, np.clip(target, 0, 1)))
+        rate = 0.3 * (0.05 / 0.3) ** fraction
+        for _ in range(2):
+            for x_i, y_i in gathered[-pairs:]:
+                slope = cross_entropy_gradient(network, x_i[None], y_i[None])
+                network = Network(
+                    tuple(
+                        w - rate * d
+                        for w, d in zip(network.weights, slope.weights, strict=True)
+                    ),
+                    tuple(
+                        b - rate * d
+                        for b, d in zip(network.biases, slope.biases, strict=True)
+                    ),
+                )
+    np.testing.assert_allclose(
+        learner.networks.parameters(), packed(stacked([network])), rtol=1e-8, atol=1e-10
+    )
+
+
+def test_stored_targets_stay_as_they_were_computed():
+    learner = Accumulating(
+        networks(),
+        (2, 9, 4, 2),
+        pairs=9,
+        alpha=0.8,
+        gamma=GAMMA,
+        rate=0.3,
+        rescale="clip",
+        passes=1,
+        tolerance=0,
+    )
+    kept = []
+    for rows, steps in corridor_steps(learner, 9):
+        learner.observe(rows, steps)
+        kept.append(learner.targets[:, learner.count[0] - 1].copy())
+    np.testing.assert_array_equal(learner.targets, np.stack(kept, axis=1))
+
+
+def test_a_learner_that_does_not_learn():
+    learner = Learner(networks())
+    before = learner.networks.parameters()
+    for rows, steps in corridor_steps(learner, 3):
+        z = np.stack(
+            [network_of(before, (4, 8, 2))[k].logits(steps.inputs[k]) for k in range(2)]
+        )
+        np.testing.assert_allclose(steps.values, expit(z))
+        learner.observe(rows, steps)
+    np.testing.assert_array_equal(learner.networks.parameters(), before)
+
+
+def test_nfq_fits_only_every_so_many_episodes():
+    learner = Fitting(
+        networks(), (2, 4), gamma=GAMMA, collect=3, sweeps=1, epochs=5, tolerance=0
+    )
+    for rows, steps in corridor_steps(learner, 5):
+        learner.observe(rows, steps)
+    before = learner.networks.parameters()
+    learner.close(np.array([0, 1]), np.array([1, 2]))
+    np.testing.assert_array_equal(learner.networks.parameters(), before)
+    learner.close(np.array([1]), np.array([3]))
+    np.testing.assert_array_equal(learner.networks.parameters()[0], before[0])
+    assert (learner.networks.parameters()[1] != before[1]).any()
+
+
+def test_rprop_is_that_of_torch():
+    import torch
+
+    rng = np.random.default_rng(0)
+    mine, curvature = rng.standard_normal(20), 5 * rng.random(20)
+    theirs = torch.tensor(mine, requires_grad=True)
+    optimiser = torch.optim.Rprop([theirs], lr=0.01)
+    size, before = np.array(0.01), np.array(0.0)
+    for _ in range(60):
+        step, size, before = rprop(curvature * mine, size, before)
+        mine = mine - step
+        optimiser.zero_grad()
+        (torch.tensor(curvature) * theirs**2 / 2).sum().backward()
+        optimiser.step()
+        np.testing.assert_allclose(mine, theirs.detach(), rtol=1e-12, atol=1e-15)
+    assert np.abs(mine).max() < 0.05
+
+
+def test_adam_is_that_of_torch():
+    import torch
+
+    rng = np.random.default_rng(0)
+    mine, curvature = rng.standard_normal(20), 5 * rng.random(20)
+    theirs = torch.tensor(mine, requires_grad=True)
+    optimiser = torch.optim.Adam([theirs], lr=0.01)
+    first = second = np.zeros(20)
+    for k in range(30):
+        step, first, second = adam(curvature * mine, first, second, k + 1)
+        mine = mine - 0.01 * step
+        optimiser.zero_grad()
+        (torch.tensor(curvature) * theirs**2 / 2).sum().backward()
+        optimiser.step()
+        np.testing.assert_allclose(mine, theirs.detach(), rtol=1e-12, atol=1e-15)
+
+
+def test_dqn_learns_from_the_double_estimate():
+    """One update on one step: the network chooses the next action, the target network values it."""
+    learner = Replaying(
+        networks(seeds=1),
+        networks(seeds=1),
+        (0,),
+        4,
+        gamma=GAMMA,
+        rate=0.01,
+        batch=1,
+        refresh=1000,
+    )
+    rng, zero = np.random.default_rng(1), np.array([0])
+    learner.target.load(
+        zero, learner.target.parameters() + 0.5 * rng.standard_normal((1, 58))
+    )
+    x, reached = np.eye(4)[[0]], np.eye(4)[[1]]
+    own, target = (
+        network_of(n.parameters(), (4, 8, 2))[0]
+        for n in (learner.networks, learner.target)
+    )
+    wanted = 0.2 + GAMMA * target.logits(reached[0])[own.logits(reached[0]).argmax()]
+    before, action = learner.networks.parameters(), np.array([[1]])
+    slope, _ = learner.networks.slopes(
+        zero, x[None], action, np.array([[wanted]]), linear=True
+    )
+    values = learner.values(zero, x)
+    learner.observe(
+        zero,
+        Steps(
+            x,
+            values,
+            action[0],
+            np.array([0.2]),
+            reached,
+            np.array([False]),
+            np.zeros(1),
+        ),
+    )
+    step, _, _ = adam(slope, np.zeros(58), np.zeros(58), 1)
+    np.testing.assert_allclose(
+        learner.networks.parameters(), before - 0.01 * step, rtol=1e-12
+    )
+
+
+def test_the_target_network_stands_still_between_refreshes():
+    learner = Replaying(
+        networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=2, refresh=5
+    )
+    stood = 0
+    for k, (rows, steps) in enumerate(corridor_steps(learner, 12)):
+        before = learner.target.parameters()
+        learner.observe(rows, steps)
+        updates = k + 1 - 2 + 1
+        if updates > 0 and updates % 5 == 0:
+            np.testing.assert_array_equal(
+                learner.target.parameters(), learner.networks.parameters()
+            )
+        else:
+            np.testing.assert_array_equal(learner.target.parameters(), before)
+            stood += 1
+    assert stood == 10
+
+
+def learner_of(kind, one, other):
+    if kind == "accumulating":
+        return Accumulating(
+            one,
+            (2, 40, 4, 2),
+            pairs=40,
+            alpha=0.8,
+            gamma=GAMMA,
+            rate=0.3,
+            rescale="clip",
+            passes=2,
+            tolerance=1e-3,
+        )
+    if kind == "fitting":
+        return Fitting(
+            one, (2, 4), gamma=GAMMA, collect=1, sweeps=2, epochs=20, tolerance=0
+        )
+    return Replaying(one, other, (0, 1), 4, gamma=GAMMA, rate=0.01, batch=4, refresh=10)
+
+
+KINDS = ["accumulating", "fitting", "replaying"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_torch_learns_what_the_compiled_kernels_learn(kind):
+    """The same numbers from a tensor, which may lie on any device."""
+    start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
+    backends = (CompiledNetworks, lambda network: TorchNetworks(network, "cpu"))
+    both = [learner_of(kind, backend(start), backend(start)) for backend in backends]
+    for learner in both:
+        for rows, steps in corridor_steps(learner, 40):
+            learner.observe(rows, steps)
+        learner.close(np.arange(2), np.array([1, 1]))
+    np.testing.assert_allclose(
+        *(learner.networks.parameters() for learner in both), rtol=1e-7, atol=1e-9
+    )
+
+
+class Elsewhere(TorchNetworks):
+    """On torch's device without numbers, which computes shapes alone and takes no tensor from another device."""
+
+    def __init__(self, network):
+        super().__init__(network, "meta")
+
+    def _back_here(self, tensor):
+        assert tensor.device.type == "meta"
+        return np.full(tensor.shape, 0.5)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_tensor_is_made_on_another_device_than_the_networks(kind):
+    """What holds for a device that every machine has holds for a graphics card: each tensor lies where it is told."""
+    start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
+    learner = learner_of(kind, Elsewhere(start), Elsewhere(start))
+    for rows, steps in corridor_steps(learner, 12):
+        learner.observe(rows, steps)
+    learner.close(np.arange(2), np.array([1, 1]))
+    learner.restore(learner.state())
+    assert learner.networks._parameters.device.type == "meta"
+
+
+def test_memory_grows_and_comes_back():
+    memory, rng = Memory(2, 3), np.random.default_rng(0)
+    kept = []
+    for _ in range(1500):
+        x = rng.random((1, 3))
+        memory.append(
+            np.array([1]),
+            Steps(
+                x,
+                x,
+                np.array([1]),
+                np.array([0.5]),
+                x + 1,
+                np.array([False]),
+                np.zeros(1),
+            ),
+        )
+        kept.append(x[0])
+    other = Memory(2, 3)
+    other.restore(memory.state())
+    for one in (memory, other):
+        assert one.count.tolist() == [0, 1500]
+        np.testing.assert_array_equal(one.inputs[1, :1500], kept)
+        np.testing.assert_array_equal(one.reached[1, :1500], np.array(kept) + 1)
+    other.append(
+        np.array([1]),
+        Steps(x, x, np.array([1]), np.array([0.5]), x, np.array([True]), np.zeros(1)),
+    )
+    assert other.terminal[1, 1500]
