@@ -22,7 +22,7 @@ from robonav.lfd import (
     record,
     sketch,
 )
-from robonav.nnql import Course, Training, train
+from robonav.nnql import NavigationTask, TrainingResult, train
 from robonav.robot import Worlds, navigate, neighbour_slip, random_worlds
 
 from .runner.experiment import Case, Experiment
@@ -40,7 +40,7 @@ FAR = {"starts": ((10.0, 50.0), (50.0, 10.0)), "targets": ((90.0, 85.0), (50.0, 
 def world_of(case: Case) -> Worlds:
     """The world (a batch of one) that a panel shows."""
     if "episode" in case:
-        return Course().worlds([LEARNER], 0, EPISODES)[int(case["episode"]) - 1]
+        return NavigationTask().worlds([LEARNER], 0, EPISODES)[int(case["episode"]) - 1]
     ends: dict[str, Any] = FAR if case.get("starts") == "new" else {}
     drawn = random_worlds(
         int(case["world"]) + 1,
@@ -88,7 +88,7 @@ def search(case: Case, seed: int, scale: str) -> Numbers:
 
 
 @lru_cache(maxsize=1)
-def learned() -> Training:
+def learned() -> TrainingResult:
     """The one training that Fig. 4.2 looks into."""
     return train("nnql", seeds=[LEARNER], episodes=EPISODES, record=True)
 

@@ -51,3 +51,31 @@ class NetworkPolicy:
         if self.temperature > 0:
             z = z + self.temperature * rng.gumbel(size=z.shape)
         return z.argmax(axis=1).astype(np.int64)
+
+
+def sample_actions(
+    probabilities: NDArray[np.float64], uniforms: NDArray[np.float64]
+) -> NDArray[np.int64]:
+    """Draw one action from each row of probabilities, by inverting their cumulative sums.
+
+    Parameters
+    ----------
+    probabilities : (..., A) array
+        Of the actions.
+    uniforms : (...) array
+        Uniform random numbers in [0, 1), one for each action drawn.
+
+    Returns
+    -------
+    (...) array of int
+        Indices of actions.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks.policy import sample_actions
+    >>> sample_actions(np.array([[0.2, 0.5, 0.3]] * 3), np.array([0.1, 0.6, 0.9])).tolist()
+    [0, 1, 2]
+    """
+    passed = probabilities.cumsum(axis=-1) <= uniforms[..., None]
+    return np.minimum(passed.sum(axis=-1), probabilities.shape[-1] - 1)

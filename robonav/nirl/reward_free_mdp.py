@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.mdp import policies
 from robonav.mdp.gridworld import GridWorld
 from robonav.mdp.models import FiniteMDP
-from robonav.nnql.schedules import choose
+from robonav.networks.policy import sample_actions
 from robonav.validation import check_array, check_generator, check_integer, check_real
 
 Floats = NDArray[np.float64]
@@ -115,9 +115,9 @@ class FeaturedMDP:
         actions = np.empty_like(states)
         here = rng.choice(self.states, n, p=self.starts)
         for step in range(steps):
-            action = choose(chances[here], rng.random(n))
+            action = sample_actions(chances[here], rng.random(n))
             states[:, step], actions[:, step] = here, action
-            here = choose(self.transitions[action, here], rng.random(n))
+            here = sample_actions(self.transitions[action, here], rng.random(n))
         return Walks(states, actions)
 
 

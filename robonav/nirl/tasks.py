@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robonav.lfd.demonstrations import LEARNED
-from robonav.nnql.schedules import choose
+from robonav.networks.policy import sample_actions
 from robonav.robot import REFLEX, Encoder, Simulator, Worlds, random_worlds
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 from robonav.validation import check_integer, check_positive
@@ -100,7 +100,7 @@ def drive(
         asked = commands < 0
         if asked.any():
             inputs = encoder(sensing[asked])
-            actions = choose(chances(inputs), rng.random(len(inputs)))
+            actions = sample_actions(chances(inputs), rng.random(len(inputs)))
             commands[asked] = actions
             taken[running[asked]] += 1
             rows.append(

@@ -11,12 +11,12 @@ from .dqn import dqn
 from .nfq import nfq
 from .nnql import nnql, online
 from .reward import COZY_DISTANCE, Property, reward, state_property
-from .schedules import boltzmann, choose, falling
+from .schedules import geometric_schedule, softmax_policy
 from .targets import clip, cross_entropy, q_targets, shift
-from .trainer import STARTS, TARGETS, Course
-from .training import Training, weight_changes
+from .trainer import STARTS, TARGETS, NavigationTask
+from .training import TrainingResult, weight_changes
 
-METHODS: dict[str, Callable[..., Training]] = {
+METHODS: dict[str, Callable[..., TrainingResult]] = {
     "nnql": nnql,
     "online": online,
     "nfq": nfq,
@@ -29,7 +29,7 @@ def train(
     seeds: int | Sequence[int] = 16,
     episodes: int = 300,
     **settings: Any,
-) -> Training:
+) -> TrainingResult:
     """Train S networks by a method of this chapter: ``METHODS[method](seeds, episodes, **settings)``.
 
     Parameters
@@ -51,21 +51,20 @@ __all__ = [
     "METHODS",
     "STARTS",
     "TARGETS",
-    "Course",
+    "NavigationTask",
     "Property",
     "Training",
-    "boltzmann",
-    "choose",
     "clip",
     "cross_entropy",
     "dqn",
-    "falling",
+    "geometric_schedule",
     "nfq",
     "nnql",
     "online",
     "q_targets",
     "reward",
     "shift",
+    "softmax_policy",
     "state_property",
     "train",
     "weight_changes",

@@ -71,7 +71,7 @@ def logits(parameters, rows, x, z):
 
 
 @compiled
-def _pass(w1, b1, w2, b2, inputs, targets, rate, hidden, z, d1):
+def _pass(w1, b1, w2, b2, inputs, targets, gradient_step, hidden, z, d1):
     """Once through the pairs, a step of Eq. (4.12) after each; the mean cost, Eq. (4.11), met on the way."""
     cost = 0.0
     for i in range(len(inputs)):
@@ -84,7 +84,7 @@ def _pass(w1, b1, w2, b2, inputs, targets, rate, hidden, z, d1):
             odds *= 1.0 + e
             cost += max(z[a], 0.0) - target[a] * z[a]
             q = (1.0 if z[a] >= 0.0 else e) / (1.0 + e)
-            z[a] = rate * (q - target[a])
+            z[a] = gradient_step * (q - target[a])
             b2[a] -= z[a]
         cost += math.log(odds)
         for j in range(len(hidden)):
@@ -102,7 +102,9 @@ def _pass(w1, b1, w2, b2, inputs, targets, rate, hidden, z, d1):
 
 
 @compiled
-def descend(parameters, rows, inputs, targets, first, last, rate, passes, tolerance):
+def descend(
+    parameters, rows, inputs, targets, first, last, gradient_step, passes, tolerance
+):
     """Stochastic gradient descent, see :meth:`robonav.nnql.networks.Networks.descend`."""
     n, a = inputs.shape[2], targets.shape[2]
     h = (parameters.shape[1] - a) // (n + 1 + a)
@@ -112,7 +114,7 @@ def descend(parameters, rows, inputs, targets, first, last, rate, passes, tolera
         w1, b1, w2, b2 = unpacked(parameters[s], n, h, a)
         x, y = inputs[s, first[k] : last[k]], targets[s, first[k] : last[k]]
         for _ in range(passes):
-            cost = _pass(w1, b1, w2, b2, x, y, rate[k], hidden, z, d1)
+            cost = _pass(w1, b1, w2, b2, x, y, gradient_step[k], hidden, z, d1)
             if abs(before - cost) < tolerance:
                 break
             before = cost

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 from scipy.special import expit
 
 from .networks import Array, Networks, Rows
-from .schedules import Span, falling
+from .schedules import Schedule, geometric_schedule
 from .targets import RESCALE, q_targets
 
 
 @dataclass(frozen=True)
-class Steps:
+class Transitions:
     """What K robots went through in a step that their policy decided.
 
     Attributes
@@ -35,7 +35,7 @@ class Steps:
     fraction: Array
 
 
-class Learner:
+class Agent:
     """S networks that learn, or do not: this one does not.
 
     The networks' outputs, between 0 and 1, are the Q-values.
@@ -49,7 +49,7 @@ class Learner:
         q: Array = expit(self.networks.logits(rows, x[:, None])[:, 0])
         return q
 
-    def observe(self, rows: Rows, steps: Steps) -> None:
+    def observe(self, rows: Rows, steps: Transitions) -> None:
         """Learn from one step of each of ``rows``."""
 
     def close(self, rows: Rows, episodes: Rows) -> None:
@@ -64,7 +64,7 @@ class Learner:
         self.networks.load(np.arange(len(state["parameters"])), state["parameters"])
 
 
-class Accumulating(Learner):
+class NNQLAgent(Agent):
     """Online Q-learning that trains, after each step, on the pairs that this episode has gathered (Algorithm 8).
 
     Parameters
@@ -72,8 +72,8 @@ class Accumulating(Learner):
     networks : of S seeds.
     shape : (S, L, n, A): seeds, steps an episode lasts at most, inputs, actions.
     pairs : how many of the latest pairs to train on; 1 is one-step online Q-learning, L is NNQL.
-    alpha, gamma : learning rate and discount of Eq. (4.9).
-    rate : sigma of Eq. (4.12).
+    learning_rate, discount : learning rate and discount of Eq. (4.9).
+    gradient_step : sigma of Eq. (4.12).
     rescale : "clip" or "shift", see :data:`robonav.nnql.targets.RESCALE`.
     passes, tolerance : of gradient descent, see :meth:`Networks.descend`.
     """
@@ -84,9 +84,9 @@ class Accumulating(Learner):
         shape: tuple[int, int, int, int],
         *,
         pairs: int,
-        alpha: Span,
-        gamma: float,
-        rate: Span,
+        learning_rate: Schedule,
+        discount: float,
+        gradient_step: Schedule,
         rescale: str,
         passes: int,
         tolerance: float,
@@ -98,22 +98,27 @@ class Accumulating(Learner):
             np.empty((seeds, steps, actions)),
         )
         self.count = np.zeros(seeds, np.int64)
-        self.pairs, self.alpha, self.gamma, self.rate = pairs, alpha, gamma, rate
+        self.pairs, self.learning_rate, self.discount, self.gradient_step = (
+            pairs,
+            learning_rate,
+            discount,
+            gradient_step,
+        )
         self.rescale, self.passes, self.tolerance = RESCALE[rescale], passes, tolerance
 
-    def observe(self, rows: Rows, steps: Steps) -> None:
+    def observe(self, rows: Rows, steps: Transitions) -> None:
         """Lines 13 to 16 of Algorithm 8: update the value of the action taken, rescale, keep the pair, train."""
         following = np.where(
             steps.terminal, 0.0, self.values(rows, steps.reached).max(axis=1)
         )
-        alpha = falling(self.alpha, steps.fraction)
+        learning_rate = geometric_schedule(self.learning_rate, steps.fraction)
         q = q_targets(
             steps.values,
             steps.actions,
             steps.rewards,
             following,
-            alpha=alpha,
-            gamma=self.gamma,
+            learning_rate=learning_rate,
+            discount=self.discount,
         )
         self.inputs[rows, self.count[rows]] = steps.inputs
         self.targets[rows, self.count[rows]] = self.rescale(q)
@@ -121,7 +126,8 @@ class Accumulating(Learner):
         last = self.count[rows]
         self.networks.descend(
             rows, self.inputs, self.targets, np.maximum(last - self.pairs, 0), last,
-            rate=falling(self.rate, steps.fraction), passes=self.passes, tolerance=self.tolerance,
+            gradient_step=geometric_schedule(self.gradient_step, steps.fraction),
+            passes=self.passes, tolerance=self.tolerance,
         )  # fmt: skip
 
     def close(self, rows: Rows, episodes: Rows) -> None:

@@ -17,23 +17,23 @@ import numpy as np
 from robonav import atomic
 from robonav._version import __version__
 
-from .agents import Learner
-from .trainer import Diary
+from .agents import Agent
+from .trainer import EpisodeStatistics
 
 FORMAT = "robonav training 1"
-_DIARY = ("outcomes", "steps", "decisions", "returns")
+_STATISTICS = ("outcomes", "steps", "decisions", "returns")
 
 
 def save_checkpoint(
     path: str | Path,
     identity: dict[str, Any],
-    learner: Learner,
-    diary: Diary,
+    agent: Agent,
+    statistics: EpisodeStatistics,
     done: int,
 ) -> None:
     """Write what a training has come to after ``done`` episodes of every seed.
 
-    ``identity`` says which training it is: seeds, settings, course.
+    ``identity`` says which training it is: seeds, settings, task.
     """
     about = {
         "format": FORMAT,
@@ -44,15 +44,18 @@ def save_checkpoint(
     arrays: dict[str, Any] = {
         f"about.{key}": np.array(value) for key, value in about.items()
     }
-    arrays |= learner.state() | {name: getattr(diary, name) for name in _DIARY}
+    arrays |= agent.state() | {name: getattr(statistics, name) for name in _STATISTICS}
     with atomic.atomic_write(path) as file:
         np.savez(file, **arrays)
 
 
 def load_checkpoint(
-    path: str | Path, identity: dict[str, Any], learner: Learner, diary: Diary
+    path: str | Path,
+    identity: dict[str, Any],
+    agent: Agent,
+    statistics: EpisodeStatistics,
 ) -> int:
-    """Put learner and diary where a file left them, and return the number of episodes done; 0 if there is no file.
+    """Put agent and statistics where a file left them, and return the number of episodes done; 0 if there is no file.
 
     Raises
     ------
@@ -76,11 +79,11 @@ def load_checkpoint(
         )
     if about["training"] != _digest(identity):
         raise ValueError(
-            f"{name} belongs to a training with other seeds, settings or course"
+            f"{name} belongs to a training with other seeds, settings or task"
         )
-    for key in _DIARY:
-        getattr(diary, key)[:] = arrays.pop(key)
-    learner.restore(arrays)
+    for key in _STATISTICS:
+        getattr(statistics, key)[:] = arrays.pop(key)
+    agent.restore(arrays)
     return int(about["done"])
 
 

@@ -12,17 +12,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import check_integer, check_positive, check_real
 
-from .agents import Learner, Steps
+from .agents import Agent, Transitions
 from .networks import Array, Networks, Rows
-from .replay_buffer import Memory
-from .schedules import Span
-from .trainer import REPLAYING, Course, chance
-from .training import Common, Training, school
+from .replay_buffer import ReplayBuffer
+from .schedules import Schedule
+from .trainer import REPLAYING, NavigationTask, make_rng
+from .training import Common, TrainingResult, run_training
 
 _MOMENTS = (0.9, 0.999)  # Adam's, as Kingma and Ba (2015) have them
 
 
-class Replaying(Learner):
+class DQNAgent(Agent):
     """Trains, after each step, on steps drawn from all that were ever made; its outputs are linear.
 
     Parameters
@@ -30,10 +30,10 @@ class Replaying(Learner):
     networks, target : of S seeds; ``target`` is a copy, which stands still between refreshes.
     seeds : (S,).
     inputs : n.
-    gamma : discount.
-    rate : of Adam.
-    batch : steps drawn for an update.
-    refresh : updates after which the target network becomes the network.
+    discount : gamma.
+    gradient_step : of Adam.
+    batch_size : steps drawn for an update.
+    target_update_interval : updates after which the target network becomes the network.
     """
 
     def __init__(
@@ -43,31 +43,36 @@ class Replaying(Learner):
         seeds: tuple[int, ...],
         inputs: int,
         *,
-        gamma: float,
-        rate: float,
-        batch: int,
-        refresh: int,
+        discount: float,
+        gradient_step: float,
+        batch_size: int,
+        target_update_interval: int,
     ) -> None:
         super().__init__(networks)
         self.target, self.seeds = target, seeds
-        self.gamma, self.rate, self.batch, self.refresh = gamma, rate, batch, refresh
-        self.memory = Memory(len(seeds), inputs)
+        (
+            self.discount,
+            self.gradient_step,
+            self.batch_size,
+            self.target_update_interval,
+        ) = discount, gradient_step, batch_size, target_update_interval
+        self.memory = ReplayBuffer(len(seeds), inputs)
         self.first, self.second = (
             np.zeros_like(networks.parameters()) for _ in range(2)
         )
         self.episodes = np.zeros(len(seeds), np.int64)
-        self.draws = [chance(seed, REPLAYING, 0) for seed in seeds]
+        self.draws = [make_rng(seed, REPLAYING, 0) for seed in seeds]
 
     def values(self, rows: Rows, x: Array) -> Array:
         return self.networks.logits(rows, x[:, None])[:, 0]
 
-    def observe(self, rows: Rows, steps: Steps) -> None:
+    def observe(self, rows: Rows, steps: Transitions) -> None:
         self.memory.append(rows, steps)
-        ready = rows[self.memory.count[rows] >= self.batch]
+        ready = rows[self.memory.count[rows] >= self.batch_size]
         if len(ready):
-            updates = self.memory.count[ready] - self.batch + 1
+            updates = self.memory.count[ready] - self.batch_size + 1
             self._update(ready, updates)
-            due = ready[updates % self.refresh == 0]
+            due = ready[updates % self.target_update_interval == 0]
             if len(due):
                 self.target.load(due, self.networks.parameters()[due])
 
@@ -75,24 +80,24 @@ class Replaying(Learner):
         """Draw anew, so that training can go on from here without knowing what was drawn before."""
         self.episodes[rows] = episodes
         for row in rows:
-            self.draws[row] = chance(
+            self.draws[row] = make_rng(
                 self.seeds[row], REPLAYING, int(self.episodes[row])
             )
 
     def _update(self, rows: Rows, number: NDArray[np.int64]) -> None:
         """Update ``number`` (K,) of each of ``rows`` (K,): a step of Adam on a batch of its own."""
         drawn = [
-            self.draws[row].integers(self.memory.count[row], size=self.batch)
+            self.draws[row].integers(self.memory.count[row], size=self.batch_size)
             for row in rows
         ]
         x, actions, rewards, reached, terminal = self.memory.draw(rows, np.array(drawn))
         following = double_estimate(self.networks, self.target, rows, reached)
-        targets = rewards + self.gamma * np.where(terminal, 0.0, following)
+        targets = rewards + self.discount * np.where(terminal, 0.0, following)
         slope, _ = self.networks.slopes(rows, x, actions, targets, linear=True)
         step, self.first[rows], self.second[rows] = adam(
             slope, self.first[rows], self.second[rows], number[:, None]
         )
-        self.networks.subtract(rows, self.rate * step)
+        self.networks.subtract(rows, self.gradient_step * step)
 
     def state(self) -> dict[str, NDArray]:
         more = {"target": self.target.parameters()}
@@ -143,7 +148,7 @@ def adam(
 
     Returns
     -------
-    What to take off the parameters, times the rate; both moments after this step.
+    What to take off the parameters, times the step of gradient descent; both moments after this step.
     """
     (a, b), count = _MOMENTS, np.asarray(number, dtype=float)
     first, second = a * first + (1 - a) * slope, b * second + (1 - b) * slope**2
@@ -158,13 +163,13 @@ def dqn(
     seeds: int | Sequence[int] = 16,
     episodes: int = 300,
     *,
-    gamma: float = 0.7,
-    rate: float = 0.003,
-    temperature: Span = (0.9, 0.1),
-    batch: int = 32,
-    refresh: int = 1000,
+    discount: float = 0.7,
+    gradient_step: float = 0.003,
+    temperature: Schedule = (0.9, 0.1),
+    batch_size: int = 32,
+    target_update_interval: int = 1000,
     **common: Unpack[Common],
-) -> Training:
+) -> TrainingResult:
     """Deep Q-learning: after each step, one update on a batch drawn from all steps ever made.
 
     Three things set it apart from online Q-learning: replay, a target network that stands still between refreshes,
@@ -175,11 +180,11 @@ def dqn(
     ----------
     seeds : S, or the seeds themselves.
     episodes : E, each in a new world.
-    gamma : discount.
-    rate : of Adam.
+    discount : gamma.
+    gradient_step : of Adam.
     temperature : T of the Boltzmann policy, Eq. (4.7); a number, or its start and end.
-    batch : steps drawn for an update.
-    refresh : updates between two refreshes of the target network.
+    batch_size : steps drawn for an update.
+    target_update_interval : updates between two refreshes of the target network.
     common : see :class:`Common`.
 
     Raises
@@ -187,13 +192,15 @@ def dqn(
     ValueError, TypeError : if an argument is out of bounds.
     """
     settings: dict[str, Any] = {
-        "gamma": check_real("gamma", gamma, at_least=0, at_most=1),
-        "rate": check_positive("rate", rate),
-        "batch": check_integer("batch", batch, at_least=1),
-        "refresh": check_integer("refresh", refresh, at_least=1),
+        "discount": check_real("discount", discount, at_least=0, at_most=1),
+        "gradient_step": check_positive("gradient_step", gradient_step),
+        "batch_size": check_integer("batch_size", batch_size, at_least=1),
+        "target_update_interval": check_integer(
+            "target_update_interval", target_update_interval, at_least=1
+        ),
     }
     make = partial(_replaying, settings=settings)
-    return school(
+    return run_training(
         "dqn",
         make,
         seeds,
@@ -207,10 +214,8 @@ def dqn(
 def _replaying(
     networks: Networks,
     seeds: tuple[int, ...],
-    course: Course,
+    task: NavigationTask,
     *,
     settings: dict[str, Any],
-) -> Replaying:
-    return Replaying(
-        networks, deepcopy(networks), seeds, course.encoder.size, **settings
-    )
+) -> DQNAgent:
+    return DQNAgent(networks, deepcopy(networks), seeds, task.encoder.size, **settings)

@@ -32,15 +32,15 @@ class Networks(Protocol):
         first: Rows,
         last: Rows,
         *,
-        rate: Array,
+        gradient_step: Array,
         passes: int,
         tolerance: float,
     ) -> None:
         """Stochastic gradient descent on the cross-entropy, Eq. (4.11) and (4.12), for the networks ``rows`` (K,).
 
         Network ``rows[k]`` goes through the pairs ``first[k]`` to ``last[k]`` of its memory, rows of ``x`` (S, L, n)
-        and ``y`` (S, L, A), one at a time with step ``rate[k]``: at most ``passes`` times, and until the mean cost
-        moves by less than ``tolerance`` from one pass to the next.
+        and ``y`` (S, L, A), one at a time with step ``gradient_step[k]``: at most ``passes`` times, and until the mean
+        cost moves by less than ``tolerance`` from one pass to the next.
         """
 
     def slopes(
@@ -87,12 +87,12 @@ class CompiledNetworks:
         first: Rows,
         last: Rows,
         *,
-        rate: Array,
+        gradient_step: Array,
         passes: int,
         tolerance: float,
     ) -> None:
         _fast.descend(
-            self._parameters, rows, x, y, first, last, rate, passes, tolerance
+            self._parameters, rows, x, y, first, last, gradient_step, passes, tolerance
         )
 
     def slopes(
@@ -165,7 +165,7 @@ class TorchNetworks:
         first: Rows,
         last: Rows,
         *,
-        rate: Array,
+        gradient_step: Array,
         passes: int,
         tolerance: float,
     ) -> None:
@@ -180,18 +180,20 @@ class TorchNetworks:
                 k = going[step < counts[going]]
                 at = (rows[k], first[k] + step)
                 cost[k] += self._step(
-                    rows[k], self._there(x[at]), self._there(y[at]), rate[k]
+                    rows[k], self._there(x[at]), self._there(y[at]), gradient_step[k]
                 )
             cost /= np.maximum(counts, 1)
             going = going[np.abs(before - cost)[going] >= tolerance]
             before = cost
 
-    def _step(self, rows: Rows, x: torch.Tensor, y: torch.Tensor, rate: Array) -> Array:
+    def _step(
+        self, rows: Rows, x: torch.Tensor, y: torch.Tensor, gradient_step: Array
+    ) -> Array:
         """One step of Eq. (4.12) for each of ``rows``; the costs (K,) before it."""
         import torch
 
         (_, hidden, q), z = self._propagate(rows, x[:, None])
-        self._parameters[rows] -= self._there(rate)[:, None] * self._slopes(
+        self._parameters[rows] -= self._there(gradient_step)[:, None] * self._slopes(
             rows, x[:, None], hidden, q - y[:, None]
         )
         return self._back_here(

@@ -12,13 +12,13 @@ from scipy.special import expit
 
 from robonav.validation import check_integer, check_real
 
-from .agents import Learner, Steps
+from .agents import Agent, Transitions
 from .networks import Array, Networks, Rows
-from .replay_buffer import Memory
-from .schedules import Span
+from .replay_buffer import ReplayBuffer
+from .schedules import Schedule
 from .targets import clip
-from .trainer import Course
-from .training import Common, Training, school
+from .trainer import NavigationTask
+from .training import Common, TrainingResult, run_training
 
 _GROW, _SHRINK, _FIRST_STEP, _SIZES = (
     1.2,
@@ -28,15 +28,15 @@ _GROW, _SHRINK, _FIRST_STEP, _SIZES = (
 )  # of Rprop, as its authors have them
 
 
-class Fitting(Learner):
+class NFQAgent(Agent):
     """Keeps every step, and refits the network to all of them after every so many episodes.
 
     Parameters
     ----------
     networks : of S seeds.
     shape : (S, n).
-    gamma : discount.
-    collect : episodes between two refits.
+    discount : gamma.
+    episodes_per_fit : episodes between two refits.
     sweeps : targets are computed anew so often in a refit.
     epochs, tolerance : Rprop goes over all steps at most so many times, and until the mean cost settles.
     """
@@ -46,27 +46,35 @@ class Fitting(Learner):
         networks: Networks,
         shape: tuple[int, int],
         *,
-        gamma: float,
-        collect: int,
+        discount: float,
+        episodes_per_fit: int,
         sweeps: int,
         epochs: int,
         tolerance: float,
     ) -> None:
         super().__init__(networks)
-        self.memory = Memory(*shape)
-        self.gamma, self.collect, self.sweeps, self.epochs, self.tolerance = (
-            gamma,
-            collect,
+        self.memory = ReplayBuffer(*shape)
+        (
+            self.discount,
+            self.episodes_per_fit,
+            self.sweeps,
+            self.epochs,
+            self.tolerance,
+        ) = (
+            discount,
+            episodes_per_fit,
             sweeps,
             epochs,
             tolerance,
         )
 
-    def observe(self, rows: Rows, steps: Steps) -> None:
+    def observe(self, rows: Rows, steps: Transitions) -> None:
         self.memory.append(rows, steps)
 
     def close(self, rows: Rows, episodes: Rows) -> None:
-        for row in rows[(episodes % self.collect == 0) & (self.memory.count[rows] > 0)]:
+        for row in rows[
+            (episodes % self.episodes_per_fit == 0) & (self.memory.count[rows] > 0)
+        ]:
             self._refit(np.array([row]))
 
     def _refit(self, row: Rows) -> None:
@@ -74,7 +82,7 @@ class Fitting(Learner):
         x, actions, rewards, reached, terminal = self.memory.all_of(row)
         for _ in range(self.sweeps):
             following = expit(self.networks.logits(row, reached).max(axis=2))
-            targets = clip(rewards + self.gamma * np.where(terminal, 0.0, following))
+            targets = clip(rewards + self.discount * np.where(terminal, 0.0, following))
             fit(
                 self.networks,
                 row,
@@ -154,14 +162,14 @@ def nfq(
     seeds: int | Sequence[int] = 16,
     episodes: int = 300,
     *,
-    gamma: float = 0.9,
-    temperature: Span = (0.9, 0.05),
-    collect: int = 20,
+    discount: float = 0.9,
+    temperature: Schedule = (0.9, 0.05),
+    episodes_per_fit: int = 20,
     sweeps: int = 20,
     epochs: int = 30,
     tolerance: float = 1e-5,
     **common: Unpack[Common],
-) -> Training:
+) -> TrainingResult:
     """Neural fitted Q iteration: after every so many episodes, fit the network to all steps ever made.
 
     Targets are ``r + gamma max Q`` in [0, 1], computed anew at every sweep, and the whole batch is fitted with Rprop
@@ -172,9 +180,9 @@ def nfq(
     ----------
     seeds : S, or the seeds themselves.
     episodes : E, each in a new world.
-    gamma : discount.
+    discount : gamma.
     temperature : T of the Boltzmann policy, Eq. (4.7); a number, or its start and end.
-    collect : episodes between two refits.
+    episodes_per_fit : episodes between two refits.
     sweeps : how often a refit computes its targets anew.
     epochs, tolerance : Rprop goes over all steps at most so many times a sweep, and until the mean cost settles.
     common : see :class:`Common`.
@@ -184,14 +192,16 @@ def nfq(
     ValueError, TypeError : if an argument is out of bounds.
     """
     settings: dict[str, Any] = {
-        "gamma": check_real("gamma", gamma, at_least=0, at_most=1),
-        "collect": check_integer("collect", collect, at_least=1),
+        "discount": check_real("discount", discount, at_least=0, at_most=1),
+        "episodes_per_fit": check_integer(
+            "episodes_per_fit", episodes_per_fit, at_least=1
+        ),
         "sweeps": check_integer("sweeps", sweeps, at_least=1),
         "epochs": check_integer("epochs", epochs, at_least=1),
         "tolerance": check_real("tolerance", tolerance, at_least=0),
     }
     make = partial(_fitting, settings=settings)
-    return school(
+    return run_training(
         "nfq",
         make,
         seeds,
@@ -205,8 +215,8 @@ def nfq(
 def _fitting(
     networks: Networks,
     seeds: tuple[int, ...],
-    course: Course,
+    task: NavigationTask,
     *,
     settings: dict[str, Any],
-) -> Fitting:
-    return Fitting(networks, (len(seeds), course.encoder.size), **settings)
+) -> NFQAgent:
+    return NFQAgent(networks, (len(seeds), task.encoder.size), **settings)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .agents import Steps
+from .agents import Transitions
 from .networks import Rows
 
 _FIRST_ROOM = 1024  # steps a seed; doubled when full
 _KEPT = ("inputs", "actions", "rewards", "reached", "terminal")
 
 
-class Memory:
+class ReplayBuffer:
     """Transitions of S robots, n inputs each; what lies beyond ``count`` is not there yet.
 
     Attributes
@@ -30,7 +30,7 @@ class Memory:
         self.terminal = np.empty((seeds, _FIRST_ROOM), np.bool_)
         self.count = np.zeros(seeds, np.int64)
 
-    def append(self, rows: Rows, steps: Steps) -> None:
+    def append(self, rows: Rows, steps: Transitions) -> None:
         """Keep one step of each of ``rows``."""
         room = self.inputs.shape[1]
         if self.count[rows].max() == room:
@@ -48,7 +48,7 @@ class Memory:
         return tuple(getattr(self, name)[row[0], kept][None] for name in _KEPT)
 
     def draw(self, rows: Rows, steps: NDArray[np.int64]) -> tuple[NDArray, ...]:
-        """Steps (K, m) of each of ``rows``, in the same order as :meth:`all_of`: each (K, m, ...)."""
+        """Transitions (K, m) of each of ``rows``, in the same order as :meth:`all_of`: each (K, m, ...)."""
         return tuple(getattr(self, name)[rows[:, None], steps] for name in _KEPT)
 
     def state(self) -> dict[str, NDArray]:

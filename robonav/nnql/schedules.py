@@ -11,11 +11,11 @@ from robonav.validation import check_array, check_real
 
 Array = NDArray[np.float64]
 
-Span = float | tuple[float, float]
+Schedule = float | tuple[float, float]
 """A number, or what it is at the start and at the end of training."""
 
 
-def boltzmann(q: ArrayLike, temperature: ArrayLike) -> Array:
+def softmax_policy(q: ArrayLike, temperature: ArrayLike) -> Array:
     """Probabilities of the actions, Eq. (4.7): ``exp(Q / T)`` over its sum.
 
     The largest Q is subtracted first, which leaves the quotient as it is and every exponential within 1.
@@ -42,13 +42,7 @@ def boltzmann(q: ArrayLike, temperature: ArrayLike) -> Array:
     return weights / weights.sum(axis=-1, keepdims=True)
 
 
-def choose(probabilities: Array, uniforms: Array) -> NDArray[np.int64]:
-    """Actions (...): those into whose share of [0, 1) the ``uniforms`` (...) fall; probabilities are (..., A)."""
-    reached = probabilities.cumsum(axis=-1) <= uniforms[..., None]
-    return np.minimum(reached.sum(axis=-1), probabilities.shape[-1] - 1)
-
-
-def falling(span: Span, fraction: ArrayLike) -> Array:
+def geometric_schedule(span: Schedule, fraction: ArrayLike) -> Array:
     """A quantity that falls by the same factor each episode: ``start (end / start)^fraction``.
 
     Parameters
@@ -60,7 +54,7 @@ def falling(span: Span, fraction: ArrayLike) -> Array:
     return start * (end / start) ** np.asarray(fraction, dtype=float)
 
 
-def check_span(name: str, value: Any, *, at_most: float = np.inf) -> Span:
+def check_schedule(name: str, value: Any, *, at_most: float = np.inf) -> Schedule:
     """A positive number, or a pair of them, as start and end."""
     if isinstance(value, tuple | list):
         if len(value) != 2:

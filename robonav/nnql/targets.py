@@ -16,8 +16,8 @@ def q_targets(
     rewards: Array,
     next_values: Array,
     *,
-    alpha: float | Array,
-    gamma: float,
+    learning_rate: float | Array,
+    discount: float,
 ) -> Array:
     """Q-values (N, A) after one update, Eq. (4.9): that of the action taken moves, the others stay.
 
@@ -27,11 +27,11 @@ def q_targets(
     actions : (N,) taken there.
     rewards : (N,) received.
     next_values : (N,) greatest value in the states reached; 0 where the episode ended.
-    alpha : learning rate, a number or (N,), 0 to 1.
-    gamma : discount, 0 to 1.
+    learning_rate : learning rate, a number or (N,), 0 to 1.
+    discount : gamma, 0 to 1.
     """
     updated, taken = q.copy(), (np.arange(len(q)), actions)
-    updated[taken] += alpha * (rewards + gamma * next_values - q[taken])
+    updated[taken] += learning_rate * (rewards + discount * next_values - q[taken])
     return updated
 
 

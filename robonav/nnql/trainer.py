@@ -1,7 +1,7 @@
 """The training loop of Algorithm 8, for S seeds at once and for every method of this chapter.
 
 Each seed has its own worlds, its own chance and its own network, so its training does not depend on which seeds train
-beside it. A learner says what is learned from a step; nothing else differs between the methods.
+beside it. An agent says what is learned from a step; nothing else differs between the methods.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from robonav.networks.policy import sample_actions
 from robonav.progress import Progress
 from robonav.robot import (
     NNQL_SENSORS,
@@ -27,10 +28,10 @@ from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 from robonav.robot.environments import Reward
 from robonav.validation import check_integer, check_positive
 
-from .agents import Learner, Steps
+from .agents import Agent, Transitions
 from .networks import Array, Rows
 from .reward import reward
-from .schedules import Span, boltzmann, choose, falling
+from .schedules import Schedule, geometric_schedule, softmax_policy
 
 STARTS = ((10.0, 10.0), (90.0, 10.0))
 TARGETS = ((90.0, 90.0), (10.0, 90.0))
@@ -39,16 +40,16 @@ WAITING = (
     9  # an outcome the simulator does not know: it leaves such a robot where it is
 )
 
-INITIAL, EXPLORING, PRACTISING, REPLAYING = range(4)
+INITIAL, EXPLORING, WORLDS, REPLAYING = range(4)
 
 
-def chance(seed: int, purpose: int, *more: int) -> np.random.Generator:
+def make_rng(seed: int, purpose: int, *more: int) -> np.random.Generator:
     """The generator of one seed for one purpose, such as exploring in one episode."""
     return np.random.default_rng([seed, purpose, *more])
 
 
 @dataclass(frozen=True)
-class Course:
+class NavigationTask:
     """What a robot trains on (section 4.5): worlds, speed, senses and reward.
 
     Attributes
@@ -80,7 +81,7 @@ class Course:
     def worlds(self, seeds: Sequence[int], first: int, last: int) -> Worlds:
         """The worlds of episodes ``first`` to ``last`` of each seed, one seed after the other."""
         keys = [
-            world_keys(last, int(chance(seed, PRACTISING).integers(2**63)))[first:]
+            world_keys(last, int(make_rng(seed, WORLDS).integers(2**63)))[first:]
             for seed in seeds
         ]
         return draw_worlds(
@@ -88,7 +89,7 @@ class Course:
         )
 
 
-class Diary:
+class EpisodeStatistics:
     """How the training of S seeds went, episode by episode; arrays (S, E).
 
     Attributes
@@ -111,50 +112,50 @@ class Diary:
         self.parameters: list[list[Array]] = [[] for _ in range(seeds)]
 
 
-class Practice:
+class Trainer:
     """S robots on their way through episodes ``first`` to ``last`` of the E that their training takes.
 
     Parameters
     ----------
-    learner : what is learned.
-    course : what is practised.
+    agent : what is learned.
+    task : what the robot trains on.
     seeds : (S,) of the robots.
     episodes : E.
     temperature : T of the Boltzmann policy, from the first of the E episodes to the last.
-    diary : written as they go.
+    statistics : written as they go.
     """
 
     def __init__(
         self,
-        learner: Learner,
-        course: Course,
+        agent: Agent,
+        task: NavigationTask,
         seeds: Sequence[int],
         episodes: int,
-        temperature: Span,
-        diary: Diary,
+        temperature: Schedule,
+        statistics: EpisodeStatistics,
         *,
         first: int,
         last: int,
     ) -> None:
-        self.learner, self.course, self.seeds, self.episodes = (
-            learner,
-            course,
+        self.agent, self.task, self.seeds, self.episodes = (
+            agent,
+            task,
             seeds,
             episodes,
         )
-        self.temperature, self.diary, self.first, self.last = (
+        self.temperature, self.statistics, self.first, self.last = (
             temperature,
-            diary,
+            statistics,
             first,
             last,
         )
         self.episode = np.full(len(seeds), first)
-        self.uniforms = np.empty((len(seeds), course.max_steps))
+        self.uniforms = np.empty((len(seeds), task.max_steps))
         self.tracks: list[list[Array]] = [[] for _ in seeds]
-        self.worlds = course.worlds(seeds, first, last)
+        self.worlds = task.worlds(seeds, first, last)
         everyone = np.arange(len(seeds))
         self.simulator = Simulator(
-            self._worlds_of(everyone), course.speed, max_steps=course.max_steps
+            self._worlds_of(everyone), task.speed, max_steps=task.max_steps
         )
         self._begin(everyone)
 
@@ -171,7 +172,7 @@ class Practice:
         """Let reflexes drive until half the robots or more wait for their policy: these."""
         while True:
             self._turn_over()
-            commands = self.course.reflex(self.sensing, self.course.speed)
+            commands = self.task.reflex(self.sensing, self.task.speed)
             running = self.simulator.outcome == RUNNING
             asked = running & (commands < 0)
             if 2 * asked.sum() >= running.sum():
@@ -182,23 +183,27 @@ class Practice:
         """One step of ``rows`` by their policy: lines 9 to 16 of Algorithm 8."""
         before, episode = self.sensing[rows], self.episode[rows]
         fraction = episode / max(self.episodes - 1, 1)
-        inputs = self.course.encoder(before)
-        values = self.learner.values(rows, inputs)
-        probabilities = boltzmann(values, falling(self.temperature, fraction))
+        inputs = self.task.encoder(before)
+        values = self.agent.values(rows, inputs)
+        probabilities = softmax_policy(
+            values, geometric_schedule(self.temperature, fraction)
+        )
         commands = np.zeros(len(self.seeds), np.int64)
-        commands[rows] = choose(
+        commands[rows] = sample_actions(
             probabilities, self.uniforms[rows, self.simulator.steps[rows]]
         )
         self._move(rows, commands)
         after, outcome = self.sensing[rows], self.simulator.outcome[rows]
-        rewards = np.asarray(self.course.reward(before, after, outcome), dtype=float)
-        self.diary.decisions[rows, episode] += 1
-        self.diary.returns[rows, episode] += rewards
+        rewards = np.asarray(self.task.reward(before, after, outcome), dtype=float)
+        self.statistics.decisions[rows, episode] += 1
+        self.statistics.returns[rows, episode] += rewards
         terminal = (outcome == ARRIVED) | (outcome == COLLIDED)
-        reached = self.course.encoder(after)
-        self.learner.observe(
+        reached = self.task.encoder(after)
+        self.agent.observe(
             rows,
-            Steps(inputs, values, commands[rows], rewards, reached, terminal, fraction),
+            Transitions(
+                inputs, values, commands[rows], rewards, reached, terminal, fraction
+            ),
         )
 
     def _move(self, rows: Rows, commands: NDArray[np.int64]) -> None:
@@ -210,7 +215,7 @@ class Practice:
         simulator.step(commands)
         simulator.outcome[waiting] = RUNNING
         self.sensing = simulator.sense()
-        if self.diary.record:
+        if self.statistics.record:
             for row in rows:
                 self.tracks[row].append(simulator.poses[row].copy())
 
@@ -223,7 +228,7 @@ class Practice:
             return
         self._note(over)
         self.episode[over] += 1
-        self.learner.close(over, self.episode[over])
+        self.agent.close(over, self.episode[over])
         fresh = over[self.episode[over] < self.last]
         if len(fresh):
             self.simulator.restart(fresh, self._worlds_of(fresh))
@@ -237,20 +242,20 @@ class Practice:
     def _begin(self, rows: Rows) -> None:
         self.sensing = self.simulator.sense()
         for row in rows:
-            draws = chance(self.seeds[row], EXPLORING, int(self.episode[row]))
-            self.uniforms[row] = draws.random(self.course.max_steps)
-        if self.diary.record:
+            draws = make_rng(self.seeds[row], EXPLORING, int(self.episode[row]))
+            self.uniforms[row] = draws.random(self.task.max_steps)
+        if self.statistics.record:
             for row in rows:
                 self.tracks[row] = [self.simulator.poses[row].copy()]
-                self.diary.parameters[row].append(
-                    self.learner.networks.parameters()[row]
+                self.statistics.parameters[row].append(
+                    self.agent.networks.parameters()[row]
                 )
 
     def _note(self, rows: Rows) -> None:
         """Write down how the episodes of ``rows`` went."""
-        diary, episode = self.diary, self.episode[rows]
-        diary.outcomes[rows, episode] = self.simulator.outcome[rows]
-        diary.steps[rows, episode] = self.simulator.steps[rows]
-        if diary.record:
+        statistics, episode = self.statistics, self.episode[rows]
+        statistics.outcomes[rows, episode] = self.simulator.outcome[rows]
+        statistics.steps[rows, episode] = self.simulator.steps[rows]
+        if statistics.record:
             for row in rows:
-                diary.paths[row].append(np.array(self.tracks[row]))
+                statistics.paths[row].append(np.array(self.tracks[row]))

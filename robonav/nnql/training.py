@@ -17,17 +17,24 @@ from robonav.progress import Progress
 from robonav.robot import OUTCOMES, Encoder
 from robonav.validation import check_integer
 
-from .agents import Learner
+from .agents import Agent
 from .checkpoints import load_checkpoint, save_checkpoint
 from .networks import CompiledNetworks, Networks, TorchNetworks, network_of
-from .schedules import Span, check_span
-from .trainer import ACTIONS, INITIAL, Course, Diary, Practice, chance
+from .schedules import Schedule, check_schedule
+from .trainer import (
+    ACTIONS,
+    INITIAL,
+    EpisodeStatistics,
+    NavigationTask,
+    Trainer,
+    make_rng,
+)
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Training:
+class TrainingResult:
     """S trained networks and how their training went, over E episodes.
 
     Attributes
@@ -56,7 +63,7 @@ class Training:
     history: Network | None = None
     paths: tuple[tuple[Array, ...], ...] | None = None
 
-    def __getitem__(self, row: int) -> Training:
+    def __getitem__(self, row: int) -> TrainingResult:
         """The training of one seed, the same as if it had trained alone."""
         if not 0 <= row < len(self.seeds):
             raise IndexError(f"row must be 0 to {len(self.seeds) - 1}, got {row}")
@@ -92,7 +99,7 @@ class Common(TypedDict, total=False):
 
     Attributes
     ----------
-    course : what is practised.
+    task : what the robot trains on.
     hidden : units of the hidden layer.
     device : "cpu" for compiled kernels, or a device that torch has, such as "cuda".
     record : keep the networks and the paths of every episode.
@@ -101,7 +108,7 @@ class Common(TypedDict, total=False):
     progress : called as ``progress(episodes done, S * E)``.
     """
 
-    course: Course
+    task: NavigationTask
     hidden: int
     device: str
     record: bool
@@ -110,28 +117,28 @@ class Common(TypedDict, total=False):
     progress: Progress | None
 
 
-def school(
+def run_training(
     method: str,
-    make_learner: Callable[[Networks, tuple[int, ...], Course], Learner],
+    make_agent: Callable[[Networks, tuple[int, ...], NavigationTask], Agent],
     seeds: int | Sequence[int],
     episodes: int,
     *,
-    temperature: Span,
+    temperature: Schedule,
     settings: dict[str, Any],
-    course: Course | None = None,
+    task: NavigationTask | None = None,
     hidden: int = 8,
     device: str = "cpu",
     record: bool = False,
     checkpoint: str | Path | None = None,
     every: int = 50,
     progress: Progress | None = None,
-) -> Training:
+) -> TrainingResult:
     """Train S networks by one method; see :class:`Common` for what is not said here.
 
     Parameters
     ----------
     method : its name.
-    make_learner : from S networks with random weights, S seeds and the course, what learns.
+    make_agent : from S networks with random weights, S seeds and the task, what learns.
     seeds : S, for the seeds 0 to S - 1; or the seeds themselves.
     episodes : E.
     temperature : T of the Boltzmann policy, from the first episode to the last.
@@ -141,31 +148,31 @@ def school(
     ------
     ValueError, TypeError : if an argument is out of bounds, or a checkpoint is of another training.
     """
-    course = course or Course()
+    task = task or NavigationTask()
     numbers = check_seeds(seeds)
     check_integer("episodes", episodes, at_least=1)
     check_integer("every", every, at_least=1)
-    sizes = (course.encoder.size, check_integer("hidden", hidden, at_least=1), ACTIONS)
+    sizes = (task.encoder.size, check_integer("hidden", hidden, at_least=1), ACTIONS)
     settings = {
-        "temperature": check_span("temperature", temperature),
+        "temperature": check_schedule("temperature", temperature),
         "hidden": hidden,
         **settings,
     }
     start = stacked(
-        [random_network(sizes, seed=chance(seed, INITIAL)) for seed in numbers]
+        [random_network(sizes, seed=make_rng(seed, INITIAL)) for seed in numbers]
     )
     networks: Networks = (
         CompiledNetworks(start) if device == "cpu" else TorchNetworks(start, device)
     )
-    learner, diary = (
-        make_learner(networks, numbers, course),
-        Diary(len(numbers), episodes, record=record),
+    agent, statistics = (
+        make_agent(networks, numbers, task),
+        EpisodeStatistics(len(numbers), episodes, record=record),
     )
     identity = {
         "method": method,
         "seeds": numbers,
         "episodes": episodes,
-        "course": course,
+        "task": task,
         "settings": settings,
     }
     done = 0
@@ -174,47 +181,51 @@ def school(
             raise ValueError(
                 "record must be False with a checkpoint, which does not hold the history"
             )
-        done = load_checkpoint(checkpoint, identity, learner, diary)
+        done = load_checkpoint(checkpoint, identity, agent, statistics)
     while done < episodes:
         last = episodes if checkpoint is None else min(done + every, episodes)
-        Practice(
-            learner,
-            course,
+        Trainer(
+            agent,
+            task,
             numbers,
             episodes,
             temperature,
-            diary,
+            statistics,
             first=done,
             last=last,
         ).run(progress)
         done = last
         if checkpoint is not None:
-            save_checkpoint(checkpoint, identity, learner, diary, done)
-    return _training(method, numbers, learner, course, sizes, diary, settings)
+            save_checkpoint(checkpoint, identity, agent, statistics, done)
+    return _training(method, numbers, agent, task, sizes, statistics, settings)
 
 
 def _training(
     method: str,
     seeds: tuple[int, ...],
-    learner: Learner,
-    course: Course,
+    agent: Agent,
+    task: NavigationTask,
     sizes: tuple[int, ...],
-    diary: Diary,
+    statistics: EpisodeStatistics,
     settings: dict[str, Any],
-) -> Training:
-    parameters = learner.networks.parameters()
+) -> TrainingResult:
+    parameters = agent.networks.parameters()
     history, paths = None, None
-    if diary.record:
+    if statistics.record:
         past = np.array(
-            [[*begun, parameters[row]] for row, begun in enumerate(diary.parameters)]
+            [
+                [*begun, parameters[row]]
+                for row, begun in enumerate(statistics.parameters)
+            ]
         )
         history, paths = (
             network_of(past, sizes),
-            tuple(tuple(drives) for drives in diary.paths),
+            tuple(tuple(drives) for drives in statistics.paths),
         )
     network = network_of(parameters, sizes)
-    return Training(
-        method, seeds, network, course.encoder, OUTCOMES[diary.outcomes], diary.steps, diary.decisions, diary.returns,
+    return TrainingResult(
+        method, seeds, network, task.encoder, OUTCOMES[statistics.outcomes],
+        statistics.steps, statistics.decisions, statistics.returns,
         settings, history, paths,
     )  # fmt: skip
 

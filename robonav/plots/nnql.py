@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from robonav import style
 from robonav.experiments import Results
-from robonav.nnql import boltzmann
+from robonav.nnql import softmax_policy
 from robonav.nnql.reward import COZY_DISTANCE, REWARDS, reward_row
 from robonav.robot import SENSOR_RANGE, Action, Sensing, Worlds
 from robonav.robot._fast import RUNNING
@@ -79,7 +79,7 @@ def draw_boltzmann(
 ) -> None:
     """How likely each action is at temperatures from cold to hot, for Q-values (5,)."""
     temperatures = np.geomspace(coldest, hottest, 200)
-    shares = boltzmann(np.tile(np.asarray(q, dtype=float), (200, 1)), temperatures)
+    shares = softmax_policy(np.tile(np.asarray(q, dtype=float), (200, 1)), temperatures)
     for name, value, share, colour in zip(
         ACTIONS, np.asarray(q), shares.T, ACTION_COLOURS, strict=True
     ):
@@ -96,7 +96,7 @@ def animate_boltzmann(q: ArrayLike, temperatures: Sequence[float]) -> FuncAnimat
 
     def draw(frame: int) -> list:
         axes.clear()
-        axes.bar(ACTIONS, boltzmann(q, temperatures[frame]), color=ACTION_COLOURS)
+        axes.bar(ACTIONS, softmax_policy(q, temperatures[frame]), color=ACTION_COLOURS)
         axes.set(
             ylim=(0, 1), ylabel="probability", title=f"$T$ = {temperatures[frame]:.2g}"
         )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robonav.networks import NetworkPolicy
-from robonav.nnql import STARTS, TARGETS, Course
+from robonav.nnql import STARTS, TARGETS, NavigationTask
 from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
 
 from ..outcome_rates import rates
@@ -34,9 +34,9 @@ BLOCK = 30  # episodes that Fig. 4.4 and 4.6 count successes in
 Numbers = Mapping[str, ArrayLike]
 
 
-def course(*, target: str = "number", **changes: Any) -> Course:
+def course(*, target: str = "number", **changes: Any) -> NavigationTask:
     """What section 4.5 trains on, with the target's sector written in one way or another."""
-    return Course(
+    return NavigationTask(
         **({"encoder": Encoder(NNQL_SENSORS, walls=True, target=target)} | changes)
     )
 
@@ -50,7 +50,7 @@ def new_worlds(n: int, seed: int, obstacles: int = 10, moving: int = 0) -> World
 
 def driven(policy: Policy, worlds: Worlds, speed: float = SPEED) -> dict[str, float]:
     """How drives of 400 steps at most end, in per cent (Algorithm 9)."""
-    return rates(navigate(policy, worlds, speed, Course().max_steps))
+    return rates(navigate(policy, worlds, speed, NavigationTask().max_steps))
 
 
 def judged(

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from robonav.nnql import METHODS, Training
+from robonav.nnql import METHODS, TrainingResult, train
 
 from ..runner.experiment import Case, Experiment, Results
 from .setup import EPISODES, NAVIGATIONS, SHORTENED, Numbers, course, driven, new_worlds
@@ -91,12 +91,12 @@ def trained(
     *,
     length: float = 1.0,
     **changes: Any,
-) -> Training:
+) -> TrainingResult:
     """One seed of a method with settings such as :func:`trial_settings` gives, or their JSON.
 
     ``length`` is of the training, in times the usual; ``changes`` are what is not as in section 4.5, see
-    :class:`robonav.nnql.Course`, and ``record``. At the thesis's scale seeds train ``TOGETHER``, which is quicker than
-    one by one and comes to the same. What was trained once in a process is not trained again: several tables look at
+    :class:`robonav.nnql.NavigationTask`, and ``record``. At the thesis's scale seeds train ``TOGETHER``, which is
+    quicker than one by one and comes to the same. What was trained once in a process is not trained again: several tables look at
     the same networks.
     """
     together, episodes = TOGETHER[scale], round(EPISODES * length)
@@ -124,16 +124,30 @@ def _trained(
     episodes: int,
     settings: str,
     changes: tuple[tuple[str, Any], ...],
-) -> Training:
-    options: dict[str, Any] = {
-        name: _span(value) for name, value in json.loads(settings).items()
-    }
+) -> TrainingResult:
+    options = arguments(json.loads(settings))
     of_course = dict(changes)
     record = bool(of_course.pop("record", False))
     where = course(target=options.pop("target"), **of_course)
     if "fitting" in options:
         options["sweeps"], options["epochs"] = options.pop("fitting")
-    return METHODS[method](seeds, episodes, course=where, record=record, **options)
+    return train(method, seeds, episodes, task=where, record=record, **options)
+
+
+ARGUMENTS = {
+    "alpha": "learning_rate",
+    "gamma": "discount",
+    "rate": "gradient_step",
+    "collect": "episodes_per_fit",
+    "refresh": "target_update_interval",
+    "batch": "batch_size",
+}
+"""What :func:`robonav.nnql.train` calls the settings that the results have under an older name."""
+
+
+def arguments(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Settings of a trial, as :func:`robonav.nnql.train` takes them."""
+    return {ARGUMENTS.get(name, name): _span(value) for name, value in settings.items()}
 
 
 def _span(value: Any) -> Any:

@@ -13,10 +13,10 @@ from robonav.lfd import Demonstrations, demonstrate
 from robonav.lfd.demonstrations import LEARNED
 from robonav.nirl import learn_under, most_frequent, most_telling, shown_steps
 from robonav.nirl.methods import Refinement
-from robonav.nnql import Course, nnql
+from robonav.nnql import NavigationTask, train
 from robonav.robot import Policy, freer_side, neighbour_slip, random_worlds
 
-from ..chapter4.tuning import block
+from ..chapter4.tuning import arguments, block
 from ..runner.experiment import Case, Experiment
 from .ablations import member
 from .setup import (
@@ -102,9 +102,15 @@ def by_table(seed: int, length: float, obstacles: int, speed: float) -> Policy:
 def _by_table(
     seeds: range, length: float, obstacles: int, speed: float
 ) -> Sequence[Policy]:
-    ground = Course(obstacles, speed=speed, starts=[(10, 10)], targets=[(90, 90)])
-    return nnql(
-        seeds, round(EPISODES * length), course=ground, **TABLE_SETTINGS
+    ground = NavigationTask(
+        obstacles, speed=speed, starts=[(10, 10)], targets=[(90, 90)]
+    )
+    return train(
+        "nnql",
+        seeds,
+        round(EPISODES * length),
+        task=ground,
+        **arguments(TABLE_SETTINGS),
     ).policies
 
 

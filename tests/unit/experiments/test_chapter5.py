@@ -33,7 +33,7 @@ from robonav.experiments.chapter5.tuning import (
 )
 from robonav.networks import load_weights
 from robonav.nirl import NOTHING, ByEquation514, OneStep, accuracy, balanced_accuracy
-from robonav.nnql import Course, nnql
+from robonav.nnql import NavigationTask, train
 from robonav.robot import random_worlds
 
 ALL = (*tables.EXPERIMENTS, *ablations.EXPERIMENTS, *transfer.EXPERIMENTS, TUNING)
@@ -214,9 +214,11 @@ def test_a_reward_taken_elsewhere_needs_no_more_than_its_weights():
 
 def test_robots_trained_together_are_those_trained_alone():
     """Under Table 4.1 seeds share their training, to be quicker."""
-    settings_ = transfer.TABLE_SETTINGS
-    ground = Course(10, speed=1.0, starts=[(10, 10)], targets=[(90, 90)])
-    alone = nnql([transfer.TOGETHER + 1], 14, course=ground, **settings_).policies[0]
+    settings_ = transfer.arguments(transfer.TABLE_SETTINGS)
+    ground = NavigationTask(10, speed=1.0, starts=[(10, 10)], targets=[(90, 90)])
+    alone = train(
+        "nnql", [transfer.TOGETHER + 1], 14, task=ground, **settings_
+    ).policies[0]
     together = transfer.by_table(transfer.TOGETHER + 1, 0.01, 10, 1.0)
     np.testing.assert_array_equal(together.network.weights[0], alone.network.weights[0])
 

@@ -7,11 +7,11 @@ from scipy.special import expit
 from robonav.mdp import FiniteMDP, value_iteration
 from robonav.networks.backpropagation import cross_entropy_gradient
 from robonav.networks.multilayer_perceptron import Network, random_network, stacked
-from robonav.nnql.agents import Accumulating, Learner, Steps
-from robonav.nnql.dqn import Replaying, adam
+from robonav.nnql.agents import Agent, NNQLAgent, Transitions
+from robonav.nnql.dqn import DQNAgent, adam
 from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of, packed
-from robonav.nnql.nfq import Fitting, rprop
-from robonav.nnql.replay_buffer import Memory
+from robonav.nnql.nfq import NFQAgent, rprop
+from robonav.nnql.replay_buffer import ReplayBuffer
 
 GAMMA = 0.7
 END = 3  # a corridor of states 0 to 3: action 0 goes left, 1 right; 3 is the end and worth 1
@@ -28,7 +28,7 @@ def corridor_values():
     return mdp.backup(value_iteration(mdp, tolerance=1e-9).values)[:END]
 
 
-def corridor_steps(learner, n, seeds=2, seed=0):
+def corridor_steps(agent, n, seeds=2, seed=0):
     """Random steps in the corridor, one of each seed at a time."""
     rng, rows = np.random.default_rng(seed), np.arange(seeds)
     for k in range(n):
@@ -36,10 +36,10 @@ def corridor_steps(learner, n, seeds=2, seed=0):
         reached = np.where(action == 1, state + 1, np.maximum(state - 1, 0))
         inputs, after = np.eye(4)[state], np.eye(4)[reached]
         done = reached == END
-        values = learner.values(rows, inputs)
+        values = agent.values(rows, inputs)
         yield (
             rows,
-            Steps(
+            Transitions(
                 inputs,
                 values,
                 action,
@@ -57,37 +57,37 @@ def networks(sizes=(4, 8, 2), seeds=2):
     )
 
 
-def learned_values(learner):
+def learned_values(agent):
     return np.stack(
-        [learner.values(np.full(END, row), np.eye(4)[:END]) for row in range(2)]
+        [agent.values(np.full(END, row), np.eye(4)[:END]) for row in range(2)]
     )
 
 
 def test_nfq_converges_to_the_known_values():
-    learner = Fitting(
+    agent = NFQAgent(
         networks(),
         (2, 4),
-        gamma=GAMMA,
-        collect=1,
+        discount=GAMMA,
+        episodes_per_fit=1,
         sweeps=12,
         epochs=300,
         tolerance=1e-9,
     )
-    for rows, steps in corridor_steps(learner, 60):
-        learner.observe(rows, steps)
-    learner.close(np.arange(2), np.array([1, 1]))
+    for rows, steps in corridor_steps(agent, 60):
+        agent.observe(rows, steps)
+    agent.close(np.arange(2), np.array([1, 1]))
     np.testing.assert_allclose(
-        learned_values(learner), [corridor_values()] * 2, atol=0.02
+        learned_values(agent), [corridor_values()] * 2, atol=0.02
     )
 
 
 def test_nfq_looks_at_nothing_beyond_the_end():
-    learner, rows = (
-        Fitting(
+    agent, rows = (
+        NFQAgent(
             networks(),
             (2, 4),
-            gamma=GAMMA,
-            collect=1,
+            discount=GAMMA,
+            episodes_per_fit=1,
             sweeps=3,
             epochs=300,
             tolerance=0,
@@ -95,9 +95,9 @@ def test_nfq_looks_at_nothing_beyond_the_end():
         np.arange(2),
     )
     x, last = np.eye(4)[[2, 2]], np.array([True, True])
-    learner.observe(
+    agent.observe(
         rows,
-        Steps(
+        Transitions(
             x,
             x[:, :2],
             np.array([1, 1]),
@@ -107,22 +107,29 @@ def test_nfq_looks_at_nothing_beyond_the_end():
             np.zeros(2),
         ),
     )
-    learner.close(rows, np.array([1, 1]))
-    np.testing.assert_allclose(learner.values(rows, x)[:, 1], 0.3, atol=0.01)
+    agent.close(rows, np.array([1, 1]))
+    np.testing.assert_allclose(agent.values(rows, x)[:, 1], 0.3, atol=0.01)
 
 
 def test_dqn_draws_from_all_that_was_ever_made(monkeypatch):
-    drawn, draw = [], Memory.draw
+    drawn, draw = [], ReplayBuffer.draw
     monkeypatch.setattr(
-        Memory,
+        ReplayBuffer,
         "draw",
         lambda memory, rows, steps: drawn.append(steps) or draw(memory, rows, steps),
     )
-    learner = Replaying(
-        networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=10, refresh=50
+    agent = DQNAgent(
+        networks(),
+        networks(),
+        (0, 1),
+        4,
+        discount=GAMMA,
+        gradient_step=0.01,
+        batch_size=10,
+        target_update_interval=50,
     )
-    for rows, steps in corridor_steps(learner, 200):
-        learner.observe(rows, steps)
+    for rows, steps in corridor_steps(agent, 200):
+        agent.observe(rows, steps)
     latest = np.array(drawn[-100:])  # (100, 2, 10) of between 100 and 200 steps
     made = np.arange(101, 201)[:, None, None]
     assert (latest < made).all()
@@ -132,30 +139,37 @@ def test_dqn_draws_from_all_that_was_ever_made(monkeypatch):
 
 
 def test_dqn_converges_to_the_known_values():
-    learner = Replaying(
-        networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=16, refresh=50
+    agent = DQNAgent(
+        networks(),
+        networks(),
+        (0, 1),
+        4,
+        discount=GAMMA,
+        gradient_step=0.01,
+        batch_size=16,
+        target_update_interval=50,
     )
-    for rows, steps in corridor_steps(learner, 900):
-        learner.observe(rows, steps)
+    for rows, steps in corridor_steps(agent, 900):
+        agent.observe(rows, steps)
     np.testing.assert_allclose(
-        learned_values(learner), [corridor_values()] * 2, atol=0.04
+        learned_values(agent), [corridor_values()] * 2, atol=0.04
     )
 
 
 def test_online_learning_converges_to_the_known_values():
     settings = {
         "pairs": 1,
-        "alpha": (0.8, 0.1),
-        "rate": (1.0, 0.1),
+        "learning_rate": (0.8, 0.1),
+        "gradient_step": (1.0, 0.1),
         "rescale": "clip",
         "passes": 4,
         "tolerance": 0,
     }
-    learner = Accumulating(networks(), (2, 3000, 4, 2), gamma=GAMMA, **settings)
-    for rows, steps in corridor_steps(learner, 3000):
-        learner.observe(rows, steps)
+    agent = NNQLAgent(networks(), (2, 3000, 4, 2), discount=GAMMA, **settings)
+    for rows, steps in corridor_steps(agent, 3000):
+        agent.observe(rows, steps)
     np.testing.assert_allclose(
-        learned_values(learner), [corridor_values()] * 2, atol=0.04
+        learned_values(agent), [corridor_values()] * 2, atol=0.04
     )
 
 
@@ -172,23 +186,23 @@ def random_steps(n, inputs=6, actions=3, seed=3):
 def test_accumulated_training_is_a_plain_loop(pairs):
     """Algorithm 8, lines 9 to 16, for one robot: chapter 3's network and gradient, one pair after the other."""
     network = random_network((6, 8, 3), seed=5)
-    learner = Accumulating(
-        CompiledNetworks(stacked([network])), (1, 50, 6, 3), pairs=pairs, alpha=(0.8, 0.1), gamma=GAMMA,
-        rate=(0.3, 0.05), rescale="clip", passes=2, tolerance=0.0,
+    agent = NNQLAgent(
+        CompiledNetworks(stacked([network])), (1, 50, 6, 3), pairs=pairs, learning_rate=(0.8, 0.1), discount=GAMMA,
+        gradient_step=(0.3, 0.05), rescale="clip", passes=2, tolerance=0.0,
     )  # fmt: skip
     gathered = []
     for k, (x, action, reward, reached, terminal, fraction) in enumerate(
         random_steps(40)
     ):
         if k == 25:  # a new episode
-            learner.close(np.array([0]), np.array([1]))
+            agent.close(np.array([0]), np.array([1]))
             gathered = []
         rows, one = np.array([0]), np.array([fraction])
-        values = learner.values(rows, x[None])
+        values = agent.values(rows, x[None])
         np.testing.assert_allclose(values[0], network.forward(x), rtol=1e-9)
-        learner.observe(
+        agent.observe(
             rows,
-            Steps(
+            Transitions(
                 x[None],
                 values,
                 np.array([action]),
@@ -206,68 +220,74 @@ def test_accumulated_training_is_a_plain_loop(pairs):
             * (reward + GAMMA * following - target[action])
         )
         gathered.append((x, np.clip(target, 0, 1)))
-        rate = 0.3 * (0.05 / 0.3) ** fraction
+        gradient_step = 0.3 * (0.05 / 0.3) ** fraction
         for _ in range(2):
             for x_i, y_i in gathered[-pairs:]:
                 slope = cross_entropy_gradient(network, x_i[None], y_i[None])
                 network = Network(
                     tuple(
-                        w - rate * d
+                        w - gradient_step * d
                         for w, d in zip(network.weights, slope.weights, strict=True)
                     ),
                     tuple(
-                        b - rate * d
+                        b - gradient_step * d
                         for b, d in zip(network.biases, slope.biases, strict=True)
                     ),
                 )
     np.testing.assert_allclose(
-        learner.networks.parameters(), packed(stacked([network])), rtol=1e-8, atol=1e-10
+        agent.networks.parameters(), packed(stacked([network])), rtol=1e-8, atol=1e-10
     )
 
 
 def test_stored_targets_stay_as_they_were_computed():
-    learner = Accumulating(
+    agent = NNQLAgent(
         networks(),
         (2, 9, 4, 2),
         pairs=9,
-        alpha=0.8,
-        gamma=GAMMA,
-        rate=0.3,
+        learning_rate=0.8,
+        discount=GAMMA,
+        gradient_step=0.3,
         rescale="clip",
         passes=1,
         tolerance=0,
     )
     kept = []
-    for rows, steps in corridor_steps(learner, 9):
-        learner.observe(rows, steps)
-        kept.append(learner.targets[:, learner.count[0] - 1].copy())
-    np.testing.assert_array_equal(learner.targets, np.stack(kept, axis=1))
+    for rows, steps in corridor_steps(agent, 9):
+        agent.observe(rows, steps)
+        kept.append(agent.targets[:, agent.count[0] - 1].copy())
+    np.testing.assert_array_equal(agent.targets, np.stack(kept, axis=1))
 
 
 def test_a_learner_that_does_not_learn():
-    learner = Learner(networks())
-    before = learner.networks.parameters()
-    for rows, steps in corridor_steps(learner, 3):
+    agent = Agent(networks())
+    before = agent.networks.parameters()
+    for rows, steps in corridor_steps(agent, 3):
         z = np.stack(
             [network_of(before, (4, 8, 2))[k].logits(steps.inputs[k]) for k in range(2)]
         )
         np.testing.assert_allclose(steps.values, expit(z))
-        learner.observe(rows, steps)
-    np.testing.assert_array_equal(learner.networks.parameters(), before)
+        agent.observe(rows, steps)
+    np.testing.assert_array_equal(agent.networks.parameters(), before)
 
 
 def test_nfq_fits_only_every_so_many_episodes():
-    learner = Fitting(
-        networks(), (2, 4), gamma=GAMMA, collect=3, sweeps=1, epochs=5, tolerance=0
+    agent = NFQAgent(
+        networks(),
+        (2, 4),
+        discount=GAMMA,
+        episodes_per_fit=3,
+        sweeps=1,
+        epochs=5,
+        tolerance=0,
     )
-    for rows, steps in corridor_steps(learner, 5):
-        learner.observe(rows, steps)
-    before = learner.networks.parameters()
-    learner.close(np.array([0, 1]), np.array([1, 2]))
-    np.testing.assert_array_equal(learner.networks.parameters(), before)
-    learner.close(np.array([1]), np.array([3]))
-    np.testing.assert_array_equal(learner.networks.parameters()[0], before[0])
-    assert (learner.networks.parameters()[1] != before[1]).any()
+    for rows, steps in corridor_steps(agent, 5):
+        agent.observe(rows, steps)
+    before = agent.networks.parameters()
+    agent.close(np.array([0, 1]), np.array([1, 2]))
+    np.testing.assert_array_equal(agent.networks.parameters(), before)
+    agent.close(np.array([1]), np.array([3]))
+    np.testing.assert_array_equal(agent.networks.parameters()[0], before[0])
+    assert (agent.networks.parameters()[1] != before[1]).any()
 
 
 def test_rprop_is_that_of_torch():
@@ -307,34 +327,33 @@ def test_adam_is_that_of_torch():
 
 def test_dqn_learns_from_the_double_estimate():
     """One update on one step: the network chooses the next action, the target network values it."""
-    learner = Replaying(
+    agent = DQNAgent(
         networks(seeds=1),
         networks(seeds=1),
         (0,),
         4,
-        gamma=GAMMA,
-        rate=0.01,
-        batch=1,
-        refresh=1000,
+        discount=GAMMA,
+        gradient_step=0.01,
+        batch_size=1,
+        target_update_interval=1000,
     )
     rng, zero = np.random.default_rng(1), np.array([0])
-    learner.target.load(
-        zero, learner.target.parameters() + 0.5 * rng.standard_normal((1, 58))
+    agent.target.load(
+        zero, agent.target.parameters() + 0.5 * rng.standard_normal((1, 58))
     )
     x, reached = np.eye(4)[[0]], np.eye(4)[[1]]
     own, target = (
-        network_of(n.parameters(), (4, 8, 2))[0]
-        for n in (learner.networks, learner.target)
+        network_of(n.parameters(), (4, 8, 2))[0] for n in (agent.networks, agent.target)
     )
     wanted = 0.2 + GAMMA * target.logits(reached[0])[own.logits(reached[0]).argmax()]
-    before, action = learner.networks.parameters(), np.array([[1]])
-    slope, _ = learner.networks.slopes(
+    before, action = agent.networks.parameters(), np.array([[1]])
+    slope, _ = agent.networks.slopes(
         zero, x[None], action, np.array([[wanted]]), linear=True
     )
-    values = learner.values(zero, x)
-    learner.observe(
+    values = agent.values(zero, x)
+    agent.observe(
         zero,
-        Steps(
+        Transitions(
             x,
             values,
             action[0],
@@ -346,47 +365,69 @@ def test_dqn_learns_from_the_double_estimate():
     )
     step, _, _ = adam(slope, np.zeros(58), np.zeros(58), 1)
     np.testing.assert_allclose(
-        learner.networks.parameters(), before - 0.01 * step, rtol=1e-12
+        agent.networks.parameters(), before - 0.01 * step, rtol=1e-12
     )
 
 
 def test_the_target_network_stands_still_between_refreshes():
-    learner = Replaying(
-        networks(), networks(), (0, 1), 4, gamma=GAMMA, rate=0.01, batch=2, refresh=5
+    agent = DQNAgent(
+        networks(),
+        networks(),
+        (0, 1),
+        4,
+        discount=GAMMA,
+        gradient_step=0.01,
+        batch_size=2,
+        target_update_interval=5,
     )
     stood = 0
-    for k, (rows, steps) in enumerate(corridor_steps(learner, 12)):
-        before = learner.target.parameters()
-        learner.observe(rows, steps)
+    for k, (rows, steps) in enumerate(corridor_steps(agent, 12)):
+        before = agent.target.parameters()
+        agent.observe(rows, steps)
         updates = k + 1 - 2 + 1
         if updates > 0 and updates % 5 == 0:
             np.testing.assert_array_equal(
-                learner.target.parameters(), learner.networks.parameters()
+                agent.target.parameters(), agent.networks.parameters()
             )
         else:
-            np.testing.assert_array_equal(learner.target.parameters(), before)
+            np.testing.assert_array_equal(agent.target.parameters(), before)
             stood += 1
     assert stood == 10
 
 
-def learner_of(kind, one, other):
+def agent_of(kind, one, other):
     if kind == "accumulating":
-        return Accumulating(
+        return NNQLAgent(
             one,
             (2, 40, 4, 2),
             pairs=40,
-            alpha=0.8,
-            gamma=GAMMA,
-            rate=0.3,
+            learning_rate=0.8,
+            discount=GAMMA,
+            gradient_step=0.3,
             rescale="clip",
             passes=2,
             tolerance=1e-3,
         )
     if kind == "fitting":
-        return Fitting(
-            one, (2, 4), gamma=GAMMA, collect=1, sweeps=2, epochs=20, tolerance=0
+        return NFQAgent(
+            one,
+            (2, 4),
+            discount=GAMMA,
+            episodes_per_fit=1,
+            sweeps=2,
+            epochs=20,
+            tolerance=0,
         )
-    return Replaying(one, other, (0, 1), 4, gamma=GAMMA, rate=0.01, batch=4, refresh=10)
+    return DQNAgent(
+        one,
+        other,
+        (0, 1),
+        4,
+        discount=GAMMA,
+        gradient_step=0.01,
+        batch_size=4,
+        target_update_interval=10,
+    )
 
 
 KINDS = ["accumulating", "fitting", "replaying"]
@@ -397,13 +438,13 @@ def test_torch_learns_what_the_compiled_kernels_learn(kind):
     """The same numbers from a tensor, which may lie on any device."""
     start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
     backends = (CompiledNetworks, lambda network: TorchNetworks(network, "cpu"))
-    both = [learner_of(kind, backend(start), backend(start)) for backend in backends]
-    for learner in both:
-        for rows, steps in corridor_steps(learner, 40):
-            learner.observe(rows, steps)
-        learner.close(np.arange(2), np.array([1, 1]))
+    both = [agent_of(kind, backend(start), backend(start)) for backend in backends]
+    for agent in both:
+        for rows, steps in corridor_steps(agent, 40):
+            agent.observe(rows, steps)
+        agent.close(np.arange(2), np.array([1, 1]))
     np.testing.assert_allclose(
-        *(learner.networks.parameters() for learner in both), rtol=1e-7, atol=1e-9
+        *(agent.networks.parameters() for agent in both), rtol=1e-7, atol=1e-9
     )
 
 
@@ -422,22 +463,22 @@ class Elsewhere(TorchNetworks):
 def test_no_tensor_is_made_on_another_device_than_the_networks(kind):
     """What holds for a device that every machine has holds for a graphics card: each tensor lies where it is told."""
     start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
-    learner = learner_of(kind, Elsewhere(start), Elsewhere(start))
-    for rows, steps in corridor_steps(learner, 12):
-        learner.observe(rows, steps)
-    learner.close(np.arange(2), np.array([1, 1]))
-    learner.restore(learner.state())
-    assert learner.networks._parameters.device.type == "meta"
+    agent = agent_of(kind, Elsewhere(start), Elsewhere(start))
+    for rows, steps in corridor_steps(agent, 12):
+        agent.observe(rows, steps)
+    agent.close(np.arange(2), np.array([1, 1]))
+    agent.restore(agent.state())
+    assert agent.networks._parameters.device.type == "meta"
 
 
 def test_memory_grows_and_comes_back():
-    memory, rng = Memory(2, 3), np.random.default_rng(0)
+    memory, rng = ReplayBuffer(2, 3), np.random.default_rng(0)
     kept = []
     for _ in range(1500):
         x = rng.random((1, 3))
         memory.append(
             np.array([1]),
-            Steps(
+            Transitions(
                 x,
                 x,
                 np.array([1]),
@@ -448,7 +489,7 @@ def test_memory_grows_and_comes_back():
             ),
         )
         kept.append(x[0])
-    other = Memory(2, 3)
+    other = ReplayBuffer(2, 3)
     other.restore(memory.state())
     for one in (memory, other):
         assert one.count.tolist() == [0, 1500]
@@ -456,6 +497,8 @@ def test_memory_grows_and_comes_back():
         np.testing.assert_array_equal(one.reached[1, :1500], np.array(kept) + 1)
     other.append(
         np.array([1]),
-        Steps(x, x, np.array([1]), np.array([0.5]), x, np.array([True]), np.zeros(1)),
+        Transitions(
+            x, x, np.array([1]), np.array([0.5]), x, np.array([True]), np.zeros(1)
+        ),
     )
     assert other.terminal[1, 1500]

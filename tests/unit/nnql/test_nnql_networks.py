@@ -28,7 +28,7 @@ def pairs(networks, length=12, seed=1):
     return x, rng.random((networks, length, SIZES[-1]))
 
 
-def plain_descent(network: Network, x, y, rate, passes, tolerance):
+def plain_descent(network: Network, x, y, gradient_step, passes, tolerance):
     """Eq. (4.12), example by example, with chapter 3's gradient; stops when the mean cost settles."""
     before, done = np.inf, 0
     for _ in range(passes):
@@ -38,11 +38,11 @@ def plain_descent(network: Network, x, y, rate, passes, tolerance):
             slope = cross_entropy_gradient(network, one[None], label[None])
             network = Network(
                 tuple(
-                    w - rate * d
+                    w - gradient_step * d
                     for w, d in zip(network.weights, slope.weights, strict=True)
                 ),
                 tuple(
-                    b - rate * d
+                    b - gradient_step * d
                     for b, d in zip(network.biases, slope.biases, strict=True)
                 ),
             )
@@ -67,19 +67,31 @@ def test_logits_are_those_of_chapter_3(make):
 def test_descent_is_a_plain_loop_over_the_pairs(make, passes, tolerance):
     network, (x, y) = stack(), pairs(4)
     networks, rows = make(network), np.array([0, 2, 3])
-    first, last, rate = (
+    first, last, gradient_step = (
         np.array([0, 5, 3]),
         np.array([12, 12, 4]),
         np.array([0.3, 0.1, 0.5]),
     )
     networks.descend(
-        rows, x, y, first, last, rate=rate, passes=passes, tolerance=tolerance
+        rows,
+        x,
+        y,
+        first,
+        last,
+        gradient_step=gradient_step,
+        passes=passes,
+        tolerance=tolerance,
     )
     expected, took = [network[0], network[1], network[2], network[3]], []
     for k, row in enumerate(rows):
         own = slice(first[k], last[k])
         expected[row], done = plain_descent(
-            network[int(row)], x[row, own], y[row, own], rate[k], passes, tolerance
+            network[int(row)],
+            x[row, own],
+            y[row, own],
+            gradient_step[k],
+            passes,
+            tolerance,
         )
         took.append(done)
     np.testing.assert_allclose(
@@ -93,11 +105,11 @@ def test_descent_is_a_plain_loop_over_the_pairs(make, passes, tolerance):
 def test_no_network_hears_of_another():
     network, (x, y) = stack(), pairs(4)
     together, rows, zero = CompiledNetworks(network), np.arange(4), np.zeros(4, int)
-    arguments = {"rate": np.full(4, 0.3), "passes": 3, "tolerance": 1e-4}
+    arguments = {"gradient_step": np.full(4, 0.3), "passes": 3, "tolerance": 1e-4}
     together.descend(rows, x, y, zero, zero + 12, **arguments)
     for row in range(4):
         alone = CompiledNetworks(stacked([network[row]]))
-        arguments["rate"] = np.array([0.3])
+        arguments["gradient_step"] = np.array([0.3])
         alone.descend(
             np.array([0]),
             x[row : row + 1],

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from robonav.nnql import METHODS, Course, nnql, train, weight_changes
+from robonav.nnql import METHODS, NavigationTask, nnql, train, weight_changes
 from robonav.nnql.checkpoints import load_checkpoint
 from robonav.nnql.networks import CompiledNetworks
 from robonav.nnql.trainer import STARTS, TARGETS
@@ -15,8 +15,8 @@ from robonav.robot import NNQL_SENSORS, Encoder, navigate, random_worlds
 SMALL = {
     "nnql": {},
     "online": {},
-    "nfq": {"collect": 4, "sweeps": 2, "epochs": 15},
-    "dqn": {"batch": 8, "refresh": 30},
+    "nfq": {"episodes_per_fit": 4, "sweeps": 2, "epochs": 15},
+    "dqn": {"batch_size": 8, "target_update_interval": 30},
 }
 
 
@@ -44,7 +44,7 @@ def test_nnql_trains_on_the_whole_episode_and_online_learning_on_its_latest_step
         descend(networks, rows, x, y, first, last, **options)
 
     monkeypatch.setattr(CompiledNetworks, "descend", watched)
-    training = train(method, seeds=1, episodes=4, course=Course(max_steps=30))
+    training = train(method, seeds=1, episodes=4, task=NavigationTask(max_steps=30))
     expected = [
         (max(k - pairs, 0), k) for n in training.decisions[0] for k in range(1, n + 1)
     ]
@@ -101,13 +101,13 @@ def test_a_checkpoint_of_another_training_is_refused(tmp_path):
     path = tmp_path / "training"
     nnql(2, 4, checkpoint=path)
     for other in (
-        {"gamma": 0.8},
-        {"course": Course(obstacles=20)},
-        {"course": Course(reward=lambda b, a, o: 0 * o)},
+        {"discount": 0.8},
+        {"task": NavigationTask(obstacles=20)},
+        {"task": NavigationTask(reward=lambda b, a, o: 0 * o)},
     ):
         with pytest.raises(
             ValueError,
-            match="training belongs to a training with other seeds, settings or course",
+            match="training belongs to a training with other seeds, settings or task",
         ):
             nnql(2, 4, checkpoint=path, **other)
     with pytest.raises(ValueError, match="belongs to a training with other"):
@@ -120,9 +120,9 @@ def test_an_encoder_of_another_kind_is_another_training(tmp_path):
             return super().__call__(sensing).round(1)
 
     path, kind = tmp_path / "training", (NNQL_SENSORS, True, "number")
-    nnql(2, 4, checkpoint=path, course=Course(encoder=Encoder(*kind)))
+    nnql(2, 4, checkpoint=path, task=NavigationTask(encoder=Encoder(*kind)))
     with pytest.raises(ValueError, match="belongs to a training with other"):
-        nnql(2, 4, checkpoint=path, course=Course(encoder=Rounded(*kind)))
+        nnql(2, 4, checkpoint=path, task=NavigationTask(encoder=Rounded(*kind)))
 
 
 def test_rewards_that_differ_only_in_a_number_are_other_trainings(tmp_path):
@@ -130,10 +130,10 @@ def test_rewards_that_differ_only_in_a_number_are_other_trainings(tmp_path):
         return lambda before, after, outcome: row[outcome]
 
     path, rows = tmp_path / "training", np.eye(4)
-    nnql(2, 4, checkpoint=path, course=Course(reward=paying(rows[1])))
-    nnql(2, 4, checkpoint=path, course=Course(reward=paying(rows[1].copy())))
+    nnql(2, 4, checkpoint=path, task=NavigationTask(reward=paying(rows[1])))
+    nnql(2, 4, checkpoint=path, task=NavigationTask(reward=paying(rows[1].copy())))
     with pytest.raises(ValueError, match="belongs to a training with other"):
-        nnql(2, 4, checkpoint=path, course=Course(reward=paying(rows[2])))
+        nnql(2, 4, checkpoint=path, task=NavigationTask(reward=paying(rows[2])))
 
 
 def test_a_checkpoint_of_another_version_or_a_torn_one_is_refused(
@@ -210,7 +210,7 @@ def test_weight_changes_add_up_over_a_training():
 
 
 def test_episodes_have_their_bounds_and_their_decisions():
-    training = nnql(3, 20, course=Course(max_steps=60))
+    training = nnql(3, 20, task=NavigationTask(max_steps=60))
     assert training.steps.max() <= 60
     assert (training.decisions <= training.steps).all()
     late = training.outcomes == "out of steps"
@@ -219,13 +219,13 @@ def test_episodes_have_their_bounds_and_their_decisions():
 
 
 def test_worlds_of_training_never_meet_those_of_a_table():
-    course = Course()
-    practised = course.worlds([0, 1, 7], 0, 50)
+    task = NavigationTask()
+    practised = task.worlds([0, 1, 7], 0, 50)
     assert len({tuple(key) for key in practised.keys}) == 150
     np.testing.assert_array_equal(
-        course.worlds([7], 0, 90).keys[:50], practised.keys[100:]
+        task.worlds([7], 0, 90).keys[:50], practised.keys[100:]
     )
-    np.testing.assert_array_equal(course.worlds([7], 20, 50).keys, practised.keys[120:])
+    np.testing.assert_array_equal(task.worlds([7], 20, 50).keys, practised.keys[120:])
     asked = {
         tuple(key) for seed in range(200) for key in random_worlds(1, seed=seed).keys
     }
@@ -235,21 +235,21 @@ def test_worlds_of_training_never_meet_those_of_a_table():
 def test_every_encoding_trains():
     for target in ("number", "signed", "one-hot", "sine-cosine"):
         encoder = Encoder(NNQL_SENSORS, walls=True, target=target)
-        training = nnql(1, 2, course=Course(encoder=encoder))
+        training = nnql(1, 2, task=NavigationTask(encoder=encoder))
         assert training.network.sizes == (encoder.size, 8, 5)
         assert training.policies[0].encoder == encoder
     assert nnql(
-        1, 2, course=Course(encoder=Encoder(NNQL_SENSORS, True, "number"))
+        1, 2, task=NavigationTask(encoder=Encoder(NNQL_SENSORS, True, "number"))
     ).network.sizes == (16, 8, 5)
 
 
 def test_moving_obstacles_and_another_reward():
-    course = Course(
+    task = NavigationTask(
         obstacles=5,
         moving=5,
         reward=lambda before, after, outcome: np.full(len(outcome), 0.5),
     )
-    training = nnql(2, 5, course=course)
+    training = nnql(2, 5, task=task)
     np.testing.assert_array_equal(training.returns, 0.5 * training.decisions)
     assert training.returns.max() > 0.5
 
@@ -266,9 +266,12 @@ def test_moving_obstacles_and_another_reward():
         ({"seeds": []}, "seeds must be at least one"),
         ({"seeds": [0.5]}, "seeds must be a whole number"),
         ({"episodes": 0}, "episodes must be at least 1"),
-        ({"alpha": 1.5}, "alpha must be greater than 0 and at most 1, got 1.5"),
-        ({"gamma": -0.1}, "gamma must be at least 0"),
-        ({"rate": 0}, "rate must be greater than 0"),
+        (
+            {"learning_rate": 1.5},
+            "learning_rate must be greater than 0 and at most 1, got 1.5",
+        ),
+        ({"discount": -0.1}, "discount must be at least 0"),
+        ({"gradient_step": 0}, "gradient_step must be greater than 0"),
         ({"temperature": (0.9, 0)}, "temperature must be greater than 0, got 0"),
         ({"rescale": "squash"}, "rescale must be one of clip, shift, got 'squash'"),
         ({"passes": 0}, "passes must be at least 1"),
@@ -276,8 +279,11 @@ def test_moving_obstacles_and_another_reward():
         ({"every": 0}, "every must be at least 1"),
         ({"device": "abacus"}, "device must be one that torch has, got 'abacus'"),
         ({"record": True, "checkpoint": "x"}, "record must be False with a checkpoint"),
-        ({"method": "nfq", "collect": 0}, "collect must be at least 1"),
-        ({"method": "dqn", "batch": 0}, "batch must be at least 1"),
+        (
+            {"method": "nfq", "episodes_per_fit": 0},
+            "episodes_per_fit must be at least 1",
+        ),
+        ({"method": "dqn", "batch_size": 0}, "batch_size must be at least 1"),
     ],
 )
 def test_a_wrong_argument_gets_one_clear_sentence(wrong, message):
@@ -287,6 +293,6 @@ def test_a_wrong_argument_gets_one_clear_sentence(wrong, message):
 
 def test_a_course_is_checked():
     with pytest.raises(ValueError, match="speed must be greater than 0"):
-        Course(speed=0)
+        NavigationTask(speed=0)
     with pytest.raises(ValueError, match="max_steps must be at least 1"):
-        dataclasses.replace(Course(), max_steps=0)
+        dataclasses.replace(NavigationTask(), max_steps=0)

@@ -11,15 +11,19 @@ q_values = arrays(float, (6, 5), elements=st.floats(-3, 3))
 
 
 @given(q_values, st.floats(0, 1), st.floats(0, 1))
-def test_only_the_taken_action_moves(q, alpha, gamma):
+def test_only_the_taken_action_moves(q, learning_rate, discount):
     actions, rewards, following = (
         np.arange(6) % 5,
         np.linspace(-1, 1, 6),
         np.linspace(0, 1, 6),
     )
-    updated = q_targets(q, actions, rewards, following, alpha=alpha, gamma=gamma)
+    updated = q_targets(
+        q, actions, rewards, following, learning_rate=learning_rate, discount=discount
+    )
     for k, a in enumerate(actions):
-        wanted = q[k, a] + alpha * (rewards[k] + gamma * following[k] - q[k, a])
+        wanted = q[k, a] + learning_rate * (
+            rewards[k] + discount * following[k] - q[k, a]
+        )
         assert np.isclose(updated[k, a], wanted)
         others = np.arange(5) != a
         np.testing.assert_array_equal(updated[k, others], q[k, others])
@@ -27,7 +31,14 @@ def test_only_the_taken_action_moves(q, alpha, gamma):
 
 def test_the_old_values_are_left_alone():
     q = np.full((1, 5), 0.5)
-    q_targets(q, np.array([2]), np.array([1.0]), np.array([1.0]), alpha=1.0, gamma=0.7)
+    q_targets(
+        q,
+        np.array([2]),
+        np.array([1.0]),
+        np.array([1.0]),
+        learning_rate=1.0,
+        discount=0.7,
+    )
     np.testing.assert_array_equal(q, 0.5)
 
 

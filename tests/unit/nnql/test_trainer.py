@@ -3,17 +3,17 @@
 import numpy as np
 
 from robonav.networks.multilayer_perceptron import random_network, stacked
-from robonav.nnql import Course, reward
-from robonav.nnql.agents import Learner
+from robonav.nnql import NavigationTask, reward
+from robonav.nnql.agents import Agent
 from robonav.nnql.networks import CompiledNetworks
-from robonav.nnql.trainer import EXPLORING, Diary, Practice, chance
+from robonav.nnql.trainer import EXPLORING, EpisodeStatistics, Trainer, make_rng
 from robonav.robot import OUTCOMES, REFLEX, Simulator
 
 SEEDS, EPISODES = (3, 8), 24
-COURSE = Course(max_steps=45)
+COURSE = NavigationTask(max_steps=45)
 
 
-class Watching(Learner):
+class Watching(Agent):
     """Learns nothing, and writes down what it is handed."""
 
     def __init__(self, networks):
@@ -38,7 +38,7 @@ def plain_episode(network, seed, episode):
         COURSE.speed,
         max_steps=COURSE.max_steps,
     )
-    uniforms = chance(seed, EXPLORING, episode).random(COURSE.max_steps)
+    uniforms = make_rng(seed, EXPLORING, episode).random(COURSE.max_steps)
     fraction, happened = episode / (EPISODES - 1), []
     temperature = 0.9 * (0.1 / 0.9) ** fraction
     while OUTCOMES[robot.outcome[0]] == "running":
@@ -64,9 +64,12 @@ def plain_episode(network, seed, episode):
 
 def test_the_loop_is_a_plain_one_for_each_robot():
     networks = stacked([random_network((16, 8, 5), seed=seed) for seed in SEEDS])
-    learner, diary = Watching(CompiledNetworks(networks)), Diary(len(SEEDS), EPISODES)
-    Practice(
-        learner, COURSE, SEEDS, EPISODES, (0.9, 0.1), diary, first=0, last=EPISODES
+    agent, statistics = (
+        Watching(CompiledNetworks(networks)),
+        EpisodeStatistics(len(SEEDS), EPISODES),
+    )
+    Trainer(
+        agent, COURSE, SEEDS, EPISODES, (0.9, 0.1), statistics, first=0, last=EPISODES
     ).run()
     ends, cut = set(), 0
     for row, seed in enumerate(SEEDS):
@@ -75,15 +78,19 @@ def test_the_loop_is_a_plain_one_for_each_robot():
         ]
         happened = [step for steps, _, _ in episodes for step in steps]
         for ours, theirs in zip(
-            zip(*learner.seen[row], strict=True),
+            zip(*agent.seen[row], strict=True),
             zip(*happened, strict=True),
             strict=True,
         ):
             np.testing.assert_allclose(np.array(ours), np.array(theirs), rtol=1e-12)
-        assert OUTCOMES[diary.outcomes[row]].tolist() == [end for _, end, _ in episodes]
-        assert diary.decisions[row].tolist() == [len(steps) for steps, _, _ in episodes]
+        assert OUTCOMES[statistics.outcomes[row]].tolist() == [
+            end for _, end, _ in episodes
+        ]
+        assert statistics.decisions[row].tolist() == [
+            len(steps) for steps, _, _ in episodes
+        ]
         np.testing.assert_allclose(
-            diary.returns[row],
+            statistics.returns[row],
             [sum(step[2] for step in steps) for steps, _, _ in episodes],
         )
         ends |= {end for _, end, _ in episodes}
@@ -93,14 +100,14 @@ def test_the_loop_is_a_plain_one_for_each_robot():
 
 
 def test_the_course_is_that_of_section_4_5():
-    course = Course()
-    assert (course.obstacles, course.moving, course.speed, course.max_steps) == (
+    task = NavigationTask()
+    assert (task.obstacles, task.moving, task.speed, task.max_steps) == (
         10,
         0,
         2.5,
         400,
     )
-    assert set(course.starts) == {(10, 10), (90, 10)}
-    assert set(course.targets) == {(90, 90), (10, 90)}
-    assert course.encoder.size == 16
-    assert course.reward is reward
+    assert set(task.starts) == {(10, 10), (90, 10)}
+    assert set(task.targets) == {(90, 90), (10, 90)}
+    assert task.encoder.size == 16
+    assert task.reward is reward
