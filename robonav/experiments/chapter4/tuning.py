@@ -96,8 +96,8 @@ def trained(
 
     ``length`` is of the training, in times the usual; ``changes`` are what is not as in section 4.5, see
     :class:`robonav.nnql.NavigationTask`, and ``record``. At the thesis's scale seeds train ``TOGETHER``, which is
-    quicker than one by one and comes to the same. What was trained once in a process is not trained again: several tables look at
-    the same networks.
+    quicker than one by one and comes to the same. What was trained once in a process is not trained again: several
+    tables look at the same networks.
     """
     together, episodes = TOGETHER[scale], round(EPISODES * length)
     seeds = block(seed, together)

@@ -44,6 +44,7 @@ from robonav.experiments.chapter4.tuning import (
     TUNING,
     TUNING_SEEDS,
     TUNING_WORLDS,
+    arguments,
     ranking,
     trained,
     trial_settings,
@@ -103,7 +104,7 @@ def test_finalists_have_other_seeds_than_the_trials_they_were_picked_by():
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_method_comes_with_the_settings_that_were_chosen(method):
-    chosen = settings(method)
+    chosen = arguments(settings(method))
     if "fitting" in chosen:
         chosen["sweeps"], chosen["epochs"] = chosen.pop("fitting")
     chosen.pop("target")
