@@ -10,7 +10,6 @@ an argument, ``{name}`robonav.robot.navigate(speed)```. The leading ``robonav.``
 
 from __future__ import annotations
 
-import ast
 import importlib
 import inspect
 import re
@@ -18,6 +17,7 @@ import textwrap
 from pathlib import Path
 from typing import Any, ClassVar
 
+from citations import without_docstring
 from docutils import nodes
 from docutils.parsers.rst import directives
 from sphinx.addnodes import pending_xref
@@ -47,22 +47,6 @@ def resolve(name: str) -> Any:
     return (
         inspect.unwrap(getattr(found, "py_func", found)) if callable(found) else found
     )
-
-
-def without_docstring(source: str) -> str:
-    """The same source with the docstring of its outermost definition cut out."""
-    definition = ast.parse(source).body[0]
-    if (
-        not isinstance(definition, ast.FunctionDef | ast.ClassDef)
-        or ast.get_docstring(definition) is None
-    ):
-        return source
-    docstring = definition.body[0]
-    lines = source.splitlines(keepends=True)
-    after = docstring.end_lineno or docstring.lineno
-    while after < len(lines) and not lines[after].strip():
-        after += 1
-    return "".join(lines[: docstring.lineno - 1] + lines[after:])
 
 
 class FunctionSource(SphinxDirective):

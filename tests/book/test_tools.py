@@ -9,13 +9,13 @@ from enum import Enum
 from pathlib import Path
 
 import check_site
+import citations
 import nbformat
 import notebooks
 import package_code
 import package_digest
 import pytest
 import reference
-import thesis_index
 from thesis_numbers import thesis_number
 
 
@@ -36,39 +36,51 @@ def test_thesis_numbers_are_read_from_labels() -> None:
     ],
 )
 def test_lists_and_ranges_of_numbers(text: str, expected: set[tuple[int, ...]]) -> None:
-    assert thesis_index.numbers(text) == expected
+    assert citations.numbers(text) == expected
 
 
 def test_citations_are_found_in_docstrings(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     package = tmp_path / "robonav"
-    package.mkdir()
-    (package / "chapter.py").write_text(
-        'def one():\n    """By Eq. (2.10) and (2.9), Algorithm 2; Fig. 3.10."""\n\n\n'
-        'class Two:\n    """Nothing."""\n\n    def three(self):\n        """Eqs. (2.9), (4.1)."""\n\n'
+    (package / "mdp").mkdir(parents=True)
+    (package / "mdp" / "chapter.py").write_text(
+        'def one():\n    """By Eq. (2.10) and (2.9), Algorithm 2.\n\n    Fig. 3.10.\n    """\n\n\n'
+        'class Two:\n    """Nothing."""\n\n'
+        '    def three(self):\n        """Much.\n\n        Eqs. (2.9), (4.1).\n        """\n\n'
         '    def _hidden(self):\n        """Eq. (2.9)."""\n'
     )
-    monkeypatch.setattr(thesis_index, "PACKAGE", package)
-    one, three = "robonav.chapter.one", "robonav.chapter.Two.three"
-    assert thesis_index.cited("equations") == {
-        (2, 9): [one, three],
+    monkeypatch.setattr(citations, "PACKAGE", package)
+    one, three = "robonav.mdp.chapter.one", "robonav.mdp.chapter.Two.three"
+
+    def names(
+        found: dict[citations.Number, list[citations.Documented]],
+    ) -> dict[citations.Number, list[str]]:
+        return {
+            number: [item.name for item in items] for number, items in found.items()
+        }
+
+    hidden = "robonav.mdp.chapter.Two._hidden"
+    assert names(citations.definitions("equations", package)) == {
         (2, 10): [one],
+        (2, 9): [one, hidden],
+    }
+    assert names(citations.uses("equations", package)) == {
+        (2, 9): [three],
         (4, 1): [three],
     }
-    assert list(thesis_index.cited("equations")) == [(2, 9), (2, 10), (4, 1)]
-    assert thesis_index.cited("algorithms") == {(2,): [one]}
-    assert thesis_index.cited("figures") == {(3, 10): [one]}
+    assert names(citations.definitions("algorithms", package)) == {(2,): [one]}
+    assert names(citations.uses("figures", package)) == {(3, 10): [one]}
 
 
 def test_docstring_is_cut_and_the_code_stays() -> None:
     source = '@cache\ndef f(x):\n    """Twice x.\n\n    More.\n    """\n\n    y = 2 * x\n    return y\n'
     assert (
-        package_code.without_docstring(source)
+        citations.without_docstring(source)
         == "@cache\ndef f(x):\n    y = 2 * x\n    return y\n"
     )
     bare = "def f(x):\n    return x\n"
-    assert package_code.without_docstring(bare) == bare
+    assert citations.without_docstring(bare) == bare
 
 
 def test_names_are_resolved_through_modules_classes_and_fields() -> None:
