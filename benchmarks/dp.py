@@ -79,7 +79,7 @@ def scattered(states: int = 10_000, successors: int = 5, *, seed: int = 0) -> Fi
 
 def peer(mdp: FiniteMDP) -> DiscreteDP:
     """The same model as QuantEcon keeps it: state-action pairs in order of the state."""
-    state, action = np.divmod(np.arange(mdp.rewards.size), mdp.actions)
+    state, action = np.divmod(np.arange(mdp.rewards.size), mdp.n_actions)
     return DiscreteDP(
         mdp.rewards.ravel(), sp.csr_matrix(mdp.rows), mdp.discount, state, action
     )

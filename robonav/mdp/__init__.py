@@ -1,5 +1,6 @@
 """Chapter 2: finite MDPs, planning, tabular learning, partial observation, gridworlds."""
 
+from .asynchronous import in_place_value_iteration, prioritized_sweeping
 from .belief_planning import (
     AlphaVectors,
     point_based_value_iteration,
@@ -13,7 +14,8 @@ from .dynamic_programming import (
     value_iteration,
 )
 from .environments import GridEnvironment
-from .evaluation import Evaluation, iterative_policy_evaluation, policy_evaluation
+from .episodes import Trajectory, discounted_return, rollouts
+from .evaluation import EvaluationResult, iterative_policy_evaluation, policy_evaluation
 from .exploration import (
     Schedule,
     epsilon_greedy,
@@ -23,11 +25,14 @@ from .exploration import (
     polynomial_decay,
 )
 from .features import Features, OneHot, Tiles
+from .finite_horizon import (
+    FiniteHorizonSolution,
+    backward_induction,
+    finite_horizon_evaluation,
+)
+from .generalised_policy_iteration import GPIHistory, generalized_policy_iteration
 from .gridworld import Cell, GridWorld, four_by_three
-from .horizon import FiniteHorizon, backward_induction, horizon_evaluation
-from .improvement import Trace, generalized_policy_iteration
-from .interaction import Episode, discounted_return, rollouts
-from .linear import LinearLearned, linear_q_learning, linear_sarsa, with_constant
+from .linear import LinearControlResult, linear_q_learning, linear_sarsa, with_bias
 from .localisation import Localiser, PoseGrid, RangeSensor, pose_transitions
 from .models import FiniteMDP, expected_rewards
 from .monte_carlo import monte_carlo_control, monte_carlo_prediction
@@ -35,60 +40,58 @@ from .policies import greedy_actions, greedy_mixture
 from .pomdp import (
     POMDP,
     BeliefMDP,
-    BeliefWalk,
+    BeliefTrajectory,
     bayes,
-    belief_walk,
+    belief_rollout,
     entropy,
     without_sensing,
 )
 from .small_pomdps import corridor, fork, tiger
-from .sweeps import in_place_value_iteration, prioritized_sweeping
 from .temporal_difference import (
-    Learned,
-    Predicted,
+    ControlResult,
+    PredictionResult,
     expected_sarsa,
     q_learning,
     sarsa,
     td_prediction,
 )
-from .values import (
-    action_values,
+from .value_functions import (
     advantage,
     bellman_action_value_operator,
     bellman_optimality_operator,
     bellman_policy_operator,
     is_optimal,
+    policy_action_values,
 )
 
 __all__ = [
     "POMDP",
     "AlphaVectors",
     "BeliefMDP",
-    "BeliefWalk",
+    "BeliefTrajectory",
     "Cell",
-    "Episode",
-    "Evaluation",
+    "ControlResult",
+    "EvaluationResult",
     "Features",
-    "FiniteHorizon",
+    "FiniteHorizonSolution",
     "FiniteMDP",
+    "GPIHistory",
     "GridEnvironment",
     "GridWorld",
-    "Learned",
-    "LinearLearned",
+    "LinearControlResult",
     "Localiser",
     "OneHot",
     "PoseGrid",
-    "Predicted",
+    "PredictionResult",
     "RangeSensor",
     "Schedule",
     "Solution",
     "Tiles",
-    "Trace",
-    "action_values",
+    "Trajectory",
     "advantage",
     "backward_induction",
     "bayes",
-    "belief_walk",
+    "belief_rollout",
     "bellman_action_value_operator",
     "bellman_optimality_operator",
     "bellman_policy_operator",
@@ -99,13 +102,13 @@ __all__ = [
     "expected_rewards",
     "expected_sarsa",
     "exponential_decay",
+    "finite_horizon_evaluation",
     "fork",
     "four_by_three",
     "generalized_policy_iteration",
     "greedy_actions",
     "greedy_mixture",
     "harmonic_decay",
-    "horizon_evaluation",
     "in_place_value_iteration",
     "is_optimal",
     "iterative_policy_evaluation",
@@ -116,6 +119,7 @@ __all__ = [
     "monte_carlo_control",
     "monte_carlo_prediction",
     "point_based_value_iteration",
+    "policy_action_values",
     "policy_evaluation",
     "policy_iteration",
     "polynomial_decay",
@@ -129,6 +133,6 @@ __all__ = [
     "td_prediction",
     "tiger",
     "value_iteration",
-    "with_constant",
+    "with_bias",
     "without_sensing",
 ]

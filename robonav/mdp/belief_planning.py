@@ -21,7 +21,7 @@ from robonav.validation import (
 )
 
 from .dynamic_programming import value_iteration
-from .policies import distributions
+from .policies import check_distributions
 from .pomdp import POMDP, SAME, BeliefMDP
 
 Floats = NDArray[np.float64]
@@ -45,7 +45,8 @@ class AlphaVectors:
     def value(self, belief: ArrayLike) -> Floats:
         """Value (...) of one belief (S,) or many (..., S): the largest of the linear functions."""
         return (
-            distributions("belief", belief, self.vectors.shape[1]) @ self.vectors.T
+            check_distributions("belief", belief, self.vectors.shape[1])
+            @ self.vectors.T
         ).max(axis=-1)
 
     def action(self, belief: ArrayLike) -> int:
@@ -55,7 +56,7 @@ class AlphaVectors:
             self.actions[
                 (
                     self.vectors
-                    @ distributions("belief", belief, self.vectors.shape[1])
+                    @ check_distributions("belief", belief, self.vectors.shape[1])
                 ).argmax()
             ]
         )
@@ -69,7 +70,9 @@ def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
     """
     check_instance("pomdp", pomdp, POMDP)
     values = value_iteration(pomdp.mdp, tolerance).values
-    return AlphaVectors(pomdp.mdp.backup(values).T.copy(), np.arange(pomdp.mdp.actions))
+    return AlphaVectors(
+        pomdp.mdp.action_values(values).T.copy(), np.arange(pomdp.mdp.n_actions)
+    )
 
 
 def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
@@ -81,13 +84,13 @@ def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
     check_instance("pomdp", pomdp, POMDP)
     check_integer("count", count, at_least=1)
     taken = [pomdp._belief(start)]
-    candidates, distances = np.empty((0, pomdp.mdp.states)), np.empty(0)
+    candidates, distances = np.empty((0, pomdp.mdp.n_states)), np.empty(0)
     while len(taken) < count:
         distances = np.minimum(distances, abs(candidates - taken[-1]).sum(axis=1))
         new = np.concatenate(
             [
                 BeliefMDP(pomdp).successors(taken[-1], action)[0]
-                for action in range(pomdp.mdp.actions)
+                for action in range(pomdp.mdp.n_actions)
             ]
         )
         new_distances = np.min(
@@ -140,15 +143,15 @@ def point_based_value_iteration(
     check_instance("pomdp", pomdp, POMDP)
     if pomdp.mdp.discount == 1:
         raise ValueError("point_based_value_iteration needs a discount below 1, got 1")
-    check_array("beliefs", beliefs, shape=("N", pomdp.mdp.states))
-    points = distributions("beliefs", beliefs, pomdp.mdp.states)
+    check_array("beliefs", beliefs, shape=("N", pomdp.mdp.n_states))
+    points = check_distributions("beliefs", beliefs, pomdp.mdp.n_states)
     if len(points) == 0:
         raise ValueError("beliefs must hold at least one belief, got none")
     enough = check_positive("tolerance", tolerance) * (1 - pomdp.mdp.discount)
     check_integer("max_iterations", max_iterations, at_least=1)
     worst = pomdp.mdp.rewards.min() / (1 - pomdp.mdp.discount)
     found = AlphaVectors(
-        np.full((1, pomdp.mdp.states), worst), np.zeros(1, dtype=np.int64)
+        np.full((1, pomdp.mdp.n_states), worst), np.zeros(1, dtype=np.int64)
     )
     for iterations in range(1, max_iterations + 1):
         found, rise = improved_at(
@@ -171,8 +174,8 @@ def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
     state s that is: g(s) = sum_s' T(s, a, s') Z(o, s', a) alpha(s'). Each point takes the best g for each observation.
     """
     mdp = pomdp.mdp
-    candidates = np.empty((mdp.actions, *points.shape))
-    for action in range(mdp.actions):
+    candidates = np.empty((mdp.n_actions, *points.shape))
+    for action in range(mdp.n_actions):
         candidates[action] = mdp.rewards[:, action]
         for likelihood in pomdp.observations[action].T:
             carried = (

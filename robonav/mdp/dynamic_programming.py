@@ -14,7 +14,7 @@ from robonav.validation import check_instance, check_integer, check_positive
 from . import policies
 from .evaluation import solve_chain, solve_differences, starting_values, warn_unfinished
 from .models import FiniteMDP
-from .values import or_rest
+from .value_functions import or_rest
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Solution:
     values : (S,), in units of reward.
     policy : (S,), action indices.
     iterations : sweeps over all states, or policies evaluated.
-    distance : largest change of a value that one more improvement still promised.
+    residual : largest change of a value that one more improvement still promised.
     history : (steps, S), the values on the way, if recorded: see each planner.
     policies : (steps, S), the policy that goes with each row of ``history``.
     """
@@ -34,7 +34,7 @@ class Solution:
     values: NDArray[np.float64]
     policy: NDArray[np.intp]
     iterations: int
-    distance: float
+    residual: float
     history: NDArray[np.float64] | None = None
     policies: NDArray[np.intp] | None = None
 
@@ -67,9 +67,9 @@ def value_iteration(
     from . import _fast
 
     check_instance("mdp", mdp, FiniteMDP)
-    enough = mdp.stopping_distance(tolerance)
+    enough = mdp.residual_for(tolerance)
     values = first_values(mdp, start)
-    updated, policy = np.empty_like(values), np.empty(mdp.states, dtype=np.intp)
+    updated, policy = np.empty_like(values), np.empty(mdp.n_states, dtype=np.intp)
     history, chosen = ([values.copy()], []) if record else ([], [])
     for iterations in range(
         1, check_integer("max_iterations", max_iterations, at_least=1) + 1
@@ -127,12 +127,16 @@ def policy_iteration(
     policy = (
         _first_policy(mdp)
         if start is None
-        else policies.deterministic("start", start, mdp.states, mdp.actions)
+        else policies.check_deterministic_policy(
+            "start", start, mdp.n_states, mdp.n_actions
+        )
     )
-    values, name = np.zeros(mdp.states), "policy" if start is None else "start"
+    values, name = np.zeros(mdp.n_states), "policy" if start is None else "start"
     history, chosen = [], []
     for iterations in range(1, max_iterations + 1):
-        values = solve_chain(*mdp.under(policy), mdp.discount, values, name=name)
+        values = solve_chain(
+            *mdp.induced_chain(policy), mdp.discount, values, name=name
+        )
         name = "policy"
         gains, rounding = _gains(mdp, policy, values, worth)
         gain, enough = gains.max(axis=1), max(worth, rounding)
@@ -184,10 +188,10 @@ def modified_policy_iteration(
     from . import _fast
 
     check_instance("mdp", mdp, FiniteMDP)
-    enough = mdp.stopping_distance(tolerance) * (1 if mdp.discount == 1 else 2)
+    enough = mdp.residual_for(tolerance) * (1 if mdp.discount == 1 else 2)
     check_integer("sweeps", sweeps, at_least=0)
     values = _values_below(mdp) if start is None else first_values(mdp, start)
-    updated, policy = np.empty_like(values), np.empty(mdp.states, dtype=np.intp)
+    updated, policy = np.empty_like(values), np.empty(mdp.n_states, dtype=np.intp)
     history, chosen = ([values.copy()], []) if record else ([], [])
     for iterations in range(
         1, check_integer("max_iterations", max_iterations, at_least=1) + 1
@@ -229,10 +233,10 @@ def first_values(
         return values
     _, out = mdp.way_to(mdp.terminal)
     steps, onwards = mdp.way_to(
-        mdp.terminal, policies.greedy_actions(mdp.backup(values))
+        mdp.terminal, policies.greedy_actions(mdp.action_values(values))
     )
     earned = solve_chain(
-        *mdp.under(np.where(np.isfinite(steps), onwards, out)), 1, values
+        *mdp.induced_chain(np.where(np.isfinite(steps), onwards, out)), 1, values
     )
     return np.where(mdp.rests.any(axis=1), np.maximum(earned, 0), earned)
 
@@ -247,7 +251,7 @@ def greedy_policy(
     """
     if mdp.discount < 1:
         return mdp.greedy(values)
-    q = or_rest(mdp, mdp.backup(values))
+    q = or_rest(mdp, mdp.action_values(values))
     best = policies.greedy_actions(q, tolerance=tolerance)
     steps, onwards = mdp.way_to(mdp.terminal, best)
     ends = np.isfinite(steps)
@@ -299,8 +303,8 @@ def _gains(
     If rounding may hide gains larger than ``worth``, and no larger ones are to be seen, look closer: what all values
     share cancels in a gain, and near discount 1 that is nearly all of them.
     """
-    state = np.arange(mdp.states)
-    q = mdp.backup(values)
+    state = np.arange(mdp.n_states)
+    q = mdp.action_values(values)
     own = q[state, policy]
     gains, rounding = (
         or_rest(mdp, q) - own[:, None],
@@ -308,8 +312,10 @@ def _gains(
     )
     if mdp.discount == 1 or rounding <= worth or gains.max() > rounding:
         return gains, rounding
-    differences, step = solve_differences(*mdp.under(policy), mdp.discount, values)
-    q, moved = mdp.backup(differences), mdp.backup(step) - mdp.rewards
+    differences, step = solve_differences(
+        *mdp.induced_chain(policy), mdp.discount, values
+    )
+    q, moved = mdp.action_values(differences), mdp.action_values(step) - mdp.rewards
     size = abs(differences).max() + abs(mdp.rewards).max()
     rounding = (
         2 * abs(moved - moved[state, policy][:, None]).max()
@@ -324,7 +330,7 @@ def rounding_of_gains(
     """How much of a gain the error of a policy's ``values`` (S,) can explain at most, given their backup ``own``."""
     rounding = np.finfo(float).eps * abs(values).max()
     error = max(abs(own - values).max(), rounding) * (
-        mdp.states if mdp.discount == 1 else 1 / (1 - mdp.discount)
+        mdp.n_states if mdp.discount == 1 else 1 / (1 - mdp.discount)
     )
     return max(2 * mdp.discount * error, 2 * rounding)
 

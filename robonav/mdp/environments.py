@@ -133,12 +133,12 @@ class GridEnvironment(gym.Env[Any, Any]):
         if render_mode is not None:
             check_one_of("render_mode", render_mode, self.metadata["render_modes"])
         self.grid, self.render_mode = grid, render_mode
-        self.observation_space = spaces.Discrete(grid.states)
+        self.observation_space = spaces.Discrete(grid.n_states)
         self.action_space = spaces.Discrete(4)
         self.initial_state_distrib = grid.start
         self.P = {
             state: {action: self._outcomes(state, action) for action in range(4)}
-            for state in range(grid.states)
+            for state in range(grid.n_states)
         }
         self.state = int(grid.start.argmax())
 
@@ -148,7 +148,7 @@ class GridEnvironment(gym.Env[Any, Any]):
         """A new episode, from a cell drawn among the start cells."""
         super().reset(seed=seed)
         self.state = int(
-            self.np_random.choice(self.grid.states, p=self.initial_state_distrib)
+            self.np_random.choice(self.grid.n_states, p=self.initial_state_distrib)
         )
         return self.state, {}
 

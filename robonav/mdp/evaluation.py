@@ -26,12 +26,12 @@ DIRECT_SOLVE = (
 
 
 @dataclass(frozen=True)
-class Evaluation:
+class EvaluationResult:
     """Values of a policy, found sweep by sweep: ``history`` (iterations + 1, S) if recorded."""
 
     values: NDArray[np.float64]
     iterations: int
-    distance: float
+    residual: float
     history: NDArray[np.float64] | None = None
 
 
@@ -50,7 +50,7 @@ def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     ValueError : if, without discount, the policy collects rewards for ever, so that its value is not finite.
     """
     check_instance("mdp", mdp, FiniteMDP)
-    return solve_chain(*mdp.under(policy), mdp.discount, np.zeros(mdp.states))
+    return solve_chain(*mdp.induced_chain(policy), mdp.discount, np.zeros(mdp.n_states))
 
 
 def iterative_policy_evaluation(
@@ -61,7 +61,7 @@ def iterative_policy_evaluation(
     start: ArrayLike | None = None,
     max_iterations: int = 100_000,
     record: bool = False,
-) -> Evaluation:
+) -> EvaluationResult:
     """The values of a policy by repeated sweeps (Eq. (2.24), steps 5 to 8 of Algorithm 1).
 
     Stops when a sweep changes no value by more than ``tolerance * (1 - discount) / discount``: every value is then
@@ -81,13 +81,13 @@ def iterative_policy_evaluation(
     from . import _fast
 
     check_positive("tolerance", tolerance)
-    enough = tolerance if mdp.discount == 1 else 2 * mdp.stopping_distance(tolerance)
-    transitions, rewards = mdp.under(policy)
+    enough = tolerance if mdp.discount == 1 else 2 * mdp.residual_for(tolerance)
+    transitions, rewards = mdp.induced_chain(policy)
     chain = packed(
         transitions, rewards[:, None], mdp.discount
     )  # an MDP with one action
     values = starting_values("start", mdp, start)
-    updated, only_action = np.empty_like(values), np.zeros(mdp.states, dtype=np.intp)
+    updated, only_action = np.empty_like(values), np.zeros(mdp.n_states, dtype=np.intp)
     history = [values.copy()] if record else []
     for iterations in range(
         1, check_integer("max_iterations", max_iterations, at_least=1) + 1
@@ -100,7 +100,7 @@ def iterative_policy_evaluation(
             break
         if iterations == max_iterations:
             warn_unfinished("iterative_policy_evaluation", iterations, distance, enough)
-    return Evaluation(
+    return EvaluationResult(
         values, iterations, distance, np.stack(history) if record else None
     )
 
@@ -110,9 +110,9 @@ def starting_values(
 ) -> NDArray[np.float64]:
     """A fresh copy of the values to start from, zeros unless given."""
     return (
-        np.zeros(mdp.states)
+        np.zeros(mdp.n_states)
         if given is None
-        else check_array(name, given, shape=(mdp.states,)).copy()
+        else check_array(name, given, shape=(mdp.n_states,)).copy()
     )
 
 

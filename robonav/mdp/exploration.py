@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import check_array, check_integer, check_positive, check_real
 
-from .interaction import uniforms
+from .episodes import uniform_stream
 
 Schedule = Callable[[int], float]
 """A rate as a function of how often something has happened before: 0, 1, 2, ..."""
@@ -102,7 +102,7 @@ class EpsilonGreedy:
 
     def __init__(self, epsilon: float | Schedule, rng: np.random.Generator) -> None:
         self._schedule = schedule("epsilon", epsilon)
-        self._draw = uniforms(rng).__next__
+        self._draw = uniform_stream(rng).__next__
         self.epsilon = 1.0
 
     def begin(self, episode: int) -> None:

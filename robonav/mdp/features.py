@@ -32,16 +32,16 @@ def for_each_action(
 class OneHot:
     """One feature for each state and action: a table, written as a linear function. States are numbers from 0."""
 
-    states: int
-    actions: int
+    n_states: int
+    n_actions: int
 
     def __post_init__(self) -> None:
-        check_integer("states", self.states, at_least=1)
-        check_integer("actions", self.actions, at_least=1)
+        check_integer("n_states", self.n_states, at_least=1)
+        check_integer("n_actions", self.n_actions, at_least=1)
 
     def __call__(self, state: int) -> NDArray[np.float64]:
-        place = check_integer("state", state, at_least=0, at_most=self.states - 1)
-        return for_each_action(np.eye(1, self.states, place)[0], self.actions)
+        place = check_integer("state", state, at_least=0, at_most=self.n_states - 1)
+        return for_each_action(np.eye(1, self.n_states, place)[0], self.n_actions)
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class Tiles:
     high: tuple[float, ...]
     tiles: tuple[int, ...]
     tilings: int
-    actions: int
+    n_actions: int
 
     def __post_init__(self) -> None:
         low = check_array("low", self.low, shape=("d",))
@@ -77,7 +77,7 @@ class Tiles:
         for tiles in check_array("tiles", self.tiles, shape=low.shape, dtype=int):
             check_integer("tiles", tiles, at_least=1)
         check_integer("tilings", self.tilings, at_least=1)
-        check_integer("actions", self.actions, at_least=1)
+        check_integer("n_actions", self.n_actions, at_least=1)
 
     @cached_property
     def shape(self) -> tuple[int, ...]:
@@ -103,4 +103,4 @@ class Tiles:
     def __call__(self, state: ArrayLike) -> NDArray[np.float64]:
         found = np.zeros(int(np.prod(self.shape)))
         found[self.active(state)] = 1.0
-        return for_each_action(found, self.actions)
+        return for_each_action(found, self.n_actions)

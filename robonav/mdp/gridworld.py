@@ -135,7 +135,7 @@ class GridWorld:
         return np.argwhere(self.numbers >= 0)
 
     @property
-    def states(self) -> int:
+    def n_states(self) -> int:
         """Number of states S."""
         return len(self.cells)
 
@@ -163,7 +163,7 @@ class GridWorld:
         ahead = np.stack(
             [bordered[tuple((self.cells + 1 + step).T)] for step in STEPS], axis=1
         )
-        return np.where(ahead >= 0, ahead, np.arange(self.states)[:, None])
+        return np.where(ahead >= 0, ahead, np.arange(self.n_states)[:, None])
 
     @cached_property
     def outcomes(self) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
@@ -183,8 +183,8 @@ class GridWorld:
         reached, chances = self.outcomes
         rewards = (chances * self.cell_rewards[reached]).sum(axis=2)
         rewards[self.terminal] = 0
-        starts = np.arange(0, 3 * self.states + 1, 3, dtype=np.int32)
-        shape = (self.states, self.states)
+        starts = np.arange(0, 3 * self.n_states + 1, 3, dtype=np.int32)
+        shape = (self.n_states, self.n_states)
         transitions = [
             sp.csr_array(
                 (
@@ -207,9 +207,9 @@ class GridWorld:
     def on_map(self, numbers: ArrayLike, *, walls: float = np.nan) -> NDArray:
         """One number a state, (..., S), laid out as the map, (..., rows, columns), with ``walls`` in the walls."""
         given = np.asarray(numbers)
-        if given.shape[-1:] != (self.states,):
+        if given.shape[-1:] != (self.n_states,):
             raise ValueError(
-                f"numbers must have shape (..., {self.states}), one a state, got {given.shape}"
+                f"numbers must have shape (..., {self.n_states}), one a state, got {given.shape}"
             )
         laid_out = np.full(
             (*given.shape[:-1], *self.shape),

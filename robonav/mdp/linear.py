@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from robonav.progress import Progress
 from robonav.validation import check_generator, check_real
 
+from .episodes import EpisodeRunner, count, discretise_actions
 from .exploration import EpsilonGreedy, Schedule, schedule
 from .features import Features
-from .interaction import Course, count, with_numbered_actions
 
 RUNAWAY = 1e100  # far above any reward, far below what overflows
 
 
-def with_constant(features: Features) -> Features:
+def with_bias(features: Features) -> Features:
     """The features with f_0 = 1 before them, so that the constant of Eq. (4.3) is a weight like the others."""
 
     def extended(state: Any) -> NDArray[np.float64]:
@@ -31,7 +31,7 @@ def with_constant(features: Features) -> Features:
 
 
 @dataclass(frozen=True)
-class LinearLearned:
+class LinearControlResult:
     """Weights learned from episodes, and how the learning went.
 
     Attributes
@@ -66,7 +66,7 @@ def linear_sarsa(
     seed: int | np.random.Generator = 0,
     record: bool = False,
     progress: Progress | None = None,
-) -> LinearLearned:
+) -> LinearControlResult:
     """SARSA with linear function approximation (Algorithm 7).
 
     After each step every weight moves by ``alpha * delta * f_i(s, a)``, ``delta = r + gamma Q(s', a') - Q(s, a)``.
@@ -76,7 +76,7 @@ def linear_sarsa(
     env : Gymnasium environment with A actions; its states may be anything that ``features`` takes.
     episodes : how many to play.
     features : ``features(state) -> (A, n)``, such as :class:`~robonav.mdp.OneHot` or :class:`~robonav.mdp.Tiles`;
-        :func:`~robonav.mdp.with_constant` puts f_0 = 1 before them.
+        :func:`~robonav.mdp.with_bias` puts f_0 = 1 before them.
     discount : gamma, in [0, 1].
     learning_rate : alpha, a number in [0, 1] or a schedule over episodes. Where k features are on at a time, a step of
         alpha moves the value by k times alpha: divide by k.
@@ -92,11 +92,13 @@ def linear_sarsa(
     ValueError : if ``features`` does not give one row for each action, always as long, or the weights grow beyond all
         bounds (a learning rate too large for the number of features that are on).
     """
-    env, rng = with_numbered_actions(env), check_generator("seed", seed)
+    env, rng = discretise_actions(env), check_generator("seed", seed)
     discount = check_real("discount", discount, at_least=0, at_most=1)
     rate = schedule("learning_rate", learning_rate)
     features_of, weights = fitted(env, features)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
+    course = EpisodeRunner(
+        env, episodes, max_steps=max_steps, rng=rng, progress=progress
+    )
     choose, history = EpsilonGreedy(epsilon, rng), [weights.copy()]
     for state in course.episodes():
         choose.begin(course.number)
@@ -129,17 +131,19 @@ def linear_q_learning(
     seed: int | np.random.Generator = 0,
     record: bool = False,
     progress: Progress | None = None,
-) -> LinearLearned:
+) -> LinearControlResult:
     """Q-learning with linear function approximation: Algorithm 7 with ``delta = r + gamma max Q(s', .) - Q(s, a)``.
 
     Parameters, result and errors are those of :func:`linear_sarsa`. Unlike there, nothing promises that the weights
     settle: learning about one policy from the steps of another, with shared features, can diverge (Baird 1995).
     """
-    env, rng = with_numbered_actions(env), check_generator("seed", seed)
+    env, rng = discretise_actions(env), check_generator("seed", seed)
     discount = check_real("discount", discount, at_least=0, at_most=1)
     rate = schedule("learning_rate", learning_rate)
     features_of, weights = fitted(env, features)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
+    course = EpisodeRunner(
+        env, episodes, max_steps=max_steps, rng=rng, progress=progress
+    )
     choose, history = EpsilonGreedy(epsilon, rng), [weights.copy()]
     for state in course.episodes():
         choose.begin(course.number)
@@ -192,11 +196,11 @@ def bounded(delta: float) -> float:
 def learned(
     weights: NDArray[np.float64],
     features: Features,
-    course: Course,
+    course: EpisodeRunner,
     history: list[NDArray[np.float64]] | None,
-) -> LinearLearned:
+) -> LinearControlResult:
     """All of it as arrays."""
     kept = None if history is None else np.stack(history)
-    return LinearLearned(
+    return LinearControlResult(
         weights, features, np.array(course.returns), np.array(course.lengths), kept
     )

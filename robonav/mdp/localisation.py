@@ -22,7 +22,7 @@ from robonav.validation import (
     check_real,
 )
 
-from .policies import SUM_TOLERANCE, distributions
+from .policies import SUM_TOLERANCE, check_distributions
 
 Floats = NDArray[np.float64]
 
@@ -56,7 +56,7 @@ class PoseGrid:
         check_integer("headings", self.headings, at_least=1)
 
     @property
-    def states(self) -> int:
+    def n_states(self) -> int:
         """S, the number of poses, those inside walls included."""
         return self.free.size * self.headings
 
@@ -116,7 +116,7 @@ class PoseGrid:
             weight.append(share[inside])
         coordinates = np.concatenate(pose), np.concatenate(state)
         mixed = sp.coo_array(
-            (np.concatenate(weight), coordinates), (len(given), self.states)
+            (np.concatenate(weight), coordinates), (len(given), self.n_states)
         ).tocsr()
         totals = np.asarray(mixed.sum(axis=1))
         return sp.csr_array(sp.diags_array(1 / np.where(totals > 0, totals, 1)) @ mixed)
@@ -290,4 +290,4 @@ class Localiser:
 
     def _belief(self, belief: ArrayLike) -> Floats:
         check_array("belief", belief, shape=(len(self.predicted),))
-        return distributions("belief", belief, len(self.predicted))
+        return check_distributions("belief", belief, len(self.predicted))

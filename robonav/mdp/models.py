@@ -66,7 +66,7 @@ class FiniteMDP:
 
     def __repr__(self) -> str:
         kind = "sparse" if self.is_sparse else "dense"
-        return f"FiniteMDP({self.states} states, {self.actions} actions, discount {self.discount:g}, {kind})"
+        return f"FiniteMDP({self.n_states} states, {self.n_actions} actions, discount {self.discount:g}, {kind})"
 
     @classmethod
     def from_gymnasium(cls, env: Any, discount: float) -> FiniteMDP:
@@ -85,12 +85,12 @@ class FiniteMDP:
         return cls(*tabulate(env), discount)
 
     @property
-    def states(self) -> int:
+    def n_states(self) -> int:
         """Number of states S."""
         return self.rewards.shape[0]
 
     @property
-    def actions(self) -> int:
+    def n_actions(self) -> int:
         """Number of actions A."""
         return self.rewards.shape[1]
 
@@ -104,12 +104,12 @@ class FiniteMDP:
         """All transitions as one sparse matrix (S A, S); row s A + a holds T(s, a, .)."""
         if not self.is_sparse:
             return sp.csr_array(
-                self.transitions.swapaxes(0, 1).reshape(-1, self.states)
+                self.transitions.swapaxes(0, 1).reshape(-1, self.n_states)
             )
         by_action = sp.vstack(self.transitions, format="csr")
         return by_action[
-            np.arange(self.states * self.actions)
-            .reshape(self.actions, self.states)
+            np.arange(self.n_states * self.n_actions)
+            .reshape(self.n_actions, self.n_states)
             .T.ravel()
         ]
 
@@ -144,7 +144,7 @@ class FiniteMDP:
             lost = np.unique(self.leading_to[restless].indices)
             lost = lost[pairs[lost]]
             pairs[lost] = False
-            touched = np.unique(lost // self.actions)
+            touched = np.unique(lost // self.n_actions)
             restless = touched[~rests[touched].any(axis=1)]
         rests.flags.writeable = False
         return rests
@@ -176,26 +176,26 @@ class FiniteMDP:
             else allowed.ravel()
         )
         steps = np.where(goals, 0.0, np.inf)
-        policy = np.zeros(self.states, dtype=np.intp)
+        policy = np.zeros(self.n_states, dtype=np.intp)
         frontier = np.flatnonzero(goals)
         while frontier.size:
             distance = steps[frontier[0]] + 1
             closer = self.leading_to[frontier]
             found, which = np.unique(closer.indices, return_inverse=True)
             chance = np.bincount(which, closer.data, found.size)
-            new = usable[found] & np.isinf(steps[found // self.actions])
-            likeliest = np.lexsort((-chance[new], found[new] // self.actions))
+            new = usable[found] & np.isinf(steps[found // self.n_actions])
+            likeliest = np.lexsort((-chance[new], found[new] // self.n_actions))
             found = found[new][likeliest]
-            frontier, first = np.unique(found // self.actions, return_index=True)
-            steps[frontier], policy[frontier] = distance, found[first] % self.actions
+            frontier, first = np.unique(found // self.n_actions, return_index=True)
+            steps[frontier], policy[frontier] = distance, found[first] % self.n_actions
         return steps, policy
 
-    def backup(self, values: ArrayLike) -> NDArray[np.float64]:
+    def action_values(self, values: ArrayLike) -> NDArray[np.float64]:
         """Action values (S, A) one step ahead of ``values`` (S,): r(s, a) + gamma sum_s' T(s, a, s') V(s').
 
         This is Q from V, Eq. (2.11) for the optimal values and Eq. (2.15) for those of a policy.
         """
-        v = check_array("values", values, shape=(self.states,))
+        v = check_array("values", values, shape=(self.n_states,))
         ahead = (
             (self.rows @ v).reshape(self.rewards.shape)
             if self.is_sparse
@@ -205,24 +205,29 @@ class FiniteMDP:
 
     def greedy(self, values: ArrayLike) -> NDArray[np.intp]:
         """The greedy policy (S,) with regard to ``values`` (S,), Eq. (2.25); of equal actions the first."""
-        return self.backup(values).argmax(axis=1)
+        return self.action_values(values).argmax(axis=1)
 
-    def under(self, policy: ArrayLike) -> tuple[sp.csr_array, NDArray[np.float64]]:
+    def induced_chain(
+        self, policy: ArrayLike
+    ) -> tuple[sp.csr_array, NDArray[np.float64]]:
         """The Markov chain that a policy makes of the process: transitions (S, S) and rewards (S,).
 
         ``policy`` is (S,) actions or (S, A) probabilities; a stochastic one averages over its actions, Eq. (2.6).
         """
-        chosen = policies.checked(policy, self.states, self.actions)
-        state = np.arange(self.states)
+        chosen = policies.check_policy(policy, self.n_states, self.n_actions)
+        state = np.arange(self.n_states)
         if chosen.ndim == 1:
-            return self.rows[state * self.actions + chosen], self.rewards[state, chosen]
-        starts = np.arange(0, chosen.size + 1, self.actions)
+            return self.rows[state * self.n_actions + chosen], self.rewards[
+                state, chosen
+            ]
+        starts = np.arange(0, chosen.size + 1, self.n_actions)
         average = sp.csr_array(
-            (chosen.ravel(), np.arange(chosen.size), starts), (self.states, chosen.size)
+            (chosen.ravel(), np.arange(chosen.size), starts),
+            (self.n_states, chosen.size),
         )
         return sp.csr_array(average @ self.rows), (chosen * self.rewards).sum(axis=1)
 
-    def stopping_distance(self, tolerance: float) -> float:
+    def residual_for(self, tolerance: float) -> float:
         """How little a sweep of value iteration must change for its greedy policy to lose at most ``tolerance``.
 
         tolerance (1 - gamma) / (2 gamma), Puterman (2005), Theorem 6.3.1: infinite for discount 0. Without

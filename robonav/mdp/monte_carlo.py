@@ -12,9 +12,15 @@ from numpy.typing import ArrayLike
 from robonav.progress import Progress
 from robonav.validation import check_generator, check_one_of, check_real
 
+from .episodes import (
+    EpisodeRunner,
+    discounted_return,
+    discretise_spaces,
+    policy_sampler,
+    space_sizes,
+)
 from .exploration import EpsilonGreedy, Schedule, harmonic_decay
-from .interaction import Course, chooser, discounted_return, numbered, sizes
-from .temporal_difference import Learned, Predicted, QTable
+from .temporal_difference import ControlResult, PredictionResult, QTable
 
 Visit = Literal["first", "every"]
 
@@ -39,7 +45,7 @@ def monte_carlo_prediction(
     seed: int | np.random.Generator = 0,
     record: bool = False,
     progress: Progress | None = None,
-) -> Predicted:
+) -> PredictionResult:
     """The values of a policy, each the average of the returns that followed the state.
 
     Parameters
@@ -57,14 +63,16 @@ def monte_carlo_prediction(
 
     Returns
     -------
-    Predicted with ``values`` (S,), NaN where a state was never passed, and ``visits`` (S,), the returns averaged.
+    PredictionResult with ``values`` (S,), NaN where a state was never passed, and ``visits`` (S,).
     """
-    env, rng = numbered(env), check_generator("seed", seed)
+    env, rng = discretise_spaces(env), check_generator("seed", seed)
     discount = check_real("discount", discount, at_least=0, at_most=1)
     check_one_of("visit", visit, ("first", "every"))
-    states, actions = sizes(env)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
-    choose = chooser(policy, states, actions, rng)
+    states, actions = space_sizes(env)
+    course = EpisodeRunner(
+        env, episodes, max_steps=max_steps, rng=rng, progress=progress
+    )
+    choose = policy_sampler(policy, states, actions, rng)
     values, visits = np.full(states, np.nan), np.zeros(states, dtype=np.int64)
     history = [values.copy()]
     for start in course.episodes():
@@ -78,7 +86,7 @@ def monte_carlo_prediction(
             values[state] = known + (returns[step] - known) / visits[state]
         if record:
             history.append(values.copy())
-    return Predicted(values, visits, np.stack(history) if record else None)
+    return PredictionResult(values, visits, np.stack(history) if record else None)
 
 
 def monte_carlo_control(
@@ -94,7 +102,7 @@ def monte_carlo_control(
     seed: int | np.random.Generator = 0,
     record: bool = False,
     progress: Progress | None = None,
-) -> Learned:
+) -> ControlResult:
     """On-policy Monte Carlo control: average what followed each action, and act epsilon-greedily on the averages.
 
     Parameters
@@ -106,12 +114,12 @@ def monte_carlo_control(
 
     The others, and the result, are those of :func:`~robonav.mdp.q_learning`.
     """
-    env, rng = numbered(env), check_generator("seed", seed)
+    env, rng = discretise_spaces(env), check_generator("seed", seed)
     discount = check_real("discount", discount, at_least=0, at_most=1)
     check_one_of("visit", visit, ("first", "every"))
     rate = harmonic_decay() if learning_rate is None else learning_rate
-    table = QTable(sizes(env), initial=initial, learning_rate=rate, record=record)
-    course = Course(
+    table = QTable(space_sizes(env), initial=initial, learning_rate=rate, record=record)
+    course = EpisodeRunner(
         env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
     )
     choose, q = EpsilonGreedy(epsilon, rng), table.q

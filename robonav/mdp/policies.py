@@ -15,7 +15,7 @@ SUM_TOLERANCE = (
 )
 
 
-def deterministic(
+def check_deterministic_policy(
     name: str, policy: ArrayLike, states: int, actions: int
 ) -> NDArray[np.intp]:
     """The policy as an integer array (S,).
@@ -39,7 +39,7 @@ def deterministic(
     return actions_taken
 
 
-def checked(policy: ArrayLike, states: int, actions: int) -> NDArray:
+def check_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
     """The policy as an integer array (S,) or a float array (S, A).
 
     Raises
@@ -48,7 +48,7 @@ def checked(policy: ArrayLike, states: int, actions: int) -> NDArray:
     ValueError : if its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
     """
     if check_array("policy", policy).ndim == 1:
-        return deterministic("policy", policy, states, actions)
+        return check_deterministic_policy("policy", policy, states, actions)
     chances = check_array("policy", policy, shape=(states, actions))
     wrong = (chances < 0).any(axis=1) | (abs(chances.sum(axis=1) - 1) > SUM_TOLERANCE)
     if wrong.any():
@@ -61,11 +61,13 @@ def checked(policy: ArrayLike, states: int, actions: int) -> NDArray:
 
 def probabilities(policy: ArrayLike, states: int, actions: int) -> NDArray[np.float64]:
     """The policy as probabilities (S, A), whichever of the two forms it comes in."""
-    given = checked(policy, states, actions)
+    given = check_policy(policy, states, actions)
     return given if given.ndim == 2 else np.eye(actions)[given]
 
 
-def distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.float64]:
+def check_distributions(
+    name: str, value: ArrayLike, states: int
+) -> NDArray[np.float64]:
     """Distributions over S states, an array (..., S): beliefs.
 
     Raises

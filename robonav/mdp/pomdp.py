@@ -17,7 +17,7 @@ from robonav.validation import (
 )
 
 from .models import FiniteMDP
-from .policies import SUM_TOLERANCE, distributions
+from .policies import SUM_TOLERANCE, check_distributions
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
 
 def entropy(belief: ArrayLike) -> float:
     """How uncertain a belief (S,) is, in bits: 0 where one state is sure, log2 S where all are alike."""
-    b = distributions(
+    b = check_distributions(
         "belief", belief, len(check_array("belief", belief, shape=("S",)))
     )
     sure = b[b > 0]
@@ -84,7 +84,7 @@ class POMDP:
         z = check_array(
             "observations",
             self.observations,
-            shape=(self.mdp.actions, self.mdp.states, "O"),
+            shape=(self.mdp.n_actions, self.mdp.n_states, "O"),
         ).copy()
         wrong = (z < 0).any(axis=2) | (abs(z.sum(axis=2) - 1) > SUM_TOLERANCE)
         if wrong.any():
@@ -101,7 +101,7 @@ class POMDP:
 
     def uniform(self) -> Floats:
         """The belief (S,) of one who knows nothing."""
-        return np.full(self.mdp.states, 1 / self.mdp.states)
+        return np.full(self.mdp.n_states, 1 / self.mdp.n_states)
 
     def predict(self, belief: ArrayLike, action: int) -> Floats:
         """The belief (S,) after an action, before anything is observed: sum_s b(s) T(s, a, .)."""
@@ -142,17 +142,19 @@ class POMDP:
         return self._belief(belief) @ self.mdp.rewards
 
     def _belief(self, belief: ArrayLike) -> Floats:
-        check_array("belief", belief, shape=(self.mdp.states,))
-        return distributions("belief", belief, self.mdp.states)
+        check_array("belief", belief, shape=(self.mdp.n_states,))
+        return check_distributions("belief", belief, self.mdp.n_states)
 
     def _action(self, action: int) -> int:
-        return check_integer("action", action, at_least=0, at_most=self.mdp.actions - 1)
+        return check_integer(
+            "action", action, at_least=0, at_most=self.mdp.n_actions - 1
+        )
 
 
 def without_sensing(mdp: FiniteMDP) -> POMDP:
     """A robot with no sensing at all (2.5.1): whatever the state, it observes the same."""
     check_instance("mdp", mdp, FiniteMDP)
-    return POMDP(mdp, np.ones((mdp.actions, mdp.states, 1)))
+    return POMDP(mdp, np.ones((mdp.n_actions, mdp.n_states, 1)))
 
 
 @dataclass(frozen=True)
@@ -186,7 +188,7 @@ class BeliefMDP:
 
     def transition(self, belief: ArrayLike, action: int, successor: ArrayLike) -> float:
         """tau(b, a, b'), the probability that ``successor`` follows (Eq. (2.22))."""
-        wanted = check_array("successor", successor, shape=(self.pomdp.mdp.states,))
+        wanted = check_array("successor", successor, shape=(self.pomdp.mdp.n_states,))
         beliefs, probabilities = self.successors(belief, action)
         return float(probabilities[(abs(beliefs - wanted) <= SAME).all(axis=1)].sum())
 
@@ -196,7 +198,7 @@ class BeliefMDP:
 
 
 @dataclass(frozen=True)
-class BeliefWalk:
+class BeliefTrajectory:
     """One run through a POMDP (Fig. 2.3): what happened, what was observed, what was believed.
 
     Attributes
@@ -214,7 +216,7 @@ class BeliefWalk:
     beliefs: Floats
 
 
-def belief_walk(
+def belief_rollout(
     pomdp: POMDP,
     choose: Callable[[Floats], int],
     steps: int,
@@ -222,7 +224,7 @@ def belief_walk(
     belief: ArrayLike | None = None,
     state: int | None = None,
     seed: int | np.random.Generator,
-) -> BeliefWalk:
+) -> BeliefTrajectory:
     """Act on beliefs for some steps.
 
     Parameters
@@ -237,15 +239,15 @@ def belief_walk(
     check_integer("steps", steps, at_least=0)
     beliefs = [pomdp.uniform() if belief is None else pomdp._belief(belief)]
     if state is None:
-        state = rng.choice(pomdp.mdp.states, p=beliefs[0])
-    check_integer("state", state, at_least=0, at_most=pomdp.mdp.states - 1)
+        state = rng.choice(pomdp.mdp.n_states, p=beliefs[0])
+    check_integer("state", state, at_least=0, at_most=pomdp.mdp.n_states - 1)
     states, actions, observations, rewards = [state], [], [], []
     for _ in range(steps):
         action = pomdp._action(choose(beliefs[-1]))
         rewards.append(pomdp.mdp.rewards[states[-1], action])
         states.append(
             rng.choice(
-                pomdp.mdp.states,
+                pomdp.mdp.n_states,
                 p=successor_probabilities(pomdp.mdp, states[-1], action),
             )
         )
@@ -256,7 +258,9 @@ def belief_walk(
         )
         beliefs.append(pomdp.update(beliefs[-1], action, observations[-1]))
         actions.append(action)
-    return BeliefWalk(*map(np.array, (states, actions, observations, rewards, beliefs)))
+    return BeliefTrajectory(
+        *map(np.array, (states, actions, observations, rewards, beliefs))
+    )
 
 
 def successor_probabilities(mdp: FiniteMDP, state: int, action: int) -> Floats:

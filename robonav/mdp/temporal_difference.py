@@ -13,12 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.progress import Progress
 from robonav.validation import check_generator, check_real
 
+from .episodes import EpisodeRunner, discretise_spaces, policy_sampler, space_sizes
 from .exploration import EpsilonGreedy, Schedule, schedule
-from .interaction import Course, chooser, numbered, sizes
 
 
 @dataclass(frozen=True)
-class Learned:
+class ControlResult:
     """Action values learned from episodes, and how the learning went.
 
     Attributes
@@ -28,7 +28,7 @@ class Learned:
     returns : (episodes,) rewards of each training episode, summed without discount.
     lengths : (episodes,) its steps.
     history : (episodes + 1, S, A) ``q`` before the first episode and after each, if recorded.
-    walks : the states passed in each episode, (steps + 1,), if recorded.
+    visited_states : the states passed in each episode, (steps + 1,), if recorded.
     """
 
     q: NDArray[np.float64]
@@ -36,7 +36,7 @@ class Learned:
     returns: NDArray[np.float64]
     lengths: NDArray[np.int64]
     history: NDArray[np.float64] | None = None
-    walks: tuple[NDArray[np.int64], ...] | None = None
+    visited_states: tuple[NDArray[np.int64], ...] | None = None
 
     @cached_property
     def policy(self) -> NDArray[np.int64]:
@@ -50,7 +50,7 @@ class Learned:
 
 
 @dataclass(frozen=True)
-class Predicted:
+class PredictionResult:
     """State values of one policy, estimated from episodes.
 
     Attributes
@@ -93,15 +93,17 @@ class QTable:
         if self._history is not None:
             self._history.append(np.array(self.q))
 
-    def learned(self, course: Course) -> Learned:
+    def learned(self, course: EpisodeRunner) -> ControlResult:
         """All of it as arrays."""
-        return Learned(
+        return ControlResult(
             np.array(self.q),
             np.array(self.visits),
             np.array(course.returns),
             np.array(course.lengths),
             None if self._history is None else np.stack(self._history),
-            None if self._history is None else tuple(map(np.array, course.walks)),
+            None
+            if self._history is None
+            else tuple(map(np.array, course.visited_states)),
         )
 
 
@@ -117,7 +119,7 @@ def q_learning(
     seed: int | np.random.Generator = 0,
     record: bool = False,
     progress: Progress | None = None,
-) -> Learned:
+) -> ControlResult:
     """One-step Q-learning (Algorithm 5; Eqs. (2.29), (4.1)): learn what the best policy earns while following another.
 
     Parameters
@@ -138,19 +140,19 @@ def q_learning(
 
     Returns
     -------
-    Learned with ``q`` (S, A), ``visits``, ``returns``, ``lengths``, and ``history`` and ``walks`` if recorded.
+    ControlResult with ``q`` (S, A), ``visits``, ``returns``, ``lengths``, and ``history`` and ``walks`` if recorded.
 
     Raises
     ------
     TypeError : if ``env`` is no Gymnasium environment or its spaces are not discrete.
     ValueError : if a number is out of its range.
     """
-    env, rng = numbered(env), check_generator("seed", seed)
+    env, rng = discretise_spaces(env), check_generator("seed", seed)
     discount = check_real("discount", discount, at_least=0, at_most=1)
     table = QTable(
-        sizes(env), initial=initial, learning_rate=learning_rate, record=record
+        space_sizes(env), initial=initial, learning_rate=learning_rate, record=record
     )
-    course = Course(
+    course = EpisodeRunner(
         env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
     )
     choose, q = EpsilonGreedy(epsilon, rng), table.q
@@ -178,18 +180,18 @@ def sarsa(
     seed: int | np.random.Generator = 0,
     record: bool = False,
     progress: Progress | None = None,
-) -> Learned:
+) -> ControlResult:
     """SARSA (Algorithm 6; Eqs. (2.30), (4.2)): learn what the policy earns that is being followed, exploring included.
 
     Parameters, result and errors are those of :func:`q_learning`. The values tend to the optimal ones only if, besides,
     ``epsilon`` falls to zero (Singh et al. 2000).
     """
-    env, rng = numbered(env), check_generator("seed", seed)
+    env, rng = discretise_spaces(env), check_generator("seed", seed)
     discount = check_real("discount", discount, at_least=0, at_most=1)
     table = QTable(
-        sizes(env), initial=initial, learning_rate=learning_rate, record=record
+        space_sizes(env), initial=initial, learning_rate=learning_rate, record=record
     )
-    course = Course(
+    course = EpisodeRunner(
         env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
     )
     choose, q = EpsilonGreedy(epsilon, rng), table.q
@@ -218,18 +220,18 @@ def expected_sarsa(
     seed: int | np.random.Generator = 0,
     record: bool = False,
     progress: Progress | None = None,
-) -> Learned:
+) -> ControlResult:
     """Expected SARSA (van Seijen et al. 2009): SARSA with the mean over the next action in place of one draw of it.
 
     Parameters, result and errors are those of :func:`q_learning`. The target varies less than SARSA's, so that a larger
     learning rate does; where nothing in the world is random, a rate of 1 is the best.
     """
-    env, rng = numbered(env), check_generator("seed", seed)
+    env, rng = discretise_spaces(env), check_generator("seed", seed)
     discount = check_real("discount", discount, at_least=0, at_most=1)
     table = QTable(
-        sizes(env), initial=initial, learning_rate=learning_rate, record=record
+        space_sizes(env), initial=initial, learning_rate=learning_rate, record=record
     )
-    course = Course(
+    course = EpisodeRunner(
         env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
     )
     choose, q = EpsilonGreedy(epsilon, rng), table.q
@@ -257,7 +259,7 @@ def td_prediction(
     seed: int | np.random.Generator = 0,
     record: bool = False,
     progress: Progress | None = None,
-) -> Predicted:
+) -> PredictionResult:
     """TD(0) (2.4.3): the values of a policy, each estimate learning from the next one without waiting for the end.
 
     ``V(s) += alpha * (r + gamma * V(s') - V(s))``
@@ -273,14 +275,16 @@ def td_prediction(
 
     Returns
     -------
-    Predicted with ``values`` (S,), ``visits`` (S,), and ``history`` (episodes + 1, S) if recorded.
+    PredictionResult with ``values`` (S,), ``visits`` (S,), and ``history`` (episodes + 1, S) if recorded.
     """
-    env, rng = numbered(env), check_generator("seed", seed)
+    env, rng = discretise_spaces(env), check_generator("seed", seed)
     discount = check_real("discount", discount, at_least=0, at_most=1)
     rate = schedule("learning_rate", learning_rate)
-    states, actions = sizes(env)
-    choose = chooser(policy, states, actions, rng)
-    course = Course(env, episodes, max_steps=max_steps, rng=rng, progress=progress)
+    states, actions = space_sizes(env)
+    choose = policy_sampler(policy, states, actions, rng)
+    course = EpisodeRunner(
+        env, episodes, max_steps=max_steps, rng=rng, progress=progress
+    )
     values, visits = [check_real("initial", initial)] * states, [0] * states
     history = [np.array(values)]
     for state in course.episodes():
@@ -292,6 +296,6 @@ def td_prediction(
             state = successor
         if record:
             history.append(np.array(values))
-    return Predicted(
+    return PredictionResult(
         np.array(values), np.array(visits), np.stack(history) if record else None
     )

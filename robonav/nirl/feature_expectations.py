@@ -27,10 +27,10 @@ def feature_expectations(mdp: FeaturedMDP, policy: ArrayLike) -> Floats:
     mdp : S states, A actions, K features.
     policy : (S,) actions or (S, A) probabilities, followed after the first action.
     """
-    chances = policies.probabilities(policy, mdp.states, mdp.actions)
+    chances = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
     chain = np.einsum("sa,ast->st", chances, mdp.transitions)
     met = np.einsum("sa,sak->sk", chances, mdp.features)
-    from_state = np.linalg.solve(np.eye(mdp.states) - mdp.discount * chain, met)
+    from_state = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * chain, met)
     return mdp.features + mdp.discount * np.einsum(
         "ast,tk->sak", mdp.transitions, from_state
     )
@@ -38,7 +38,7 @@ def feature_expectations(mdp: FeaturedMDP, policy: ArrayLike) -> Floats:
 
 def start_expectations(mdp: FeaturedMDP, policy: ArrayLike) -> Floats:
     """mu of a policy from the start, (K,): with reward theta . f the policy is worth theta . mu (Eq. (5.4))."""
-    chances = policies.probabilities(policy, mdp.states, mdp.actions)
+    chances = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
     return np.einsum(
         "s,sa,sak->k", mdp.starts, chances, feature_expectations(mdp, policy)
     )

@@ -83,13 +83,13 @@ def soft_value_iteration(
     discount = check_real("mdp: discount", mdp.discount, below=1)
     enough = check_positive("tolerance", tolerance) * (1 - discount)
     values = (
-        np.zeros(mdp.states)
+        np.zeros(mdp.n_states)
         if start is None
-        else check_array("start", start, shape=(mdp.states,))
+        else check_array("start", start, shape=(mdp.n_states,))
     )
     for _ in range(check_integer("max_iterations", max_iterations, at_least=1)):
         before = values
-        values = soft_maximum(mdp.backup(before), temperature)
+        values = soft_maximum(mdp.action_values(before), temperature)
         moved = abs(values - before).max()
         if discount * moved <= enough:
             break
@@ -100,7 +100,7 @@ def soft_value_iteration(
             ConvergenceWarning,
             stacklevel=2,
         )
-    q = mdp.backup(values)
+    q = mdp.action_values(values)
     return SoftSolution(values, q, softmax(q / temperature, axis=1))
 
 
@@ -127,7 +127,7 @@ def maximum_entropy(
     """
     mu = check_array("expert", expert, shape=(mdp.features.shape[2],))
     decay = check_real("ridge", ridge, at_least=0)
-    values = np.zeros(mdp.states)
+    values = np.zeros(mdp.n_states)
     trace: list[tuple[float, float]] = []
 
     def negative(theta: Floats) -> tuple[float, Floats]:

@@ -66,7 +66,7 @@ class FeaturedMDP:
         f(s, a) = sum_s' T(s, a, s') phi(s'): so a step that may slip is worth what it may lead to. A terminal cell
         counts when it is reached and no more.
         """
-        phi = check_array("cell_features", cell_features, shape=(grid.states, "K"))
+        phi = check_array("cell_features", cell_features, shape=(grid.n_states, "K"))
         transitions = np.stack(
             [matrix.toarray() for matrix in grid.mdp(discount).transitions]
         )
@@ -75,12 +75,12 @@ class FeaturedMDP:
         return cls(transitions, features, discount, grid.start)
 
     @property
-    def states(self) -> int:
+    def n_states(self) -> int:
         """Number of states S."""
         return self.features.shape[0]
 
     @property
-    def actions(self) -> int:
+    def n_actions(self) -> int:
         """Number of actions A."""
         return self.features.shape[1]
 
@@ -108,12 +108,12 @@ class FeaturedMDP:
         """Follow a policy, (S,) actions or (S, A) probabilities, for ``steps`` steps, ``walks`` times over."""
         rng = check_generator("seed", seed)
         n = check_integer("walks", walks, at_least=0)
-        chances = policies.probabilities(policy, self.states, self.actions)
+        chances = policies.probabilities(policy, self.n_states, self.n_actions)
         states = np.empty(
             (n, check_integer("steps", steps, at_least=1)), dtype=np.int64
         )
         actions = np.empty_like(states)
-        here = rng.choice(self.states, n, p=self.starts)
+        here = rng.choice(self.n_states, n, p=self.starts)
         for step in range(steps):
             action = sample_actions(chances[here], rng.random(n))
             states[:, step], actions[:, step] = here, action

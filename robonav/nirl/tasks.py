@@ -158,15 +158,17 @@ class ModelCourse:
 
     @property
     def inputs(self) -> int:
-        return self.mdp.states
+        return self.mdp.n_states
 
     @property
     def actions(self) -> int:
-        return self.mdp.actions
+        return self.mdp.n_actions
 
     def drive(self, chances: Chances, rng: np.random.Generator) -> Steps:
         """``trajectories`` walks."""
-        return self.shown(chances(np.eye(self.mdp.states)), self.trajectories, seed=rng)
+        return self.shown(
+            chances(np.eye(self.mdp.n_states)), self.trajectories, seed=rng
+        )
 
     def shown(
         self, policy: Floats, walks: int, *, seed: int | np.random.Generator
@@ -176,7 +178,7 @@ class ModelCourse:
         alive = ~self.mdp.terminal[walked.states]
         trajectory = walked.trajectory[alive.ravel()]
         when = np.broadcast_to(np.arange(self.steps), alive.shape)[alive]
-        inputs = np.eye(self.mdp.states)[walked.states[alive]]
+        inputs = np.eye(self.mdp.n_states)[walked.states[alive]]
         over = ~alive[:, -1]
         return Steps(
             inputs,

@@ -12,7 +12,7 @@ from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Rectangl
 from numpy.typing import ArrayLike, NDArray
 
 from robonav import style
-from robonav.mdp import GridWorld, Trace
+from robonav.mdp import GPIHistory, GridWorld
 from robonav.mdp.gridworld import STEPS
 
 # Cells are pale and what stands on them is dark, in the light theme and in the dark one; `grid_lab.js` does the same.
@@ -290,7 +290,7 @@ def draw_two_lines(axes: Axes) -> None:
     _bare(axes, (-0.8, 7.1), (-2.5, 2.5))
 
 
-def plot_trace(axes: Axes, trace: Trace, *, least: float = 1e-8) -> None:
+def plot_trace(axes: Axes, trace: GPIHistory, *, least: float = 1e-8) -> None:
     """How far generalized policy iteration is from either line of Fig. 2.4(b) after each half step.
 
     Parameters

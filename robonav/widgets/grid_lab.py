@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav import style
 from robonav.mdp import Cell, FiniteMDP, GridWorld
-from robonav.mdp.improvement import shortfalls
+from robonav.mdp.generalised_policy_iteration import suboptimality
 from robonav.validation import check_array
 
 from .shared import front_end, packed, style_sheet
@@ -60,13 +60,13 @@ def replay(
     ------
     ValueError : if there are not as many values, policies and walks as steps.
     """
-    held = check_array("values", values, shape=(len(steps), mdp.states))
+    held = check_array("values", values, shape=(len(steps), mdp.n_states))
     chosen = check_array("policies", policies, shape=held.shape, dtype=np.intp)
     if walks and len(walks) != len(steps):
         raise ValueError(
             f"walks must be as many as steps, {len(steps)}, got {len(walks)}"
         )
-    compared = zip(steps, *shortfalls(mdp, held, chosen, best=best), strict=True)
+    compared = zip(steps, *suboptimality(mdp, held, chosen, best=best), strict=True)
     return Replay(
         held,
         chosen,
@@ -152,7 +152,7 @@ def grid_lab(
             check_array(
                 f"values of {name}",
                 shown.values,
-                shape=(len(shown.said), grids[combination[0]].states),
+                shape=(len(shown.said), grids[combination[0]].n_states),
             )
     return GridLab(
         {

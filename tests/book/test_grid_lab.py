@@ -95,7 +95,7 @@ def test_every_setting_shows_its_own_sweeps_and_policies(
     model = grid.mdp(float(discount))
     swept = mdp.value_iteration(model, 0.02, record=True)
     iterated = mdp.policy_iteration(
-        model, start=np.zeros(model.states, dtype=int), record=True
+        model, start=np.zeros(model.n_states, dtype=int), record=True
     )
     for which, (history, policies) in enumerate(
         ((swept.history, swept.policies), (iterated.history, iterated.policies))

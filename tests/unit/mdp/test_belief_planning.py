@@ -11,7 +11,7 @@ from robonav.mdp import (
     AlphaVectors,
     BeliefMDP,
     FiniteMDP,
-    belief_walk,
+    belief_rollout,
     fork,
     point_based_value_iteration,
     qmdp,
@@ -51,7 +51,7 @@ def expectimax(pomdp, belief, horizon):
         return 0.0
     beliefs = BeliefMDP(pomdp)
     best = -np.inf
-    for action in range(pomdp.mdp.actions):
+    for action in range(pomdp.mdp.n_actions):
         successors, probabilities = beliefs.successors(belief, action)
         ahead = sum(
             p * expectimax(pomdp, b, horizon - 1)
@@ -92,7 +92,7 @@ def test_the_policy_earns_what_it_says():
     policy = point_based_value_iteration(pomdp, spread_beliefs(pomdp, [0.5, 0.5], 40))
     weights = 0.75 ** np.arange(40)
     earned = [
-        weights @ belief_walk(pomdp, policy.action, 40, seed=seed).rewards
+        weights @ belief_rollout(pomdp, policy.action, 40, seed=seed).rewards
         for seed in range(400)
     ]
     assert np.mean(earned) == pytest.approx(
@@ -118,13 +118,15 @@ def test_qmdp_never_pays_for_a_look():
     doubt = [0.5, 0.5, 0.0]
     assert qmdp(pomdp).action(doubt) == 0
     assert (
-        belief_walk(pomdp, qmdp(pomdp).action, 20, belief=doubt, seed=0).rewards.sum()
+        belief_rollout(
+            pomdp, qmdp(pomdp).action, 20, belief=doubt, seed=0
+        ).rewards.sum()
         == 0
     )
     policy = point_based_value_iteration(pomdp, spread_beliefs(pomdp, doubt, 10))
     assert policy.value(doubt) == pytest.approx(-1 + 0.9 * 10)
     for seed in range(5):
-        run = belief_walk(pomdp, policy.action, 2, belief=doubt, seed=seed)
+        run = belief_rollout(pomdp, policy.action, 2, belief=doubt, seed=seed)
         assert run.actions.tolist() == [1, 2 + run.states[0]]
         assert run.rewards.tolist() == [-1, 10]
 

@@ -63,10 +63,10 @@ def sampled(seed, *, sparse=None, discount=None):
 
 def by_linear_program(mdp):
     """The least values no backup exceeds: min sum V with V >= r + gamma T V for every action (Puterman, 6.9)."""
-    each = np.repeat(np.eye(mdp.states), mdp.actions, axis=0)
+    each = np.repeat(np.eye(mdp.n_states), mdp.n_actions, axis=0)
     rows = mdp.discount * mdp.rows.toarray() - each
     found = linprog(
-        np.ones(mdp.states), A_ub=rows, b_ub=-mdp.rewards.ravel(), bounds=(None, None)
+        np.ones(mdp.n_states), A_ub=rows, b_ub=-mdp.rewards.ravel(), bounds=(None, None)
     )
     assert found.status == 0
     return found.x
@@ -214,8 +214,8 @@ def test_the_bound_is_needed():
         FiniteMDP([[[1.0]]], [[1.0]], 0.99),
         0.05,
     )  # 1 a step for ever: worth 100
-    as_printed = value_iteration(patient, epsilon / patient.stopping_distance(1))
-    assert as_printed.distance <= epsilon
+    as_printed = value_iteration(patient, epsilon / patient.residual_for(1))
+    assert as_printed.residual <= epsilon
     assert 100 - as_printed.values[0] > 90 * epsilon
     assert 100 - value_iteration(patient, epsilon).values[0] <= epsilon / 2
 
@@ -407,8 +407,8 @@ def test_giving_up_warns_and_still_answers(planner, limit):
         match=rf"{planner.__name__} gave up after \d .* where .* was asked for",
     ):
         solution = planner(mdp, **limit)
-    assert solution.distance > 0
-    assert solution.values.shape == solution.policy.shape == (mdp.states,)
+    assert solution.residual > 0
+    assert solution.values.shape == solution.policy.shape == (mdp.n_states,)
 
 
 def test_histories_are_the_steps_of_the_algorithms():
@@ -417,18 +417,20 @@ def test_histories_are_the_steps_of_the_algorithms():
     assert (
         swept.history.shape
         == swept.policies.shape
-        == (swept.iterations + 1, mdp.states)
+        == (swept.iterations + 1, mdp.n_states)
     )
     for before, after, policy in zip(
         swept.history[:-1], swept.history[1:], swept.policies[:-1], strict=True
     ):
-        np.testing.assert_allclose(after, mdp.backup(before).max(axis=1), atol=1e-12)
+        np.testing.assert_allclose(
+            after, mdp.action_values(before).max(axis=1), atol=1e-12
+        )
         assert (policy == mdp.greedy(before)).all()
     iterated = policy_iteration(mdp, record=True)
     assert (
         iterated.history.shape
         == iterated.policies.shape
-        == (iterated.iterations, mdp.states)
+        == (iterated.iterations, mdp.n_states)
     )
     for values, policy in zip(iterated.history, iterated.policies, strict=True):
         np.testing.assert_allclose(values, policy_evaluation(mdp, policy), atol=1e-9)
@@ -439,7 +441,7 @@ def test_histories_are_the_steps_of_the_algorithms():
     assert (
         modified.history.shape
         == modified.policies.shape
-        == (modified.iterations + 1, mdp.states)
+        == (modified.iterations + 1, mdp.n_states)
     )
     np.testing.assert_array_equal(modified.history[-1], modified.values)
     assert value_iteration(mdp).history is None
@@ -473,7 +475,7 @@ def test_starting_at_the_answer_ends_at_once():
 
 def test_modified_policy_iteration_without_sweeps_is_value_iteration():
     mdp = sampled(5, discount=0.9)
-    start = np.zeros(mdp.states)
+    start = np.zeros(mdp.n_states)
     modified = modified_policy_iteration(mdp, sweeps=0, start=start, record=True)
     shared = modified.iterations - 1
     plain = value_iteration(mdp, record=True).history

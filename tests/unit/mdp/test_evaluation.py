@@ -13,19 +13,19 @@ from robonav.mdp import (
     Cell,
     FiniteMDP,
     GridWorld,
-    action_values,
     advantage,
     backward_induction,
     bellman_action_value_operator,
     bellman_optimality_operator,
     bellman_policy_operator,
+    finite_horizon_evaluation,
     generalized_policy_iteration,
-    horizon_evaluation,
     in_place_value_iteration,
     is_optimal,
     iterative_policy_evaluation,
     modified_policy_iteration,
     policies,
+    policy_action_values,
     policy_evaluation,
     policy_iteration,
     prioritized_sweeping,
@@ -126,7 +126,7 @@ def test_values_solve_the_bellman_equations(seed, discount, stochastic):
     np.testing.assert_allclose(
         bellman_policy_operator(mdp, policy, values), values, atol=1e-9
     )
-    q = action_values(mdp, policy)
+    q = policy_action_values(mdp, policy)
     probabilities = policies.probabilities(policy, 8, 3)
     np.testing.assert_allclose(
         (probabilities * q).sum(axis=1), values, atol=1e-9
@@ -232,7 +232,7 @@ def test_optimal_action_values_are_where_the_operator_on_them_rests(seed, discou
     for s, a in np.ndindex(4, 3):
         ahead = sum(mdp.transitions[a, s, t] * max(q[t]) for t in range(4))
         assert swept[s, a] == pytest.approx(mdp.rewards[s, a] + discount * ahead)
-    best = mdp.backup(policy_iteration(mdp).values)
+    best = mdp.action_values(policy_iteration(mdp).values)
     np.testing.assert_allclose(
         bellman_action_value_operator(mdp, best), best, atol=1e-8
     )
@@ -288,12 +288,12 @@ GRID = GridWorld("..G")
         ),
         *(
             lambda grid, f=f: f(grid, [1, 1, 0])
-            for f in (action_values, advantage, is_optimal)
+            for f in (policy_action_values, advantage, is_optimal)
         ),
         lambda grid: bellman_policy_operator(grid, [1, 1, 0], np.zeros(3)),
         lambda grid: bellman_optimality_operator(grid, np.zeros(3)),
         lambda grid: backward_induction(grid, 3),
-        lambda grid: horizon_evaluation(grid, [1, 1, 0], 3),
+        lambda grid: finite_horizon_evaluation(grid, [1, 1, 0], 3),
     ],
 )
 def test_a_grid_is_no_model_yet(call):

@@ -72,9 +72,9 @@ def test_a_cell_may_be_firm_where_the_grid_is_not():
 def test_no_cell_vanishes_however_little_it_pays():
     """Zero-reward cells are states like others."""
     grid = GridWorld("...\n...\n..G")
-    assert grid.states == 9
+    assert grid.n_states == 9
     mdp = grid.mdp(0.5)
-    assert mdp.states == 9
+    assert mdp.n_states == 9
     assert value_iteration(mdp).values[0] == pytest.approx(0.5**3)
 
 

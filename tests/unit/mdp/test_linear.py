@@ -15,7 +15,7 @@ from robonav.mdp import (
     q_learning,
     rollouts,
     sarsa,
-    with_constant,
+    with_bias,
 )
 
 UNIT = st.floats(0, 1)
@@ -24,8 +24,8 @@ UNIT = st.floats(0, 1)
 def test_one_hot_is_one_number_for_each_pair():
     features = OneHot(3, 2)
     assert features(1).tolist() == [[0, 1, 0, 0, 0, 0], [0, 0, 0, 0, 1, 0]]
-    assert with_constant(features)(1)[:, 0].tolist() == [1, 1]
-    assert with_constant(features)(1).shape == (2, 7)
+    assert with_bias(features)(1)[:, 0].tolist() == [1, 1]
+    assert with_bias(features)(1).shape == (2, 7)
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_the_constant_is_a_weight_like_the_others():
     """One step, reward -1, all values 0 before: each active feature, f_0 included, moves by alpha * delta."""
     cliff = gym.make("CliffWalking-v1")
     learned = linear_sarsa(
-        cliff, 1, with_constant(OneHot(48, 4)), learning_rate=0.1, max_steps=1, seed=0
+        cliff, 1, with_bias(OneHot(48, 4)), learning_rate=0.1, max_steps=1, seed=0
     )
     moved = learned.weights[learned.weights != 0]
     assert learned.weights[0] == pytest.approx(0.1 * learned.returns[0])
@@ -160,7 +160,7 @@ def test_tilings_are_shifted_differently_in_each_direction():
     assert len(here & there) == len(kept) == 6
 
 
-TILES = Tiles(low=(0.0, 0.0), high=(1.0, 2.0), tiles=(4, 5), tilings=8, actions=3)
+TILES = Tiles(low=(0.0, 0.0), high=(1.0, 2.0), tiles=(4, 5), tilings=8, n_actions=3)
 
 
 @settings(deadline=None)
@@ -202,7 +202,7 @@ def test_outside_counts_as_on_the_edge():
 def test_tiles_carry_what_was_learned_to_places_never_seen():
     """On the cliff with tiles over (row, column), values beyond the walk are learned too, and the goal is found."""
     cliff = gym.make("CliffWalking-v1")
-    tiles = Tiles(low=(0, 0), high=(4, 12), tiles=(4, 6), tilings=4, actions=4)
+    tiles = Tiles(low=(0, 0), high=(4, 12), tiles=(4, 6), tilings=4, n_actions=4)
 
     def features(state):
         return tiles(np.divmod(state, 12))
@@ -221,7 +221,7 @@ def test_any_observation_will_do():
     """A car on a hill: two real numbers, no table."""
     car = gym.make("MountainCar-v0")
     tiles = Tiles(
-        low=(-1.2, -0.07), high=(0.6, 0.07), tiles=(8, 8), tilings=8, actions=3
+        low=(-1.2, -0.07), high=(0.6, 0.07), tiles=(8, 8), tilings=8, n_actions=3
     )
     learned = linear_sarsa(
         car,
@@ -240,7 +240,7 @@ def test_any_observation_will_do():
 @pytest.mark.parametrize("learn", [linear_sarsa, linear_q_learning])
 def test_too_large_a_step_is_named(learn):
     cliff = gym.make("CliffWalking-v1")
-    tiles = Tiles(low=(0, 0), high=(4, 12), tiles=(2, 2), tilings=16, actions=4)
+    tiles = Tiles(low=(0, 0), high=(4, 12), tiles=(2, 2), tilings=16, n_actions=4)
     with pytest.raises(ValueError, match="learning_rate is too large"):
         learn(
             cliff,

@@ -24,7 +24,7 @@ ROOM = PoseGrid(np.ones((6, 8), dtype=bool), cell=0.5, headings=12)
 
 def test_poses_are_numbered_by_row_column_and_heading():
     grid = PoseGrid(np.ones((2, 3), dtype=bool), cell=2.0, headings=4)
-    assert grid.states == 24
+    assert grid.n_states == 24
     np.testing.assert_allclose(
         grid.poses[(1 * 3 + 2) * 4 + 3], [5.0, 3.0, 3 * np.pi / 2]
     )
@@ -49,7 +49,7 @@ def test_a_pose_between_grid_poses_is_a_mixture_that_keeps_its_place(x, y, headi
 
 def test_a_pose_on_the_grid_is_itself():
     np.testing.assert_allclose(
-        ROOM.around(ROOM.poses).toarray(), np.eye(ROOM.states), atol=1e-8
+        ROOM.around(ROOM.poses).toarray(), np.eye(ROOM.n_states), atol=1e-8
     )
 
 
@@ -69,7 +69,7 @@ def test_moves_are_distributions_that_stay_on_free_cells(free):
         np.testing.assert_allclose(matrix.sum(axis=1), 1)
         assert matrix[grid.possible][:, ~grid.possible].sum() == 0
     FiniteMDP(
-        list(pose_transitions(grid, MOVES)), np.zeros((grid.states, 4)), 0.9
+        list(pose_transitions(grid, MOVES)), np.zeros((grid.n_states, 4)), 0.9
     )  # fits an MDP
 
 
@@ -139,16 +139,16 @@ def test_the_update_is_bayes_written_out(seed):
         if seed % 2
         else PoseGrid(np.ones((2, 3), bool), headings=4)
     )
-    predicted, measured = rng.uniform(1, 10, (grid.states, 9)), rng.uniform(1, 10, 9)
+    predicted, measured = rng.uniform(1, 10, (grid.n_states, 9)), rng.uniform(1, 10, 9)
     measured[:3] = predicted[:, :3].max(initial=10.0)
     localiser = Localiser(pose_transitions(grid, MOVES), predicted, RangeSensor(2.0))
     belief = grid.uniform()
     action = int(rng.integers(4))
     matrix = localiser.transitions[action].toarray()
     joint = [
-        sum(belief[s] * matrix[s, t] for s in range(grid.states))
+        sum(belief[s] * matrix[s, t] for s in range(grid.n_states))
         * np.exp(localiser.sensor.log_likelihood(predicted[t], measured))
-        for t in range(grid.states)
+        for t in range(grid.n_states)
     ]
     np.testing.assert_allclose(
         localiser.update(belief, action, measured),
@@ -272,7 +272,7 @@ def house():
     ).reshape(-1, 2)
     clear = robot.clearance(HOUSE[np.zeros(len(centres), int)], centres) >= 0.5
     grid = PoseGrid(clear.reshape(40, 40), headings=24)
-    predicted = robot.sense(HOUSE[np.zeros(grid.states, int)], grid.poses).ranges
+    predicted = robot.sense(HOUSE[np.zeros(grid.n_states, int)], grid.poses).ranges
     return grid, Localiser(
         pose_transitions(grid, DRIVE, slip=SLIP), predicted, RangeSensor(0.9)
     )

@@ -41,9 +41,9 @@ def brute_backup(transitions, rewards, discount, values):
 def test_backup_is_the_equation(seed, sparse, discount):
     dense = random_mdp(seed, discount=discount)
     mdp = random_mdp(seed, discount=discount, sparse=sparse)
-    values = np.random.default_rng(seed).normal(size=mdp.states)
+    values = np.random.default_rng(seed).normal(size=mdp.n_states)
     expected = brute_backup(dense.transitions, dense.rewards, discount, values)
-    np.testing.assert_allclose(mdp.backup(values), expected, atol=1e-12)
+    np.testing.assert_allclose(mdp.action_values(values), expected, atol=1e-12)
     assert (mdp.greedy(values) == expected.argmax(axis=1)).all()
 
 
@@ -52,19 +52,21 @@ def test_backup_is_the_equation(seed, sparse, discount):
 def test_chain_of_a_policy_averages_over_its_actions(seed, sparse):
     mdp = random_mdp(seed, sparse=sparse)
     rng = np.random.default_rng(seed)
-    probabilities = rng.dirichlet(np.ones(mdp.actions), size=mdp.states)
+    probabilities = rng.dirichlet(np.ones(mdp.n_actions), size=mdp.n_states)
     dense = random_mdp(seed).transitions
-    transitions, rewards = mdp.under(probabilities)
+    transitions, rewards = mdp.induced_chain(probabilities)
     np.testing.assert_allclose(
         transitions.toarray(), np.einsum("sa,ast->st", probabilities, dense), atol=1e-12
     )
     np.testing.assert_allclose(rewards, (probabilities * mdp.rewards).sum(axis=1))
-    actions = rng.integers(mdp.actions, size=mdp.states)
-    transitions, rewards = mdp.under(actions)
+    actions = rng.integers(mdp.n_actions, size=mdp.n_states)
+    transitions, rewards = mdp.induced_chain(actions)
     np.testing.assert_array_equal(
-        transitions.toarray(), dense[actions, np.arange(mdp.states)]
+        transitions.toarray(), dense[actions, np.arange(mdp.n_states)]
     )
-    np.testing.assert_array_equal(rewards, mdp.rewards[np.arange(mdp.states), actions])
+    np.testing.assert_array_equal(
+        rewards, mdp.rewards[np.arange(mdp.n_states), actions]
+    )
 
 
 @pytest.mark.parametrize(
@@ -79,7 +81,7 @@ def test_every_sparse_form_serves(form):
         mdp.rows.toarray(), dense.swapaxes(0, 1).reshape(-1, 6)
     )
     assert mdp.is_sparse
-    assert len(mdp.transitions) == mdp.actions == 3
+    assert len(mdp.transitions) == mdp.n_actions == 3
 
 
 def test_wide_indices_serve_too():
@@ -218,8 +220,8 @@ def test_rewards_of_the_state_reached_are_averaged():
 
 def test_stopping_distance_at_both_ends():
     mdp = random_mdp(0, discount=0.5)
-    assert mdp.stopping_distance(0.1) == pytest.approx(0.05)
-    assert random_mdp(0, discount=0).stopping_distance(0.1) == np.inf
+    assert mdp.residual_for(0.1) == pytest.approx(0.05)
+    assert random_mdp(0, discount=0).residual_for(0.1) == np.inf
 
 
 @pytest.mark.parametrize("values", [[np.nan, 0, 0, 0, 0, 0], [0.0] * 5, "values"])
@@ -233,12 +235,12 @@ def test_values_are_checked(values):
 def test_the_stopping_distance_is_of_a_tolerance(discount, tolerance):
     mdp = FiniteMDP(STAY, [[0], [0]], discount)
     with pytest.raises(ValueError, match="tolerance must be"):
-        mdp.stopping_distance(tolerance)
+        mdp.residual_for(tolerance)
 
 
 def test_tables_of_gymnasium_become_models():
     mdp = FiniteMDP.from_gymnasium(gym.make("FrozenLake-v1", is_slippery=True), 0.9)
-    assert (mdp.states, mdp.actions) == (16, 4)
+    assert (mdp.n_states, mdp.n_actions) == (16, 4)
     assert np.flatnonzero(mdp.terminal).tolist() == [5, 7, 11, 12, 15]
     assert mdp.rewards[14, 2] == pytest.approx(1 / 3)  # right, from beside the goal
     np.testing.assert_allclose(

@@ -66,7 +66,7 @@ def test_prediction_agrees_with_the_model_on_frozen_lake(visit):
     mdp = FiniteMDP.from_gymnasium(lake, 0.9)
     blind = np.zeros(16)
     for _ in range(1000):
-        blind = mdp.backup(blind).mean(axis=1)
+        blind = mdp.action_values(blind).mean(axis=1)
     predicted = monte_carlo_prediction(
         lake, np.full((16, 4), 0.25), 12_000, visit=visit, discount=0.9, seed=0
     )

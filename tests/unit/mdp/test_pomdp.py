@@ -13,7 +13,7 @@ from robonav.mdp import (
     BeliefMDP,
     FiniteMDP,
     bayes,
-    belief_walk,
+    belief_rollout,
     corridor,
     entropy,
     tiger,
@@ -27,16 +27,16 @@ def random_pomdp(seed, states=4, actions=3, observations=3, sparse=False):
     """A POMDP with some impossible transitions and observations."""
     rng = np.random.default_rng(seed)
 
-    def distributions(*shape):
+    def check_distributions(*shape):
         weights = rng.random(shape) * (rng.random(shape) < 0.6)
         weights[..., 0] += 1e-3
         return weights / weights.sum(axis=-1, keepdims=True)
 
-    transitions = distributions(actions, states, states)
+    transitions = check_distributions(actions, states, states)
     if sparse:
         transitions = [sp.csr_array(matrix) for matrix in transitions]
     mdp = FiniteMDP(transitions, rng.normal(size=(states, actions)), 0.9)
-    return POMDP(mdp, distributions(actions, states, observations)), rng
+    return POMDP(mdp, check_distributions(actions, states, observations)), rng
 
 
 def history_posterior(pomdp, start, actions, observations):
@@ -44,8 +44,8 @@ def history_posterior(pomdp, start, actions, observations):
     transitions = [
         np.asarray(m.todense()) if sp.issparse(m) else m for m in pomdp.mdp.transitions
     ]
-    posterior = np.zeros(pomdp.mdp.states)
-    for path in itertools.product(range(pomdp.mdp.states), repeat=len(actions) + 1):
+    posterior = np.zeros(pomdp.mdp.n_states)
+    for path in itertools.product(range(pomdp.mdp.n_states), repeat=len(actions) + 1):
         probability = start[path[0]]
         for s, t, a, o in zip(path[:-1], path[1:], actions, observations, strict=True):
             probability *= transitions[a][s, t] * pomdp.observations[a, t, o]
@@ -59,7 +59,7 @@ def history_posterior(pomdp, start, actions, observations):
 def test_the_update_is_bayes_over_whole_histories(seed, sparse):
     pomdp, rng = random_pomdp(seed, sparse=sparse)
     start = rng.dirichlet(np.ones(4))
-    run = belief_walk(
+    run = belief_rollout(
         pomdp, lambda belief: int(rng.integers(3)), 4, belief=start, seed=rng
     )
     joint = history_posterior(pomdp, start, run.actions, run.observations)
@@ -266,7 +266,7 @@ def test_only_a_belief_has_an_entropy(belief):
 )
 def test_walks_check_what_they_are_given(options, error, sentence):
     with pytest.raises(error, match=sentence):
-        belief_walk(
+        belief_rollout(
             **{
                 "pomdp": tiger(),
                 "choose": lambda belief: 0,
@@ -310,7 +310,8 @@ def test_entropy_in_bits():
 
 def test_walks_reproduce():
     runs = [
-        belief_walk(corridor(), lambda belief: 1, 30, seed=seed) for seed in (1, 1, 2)
+        belief_rollout(corridor(), lambda belief: 1, 30, seed=seed)
+        for seed in (1, 1, 2)
     ]
     np.testing.assert_array_equal(runs[0].beliefs, runs[1].beliefs)
     assert (runs[0].states != runs[2].states).any() or (
@@ -323,7 +324,7 @@ def test_a_belief_is_calibrated():
     """Of all the times a state is believed with 30 to 70 %, it is the true one about as often as was believed."""
     believed, true = [], []
     for seed in range(150):
-        run = belief_walk(corridor("D..D."), lambda belief: 1, 12, seed=seed)
+        run = belief_rollout(corridor("D..D."), lambda belief: 1, 12, seed=seed)
         believed.append(run.beliefs.ravel())
         true.append(np.eye(5)[run.states].ravel())
     believed, true = np.concatenate(believed), np.concatenate(true)

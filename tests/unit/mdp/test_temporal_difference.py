@@ -64,17 +64,17 @@ class Ladder(gym.Env):
 
 def optimal_q(mdp, sweeps=2000):
     """Action values by plain repetition of Eq. (2.12): independent of the package's planners."""
-    q = np.zeros((mdp.states, mdp.actions))
+    q = np.zeros((mdp.n_states, mdp.n_actions))
     for _ in range(sweeps):
-        q = mdp.backup(q.max(axis=1))
+        q = mdp.action_values(q.max(axis=1))
     return q
 
 
 def policy_q(mdp, policy, sweeps=2000):
     """Action values of a stochastic policy by plain repetition of Eq. (2.15)."""
-    q = np.zeros((mdp.states, mdp.actions))
+    q = np.zeros((mdp.n_states, mdp.n_actions))
     for _ in range(sweeps):
-        q = mdp.backup((policy * q).sum(axis=1))
+        q = mdp.action_values((policy * q).sum(axis=1))
     return q
 
 
@@ -233,9 +233,9 @@ def test_sarsa_tends_to_the_plan_where_exploring_fades(learn):
 
 def best_while_exploring(mdp, epsilon, sweeps=5000):
     """Action values of the best among the policies that act blindly with chance epsilon."""
-    q = np.zeros((mdp.states, mdp.actions))
+    q = np.zeros((mdp.n_states, mdp.n_actions))
     for _ in range(sweeps):
-        q = mdp.backup((1 - epsilon) * q.max(axis=1) + epsilon * q.mean(axis=1))
+        q = mdp.action_values((1 - epsilon) * q.max(axis=1) + epsilon * q.mean(axis=1))
     return q
 
 
@@ -349,8 +349,10 @@ def test_the_record_begins_with_the_start_and_ends_with_the_result(learn):
     assert (learned.history[0] == 0.25).all()
     np.testing.assert_array_equal(learned.history[-1], learned.q)
     assert learned.visits.sum() == learned.lengths.sum()
-    assert [len(walk) - 1 for walk in learned.walks] == learned.lengths.tolist()
-    assert {(walk[0], walk[-1]) for walk in learned.walks} == {(2, 4)}
+    assert [
+        len(walk) - 1 for walk in learned.visited_states
+    ] == learned.lengths.tolist()
+    assert {(walk[0], walk[-1]) for walk in learned.visited_states} == {(2, 4)}
     assert learned.returns.shape == learned.lengths.shape == (30,)
     np.testing.assert_array_equal(learned.policy, learned.q.argmax(axis=1))
     np.testing.assert_array_equal(learned.values, learned.q.max(axis=1))

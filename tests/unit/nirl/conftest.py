@@ -33,7 +33,7 @@ class Case:
         """What a policy loses, as a share of the gap between the expert's value and a random policy's."""
         best = self.value(self.expert)
         return (best - self.value(policy)) / (
-            best - self.value(policies.uniform(self.task.states, self.task.actions))
+            best - self.value(policies.uniform(self.task.n_states, self.task.n_actions))
         )
 
     def best(self, weights):

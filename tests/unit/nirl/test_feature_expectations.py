@@ -68,7 +68,7 @@ def test_exact_expectations_are_the_sum_of_the_series():
 @pytest.mark.parametrize("weights", [[1.0, -2.0, 0.5, 3.0], [0.0, 0.0, 1.0, 0.0]])
 def test_equal_expectations_equal_values(terrain, weights):
     """Eq. (5.4): theta . mu is what the policy is worth, for any reward."""
-    policy = np.random.default_rng(1).dirichlet(np.ones(4), terrain.task.states)
+    policy = np.random.default_rng(1).dirichlet(np.ones(4), terrain.task.n_states)
     worth = terrain.task.starts @ policy_evaluation(
         terrain.task.with_reward(weights), policy
     )

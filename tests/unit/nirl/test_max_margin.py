@@ -111,7 +111,7 @@ def solver(case):
 
 def learn(case, method, expert, **options):
     solve = solver(case)
-    first = np.zeros(case.task.states, dtype=int)
+    first = np.zeros(case.task.n_states, dtype=int)
     return method(
         expert, solve, (first, start_expectations(case.task, first)), **options
     )
@@ -182,7 +182,7 @@ def test_a_projection_never_lies_beyond_the_best_policy(terrain):
 
 
 def test_an_expert_met_at_once_ends_it(terrain, method):
-    first = start_expectations(terrain.task, np.zeros(terrain.task.states, dtype=int))
+    first = start_expectations(terrain.task, np.zeros(terrain.task.n_states, dtype=int))
     learned = learn(terrain, method, first)
     assert len(learned.policies) == 1
     assert learned.distances.tolist() == [0]

@@ -288,7 +288,7 @@ def learn(case):
 
 
 def greedy(case, found):
-    return found.network.decide(np.eye(case.task.states))
+    return found.network.decide(np.eye(case.task.n_states))
 
 
 def test_nirl_on_ground_of_four_kinds(terrain):
@@ -311,7 +311,7 @@ def test_without_a_reward_nothing_is_learned(terrain):
     """The control: all rewards alike and neutral ends leave every action alike, whatever is practised."""
     course = ModelCourse(terrain.task, steps=30)
     shown = course.shown(terrain.expert, 20, seed=1)
-    nothing = np.zeros((4, terrain.task.states + 1))
+    nothing = np.zeros((4, terrain.task.n_states + 1))
     found = practise(
         shown,
         course,
@@ -321,13 +321,13 @@ def test_without_a_reward_nothing_is_learned(terrain):
         seed=0,
     )
     latest = found.history.networks[-1]
-    assert np.ptp(latest.forward(np.eye(terrain.task.states))) < 0.1
+    assert np.ptp(latest.forward(np.eye(terrain.task.n_states))) < 0.1
 
 
 def test_the_true_reward_makes_an_expert(terrain):
     """The solver alone: expected rewards of each cell and action given, practice finds a policy as good."""
     task = terrain.task
-    theta = np.zeros((4, task.states + 1))
+    theta = np.zeros((4, task.n_states + 1))
     theta[:, :-1] = (task.features @ terrain.truth).T
     course = ModelCourse(task, steps=30)
     shown = course.shown(terrain.expert, 20, seed=1)

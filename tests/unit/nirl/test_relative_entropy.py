@@ -171,13 +171,13 @@ def learn(case, policy, steps, slack):
 @pytest.mark.parametrize("share", [0.5, 0.7])
 def test_its_reward_makes_the_expert_again(terrain, share):
     """Sampled from a policy that does what the expert does in part of its steps: uniform ones hardly ever arrive."""
-    policy = (1 - share) * policies.uniform(terrain.task.states, 4) + share * np.eye(4)[
-        terrain.expert
-    ]
+    policy = (1 - share) * policies.uniform(terrain.task.n_states, 4) + share * np.eye(
+        4
+    )[terrain.expert]
     learned = learn(terrain, policy, 30, 0.01)
     assert terrain.loss(terrain.best(learned.weights)) < 0.05
 
 
 def test_random_rewards(scattered):
-    learned = learn(scattered, policies.uniform(scattered.task.states, 4), 15, 0.1)
+    learned = learn(scattered, policies.uniform(scattered.task.n_states, 4), 15, 0.1)
     assert scattered.loss(scattered.best(learned.weights)) < 0.05

@@ -77,16 +77,18 @@ def lstd(case, walks, policy, seed):
     """LSTD-mu with one basis function a pair of state and action: (S, A, K)."""
     task = case.task
     states, actions, after, drawn = steps_of(case, walks, 40, policy, seed)
-    pairs = np.eye(task.states * task.actions).reshape(task.states, task.actions, -1)
+    pairs = np.eye(task.n_states * task.n_actions).reshape(
+        task.n_states, task.n_actions, -1
+    )
     omega = lstd_mu(
         pairs[states, actions], pairs[after, drawn.actions[:, 1:].ravel()], task.features[states, actions],
         task.discount, ridge=1e-9,
     )  # fmt: skip
-    return omega.reshape(task.states, task.actions, -1)
+    return omega.reshape(task.n_states, task.n_actions, -1)
 
 
 def test_lstd_mu_finds_what_the_model_says(terrain):
-    policy = np.full((terrain.task.states, 4), 0.25)
+    policy = np.full((terrain.task.n_states, 4), 0.25)
     estimate = lstd(terrain, 2000, policy, 1)
     exact = feature_expectations(terrain.task, policy)
     living = ~terrain.grid.terminal
@@ -122,9 +124,9 @@ def test_scirl_with_monte_carlo(terrain):
     mu = average_by(
         pairs,
         discounted_to_go(features, drawn.trajectory, task.discount),
-        task.states * 4,
+        task.n_states * 4,
     )
-    mu = mu.reshape(task.states, 4, -1)
+    mu = mu.reshape(task.n_states, 4, -1)
     seen = np.isfinite(mu).all(axis=(1, 2)) & ~terrain.grid.terminal
     learned = structured_classification(mu[seen], terrain.expert[seen])
     assert terrain.loss(terrain.best(learned.weights)) < 0.05

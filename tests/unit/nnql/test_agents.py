@@ -25,7 +25,7 @@ def corridor_values():
     transitions[:, END, END] = 1
     rewards[END - 1, 1] = 1
     mdp = FiniteMDP(transitions, rewards, GAMMA)
-    return mdp.backup(value_iteration(mdp, tolerance=1e-9).values)[:END]
+    return mdp.action_values(value_iteration(mdp, tolerance=1e-9).values)[:END]
 
 
 def corridor_steps(agent, n, seeds=2, seed=0):

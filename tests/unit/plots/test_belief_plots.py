@@ -55,7 +55,7 @@ def test_the_thick_line_is_the_upper_edge(axes):
 
 def test_poses_are_summed_over_headings_and_pointed_out(axes):
     grid = PoseGrid([[True, True], [True, False]], cell=2.0, headings=4)
-    belief = np.zeros(grid.states)
+    belief = np.zeros(grid.n_states)
     belief[[0, 1, 9]] = 0.3, 0.2, 0.5  # the first cell twice, the one above it once
     draw_pose_belief(axes, grid, belief, pose=(1.0, 3.0, 0.0))
     shares = axes.images[0].get_array()

@@ -47,8 +47,8 @@ def test_a_replay_says_how_far_each_frame_is_from_the_best(grid):
 
 def test_a_replay_of_another_length_is_refused(grid):
     model = grid.mdp(0.9)
-    frames = np.zeros((2, grid.states)), np.zeros((2, grid.states), dtype=int)
-    best = np.zeros(grid.states)
+    frames = np.zeros((2, grid.n_states)), np.zeros((2, grid.n_states), dtype=int)
+    best = np.zeros(grid.n_states)
     with pytest.raises(ValueError, match="values must have shape"):
         replay(model, *frames, best=best, steps=["one"])
     with pytest.raises(ValueError, match="walks must be as many as steps, 2, got 1"):
@@ -209,7 +209,7 @@ def test_frames_reach_the_page_and_stay_at_the_end(node, grid):
 
 
 def test_walks_reach_the_page(grid):
-    frames = np.zeros((2, grid.states)), np.zeros((2, grid.states), dtype=int)
+    frames = np.zeros((2, grid.n_states)), np.zeros((2, grid.n_states), dtype=int)
     shown = replay(
         grid.mdp(0.9),
         *frames,

@@ -16,9 +16,9 @@ def bellman_policy_operator(
 ) -> NDArray[np.float64]:
     """One evaluation sweep: r_pi + gamma T_pi V, (S,), the right-hand side of Eq. (2.6) and (2.14)."""
     check_instance("mdp", mdp, FiniteMDP)
-    transitions, rewards = mdp.under(policy)
+    transitions, rewards = mdp.induced_chain(policy)
     return rewards + mdp.discount * (
-        transitions @ check_array("values", values, shape=(mdp.states,))
+        transitions @ check_array("values", values, shape=(mdp.n_states,))
     )
 
 
@@ -30,7 +30,7 @@ def bellman_optimality_operator(
     This is Eq. (2.26). Eq. (2.13), which misses gamma and the expectation over s', means its fixed point.
     """
     check_instance("mdp", mdp, FiniteMDP)
-    return mdp.backup(values).max(axis=1)
+    return mdp.action_values(values).max(axis=1)
 
 
 def bellman_action_value_operator(
@@ -41,21 +41,21 @@ def bellman_action_value_operator(
     This is the right-hand side of Eq. (2.12), whose fixed point is Q*. Q-learning takes one sample of it at a time.
     """
     check_instance("mdp", mdp, FiniteMDP)
-    q = check_array("action_values", action_values, shape=(mdp.states, mdp.actions))
-    return mdp.backup(q.max(axis=1))
+    q = check_array("action_values", action_values, shape=(mdp.n_states, mdp.n_actions))
+    return mdp.action_values(q.max(axis=1))
 
 
-def action_values(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
+def policy_action_values(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     """Q of a policy, (S, A): take a, then follow the policy, Eq. (2.7) and (2.15)."""
     check_instance("mdp", mdp, FiniteMDP)
-    return mdp.backup(policy_evaluation(mdp, policy))
+    return mdp.action_values(policy_evaluation(mdp, policy))
 
 
 def advantage(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
     """How much better than the policy it is to take a once, then follow it: Q - V, (S, A), Eq. (2.8)."""
     check_instance("mdp", mdp, FiniteMDP)
     values = policy_evaluation(mdp, policy)
-    return mdp.backup(values) - values[:, None]
+    return mdp.action_values(values) - values[:, None]
 
 
 def is_optimal(mdp: FiniteMDP, policy: ArrayLike, *, tolerance: float = 1e-9) -> bool:
@@ -67,7 +67,8 @@ def is_optimal(mdp: FiniteMDP, policy: ArrayLike, *, tolerance: float = 1e-9) ->
     check_real("tolerance", tolerance, at_least=0)
     values = policy_evaluation(mdp, policy)
     return bool(
-        (or_rest(mdp, mdp.backup(values)).max(axis=1) - values).max() <= tolerance
+        (or_rest(mdp, mdp.action_values(values)).max(axis=1) - values).max()
+        <= tolerance
     )
 
 

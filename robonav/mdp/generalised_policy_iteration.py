@@ -16,11 +16,11 @@ from . import policies
 from .dynamic_programming import first_values, rounding_of_gains
 from .evaluation import policy_evaluation
 from .models import FiniteMDP
-from .values import or_rest
+from .value_functions import or_rest
 
 
 @dataclass(frozen=True)
-class Trace:
+class GPIHistory:
     """Every half step of generalized policy iteration, n of them, from the start (row 0).
 
     Attributes
@@ -49,7 +49,7 @@ def generalized_policy_iteration(
     start_values: ArrayLike | None = None,
     start_policy: ArrayLike | None = None,
     max_rounds: int = 10_000,
-) -> Trace:
+) -> GPIHistory:
     """Evaluate by some sweeps, improve, and so on until both agree; all recorded, for pages to step through.
 
     Parameters
@@ -66,18 +66,22 @@ def generalized_policy_iteration(
     check_instance("mdp", mdp, FiniteMDP)
     if sweeps != math.inf:
         check_integer("sweeps", sweeps, at_least=1)
-    enough = mdp.stopping_distance(tolerance)
+    enough = mdp.residual_for(tolerance)
     values = first_values(mdp, start_values, name="start_values")
     chosen = (
-        np.zeros(mdp.states, dtype=np.intp) if start_policy is None else start_policy
+        np.zeros(mdp.n_states, dtype=np.intp) if start_policy is None else start_policy
     )
-    policy = policies.deterministic("start_policy", chosen, mdp.states, mdp.actions)
+    policy = policies.check_deterministic_policy(
+        "start_policy", chosen, mdp.n_states, mdp.n_actions
+    )
     rows = [(values, policy, False)]
     for rounds in range(1, check_integer("max_rounds", max_rounds, at_least=1) + 1):
         evaluated, rounding = _evaluated(mdp, policy, values, sweeps)
         improved = _improved(mdp, policy, evaluated, rounding)
         rows += [(evaluated, policy, False), (evaluated, improved, True)]
-        moved = abs(or_rest(mdp, mdp.backup(evaluated)).max(axis=1) - evaluated).max()
+        moved = abs(
+            or_rest(mdp, mdp.action_values(evaluated)).max(axis=1) - evaluated
+        ).max()
         changed = int((improved != policy).sum())
         if moved <= max(enough, rounding) and not changed:
             break
@@ -94,12 +98,14 @@ def _evaluated(
 
     That is more for exact values: the equations pass rounding on.
     """
-    state = np.arange(mdp.states)
+    state = np.arange(mdp.n_states)
     if sweeps == math.inf:
         exact = policy_evaluation(mdp, policy)
-        return exact, rounding_of_gains(mdp, exact, mdp.backup(exact)[state, policy])
+        return exact, rounding_of_gains(
+            mdp, exact, mdp.action_values(exact)[state, policy]
+        )
     for _ in range(int(sweeps)):
-        values = or_rest(mdp, mdp.backup(values))[state, policy]
+        values = or_rest(mdp, mdp.action_values(values))[state, policy]
     return values, 4 * np.finfo(float).eps * float(abs(values).max())
 
 
@@ -110,9 +116,9 @@ def _improved(
     rounding: float,
 ) -> NDArray[np.intp]:
     """The greedy policy, but an action that is as good as the best stays (else ties would go round for ever)."""
-    q = mdp.backup(values)
+    q = mdp.action_values(values)
     promised = or_rest(mdp, q)
-    stays = promised.max(axis=1) - q[np.arange(mdp.states), policy] <= rounding
+    stays = promised.max(axis=1) - q[np.arange(mdp.n_states), policy] <= rounding
     return np.where(stays, policy, promised.argmax(axis=1))
 
 
@@ -128,20 +134,20 @@ def _warn_unfinished(rounds: int, moved: float, enough: float, changed: int) -> 
 
 def _traced(
     mdp: FiniteMDP, rows: list[tuple[NDArray[np.float64], NDArray[np.intp], bool]]
-) -> Trace:
+) -> GPIHistory:
     """The rows (values, policy, whether improved) as arrays, with their distances from the two lines."""
-    state = np.arange(mdp.states)
+    state = np.arange(mdp.n_states)
     gaps = []
     for values, policy, _ in rows:
-        q = mdp.backup(values)
+        q = mdp.action_values(values)
         backed_up = q[state, policy]
         gaps.append((abs(backed_up - values).max(), (q.max(axis=1) - backed_up).max()))
     values, chosen, improves = (np.stack(column) for column in zip(*rows, strict=True))
     evaluation_gap, greedy_gap = np.array(gaps).T
-    return Trace(values, chosen, improves[1:], evaluation_gap, greedy_gap)
+    return GPIHistory(values, chosen, improves[1:], evaluation_gap, greedy_gap)
 
 
-def shortfalls(
+def suboptimality(
     mdp: FiniteMDP, values: ArrayLike, chosen: ArrayLike, *, best: ArrayLike
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """How far each step of a history is from the best: (n,) for its values, (n,) for its policy.
@@ -157,8 +163,8 @@ def shortfalls(
     largest difference of the values of each step from the best, and the most that its policy loses in any state.
     """
     check_instance("mdp", mdp, FiniteMDP)
-    optimum = check_array("best", best, shape=(mdp.states,))
-    held = check_array("values", values, shape=("n", mdp.states))
+    optimum = check_array("best", best, shape=(mdp.n_states,))
+    held = check_array("values", values, shape=("n", mdp.n_states))
     kept = check_array("chosen", chosen, shape=held.shape, dtype=np.intp)
     loss = [(optimum - policy_evaluation(mdp, policy)).max() for policy in kept]
     return abs(held - optimum).max(axis=1), np.array(loss)

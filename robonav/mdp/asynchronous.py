@@ -31,7 +31,7 @@ def in_place_value_iteration(
     from . import _fast
 
     check_instance("mdp", mdp, FiniteMDP)
-    enough = mdp.stopping_distance(tolerance)
+    enough = mdp.residual_for(tolerance)
     values = first_values(mdp, start)
     history, chosen = (
         ([values.copy()], [greedy_policy(mdp, values, tolerance)])
@@ -93,7 +93,7 @@ def prioritized_sweeping(
         1 if mdp.discount == 1 else (1 - mdp.discount) / 2
     )
     values = first_values(mdp, start)
-    urgency = abs(mdp.backup(values).max(axis=1) - values)
+    urgency = abs(mdp.action_values(values).max(axis=1) - values)
     backups, distance = _fast.prioritized_backups(
         *mdp.arrays,
         *_predecessors(mdp),
@@ -110,9 +110,9 @@ def prioritized_sweeping(
 
 def _predecessors(mdp: FiniteMDP) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """For each state s' its predecessors s and max_a T(s, a, s'), as starts, predecessors, weights of a CSR matrix."""
-    likeliest = mdp.rows[:: mdp.actions]
-    for action in range(1, mdp.actions):
-        likeliest = likeliest.maximum(mdp.rows[action :: mdp.actions])
+    likeliest = mdp.rows[:: mdp.n_actions]
+    for action in range(1, mdp.n_actions):
+        likeliest = likeliest.maximum(mdp.rows[action :: mdp.n_actions])
     backward = sp.csr_array(likeliest.T)
     starts, predecessors = (
         part.view(f"u{part.itemsize}") for part in (backward.indptr, backward.indices)

@@ -14,7 +14,7 @@ from .models import FiniteMDP
 
 
 @dataclass(frozen=True)
-class FiniteHorizon:
+class FiniteHorizonSolution:
     """The best that can be done in the next H steps.
 
     Attributes
@@ -29,7 +29,7 @@ class FiniteHorizon:
 
 def backward_induction(
     mdp: FiniteMDP, horizon: int, *, final_values: ArrayLike | None = None
-) -> FiniteHorizon:
+) -> FiniteHorizonSolution:
     """Optimal values and policy for each of the next ``horizon`` steps: the return J of Eq. (2.27), discounted.
 
     Parameters
@@ -39,16 +39,16 @@ def backward_induction(
     """
     check_instance("mdp", mdp, FiniteMDP)
     steps = check_integer("horizon", horizon, at_least=0)
-    values = np.empty((steps + 1, mdp.states))
-    policy = np.empty((steps, mdp.states), dtype=np.intp)
+    values = np.empty((steps + 1, mdp.n_states))
+    policy = np.empty((steps, mdp.n_states), dtype=np.intp)
     values[steps] = starting_values("final_values", mdp, final_values)
     for t in reversed(range(steps)):
-        q = mdp.backup(values[t + 1])
+        q = mdp.action_values(values[t + 1])
         values[t], policy[t] = q.max(axis=1), q.argmax(axis=1)
-    return FiniteHorizon(values, policy)
+    return FiniteHorizonSolution(values, policy)
 
 
-def horizon_evaluation(
+def finite_horizon_evaluation(
     mdp: FiniteMDP,
     policy: ArrayLike,
     horizon: int,
@@ -57,7 +57,7 @@ def horizon_evaluation(
 ) -> NDArray[np.float64]:
     """Expected return (S,) of the next ``horizon`` steps under one policy, (S,) actions or (S, A) probabilities."""
     check_instance("mdp", mdp, FiniteMDP)
-    transitions, rewards = mdp.under(policy)
+    transitions, rewards = mdp.induced_chain(policy)
     values = starting_values("final_values", mdp, final_values)
     for _ in range(check_integer("horizon", horizon, at_least=0)):
         values = rewards + mdp.discount * (transitions @ values)

@@ -31,7 +31,7 @@ def test_it_ends_where_both_lines_meet(mdp, sweeps):
     np.testing.assert_allclose(
         policy_evaluation(mdp, trace.policies[-1]), best.values, atol=1e-9
     )
-    assert trace.evaluation_gap[-1] <= mdp.stopping_distance(1e-6)
+    assert trace.evaluation_gap[-1] <= mdp.residual_for(1e-6)
     assert trace.greedy_gap[-1] <= 1e-9
     assert trace.improves.tolist() == [False, True] * (len(trace.improves) // 2)
 
@@ -58,7 +58,7 @@ def test_one_sweep_is_value_iteration(mdp):
 
 
 def test_exact_evaluation_is_policy_iteration(mdp):
-    start = np.zeros(mdp.states, dtype=int)
+    start = np.zeros(mdp.n_states, dtype=int)
     iterated = policy_iteration(mdp, start=start, record=True)
     trace = generalized_policy_iteration(mdp, sweeps=math.inf, start_policy=start)
     np.testing.assert_array_equal(trace.policies[1::2], iterated.policies)

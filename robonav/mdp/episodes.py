@@ -23,7 +23,7 @@ BLOCK = 4096  # random numbers drawn at a time: one by one they would cost more 
 TRAINING, TESTING = range(2**31 - 1), range(2**31 - 1, 2**32 - 2)
 
 
-def uniforms(rng: np.random.Generator) -> Iterator[float]:
+def uniform_stream(rng: np.random.Generator) -> Iterator[float]:
     """Numbers drawn evenly from [0, 1), one after the other, without end."""
     while True:
         yield from rng.random(BLOCK).tolist()
@@ -42,7 +42,7 @@ def discounted_return(rewards: ArrayLike, discount: float) -> NDArray[np.float64
 
 
 @dataclass(frozen=True)
-class Episode:
+class Trajectory:
     """One walk s, a, r, s', a', ... (Fig. 2.2).
 
     Attributes
@@ -109,7 +109,7 @@ def element(space: gym.Space[Any], place: int) -> Any:
     return tuple(reversed(pieces))
 
 
-def numbered(env: gym.Env[Any, Any]) -> gym.Env[int, int]:
+def discretise_spaces(env: gym.Env[Any, Any]) -> gym.Env[int, int]:
     """The environment with its states numbered 0 ... S - 1 and its actions 0 ... A - 1.
 
     FrozenLake, Taxi and CliffWalking come back as they are; Blackjack, whose state is a tuple, wrapped.
@@ -118,7 +118,7 @@ def numbered(env: gym.Env[Any, Any]) -> gym.Env[int, int]:
     ------
     TypeError : if ``env`` is no Gymnasium environment, or one with spaces that are not discrete.
     """
-    env = with_numbered_actions(env)
+    env = discretise_actions(env)
     observations = env.observation_space
     states = count("env.observation_space", observations)
     if not (isinstance(observations, spaces.Discrete) and observations.start == 0):
@@ -128,7 +128,7 @@ def numbered(env: gym.Env[Any, Any]) -> gym.Env[int, int]:
     return env
 
 
-def with_numbered_actions(env: gym.Env[Any, Any]) -> gym.Env[Any, int]:
+def discretise_actions(env: gym.Env[Any, Any]) -> gym.Env[Any, int]:
     """The environment with its actions numbered 0 ... A - 1, its observations whatever they are."""
     if not isinstance(env, gym.Env):
         raise TypeError(
@@ -146,7 +146,7 @@ def with_numbered_actions(env: gym.Env[Any, Any]) -> gym.Env[Any, int]:
 # -- episodes ----------------------------------------------------------------------------------------------------------
 
 
-class Course:
+class EpisodeRunner:
     """Episodes of an environment, one after the other, counted as they pass.
 
     The loop of every learner::
@@ -175,7 +175,7 @@ class Course:
         self.number = 0
         self.returns: list[float] = []
         self.lengths: list[int] = []
-        self.walks: list[list[Any]] = []
+        self.visited_states: list[list[Any]] = []
         self.over = True
         self._step: Callable[[int], tuple[Any, Any, bool, bool, Any]] = env.step
         self._reset = env.reset
@@ -193,7 +193,7 @@ class Course:
             self.returns.append(self._earned)
             self.lengths.append(len(self._walk) - 1)
             if self._record:
-                self.walks.append(self._walk)
+                self.visited_states.append(self._walk)
             if self._progress is not None:
                 self._progress(number + 1, self.total)
 
@@ -205,7 +205,7 @@ class Course:
         self.over = terminated or truncated or len(self._walk) > self.max_steps
         return state, reward, terminated
 
-    def walk(self, state: int, choose: Callable[[int], int]) -> Episode:
+    def walk(self, state: int, choose: Callable[[int], int]) -> Trajectory:
         """The rest of this episode from ``state``, with the actions that ``choose(state)`` names."""
         states, actions, rewards, terminated = [state], [], [], False
         while not self.over:
@@ -214,7 +214,7 @@ class Course:
             states.append(state)
             actions.append(action)
             rewards.append(reward)
-        return Episode(
+        return Trajectory(
             np.array(states),
             np.array(actions),
             np.array(rewards, dtype=float),
@@ -222,19 +222,19 @@ class Course:
         )
 
 
-def chooser(
+def policy_sampler(
     policy: ArrayLike, states: int, actions: int, rng: np.random.Generator
 ) -> Callable[[int], int]:
     """A policy as a function from state to action; the one that draws where the policy is stochastic.
 
     ``policy`` is (S,) of action numbers or (S, A) of probabilities.
     """
-    table = policies.checked(policy, states, actions)
+    table = policies.check_policy(policy, states, actions)
     if table.ndim == 1:
         return table.tolist().__getitem__
     thresholds = np.cumsum(table, axis=1)
     thresholds /= thresholds[:, -1:]
-    draw = uniforms(rng)
+    draw = uniform_stream(rng)
     return lambda state: int(
         np.searchsorted(thresholds[state], next(draw), side="right")
     )
@@ -248,7 +248,7 @@ def rollouts(
     max_steps: int = 10_000,
     seed: int | np.random.Generator,
     progress: Progress | None = None,
-) -> Sequence[Episode]:
+) -> Sequence[Trajectory]:
     """Walk a policy through whole episodes: how well does it really do?
 
     Parameters
@@ -264,15 +264,15 @@ def rollouts(
     ------
     TypeError, ValueError : if the spaces are not discrete or the policy does not fit them.
     """
-    env, rng = numbered(env), check_generator("seed", seed)
-    choose = chooser(policy, *sizes(env), rng)
-    course = Course(
+    env, rng = discretise_spaces(env), check_generator("seed", seed)
+    choose = policy_sampler(policy, *space_sizes(env), rng)
+    course = EpisodeRunner(
         env, episodes, max_steps=max_steps, rng=rng, seeds=TESTING, progress=progress
     )
     return [course.walk(state, choose) for state in course.episodes()]
 
 
-def sizes(env: gym.Env[int, int]) -> tuple[int, int]:
+def space_sizes(env: gym.Env[int, int]) -> tuple[int, int]:
     """S and A of a numbered environment."""
     return count("env.observation_space", env.observation_space), count(
         "env.action_space", env.action_space

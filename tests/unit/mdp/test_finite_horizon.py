@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from robonav.mdp import (
     FiniteMDP,
     backward_induction,
-    horizon_evaluation,
+    finite_horizon_evaluation,
     policy_iteration,
 )
 
@@ -31,7 +31,7 @@ def test_no_plan_of_all_beats_it(seed, horizon, discount):
     ):
         values = final
         for rule in reversed(plan):
-            values = mdp.backup(values)[np.arange(2), rule]
+            values = mdp.action_values(values)[np.arange(2), rule]
         best = np.maximum(best, values)
     found = backward_induction(mdp, horizon, final_values=final)
     assert found.values.shape == (horizon + 1, 2)
@@ -46,7 +46,7 @@ def test_a_long_horizon_comes_to_the_infinite_one():
     found = backward_induction(mdp, 200)
     np.testing.assert_allclose(found.values[0], best.values, atol=1e-9)
     np.testing.assert_allclose(
-        horizon_evaluation(mdp, best.policy, 200), best.values, atol=1e-9
+        finite_horizon_evaluation(mdp, best.policy, 200), best.values, atol=1e-9
     )
 
 
@@ -54,7 +54,7 @@ def test_frozen_lake_within_its_100_steps():
     """Less than the 14/17 without a limit; and the policy made for the limit beats the one made for eternity."""
     mdp = FiniteMDP.from_gymnasium(gym.make("FrozenLake-v1", is_slippery=True), 1.0)
     limited = backward_induction(mdp, 100)
-    patient = horizon_evaluation(mdp, policy_iteration(mdp).policy, 100)
+    patient = finite_horizon_evaluation(mdp, policy_iteration(mdp).policy, 100)
     assert 0.73 < patient[0] < limited.values[0, 0] < 14 / 17
     assert (
         np.diff(limited.values[:, 0]) <= 1e-12
@@ -65,11 +65,11 @@ def test_a_policy_earns_its_steps_and_what_stands_at_the_end():
     """By hand: from 0 to 1 and to and fro between them, 1 for each step out of 0, discount 0.5, 8 and 16 at the end."""
     mdp = FiniteMDP([[[0, 1], [1, 0]]], [[1], [0]], 0.5)
     np.testing.assert_allclose(
-        horizon_evaluation(mdp, [0, 0], 3, final_values=[8, 16]),
+        finite_horizon_evaluation(mdp, [0, 0], 3, final_values=[8, 16]),
         [1 + 0.25 + 2, 0.5 + 1],
     )
     np.testing.assert_allclose(
-        horizon_evaluation(mdp, [0, 0], 0, final_values=[8, 16]), [8, 16]
+        finite_horizon_evaluation(mdp, [0, 0], 0, final_values=[8, 16]), [8, 16]
     )
 
 

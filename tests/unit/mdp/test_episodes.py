@@ -18,7 +18,13 @@ from robonav.mdp import (
     sarsa,
     td_prediction,
 )
-from robonav.mdp.interaction import chooser, count, element, number, numbered
+from robonav.mdp.episodes import (
+    count,
+    discretise_spaces,
+    element,
+    number,
+    policy_sampler,
+)
 
 REWARDS = st.lists(st.floats(-10, 10), min_size=1, max_size=30)
 
@@ -77,10 +83,10 @@ def test_every_element_of_a_space_gets_its_own_number(space):
         assert elements == {drawn_as(element(space, place))}
 
 
-def test_frozen_lake_is_left_alone_and_blackjack_is_numbered():
+def test_frozen_lake_is_left_alone_and_blackjack_is_wrapped():
     lake = gym.make("FrozenLake-v1")
-    assert numbered(lake) is lake
-    blackjack = numbered(gym.make("Blackjack-v1"))
+    assert discretise_spaces(lake) is lake
+    blackjack = discretise_spaces(gym.make("Blackjack-v1"))
     assert blackjack.observation_space == spaces.Discrete(32 * 11 * 2)
     state, _ = blackjack.reset(seed=1)
     assert blackjack.observation_space.contains(state)
@@ -197,7 +203,7 @@ def test_what_is_not_discrete_is_refused(env):
 
 def test_a_stochastic_policy_draws_as_often_as_it_says():
     policy = np.array([[0.2, 0.5, 0.3], [0.0, 0.0, 1.0]])
-    choose = chooser(policy, 2, 3, np.random.default_rng(0))
+    choose = policy_sampler(policy, 2, 3, np.random.default_rng(0))
     drawn = np.bincount([choose(0) for _ in range(30_000)], minlength=3) / 30_000
     np.testing.assert_allclose(drawn, policy[0], atol=0.01)
     assert {choose(1) for _ in range(1000)} == {2}
