@@ -10,42 +10,78 @@ import dataclasses
 import importlib
 import inspect
 import re
+import textwrap
 from collections.abc import Iterator
 from enum import Enum, EnumType
 from textwrap import shorten
 from typing import Any
 
 from docutils import nodes
+from numpydoc.docscrape import NumpyDocString, Parameter
 from sphinx.application import Sphinx
 from sphinx.domains.python import PythonDomain
 from sphinx.util.docutils import SphinxDirective
 
 VALUES = bool | int | float | str | tuple | Enum
-UNDERLINED = re.compile(r"^(?P<title>\w[\w ]*)\n-{3,}$", re.MULTILINE)
-ITEM = re.compile(
-    r"^(?P<names>[*\w][\w*, ]*) : (?P<text>.*(?:\n[ \t]+.*|\n(?=\n[ \t]))*)",
-    re.MULTILINE,
-)
 ROLE = re.compile(r":\w+:`~?([^`]+)`")
 FUNCTION = re.compile(r"<function (\S+) at 0x[0-9a-f]+>")
 
 
+LISTED = (
+    "Parameters",
+    "Other Parameters",
+    "Attributes",
+    "Returns",
+    "Yields",
+    "Raises",
+    "Warns",
+)
+TEXTS = ("Notes", "References", "Examples")
+TYPE_ALONE = {
+    "Returns",
+    "Yields",
+    "Raises",
+    "Warns",
+}  # an item may be a type without a name
+EXAMPLE = re.compile(r"^>>> .*(?:\n.+)*", re.MULTILINE)
+
+
 def markdown(docstring: str) -> str:
-    """A docstring in Markdown: section titles in bold, what they list as a list with names as code."""
-    text = ROLE.sub(r"`\1`", inspect.cleandoc(docstring))
-    text = ITEM.sub(
-        lambda match: f"- {_code(match['names'])}: {_indented(match['text'])}", text
-    )
-    return UNDERLINED.sub(r"**\g<title>**\n", text)
+    """A numpydoc docstring in Markdown: section titles in bold, parameters as lists, examples as code."""
+    found = NumpyDocString(ROLE.sub(r"`\1`", inspect.cleandoc(docstring)))
+    blocks = [
+        found["Signature"],
+        *map("\n".join, (found["Summary"], found["Extended Summary"])),
+    ]
+    for section in LISTED:
+        if found[section]:
+            items = [
+                _item(item, type_alone=section in TYPE_ALONE) for item in found[section]
+            ]
+            blocks += [f"**{section}**", "\n".join(items)]
+    for section in TEXTS:
+        if found[section]:
+            text = "\n".join(found[section])
+            blocks += [f"**{section}**", EXAMPLE.sub("```pycon\n\\g<0>\n```", text)]
+    return "\n\n".join(block.strip("\n") for block in blocks if block.strip())
 
 
-def _code(names: str) -> str:
-    return ", ".join(f"`{name.strip()}`" for name in names.split(","))
+def _item(item: Parameter, *, type_alone: bool) -> str:
+    """One parameter, attribute, result or error as an entry of a list: its names, its type, its description."""
+    names, kind = (item.name or item.type, item.type if item.name else "")
+    if not item.name and type_alone and not names.isidentifier():
+        head = f"- {_plain(names)}"
+    else:
+        head = "- " + ", ".join(f"`{name.strip()}`" for name in names.split(","))
+    if kind:
+        head += f" ({_plain(kind)})"
+    text = textwrap.indent("\n".join(item.desc).strip("\n"), "  ").strip()
+    return f"{head}: {text}" if text else head
 
 
-def _indented(text: str) -> str:
-    first, *rest = text.splitlines()
-    return "\n".join([first, *("  " + line.strip() for line in rest)])
+def _plain(text: str) -> str:
+    """A type as text, so that no character of it is read as Markdown."""
+    return re.sub(r"([\[\]*_<|])", r"\\\1", text)
 
 
 def signature(name: str, found: Any) -> str:

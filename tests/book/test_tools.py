@@ -113,18 +113,36 @@ def test_docstrings_become_lists_under_bold_titles() -> None:
 
     Parameters
     ----------
-    mdp, env : one of both,
+    mdp, env : FiniteMDP or Env
+        One of both,
         with S states.
-    *rest : more.
+    *rest : (S, A) array
+        More.
+
+    Returns
+    -------
+    float
+        The value.
 
     Raises
     ------
-    ValueError : if it must.
+    ValueError
+        If it must.
+
+    Examples
+    --------
+    It counts.
+
+    >>> 1 + 1
+    2
     """
     assert reference.markdown(docstring) == (
         "Values of ``mdp`` (Eq. (2.26)); see `robonav.mdp.plan`.\n\n"
-        "**Parameters**\n\n- `mdp`, `env`: one of both,\n  with S states.\n- `*rest`: more.\n\n"
-        "**Raises**\n\n- `ValueError`: if it must."
+        "**Parameters**\n\n- `mdp`, `env` (FiniteMDP or Env): One of both,\n  with S states.\n"
+        "- `*rest` ((S, A) array): More.\n\n"
+        "**Returns**\n\n- `float`: The value.\n\n"
+        "**Raises**\n\n- `ValueError`: If it must.\n\n"
+        "**Examples**\n\nIt counts.\n\n```pycon\n>>> 1 + 1\n2\n```"
     )
 
 
