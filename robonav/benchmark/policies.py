@@ -13,13 +13,13 @@ from robonav.networks import NetworkPolicy, load_weights
 from robonav.robot import (
     OUTCOMES,
     Policy,
-    freer_side,
     navigate,
     random_worlds,
     straight,
+    turn_to_clearer_side,
 )
 
-RULES: dict[str, Policy] = {"straight": straight, "freer-side": freer_side}
+RULES: dict[str, Policy] = {"straight": straight, "freer-side": turn_to_clearer_side}
 CHAPTERS = ("lfd", "nnql", "nirl")
 
 

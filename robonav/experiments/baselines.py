@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from robonav.robot import Policy, freer_side, navigate, random_worlds, straight
+from robonav.robot import (
+    Policy,
+    navigate,
+    random_worlds,
+    straight,
+    turn_to_clearer_side,
+)
 
 from .outcome_rates import rates
 from .runner.experiment import Case, Experiment
 
-RULES: dict[str, Policy] = {"straight": straight, "freer side": freer_side}
+RULES: dict[str, Policy] = {"straight": straight, "freer side": turn_to_clearer_side}
 SEED = 9_000  # of the worlds; run k drives through those of SEED + k
 WORLDS = {"quick": 100, "thesis": 1000}
 

@@ -19,6 +19,7 @@ from robonav.robot import (
     Simulator,
     Worlds,
     concatenate,
+    drive,
 )
 from robonav.validation import check_array, check_integer, check_one_of, check_positive
 
@@ -27,7 +28,6 @@ Actions = NDArray[np.int64]
 
 LEARNED = 5  # actions: F, L30, L60, R30, R60
 MAX_STEPS = 500
-_RUNNING, _OUT_OF_STEPS = 0, 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,34 +161,22 @@ def record(
     ValueError : if an argument is out of bounds.
     """
     check_integer("max_steps", max_steps, at_least=1)
-    simulator = Simulator(worlds, speed, slip=slip)
+    simulator = Simulator(worlds, speed, slip=slip, max_steps=max_steps)
+    advice = np.zeros(len(worlds), dtype=np.int64)
+
+    def choose(simulator: Simulator, sensing: Sensing, asked: Actions) -> Actions:
+        if labels is not None:
+            advice[asked] = labels(simulator, asked)
+        return expert(simulator, asked)
+
     rows: list[tuple[Actions, Sensing, Actions, Floats]] = []
-    for _ in range(max_steps):
-        running = np.flatnonzero(simulator.outcome == _RUNNING)
-        if len(running) == 0:
-            break
-        sensing, poses = simulator.sense(), simulator.poses.copy()
-        commands = (
-            np.full(len(worlds), -1) if reflex is None else reflex(sensing, speed)
-        )
-        asked = running[commands[running] < 0]
-        commands[simulator.outcome != _RUNNING] = (
-            Action.F
-        )  # these stand still, whatever they are told
-        if len(asked) > 0:
-            advice = labels(simulator, asked) if labels is not None else None
-            commands[asked] = expert(simulator, asked)
-        simulator.step(commands)
-        if len(asked) > 0:
-            commands[asked] = (
-                executed(poses[asked], simulator.poses[asked])
-                if advice is None
-                else advice
-            )
-        rows.append((running, sensing[running], commands[running], poses[running]))
+    for step in drive(simulator, choose, reflex=reflex):
+        done = executed(step.poses, simulator.poses) if labels is None else advice
+        actions = np.where(step.asked, done, step.actions)
+        robots = np.flatnonzero(step.running)
+        rows.append((robots, step.sensing[robots], actions[robots], step.poses[robots]))
         if progress is not None:
-            progress(len(worlds) - len(running), len(worlds))
-    simulator.outcome[simulator.outcome == _RUNNING] = _OUT_OF_STEPS
+            progress(len(worlds) - len(robots), len(worlds))
     return _by_drive(worlds, rows, speed, OUTCOMES[simulator.outcome])
 
 

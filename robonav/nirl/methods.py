@@ -23,7 +23,7 @@ from .refinement import Refined
 from .relative_entropy import relative_entropy
 from .reward_update import balance
 from .scirl import lstd_mu, shown_only, structured_classification
-from .tasks import RobotCourse, drive, start_at
+from .tasks import RobotCourse, collect, start_at
 from .transitions import Floats, Steps, shown_steps
 
 Refinement = Callable[[Any, Any, int], Refined]
@@ -265,16 +265,13 @@ def random_segments(
     """Segments of ``horizon`` decisions by chance, begun at poses where the expert had to decide."""
     pairs = demonstrations.effective
     begin = rng.integers(len(pairs), size=samples)
-    simulator = start_at(
-        pairs.worlds[pairs.trajectory[begin]], pairs.poses[begin], pairs.speed
-    )
+    worlds = pairs.worlds[pairs.trajectory[begin]]
+    simulator = start_at(worlds, pairs.poses[begin], pairs.speed, course.max_steps)
 
     def alike(inputs: Floats) -> Floats:
         return np.full((len(inputs), course.actions), 1 / course.actions)
 
-    return drive(
-        simulator, alike, course.encoder, course.max_steps, rng, decisions=horizon
-    )
+    return collect(simulator, alike, course.encoder, rng, decisions=horizon)
 
 
 Estimate = Callable[[Steps, int, float], Floats]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from robonav.lfd.demonstrations import LEARNED
 from robonav.networks.policy import sample_actions
-from robonav.robot import REFLEX, Encoder, Simulator, Worlds, random_worlds
+from robonav.robot import Encoder, Sensing, Simulator, Worlds, drive, random_worlds
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 from robonav.validation import check_integer, check_positive
 
@@ -73,46 +73,39 @@ class RobotCourse:
     def drive(self, chances: Chances, rng: np.random.Generator) -> Steps:
         """``trajectories`` drives, each in a map that was never driven before."""
         worlds = random_worlds(self.trajectories, self.obstacles, self.moving, seed=rng)
-        return drive(
-            Simulator(worlds, self.speed), chances, self.encoder, self.max_steps, rng
-        )
+        simulator = Simulator(worlds, self.speed, max_steps=self.max_steps)
+        return collect(simulator, chances, self.encoder, rng)
 
 
-def drive(
+def collect(
     simulator: Simulator,
     chances: Chances,
     encoder: Encoder,
-    seconds: int,
     rng: np.random.Generator,
     *,
     decisions: int | None = None,
 ) -> Steps:
-    """Let N robots go until they arrive, collide, have driven for ``seconds`` or taken ``decisions`` decisions."""
-    n = len(simulator)
-    running = np.arange(n)
-    taken, outcome = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int8)
+    """Run N episodes with a policy, of ``decisions`` decisions each at most, and keep what the policy decided."""
+    robots = np.arange(len(simulator))
+    decided = np.zeros(len(simulator), dtype=np.int64)
+    outcome = np.zeros(len(simulator), dtype=np.int8)
     rows: list[tuple[Ints, Floats, Ints, Ints]] = []
-    for second in range(seconds):
-        if len(running) == 0:
-            break
-        sensing = simulator.sense()
-        commands = REFLEX(sensing, simulator.speed)
-        asked = commands < 0
-        if asked.any():
-            inputs = encoder(sensing[asked])
-            actions = sample_actions(chances(inputs), rng.random(len(inputs)))
-            commands[asked] = actions
-            taken[running[asked]] += 1
-            rows.append(
-                (running[asked], inputs, actions, np.full(len(actions), second))
-            )
-        simulator.step(commands)
-        outcome[running] = simulator.outcome
-        over = simulator.outcome != RUNNING
+
+    def choose(simulator: Simulator, sensing: Sensing, asked: Ints) -> Ints:
+        inputs = encoder(sensing[asked])
+        actions = sample_actions(chances(inputs), rng.random(len(inputs)))
+        seconds = simulator.steps[asked].copy()
+        rows.append((robots[asked], inputs, actions, seconds))
+        decided[robots[asked]] += 1
+        return actions
+
+    for step in drive(simulator, choose):
+        outcome[robots] = step.outcome
+        over = step.outcome != RUNNING
         if decisions is not None:
-            over |= taken[running] >= decisions
+            over |= decided[robots] >= decisions
         if over.any():
-            running = running[~over]
+            robots = robots[~over]
             simulator.keep(~over)
     return _by_drive(rows, encoder.size, outcome)
 
@@ -190,8 +183,8 @@ class ModelCourse:
         )
 
 
-def start_at(worlds: Worlds, poses: Floats, speed: float) -> Simulator:
+def start_at(worlds: Worlds, poses: Floats, speed: float, max_steps: int) -> Simulator:
     """Robots put at ``poses`` (N, 3), one in each of N worlds whose obstacles stand where they start."""
-    simulator = Simulator(worlds, speed)
+    simulator = Simulator(worlds, speed, max_steps=max_steps)
     simulator.poses = np.ascontiguousarray(poses, dtype=float)
     return simulator

@@ -10,7 +10,17 @@ from .encoding import (
     lfd_state,
     nnql_state,
 )
-from .rollout import REFLEX, Navigation, Policy, freer_side, navigate, straight
+from .policies import straight, turn_to_clearer_side
+from .rollout import (
+    REFLEX,
+    Chooser,
+    Navigation,
+    Policy,
+    Transition,
+    drive,
+    follow_policy,
+    navigate,
+)
 from .simulator import (
     OUTCOMES,
     Action,
@@ -42,19 +52,22 @@ __all__ = [
     "SENSOR_RANGE",
     "TARGET_ENCODINGS",
     "Action",
+    "Chooser",
     "Encoder",
     "Navigation",
     "Policy",
     "Reflex",
     "Sensing",
     "Simulator",
+    "Transition",
     "Worlds",
     "clearance",
     "concatenate",
     "degree_of_danger",
     "draw_worlds",
+    "drive",
+    "follow_policy",
     "format_world",
-    "freer_side",
     "lfd_state",
     "load_worlds",
     "make_world",
@@ -67,5 +80,6 @@ __all__ = [
     "save_worlds",
     "sense",
     "straight",
+    "turn_to_clearer_side",
     "world_keys",
 ]

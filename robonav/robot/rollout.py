@@ -1,9 +1,10 @@
-"""Driving: a policy, many worlds, no loop over robots (Algorithm 9 with any policy)."""
+"""The one rollout: robots sense, their reflex or a policy chooses, the simulator steps."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,18 +19,146 @@ from .worlds import Worlds
 Policy = Callable[[Sensing, np.random.Generator], ArrayLike]
 """``policy(sensing, rng) -> (N,)`` indices of actions, for any number N of robots."""
 
+ReflexRule = Callable[[Sensing, float], NDArray[np.int64]]
+"""``reflex(sensing, speed) -> (N,)`` actions, -1 where the policy decides."""
+
 REFLEX = Reflex()
 
 
-@dataclass(frozen=True)
-class Navigation:
-    """How N drives ended.
+Chooser = Callable[[Simulator, Sensing, NDArray[np.int64]], ArrayLike]
+"""``choose(simulator, sensing, asked) -> (n,)`` actions of the robots with indices ``asked`` (n,)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Transition:
+    """One simulated second of the N robots of a simulator.
 
     Attributes
     ----------
-    outcome : (N,) "arrived", "collided" or "out of steps".
-    steps : (N,) seconds driven.
-    paths : N arrays (steps + 1, 3) of x, y, heading, if recorded; else None.
+    simulator : Simulator
+        The simulator after the step.
+    running : (N,) array of bool
+        Whether the robot was still running before the step. The other rows of a transition mean nothing.
+    asked : (N,) array of bool
+        Whether the policy chose the action. Elsewhere the reflex did.
+    sensing : Sensing
+        What the robots sensed before the step, N rows.
+    poses : (N, 3) array
+        Their x, y (metres) and heading (radians) before the step.
+    actions : (N,) array of int
+        The actions commanded, members of :class:`robonav.robot.Action`.
+    outcome : (N,) array of int
+        How each episode stands after the step: an index into :data:`robonav.robot.OUTCOMES`.
+    """
+
+    simulator: Simulator
+    running: NDArray[np.bool_]
+    asked: NDArray[np.bool_]
+    sensing: Sensing
+    poses: NDArray[np.float64]
+    actions: NDArray[np.int64]
+    outcome: NDArray[np.int8]
+
+    @cached_property
+    def next_sensing(self) -> Sensing:
+        """What the robots sense after the step, N rows. Read it before the simulator moves on."""
+        return self.simulator.sense()
+
+
+def drive(
+    simulator: Simulator, choose: Chooser, *, reflex: ReflexRule | None = REFLEX
+) -> Iterator[Transition]:
+    """Step the robots of a simulator until none of them is running.
+
+    Between two transitions the caller may change the simulator: put robots into new worlds
+    (:meth:`Simulator.restart`) or go on with some of them (:meth:`Simulator.keep`).
+
+    Parameters
+    ----------
+    simulator : Simulator
+        N robots, one a world.
+    choose : callable
+        ``choose(simulator, sensing, asked)`` returns the actions of the robots ``asked``; see
+        :func:`follow_policy` for a policy.
+    reflex : callable, optional
+        What the robot does before ``choose`` is asked. None leaves every step to ``choose``.
+
+    Yields
+    ------
+    Transition
+        One a simulated second.
+
+    Examples
+    --------
+    >>> from robonav.robot import Simulator, drive, follow_policy, random_worlds, straight
+    >>> simulator = Simulator(random_worlds(3, obstacles=0, seed=1))
+    >>> sum(transition.running.sum() for transition in drive(simulator, follow_policy(straight)))
+    np.int64(168)
+    """
+    while (running := simulator.outcome == RUNNING).any():
+        sensing, poses = simulator.sense(), simulator.poses.copy()
+        actions = reflex_actions(reflex, sensing, simulator.speed)
+        asked = running & (actions < 0)
+        actions[~running] = Action.F  # these robots stand still
+        if asked.any():
+            actions[asked] = choose(simulator, sensing, np.flatnonzero(asked))
+        simulator.step(actions)
+        outcome = simulator.outcome.copy()
+        yield Transition(simulator, running, asked, sensing, poses, actions, outcome)
+
+
+def reflex_actions(
+    reflex: ReflexRule | None, sensing: Sensing, speed: float
+) -> NDArray[np.int64]:
+    """Return the actions (N,) of a reflex, -1 where the policy decides."""
+    return np.full(len(sensing), -1) if reflex is None else reflex(sensing, speed)
+
+
+def follow_policy(policy: Policy, rng: np.random.Generator | int = 0) -> Chooser:
+    """Let a policy choose in :func:`drive`.
+
+    Parameters
+    ----------
+    policy : callable
+        ``policy(sensing, rng)`` returns one action (0 to 5) for each row of ``sensing``.
+    rng : Generator or int
+        What the policy draws random numbers from.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the policy's actions are not whole numbers 0 to 5, one a robot.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.robot import Simulator, follow_policy, random_worlds, straight
+    >>> simulator = Simulator(random_worlds(3, seed=1))
+    >>> follow_policy(straight)(simulator, simulator.sense(), np.array([0, 2]))
+    array([0, 0])
+    """
+    generator = check_generator("rng", rng)
+
+    def choose(
+        simulator: Simulator, sensing: Sensing, asked: NDArray[np.int64]
+    ) -> NDArray[np.int64]:
+        return check_actions(policy(sensing[asked], generator), (len(asked),))
+
+    return choose
+
+
+@dataclass(frozen=True, eq=False)
+class Navigation:
+    """How N robots ended.
+
+    Attributes
+    ----------
+    outcome : (N,) array of str
+        "arrived", "collided" or "out of steps".
+    steps : (N,) array of int
+        Seconds driven.
+    paths : tuple of arrays, optional
+        N arrays (steps + 1, 3) of x, y (metres) and heading (radians), if recorded.
     """
 
     outcome: NDArray[np.str_]
@@ -38,12 +167,12 @@ class Navigation:
 
     @property
     def success(self) -> NDArray[np.bool_]:
-        """(N,) arrived."""
+        """(N,) whether the robot arrived."""
         return self.outcome == "arrived"
 
     @property
     def collision(self) -> NDArray[np.bool_]:
-        """(N,) collided."""
+        """(N,) whether the robot collided."""
         return self.outcome == "collided"
 
 
@@ -54,7 +183,7 @@ def navigate(
     max_steps: int = 500,
     record_paths: bool = False,
     *,
-    reflex: Callable[[Sensing, float], NDArray[np.int64]] | None = REFLEX,
+    reflex: ReflexRule | None = REFLEX,
     slip: ArrayLike | None = None,
     noise: float = 0.0,
     seed: int | np.random.Generator = 0,
@@ -64,18 +193,39 @@ def navigate(
 
     Parameters
     ----------
-    policy : called with the sensing of those robots whose reflex does not decide, and a Generator.
-    worlds : batch of N.
-    speed : m/s, positive.
-    max_steps : seconds after which a drive is out of steps.
-    record_paths : whether to keep the poses.
-    reflex : what the robot does before any policy; None leaves every step to the policy.
-    slip, noise : uncertainty of motion and sensing, see :class:`Simulator`.
-    seed : of the Generator handed to the policy.
+    policy : callable
+        ``policy(sensing, rng)`` returns the actions of the robots whose reflex does not decide.
+    worlds : Worlds
+        Batch of N.
+    speed : float
+        Metres a second, positive.
+    max_steps : int
+        Seconds after which an episode is out of steps.
+    record_paths : bool
+        Whether to keep the poses.
+    reflex : callable, optional
+        What the robot does before the policy is asked. None leaves every step to the policy.
+    slip, noise : array and float, optional
+        Uncertainty of motion and sensing, see :class:`Simulator`.
+    seed : int or Generator
+        Of the random numbers that the policy may draw.
+    progress : callable, optional
+        Called as ``progress(robots done, N)``.
+
+    Returns
+    -------
+    Navigation
 
     Raises
     ------
-    TypeError, ValueError : if the policy's actions are not N whole numbers 0..5, or an argument is out of bounds.
+    TypeError, ValueError
+        If the policy's actions are not N whole numbers 0 to 5, or an argument is out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.robot import navigate, random_worlds, straight
+    >>> navigate(straight, random_worlds(3, obstacles=0, seed=1)).outcome.tolist()
+    ['arrived', 'arrived', 'arrived']
     """
     if not callable(policy):
         raise TypeError(
@@ -85,61 +235,26 @@ def navigate(
         raise TypeError(
             f"reflex must be callable as reflex(sensing, speed), or None, got {reflex!r}"
         )
-    rng = check_generator("seed", seed)
+    choose = follow_policy(policy, check_generator("seed", seed))
     simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
     n = len(worlds)
-    running = np.arange(n)
+    robots = np.arange(n)
     outcome, steps = np.zeros(n, dtype=np.int8), np.zeros(n, dtype=np.int64)
-    track = [(running, simulator.poses.copy())]
-    while len(running):
-        simulator.step(decide(policy, reflex, simulator.sense(), speed, rng))
+    track = [(robots, simulator.poses.copy())]
+    for transition in drive(simulator, choose, reflex=reflex):
         if record_paths:
-            track.append((running, simulator.poses.copy()))
-        ended = simulator.outcome != RUNNING
+            track.append((robots, simulator.poses.copy()))
+        ended = transition.outcome != RUNNING
         if ended.any():
-            outcome[running[ended]] = simulator.outcome[ended]
-            steps[running[ended]] = simulator.steps[ended]
-            running = running[~ended]
+            outcome[robots[ended]] = transition.outcome[ended]
+            steps[robots[ended]] = simulator.steps[ended]
+            robots = robots[~ended]
             simulator.keep(~ended)
         if progress is not None:
-            progress(n - len(running), n)
+            progress(n - len(robots), n)
     return Navigation(
         OUTCOMES[outcome], steps, _paths(track, n) if record_paths else None
     )
-
-
-def decide(
-    policy: Policy,
-    reflex: Callable[[Sensing, float], NDArray[np.int64]] | None,
-    sensing: Sensing,
-    speed: float,
-    rng: np.random.Generator,
-) -> NDArray[np.int64]:
-    """Commands (N,): the reflex's, and the policy's where the reflex leaves it the choice."""
-    if reflex is None:
-        return check_actions(policy(sensing, rng), (len(sensing),))
-    commands = reflex(sensing, speed)
-    asked = commands < 0
-    if asked.any():
-        commands[asked] = check_actions(
-            policy(sensing[asked], rng), (int(asked.sum()),)
-        )
-    return commands
-
-
-def straight(sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
-    """The policy that always goes forward: the first yardstick beside every table."""
-    return np.full(len(sensing), Action.F)
-
-
-def freer_side(sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
-    """A rule of three lines that has learned nothing: something near ahead, turn 60 degrees to the side with more room.
-
-    The second yardstick: what learning has to beat.
-    """
-    left, right = sensing.ranges[:, 1:3].min(axis=1), sensing.ranges[:, 7:9].min(axis=1)
-    turn = np.where(left > right, Action.L60, Action.R60)
-    return np.where(sensing.ranges[:, 0] < 6.0, turn, Action.F)
 
 
 def _paths(

@@ -14,7 +14,7 @@ from playwright.sync_api import Locator, expect
 from robonav.benchmark.policies import method, methods
 from robonav.lfd import load_demonstrations
 from robonav.networks import NetworkPolicy, Weights, random_network, save_weights
-from robonav.robot import Encoder, freer_side, navigate, random_worlds, sense
+from robonav.robot import Encoder, navigate, random_worlds, sense, turn_to_clearer_side
 
 ME = "you, with the arrow keys"
 GREEDY = [
@@ -64,7 +64,9 @@ def test_rules_end_as_in_python(lab):
     ):
         choose(lab, "world", world)
         choose(lab, "who drives", "rule: freer side")
-        expected = navigate(freer_side, made or random_worlds(1, 10, 10, seed=44))
+        expected = navigate(
+            turn_to_clearer_side, made or random_worlds(1, 10, 10, seed=44)
+        )
         said = drive_to_the_end(lab)
         assert (
             said == f"{expected.outcome[0].capitalize()} after {expected.steps[0]} s."

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from robonav.robot import Policy, freer_side, nnql_state, straight
+from robonav.robot import Policy, nnql_state, straight, turn_to_clearer_side
 
 from ..runner.experiment import Case, Experiment
 from ..runner.results import RESULTS as RESULTS
@@ -40,7 +40,7 @@ CHOSEN: dict[str, dict[float, int]] = {
 """The best trial of each method with each discount; of cloning, which knows none, the better of the two is taken."""
 
 LEARNERS = METHODS[:4]
-RULES: dict[str, Policy] = {"freer side": freer_side, "straight": straight}
+RULES: dict[str, Policy] = {"freer side": turn_to_clearer_side, "straight": straight}
 NUMBERS = (20, 25, 30, 35, 40, 50)
 DENSITIES = (5, 10, 15, 20, 25, 30)
 

@@ -14,7 +14,7 @@ from robonav.lfd.demonstrations import LEARNED
 from robonav.nirl import learn_under, most_frequent, most_telling, shown_steps
 from robonav.nirl.methods import Refinement
 from robonav.nnql import NavigationTask, train
-from robonav.robot import Policy, freer_side, neighbour_slip, random_worlds
+from robonav.robot import Policy, neighbour_slip, random_worlds, turn_to_clearer_side
 
 from ..chapter4.tuning import arguments, block
 from ..runner.experiment import Case, Experiment
@@ -116,7 +116,7 @@ def _by_table(
 
 def by_rule(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """The rule of three lines."""
-    return freer_side
+    return turn_to_clearer_side
 
 
 TAKEN: dict[str, Callable[[int, float, int, float], Policy]] = {

@@ -22,9 +22,13 @@ from robonav.benchmark.leaderboard import (
 from robonav.benchmark.policies import methods
 from robonav.cli import app, main
 from robonav.lfd import plan_on_grid
-from robonav.robot import freer_side, navigate
+from robonav.robot import navigate, turn_to_clearer_side
 
-OWN = "from robonav.robot import freer_side\n\ndef policy(sensing, rng):\n    return freer_side(sensing, rng)\n"
+OWN = """from robonav.robot import turn_to_clearer_side as rule
+
+def policy(sensing, rng):
+    return rule(sensing, rng)
+"""
 
 
 @pytest.mark.parametrize("setting", DIGESTS)
@@ -62,7 +66,7 @@ def test_shortest_ways_end_where_the_robot_arrives():
 
 
 def test_an_entry_is_navigate():
-    drives = navigate(freer_side, board_worlds("20 obstacles", 2, 20), seed=2)
+    drives = navigate(turn_to_clearer_side, board_worlds("20 obstacles", 2, 20), seed=2)
     numbers = entry({"method": "freer-side", "setting": "20 obstacles"}, 2, "quick")
     assert numbers["success"] == 100 * drives.success.mean()
     assert sum(

@@ -9,7 +9,7 @@ from robonav.benchmark.policies import drive, method, methods
 from robonav.cli import app, main
 from robonav.networks import Weights, save_weights
 from robonav.networks.multilayer_perceptron import random_network
-from robonav.robot import Encoder, freer_side, navigate, random_worlds
+from robonav.robot import Encoder, navigate, random_worlds, turn_to_clearer_side
 
 OWN = "import numpy as np\n\ndef policy(sensing, rng):\n    return np.where(sensing.ranges[:, 0] < 6, 2, 0)\n"
 
@@ -23,7 +23,7 @@ def test_every_named_method_drives():
 
 def test_a_drive_is_navigate():
     result = drive("freer-side", obstacles=20, moving=0, speed=2.0, worlds=50, seed=7)
-    expected = navigate(freer_side, random_worlds(50, 20, seed=7))
+    expected = navigate(turn_to_clearer_side, random_worlds(50, 20, seed=7))
     assert result["success"] == expected.success.mean()
     low, high = result["interval"]
     assert low < result["success"] < high

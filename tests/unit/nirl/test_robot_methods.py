@@ -28,7 +28,7 @@ from robonav.nirl import (
     shown_steps,
 )
 from robonav.nirl.methods import prepared, random_segments, segments
-from robonav.nirl.tasks import drive
+from robonav.nirl.tasks import collect
 from robonav.robot import Simulator, navigate, random_worlds
 
 SMALL = {"improve": SampledDescent(samples=500), "iterations": 3}
@@ -51,8 +51,11 @@ def test_a_practice_drive_is_a_drive(action):
     driven = navigate(
         lambda sensing, rng: np.full(len(sensing), action), worlds, max_steps=200
     )
-    steps = drive(
-        Simulator(worlds, 2.0), always(action), ENCODER, 200, np.random.default_rng(0)
+    steps = collect(
+        Simulator(worlds, 2.0, max_steps=200),
+        always(action),
+        ENCODER,
+        np.random.default_rng(0),
     )
     np.testing.assert_array_equal(steps.failed, driven.collision)
     np.testing.assert_array_equal(steps.arrived, driven.success)

@@ -16,12 +16,12 @@ from robonav.robot import (
     Reflex,
     Simulator,
     concatenate,
-    freer_side,
     navigate,
     obstacle_tracks,
     random_worlds,
     sense,
     straight,
+    turn_to_clearer_side,
 )
 from robonav.robot._fast import DRIFTING, RUNNING, uniform
 from robonav.widgets.simulator import CHOOSING, page_policy, page_world
@@ -73,7 +73,7 @@ def thousand():
 
 
 @pytest.mark.parametrize(
-    ("rule", "policy"), [("straight", straight), ("freer side", freer_side)]
+    ("rule", "policy"), [("straight", straight), ("freer side", turn_to_clearer_side)]
 )
 @pytest.mark.parametrize("speed", [2.0, 3.5])
 def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(
