@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from robonav.robot import Encoder, Sensing
 from robonav.validation import check_real
@@ -54,7 +54,7 @@ class NetworkPolicy:
 
 
 def sample_actions(
-    probabilities: NDArray[np.float64], uniforms: NDArray[np.float64]
+    probabilities: NDArray[np.float64], uniforms: ArrayLike
 ) -> NDArray[np.int64]:
     """Draw one action from each row of probabilities, by inverting their cumulative sums.
 
@@ -77,5 +77,5 @@ def sample_actions(
     >>> sample_actions(np.array([[0.2, 0.5, 0.3]] * 3), np.array([0.1, 0.6, 0.9])).tolist()
     [0, 1, 2]
     """
-    passed = probabilities.cumsum(axis=-1) <= uniforms[..., None]
+    passed = probabilities.cumsum(axis=-1) <= np.expand_dims(uniforms, -1)
     return np.minimum(passed.sum(axis=-1), probabilities.shape[-1] - 1)

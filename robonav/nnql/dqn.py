@@ -1,221 +1,144 @@
-"""What came after: the deep Q-network (Mnih et al. 2015) with the double estimator (van Hasselt et al. 2016)."""
+"""The deep Q-network (Mnih et al. 2015) with the double estimator (van Hasselt et al. 2016)."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from copy import deepcopy
-from functools import partial
-from typing import Any, Unpack
+import gymnasium
+import torch
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from robonav.networks.multilayer_perceptron import Network
+from robonav.networks.policy import sample_actions
+from robonav.networks.torch_module import as_module, as_network
 
-from robonav.validation import check_integer, check_positive, check_real
-
-from .agents import Agent, Transitions
-from .networks import Array, Networks, Rows
-from .replay_buffer import ReplayBuffer
-from .schedules import Schedule
-from .trainer import REPLAYING, NavigationTask, make_rng
-from .training import Common, TrainingResult, run_training
-
-_MOMENTS = (0.9, 0.999)  # Adam's, as Kingma and Ba (2015) have them
+from ._settings import Schedule, checked
+from .replay_buffer import ReplayBuffer, Transitions
+from .schedules import geometric_schedule, softmax_policy
+from .task import EXPLORING, REPLAYING, make_rng
 
 
-class DQNAgent(Agent):
-    """Trains, after each step, on steps drawn from all that were ever made; its outputs are linear.
-
-    Parameters
-    ----------
-    networks, target : of S seeds; ``target`` is a copy, which stands still between refreshes.
-    seeds : (S,).
-    inputs : n.
-    discount : gamma.
-    gradient_step : of Adam.
-    batch_size : steps drawn for an update.
-    target_update_interval : updates after which the target network becomes the network.
-    """
-
-    def __init__(
-        self,
-        networks: Networks,
-        target: Networks,
-        seeds: tuple[int, ...],
-        inputs: int,
-        *,
-        discount: float,
-        gradient_step: float,
-        batch_size: int,
-        target_update_interval: int,
-    ) -> None:
-        super().__init__(networks)
-        self.target, self.seeds = target, seeds
-        (
-            self.discount,
-            self.gradient_step,
-            self.batch_size,
-            self.target_update_interval,
-        ) = discount, gradient_step, batch_size, target_update_interval
-        self.memory = ReplayBuffer(len(seeds), inputs)
-        self.first, self.second = (
-            np.zeros_like(networks.parameters()) for _ in range(2)
-        )
-        self.episodes = np.zeros(len(seeds), np.int64)
-        self.draws = [make_rng(seed, REPLAYING, 0) for seed in seeds]
-
-    def values(self, rows: Rows, x: Array) -> Array:
-        return self.networks.logits(rows, x[:, None])[:, 0]
-
-    def observe(self, rows: Rows, steps: Transitions) -> None:
-        self.memory.append(rows, steps)
-        ready = rows[self.memory.count[rows] >= self.batch_size]
-        if len(ready):
-            updates = self.memory.count[ready] - self.batch_size + 1
-            self._update(ready, updates)
-            due = ready[updates % self.target_update_interval == 0]
-            if len(due):
-                self.target.load(due, self.networks.parameters()[due])
-
-    def close(self, rows: Rows, episodes: Rows) -> None:
-        """Draw anew, so that training can go on from here without knowing what was drawn before."""
-        self.episodes[rows] = episodes
-        for row in rows:
-            self.draws[row] = make_rng(
-                self.seeds[row], REPLAYING, int(self.episodes[row])
-            )
-
-    def _update(self, rows: Rows, number: NDArray[np.int64]) -> None:
-        """Update ``number`` (K,) of each of ``rows`` (K,): a step of Adam on a batch of its own."""
-        drawn = [
-            self.draws[row].integers(self.memory.count[row], size=self.batch_size)
-            for row in rows
-        ]
-        x, actions, rewards, reached, terminal = self.memory.draw(rows, np.array(drawn))
-        following = double_estimate(self.networks, self.target, rows, reached)
-        targets = rewards + self.discount * np.where(terminal, 0.0, following)
-        slope, _ = self.networks.slopes(rows, x, actions, targets, linear=True)
-        step, self.first[rows], self.second[rows] = adam(
-            slope, self.first[rows], self.second[rows], number[:, None]
-        )
-        self.networks.subtract(rows, self.gradient_step * step)
-
-    def state(self) -> dict[str, NDArray]:
-        more = {"target": self.target.parameters()}
-        more |= {
-            name: getattr(self, name).copy() for name in ("first", "second", "episodes")
-        }
-        return super().state() | self.memory.state() | more
-
-    def restore(self, state: dict[str, NDArray]) -> None:
-        super().restore(state)
-        self.memory.restore(state)
-        everyone = np.arange(len(self.seeds))
-        self.target.load(everyone, state["target"])
-        self.first, self.second = state["first"].copy(), state["second"].copy()
-        self.close(everyone, state["episodes"])
-
-
-def double_estimate(
-    networks: Networks, target: Networks, rows: Rows, x: Array
-) -> Array:
-    """What states are worth (K, m) by two networks: one chooses the action, the other says its value.
-
-    A single network that does both takes the maximum of its own errors, and overestimates.
-
-    Parameters
-    ----------
-    networks, target : the one that chooses and the one that values.
-    rows : (K,) which of them.
-    x : inputs (K, m, n).
-    """
-    best = networks.logits(rows, x).argmax(axis=2)
-    worth: Array = np.take_along_axis(target.logits(rows, x), best[..., None], axis=2)[
-        ..., 0
-    ]
-    return worth
-
-
-def adam(
-    slope: Array, first: Array, second: Array, number: ArrayLike
-) -> tuple[Array, Array, Array]:
-    """The direction of Adam (Kingma and Ba 2015, Algorithm 1).
-
-    Parameters
-    ----------
-    slope : (...) of the cost.
-    first, second : (...) moments before this step.
-    number : of this step, from 1 on; broadcasts with the slope.
-
-    Returns
-    -------
-    What to take off the parameters, times the step of gradient descent; both moments after this step.
-    """
-    (a, b), count = _MOMENTS, np.asarray(number, dtype=float)
-    first, second = a * first + (1 - a) * slope, b * second + (1 - b) * slope**2
-    return (
-        first / (1 - a**count) / (np.sqrt(second / (1 - b**count)) + 1e-8),
-        first,
-        second,
-    )
-
-
+@checked
 def dqn(
-    seeds: int | Sequence[int] = 16,
-    episodes: int = 300,
+    env: gymnasium.Env,
+    network: Network,
     *,
+    episodes: int,
     discount: float = 0.7,
     gradient_step: float = 0.003,
     temperature: Schedule = (0.9, 0.1),
     batch_size: int = 32,
     target_update_interval: int = 1000,
-    **common: Unpack[Common],
-) -> TrainingResult:
-    """Deep Q-learning: after each step, one update on a batch drawn from all steps ever made.
+    seed: int,
+) -> Network:
+    """Deep Q-learning (DQN): after each step, one update on a batch drawn from all transitions made so far.
 
-    Three things set it apart from online Q-learning: replay, a target network that stands still between refreshes,
-    and the double estimator, in which the network chooses the next action and the target network values it. Outputs
-    are linear, so that Q needs no rescaling; the loss is Huber's.
+    Three things set it apart from online Q-learning: replay, a target network that stands still between its updates,
+    and the double estimator. The outputs are linear, so that Q-values need no rescaling, and the loss is Huber's.
 
     Parameters
     ----------
-    seeds : S, or the seeds themselves.
-    episodes : E, each in a new world.
-    discount : gamma.
-    gradient_step : of Adam.
-    temperature : T of the Boltzmann policy, Eq. (4.7); a number, or its start and end.
-    batch_size : steps drawn for an update.
-    target_update_interval : updates between two refreshes of the target network.
-    common : see :class:`Common`.
+    env : gymnasium.Env
+        An environment with discrete actions, whose observations are the network's inputs.
+    network : Network
+        The network to start from, with one output an action, see :func:`q_network`.
+    episodes : int
+        Episodes of training.
+    discount : float
+        The thesis's gamma.
+    gradient_step : float
+        Step of Adam.
+    temperature : Schedule
+        T of the softmax policy, Eq. (4.7).
+    batch_size : int
+        Transitions drawn for an update.
+    target_update_interval : int
+        Updates after which the target network becomes a copy of the network.
+    seed : int
+        Seed of the environment, of the exploration and of the replay.
+
+    Returns
+    -------
+    Network
+        The trained network; its logits are the Q-values.
 
     Raises
     ------
-    ValueError, TypeError : if an argument is out of bounds.
+    ValueError, TypeError
+        If an argument is out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.nnql import NavigationTask, dqn, q_network
+    >>> env = NavigationTask().environment()
+    >>> dqn(env, q_network(env, seed=0), episodes=1, seed=0).sizes
+    (16, 8, 5)
     """
-    settings: dict[str, Any] = {
-        "discount": check_real("discount", discount, at_least=0, at_most=1),
-        "gradient_step": check_positive("gradient_step", gradient_step),
-        "batch_size": check_integer("batch_size", batch_size, at_least=1),
-        "target_update_interval": check_integer(
-            "target_update_interval", target_update_interval, at_least=1
-        ),
-    }
-    make = partial(_replaying, settings=settings)
-    return run_training(
-        "dqn",
-        make,
-        seeds,
-        episodes,
-        temperature=temperature,
-        settings=settings,
-        **common,
-    )
+    q_module, target_module = as_module(network), as_module(network)
+    adam = torch.optim.Adam(q_module.parameters(), lr=gradient_step)
+    buffer, updates = ReplayBuffer(), 0
+    for episode in range(episodes):
+        t = geometric_schedule(temperature, episode / max(episodes - 1, 1))
+        rng, replay_rng = (make_rng(seed, p, episode) for p in (EXPLORING, REPLAYING))
+        state, _ = env.reset(seed=None if episode else seed)
+        done = False
+        while not done:
+            q = q_module(torch.as_tensor(state, dtype=torch.float64)).detach()
+            action = sample_actions(softmax_policy(q, t), rng.random())
+            reached, reward, terminated, truncated, info = env.step(action)
+            state, before, done = reached, state, terminated or truncated
+            if info.get("reflex", -1) >= 0:  # in a safe state the reflex acts
+                continue
+            buffer.append(before, action, reward, reached, terminated)
+            if len(buffer) >= batch_size:
+                batch = buffer.sample(batch_size, replay_rng)
+                adam.zero_grad()
+                double_dqn_loss(q_module, target_module, batch, discount).backward()
+                adam.step()
+                updates += 1
+                if updates % target_update_interval == 0:
+                    target_module.load_state_dict(q_module.state_dict())
+    return as_network(q_module)
 
 
-def _replaying(
-    networks: Networks,
-    seeds: tuple[int, ...],
-    task: NavigationTask,
-    *,
-    settings: dict[str, Any],
-) -> DQNAgent:
-    return DQNAgent(networks, deepcopy(networks), seeds, task.encoder.size, **settings)
+def double_dqn_loss(
+    q_module: torch.nn.Module,
+    target_module: torch.nn.Module,
+    batch: Transitions,
+    discount: float,
+) -> torch.Tensor:
+    """Huber's loss between the values of the actions taken and their targets, by the double estimator.
+
+    The network chooses the next action, and the target network gives its value. One network that does both takes the
+    maximum of its own errors, and overestimates.
+
+    Parameters
+    ----------
+    q_module, target_module : torch.nn.Module
+        The network that learns, and its older copy.
+    batch : Transitions
+        m transitions.
+    discount : float
+        The thesis's gamma.
+
+    Returns
+    -------
+    torch.Tensor
+        The mean loss.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.networks.torch_module import as_module
+    >>> from robonav.nnql import ReplayBuffer
+    >>> from robonav.nnql.dqn import double_dqn_loss
+    >>> buffer, module = ReplayBuffer(), as_module(random_network((4, 8, 2), seed=0))
+    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
+    >>> double_dqn_loss(module, module, buffer.all(), 0.9).item() > 0
+    True
+    """
+    states, actions, rewards, next_states, terminal = batch
+    with torch.no_grad():
+        best = q_module(next_states).argmax(dim=1, keepdim=True)
+        future = target_module(next_states).gather(1, best)[:, 0]
+        targets = rewards + discount * ~terminal * future
+    values = q_module(states).gather(1, actions[:, None])[:, 0]
+    return torch.nn.functional.huber_loss(values, targets)

@@ -1,222 +1,152 @@
-"""Neural fitted Q iteration (Riedmiller 2005): collect, then fit a network to all that was ever collected."""
+"""Neural fitted Q iteration (Riedmiller 2005): collect transitions, then fit the network to all of them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
-from typing import Any, Unpack
-
+import gymnasium
 import numpy as np
-from numpy.typing import NDArray
-from scipy.special import expit
+import torch
 
-from robonav.validation import check_integer, check_real
+from robonav.networks.multilayer_perceptron import Network
+from robonav.networks.policy import sample_actions
+from robonav.networks.torch_module import as_module, as_network
 
-from .agents import Agent, Transitions
-from .networks import Array, Networks, Rows
+from ._settings import Schedule, checked
 from .replay_buffer import ReplayBuffer
-from .schedules import Schedule
-from .targets import clip
-from .trainer import NavigationTask
-from .training import Common, TrainingResult, run_training
-
-_GROW, _SHRINK, _FIRST_STEP, _SIZES = (
-    1.2,
-    0.5,
-    0.01,
-    (1e-6, 50.0),
-)  # of Rprop, as its authors have them
+from .schedules import geometric_schedule, softmax_policy
+from .task import EXPLORING, make_rng
 
 
-class NFQAgent(Agent):
-    """Keeps every step, and refits the network to all of them after every so many episodes.
-
-    Parameters
-    ----------
-    networks : of S seeds.
-    shape : (S, n).
-    discount : gamma.
-    episodes_per_fit : episodes between two refits.
-    sweeps : targets are computed anew so often in a refit.
-    epochs, tolerance : Rprop goes over all steps at most so many times, and until the mean cost settles.
-    """
-
-    def __init__(
-        self,
-        networks: Networks,
-        shape: tuple[int, int],
-        *,
-        discount: float,
-        episodes_per_fit: int,
-        sweeps: int,
-        epochs: int,
-        tolerance: float,
-    ) -> None:
-        super().__init__(networks)
-        self.memory = ReplayBuffer(*shape)
-        (
-            self.discount,
-            self.episodes_per_fit,
-            self.sweeps,
-            self.epochs,
-            self.tolerance,
-        ) = (
-            discount,
-            episodes_per_fit,
-            sweeps,
-            epochs,
-            tolerance,
-        )
-
-    def observe(self, rows: Rows, steps: Transitions) -> None:
-        self.memory.append(rows, steps)
-
-    def close(self, rows: Rows, episodes: Rows) -> None:
-        for row in rows[
-            (episodes % self.episodes_per_fit == 0) & (self.memory.count[rows] > 0)
-        ]:
-            self._refit(np.array([row]))
-
-    def _refit(self, row: Rows) -> None:
-        """Fit one network to its memory, ``sweeps`` times over."""
-        x, actions, rewards, reached, terminal = self.memory.all_of(row)
-        for _ in range(self.sweeps):
-            following = expit(self.networks.logits(row, reached).max(axis=2))
-            targets = clip(rewards + self.discount * np.where(terminal, 0.0, following))
-            fit(
-                self.networks,
-                row,
-                x,
-                actions,
-                targets,
-                epochs=self.epochs,
-                tolerance=self.tolerance,
-            )
-
-    def state(self) -> dict[str, NDArray]:
-        return super().state() | self.memory.state()
-
-    def restore(self, state: dict[str, NDArray]) -> None:
-        super().restore(state)
-        self.memory.restore(state)
-
-
-def fit(
-    networks: Networks,
-    rows: Rows,
-    x: Array,
-    actions: NDArray[np.int64],
-    targets: Array,
-    *,
-    epochs: int,
-    tolerance: float,
-) -> None:
-    """Fit networks to the values of the actions taken, by Rprop on the whole batch.
-
-    Parameters
-    ----------
-    rows : (K,) which networks.
-    x : inputs (K, m, n).
-    actions, targets : (K, m) taken, and what their values should be, in [0, 1]. Other outputs are left free.
-    epochs : at most.
-    tolerance : ends when no mean cross-entropy moves by more in an epoch.
-    """
-    last, size, before = (
-        np.full(len(rows), np.inf),
-        np.array(_FIRST_STEP),
-        np.array(0.0),
-    )
-    for _ in range(epochs):
-        slope, cost = networks.slopes(rows, x, actions, targets, linear=False)
-        step, size, before = rprop(slope, size, before)
-        networks.subtract(rows, step)
-        if (np.abs(last - cost) < tolerance).all():
-            break
-        last = cost
-
-
-def rprop(slope: Array, size: Array, before: Array) -> tuple[Array, Array, Array]:
-    """One step of Rprop (Riedmiller and Braun 1993): only the signs of the slopes count.
-
-    A parameter's step grows while its slope keeps its sign. Where the sign turned, a minimum was jumped over: the
-    step shrinks, and the parameter waits for once.
-
-    Parameters
-    ----------
-    slope : (...) of the cost.
-    size : (...) of the last step, positive; or one number for all.
-    before : (...) the slope before, 0 where the parameter waited or at the first step.
-
-    Returns
-    -------
-    What to take off the parameters; ``size`` and ``before`` for the next step.
-    """
-    turned = slope * before
-    factor = np.where(turned > 0, _GROW, np.where(turned < 0, _SHRINK, 1.0))
-    size = np.clip(size * factor, *_SIZES)
-    slope = np.where(turned < 0, 0.0, slope)
-    return np.sign(slope) * size, size, slope
-
-
+@checked
 def nfq(
-    seeds: int | Sequence[int] = 16,
-    episodes: int = 300,
+    env: gymnasium.Env,
+    network: Network,
     *,
+    episodes: int,
     discount: float = 0.9,
     temperature: Schedule = (0.9, 0.05),
     episodes_per_fit: int = 20,
     sweeps: int = 20,
     epochs: int = 30,
     tolerance: float = 1e-5,
-    **common: Unpack[Common],
-) -> TrainingResult:
-    """Neural fitted Q iteration: after every so many episodes, fit the network to all steps ever made.
+    seed: int,
+) -> Network:
+    """Neural fitted Q iteration: after every few episodes, fit the network to all transitions made so far.
 
-    Targets are ``r + gamma max Q`` in [0, 1], computed anew at every sweep, and the whole batch is fitted with Rprop
-    until its cost settles. Riedmiller's network takes state and action as inputs and has one output; ours has one
-    output an action, as in Fig. 4.1, of which only that of the action taken is fitted.
+    Each fit computes the targets ``r + gamma max Q`` anew several times, clips them into [0, 1], and fits the values
+    of the actions taken. Riedmiller's network has state and action as inputs and one output. Ours has one output an
+    action, as in Fig. 4.1.
 
     Parameters
     ----------
-    seeds : S, or the seeds themselves.
-    episodes : E, each in a new world.
-    discount : gamma.
-    temperature : T of the Boltzmann policy, Eq. (4.7); a number, or its start and end.
-    episodes_per_fit : episodes between two refits.
-    sweeps : how often a refit computes its targets anew.
-    epochs, tolerance : Rprop goes over all steps at most so many times a sweep, and until the mean cost settles.
-    common : see :class:`Common`.
+    env : gymnasium.Env
+        An environment with discrete actions, whose observations are the network's inputs.
+    network : Network
+        The network to start from, with one output an action, see :func:`q_network`.
+    episodes : int
+        Episodes of training.
+    discount : float
+        The thesis's gamma.
+    temperature : Schedule
+        T of the softmax policy, Eq. (4.7).
+    episodes_per_fit : int
+        Episodes between two fits.
+    sweeps : int
+        How often a fit computes its targets anew.
+    epochs, tolerance : int, float
+        Rprop goes over all transitions at most so often, and stops when the mean cost changes by less.
+    seed : int
+        Seed of the environment and of the exploration.
+
+    Returns
+    -------
+    Network
+        The trained network.
 
     Raises
     ------
-    ValueError, TypeError : if an argument is out of bounds.
+    ValueError, TypeError
+        If an argument is out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.nnql import NavigationTask, nfq, q_network
+    >>> env = NavigationTask().environment()
+    >>> nfq(env, q_network(env, seed=0), episodes=2, episodes_per_fit=2, sweeps=2, seed=0).sizes
+    (16, 8, 5)
     """
-    settings: dict[str, Any] = {
-        "discount": check_real("discount", discount, at_least=0, at_most=1),
-        "episodes_per_fit": check_integer(
-            "episodes_per_fit", episodes_per_fit, at_least=1
-        ),
-        "sweeps": check_integer("sweeps", sweeps, at_least=1),
-        "epochs": check_integer("epochs", epochs, at_least=1),
-        "tolerance": check_real("tolerance", tolerance, at_least=0),
-    }
-    make = partial(_fitting, settings=settings)
-    return run_training(
-        "nfq",
-        make,
-        seeds,
-        episodes,
-        temperature=temperature,
-        settings=settings,
-        **common,
-    )
+    buffer = ReplayBuffer()
+    for episode in range(episodes):
+        t = geometric_schedule(temperature, episode / max(episodes - 1, 1))
+        rng = make_rng(seed, EXPLORING, episode)
+        state, _ = env.reset(seed=None if episode else seed)
+        done = False
+        while not done:
+            policy = softmax_policy(network.forward(state), t)
+            action = sample_actions(policy, rng.random())
+            reached, reward, terminated, truncated, info = env.step(action)
+            if info.get("reflex", -1) < 0:  # in a safe state the reflex acts
+                buffer.append(state, action, reward, reached, terminated)
+            state, done = reached, terminated or truncated
+        if (episode + 1) % episodes_per_fit == 0 and len(buffer):
+            for _ in range(sweeps):
+                network = fit_q_values(network, buffer, discount, epochs, tolerance)
+    return network
 
 
-def _fitting(
-    networks: Networks,
-    seeds: tuple[int, ...],
-    task: NavigationTask,
-    *,
-    settings: dict[str, Any],
-) -> NFQAgent:
-    return NFQAgent(networks, (len(seeds), task.encoder.size), **settings)
+def fit_q_values(
+    network: Network,
+    buffer: ReplayBuffer,
+    discount: float,
+    epochs: int,
+    tolerance: float,
+) -> Network:
+    """One sweep of fitted Q iteration: targets for all transitions, then a fit by Rprop on the whole batch.
+
+    Rprop (Riedmiller and Braun 1993) looks at the signs of the gradient alone: a weight's step grows while its sign
+    stays, and shrinks when it turns. It therefore needs no learning rate.
+
+    Parameters
+    ----------
+    network : Network
+        The network that makes the targets and that the fit starts from.
+    buffer : ReplayBuffer
+        The transitions.
+    discount : float
+        The thesis's gamma.
+    epochs, tolerance : int, float
+        See :func:`nfq`.
+
+    Returns
+    -------
+    Network
+        The fitted network.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.nnql import ReplayBuffer
+    >>> from robonav.nnql.nfq import fit_q_values
+    >>> buffer, state = ReplayBuffer(), np.eye(4)[0]
+    >>> buffer.append(state, 1, 0.7, np.eye(4)[1], True)
+    >>> fitted = fit_q_values(random_network((4, 8, 2), seed=0), buffer, 0.9, 300, 0.0)
+    >>> fitted.forward(state)[1].round(2)
+    np.float64(0.7)
+    """
+    states, actions, rewards, next_states, terminal = buffer.all()
+    module = as_module(network)
+    with torch.no_grad():
+        future = torch.sigmoid(module(next_states).max(dim=1).values)
+        targets = (rewards + discount * ~terminal * future).clamp(0, 1)
+    optimiser = torch.optim.Rprop(module.parameters(), lr=0.01)
+    previous = np.inf
+    for _ in range(epochs):
+        taken = module(states).gather(1, actions[:, None])[:, 0]
+        cost = torch.nn.functional.binary_cross_entropy_with_logits(taken, targets)
+        optimiser.zero_grad()
+        cost.backward()
+        optimiser.step()
+        if abs(previous - cost.item()) < tolerance:
+            break
+        previous = cost.item()
+    return as_network(module)

@@ -1,25 +1,26 @@
-"""NNQL and one-step online Q-learning (sections 4.4.5, 4.5.3): one agent, which trains on many pairs or on one."""
+"""Neural-network Q-learning, its online form, and navigation with what they learned (sections 4.4.5, 4.5.3)."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
-from typing import Any, Unpack
+from typing import Any
 
-from robonav.validation import check_integer, check_one_of, check_real
+import gymnasium
 
-from .agents import NNQLAgent
-from .networks import Networks
-from .schedules import Schedule, check_schedule
-from .targets import RESCALE
-from .trainer import ACTIONS, NavigationTask
-from .training import Common, TrainingResult, run_training
+from robonav.networks.multilayer_perceptron import Network
+from robonav.networks.policy import sample_actions
+
+from ._settings import Schedule, checked
+from .schedules import geometric_schedule, softmax_policy
+from .task import EXPLORING, make_rng
+from .updates import RESCALE, q_targets, stochastic_gradient_descent
 
 
+@checked
 def nnql(
-    seeds: int | Sequence[int] = 16,
-    episodes: int = 300,
+    env: gymnasium.Env,
+    network: Network,
     *,
+    episodes: int,
     learning_rate: Schedule = (0.8, 0.1),
     discount: float = 0.6,
     gradient_step: Schedule = (0.3, 0.05),
@@ -27,47 +28,86 @@ def nnql(
     rescale: str = "shift",
     passes: int = 3,
     tolerance: float = 1e-3,
-    **common: Unpack[Common],
-) -> TrainingResult:
-    """Neural-network Q-learning, Algorithm 8: after each step, train on all pairs gathered so far in the episode.
+    seed: int,
+) -> Network:
+    """Neural-network Q-learning (NNQL), Algorithm 8.
+
+    After each step the network trains on all pairs of state and target that the episode has gathered so far. The
+    robot's reflex acts in safe states, where nothing is learned; other environments have no reflex.
 
     Parameters
     ----------
-    seeds : S, or the seeds themselves.
-    episodes : E, each in a new world.
-    learning_rate, discount : learning rate and discount of Q-learning, Eq. (4.9).
-    gradient_step : sigma, the step of gradient descent, Eq. (4.12).
-    temperature : T of the Boltzmann policy, Eq. (4.7).
-    rescale : how Q comes into [0, 1]: "clip" or "shift".
-    passes, tolerance : gradient descent goes through the pairs at most so many times, and until the mean cost settles.
-    common : see :class:`Common`.
+    env : gymnasium.Env
+        An environment with discrete actions, whose observations are the network's inputs.
+    network : Network
+        The network to start from, with one output an action, see :func:`q_network`.
+    episodes : int
+        Episodes of training.
+    learning_rate, discount : Schedule, float
+        The thesis's alpha and gamma, Eq. (4.9).
+    gradient_step : Schedule
+        The thesis's sigma, Eq. (4.12).
+    temperature : Schedule
+        The thesis's T, Eq. (4.7).
+    rescale : {"shift", "clip"}
+        How Q-values are brought into [0, 1].
+    passes, tolerance : int, float
+        Gradient descent goes through the pairs at most so often, and stops when the mean cost changes by less.
+    seed : int
+        Seed of the environment and of the exploration.
 
-    ``learning_rate``, ``gradient_step`` and ``temperature`` may be a number, or a pair: the quantity then falls from
-    the first to the second, by the same factor each episode.
+    Returns
+    -------
+    Network
+        The trained network.
 
     Raises
     ------
-    ValueError, TypeError : if an argument is out of bounds.
+    ValueError, TypeError
+        If an argument is out of bounds.
+
+    Notes
+    -----
+    A schedule is a number, or a pair: the quantity then goes from the first number to the second, by the same factor
+    each episode. Gymnasium's ``RecordEpisodeStatistics`` records returns and lengths.
+
+    Examples
+    --------
+    >>> from robonav.nnql import NavigationTask, nnql, q_network
+    >>> env = NavigationTask().environment()
+    >>> nnql(env, q_network(env, seed=0), episodes=1, seed=0).sizes
+    (16, 8, 5)
     """
-    settings = _settings(
-        learning_rate, discount, gradient_step, rescale, passes, tolerance
-    )
-    make = partial(_accumulating, settings=settings, pairs=None)
-    return run_training(
-        "nnql",
-        make,
-        seeds,
-        episodes,
-        temperature=temperature,
-        settings=settings,
-        **common,
-    )
+    for episode in range(episodes):  # 2
+        fraction = episode / max(episodes - 1, 1)
+        alpha = geometric_schedule(learning_rate, fraction)
+        sigma = geometric_schedule(gradient_step, fraction)
+        t = geometric_schedule(temperature, fraction)
+        rng = make_rng(seed, EXPLORING, episode)
+        state, _ = env.reset(seed=None if episode else seed)  # 3 to 5
+        inputs, targets, done = [], [], False  # 6
+        while not done:  # 8
+            q = network.forward(state)  # 9
+            action = sample_actions(softmax_policy(q, t), rng.random())  # 10
+            reached, reward, terminated, truncated, info = env.step(action)  # 11, 12
+            if info.get("reflex", -1) < 0:  # in a safe state the reflex acts
+                future = 0.0 if terminated else network.forward(reached).max()
+                q = q_targets(q, action, float(reward), future, alpha, discount)  # 13
+                inputs.append(state)  # 15
+                targets.append(RESCALE[rescale](q))  # 14, 15
+                network = stochastic_gradient_descent(
+                    network, inputs, targets, sigma, passes, tolerance
+                )  # 16  Eqs. (4.11) and (4.12)
+            state, done = reached, terminated or truncated  # 17 to 20
+    return network
 
 
+@checked
 def online(
-    seeds: int | Sequence[int] = 16,
-    episodes: int = 300,
+    env: gymnasium.Env,
+    network: Network,
     *,
+    episodes: int,
     learning_rate: Schedule = 0.8,
     discount: float = 0.7,
     gradient_step: Schedule = 0.3,
@@ -75,52 +115,108 @@ def online(
     rescale: str = "clip",
     passes: int = 1,
     tolerance: float = 1e-3,
-    **common: Unpack[Common],
-) -> TrainingResult:
-    """One-step online neural Q-learning: after each step, train on the pair of this step and forget it.
+    seed: int,
+) -> Network:
+    """One-step online neural Q-learning: train on the pair of each step and forget it.
 
-    Parameters as in :func:`nnql`.
+    Parameters, result and errors are those of :func:`nnql`; the defaults differ.
+
+    Parameters
+    ----------
+    env : gymnasium.Env
+        An environment with discrete actions, whose observations are the network's inputs.
+    network : Network
+        The network to start from, with one output an action, see :func:`q_network`.
+    episodes : int
+        Episodes of training.
+    learning_rate, discount : Schedule, float
+        The thesis's alpha and gamma, Eq. (4.9).
+    gradient_step : Schedule
+        The thesis's sigma, Eq. (4.12).
+    temperature : Schedule
+        The thesis's T, Eq. (4.7).
+    rescale : {"shift", "clip"}
+        How Q-values are brought into [0, 1].
+    passes, tolerance : int, float
+        Gradient descent repeats the pair at most so often, and stops when its cost changes by less.
+    seed : int
+        Seed of the environment and of the exploration.
+
+    Returns
+    -------
+    Network
+        The trained network.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.nnql import NavigationTask, online, q_network
+    >>> env = NavigationTask().environment()
+    >>> online(env, q_network(env, seed=0), episodes=1, seed=0).sizes
+    (16, 8, 5)
     """
-    settings = _settings(
-        learning_rate, discount, gradient_step, rescale, passes, tolerance
-    )
-    make = partial(_accumulating, settings=settings, pairs=1)
-    return run_training(
-        "online",
-        make,
-        seeds,
-        episodes,
-        temperature=temperature,
-        settings=settings,
-        **common,
-    )
+    for episode in range(episodes):
+        fraction = episode / max(episodes - 1, 1)
+        alpha = geometric_schedule(learning_rate, fraction)
+        sigma = geometric_schedule(gradient_step, fraction)
+        t = geometric_schedule(temperature, fraction)
+        rng = make_rng(seed, EXPLORING, episode)
+        state, _ = env.reset(seed=None if episode else seed)
+        done = False
+        while not done:
+            q = network.forward(state)
+            action = sample_actions(softmax_policy(q, t), rng.random())
+            reached, reward, terminated, truncated, info = env.step(action)
+            if info.get("reflex", -1) < 0:  # in a safe state the reflex acts
+                future = 0.0 if terminated else network.forward(reached).max()
+                q = q_targets(q, action, float(reward), future, alpha, discount)
+                network = stochastic_gradient_descent(
+                    network, [state], [RESCALE[rescale](q)], sigma, passes, tolerance
+                )  # the latest pair alone
+            state, done = reached, terminated or truncated
+    return network
 
 
-def _settings(
-    learning_rate: Schedule,
-    discount: float,
-    gradient_step: Schedule,
-    rescale: str,
-    passes: int,
-    tolerance: float,
-) -> dict[str, Any]:
-    return {
-        "learning_rate": check_schedule("learning_rate", learning_rate, at_most=1),
-        "discount": check_real("discount", discount, at_least=0, at_most=1),
-        "gradient_step": check_schedule("gradient_step", gradient_step),
-        "rescale": check_one_of("rescale", rescale, RESCALE),
-        "passes": check_integer("passes", passes, at_least=1),
-        "tolerance": check_real("tolerance", tolerance, at_least=0),
-    }
+@checked
+def navigate_greedily(
+    env: gymnasium.Env, network: Network, *, seed: int
+) -> tuple[float, dict[str, Any]]:
+    """Navigation with a trained network, Algorithm 9: one episode of its greedy policy.
 
+    The largest output is chosen before the sigmoid, because two large Q-values both round to 1.
 
-def _accumulating(
-    networks: Networks,
-    seeds: tuple[int, ...],
-    task: NavigationTask,
-    *,
-    settings: dict[str, Any],
-    pairs: int | None,
-) -> NNQLAgent:
-    shape = (len(seeds), task.max_steps, task.encoder.size, ACTIONS)
-    return NNQLAgent(networks, shape, pairs=pairs or task.max_steps, **settings)
+    Parameters
+    ----------
+    env : gymnasium.Env
+        An environment with discrete actions, whose observations are the network's inputs.
+    network : Network
+        A trained network.
+    seed : int
+        Seed of the environment.
+
+    Returns
+    -------
+    return : float
+        Sum of the rewards.
+    info : dict
+        What the environment says of the last step; ``info["outcome"]`` in the robot's.
+
+    Examples
+    --------
+    >>> from robonav.nnql import NavigationTask, navigate_greedily, q_network
+    >>> env = NavigationTask().environment()
+    >>> total, info = navigate_greedily(env, q_network(env, seed=0), seed=2)
+    >>> info["outcome"]
+    'collided'
+    """
+    state, _ = env.reset(seed=seed)  # 2, 3
+    total, done = 0.0, False
+    while not done:  # 5
+        action = network.logits(state).argmax()  # 10, 11  Eq. (4.8)
+        state, reward, terminated, truncated, info = env.step(action)  # 6, 11
+        total, done = total + float(reward), terminated or truncated  # 7, 8
+    return total, info

@@ -1,63 +1,78 @@
-"""All that S robots went through, kept."""
+"""Experience replay: the transitions that an agent has made, kept to be learned from again."""
 
 from __future__ import annotations
 
+from typing import NamedTuple, SupportsFloat
+
 import numpy as np
+import torch
 from numpy.typing import NDArray
 
-from .agents import Transitions
-from .networks import Rows
 
-_FIRST_ROOM = 1024  # steps a seed; doubled when full
-_KEPT = ("inputs", "actions", "rewards", "reached", "terminal")
-
-
-class ReplayBuffer:
-    """Transitions of S robots, n inputs each; what lies beyond ``count`` is not there yet.
+class Transitions(NamedTuple):
+    """m transitions as tensors; the first axis runs over the transitions.
 
     Attributes
     ----------
-    inputs, reached : (S, L, n) what the network reads before and after a step.
-    actions, rewards, terminal : (S, L).
-    count : (S,) steps kept.
+    states, next_states : (m, n) tensors
+        What the network reads before and after a step.
+    actions : (m,) tensor of int
+        Actions taken.
+    rewards : (m,) tensor
+        Rewards received.
+    terminal : (m,) tensor of bool
+        Whether the episode ended with this step, so that nothing followed.
     """
 
-    def __init__(self, seeds: int, inputs: int) -> None:
-        self.inputs = np.empty((seeds, _FIRST_ROOM, inputs))
-        self.reached = np.empty((seeds, _FIRST_ROOM, inputs))
-        self.actions = np.empty((seeds, _FIRST_ROOM), np.int64)
-        self.rewards = np.empty((seeds, _FIRST_ROOM))
-        self.terminal = np.empty((seeds, _FIRST_ROOM), np.bool_)
-        self.count = np.zeros(seeds, np.int64)
+    states: torch.Tensor
+    actions: torch.Tensor
+    rewards: torch.Tensor
+    next_states: torch.Tensor
+    terminal: torch.Tensor
 
-    def append(self, rows: Rows, steps: Transitions) -> None:
-        """Keep one step of each of ``rows``."""
-        room = self.inputs.shape[1]
-        if self.count[rows].max() == room:
-            for name in _KEPT:
-                old = getattr(self, name)
-                setattr(self, name, np.concatenate([old, np.empty_like(old)], axis=1))
-        at = (rows, self.count[rows])
-        for name in _KEPT:
-            getattr(self, name)[at] = getattr(steps, name)
-        self.count[rows] += 1
 
-    def all_of(self, row: Rows) -> tuple[NDArray, ...]:
-        """Every step of one seed, ``row`` (1,): inputs, actions, rewards, reached, terminal, each (1, m, ...)."""
-        kept = slice(0, int(self.count[row[0]]))
-        return tuple(getattr(self, name)[row[0], kept][None] for name in _KEPT)
+class ReplayBuffer:
+    """All transitions made so far.
 
-    def draw(self, rows: Rows, steps: NDArray[np.int64]) -> tuple[NDArray, ...]:
-        """Transitions (K, m) of each of ``rows``, in the same order as :meth:`all_of`: each (K, m, ...)."""
-        return tuple(getattr(self, name)[rows[:, None], steps] for name in _KEPT)
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nnql import ReplayBuffer
+    >>> buffer = ReplayBuffer()
+    >>> for k in range(5):
+    ...     buffer.append(np.array([k, 0.0]), k % 2, 1.0, np.array([k + 1, 0.0]), k == 4)
+    >>> buffer.sample(3, np.random.default_rng(0)).states[:, 0].tolist()
+    [4.0, 3.0, 2.0]
+    >>> len(buffer), buffer.all().terminal.tolist()
+    (5, [False, False, False, False, True])
+    """
 
-    def state(self) -> dict[str, NDArray]:
-        """Copies, by name, of what is kept."""
-        full = int(self.count.max())
-        kept = {name: getattr(self, name)[:, :full].copy() for name in _KEPT}
-        return {"count": self.count.copy()} | kept
+    def __init__(self) -> None:
+        self._transitions: list[tuple] = []
 
-    def restore(self, state: dict[str, NDArray]) -> None:
-        """Go on from a :meth:`state`."""
-        for name in (*_KEPT, "count"):
-            setattr(self, name, state[name].copy())
+    def __len__(self) -> int:
+        return len(self._transitions)
+
+    def append(
+        self,
+        state: NDArray[np.float64],
+        action: int | NDArray[np.int64],
+        reward: SupportsFloat,
+        next_state: NDArray[np.float64],
+        terminal: bool,
+    ) -> None:
+        """Keep one transition."""
+        before, after = np.asarray(state, float), np.asarray(next_state, float)
+        self._transitions.append((before, action, float(reward), after, terminal))
+
+    def all(self) -> Transitions:
+        """Every transition, in the order in which they were made."""
+        return self._at(range(len(self)))
+
+    def sample(self, size: int, rng: np.random.Generator) -> Transitions:
+        """Transitions drawn at random, with replacement."""
+        return self._at(rng.integers(len(self), size=size))
+
+    def _at(self, indices: range | NDArray[np.int64]) -> Transitions:
+        columns = zip(*(self._transitions[k] for k in indices), strict=True)
+        return Transitions(*(torch.as_tensor(np.array(column)) for column in columns))

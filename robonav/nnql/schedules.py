@@ -1,68 +1,97 @@
-"""Trying things out, less and less: the Boltzmann policy and falling schedules (section 4.4.3)."""
+"""Exploring less and less: the softmax policy, its greedy limit, the schedule of its temperature (section 4.4.3)."""
 
 from __future__ import annotations
-
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array, check_real
+from ._settings import Schedule, checked
 
 Array = NDArray[np.float64]
 
-Schedule = float | tuple[float, float]
-"""A number, or what it is at the start and at the end of training."""
 
-
+@checked
 def softmax_policy(q: ArrayLike, temperature: ArrayLike) -> Array:
-    """Probabilities of the actions, Eq. (4.7): ``exp(Q / T)`` over its sum.
+    """The probabilities of the actions in a state, Eq. (4.7): a softmax, or Boltzmann, policy.
 
-    The largest Q is subtracted first, which leaves the quotient as it is and every exponential within 1.
-    At temperature 0 the best action, or equally good ones, take all: Eq. (4.8).
+    The largest Q-value is subtracted first. This leaves the quotient as it is and keeps every exponential at 1 or
+    below.
 
     Parameters
     ----------
-    q : values (..., A) of the actions.
-    temperature : T, at least 0; a number or (...).
+    q : (..., A) array
+        Q-values of the actions.
+    temperature : float or (...) array
+        The thesis's T, positive.
+
+    Returns
+    -------
+    (..., A) array
+        Probabilities.
 
     Raises
     ------
-    ValueError : if a temperature is negative, or a number not finite.
+    ValueError
+        If a temperature is not positive, or a number is not finite.
+
+    Examples
+    --------
+    >>> from robonav.nnql import softmax_policy
+    >>> softmax_policy([0.9, 0.8, 0.1], 0.1).round(3)
+    array([0.731, 0.269, 0.   ])
     """
-    values, t = check_array("q", q), check_array("temperature", temperature)
-    if t.size and t.min() < 0:
-        raise ValueError(f"temperature must be at least 0, got {t.min():g}")
-    behind = values - values.max(axis=-1, keepdims=True)
-    t = np.broadcast_to(t, values.shape[:-1])[..., None]
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        weights = np.where(
-            behind == 0, 1.0, np.exp(behind / t)
-        )  # 0 / 0 at temperature 0 is a best action
-    return weights / weights.sum(axis=-1, keepdims=True)
+    q = np.asarray(q, dtype=float)
+    behind = q - q.max(axis=-1, keepdims=True)
+    with np.errstate(over="ignore"):  # cold: exp(-inf) is 0
+        weights = np.exp(behind / np.expand_dims(temperature, -1))
+    return weights / weights.sum(axis=-1, keepdims=True)  # Eq. (4.7)
 
 
-def geometric_schedule(span: Schedule, fraction: ArrayLike) -> Array:
-    """A quantity that falls by the same factor each episode: ``start (end / start)^fraction``.
+@checked
+def greedy_policy(q: ArrayLike) -> Array:
+    """The limit of the softmax policy at temperature 0, Eq. (4.8): the best action, or equally good ones, take all.
 
     Parameters
     ----------
-    span : start and end, both positive; or one number that stays.
-    fraction : (...) how much of the training is over, 0 to 1.
+    q : (..., A) array
+        Q-values of the actions.
+
+    Returns
+    -------
+    (..., A) array
+        Probabilities.
+
+    Examples
+    --------
+    >>> from robonav.nnql import greedy_policy
+    >>> greedy_policy([0.9, 0.9, 0.1])
+    array([0.5, 0.5, 0. ])
     """
-    start, end = span if isinstance(span, tuple) else (span, span)
+    q = np.asarray(q, dtype=float)
+    best = q == q.max(axis=-1, keepdims=True)  # Eq. (4.8)
+    return best / best.sum(axis=-1, keepdims=True)
+
+
+def geometric_schedule(schedule: Schedule, fraction: ArrayLike) -> Array:
+    """A quantity that is multiplied by the same factor each episode: ``start (end / start)^fraction``.
+
+    Parameters
+    ----------
+    schedule : float or pair of floats
+        The start and the end, both positive; or one number that stays.
+    fraction : float or (...) array
+        How much of the training is over, 0 to 1.
+
+    Returns
+    -------
+    (...) array
+        The quantity.
+
+    Examples
+    --------
+    >>> from robonav.nnql import geometric_schedule
+    >>> geometric_schedule((0.8, 0.2), [0.0, 0.5, 1.0])
+    array([0.8, 0.4, 0.2])
+    """
+    start, end = schedule if isinstance(schedule, tuple) else (schedule, schedule)
     return start * (end / start) ** np.asarray(fraction, dtype=float)
-
-
-def check_schedule(name: str, value: Any, *, at_most: float = np.inf) -> Schedule:
-    """A positive number, or a pair of them, as start and end."""
-    if isinstance(value, tuple | list):
-        if len(value) != 2:
-            raise ValueError(
-                f"{name} must be a number, or its start and end, got {len(value)} numbers"
-            )
-        start, end = (
-            check_real(name, part, above=0, at_most=at_most) for part in value
-        )
-        return start, end
-    return check_real(name, value, above=0, at_most=at_most)

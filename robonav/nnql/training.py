@@ -1,12 +1,13 @@
-"""From seeds to trained networks: the frame in which every method of this chapter trains."""
+"""Training of many seeds at once: the result, and the dispatch to the fast twins of this chapter's methods."""
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,22 +16,27 @@ from robonav.networks.multilayer_perceptron import Network, random_network, stac
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import OUTCOMES, Encoder
-from robonav.validation import check_integer
+from robonav.validation import check_integer, check_one_of
 
-from .agents import Agent
-from .checkpoints import load_checkpoint, save_checkpoint
-from .networks import CompiledNetworks, Networks, TorchNetworks, network_of
-from .schedules import Schedule, check_schedule
-from .trainer import (
-    ACTIONS,
-    INITIAL,
-    EpisodeStatistics,
-    NavigationTask,
-    Trainer,
-    make_rng,
-)
+from ._fast.agents import make_agent
+from ._fast.checkpoints import load_checkpoint, save_checkpoint
+from ._fast.networks import BatchedNetworks, unpacked
+from ._fast.trainer import EpisodeStatistics, Trainer
+from ._settings import check_setting
+from .dqn import dqn
+from .nfq import nfq
+from .nnql import nnql, online
+from .task import ACTIONS, INITIAL, NavigationTask, make_rng
 
 Array = NDArray[np.float64]
+
+METHODS: dict[str, Callable[..., Network]] = {
+    "nnql": nnql,
+    "online": online,
+    "nfq": nfq,
+    "dqn": dqn,
+}
+"""The readable functions of this chapter, by name; :func:`train` runs their fast twins."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,16 +45,26 @@ class TrainingResult:
 
     Attributes
     ----------
-    method : "nnql", "online", "nfq" or "dqn".
-    seeds : (S,) whole numbers.
-    network : stack (S,) of what was learned.
-    encoder : how what is sensed becomes the networks' inputs.
-    outcomes : (S, E) "arrived", "collided" or "out of steps".
-    steps, decisions : (S, E) seconds an episode took, and in how many of them the policy decided.
-    returns : (S, E) sums of the rewards of these decisions.
-    settings : of the method, by name.
-    history : stack (S, E + 1) of the networks after 0, 1, ... E episodes, if recorded.
-    paths : for each seed, for each episode, poses (steps + 1, 3), if recorded.
+    method : str
+        "nnql", "online", "nfq" or "dqn".
+    seeds : (S,) tuple of int
+        The seeds.
+    network : Network
+        Stack (S,) of the trained networks.
+    encoder : Encoder
+        Turns what is sensed into the networks' inputs.
+    outcomes : (S, E) array of str
+        "arrived", "collided" or "out of steps".
+    steps, decisions : (S, E) arrays of int
+        Seconds that an episode took, and in how many of them the policy decided.
+    returns : (S, E) array
+        Sums of the rewards of these decisions.
+    settings : dict
+        Settings of the method, by name.
+    history : Network or None
+        Stack (S, E + 1) of the networks after 0, 1, ... E episodes, if recorded.
+    paths : tuple or None
+        For each seed, for each episode, poses (steps + 1, 3), if recorded.
     """
 
     method: str
@@ -94,102 +110,106 @@ class TrainingResult:
         )
 
 
-class Common(TypedDict, total=False):
-    """What every method takes.
-
-    Attributes
-    ----------
-    task : what the robot trains on.
-    hidden : units of the hidden layer.
-    device : "cpu" for compiled kernels, or a device that torch has, such as "cuda".
-    record : keep the networks and the paths of every episode.
-    checkpoint : file to save to as training goes on, and to go on from if it is there.
-    every : episodes between two savings.
-    progress : called as ``progress(episodes done, S * E)``.
-    """
-
-    task: NavigationTask
-    hidden: int
-    device: str
-    record: bool
-    checkpoint: str | Path | None
-    every: int
-    progress: Progress | None
-
-
-def run_training(
-    method: str,
-    make_agent: Callable[[Networks, tuple[int, ...], NavigationTask], Agent],
-    seeds: int | Sequence[int],
-    episodes: int,
+def train(
+    method: str = "nnql",
+    seeds: int | Sequence[int] = 16,
+    episodes: int = 300,
     *,
-    temperature: Schedule,
-    settings: dict[str, Any],
     task: NavigationTask | None = None,
     hidden: int = 8,
-    device: str = "cpu",
     record: bool = False,
     checkpoint: str | Path | None = None,
-    every: int = 50,
+    checkpoint_interval: int = 50,
     progress: Progress | None = None,
+    **settings: Any,
 ) -> TrainingResult:
-    """Train S networks by one method; see :class:`Common` for what is not said here.
+    """Train one network a seed by a method of this chapter.
+
+    The networks train at once, each as the readable function of that name (:func:`nnql`, :func:`online`, :func:`nfq`,
+    :func:`dqn`) trains it in ``task.environment()``. All seeds step in one simulator, and compiled code trains their
+    networks.
 
     Parameters
     ----------
-    method : its name.
-    make_agent : from S networks with random weights, S seeds and the task, what learns.
-    seeds : S, for the seeds 0 to S - 1; or the seeds themselves.
-    episodes : E.
-    temperature : T of the Boltzmann policy, from the first episode to the last.
-    settings : of the method, kept with the result; a checkpoint of others is refused.
+    method : {"nnql", "online", "nfq", "dqn"}
+        The method.
+    seeds : int or sequence of int
+        A number S for the seeds 0 to S - 1, or the seeds themselves.
+    episodes : int
+        Episodes E, each in a new world.
+    task : NavigationTask, optional
+        What to train on; by default the task of section 4.5.
+    hidden : int
+        Units of the hidden layer.
+    record : bool
+        Keep the networks and the paths of every episode.
+    checkpoint : str or Path, optional
+        File that training saves itself to, and continues from if the file is there.
+    checkpoint_interval : int
+        Episodes between two savings.
+    progress : callable, optional
+        Called as ``progress(episodes done, S * E)``.
+    **settings
+        Keyword arguments of the method's readable function, which also has their defaults.
+
+    Returns
+    -------
+    TrainingResult
+        With ``successes`` (S, E) and ``policies``, one a seed.
 
     Raises
     ------
-    ValueError, TypeError : if an argument is out of bounds, or a checkpoint is of another training.
+    ValueError, TypeError
+        If an argument is out of bounds, or the checkpoint is of another training.
+
+    Examples
+    --------
+    >>> from robonav.nnql import train
+    >>> result = train("nnql", seeds=2, episodes=3, discount=0.7)
+    >>> result.successes.shape, len(result.policies)
+    ((2, 3), 2)
     """
-    task = task or NavigationTask()
-    numbers = check_seeds(seeds)
+    settings = method_settings(check_one_of("method", method, METHODS), settings)
+    task, seeds = task or NavigationTask(), check_seeds(seeds)
     check_integer("episodes", episodes, at_least=1)
-    check_integer("every", every, at_least=1)
+    check_integer("checkpoint_interval", checkpoint_interval, at_least=1)
     sizes = (task.encoder.size, check_integer("hidden", hidden, at_least=1), ACTIONS)
-    settings = {
-        "temperature": check_schedule("temperature", temperature),
-        "hidden": hidden,
-        **settings,
-    }
-    start = stacked(
-        [random_network(sizes, seed=make_rng(seed, INITIAL)) for seed in numbers]
+    if record and checkpoint is not None:
+        raise ValueError(
+            "record must be False with a checkpoint, which does not hold the history"
+        )
+    network = stacked(
+        [random_network(sizes, seed=make_rng(seed, INITIAL)) for seed in seeds]
     )
-    networks: Networks = (
-        CompiledNetworks(start) if device == "cpu" else TorchNetworks(start, device)
+    own = {name: value for name, value in settings.items() if name != "temperature"}
+    agent = make_agent(
+        method, BatchedNetworks(network), seeds, task.max_steps, sizes, own
     )
-    agent, statistics = (
-        make_agent(networks, numbers, task),
-        EpisodeStatistics(len(numbers), episodes, record=record),
-    )
+    statistics = EpisodeStatistics(len(seeds), episodes, record=record)
     identity = {
         "method": method,
-        "seeds": numbers,
+        "seeds": seeds,
         "episodes": episodes,
         "task": task,
-        "settings": settings,
+        "settings": settings | {"hidden": hidden},
     }
-    done = 0
-    if checkpoint is not None:
-        if record:
-            raise ValueError(
-                "record must be False with a checkpoint, which does not hold the history"
-            )
-        done = load_checkpoint(checkpoint, identity, agent, statistics)
+    done = (
+        0
+        if checkpoint is None
+        else load_checkpoint(checkpoint, identity, agent, statistics)
+    )
     while done < episodes:
-        last = episodes if checkpoint is None else min(done + every, episodes)
+        last = (
+            episodes
+            if checkpoint is None
+            else min(done + checkpoint_interval, episodes)
+        )
         Trainer(
             agent,
             task,
-            numbers,
+            seeds,
             episodes,
-            temperature,
+            settings["temperature"],
             statistics,
             first=done,
             last=last,
@@ -197,52 +217,20 @@ def run_training(
         done = last
         if checkpoint is not None:
             save_checkpoint(checkpoint, identity, agent, statistics, done)
-    return _training(method, numbers, agent, task, sizes, statistics, settings)
+    return _result(method, seeds, agent, task, sizes, statistics, identity["settings"])
 
 
-def _training(
-    method: str,
-    seeds: tuple[int, ...],
-    agent: Agent,
-    task: NavigationTask,
-    sizes: tuple[int, ...],
-    statistics: EpisodeStatistics,
-    settings: dict[str, Any],
-) -> TrainingResult:
-    parameters = agent.networks.parameters()
-    history, paths = None, None
-    if statistics.record:
-        past = np.array(
-            [
-                [*begun, parameters[row]]
-                for row, begun in enumerate(statistics.parameters)
-            ]
-        )
-        history, paths = (
-            network_of(past, sizes),
-            tuple(tuple(drives) for drives in statistics.paths),
-        )
-    network = network_of(parameters, sizes)
-    return TrainingResult(
-        method, seeds, network, task.encoder, OUTCOMES[statistics.outcomes],
-        statistics.steps, statistics.decisions, statistics.returns,
-        settings, history, paths,
-    )  # fmt: skip
-
-
-def weight_changes(history: Network, *, absolute: bool = False) -> Array:
-    """What the weights of each layer changed by in each episode, summed, biases included: (S, E, layers) (Fig. 4.3).
-
-    Parameters
-    ----------
-    history : stack (S, E + 1), see :class:`Training`.
-    absolute : sum sizes instead of signed changes, which can cancel.
-    """
-    sums = []
-    for weight, bias in zip(history.weights, history.biases, strict=True):
-        moved = np.diff(np.concatenate([weight, bias[..., None]], axis=-1), axis=1)
-        sums.append((np.abs(moved) if absolute else moved).sum(axis=(-2, -1)))
-    return np.stack(sums, axis=-1)
+def method_settings(method: str, given: dict[str, Any]) -> dict[str, Any]:
+    """The settings of a method: those given, checked, and the defaults of its readable function."""
+    parameters = inspect.signature(METHODS[method]).parameters.values()
+    defaults = {p.name: p.default for p in parameters if p.default is not p.empty}
+    for name in given:
+        if name not in defaults:
+            raise TypeError(
+                f"{method} takes the settings {', '.join(defaults)}, got {name}"
+            )
+    merged = defaults | given
+    return {name: check_setting(method, name, value) for name, value in merged.items()}
 
 
 def check_seeds(seeds: int | Sequence[int]) -> tuple[int, ...]:
@@ -255,3 +243,63 @@ def check_seeds(seeds: int | Sequence[int]) -> tuple[int, ...]:
             f"seeds must be at least one, and all different, got {list(numbers)}"
         )
     return numbers
+
+
+def _result(
+    method: str,
+    seeds: tuple[int, ...],
+    agent: Any,
+    task: NavigationTask,
+    sizes: tuple[int, ...],
+    statistics: EpisodeStatistics,
+    settings: Any,
+) -> TrainingResult:
+    parameters = agent.networks.parameters()
+    history, paths = None, None
+    if statistics.record:
+        past = np.array(
+            [[*begun, parameters[k]] for k, begun in enumerate(statistics.parameters)]
+        )
+        history = unpacked(past, sizes)
+        paths = tuple(tuple(episodes) for episodes in statistics.paths)
+    return TrainingResult(
+        method,
+        seeds,
+        unpacked(parameters, sizes),
+        task.encoder,
+        OUTCOMES[statistics.outcomes],
+        statistics.steps,
+        statistics.decisions,
+        statistics.returns,
+        settings,
+        history,
+        paths,
+    )
+
+
+def weight_changes(history: Network, *, absolute: bool = False) -> Array:
+    """How much the weights of each layer changed in each episode, summed over the layer, biases included (Fig. 4.3).
+
+    Parameters
+    ----------
+    history : Network
+        Stack (S, E + 1), see :class:`TrainingResult`.
+    absolute : bool
+        Sum absolute instead of signed changes, which can cancel.
+
+    Returns
+    -------
+    (S, E, layers) array
+        The sums.
+
+    Examples
+    --------
+    >>> from robonav.nnql import train, weight_changes
+    >>> weight_changes(train("nnql", seeds=2, episodes=3, record=True).history).shape
+    (2, 3, 2)
+    """
+    sums = []
+    for weight, bias in zip(history.weights, history.biases, strict=True):
+        moved = np.diff(np.concatenate([weight, bias[..., None]], axis=-1), axis=1)
+        sums.append((np.abs(moved) if absolute else moved).sum(axis=(-2, -1)))
+    return np.stack(sums, axis=-1)

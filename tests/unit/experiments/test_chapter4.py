@@ -50,7 +50,7 @@ from robonav.experiments.chapter4.tuning import (
     trial_settings,
 )
 from robonav.networks import NetworkPolicy, load_weights
-from robonav.nnql import METHODS, reward
+from robonav.nnql import METHODS, reward, train
 from robonav.nnql.reward import reward_row
 from robonav.robot import Sensing
 
@@ -231,9 +231,8 @@ def test_seeds_train_together_as_they_would_alone(name):
     options = dict(FIRST[name])
     if "fitting" in options:
         options["sweeps"], options["epochs"] = options.pop("fitting")
-    alone = METHODS[name](
-        [11], 4, course=course(target=options.pop("target")), **options
-    )
+    task = course(target=options.pop("target"))
+    alone = train(name, [11], 4, task=task, **arguments(options))
     assert together.seeds == alone.seeds == (11,)
     np.testing.assert_array_equal(together.outcomes, alone.outcomes)
     for ours, theirs in zip(

@@ -7,11 +7,17 @@ from scipy.special import expit
 from robonav.mdp import FiniteMDP, value_iteration
 from robonav.networks.backpropagation import cross_entropy_gradient
 from robonav.networks.multilayer_perceptron import Network, random_network, stacked
-from robonav.nnql.agents import Agent, NNQLAgent, Transitions
-from robonav.nnql.dqn import DQNAgent, adam
-from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of, packed
-from robonav.nnql.nfq import NFQAgent, rprop
-from robonav.nnql.replay_buffer import ReplayBuffer
+from robonav.nnql._fast.agents import (
+    Agent,
+    Decisions,
+    DQNAgent,
+    NFQAgent,
+    NNQLAgent,
+    adam,
+    rprop,
+)
+from robonav.nnql._fast.networks import BatchedNetworks, packed, unpacked
+from robonav.nnql._fast.replay_buffers import ReplayBuffers
 
 GAMMA = 0.7
 END = 3  # a corridor of states 0 to 3: action 0 goes left, 1 right; 3 is the end and worth 1
@@ -39,7 +45,7 @@ def corridor_steps(agent, n, seeds=2, seed=0):
         values = agent.values(rows, inputs)
         yield (
             rows,
-            Transitions(
+            Decisions(
                 inputs,
                 values,
                 action,
@@ -52,7 +58,7 @@ def corridor_steps(agent, n, seeds=2, seed=0):
 
 
 def networks(sizes=(4, 8, 2), seeds=2):
-    return CompiledNetworks(
+    return BatchedNetworks(
         stacked([random_network(sizes, seed=k) for k in range(seeds)])
     )
 
@@ -75,7 +81,7 @@ def test_nfq_converges_to_the_known_values():
     )
     for rows, steps in corridor_steps(agent, 60):
         agent.observe(rows, steps)
-    agent.close(np.arange(2), np.array([1, 1]))
+    agent.end_episode(np.arange(2), np.array([1, 1]))
     np.testing.assert_allclose(
         learned_values(agent), [corridor_values()] * 2, atol=0.02
     )
@@ -97,7 +103,7 @@ def test_nfq_looks_at_nothing_beyond_the_end():
     x, last = np.eye(4)[[2, 2]], np.array([True, True])
     agent.observe(
         rows,
-        Transitions(
+        Decisions(
             x,
             x[:, :2],
             np.array([1, 1]),
@@ -107,19 +113,18 @@ def test_nfq_looks_at_nothing_beyond_the_end():
             np.zeros(2),
         ),
     )
-    agent.close(rows, np.array([1, 1]))
+    agent.end_episode(rows, np.array([1, 1]))
     np.testing.assert_allclose(agent.values(rows, x)[:, 1], 0.3, atol=0.01)
 
 
 def test_dqn_draws_from_all_that_was_ever_made(monkeypatch):
-    drawn, draw = [], ReplayBuffer.draw
+    drawn, draw = [], ReplayBuffers.at
     monkeypatch.setattr(
-        ReplayBuffer,
-        "draw",
+        ReplayBuffers,
+        "at",
         lambda memory, rows, steps: drawn.append(steps) or draw(memory, rows, steps),
     )
     agent = DQNAgent(
-        networks(),
         networks(),
         (0, 1),
         4,
@@ -140,7 +145,6 @@ def test_dqn_draws_from_all_that_was_ever_made(monkeypatch):
 
 def test_dqn_converges_to_the_known_values():
     agent = DQNAgent(
-        networks(),
         networks(),
         (0, 1),
         4,
@@ -187,7 +191,7 @@ def test_accumulated_training_is_a_plain_loop(pairs):
     """Algorithm 8, lines 9 to 16, for one robot: chapter 3's network and gradient, one pair after the other."""
     network = random_network((6, 8, 3), seed=5)
     agent = NNQLAgent(
-        CompiledNetworks(stacked([network])), (1, 50, 6, 3), pairs=pairs, learning_rate=(0.8, 0.1), discount=GAMMA,
+        BatchedNetworks(stacked([network])), (1, 50, 6, 3), pairs=pairs, learning_rate=(0.8, 0.1), discount=GAMMA,
         gradient_step=(0.3, 0.05), rescale="clip", passes=2, tolerance=0.0,
     )  # fmt: skip
     gathered = []
@@ -195,14 +199,14 @@ def test_accumulated_training_is_a_plain_loop(pairs):
         random_steps(40)
     ):
         if k == 25:  # a new episode
-            agent.close(np.array([0]), np.array([1]))
+            agent.end_episode(np.array([0]), np.array([1]))
             gathered = []
         rows, one = np.array([0]), np.array([fraction])
         values = agent.values(rows, x[None])
         np.testing.assert_allclose(values[0], network.forward(x), rtol=1e-9)
         agent.observe(
             rows,
-            Transitions(
+            Decisions(
                 x[None],
                 values,
                 np.array([action]),
@@ -263,7 +267,7 @@ def test_a_learner_that_does_not_learn():
     before = agent.networks.parameters()
     for rows, steps in corridor_steps(agent, 3):
         z = np.stack(
-            [network_of(before, (4, 8, 2))[k].logits(steps.inputs[k]) for k in range(2)]
+            [unpacked(before, (4, 8, 2))[k].logits(steps.inputs[k]) for k in range(2)]
         )
         np.testing.assert_allclose(steps.values, expit(z))
         agent.observe(rows, steps)
@@ -283,9 +287,9 @@ def test_nfq_fits_only_every_so_many_episodes():
     for rows, steps in corridor_steps(agent, 5):
         agent.observe(rows, steps)
     before = agent.networks.parameters()
-    agent.close(np.array([0, 1]), np.array([1, 2]))
+    agent.end_episode(np.array([0, 1]), np.array([1, 2]))
     np.testing.assert_array_equal(agent.networks.parameters(), before)
-    agent.close(np.array([1]), np.array([3]))
+    agent.end_episode(np.array([1]), np.array([3]))
     np.testing.assert_array_equal(agent.networks.parameters()[0], before[0])
     assert (agent.networks.parameters()[1] != before[1]).any()
 
@@ -329,7 +333,6 @@ def test_dqn_learns_from_the_double_estimate():
     """One update on one step: the network chooses the next action, the target network values it."""
     agent = DQNAgent(
         networks(seeds=1),
-        networks(seeds=1),
         (0,),
         4,
         discount=GAMMA,
@@ -343,17 +346,17 @@ def test_dqn_learns_from_the_double_estimate():
     )
     x, reached = np.eye(4)[[0]], np.eye(4)[[1]]
     own, target = (
-        network_of(n.parameters(), (4, 8, 2))[0] for n in (agent.networks, agent.target)
+        unpacked(n.parameters(), (4, 8, 2))[0] for n in (agent.networks, agent.target)
     )
     wanted = 0.2 + GAMMA * target.logits(reached[0])[own.logits(reached[0]).argmax()]
     before, action = agent.networks.parameters(), np.array([[1]])
-    slope, _ = agent.networks.slopes(
+    slope, _ = agent.networks.gradients(
         zero, x[None], action, np.array([[wanted]]), linear=True
     )
     values = agent.values(zero, x)
     agent.observe(
         zero,
-        Transitions(
+        Decisions(
             x,
             values,
             action[0],
@@ -371,7 +374,6 @@ def test_dqn_learns_from_the_double_estimate():
 
 def test_the_target_network_stands_still_between_refreshes():
     agent = DQNAgent(
-        networks(),
         networks(),
         (0, 1),
         4,
@@ -395,110 +397,18 @@ def test_the_target_network_stands_still_between_refreshes():
     assert stood == 10
 
 
-def agent_of(kind, one, other):
-    if kind == "accumulating":
-        return NNQLAgent(
-            one,
-            (2, 40, 4, 2),
-            pairs=40,
-            learning_rate=0.8,
-            discount=GAMMA,
-            gradient_step=0.3,
-            rescale="clip",
-            passes=2,
-            tolerance=1e-3,
-        )
-    if kind == "fitting":
-        return NFQAgent(
-            one,
-            (2, 4),
-            discount=GAMMA,
-            episodes_per_fit=1,
-            sweeps=2,
-            epochs=20,
-            tolerance=0,
-        )
-    return DQNAgent(
-        one,
-        other,
-        (0, 1),
-        4,
-        discount=GAMMA,
-        gradient_step=0.01,
-        batch_size=4,
-        target_update_interval=10,
-    )
-
-
-KINDS = ["accumulating", "fitting", "replaying"]
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_torch_learns_what_the_compiled_kernels_learn(kind):
-    """The same numbers from a tensor, which may lie on any device."""
-    start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
-    backends = (CompiledNetworks, lambda network: TorchNetworks(network, "cpu"))
-    both = [agent_of(kind, backend(start), backend(start)) for backend in backends]
-    for agent in both:
-        for rows, steps in corridor_steps(agent, 40):
-            agent.observe(rows, steps)
-        agent.close(np.arange(2), np.array([1, 1]))
-    np.testing.assert_allclose(
-        *(agent.networks.parameters() for agent in both), rtol=1e-7, atol=1e-9
-    )
-
-
-class Elsewhere(TorchNetworks):
-    """On torch's device without numbers, which computes shapes alone and takes no tensor from another device."""
-
-    def __init__(self, network):
-        super().__init__(network, "meta")
-
-    def _back_here(self, tensor):
-        assert tensor.device.type == "meta"
-        return np.full(tensor.shape, 0.5)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_no_tensor_is_made_on_another_device_than_the_networks(kind):
-    """What holds for a device that every machine has holds for a graphics card: each tensor lies where it is told."""
-    start = stacked([random_network((4, 8, 2), seed=k) for k in range(2)])
-    agent = agent_of(kind, Elsewhere(start), Elsewhere(start))
-    for rows, steps in corridor_steps(agent, 12):
-        agent.observe(rows, steps)
-    agent.close(np.arange(2), np.array([1, 1]))
-    agent.restore(agent.state())
-    assert agent.networks._parameters.device.type == "meta"
-
-
-def test_memory_grows_and_comes_back():
-    memory, rng = ReplayBuffer(2, 3), np.random.default_rng(0)
+def test_replay_buffers_grow_and_come_back():
+    buffers, rng, row = ReplayBuffers(2, 3), np.random.default_rng(0), np.array([1])
     kept = []
     for _ in range(1500):
         x = rng.random((1, 3))
-        memory.append(
-            np.array([1]),
-            Transitions(
-                x,
-                x,
-                np.array([1]),
-                np.array([0.5]),
-                x + 1,
-                np.array([False]),
-                np.zeros(1),
-            ),
-        )
+        buffers.append(row, x, row, np.array([0.5]), x + 1, np.array([False]))
         kept.append(x[0])
-    other = ReplayBuffer(2, 3)
-    other.restore(memory.state())
-    for one in (memory, other):
+    other = ReplayBuffers(2, 3)
+    other.restore(buffers.state())
+    for one in (buffers, other):
         assert one.count.tolist() == [0, 1500]
         np.testing.assert_array_equal(one.inputs[1, :1500], kept)
         np.testing.assert_array_equal(one.reached[1, :1500], np.array(kept) + 1)
-    other.append(
-        np.array([1]),
-        Transitions(
-            x, x, np.array([1]), np.array([0.5]), x, np.array([True]), np.zeros(1)
-        ),
-    )
+    other.append(row, x, row, np.array([0.5]), x, np.array([True]))
     assert other.terminal[1, 1500]

@@ -5,18 +5,14 @@ import pytest
 
 from robonav.networks.backpropagation import cross_entropy_gradient
 from robonav.networks.multilayer_perceptron import Network, random_network, stacked
-from robonav.nnql.networks import CompiledNetworks, TorchNetworks, network_of, packed
-from robonav.nnql.targets import cross_entropy
+from robonav.nnql import cross_entropy
+from robonav.nnql._fast.networks import BatchedNetworks, packed, unpacked
 
 SIZES = (24, 8, 5)
 
 
 def stack(n=4, seed=0):
     return stacked([random_network(SIZES, seed=seed + k) for k in range(n)])
-
-
-def on_torch(network):
-    return TorchNetworks(network, "cpu")
 
 
 def pairs(networks, length=12, seed=1):
@@ -53,26 +49,24 @@ def plain_descent(network: Network, x, y, gradient_step, passes, tolerance):
     return network, done
 
 
-@pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
-def test_logits_are_those_of_chapter_3(make):
+def test_logits_are_those_of_chapter_3():
     network, (x, _) = stack(), pairs(3)
     rows = np.array([3, 0, 2])
-    z = make(network).logits(rows, x)
+    z = BatchedNetworks(network).logits(rows, x)
     for k, row in enumerate(rows):
         np.testing.assert_allclose(z[k], network[int(row)].logits(x[k]), rtol=1e-12)
 
 
-@pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
 @pytest.mark.parametrize(("passes", "tolerance"), [(1, 0.0), (3, 0.0), (50, 0.02)])
-def test_descent_is_a_plain_loop_over_the_pairs(make, passes, tolerance):
+def test_descent_is_a_plain_loop_over_the_pairs(passes, tolerance):
     network, (x, y) = stack(), pairs(4)
-    networks, rows = make(network), np.array([0, 2, 3])
+    networks, rows = BatchedNetworks(network), np.array([0, 2, 3])
     first, last, gradient_step = (
         np.array([0, 5, 3]),
         np.array([12, 12, 4]),
         np.array([0.3, 0.1, 0.5]),
     )
-    networks.descend(
+    networks.sgd(
         rows,
         x,
         y,
@@ -104,13 +98,13 @@ def test_descent_is_a_plain_loop_over_the_pairs(make, passes, tolerance):
 
 def test_no_network_hears_of_another():
     network, (x, y) = stack(), pairs(4)
-    together, rows, zero = CompiledNetworks(network), np.arange(4), np.zeros(4, int)
+    together, rows, zero = BatchedNetworks(network), np.arange(4), np.zeros(4, int)
     arguments = {"gradient_step": np.full(4, 0.3), "passes": 3, "tolerance": 1e-4}
-    together.descend(rows, x, y, zero, zero + 12, **arguments)
+    together.sgd(rows, x, y, zero, zero + 12, **arguments)
     for row in range(4):
-        alone = CompiledNetworks(stacked([network[row]]))
+        alone = BatchedNetworks(stacked([network[row]]))
         arguments["gradient_step"] = np.array([0.3])
-        alone.descend(
+        alone.sgd(
             np.array([0]),
             x[row : row + 1],
             y[row : row + 1],
@@ -121,9 +115,8 @@ def test_no_network_hears_of_another():
         np.testing.assert_array_equal(together.parameters()[row], alone.parameters()[0])
 
 
-@pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
 @pytest.mark.parametrize("linear", [False, True])
-def test_slopes_are_those_that_torch_derives(make, linear):
+def test_gradients_are_those_that_torch_derives(linear):
     import torch
 
     network, (x, _) = stack(), pairs(3)
@@ -133,7 +126,9 @@ def test_slopes_are_those_that_torch_derives(make, linear):
         4 * rng.random((3, 12)) - 2 if linear else rng.random((3, 12)),
     )
     rows = np.array([1, 3, 0])
-    slopes, costs = make(network).slopes(rows, x, actions, targets, linear=linear)
+    gradients, costs = BatchedNetworks(network).gradients(
+        rows, x, actions, targets, linear=linear
+    )
     for k, row in enumerate(rows):
         leaves = [
             torch.tensor(a, requires_grad=True)
@@ -150,17 +145,16 @@ def test_slopes_are_those_that_torch_derives(make, linear):
         cost = loss(taken, torch.tensor(targets[k]))
         d1, d2, c1, c2 = torch.autograd.grad(cost, leaves)
         wanted = torch.cat([part.flatten() for part in (d1.T, c1, d2.T, c2)])
-        np.testing.assert_allclose(slopes[k], wanted, rtol=1e-9, atol=1e-14)
+        np.testing.assert_allclose(gradients[k], wanted, rtol=1e-9, atol=1e-14)
         np.testing.assert_allclose(costs[k], cost.item(), rtol=1e-12)
 
 
-@pytest.mark.parametrize("make", [CompiledNetworks, on_torch])
-def test_parameters_are_copied_in_and_out(make):
+def test_parameters_are_copied_in_and_out():
     network = stack()
-    networks, rows = make(network), np.array([2, 0])
+    networks, rows = BatchedNetworks(network), np.array([2, 0])
     networks.parameters()[:] = 0
     np.testing.assert_array_equal(networks.parameters(), packed(network))
-    networks.subtract(rows, packed(network)[rows])
+    networks.apply_update(rows, packed(network)[rows])
     np.testing.assert_array_equal(networks.parameters()[rows], 0)
     networks.load(rows, packed(network)[rows])
     np.testing.assert_array_equal(networks.parameters(), packed(network))
@@ -168,7 +162,7 @@ def test_parameters_are_copied_in_and_out(make):
 
 def test_there_and_back():
     network = stack()
-    again = network_of(packed(network), SIZES)
+    again = unpacked(packed(network), SIZES)
     for ours, theirs in zip(
         (*again.weights, *again.biases),
         (*network.weights, *network.biases),
@@ -176,5 +170,5 @@ def test_there_and_back():
     ):
         np.testing.assert_array_equal(ours, theirs)
     np.testing.assert_array_equal(
-        network_of(packed(network)[2], SIZES).weights[1], network.weights[1][2]
+        unpacked(packed(network)[2], SIZES).weights[1], network.weights[1][2]
     )

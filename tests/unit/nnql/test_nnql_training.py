@@ -6,10 +6,9 @@ import json
 import numpy as np
 import pytest
 
-from robonav.nnql import METHODS, NavigationTask, nnql, train, weight_changes
-from robonav.nnql.checkpoints import load_checkpoint
-from robonav.nnql.networks import CompiledNetworks
-from robonav.nnql.trainer import STARTS, TARGETS
+from robonav.nnql import METHODS, STARTS, TARGETS, NavigationTask, train, weight_changes
+from robonav.nnql._fast.checkpoints import load_checkpoint
+from robonav.nnql._fast.networks import BatchedNetworks
 from robonav.robot import NNQL_SENSORS, Encoder, navigate, random_worlds
 
 SMALL = {
@@ -37,13 +36,13 @@ def same(one, other, row, other_row):
 def test_nnql_trains_on_the_whole_episode_and_online_learning_on_its_latest_step(
     method, pairs, monkeypatch
 ):
-    trained_on, descend = [], CompiledNetworks.descend
+    trained_on, sgd = [], BatchedNetworks.sgd
 
     def watched(networks, rows, x, y, first, last, **options):
         trained_on.extend(zip(first.tolist(), last.tolist(), strict=True))
-        descend(networks, rows, x, y, first, last, **options)
+        sgd(networks, rows, x, y, first, last, **options)
 
-    monkeypatch.setattr(CompiledNetworks, "descend", watched)
+    monkeypatch.setattr(BatchedNetworks, "sgd", watched)
     training = train(method, seeds=1, episodes=4, task=NavigationTask(max_steps=30))
     expected = [
         (max(k - pairs, 0), k) for n in training.decisions[0] for k in range(1, n + 1)
@@ -78,13 +77,13 @@ def test_an_interrupted_training_ends_as_one_that_was_not(method, tmp_path):
             seeds=3,
             episodes=13,
             checkpoint=path,
-            every=4,
+            checkpoint_interval=4,
             progress=interrupt,
             **SMALL[method],
         )
     counted = []
     resumed = train(
-        method, seeds=3, episodes=13, checkpoint=path, every=4,
+        method, seeds=3, episodes=13, checkpoint=path, checkpoint_interval=4,
         progress=lambda done, total: counted.append((done, total)), **SMALL[method],
     )  # fmt: skip
     assert counted[0][0] >= 3 * 4  # it did not begin anew
@@ -92,14 +91,19 @@ def test_an_interrupted_training_ends_as_one_that_was_not(method, tmp_path):
     for row in range(3):
         same(resumed, whole, row, row)
     finished = train(
-        method, seeds=3, episodes=13, checkpoint=path, every=4, **SMALL[method]
+        method,
+        seeds=3,
+        episodes=13,
+        checkpoint=path,
+        checkpoint_interval=4,
+        **SMALL[method],
     )
     same(finished, whole, 0, 0)
 
 
 def test_a_checkpoint_of_another_training_is_refused(tmp_path):
     path = tmp_path / "training"
-    nnql(2, 4, checkpoint=path)
+    train("nnql", 2, 4, checkpoint=path)
     for other in (
         {"discount": 0.8},
         {"task": NavigationTask(obstacles=20)},
@@ -109,9 +113,9 @@ def test_a_checkpoint_of_another_training_is_refused(tmp_path):
             ValueError,
             match="training belongs to a training with other seeds, settings or task",
         ):
-            nnql(2, 4, checkpoint=path, **other)
+            train("nnql", 2, 4, checkpoint=path, **other)
     with pytest.raises(ValueError, match="belongs to a training with other"):
-        nnql(3, 4, checkpoint=path)
+        train("nnql", 3, 4, checkpoint=path)
 
 
 def test_an_encoder_of_another_kind_is_another_training(tmp_path):
@@ -120,9 +124,11 @@ def test_an_encoder_of_another_kind_is_another_training(tmp_path):
             return super().__call__(sensing).round(1)
 
     path, kind = tmp_path / "training", (NNQL_SENSORS, True, "number")
-    nnql(2, 4, checkpoint=path, task=NavigationTask(encoder=Encoder(*kind)))
+    train("nnql", 2, 4, checkpoint=path, task=NavigationTask(encoder=Encoder(*kind)))
     with pytest.raises(ValueError, match="belongs to a training with other"):
-        nnql(2, 4, checkpoint=path, task=NavigationTask(encoder=Rounded(*kind)))
+        train(
+            "nnql", 2, 4, checkpoint=path, task=NavigationTask(encoder=Rounded(*kind))
+        )
 
 
 def test_rewards_that_differ_only_in_a_number_are_other_trainings(tmp_path):
@@ -130,32 +136,40 @@ def test_rewards_that_differ_only_in_a_number_are_other_trainings(tmp_path):
         return lambda before, after, outcome: row[outcome]
 
     path, rows = tmp_path / "training", np.eye(4)
-    nnql(2, 4, checkpoint=path, task=NavigationTask(reward=paying(rows[1])))
-    nnql(2, 4, checkpoint=path, task=NavigationTask(reward=paying(rows[1].copy())))
+    train("nnql", 2, 4, checkpoint=path, task=NavigationTask(reward=paying(rows[1])))
+    train(
+        "nnql",
+        2,
+        4,
+        checkpoint=path,
+        task=NavigationTask(reward=paying(rows[1].copy())),
+    )
     with pytest.raises(ValueError, match="belongs to a training with other"):
-        nnql(2, 4, checkpoint=path, task=NavigationTask(reward=paying(rows[2])))
+        train(
+            "nnql", 2, 4, checkpoint=path, task=NavigationTask(reward=paying(rows[2]))
+        )
 
 
 def test_a_checkpoint_of_another_version_or_a_torn_one_is_refused(
     tmp_path, monkeypatch
 ):
     path = tmp_path / "training"
-    nnql(2, 4, checkpoint=path)
-    monkeypatch.setattr("robonav.nnql.checkpoints.__version__", "9.9")
+    train("nnql", 2, 4, checkpoint=path)
+    monkeypatch.setattr("robonav.nnql._fast.checkpoints.__version__", "9.9")
     with pytest.raises(ValueError, match=r"was written by robonav .*, expected 9\.9"):
-        nnql(2, 4, checkpoint=path)
+        train("nnql", 2, 4, checkpoint=path)
     monkeypatch.undo()
     path.write_bytes(path.read_bytes()[:-200])
     with pytest.raises(ValueError, match="training is not a whole checkpoint"):
-        nnql(2, 4, checkpoint=path)
+        train("nnql", 2, 4, checkpoint=path)
     path.write_text(json.dumps({}))
     with pytest.raises(ValueError, match="training is not a whole checkpoint"):
-        nnql(2, 4, checkpoint=path)
+        train("nnql", 2, 4, checkpoint=path)
     assert load_checkpoint(tmp_path / "none", {}, None, None) == 0
 
 
 def test_a_short_training_learns_and_its_curve_rises():
-    training = nnql(4, 120)
+    training = train("nnql", 4, 120)
     curve = training.successes.reshape(4, 4, 30).mean(axis=(0, 2))
     assert curve[-1] > curve[0] + 0.3
     assert curve[-1] > 0.75
@@ -168,7 +182,7 @@ def test_a_short_training_learns_and_its_curve_rises():
 
 
 def test_history_and_paths_when_asked_for():
-    training = nnql(2, 6, record=True)
+    training = train("nnql", 2, 6, record=True)
     assert training.history.stack == (2, 7)
     same_end = training.history.weights[0][:, -1] == training.network.weights[0]
     assert same_end.all()
@@ -179,25 +193,25 @@ def test_history_and_paths_when_asked_for():
         assert [len(path) - 1 for path in training.paths[row]] == training.steps[
             row
         ].tolist()
-    same(training, nnql(2, 6), 1, 1)
+    same(training, train("nnql", 2, 6), 1, 1)
 
 
 def test_the_training_of_one_seed():
-    training = nnql(3, 4, record=True)
+    training = train("nnql", 3, 4, record=True)
     own = training[2]
     assert own.seeds == (2,)
     same(own, training, 0, 2)
-    same(own, nnql([2], 4), 0, 0)
+    same(own, train("nnql", [2], 4), 0, 0)
     assert own.history.stack == (1, 5)
     assert own.paths == training.paths[2:]
     assert len(own.policies) == 1
-    assert nnql(2, 4)[0].history is None
+    assert train("nnql", 2, 4)[0].history is None
     with pytest.raises(IndexError, match="row must be 0 to 2, got 3"):
         training[3]
 
 
 def test_weight_changes_add_up_over_a_training():
-    training = nnql(2, 6, record=True)
+    training = train("nnql", 2, 6, record=True)
     signed, absolute = (
         weight_changes(training.history, absolute=kind) for kind in (False, True)
     )
@@ -210,7 +224,7 @@ def test_weight_changes_add_up_over_a_training():
 
 
 def test_episodes_have_their_bounds_and_their_decisions():
-    training = nnql(3, 20, task=NavigationTask(max_steps=60))
+    training = train("nnql", 3, 20, task=NavigationTask(max_steps=60))
     assert training.steps.max() <= 60
     assert (training.decisions <= training.steps).all()
     late = training.outcomes == "out of steps"
@@ -235,11 +249,11 @@ def test_worlds_of_training_never_meet_those_of_a_table():
 def test_every_encoding_trains():
     for target in ("number", "signed", "one-hot", "sine-cosine"):
         encoder = Encoder(NNQL_SENSORS, walls=True, target=target)
-        training = nnql(1, 2, task=NavigationTask(encoder=encoder))
+        training = train("nnql", 1, 2, task=NavigationTask(encoder=encoder))
         assert training.network.sizes == (encoder.size, 8, 5)
         assert training.policies[0].encoder == encoder
-    assert nnql(
-        1, 2, task=NavigationTask(encoder=Encoder(NNQL_SENSORS, True, "number"))
+    assert train(
+        "nnql", 1, 2, task=NavigationTask(encoder=Encoder(NNQL_SENSORS, True, "number"))
     ).network.sizes == (16, 8, 5)
 
 
@@ -249,7 +263,7 @@ def test_moving_obstacles_and_another_reward():
         moving=5,
         reward=lambda before, after, outcome: np.full(len(outcome), 0.5),
     )
-    training = nnql(2, 5, task=task)
+    training = train("nnql", 2, 5, task=task)
     np.testing.assert_array_equal(training.returns, 0.5 * training.decisions)
     assert training.returns.max() > 0.5
 
@@ -276,8 +290,12 @@ def test_moving_obstacles_and_another_reward():
         ({"rescale": "squash"}, "rescale must be one of clip, shift, got 'squash'"),
         ({"passes": 0}, "passes must be at least 1"),
         ({"hidden": 0}, "hidden must be at least 1"),
-        ({"every": 0}, "every must be at least 1"),
-        ({"device": "abacus"}, "device must be one that torch has, got 'abacus'"),
+        ({"checkpoint_interval": 0}, "checkpoint_interval must be at least 1"),
+        ({"device": "abacus"}, "nnql takes the settings .*, got device"),
+        (
+            {"method": "dqn", "gradient_step": (0.1, 0.2)},
+            "gradient_step must be a number",
+        ),
         ({"record": True, "checkpoint": "x"}, "record must be False with a checkpoint"),
         (
             {"method": "nfq", "episodes_per_fit": 0},

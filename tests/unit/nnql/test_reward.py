@@ -7,7 +7,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import robonav  # noqa: F401 - registers the environments
-from robonav.nnql.reward import TABLE, Property, reward, reward_row, state_property
+from robonav.nnql.reward import (
+    REWARDS,
+    ROW_NUMBERS,
+    TABLE,
+    Property,
+    reward,
+    reward_row,
+    state_property,
+)
 from robonav.robot import OUTCOMES, Sensing
 
 RUNNING, ARRIVED, COLLIDED, LATE = range(4)
@@ -98,6 +106,13 @@ def test_exactly_one_row_holds_for_any_step(before, after, outcome):
     assert fitting == [
         reward_row(sensing(before), sensing(after), np.array([outcome]))[0]
     ]
+
+
+def test_table_names_every_step_once():
+    assert (ROW_NUMBERS[:3] >= 0).all()
+    cells = [np.argwhere(ROW_NUMBERS[:3] == k) for k in range(len(TABLE))]
+    assert all(len(found) for found in cells)
+    assert REWARDS[ROW_NUMBERS[Property.DANGEROUS, Property.COZY]].tolist() == [0.5] * 4
 
 
 def test_state_properties_are_exclusive_at_their_borders():

@@ -1,4 +1,4 @@
-"""The Boltzmann policy in its limits, and what falls."""
+"""The softmax policy in its limits, and schedules."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from robonav.networks.policy import sample_actions
-from robonav.nnql.schedules import check_schedule, geometric_schedule, softmax_policy
+from robonav.nnql import geometric_schedule, greedy_policy, softmax_policy
+from robonav.nnql._settings import check_schedule
 
 values = arrays(float, (4, 5), elements=st.floats(-1e6, 1e6))
 
@@ -31,14 +32,17 @@ def test_it_is_equation_4_7():
 
 def test_cold_is_greedy_and_hot_is_uniform():
     q = np.array([0.1, 0.9, 0.3, 0.9 - 1e-6, 0.0])
-    np.testing.assert_array_equal(softmax_policy(q, 0.0), [0, 1, 0, 0, 0])  # Eq. (4.8)
+    np.testing.assert_array_equal(greedy_policy(q), [0, 1, 0, 0, 0])  # Eq. (4.8)
     np.testing.assert_allclose(softmax_policy(q, 1e-12), [0, 1, 0, 0, 0], atol=1e-12)
     np.testing.assert_allclose(softmax_policy(q, 1e12), 0.2)
 
 
 def test_equally_good_actions_share():
     np.testing.assert_allclose(
-        softmax_policy([1.0, 1.0, 0.0, 1.0, -1.0], 0.0), [1 / 3, 1 / 3, 0, 1 / 3, 0]
+        greedy_policy([1.0, 1.0, 0.0, 1.0, -1.0]), [1 / 3, 1 / 3, 0, 1 / 3, 0]
+    )
+    np.testing.assert_allclose(
+        softmax_policy([1.0, 1.0, 0.0, 1.0, -1.0], 1e-9), [1 / 3, 1 / 3, 0, 1 / 3, 0]
     )
 
 
@@ -51,13 +55,14 @@ def test_large_values_do_not_overflow():
 def test_a_temperature_a_row():
     q = np.array([[0.0, 1.0], [0.0, 1.0]])
     np.testing.assert_allclose(
-        softmax_policy(q, np.array([0.0, 1e12])), [[0, 1], [0.5, 0.5]]
+        softmax_policy(q, np.array([1e-12, 1e12])), [[0, 1], [0.5, 0.5]]
     )
 
 
-def test_a_negative_temperature_is_refused():
-    with pytest.raises(ValueError, match="temperature must be at least 0, got -1"):
-        softmax_policy([0.0, 1.0], -1.0)
+@pytest.mark.parametrize("temperature", [-1.0, 0.0, [1.0, 0.0]])
+def test_a_temperature_is_positive(temperature):
+    with pytest.raises(ValueError, match="temperature must be greater than 0, got"):
+        softmax_policy([0.0, 1.0], temperature)
 
 
 def test_choices_follow_the_probabilities():

@@ -4,9 +4,10 @@ import numpy as np
 
 from robonav.networks.multilayer_perceptron import random_network, stacked
 from robonav.nnql import NavigationTask, reward
-from robonav.nnql.agents import Agent
-from robonav.nnql.networks import CompiledNetworks
-from robonav.nnql.trainer import EXPLORING, EpisodeStatistics, Trainer, make_rng
+from robonav.nnql._fast.agents import Agent
+from robonav.nnql._fast.networks import BatchedNetworks
+from robonav.nnql._fast.trainer import EpisodeStatistics, Trainer
+from robonav.nnql.task import EXPLORING, make_rng
 from robonav.robot import OUTCOMES, REFLEX, Simulator
 
 SEEDS, EPISODES = (3, 8), 24
@@ -65,7 +66,7 @@ def plain_episode(network, seed, episode):
 def test_the_loop_is_a_plain_one_for_each_robot():
     networks = stacked([random_network((16, 8, 5), seed=seed) for seed in SEEDS])
     agent, statistics = (
-        Watching(CompiledNetworks(networks)),
+        Watching(BatchedNetworks(networks)),
         EpisodeStatistics(len(SEEDS), EPISODES),
     )
     Trainer(

@@ -1,17 +1,19 @@
-"""Training put down in a file and taken up again: the same result as if it had never stopped.
+"""A training saved to a file and continued from it, with the same result as if it had never stopped.
 
-Episodes depend on their seed and number alone, so that between two episodes only what was learned has to be kept.
+The worlds and random numbers of an episode depend on its seed and number alone. Between two episodes only what the
+agents have learned has to be kept.
 """
 
 from __future__ import annotations
 
-import hashlib
+import dataclasses
 import io
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
-from types import CodeType, FunctionType
 from typing import Any
 
+import joblib
 import numpy as np
 
 from robonav import atomic
@@ -20,25 +22,25 @@ from robonav._version import __version__
 from .agents import Agent
 from .trainer import EpisodeStatistics
 
-FORMAT = "robonav training 1"
+FORMAT = "robonav training 2"
 _STATISTICS = ("outcomes", "steps", "decisions", "returns")
 
 
 def save_checkpoint(
     path: str | Path,
-    identity: dict[str, Any],
+    identity: Mapping[str, Any],
     agent: Agent,
     statistics: EpisodeStatistics,
     done: int,
 ) -> None:
-    """Write what a training has come to after ``done`` episodes of every seed.
+    """Write the state of a training after ``done`` episodes of every seed.
 
-    ``identity`` says which training it is: seeds, settings, task.
+    ``identity`` says which training it is: its method, seeds, settings and task.
     """
     about = {
         "format": FORMAT,
         "version": __version__,
-        "training": _digest(identity),
+        "training": training_hash(identity),
         "done": done,
     }
     arrays: dict[str, Any] = {
@@ -51,15 +53,16 @@ def save_checkpoint(
 
 def load_checkpoint(
     path: str | Path,
-    identity: dict[str, Any],
+    identity: Mapping[str, Any],
     agent: Agent,
     statistics: EpisodeStatistics,
 ) -> int:
-    """Put agent and statistics where a file left them, and return the number of episodes done; 0 if there is no file.
+    """Restore agent and statistics from a file, and return the number of episodes done; 0 if there is no file.
 
     Raises
     ------
-    ValueError : if the file is no checkpoint, or one of another version, or of another training.
+    ValueError
+        If the file is no checkpoint, or one of another version, or of another training.
     """
     name = Path(path).name
     if not Path(path).exists():
@@ -77,7 +80,7 @@ def load_checkpoint(
         raise ValueError(
             f"{name} was written by robonav {about['version']} ({about['format']}), expected {__version__} ({FORMAT})"
         )
-    if about["training"] != _digest(identity):
+    if about["training"] != training_hash(identity):
         raise ValueError(
             f"{name} belongs to a training with other seeds, settings or task"
         )
@@ -87,27 +90,25 @@ def load_checkpoint(
     return int(about["done"])
 
 
-def _digest(identity: dict[str, Any]) -> str:
-    """A name for a training; functions, such as a reward, go by what they say and what they hold on to."""
-    named = {key: _plain(value) for key, value in identity.items()}
-    return hashlib.sha256(repr(sorted(named.items())).encode()).hexdigest()
+def training_hash(identity: Mapping[str, Any]) -> str:
+    """A hash of a training's settings; a reward or an encoder counts by its name and by the values that it holds."""
+    return str(joblib.hash(_values(identity)))
 
 
-def _plain(value: Any) -> Any:
-    fields = getattr(value, "__dataclass_fields__", None)
-    if fields is not None:
-        return type(value).__qualname__, {
-            name: _plain(getattr(value, name)) for name in fields
+def _values(value: Any) -> Any:
+    """Settings as plain values: dataclasses by their fields, functions by their name and the values they close over."""
+    if dataclasses.is_dataclass(value):
+        fields = {
+            field.name: getattr(value, field.name)
+            for field in dataclasses.fields(value)
         }
-    if isinstance(value, dict):
-        return sorted((key, _plain(part)) for key, part in value.items())
+        return type(value).__qualname__, _values(fields)
+    if isinstance(value, Mapping):
+        return [(key, _values(part)) for key, part in sorted(value.items())]
     if isinstance(value, list | tuple):
-        return [_plain(part) for part in value]
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    if isinstance(value, CodeType):
-        return value.co_code, _plain(value.co_consts), value.co_names
-    if isinstance(value, FunctionType):
-        held = [cell.cell_contents for cell in value.__closure__ or ()]
-        return value.__qualname__, _plain(value.__code__), _plain(held)
+        return [_values(part) for part in value]
+    if callable(value):
+        closure = getattr(value, "__closure__", None) or ()
+        held = [_values(cell.cell_contents) for cell in closure]
+        return getattr(value, "__qualname__", type(value).__qualname__), held
     return value

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from robonav.nnql.targets import clip, cross_entropy, q_targets, shift
+from robonav.nnql import clip, cross_entropy, q_targets, shift
 
 q_values = arrays(float, (6, 5), elements=st.floats(-3, 3))
 

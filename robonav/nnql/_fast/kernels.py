@@ -102,10 +102,10 @@ def _pass(w1, b1, w2, b2, inputs, targets, gradient_step, hidden, z, d1):
 
 
 @compiled
-def descend(
+def sgd(
     parameters, rows, inputs, targets, first, last, gradient_step, passes, tolerance
 ):
-    """Stochastic gradient descent, see :meth:`robonav.nnql.networks.Networks.descend`."""
+    """Stochastic gradient descent, see :meth:`robonav.nnql._fast.networks.BatchedNetworks.sgd`."""
     n, a = inputs.shape[2], targets.shape[2]
     h = (parameters.shape[1] - a) // (n + 1 + a)
     hidden, z, d1 = np.empty(h), np.empty(a), np.empty(h)
@@ -121,8 +121,8 @@ def descend(
 
 
 @compiled
-def slopes(parameters, rows, x, actions, targets, outputs, linear, slope, costs):
-    """Slopes (K, P) of the mean cost of m examples, see :meth:`robonav.nnql.networks.Networks.slopes`."""
+def gradients(parameters, rows, x, actions, targets, outputs, linear, slope, costs):
+    """Gradients (K, P) of the mean cost of m examples, see :meth:`.networks.BatchedNetworks.gradients`."""
     m, n, a = x.shape[1], x.shape[2], outputs
     h = (parameters.shape[1] - a) // (n + 1 + a)
     hidden, d1 = np.empty(h), np.empty(h)

@@ -1,0 +1,103 @@
+"""The checks of this chapter's arguments, by their name; they stand here so that the algorithms can be read."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable
+from typing import Any, ParamSpec, TypeVar
+
+import gymnasium
+import numpy as np
+
+from robonav.networks.multilayer_perceptron import Network
+from robonav.validation import (
+    check_array,
+    check_instance,
+    check_integer,
+    check_one_of,
+    check_positive,
+    check_real,
+)
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+Schedule = float | tuple[float, float]
+"""A number, or a pair: its value in the first episode and in the last."""
+
+
+def check_schedule(name: str, value: Any, *, at_most: float = np.inf) -> Schedule:
+    """A positive number, or a pair of them: start and end."""
+    if isinstance(value, tuple | list):
+        if len(value) != 2:
+            raise ValueError(
+                f"{name} must be a number, or its start and end, got {len(value)} numbers"
+            )
+        start, end = (
+            check_real(name, part, above=0, at_most=at_most) for part in value
+        )
+        return start, end
+    return check_real(name, value, above=0, at_most=at_most)
+
+
+def _temperatures(name: str, value: Any) -> Any:
+    temperatures = check_array(name, value)
+    if temperatures.size and temperatures.min() <= 0:
+        raise ValueError(
+            f"{name} must be greater than 0, got {temperatures.min():g}; greedy_policy is its limit at 0"
+        )
+    return temperatures
+
+
+def _count(name: str, value: Any) -> int:
+    return check_integer(name, value, at_least=1)
+
+
+def _fraction(name: str, value: Any) -> float:
+    return check_real(name, value, at_least=0, at_most=1)
+
+
+CHECKS: dict[str, Callable[[str, Any], Any]] = {
+    "env": lambda name, value: check_instance(name, value, gymnasium.Env),
+    "network": lambda name, value: check_instance(name, value, Network),
+    "q": check_array,
+    "episodes": _count,
+    "hidden": _count,
+    "seed": lambda name, value: check_integer(name, value, at_least=0),
+    "learning_rate": lambda name, value: check_schedule(name, value, at_most=1),
+    "discount": _fraction,
+    "gradient_step": check_schedule,
+    "temperature": check_schedule,
+    "rescale": lambda name, value: check_one_of(name, value, ("clip", "shift")),
+    "passes": _count,
+    "tolerance": lambda name, value: check_real(name, value, at_least=0),
+    "episodes_per_fit": _count,
+    "sweeps": _count,
+    "epochs": _count,
+    "batch_size": _count,
+    "target_update_interval": _count,
+    "dqn.gradient_step": check_positive,
+    "softmax_policy.temperature": _temperatures,
+}
+"""What an argument must be: by its name, or by the function's name and its own."""
+
+
+def check_setting(function: str, name: str, value: Any) -> Any:
+    """One argument of a function of this chapter, checked; TypeError or ValueError if it is out of bounds."""
+    check = CHECKS.get(f"{function}.{name}") or CHECKS.get(name)
+    return check(name, value) if check else value
+
+
+def checked(function: Callable[P, T]) -> Callable[P, T]:
+    """Decorate a function so that its arguments are checked, see ``CHECKS``, before it runs."""
+    signature = inspect.signature(function)
+
+    @functools.wraps(function)
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
+        bound = signature.bind(*args, **kwargs)
+        for name, value in bound.arguments.items():
+            bound.arguments[name] = check_setting(function.__name__, name, value)
+        return function(*bound.args, **bound.kwargs)
+
+    return wrapper

@@ -1,0 +1,196 @@
+"""What chapter 4 trains on: the navigation task of section 4.5, as batches of worlds and as a Gymnasium environment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from robonav.networks.multilayer_perceptron import Network, random_network
+from robonav.robot import (
+    NNQL_SENSORS,
+    REFLEX,
+    Encoder,
+    Sensing,
+    Worlds,
+    draw_worlds,
+    world_keys,
+)
+from robonav.robot.environments import NavigationEnv, Reward, as_sensing
+from robonav.validation import check_integer, check_positive
+
+from ._settings import checked
+from .reward import reward
+
+STARTS = ((10.0, 10.0), (90.0, 10.0))
+TARGETS = ((90.0, 90.0), (10.0, 90.0))
+ACTIONS = 5  # F, L30, L60, R30, R60; the reflex alone steps back
+
+INITIAL, EXPLORING, WORLDS, REPLAYING = range(4)
+"""What a seed's random numbers are for; each purpose has a generator of its own."""
+
+
+def make_rng(seed: int, purpose: int, *more: int) -> np.random.Generator:
+    """The generator of one seed for one purpose, such as exploring in one episode.
+
+    Examples
+    --------
+    >>> from robonav.nnql.task import EXPLORING, make_rng
+    >>> make_rng(3, EXPLORING, 7).random() == make_rng(3, EXPLORING, 7).random()
+    True
+    """
+    return np.random.default_rng([seed, purpose, *more])
+
+
+@dataclass(frozen=True, eq=False)
+class NavigationTask:
+    """The task of section 4.5: worlds, speed, sensing and reward.
+
+    Parameters
+    ----------
+    obstacles, moving : int
+        Standing and moving obstacles in a world.
+    speed : float
+        Speed of the robot in m/s.
+    max_steps : int
+        Seconds that an episode lasts at most.
+    starts, targets : sequences of (x, y)
+        Where robots start and where they go, see :func:`robonav.robot.random_worlds`.
+    encoder : Encoder
+        Turns what is sensed into the network's inputs. By default these are the 16 numbers of Eq. (4.5), each divided
+        by its largest value.
+    reward : Reward
+        The reward of a step, by default that of Table 4.1.
+    reflex : Reflex
+        What the robot does before the policy is asked.
+
+    Examples
+    --------
+    >>> from robonav.nnql import NavigationTask
+    >>> env = NavigationTask(obstacles=20).environment()
+    >>> state, info = env.reset(seed=3)
+    >>> state.shape, int(env.action_space.n)
+    ((16,), 5)
+    """
+
+    obstacles: int = 10
+    moving: int = 0
+    speed: float = 2.5
+    max_steps: int = 400
+    starts: Sequence[tuple[float, float]] = STARTS
+    targets: Sequence[tuple[float, float]] = TARGETS
+    encoder: Encoder = field(
+        default_factory=lambda: Encoder(NNQL_SENSORS, walls=True, target="number")
+    )
+    reward: Reward = reward
+    reflex: Callable[[Sensing, float], NDArray[np.int64]] = REFLEX
+
+    def __post_init__(self) -> None:
+        check_positive("speed", self.speed)
+        check_integer("max_steps", self.max_steps, at_least=1)
+
+    def worlds(self, seeds: Sequence[int], first: int, last: int) -> Worlds:
+        """The worlds of episodes ``first`` to ``last - 1`` of each seed, one seed after the other."""
+        keys = [
+            world_keys(last, int(make_rng(seed, WORLDS).integers(2**63)))[first:]
+            for seed in seeds
+        ]
+        return draw_worlds(
+            np.concatenate(keys), self.obstacles, self.moving, self.starts, self.targets
+        )
+
+    def environment(self) -> TrainingEnv:
+        """The task as a Gymnasium environment with encoded observations and the five actions that are learned."""
+        return TrainingEnv(self)
+
+
+class TrainingEnv(gymnasium.Wrapper):
+    """``robonav/Navigation-v0`` with encoded observations, in the worlds of a training.
+
+    ``reset(seed=s)`` starts in the first world of seed s, and each further ``reset()`` goes on to the next world.
+    ``info["reflex"]`` is -1 where the given action was carried out; elsewhere the robot's reflex acted instead.
+
+    Parameters
+    ----------
+    task : NavigationTask
+        The worlds, the robot, its reward and its encoder.
+    """
+
+    def __init__(self, task: NavigationTask) -> None:
+        super().__init__(
+            NavigationEnv(
+                speed=task.speed,
+                reward=task.reward,
+                reflex=task.reflex,
+                max_episode_steps=task.max_steps,
+            )
+        )
+        self.task, self._seed, self._episode = task, 0, -1
+        size = task.encoder.size
+        self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (size,), float)
+        self.action_space = gymnasium.spaces.Discrete(ACTIONS)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float64], dict[str, Any]]:
+        """Start the next episode, or with ``seed`` the first episode of that seed."""
+        if seed is not None:
+            self._seed, self._episode = seed, -1
+        self._episode += 1
+        world = self.task.worlds([self._seed], self._episode, self._episode + 1)
+        observation, info = self.env.reset(
+            seed=seed, options={"worlds": world} | (options or {})
+        )
+        return self._encoded(observation), info
+
+    def step(
+        self, action: int
+    ) -> tuple[NDArray[np.float64], float, bool, bool, dict[str, Any]]:
+        """One second with this action, unless the robot's reflex acts."""
+        observation, reward, terminated, truncated, info = self.env.step(action)
+        return self._encoded(observation), float(reward), terminated, truncated, info
+
+    def _encoded(self, observation: dict[str, Any]) -> NDArray[np.float64]:
+        return self.task.encoder(as_sensing(observation))[0]
+
+
+@checked
+def q_network(env: gymnasium.Env, *, hidden: int = 8, seed: int) -> Network:
+    """A network with random weights for an environment: an input a state feature, an output an action (Fig. 4.1).
+
+    Parameters
+    ----------
+    env : gymnasium.Env
+        With a ``Box`` of one dimension as observations and a ``Discrete`` action space. Gymnasium's
+        ``FlattenObservation`` makes such observations from others.
+    hidden : int
+        Units of the hidden layer.
+    seed : int
+        Seed of the weights.
+
+    Returns
+    -------
+    Network
+        To be trained by :func:`nnql` and the other methods.
+
+    Examples
+    --------
+    >>> import gymnasium
+    >>> from robonav.nnql import q_network
+    >>> q_network(gymnasium.make("CartPole-v1"), seed=0).sizes
+    (4, 8, 2)
+    """
+    states, actions = env.observation_space, env.action_space
+    if not isinstance(states, gymnasium.spaces.Box) or len(states.shape) != 1:
+        raise ValueError(
+            f"env must have observations in a Box of one dimension, got {states}; "
+            "gymnasium.wrappers.FlattenObservation makes them"
+        )
+    if not isinstance(actions, gymnasium.spaces.Discrete):
+        raise ValueError(f"env must have a Discrete action space, got {actions}")
+    sizes = (states.shape[0], hidden, int(actions.n))
+    return random_network(sizes, seed=make_rng(seed, INITIAL))

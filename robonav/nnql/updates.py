@@ -1,0 +1,222 @@
+"""One update of a network's Q-values: target, rescaling, error, cost and gradient descent (section 4.4.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from robonav.networks.backpropagation import backpropagate
+from robonav.networks.multilayer_perceptron import Network
+
+Array = NDArray[np.float64]
+
+
+def q_targets(
+    q: Array,
+    action: ArrayLike,
+    reward: ArrayLike,
+    next_value: ArrayLike,
+    learning_rate: ArrayLike,
+    discount: float,
+) -> Array:
+    """Q-values after one update of the action taken, Eq. (4.9).
+
+    The values of the other actions stay as they are. The function takes one state, or a batch of them along leading
+    axes.
+
+    Parameters
+    ----------
+    q : (..., A) array
+        Q-values in the states left.
+    action : (...) array of int
+        Actions taken there.
+    reward : (...) array
+        Rewards received.
+    next_value : (...) array
+        Greatest Q-value in the states reached; 0 where the episode ended.
+    learning_rate : float or (...) array
+        The thesis's alpha, 0 to 1.
+    discount : float
+        The thesis's gamma, 0 to 1.
+
+    Returns
+    -------
+    (..., A) array
+        The updated values.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nnql import q_targets
+    >>> q_targets(np.array([0.4, 0.6]), 1, 0.5, 1.0, learning_rate=0.5, discount=0.6)
+    array([0.4 , 0.85])
+    """
+    taken = np.arange(q.shape[-1]) == np.expand_dims(action, -1)
+    target = np.expand_dims(np.asarray(reward) + discount * np.asarray(next_value), -1)
+    alpha = np.expand_dims(learning_rate, -1)
+    return np.where(taken, q + alpha * (target - q), q)  # Eq. (4.9)
+
+
+def clip(q: Array) -> Array:
+    """Move Q-values outside [0, 1] to the nearer end.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nnql import clip
+    >>> clip(np.array([-0.5, 0.25, 2.0]))
+    array([0.  , 0.25, 1.  ])
+    """
+    return q.clip(0.0, 1.0)
+
+
+def shift(q: Array) -> Array:
+    """Shift and divide the Q-values of a state (..., A) until all lie in [0, 1]; the order of the actions stays.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nnql import shift
+    >>> shift(np.array([-0.5, 0.25, 1.5]))
+    array([0.   , 0.375, 1.   ])
+    """
+    low = np.minimum(q.min(axis=-1, keepdims=True), 0.0)
+    high = np.maximum(q.max(axis=-1, keepdims=True), 1.0)
+    return (q - low) / (high - low)
+
+
+RESCALE: dict[str, Callable[[Array], Array]] = {"clip": clip, "shift": shift}
+"""Two readings of the thesis's "rescale"."""
+
+
+def network_error(targets: Array, q: Array) -> Array:
+    """The network's error, Eq. (4.10): rescaled targets minus the network's outputs, (..., A).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nnql import network_error
+    >>> network_error(np.array([0.5, 1.0]), np.array([0.5, 0.75]))
+    array([0.  , 0.25])
+    """
+    return targets - q  # Eq. (4.10)
+
+
+def cross_entropy(targets: ArrayLike, logits: ArrayLike) -> Array:
+    """The cost J of the network's outputs, Eq. (4.11), summed over the actions.
+
+    The thesis prints ``1 - log Q`` where the cross-entropy has ``log(1 - Q)``. The function takes the logits z of the
+    outputs, because ``log(1 + exp(z)) - target z`` is the same number and never takes the logarithm of a zero.
+
+    Parameters
+    ----------
+    targets : (..., A) array
+        Rescaled Q-values in [0, 1].
+    logits : (..., A) array
+        Outputs of the network before the sigmoid.
+
+    Returns
+    -------
+    (...) array
+        Costs.
+
+    Examples
+    --------
+    >>> from robonav.nnql import cross_entropy
+    >>> cross_entropy([1.0, 0.0], [0.0, 0.0]).round(4)  # 2 log 2: both outputs are 1/2
+    np.float64(1.3863)
+    """
+    z = np.asarray(logits, dtype=float)
+    return (np.logaddexp(0.0, z) - np.asarray(targets) * z).sum(axis=-1)  # Eq. (4.11)
+
+
+def descend(
+    network: Network, gradient: Network, gradient_step: float | Array
+) -> Network:
+    """One step of gradient descent on all weights and biases, Eq. (4.12).
+
+    Parameters
+    ----------
+    network : Network
+        Its weights W.
+    gradient : Network
+        The derivatives of the cost by these weights, in the shape of the network.
+    gradient_step : float
+        The thesis's sigma.
+
+    Returns
+    -------
+    Network
+        A new network.
+
+    Examples
+    --------
+    >>> from robonav.networks import random_network
+    >>> from robonav.nnql import descend
+    >>> network = random_network((4, 8, 2), seed=0)
+    >>> descend(network, network, 1.0).weights[0].any()
+    np.False_
+    """
+    weights = zip(network.weights, gradient.weights, strict=True)
+    biases = zip(network.biases, gradient.biases, strict=True)
+    return Network(
+        tuple(w - gradient_step * dw for w, dw in weights),  # Eq. (4.12)
+        tuple(b - gradient_step * db for b, db in biases),
+    )
+
+
+def stochastic_gradient_descent(
+    network: Network,
+    inputs: Sequence[Array],
+    targets: Sequence[Array],
+    gradient_step: float | Array,
+    passes: int,
+    tolerance: float,
+) -> Network:
+    """Train a network on pairs of state and target, one pair at a time, until its cost settles.
+
+    Uses Eqs. (4.10), (4.11) and (4.12), and the backpropagation of chapter 3.
+
+    Parameters
+    ----------
+    network : Network
+        The network to start from.
+    inputs, targets : sequences of (n,) and (A,) arrays
+        The pairs.
+    gradient_step : float
+        The thesis's sigma.
+    passes : int
+        How often to go through the pairs at most.
+    tolerance : float
+        Stop when the mean cost changes by less from one pass to the next.
+
+    Returns
+    -------
+    Network
+        The trained network.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.nnql import stochastic_gradient_descent
+    >>> network, state, target = random_network((4, 8, 2), seed=0), np.eye(4)[0], np.array([0.2, 0.9])
+    >>> trained = stochastic_gradient_descent(network, [state], [target], gradient_step=1, passes=500, tolerance=0)
+    >>> trained.forward(state).round(2)
+    array([0.2, 0.9])
+    """
+    previous = np.inf
+    for _ in range(passes):
+        cost = 0.0
+        for state, target in zip(inputs, targets, strict=True):
+            layers = network.activations(state[None])
+            cost += float(cross_entropy(target, network.logits(state))) / len(inputs)
+            delta = network_error(target, layers[-1])
+            gradient = backpropagate(network, layers, -delta)  # of the cost
+            network = descend(network, gradient, gradient_step)
+        if abs(previous - cost) < tolerance:
+            break
+        previous = cost
+    return network

@@ -1,0 +1,171 @@
+"""The readable functions: equal to their fast twins on the robot, and at work on other environments."""
+
+import gymnasium
+import numpy as np
+import pytest
+
+from robonav.networks import random_network
+from robonav.nnql import (
+    METHODS,
+    NavigationTask,
+    dqn,
+    navigate_greedily,
+    nfq,
+    nnql,
+    online,
+    q_network,
+    stochastic_gradient_descent,
+    train,
+)
+
+TWINS = [
+    ("nnql", {"episodes": 10}, 1e-12),
+    ("nnql", {"episodes": 6, "rescale": "clip", "passes": 1, "discount": 0.8}, 1e-12),
+    ("online", {"episodes": 10}, 1e-12),
+    ("nfq", {"episodes": 9, "episodes_per_fit": 3, "sweeps": 4, "epochs": 20}, 1e-12),
+    # Adam divides by the size of a gradient, which magnifies the rounding of very small ones.
+    ("dqn", {"episodes": 9, "batch_size": 16, "target_update_interval": 40}, 1e-6),
+]
+
+
+class Corridor(gymnasium.Env):
+    """Five places in a row; action 1 goes right, 0 left; the right end is worth 1 and ends the episode."""
+
+    observation_space = gymnasium.spaces.Discrete(5)
+    action_space = gymnasium.spaces.Discrete(2)
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.place = int(self.np_random.integers(4))
+        return self.place, {}
+
+    def step(self, action):
+        self.place = max(self.place + (1 if action == 1 else -1), 0)
+        end = self.place == 4
+        return self.place, float(end), end, False, {}
+
+
+def corridor():
+    limited = gymnasium.wrappers.TimeLimit(Corridor(), 30)
+    return gymnasium.wrappers.FlattenObservation(limited)
+
+
+def balancing():
+    """CartPole with a reward that fits into [0, 1] at any discount: -1 for a fall, else 0.2."""
+    env = gymnasium.make("CartPole-v1", max_episode_steps=200)
+
+    class Falls(gymnasium.Wrapper):
+        def step(self, action):
+            state, _, fallen, late, info = self.env.step(action)
+            return state, -1.0 if fallen else 0.2, fallen, late, info
+
+    return Falls(env)
+
+
+@pytest.mark.parametrize(("method", "settings", "tolerance"), TWINS)
+@pytest.mark.parametrize("seed", [0, 7])
+def test_twin_equal_to_readable_function(method, settings, tolerance, seed):
+    task = NavigationTask(max_steps=80)
+    env, settings = task.environment(), dict(settings)
+    network = METHODS[method](env, q_network(env, seed=seed), seed=seed, **settings)
+    result = train(method, [seed, 3], settings.pop("episodes"), task=task, **settings)
+    assert result.decisions[0].sum() > 50
+    for readable, twin in zip(
+        (*network.weights, *network.biases),
+        (*result.network.weights, *result.network.biases),
+        strict=True,
+    ):
+        np.testing.assert_allclose(twin[0], readable, rtol=tolerance, atol=tolerance)
+
+
+def test_environment_goes_through_the_worlds_of_the_task():
+    task = NavigationTask()
+    env, worlds = task.environment(), task.worlds([4], 0, 3)
+    states = [env.reset(seed=4 if k == 0 else None) for k in range(3)]
+    for k, (_, info) in enumerate(states):
+        np.testing.assert_array_equal(info["pose"][:2], worlds[k].starts[0])
+    again, _ = env.reset(seed=4)
+    np.testing.assert_array_equal(again, states[0][0])
+
+
+@pytest.mark.parametrize(
+    ("method", "settings"),
+    [
+        (nnql, {"episodes": 60}),
+        (online, {"episodes": 150}),
+        (nfq, {"episodes": 40, "sweeps": 10, "epochs": 100}),
+        (dqn, {"episodes": 60, "gradient_step": 0.01, "target_update_interval": 50}),
+    ],
+)
+def test_discrete_toy_environment(method, settings):
+    """In a corridor every method finds the way to the right."""
+    env = corridor()
+    network = method(env, q_network(env, seed=1), seed=1, **settings)
+    assert network.decide(np.eye(5)[:4]).tolist() == [1, 1, 1, 1]
+
+
+def test_cart_pole():
+    """On an environment that has nothing of a robot, training makes episodes longer."""
+    env = gymnasium.wrappers.RecordEpisodeStatistics(balancing())
+    dqn(
+        env,
+        q_network(env, hidden=16, seed=0),
+        episodes=120,
+        discount=0.95,
+        gradient_step=0.01,
+        target_update_interval=100,
+        seed=0,
+    )
+    lengths = np.array(env.length_queue)
+    assert len(lengths) == 100  # the queue's own limit
+    assert lengths[-30:].mean() > 3 * lengths[:10].mean()
+
+
+def test_greedy_navigation():
+    env = corridor()
+    network = nnql(env, q_network(env, seed=1), episodes=60, seed=1)
+    assert [navigate_greedily(env, network, seed=k)[0] for k in range(5)] == [1.0] * 5
+
+
+def test_greedy_navigation_of_the_robot():
+    task = NavigationTask()
+    policy = train("nnql", seeds=[0], episodes=120, task=task)
+    ended = [
+        navigate_greedily(task.environment(), policy.network[0], seed=50 + k)[1]
+        for k in range(20)
+    ]
+    assert sum(info["outcome"] == "arrived" for info in ended) >= 16
+
+
+def test_descent_stops_when_the_cost_settles():
+    network, state = random_network((4, 8, 2), seed=0), np.eye(4)[0]
+    pairs = [state], [np.array([0.2, 0.9])]
+    once = stochastic_gradient_descent(network, *pairs, 0.1, 1, 0.0)
+    settled = stochastic_gradient_descent(network, *pairs, 0.1, 50, 100.0)
+    twice = stochastic_gradient_descent(once, *pairs, 0.1, 1, 0.0)
+    np.testing.assert_array_equal(settled.weights[0], twice.weights[0])
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"env": None}, "env must be Env"),
+        ({"network": None}, "network must be Network"),
+        ({"episodes": 0}, "episodes must be at least 1"),
+        ({"discount": 2}, "discount must be at least 0 and at most 1"),
+        ({"learning_rate": 1.5}, "learning_rate must be greater than 0 and at most 1"),
+        ({"seed": -1}, "seed must be at least 0"),
+    ],
+)
+def test_wrong_argument(wrong, message):
+    env = corridor()
+    right = {"env": env, "network": q_network(env, seed=0), "episodes": 1, "seed": 0}
+    with pytest.raises((ValueError, TypeError), match=message):
+        nnql(**(right | wrong))
+
+
+def test_environment_without_network_inputs():
+    with pytest.raises(ValueError, match="env must have observations in a Box"):
+        q_network(Corridor(), seed=0)
+    with pytest.raises(ValueError, match="env must have a Discrete action space"):
+        q_network(gymnasium.make("Pendulum-v1"), seed=0)
