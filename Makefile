@@ -1,4 +1,4 @@
-# make book, make test, make lab: each makes .venv itself, once. Needs Python 3.11 or later and make.
+# make book, make lab, make check, make test: each makes .venv itself, once. Needs Python 3.11 or later and make.
 #
 #   PYTHON   the interpreter that .venv is made from
 #   PIP_OPTIONS   passed to every pip install, for instance an extra index with PyTorch's CPU builds
@@ -22,14 +22,15 @@ INSTALLED := .venv/.installed
 TORCH := $(shell grep '^torch==' requirements.lock)
 EXTRAS := book,lab,grading,cluster,tests,benchmarks
 
-.PHONY: help book pdf test lab lock clean
+.PHONY: help book pdf check test lab lock clean
 help:
 	@echo "make book   build the book into _build/html"
 	@echo "make pdf    print the built book to _build/robonav.pdf; needs Chromium"
-	@echo "make test   run every check and test"
+	@echo "make check  lint, types, doctests and quick tests, in about two minutes"
+	@echo "make test   run every check and every test"
 	@echo "make lab    open JupyterLab on the notebooks"
-	@echo "make lock   write requirements.lock anew from pyproject.toml"
-	@echo "make clean  remove what was built; .venv stays"
+	@echo "make lock   write requirements.lock from the newest versions that pyproject.toml allows"
+	@echo "make clean  remove everything that was built, except .venv"
 
 # PyTorch first: left to the resolver it may choose another build, gigabytes larger.
 $(INSTALLED): requirements.lock pyproject.toml
@@ -47,6 +48,14 @@ book: $(INSTALLED)
 
 pdf: book
 	$(BIN)/python book/_ext/print_book.py _build/robonav.pdf
+
+# Lint, types, doctests, and the tests that need no browser, no sandbox and no long run.
+check: $(INSTALLED)
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto -q -m "not slow and not browser and not sandbox" \
+	  robonav tests/unit tests/book/test_tools.py $(PYTEST_OPTIONS)
 
 # One thread a process: pytest runs as many processes as there are cores.
 test: $(INSTALLED)

@@ -1,8 +1,9 @@
-"""The house keeps its order: imports point one way, and ``import robonav`` loads little and at once."""
+"""Imports point one way, no two files import each other, and ``import robonav`` loads little."""
 
 from __future__ import annotations
 
 import ast
+import graphlib
 import json
 import subprocess
 import sys
@@ -53,24 +54,56 @@ def room(path: Path) -> str:
     return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
-def imported_rooms(path: Path) -> Iterator[str]:
-    """The rooms of the package that a file imports from, anywhere in it."""
+def imports(path: Path, *, typing: bool = True) -> Iterator[str]:
+    """The dotted names that a file imports, anywhere in it; without ``typing`` not those under TYPE_CHECKING."""
     package = path.relative_to(PACKAGE.parent).parts[:-1]
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+
+    def visit(node: ast.AST) -> Iterator[str]:
         if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
+            yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             start = (
                 ".".join(package[: len(package) - node.level + 1]) if node.level else ""
             )
             origin = ".".join(filter(None, (start, node.module)))
-            names = [f"{origin}.{alias.name}" for alias in node.names]
+            yield from (f"{origin}.{alias.name}" for alias in node.names)
+        elif (
+            isinstance(node, ast.If)
+            and not typing
+            and ast.unparse(node.test).endswith("TYPE_CHECKING")
+        ):
+            for child in node.orelse:
+                yield from visit(child)
         else:
-            continue
-        for name in names:
-            parts = name.split(".")
-            if parts[0] == "robonav" and len(parts) > 1:
-                yield parts[1]
+            for child in ast.iter_child_nodes(node):
+                yield from visit(child)
+
+    return visit(ast.parse(path.read_text("utf-8")))
+
+
+def imported_rooms(path: Path) -> Iterator[str]:
+    """The rooms of the package that a file imports from, anywhere in it."""
+    for name in imports(path):
+        parts = name.split(".")
+        if parts[0] == "robonav" and len(parts) > 1:
+            yield parts[1]
+
+
+def imported_files(path: Path) -> set[Path]:
+    """The files of the package that a file imports when it runs, at its top or inside a function."""
+    found = set()
+    for name in imports(path, typing=False):
+        parts = name.split(".")
+        while parts and parts[0] == "robonav":
+            place = PACKAGE.parent.joinpath(*parts)
+            if place.with_suffix(".py").is_file():
+                found.add(place.with_suffix(".py"))
+                break
+            if (place / "__init__.py").is_file():
+                found.add(place / "__init__.py")
+                break
+            parts.pop()
+    return found - {path}
 
 
 SOURCES = [
@@ -109,6 +142,44 @@ def test_every_import_form_is_seen(
     ]
 
 
+def circle(files: list[Path]) -> list[str]:
+    """Files that import each other in a circle, or nothing."""
+    graph = {path: imported_files(path) for path in files}
+    try:
+        graphlib.TopologicalSorter(graph).prepare()
+    except graphlib.CycleError as error:
+        return [str(path.relative_to(PACKAGE)) for path in error.args[1]]
+    return []
+
+
+def test_no_files_import_each_other_in_a_circle() -> None:
+    assert circle(SOURCES) == []
+
+
+@pytest.mark.parametrize(
+    ("late", "closed"),
+    [
+        ("from . import models", True),
+        ("import robonav.mdp.models", True),
+        ("def f():\n    from .models import FiniteMDP", True),
+        ("if TYPE_CHECKING:\n    from .models import FiniteMDP", False),
+        ("from .values import sweep", False),
+    ],
+)
+def test_circle_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, late: str, closed: bool
+) -> None:
+    package = tmp_path / "robonav"
+    (package / "mdp").mkdir(parents=True)
+    models, grid = package / "mdp" / "models.py", package / "mdp" / "gridworld.py"
+    values = package / "mdp" / "values.py"
+    models.write_text("from .gridworld import Grid\n")
+    grid.write_text(late + "\n")
+    values.write_text("")
+    monkeypatch.setattr(f"{__name__}.PACKAGE", package)
+    assert bool(circle([models, grid, values])) is closed
+
+
 def test_import_loads_nothing_heavy_and_is_quick() -> None:
     runs = []
     for _ in range(3):
@@ -120,3 +191,17 @@ def test_import_loads_nothing_heavy_and_is_quick() -> None:
     assert (
         min(run["seconds"] for run in runs) < 1
     )  # seconds; the benchmarks say how quick, this says that nothing slipped in
+
+
+def test_plain_pytest_has_no_option_of_the_grader(tmp_path: Path) -> None:
+    """The grading plugin is opt-in: installing robonav changes nobody's pytest."""
+    run = subprocess.run(
+        [sys.executable, "-m", "pytest", "--help"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "--basetemp" in run.stdout
+    assert "--secret" not in run.stdout
+    assert "--submission" not in run.stdout

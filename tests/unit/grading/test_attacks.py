@@ -19,6 +19,8 @@ from robonav.grading.reference import Solutions
 from robonav.grading.sandbox import Limits
 from robonav.grading.submission import Submission
 
+pytestmark = pytest.mark.sandbox
+
 COURSE = Course.around(Path(__file__).parent)
 ATTACKED, HONEST = COURSE.named("improve"), COURSE.named("bounds")
 LIMITS = Limits(call_seconds=3.0, exercise_seconds=8.0, memory=512 << 20)

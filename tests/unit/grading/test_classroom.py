@@ -108,6 +108,7 @@ def records(out):
     }
 
 
+@pytest.mark.sandbox
 def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_path):
     if fault := probe.fault("official"):
         pytest.skip(fault)
@@ -316,6 +317,7 @@ def documented():
     }
 
 
+@pytest.mark.sandbox
 def test_the_example_class_gets_the_documented_results(tmp_path, monkeypatch):
     """With a shorter deadline than it has, of which Eve uses up each second."""
     if fault := probe.fault("official"):
@@ -330,6 +332,7 @@ def test_the_example_class_gets_the_documented_results(tmp_path, monkeypatch):
     assert found == documented()
 
 
+@pytest.mark.sandbox
 def test_what_gradescope_runs_writes_what_gradescope_reads(tmp_path):
     if fault := probe.fault("official"):
         pytest.skip(fault)
@@ -390,6 +393,7 @@ cli.app({["grade", *map(str, arguments), "--jobs", str(jobs)]!r})
     return process.exitcode
 
 
+@pytest.mark.sandbox
 def test_a_run_killed_twenty_times_ends_as_one_that_was_not(folder, course, tmp_path):
     """SIGKILL at random moments; no grade changes once it is there, and the end is byte for byte the same."""
     if fault := probe.fault("official"):

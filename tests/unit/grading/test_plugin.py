@@ -17,6 +17,8 @@ from robonav.grading.course import Course
 from robonav.grading.reference import Recorder, solution
 from robonav.grading.submission import read
 
+pytestmark = pytest.mark.sandbox
+
 COURSE = Course.around(Path(__file__).parent)
 TESTS = str(COURSE.tests)
 PASSES = (COURSE.solutions / "ch2/improve.py").read_text()

@@ -12,6 +12,8 @@ import pytest
 from robonav.grading import confine, probe, sandbox
 from robonav.grading.sandbox import Limits, SandboxFault, TimedOut
 
+pytestmark = pytest.mark.sandbox
+
 ECHO = {"ch2/echo.py": b"def echo(*values): return values"}
 LOAD = {"id": 1, "do": "load", "chapter": "ch2", "name": "echo"}
 
