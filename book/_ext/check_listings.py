@@ -1,0 +1,78 @@
+"""Check the listings of the built pages: ``python book/_ext/check_listings.py [PAGE ...]``.
+
+A listing of the package's code has at most 40 lines of at most 88 columns, shows neither imports nor input checks, and
+each numbered equation of a page is followed, on that page, by a listing whose comments carry its number. Equations that
+only introduce a symbol (``symbols.toml``) need none.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import citations
+import yaml
+from bs4 import BeautifulSoup
+from check_site import pages
+from thesis_numbers import thesis_number
+
+ROOT = Path(__file__).resolve().parents[2]
+SITE = Path(os.environ.get("BOOK_SITE", ROOT / "_build" / "html"))
+IMPORT = re.compile(r"^\s*(?:from\s+\S+\s+import|import)\s", re.MULTILINE)
+INPUT_CHECK = re.compile(r"\bcheck_\w+\(")
+
+
+def faults(html: str) -> Iterator[str]:
+    """What is wrong with the listings of one page, a sentence each."""
+    waiting: list[str] = []  # equations whose listing has not come yet
+    soup = BeautifulSoup(html, "html.parser")
+    for found in soup.select("div.math[id^=equation-eq-], div.function-source"):
+        if "math" in (found.get("class") or ()):
+            number = _number(str(found["id"]))
+            if number and citations.key(number) not in citations.symbols():
+                waiting.append(number)
+            continue
+        text = found.get_text().strip("\n")
+        caption = found.find_previous_sibling(class_="code-block-caption")
+        name = caption.select_one("code").get_text() if caption else "a listing"
+        lines = text.splitlines()
+        widest = max(map(len, lines), default=0)
+        if len(lines) > citations.MOST_LINES:
+            yield f"{name} has {len(lines)} lines"
+        if widest > citations.MOST_COLUMNS:
+            yield f"{name} has {widest} columns"
+        if IMPORT.search(text):
+            yield f"{name} shows an import"
+        if INPUT_CHECK.search(text):
+            yield f"{name} shows an input check"
+        shown = citations.cited("equations", text)
+        waiting = [number for number in waiting if citations.key(number) not in shown]
+    for number in waiting:
+        yield f"no listing after Eq. ({number}) carries its number"
+
+
+def _number(anchor: str) -> str | None:
+    """The thesis's number of an equation on a page, read from its anchor; None for an equation of the page's own."""
+    label = anchor.removeprefix("equation-")
+    return thesis_number(re.sub(r"-(\d+)$", r".\1", label))
+
+
+def main() -> None:
+    """Print the faults of the named pages, or of all; exit 1 if there are any."""
+    names = sys.argv[1:] or pages(
+        yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))
+    )
+    found = [
+        f"{name}: {fault}"
+        for name in names
+        for fault in faults((SITE / f"{name}.html").read_text("utf-8"))
+    ]
+    print("\n".join(found))
+    sys.exit(bool(found))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,67 @@
+"""Listings on the built pages can be read on one screen, and each equation is followed by its own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from check_listings import faults
+
+
+def test_listings_of_page(page_name: str, site: Path) -> None:
+    assert list(faults((site / f"{page_name}.html").read_text("utf-8"))) == []
+
+
+def equation(number: str) -> str:
+    return f'<div class="math" id="equation-eq-{number.replace(".", "-")}"></div>'
+
+
+def listing(code: str) -> str:
+    return (
+        '<div><div class="code-block-caption"><code>robonav.f</code></div>'
+        f'<div class="function-source highlight-python"><pre>{code}</pre></div></div>'
+    )
+
+
+RIGHT = listing("def f(q):\n    return q.max()  # Eq. (2.9)")
+
+
+def test_equation_followed_by_its_listing() -> None:
+    assert list(faults(equation("2.9") + RIGHT)) == []
+
+
+@pytest.mark.parametrize(
+    "page",
+    [
+        equation("2.9"),
+        RIGHT + equation("2.9"),
+        equation("2.9") + listing("return q  # Eq. (2.90)"),
+    ],
+)
+def test_equation_without_listing(page: str) -> None:
+    assert list(faults(page)) == ["no listing after Eq. (2.9) carries its number"]
+
+
+def test_equation_of_the_page_itself_needs_no_listing() -> None:
+    assert list(faults('<div class="math" id="equation-eq-own"></div>')) == []
+
+
+@pytest.mark.parametrize(
+    ("code", "fault"),
+    [
+        ("x = 1\n" * 41, "has 41 lines"),
+        ("x" * 89, "has 89 columns"),
+        ("def f():\n    from . import models", "shows an import"),
+        ("    import numba\n", "shows an import"),
+        ("x = check_real('x', x)", "shows an input check"),
+    ],
+)
+def test_listing_fault(code: str, fault: str) -> None:
+    assert list(faults(listing(code))) == [f"robonav.f {fault}"]
+
+
+@pytest.mark.parametrize(
+    "code", ["x = 1\n" * 40, "x" * 88, "important = 1", "# import it"]
+)
+def test_listing_without_fault(code: str) -> None:
+    assert list(faults(listing(code))) == []
