@@ -10,12 +10,12 @@ import numpy as np
 
 from robonav.networks import Network, NetworkPolicy
 from robonav.nirl import (
-    NOTHING,
-    ByContrast,
-    ByEquation514,
+    ZERO_TERMINAL_VALUES,
     Learned,
-    OneStep,
-    SampledDescent,
+    LeastSquaresReward,
+    ReplaySGD,
+    SingleGradientStep,
+    SubgradientMaxMargin,
     accuracy,
     balanced_accuracy,
     learn,
@@ -41,29 +41,29 @@ CHOOSING_WORLDS = (
 )
 EVERY = 5  # of a run's networks are tried, where test drives choose
 
-_FAST = SampledDescent(rate=(0.4, 0.4), ends=NOTHING)
+_FAST = ReplaySGD(rate=(0.4, 0.4), ends=ZERO_TERMINAL_VALUES)
 CHANGES: dict[str, Mapping[str, Any]] = {
     "Algorithm 10 as written": {
-        "reward": ByEquation514(),
-        "improve": OneStep(),
+        "reward": LeastSquaresReward(),
+        "improve": SingleGradientStep(),
         "score": accuracy,
         "target": "number",
     },
     "reward: expert against policy, in the expert's states": {
-        "reward": ByContrast(power=0.0)
+        "reward": SubgradientMaxMargin(power=0.0)
     },
     "rewards in [0, 1]; 300 steps, this iteration's drives": {
         "improve": replace(_FAST, samples=300, replay=1)
     },
     "9,600 steps, 20 iterations' drives": {"improve": _FAST},
-    "rare actions count alike": {"reward": ByContrast()},
+    "rare actions count alike": {"reward": SubgradientMaxMargin()},
     "chosen by balanced accuracy": {"score": balanced_accuracy},
     "the target's sector as sine and cosine": {"target": "sine-cosine"},
     "any end but a collision is worth the most": {
-        "improve": SampledDescent(rate=(0.4, 0.4))
+        "improve": ReplaySGD(rate=(0.4, 0.4))
     },
-    "learning rate falls": {"improve": SampledDescent()},
-    "discount 0.9": {"improve": SampledDescent(discount=0.9)},
+    "learning rate falls": {"improve": ReplaySGD()},
+    "discount 0.9": {"improve": ReplaySGD(discount=0.9)},
 }
 """What each step changes; all that came before it stays."""
 

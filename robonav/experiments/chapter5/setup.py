@@ -24,18 +24,18 @@ from robonav.lfd import (
 from robonav.lfd.demonstrations import LEARNED
 from robonav.networks import NetworkPolicy
 from robonav.nirl import (
-    BONUS,
-    NEUTRAL,
-    ByContrast,
+    NEUTRAL_TERMINAL_VALUES,
+    SURVIVAL_BONUS,
     Learned,
-    RobotCourse,
-    SampledDescent,
-    by_heuristic,
-    by_lstd,
-    from_everywhere,
-    from_start,
+    ReplaySGD,
+    RobotTask,
+    SubgradientMaxMargin,
+    from_all_states,
+    from_initial_state,
+    heuristic_estimate,
     learn,
-    learn_under,
+    learn_under_reward,
+    lstd_estimate,
 )
 from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
 
@@ -54,9 +54,9 @@ TEST_WORLDS = 60_000  # run k drives through those of this seed + k
 Numbers = Mapping[str, ArrayLike]
 Settings = Mapping[str, Any]
 
-ENDS = {"bonus": BONUS, "neutral": NEUTRAL}
-EXPECTATIONS = {"everywhere": from_everywhere, "start": from_start}
-ESTIMATES = {"lstd": by_lstd, "heuristic": by_heuristic}
+ENDS = {"bonus": SURVIVAL_BONUS, "neutral": NEUTRAL_TERMINAL_VALUES}
+EXPECTATIONS = {"everywhere": from_all_states, "start": from_initial_state}
+ESTIMATES = {"lstd": lstd_estimate, "heuristic": heuristic_estimate}
 CONTROLS = ("zero reward", "random reward")
 
 
@@ -76,14 +76,14 @@ def encoder(target: str) -> Encoder:
     return Encoder(NNQL_SENSORS, walls=True, target=target)
 
 
-def course(target: str = "sine-cosine", **changes: Any) -> RobotCourse:
+def course(target: str = "sine-cosine", **changes: Any) -> RobotTask:
     """Where a robot practises: 20 obstacles, 2 m/s, ten drives an iteration."""
-    return RobotCourse(TRAJECTORIES, encoder=encoder(target), **changes)
+    return RobotTask(TRAJECTORIES, encoder=encoder(target), **changes)
 
 
-def descent(settings: Settings) -> SampledDescent:
+def descent(settings: Settings) -> ReplaySGD:
     """The solver that all methods share."""
-    return SampledDescent(
+    return ReplaySGD(
         discount=settings["discount"],
         rate=tuple(settings["rate"]),
         samples=settings["samples"],
@@ -93,7 +93,7 @@ def descent(settings: Settings) -> SampledDescent:
 
 
 _OWN: dict[str, Callable[[Settings], dict[str, Any]]] = {
-    "nirl": lambda s: {"reward": ByContrast(power=s["power"])},
+    "nirl": lambda s: {"reward": SubgradientMaxMargin(power=s["power"])},
     "apprenticeship": lambda s: {
         "expectations": EXPECTATIONS[s["expectations"]],
         "guesses": s["guesses"],
@@ -130,7 +130,7 @@ def teach(
         "hidden": settings["hidden"],
     }
     if method in CONTROLS:
-        return learn_under(
+        return learn_under_reward(
             shown,
             control(method, seed, practice["course"].inputs),
             seed=seed,

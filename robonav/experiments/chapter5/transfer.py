@@ -11,7 +11,12 @@ from numpy.typing import NDArray
 
 from robonav.lfd import Demonstrations, demonstrate
 from robonav.lfd.demonstrations import LEARNED
-from robonav.nirl import learn_under, most_frequent, most_telling, shown_steps
+from robonav.nirl import (
+    expert_transitions,
+    learn_under_reward,
+    map_uniform_prior,
+    most_frequent,
+)
 from robonav.nirl.methods import Refinement
 from robonav.nnql import NavigationTask, train
 from robonav.robot import Policy, neighbour_slip, random_worlds, turn_to_clearer_side
@@ -56,7 +61,7 @@ def under(
     """The last policy of a new robot that practises elsewhere under a reward (5, k + 1), and nothing else."""
     chosen = settings("nirl")
     iterations = round(ITERATIONS * length)
-    practised = learn_under(
+    practised = learn_under_reward(
         demonstrations(seed),
         theta,
         course=course(chosen["target"], obstacles=obstacles, speed=speed),
@@ -140,7 +145,7 @@ def elsewhere(case: Case, seed: int, scale: str) -> Numbers:
 REFINEMENTS: dict[str, Refinement | None] = {
     "as shown": None,
     "most frequent": most_frequent,
-    "most telling": most_telling,
+    "most telling": map_uniform_prior,
 }
 
 
@@ -161,7 +166,7 @@ def refine(case: Case, seed: int, scale: str) -> Numbers:
     how = REFINEMENTS[str(case["actions"])]
     changed = 0.0
     if how is not None:
-        steps = shown_steps(shown, encoder(settings("nirl")["target"]))
+        steps = expert_transitions(shown, encoder(settings("nirl")["target"]))
         changed = (
             100 * how(steps.inputs.round(6), steps.actions, LEARNED).changed.mean()
         )
