@@ -356,7 +356,7 @@ def learn_under_reward(
 ) -> Learned:
     """A policy for a given reward theta (5, k + 1): a control (zero, random), or a reward learned elsewhere.
 
-    The demonstrations only choose among the policies found. Settings are those of :func:`~robonav.nirl.train_under_reward`.
+    The demonstrations only choose among the policies found. Settings: see :func:`~robonav.nirl.train_under_reward`.
     """
     ground = course or RobotTask()
     return _learned(

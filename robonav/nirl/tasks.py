@@ -15,7 +15,7 @@ from robonav.robot import Encoder, Sensing, Simulator, Worlds, drive, random_wor
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 from robonav.validation import check_integer, check_positive
 
-from .reward_free_mdp import FeaturedMDP
+from .reward_free_mdp import RewardFreeMDP
 from .transitions import ENCODER, Floats, Ints, Steps
 
 Chances = Callable[[Floats], Floats]
@@ -38,7 +38,7 @@ class Course(Protocol):
 
 
 @dataclass(frozen=True)
-class RobotCourse:
+class RobotTask:
     """The robot in new random maps; its reflexes act as ever, and only what the policy decided is kept.
 
     Attributes
@@ -135,7 +135,7 @@ def _by_drive(
 
 
 @dataclass(frozen=True, eq=False)
-class ModelCourse:
+class TabularTask:
     """A finite MDP as a course: one input a state. A drive ends in a terminal state, or after ``steps``.
 
     Attributes
@@ -145,7 +145,7 @@ class ModelCourse:
     steps : of each at most.
     """
 
-    mdp: FeaturedMDP
+    mdp: RewardFreeMDP
     trajectories: int = 10
     steps: int = 40
 
