@@ -295,6 +295,7 @@ def greedy(case, found):
     return found.network.decide(np.eye(case.task.n_states))
 
 
+@pytest.mark.slow
 def test_nirl_on_ground_of_four_kinds(terrain):
     found = learn(terrain)
     assert terrain.loss(greedy(terrain, found)) < 0.05
@@ -307,6 +308,7 @@ def test_nirl_on_ground_of_four_kinds(terrain):
     assert history.changes[0, 1] == pytest.approx(by_hand)
 
 
+@pytest.mark.slow
 def test_nirl_on_random_rewards(scattered):
     assert scattered.loss(greedy(scattered, learn(scattered))) < 0.05
 
@@ -328,6 +330,7 @@ def test_without_a_reward_nothing_is_learned(terrain):
     assert np.ptp(latest.forward(np.eye(terrain.task.n_states))) < 0.1
 
 
+@pytest.mark.slow
 def test_the_true_reward_makes_an_expert(terrain):
     """The solver alone: expected rewards of each cell and action given, practice finds a policy as good."""
     task = terrain.task

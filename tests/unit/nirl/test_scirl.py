@@ -24,6 +24,7 @@ SHOWN = RNG.integers(0, 3, 40)
 
 @settings(deadline=None)
 @given(arrays(float, 4, elements=st.floats(-2, 2)), st.floats(0, 1))
+@pytest.mark.slow
 def test_the_subgradient_is_that_of_the_cost(theta, ridge):
     def at(weights):
         return cost(weights, MU, SHOWN, ridge=ridge)[0]
@@ -49,6 +50,7 @@ def test_a_separable_case_is_separated():
     assert learned.costs[-1] < 0.5 * learned.costs[0]
 
 
+@pytest.mark.slow
 def test_weights_do_not_hang_on_the_unit_of_the_features():
     one = structured_classification(MU, SHOWN).weights
     other = structured_classification(1000 * MU, SHOWN).weights
@@ -87,6 +89,7 @@ def lstd(case, walks, policy, seed):
     return omega.reshape(task.n_states, task.n_actions, -1)
 
 
+@pytest.mark.slow
 def test_lstd_mu_finds_what_the_model_says(terrain):
     policy = np.full((terrain.task.n_states, 4), 0.25)
     estimate = lstd(terrain, 2000, policy, 1)
