@@ -102,17 +102,17 @@ class Trainer:
             if step.asked.any():
                 self._learn(step)
             if self.statistics.record:
-                for row in np.flatnonzero(step.running):
+                for row in step.robots:
                     self.tracks[row].append(self.simulator.poses[row].copy())
-            ended = step.running & (step.outcome != RUNNING)
-            if ended.any():
-                self._next_episode(np.flatnonzero(ended))
+            ended = step.robots[step.outcome != RUNNING]
+            if len(ended):
+                self._next_episode(ended)
             if progress is not None:
                 progress(int(self.episode.sum()), len(self.seeds) * self.episodes)
 
     def _choose(self, simulator: Simulator, sensing: Sensing, rows: Rows) -> Rows:
         """Actions (K,) of the softmax policies of ``rows`` (K,)."""
-        self.inputs = self.task.encoder(sensing[rows])
+        self.inputs = self.task.encoder(sensing)
         self.values = self.agent.values(rows, self.inputs)
         temperature = geometric_schedule(self.temperature, self._fraction(rows))
         uniforms = self.uniforms[rows, simulator.steps[rows]]
@@ -125,9 +125,8 @@ class Trainer:
 
     def _learn(self, step: Transition) -> None:
         """Let the agents whose policy chose learn from the step, and count it."""
-        rows = np.flatnonzero(step.asked)
-        before, after = step.sensing[rows], step.next_sensing[rows]
-        outcome = step.outcome[rows]
+        rows, outcome = step.robots[step.asked], step.outcome[step.asked]
+        before, after = step.sensing[step.asked], step.next_sensing[step.asked]
         rewards = np.asarray(self.task.reward(before, after, outcome), dtype=float)
         self.statistics.decisions[rows, self.episode[rows]] += 1
         self.statistics.returns[rows, self.episode[rows]] += rewards
@@ -136,7 +135,7 @@ class Trainer:
             Decisions(
                 inputs=self.inputs,
                 values=self.values,
-                actions=step.actions[rows],
+                actions=step.actions[step.asked],
                 rewards=rewards,
                 reached=self.task.encoder(after),
                 terminal=(outcome == ARRIVED) | (outcome == COLLIDED),
