@@ -148,21 +148,21 @@ def grade(
 ) -> None:
     """Grade a class. Run it again after it was cut: what is graded stays."""
     from robonav import progress
-    from robonav.grading import sandbox_check
-    from robonav.grading.cases import secret_from
-    from robonav.grading.classroom import GradingConfig, grade_class
+    from robonav.grading import probe
+    from robonav.grading.classroom import Marking, grade_class
     from robonav.grading.course import Course
+    from robonav.grading.parts import secret_from
 
     course = Course.around(Path(__file__).parent, Path.cwd())
     ids = [course.named(key).id for key in exercise or []]
-    config = GradingConfig(course, sandbox_check.best(), secret_from(secret))
-    if config.tier == "practice" and not practice:
+    marking = Marking(course, probe.best(), secret_from(secret))
+    if marking.tier == "practice" and not practice:
         raise ValueError(
-            f"there is no sandbox here, only --practice: {sandbox_check.fault('official')}"
+            f"there is no sandbox here, only --practice: {probe.fault('official')}"
         )
     with progress.bar("grading") as shown:
         grade_class(
-            config,
+            marking,
             folder,
             out,
             again=student or [],
@@ -268,7 +268,7 @@ def navigate(
         return
     check_integer("worlds", worlds, at_least=1)
     _check_json(json_file)
-    result = policies.drive(
+    result = policies.evaluate(
         method,
         obstacles=obstacles,
         moving=moving,
@@ -302,9 +302,9 @@ def leaderboard(
 ) -> None:
     """Put methods, your own in a file among them, on the board of all chapters' methods."""
     from robonav import experiments, progress
-    from robonav.benchmark.leaderboard import board
-    from robonav.benchmark.policies import method as known
-    from robonav.benchmark.policies import methods
+    from robonav.benchmark import method as known
+    from robonav.benchmark import methods
+    from robonav.experiments.leaderboard import board
     from robonav.experiments.runner.report import as_json, as_table
 
     names = method or methods()

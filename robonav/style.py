@@ -15,7 +15,7 @@ ROBOT, TARGET, OBSTACLE, MOVING = BLUE, VERMILION, "#767B81", PURPLE
 
 METHODS: dict[str, str] = {
     "straight": GREY,
-    "freer side": "#A6761D",
+    "freer-side": "#A6761D",
     "A*": ORANGE,
     "grid A*": SKY,
     "lfd": BLUE,

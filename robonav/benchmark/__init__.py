@@ -1,1 +1,33 @@
-"""The registry of policies and the leaderboard."""
+"""The registry of policies and the leaderboard, on which all methods meet the same worlds."""
+
+from .evaluation import outcome_rates
+from .leaderboard import (
+    DIGESTS,
+    SETTINGS,
+    VERSION,
+    Setting,
+    board_worlds,
+    digest,
+    evaluate_on_board,
+    shortest_paths,
+    spl,
+)
+from .policies import BASELINES, evaluate, fingerprint, method, methods
+
+__all__ = [
+    "BASELINES",
+    "DIGESTS",
+    "SETTINGS",
+    "VERSION",
+    "Setting",
+    "board_worlds",
+    "digest",
+    "evaluate",
+    "evaluate_on_board",
+    "fingerprint",
+    "method",
+    "methods",
+    "outcome_rates",
+    "shortest_paths",
+    "spl",
+]

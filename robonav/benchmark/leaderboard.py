@@ -1,38 +1,57 @@
-"""One leaderboard for the methods of all chapters: the same worlds, kept from everything that was trained or tuned.
+"""The leaderboard: the methods of all chapters in the same worlds, which nothing was trained or tuned in.
 
-The worlds are those of :func:`board_worlds`, version 1 of them frozen by :data:`DIGESTS`. A table names the version.
+The worlds are those of :func:`board_worlds`. :data:`DIGESTS` freezes version 1 of them, and every table names the
+version.
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.experiments.outcome_rates import rates
-from robonav.experiments.runner.experiment import Case, Experiment
 from robonav.lfd import plan_on_grid
 from robonav.robot import Worlds, navigate, neighbour_slip, random_worlds
 
-from .policies import fingerprint, method, methods
+from .evaluation import outcome_rates
+from .policies import method
 
 VERSION = 1
-SETS = 10  # of worlds, each a "seed" of the experiment
-WORLDS = {"quick": 20, "thesis": 200}
-SEED = (
-    77_000_000  # of the first set of the first setting; no other experiment comes near
+SETS = 10  # sets of worlds; each is one "seed" of the experiment
+WORLDS = 200  # in a set
+SEED = 77_000_000  # of the first set; no other experiment comes near
+ARRIVAL = (
+    3.0  # metres: an episode ends at most this far from the target, a plan ends on it
 )
-ARRIVAL = 3.0  # metres: a drive ends this far from the target at most, a plan on it
-MARGIN = 2.0  # that a plan keeps: every world has a way as wide as that
+MARGIN = (
+    2.0  # metres that a plan keeps from obstacles; every world has a path that wide
+)
 
 
 @dataclass(frozen=True)
 class Setting:
-    """One column of the board."""
+    """One column of the leaderboard.
+
+    Attributes
+    ----------
+    obstacles, moving : int
+        The number of standing obstacles, and of moving ones on top.
+    speed : float
+        Metres a second.
+    noise : float
+        Standard deviation of the noise on ranges, in metres.
+    slip : float
+        Probability that an action becomes one of its neighbours.
+
+    Examples
+    --------
+    >>> Setting(20, slip=0.2)
+    Setting(obstacles=20, moving=0, speed=2.0, noise=0.0, slip=0.2)
+    """
 
     obstacles: int
     moving: int = 0
@@ -54,79 +73,153 @@ SETTINGS: Mapping[str, Setting] = {
 }
 
 
-def board_worlds(setting: str, number: int, worlds: int) -> Worlds:
-    """The first so many worlds of one set of a setting; settings with as many obstacles share them."""
+def board_worlds(setting: str, number: int, worlds: int = WORLDS) -> Worlds:
+    """Worlds of the leaderboard. Settings with the same obstacles share them.
+
+    Parameters
+    ----------
+    setting : str
+        A key of :data:`SETTINGS`.
+    number : int
+        Which of the ten sets, from 0.
+    worlds : int
+        How many worlds, from the set's first on.
+
+    Returns
+    -------
+    Worlds
+        The batch.
+
+    Examples
+    --------
+    >>> len(board_worlds("20 obstacles", 0, 5))
+    5
+    """
     chosen = SETTINGS[setting]
     return random_worlds(worlds, chosen.obstacles, chosen.moving, seed=SEED + number)
 
 
 def digest(setting: str) -> str:
-    """SHA-256 of all worlds of a setting: of the digests of its ten sets of 200, one after the other."""
-    sets = [
-        board_worlds(setting, number, WORLDS["thesis"]).digest()
-        for number in range(SETS)
-    ]
+    """SHA-256 of all worlds of a setting: the digest of the digests of its ten sets.
+
+    Parameters
+    ----------
+    setting : str
+        A key of :data:`SETTINGS`.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits.
+
+    Examples
+    --------
+    >>> digest("10 obstacles") == DIGESTS["10 obstacles"]
+    True
+    """
+    sets = [board_worlds(setting, number).digest() for number in range(SETS)]
     return hashlib.sha256("".join(sets).encode()).hexdigest()
 
 
 @lru_cache(maxsize=64)
-def shortest_ways(obstacles: int, number: int, worlds: int) -> NDArray[np.float64]:
-    """Length of grid A*'s way through each world (N,), up to where the robot counts as arrived."""
+def shortest_paths(obstacles: int, number: int, worlds: int) -> NDArray[np.float64]:
+    """Length of grid A*'s path in each world of a set, up to the distance at which the robot has arrived.
+
+    Parameters
+    ----------
+    obstacles : int
+        The number of standing obstacles.
+    number : int
+        Which set.
+    worlds : int
+        How many worlds, from the set's first on.
+
+    Returns
+    -------
+    (N,) array
+        Metres.
+
+    Examples
+    --------
+    >>> shortest_paths(10, 0, 3).round()
+    array([113., 114., 114.])
+    """
     drawn = random_worlds(worlds, obstacles, seed=SEED + number)
     lengths = [plan_on_grid(drawn[i], margin=MARGIN).length for i in range(worlds)]
     return np.array(lengths) - ARRIVAL
 
 
 def spl(
-    success: NDArray[np.bool_], driven: ArrayLike, shortest: NDArray[np.float64]
+    success: NDArray[np.bool_], lengths: ArrayLike, shortest: NDArray[np.float64]
 ) -> float:
-    """Success weighted by path length (Anderson et al. 2018): the mean of shortest over driven length."""
-    return float(np.where(success, shortest / np.maximum(driven, shortest), 0.0).mean())
+    """Success weighted by path length (Anderson et al. 2018): the mean of shortest over actual length.
+
+    Parameters
+    ----------
+    success : (N,) array of bool
+        Which episodes arrived. The others count 0.
+    lengths : (N,) array
+        Metres that the robot went.
+    shortest : (N,) array
+        Metres of the shortest path.
+
+    Returns
+    -------
+    float
+        A number in [0, 1].
+
+    Examples
+    --------
+    >>> spl(np.array([True, True, False]), [100.0, 200.0, 50.0], np.full(3, 100.0))
+    0.5
+    """
+    ratio = shortest / np.maximum(lengths, shortest)
+    return float(np.where(success, ratio, 0.0).mean())
 
 
-def entry(case: Case, seed: int, scale: str) -> dict[str, float]:
-    """How a method does on one set of worlds of a setting."""
-    setting, worlds = SETTINGS[str(case["setting"])], WORLDS[scale]
-    drives = navigate(
-        method(str(case["method"])),
-        board_worlds(str(case["setting"]), seed, worlds),
-        setting.speed,
-        slip=neighbour_slip(setting.slip) if setting.slip else None,
-        noise=setting.noise,
-        seed=seed,
+def evaluate_on_board(
+    name: str, setting: str, number: int, worlds: int = WORLDS
+) -> dict[str, float]:
+    """Outcome rates and SPL of a method in one set of worlds.
+
+    Parameters
+    ----------
+    name : str
+        A method, see :func:`robonav.benchmark.method`.
+    setting : str
+        A key of :data:`SETTINGS`.
+    number : int
+        Which set.
+    worlds : int
+        How many worlds, from the set's first on.
+
+    Returns
+    -------
+    dict
+        ``success``, ``collision``, ``out of steps`` and ``SPL``, in per cent. Where obstacles move there is no SPL,
+        since they can block a planned path or leave it.
+
+    Examples
+    --------
+    >>> evaluate_on_board("straight", "30 obstacles", 0, worlds=20)["success"]
+    5.0
+    """
+    chosen = SETTINGS[setting]
+    navigation = navigate(
+        method(name),
+        board_worlds(setting, number, worlds),
+        chosen.speed,
+        slip=neighbour_slip(chosen.slip) if chosen.slip else None,
+        noise=chosen.noise,
+        seed=number,
     )
-    numbers = rates(drives)
-    if setting.moving == 0:  # what moves may stand in the way of a plan, or leave it
-        shortest = shortest_ways(setting.obstacles, seed, worlds)
-        numbers["SPL"] = 100 * spl(
-            drives.success, drives.steps * setting.speed, shortest
-        )
-    return numbers
+    rates = outcome_rates(navigation)
+    if chosen.moving == 0:
+        shortest = shortest_paths(chosen.obstacles, number, worlds)
+        lengths = navigation.steps * chosen.speed
+        rates["SPL"] = 100 * spl(navigation.success, lengths, shortest)
+    return rates
 
-
-def board(names: Sequence[str]) -> Experiment:
-    """The leaderboard of some methods: those that ship, or files of a reader's own."""
-    return Experiment(
-        name="leaderboard",
-        title="Methods on the same worlds, which none that ships was trained or tuned on",
-        cases=[
-            {"method": name, "setting": setting}
-            for name in names
-            for setting in SETTINGS
-        ],
-        run=entry,
-        seeds={"quick": 1, "thesis": SETS},
-        settings={
-            "version of the worlds": VERSION,
-            "worlds a set": WORLDS,
-            "a run": "a set of worlds; each method is one policy, as it ships",
-            "settings": {name: vars(setting) for name, setting in SETTINGS.items()},
-            "methods": {name: fingerprint(name) for name in names},
-        },
-    )
-
-
-EXPERIMENTS = (board(methods()),)
 
 DIGESTS: Mapping[str, str] = {
     "10 obstacles": "d576bd5adc0256653058399eb92c3dccbe21766f4aca64afa12cda63adaea794",
@@ -134,4 +227,4 @@ DIGESTS: Mapping[str, str] = {
     "30 obstacles": "bb94f98dce02971b249161cf377d27c20265bc40c5a30b9edc67f2109e94cb54",
     "10 and 10 moving": "607c5e47633b9e0f976d4e7aeb285b7c2bc6e2e5dcdc58cf2d831f972fab11c3",
 }
-"""The :func:`digest` of each setting that has worlds of its own: a paper can cite them."""
+"""The :func:`digest` of each setting that has worlds of its own. A paper can cite it."""

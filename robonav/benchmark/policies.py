@@ -1,4 +1,4 @@
-"""Methods that can be driven by name: two rules, the networks that ship with the package, and a reader's own."""
+"""The registry of policies: two baselines, the networks that ship with the package, and a reader's own files."""
 
 from __future__ import annotations
 
@@ -19,24 +19,58 @@ from robonav.robot import (
     turn_to_clearer_side,
 )
 
-RULES: dict[str, Policy] = {"straight": straight, "freer-side": turn_to_clearer_side}
+BASELINES: dict[str, Policy] = {
+    "straight": straight,
+    "freer-side": turn_to_clearer_side,
+}
+"""Policies that have learned nothing. Every table shows them beside what was learned."""
+
 CHAPTERS = ("lfd", "nnql", "nirl")
 
 
 def methods() -> list[str]:
-    """The names of all methods: rules first, then shipped networks, chapter by chapter."""
-    return [*RULES, *_shipped()]
+    """The names of all methods: first the baselines, then the shipped networks, chapter by chapter.
+
+    Returns
+    -------
+    list of str
+        The names that :func:`method` takes.
+
+    Examples
+    --------
+    >>> methods()[:4]
+    ['straight', 'freer-side', 'dagger', 'lfd']
+    """
+    return [*BASELINES, *_shipped()]
 
 
 def method(name: str) -> Policy:
-    """The policy of this name; or of a file: weights (.safetensors), or Python (.py) that defines ``policy``.
+    """The policy of a method.
+
+    Parameters
+    ----------
+    name : str
+        One of :func:`methods`; or a file: weights (.safetensors), or Python code (.py) that defines ``policy``. Code is
+        run, so load only your own.
+
+    Returns
+    -------
+    callable
+        ``policy(sensing, rng)`` returns the actions (N,).
 
     Raises
     ------
-    ValueError : if there is no such method or file, or the file has no policy.
+    ValueError
+        If there is no such method or file, or the file has no policy.
+
+    Examples
+    --------
+    >>> from robonav.robot import navigate, random_worlds
+    >>> navigate(method("nnql"), random_worlds(3, 5, seed=0)).outcome
+    array(['arrived', 'arrived', 'arrived'], dtype='<U12')
     """
-    if name in RULES:
-        return RULES[name]
+    if name in BASELINES:
+        return BASELINES[name]
     path = _shipped().get(name, Path(name))
     if path.suffix not in (".safetensors", ".py") or not path.is_file():
         known = ", ".join(methods())
@@ -47,52 +81,90 @@ def method(name: str) -> Policy:
 
 
 def fingerprint(name: str) -> str:
-    """SHA-256 of the file a method is in, "" for a rule: results hang on it."""
+    """SHA-256 of the file of a method. Results name it, so that they are not taken for those of another network.
+
+    Parameters
+    ----------
+    name : str
+        As in :func:`method`.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits; the empty string for a baseline.
+
+    Examples
+    --------
+    >>> fingerprint("straight"), len(fingerprint("nirl"))
+    ('', 64)
+    """
     method(name)
-    return (
-        ""
-        if name in RULES
-        else hashlib.sha256(_shipped().get(name, Path(name)).read_bytes()).hexdigest()
-    )
+    if name in BASELINES:
+        return ""
+    return hashlib.sha256(_shipped().get(name, Path(name)).read_bytes()).hexdigest()
 
 
-def drive(
+def evaluate(
     name: str, *, obstacles: int, moving: int, speed: float, worlds: int, seed: int
 ) -> dict[str, Any]:
-    """How a method does in new worlds: success rate, its Wilson interval, and how many drives ended how."""
+    """Evaluate a method in new worlds: what the command ``robonav navigate`` prints.
+
+    Parameters
+    ----------
+    name : str
+        As in :func:`method`.
+    obstacles, moving : int
+        The number of standing obstacles, and of moving ones on top.
+    speed : float
+        Metres a second.
+    worlds : int
+        The number of worlds.
+    seed : int
+        The seed of the worlds.
+
+    Returns
+    -------
+    dict
+        The arguments; ``success`` and ``collision`` (rates in [0, 1]); ``interval`` (Wilson's 95 % interval of the
+        success rate); ``outcomes`` (the number of episodes by outcome); ``mean_steps_of_arrivals`` (None if no episode
+        arrived).
+
+    Examples
+    --------
+    >>> result = evaluate("straight", obstacles=10, moving=0, speed=2.0, worlds=20, seed=7)
+    >>> result["outcomes"]
+    {'arrived': 9, 'collided': 11, 'out of steps': 0}
+    """
     from scipy.stats import binomtest
 
     policy = method(name)
-    drives = navigate(
+    navigation = navigate(
         policy, random_worlds(worlds, obstacles, moving, seed=seed), speed
     )
-    interval = binomtest(int(drives.success.sum()), worlds).proportion_ci(
-        method="wilson"
-    )
-    settings = {
+    arrived = navigation.success
+    interval = binomtest(int(arrived.sum()), worlds).proportion_ci(method="wilson")
+    return {
+        "method": name,
         "obstacles": obstacles,
         "moving": moving,
         "speed": speed,
         "worlds": worlds,
         "seed": seed,
-    }
-    return {
-        "method": name,
-        **settings,
-        "success": float(drives.success.mean()),
-        "collision": float(drives.collision.mean()),
+        "success": float(arrived.mean()),
+        "collision": float(navigation.collision.mean()),
         "interval": [float(interval.low), float(interval.high)],
         "outcomes": {
-            ended: int((drives.outcome == ended).sum())
-            for ended in OUTCOMES[1:].tolist()
+            outcome: int((navigation.outcome == outcome).sum())
+            for outcome in OUTCOMES[1:].tolist()
         },
-        "mean_steps_of_arrivals": float(drives.steps[drives.success].mean())
-        if drives.success.any()
+        "mean_steps_of_arrivals": float(navigation.steps[arrived].mean())
+        if arrived.any()
         else None,
     }
 
 
 def _shipped() -> dict[str, Path]:
+    """The files of the shipped networks, by method."""
     found: dict[str, Path] = {}
     for chapter in CHAPTERS:
         folder = Path(str(files(f"robonav.{chapter}"))) / "shipped"
@@ -106,7 +178,7 @@ def _from_weights(path: Path) -> NetworkPolicy:
 
 
 def _from_code(path: Path) -> Policy:
-    """What a reader's file calls ``policy``; the file is run, so it must be one's own."""
+    """The object that a reader's file calls ``policy``. Loading the file runs its code."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     if spec is None or spec.loader is None:
         raise ValueError(f"method must be a Python file, got {path}")

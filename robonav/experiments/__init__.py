@@ -1,8 +1,8 @@
 """Every table and figure of the thesis as a named experiment."""
 
 from .registry import experiment, names
-from .runner.experiment import Case, Experiment, Results, Row
-from .runner.results import RESULTS, load_results, save_results
+from .runner.experiment import Case, Experiment, Plot, Results
+from .runner.results import RESULTS, load_results, read_results, save_results
 from .runner.run import reproduce
 from .runner.statistics import (
     Improvement,
@@ -17,14 +17,15 @@ __all__ = [
     "Case",
     "Experiment",
     "Improvement",
+    "Plot",
     "Results",
-    "Row",
     "Summary",
     "bootstrap_interval",
     "experiment",
     "load_results",
     "names",
     "probability_of_improvement",
+    "read_results",
     "reproduce",
     "save_results",
     "summarise",

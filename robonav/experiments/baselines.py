@@ -1,48 +1,46 @@
-"""What a robot does that has learned nothing: the numbers that every table is held against."""
+"""The baselines as an experiment: every table is compared with policies that have learned nothing."""
 
 from __future__ import annotations
 
-from robonav.robot import (
-    Policy,
-    navigate,
-    random_worlds,
-    straight,
-    turn_to_clearer_side,
-)
+from robonav.benchmark import BASELINES, outcome_rates
+from robonav.robot import navigate, random_worlds
 
-from .outcome_rates import rates
-from .runner.experiment import Case, Experiment
+from .runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers
 
-RULES: dict[str, Policy] = {"straight": straight, "freer side": turn_to_clearer_side}
-SEED = 9_000  # of the worlds; run k drives through those of SEED + k
+FIRST_SEED = 9_000  # run k is tested in the worlds of this seed + k
 WORLDS = {"quick": 100, "thesis": 1000}
 
 
-def drive(case: Case, seed: int, scale: str) -> dict[str, float]:
-    """How drives through one batch of worlds end."""
+def evaluate_baseline(case: Case, seed: int, scale: str) -> Numbers:
+    """Outcome rates of a baseline in one batch of worlds."""
     worlds = random_worlds(
-        WORLDS[scale], int(case["standing"]), int(case["moving"]), seed=SEED + seed
+        WORLDS[scale],
+        int(case["standing"]),
+        int(case["moving"]),
+        seed=FIRST_SEED + seed,
     )
-    return rates(navigate(RULES[str(case["rule"])], worlds, float(case["speed"])))
+    policy = BASELINES[str(case["rule"])]
+    return outcome_rates(navigate(policy, worlds, float(case["speed"])))
 
 
-YARDSTICKS = Experiment(
-    name="yardsticks",
-    title="Robots that have learned nothing: straight on, and a rule of three lines",
-    cases=[
-        {"rule": rule, "standing": standing, "moving": moving, "speed": speed}
-        for rule in RULES
-        for standing, moving, speed in (
-            (10, 0, 2.0),
-            (10, 0, 2.5),
-            (20, 0, 2.0),
-            (30, 0, 2.0),
-            (10, 10, 2.0),
-        )
-    ],
-    run=drive,
-    seeds={"quick": 5, "thesis": 25},
-    settings={"worlds a run": WORLDS, "first seed of the worlds": SEED},
+EXPERIMENTS = (
+    Experiment(
+        name="baselines",
+        title="Policies that have learned nothing: straight on, and the rule of the clearer side",
+        cases=[
+            {"rule": rule, "standing": standing, "moving": moving, "speed": speed}
+            for rule in BASELINES
+            for standing, moving, speed in (
+                (10, 0, 2.0),
+                (10, 0, 2.5),
+                (20, 0, 2.0),
+                (30, 0, 2.0),
+                (10, 10, 2.0),
+            )
+        ],
+        run=evaluate_baseline,
+        seeds={"quick": 5, "thesis": 25},
+        settings={"worlds a run": WORLDS, "first seed of the worlds": FIRST_SEED},
+        plot=SUCCESS_BARS,
+    ),
 )
-
-EXPERIMENTS = (YARDSTICKS,)

@@ -1,4 +1,4 @@
-"""What the training lab replays: learning runs in every combination of some settings, one experiment a chapter."""
+"""What the training labs replay: trainings in every combination of some settings, one experiment a chapter."""
 
 from __future__ import annotations
 
@@ -12,31 +12,14 @@ from robonav.lfd import labelled_states
 from robonav.networks import NetworkPolicy, fit
 from robonav.robot import Encoder, navigate
 
-from .chapter3.setup import Numbers, new_worlds, shown
-from .chapter4.setup import SHORTENED
-from .chapter4.tuning import FIRST, trained
-from .chapter5.setup import learned
+from .chapter3 import setup as chapter3
+from .chapter4 import setup as chapter4
+from .chapter5 import setup as chapter5
 from .chapter5.tuning import trial_settings
-from .runner.experiment import Case, Experiment, Results
-from .runner.results import RESULTS as RESULTS
+from .runner.experiment import Case, Experiment, Numbers, Results
 
-EARLY = (
-    0,
-    5,
-    10,
-    15,
-    20,
-    25,
-    30,
-    40,
-    50,
-    75,
-    100,
-    150,
-    200,
-    250,
-    300,
-)  # most happens in the first 50 iterations
+# Most happens in the first 50 iterations.
+EARLY = (0, 5, 10, 15, 20, 25, 30, 40, 50, 75, 100, 150, 200, 250, 300)
 BIN = 30  # episodes, as in Fig. 4.4
 EPISODES = 300
 METHODS = ("nnql", "online", "nfq", "dqn")
@@ -46,15 +29,15 @@ TEMPERATURES = {
     "0.9 throughout": (0.9, 0.9),
 }
 UPDATES: dict[str, dict[str, dict[str, Any]]] = {
-    "as the thesis has it": {"nnql": {}, "online": {}, "nfq": {}, "dqn": {}},
-    "a quarter of that": {
-        "nnql": {"alpha": 0.2},
-        "online": {"alpha": 0.2},
-        "nfq": {"fitting": (5, 25)},
-        "dqn": {"rate": 0.00075},
+    "the thesis's": {"nnql": {}, "online": {}, "nfq": {}, "dqn": {}},
+    "a quarter": {
+        "nnql": {"learning_rate": 0.2},
+        "online": {"learning_rate": 0.2},
+        "nfq": {"sweeps": 5, "epochs": 25},
+        "dqn": {"gradient_step": 0.00075},
     },
 }
-"""How far an update goes: the learning rate of each method, which for NFQ is how long it fits."""
+"""The learning rate of each method. For NFQ, which has none, it is the number of epochs of a fit."""
 
 STEPS: dict[str, dict[str, Sequence[int]]] = {
     "lab-lfd": {"cost": EARLY, "accuracy": EARLY, "success": EARLY},
@@ -65,53 +48,61 @@ STEPS: dict[str, dict[str, Sequence[int]]] = {
         name: range(5, 141, 5) for name in ("margin", "cost", "success", "agreement")
     },
 }
-"""At which iterations or episodes each number of a run is taken."""
+"""The iterations or episodes at which each number of a run is taken."""
 
 
 def from_demonstrations(case: Case, seed: int, scale: str) -> Numbers:
-    """Algorithm 3 while it goes on: cost, agreement with the demonstrations, and what the robot does in new maps."""
-    x, y = labelled_states(shown(seed, drives=int(case["demonstrations"])))
+    """Algorithm 3 over its iterations: cost, accuracy on the demonstrations, and success in new maps."""
+    x, y = labelled_states(
+        chapter3.demonstrations(seed, number=int(case["demonstrations"]))
+    )
     training = fit(
-        x, y, hidden=int(case["hidden"]), regularisation=float(case["lambda"]), iterations=EARLY[-1], seed=seed,
+        x,
+        y,
+        hidden=int(case["hidden"]),
+        regularisation=float(case["lambda"]),
+        iterations=EARLY[-1],
+        seed=seed,
         record=True,
-    )  # fmt: skip
+    )
     assert training.networks is not None
     at = np.minimum(EARLY, training.iterations)
-    worlds, networks = new_worlds(seed, scale), training.networks
-    arrived = {
+    worlds, networks = chapter3.SETUP.test_worlds(seed, scale), training.networks
+    success = {
         k: navigate(NetworkPolicy(networks[k], Encoder()), worlds).success.mean()
         for k in {*at.tolist()}
     }
     return {
         "cost": training.costs[at],
         "accuracy": 100 * training.accuracies[at],
-        "success": [100 * arrived[k] for k in at.tolist()],
+        "success": [100 * success[k] for k in at.tolist()],
     }
 
 
 def from_reward(case: Case, seed: int, scale: str) -> Numbers:
-    """Successes and collisions while a method of chapter 4 learns, in per cent of the last 30 episodes."""
+    """Successes and collisions while a method of chapter 4 trains, in per cent of every 30 episodes."""
     method = str(case["method"])
-    settings = FIRST[method] | UPDATES[str(case["learning rate"])][method]
+    settings = chapter4.THESIS[method] | UPDATES[str(case["learning rate"])][method]
     settings |= {"temperature": TEMPERATURES[str(case["temperature"])]}
-    outcomes = trained(method, seed, scale, settings, length=SHORTENED[scale]).outcomes[
-        0
-    ]
+    length = chapter4.SHORTENED[scale]
+    training = chapter4.training(method, seed, scale, settings, length=length)
+    outcomes = training.outcomes[0]
     bins = outcomes[: len(outcomes) // BIN * BIN].reshape(-1, BIN)
-    ended = {"success": "arrived", "collision": "collided"}
-    return {name: 100 * (bins == end).mean(axis=1) for name, end in ended.items()}
+    named = {"success": "arrived", "collision": "collided"}
+    return {name: 100 * (bins == end).mean(axis=1) for name, end in named.items()}
 
 
 def from_expert(case: Case, seed: int, scale: str) -> Numbers:
-    """Algorithm 10 while it goes on: margin, cost, practice drives that arrive, and agreement with the expert."""
+    """Algorithm 10 over its iterations: margin, cost, episodes that arrive, and balanced accuracy."""
     settings = trial_settings("nirl", 0, float(case["discount"])) | {
-        "ends": str(case["ends"])
+        "terminal_values": str(case["terminal values"])
     }
-    history = learned("nirl", seed, settings, int(case["demonstrations"])).history
+    number = int(case["demonstrations"])
+    history = chapter5.trained("nirl", seed, settings, number).history
     at = np.minimum(np.array(STEPS["lab-nirl"]["cost"]), len(history.costs)) - 1
 
     def recent(series: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The mean of the last five iterations: one alone has ten drives."""
+        """The mean of the last five iterations, since one alone has ten episodes."""
         return np.array([series[max(k - 4, 0) : k + 1].mean() for k in at])
 
     return {
@@ -123,15 +114,15 @@ def from_expert(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def _combinations(settings: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
-    """Every case, the last setting changing fastest."""
+    """Every combination; the last setting changes fastest."""
     cases: list[dict[str, Any]] = [{}]
-    for name, choices in settings.items():
-        cases = [case | {name: choice} for case in cases for choice in choices]
+    for name, values in settings.items():
+        cases = [case | {name: value} for case in cases for value in values]
     return cases
 
 
-def offered(results: Results) -> dict[str, list[str]]:
-    """The settings that an experiment varies, and their choices, as text."""
+def choices(results: Results) -> dict[str, list[str]]:
+    """The settings that an experiment varies, with their values as text."""
     cases = results.experiment.cases
     return {
         name: list(dict.fromkeys(str(case[name]) for case in cases))
@@ -149,6 +140,7 @@ EXPERIMENTS = (
         run=from_demonstrations,
         seeds={"quick": 1, "thesis": 3},
         settings={"iterations": EARLY, "target": "sine-cosine"},
+        plot="the training lab draws it",
     ),
     Experiment(
         name="lab-nnql",
@@ -164,6 +156,7 @@ EXPERIMENTS = (
         seeds={"quick": 1, "thesis": 5},
         shortened="a fifth of the episodes",
         settings={"updates": UPDATES, "bin": BIN},
+        plot="the training lab draws it",
     ),
     Experiment(
         name="lab-nirl",
@@ -172,11 +165,12 @@ EXPERIMENTS = (
             {
                 "demonstrations": (10, 30, 50),
                 "discount": (0.65, 0.9),
-                "ends": ("bonus", "neutral"),
+                "terminal values": ("bonus", "neutral"),
             }
         ),
         run=from_expert,
         seeds={"quick": 1, "thesis": 3},
         settings={"trial": 0},
+        plot="the training lab draws it",
     ),
 )

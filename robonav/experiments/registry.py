@@ -1,4 +1,4 @@
-"""All experiments by name. A module listed here has a tuple ``EXPERIMENTS``."""
+"""All experiments by name. Each module listed here has a tuple ``EXPERIMENTS``."""
 
 from __future__ import annotations
 
@@ -7,32 +7,59 @@ import importlib
 from .runner.experiment import Experiment
 
 MODULES = (
-    "robonav.experiments.baselines",
-    "robonav.experiments.chapter3.tables",
-    "robonav.experiments.chapter4.tables",
-    "robonav.experiments.chapter4.ablations",
-    "robonav.experiments.chapter4.tuning",
-    "robonav.experiments.chapter5.tables",
-    "robonav.experiments.chapter5.ablations",
-    "robonav.experiments.chapter5.transfer",
-    "robonav.experiments.chapter5.tuning",
-    "robonav.experiments.single_runs",
-    "robonav.benchmark.leaderboard",
-    "robonav.experiments.labs",
+    "baselines",
+    "chapter3.tables",
+    "chapter4.tables",
+    "chapter4.ablations",
+    "chapter4.tuning",
+    "chapter5.tables",
+    "chapter5.ablations",
+    "chapter5.transfer",
+    "chapter5.tuning",
+    "single_runs",
+    "leaderboard",
+    "labs",
 )
 
 
 def names() -> list[str]:
-    """The names of all experiments, in the order of the chapters."""
+    """The names of all experiments, chapter by chapter.
+
+    Returns
+    -------
+    list of str
+        The names that ``robonav reproduce`` takes.
+
+    Examples
+    --------
+    >>> "table-4.3" in names()
+    True
+    """
     return list(_all())
 
 
 def experiment(name: str) -> Experiment:
-    """The experiment of this name.
+    """The experiment of a name.
+
+    Parameters
+    ----------
+    name : str
+        One of :func:`names`.
+
+    Returns
+    -------
+    Experiment
+        Its cases, seeds and settings.
 
     Raises
     ------
-    ValueError : if there is none, naming those there are.
+    ValueError
+        If there is none. The message names those there are.
+
+    Examples
+    --------
+    >>> experiment("table-4.3").seeds
+    {'quick': 2, 'thesis': 50}
     """
     known = _all()
     if name not in known:
@@ -41,5 +68,5 @@ def experiment(name: str) -> Experiment:
 
 
 def _all() -> dict[str, Experiment]:
-    modules = [importlib.import_module(module) for module in MODULES]
+    modules = [importlib.import_module(f"{__package__}.{name}") for name in MODULES]
     return {found.name: found for module in modules for found in module.EXPERIMENTS}

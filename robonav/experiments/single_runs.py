@@ -1,4 +1,4 @@
-"""Figures of the thesis that show single drives, plans and demonstrations: their paths as numbers.
+"""Figures of the thesis that show single episodes, plans and demonstrations: their paths as numbers.
 
 Every case is one panel. Its world is drawn from seeds named in the case; ``x`` and ``y`` are the path in metres.
 """
@@ -10,10 +10,10 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from robonav import mdp
-from robonav.benchmark.policies import fingerprint, method
+from robonav.benchmark import fingerprint, method
 from robonav.lfd import (
     ComputerExpert,
     demonstrate_by_hand,
@@ -25,22 +25,22 @@ from robonav.lfd import (
 from robonav.nnql import NavigationTask, TrainingResult, train
 from robonav.robot import Worlds, navigate, neighbour_slip, random_worlds
 
-from .runner.experiment import Case, Experiment
-
-Numbers = dict[str, NDArray[np.float64] | float]
+from .runner.experiment import Case, Experiment, Numbers, Plot
 
 ONCE = {"quick": 1, "thesis": 1}
-SEED = 4_010  # of the worlds that are shown
+SEED = 4_010  # of the worlds
 EPISODES = 300
-LEARNER = 3  # seed of the robot whose training Fig. 4.2 shows
-EVERY = 4  # of so many nodes visited, one is kept
+TRAINING_SEED = 3  # of the robot whose training Fig. 4.2 shows
+EVERY = 4  # of the visited nodes are kept
 FAR = {"starts": ((10.0, 50.0), (50.0, 10.0)), "targets": ((90.0, 85.0), (50.0, 90.0))}
 
 
 def world_of(case: Case) -> Worlds:
     """The world (a batch of one) that a panel shows."""
     if "episode" in case:
-        return NavigationTask().worlds([LEARNER], 0, EPISODES)[int(case["episode"]) - 1]
+        return NavigationTask().worlds([TRAINING_SEED], 0, EPISODES)[
+            int(case["episode"]) - 1
+        ]
     ends: dict[str, Any] = FAR if case.get("starts") == "new" else {}
     drawn = random_worlds(
         int(case["world"]) + 1,
@@ -52,82 +52,89 @@ def world_of(case: Case) -> Worlds:
     return drawn[int(case["world"])]
 
 
-def path_of(poses: ArrayLike) -> Numbers:
+def path_of(poses: ArrayLike) -> dict[str, ArrayLike]:
     """The x and y of poses (T, 2 or more)."""
     x, y = np.asarray(poses, dtype=float)[:, :2].T
     return {"x": x, "y": y}
 
 
-def drive(case: Case, seed: int, scale: str) -> Numbers:
-    """A method's drive through the panel's world."""
-    done = navigate(
+def navigation(case: Case, seed: int, scale: str) -> Numbers:
+    """One episode of a method in the panel's world."""
+    episode = navigate(
         method(str(case["method"])),
         world_of(case),
         float(case["speed"]),
         record_paths=True,
         seed=seed,
     )
-    assert done.paths is not None
-    return path_of(done.paths[0]) | {"arrived": float(done.success[0])}
+    assert episode.paths is not None
+    return path_of(episode.paths[0]) | {"arrived": float(episode.success[0])}
 
 
 def search(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.4: the path that a planner finds, and some of the nodes that it expands on the way."""
+    """Fig. 3.4: the path that a planner finds, and every fourth of the nodes that it expands."""
     planners: dict[str, Callable[..., Any]] = {
         "modified A*": plan,
         "grid A*": plan_on_grid,
     }
-    made = planners[str(case["planner"])](world_of(case), margin=2.0, record=True)
-    visited = path_of(made.visited[::EVERY])
-    found = {"length": made.length, "expanded": float(made.expanded)}
+    found = planners[str(case["planner"])](world_of(case), margin=2.0, record=True)
+    visited = path_of(found.visited[::EVERY])
     return (
-        path_of(made.points)
+        path_of(found.points)
         | {"visited x": visited["x"], "visited y": visited["y"]}
-        | found
+        | {"length": found.length, "expanded": float(found.expanded)}
     )
 
 
 @lru_cache(maxsize=1)
-def learned() -> TrainingResult:
-    """The one training that Fig. 4.2 looks into."""
-    return train("nnql", seeds=[LEARNER], episodes=EPISODES, record=True)
+def training() -> TrainingResult:
+    """The training that Fig. 4.2 shows."""
+    return train("nnql", seeds=[TRAINING_SEED], episodes=EPISODES, record=True)
 
 
-def episode(case: Case, seed: int, scale: str) -> Numbers:
+def training_episode(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 4.2: the path of one episode of training."""
     number = int(case["episode"]) - 1
-    training = learned()
-    assert training.paths is not None
-    return path_of(training.paths[0][number]) | {
-        "arrived": float(training.successes[0, number])
+    trained = training()
+    assert trained.paths is not None
+    return path_of(trained.paths[0][number]) | {
+        "arrived": float(trained.successes[0, number])
     }
 
 
-def by_hand(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 5.3 and 5.6: a demonstration through key points."""
+def demonstration_by_hand(case: Case, seed: int, scale: str) -> Numbers:
+    """Figs. 5.3 and 5.6: a demonstration through key points."""
     world = world_of(case)
     shown = demonstrate_by_hand(world, sketch(world, seed=seed))
     return path_of(shown.poses) | {"effective pairs": float(len(shown.effective))}
 
 
-def slipping(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 5.5: an expert whose turns come out otherwise."""
+def slipping_demonstration(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 5.5: an expert whose turns sometimes come out 30 degrees off."""
     slip = neighbour_slip(float(case["slip"]))
-    happened = record(ComputerExpert(), world_of(case), slip=slip)
-    meant = record(ComputerExpert(), world_of(case), slip=slip, labels=ComputerExpert())
-    return path_of(happened.poses) | {
-        "slipped": float((happened.actions != meant.actions).sum())
+    executed = record(ComputerExpert(), world_of(case), slip=slip)
+    intended = record(
+        ComputerExpert(), world_of(case), slip=slip, labels=ComputerExpert()
+    )
+    return path_of(executed.poses) | {
+        "slipped": float((executed.actions != intended.actions).sum())
     }
 
 
-def trace(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 2.4: how far values and policy are from each other's line after each half step."""
+def iteration_gaps(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 2.4: the gaps of evaluation and improvement after each half step."""
     exits = {"G": mdp.Cell(reward=1, ends=True), "X": mdp.Cell(reward=-1, ends=True)}
     grid = mdp.GridWorld("S...\n.#.X\n...G", legend=exits, slip=0.2, step_reward=-0.04)
-    found = mdp.generalized_policy_iteration(
+    solution = mdp.generalized_policy_iteration(
         grid.mdp(0.9), sweeps=int(case["sweeps"]), tolerance=1e-6
     )
-    return {"evaluation gap": found.evaluation_gap, "improvement gap": found.greedy_gap}
+    return {
+        "evaluation gap": solution.evaluation_gap,
+        "improvement gap": solution.greedy_gap,
+    }
+
+
+PATHS = Plot("single_runs.plot_paths")
 
 
 def panels(
@@ -135,9 +142,10 @@ def panels(
     title: str,
     run: Callable[..., Numbers],
     cases: Sequence[Case],
+    plot: Plot = PATHS,
     **settings: Any,
 ) -> Experiment:
-    """A figure with a panel a case, each made once."""
+    """A figure with a panel for each case, run once."""
     return Experiment(
         name=name,
         title=title,
@@ -145,10 +153,11 @@ def panels(
         run=run,
         seeds=ONCE,
         settings={"worlds": SEED} | settings,
+        plot=plot,
     )
 
 
-def shipped(
+def shipped_policies(
     name: str, title: str, methods: Sequence[str], **case: str | float | int
 ) -> Experiment:
     """A figure of shipped policies, four worlds each."""
@@ -158,13 +167,18 @@ def shipped(
         for world in range(4)
     ]
     return panels(
-        name, title, drive, cases, methods={one: fingerprint(one) for one in methods}
+        name,
+        title,
+        navigation,
+        cases,
+        methods={one: fingerprint(one) for one in methods},
     )
 
 
 EXPERIMENTS = (
-    panels("figure-2.4", "Generalized policy iteration: between two lines", trace,
-           [{"sweeps": sweeps} for sweeps in (1, 5, 1000)]),
+    panels("figure-2.4", "Generalized policy iteration: between two lines", iteration_gaps,
+           [{"sweeps": sweeps} for sweeps in (1, 5, 1000)],
+           plot=Plot("single_runs.plot_gaps")),
     panels(
         "figure-3.4",
         "What modified and grid A* visit",
@@ -174,16 +188,17 @@ EXPERIMENTS = (
     panels(
         "figure-4.2",
         "One robot's path in eight of its 300 episodes",
-        episode,
+        training_episode,
         [{"episode": number} for number in (1, 20, 50, 100, 150, 200, 250, 300)],
-        learner=LEARNER,
+        learner=TRAINING_SEED,
     ),
-    shipped("figure-4.5", "NNQL in new maps, from new starts to new targets", ["nnql"], obstacles=12, starts="new"),
-    panels("figure-5.3", "Demonstrations by hand, through key points", by_hand,
+    shipped_policies("figure-4.5", "NNQL in new maps, from new starts to new targets", ["nnql"],
+                     obstacles=12, starts="new"),
+    panels("figure-5.3", "Demonstrations by hand, through key points", demonstration_by_hand,
            [{"world": world, "obstacles": 20} for world in range(2)]),
-    panels("figure-5.5", "Demonstrations whose actions slip", slipping,
+    panels("figure-5.5", "Demonstrations whose actions slip", slipping_demonstration,
            [{"world": 0, "obstacles": 20, "slip": slip} for slip in (0.3, 0.03)]),
-    panels("figure-5.6", "More demonstrations by hand", by_hand,
+    panels("figure-5.6", "More demonstrations by hand", demonstration_by_hand,
            [{"world": world, "obstacles": 20} for world in range(2, 6)]),
-    shipped("figure-5.9", "NIRL in new maps", ["nirl"], obstacles=20, starts="new"),
+    shipped_policies("figure-5.9", "NIRL in new maps", ["nirl"], obstacles=20, starts="new"),
 )  # fmt: skip

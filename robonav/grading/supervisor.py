@@ -12,7 +12,7 @@ import signal
 from collections.abc import Sequence
 from contextlib import suppress
 
-from . import hardening, worker
+from . import confine, worker
 
 
 def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) -> None:
@@ -20,8 +20,8 @@ def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) ->
     if (child := os.fork()) == 0:
         try:
             os.close(lifeline)
-            hardening.become(user)
-            if hardening.restrict_files(readable, [folder, os.devnull]):
+            confine.become(user)
+            if confine.restrict_files(readable, [folder, os.devnull]):
                 worker.main()
         finally:
             os._exit(0)

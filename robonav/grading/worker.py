@@ -19,7 +19,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from . import frames, hardening, notebook
+from . import confine, frames, notebook
 
 STUB = 'raise NotImplementedError("{name} is yours to write")'  # what stands in a file before the student writes it
 ALLOWED = {"numpy", *sys.stdlib_module_names}
@@ -56,7 +56,7 @@ def main() -> None:
     _close_the_gate(
         {part.removesuffix(".py") for name in files for part in name.split("/")}
     )
-    hardening.limit(opening["limits"])
+    confine.limit(opening["limits"])
     frames.write(replies, "ready")
     home = Path.cwd()
     try:
@@ -128,7 +128,7 @@ def _serve_in_child(
     if (child := os.fork()) == 0:
         status = 1
         try:
-            hardening.filter_calls()
+            confine.filter_calls()
             _serve(requests, replies, request)
             status = 0
         finally:

@@ -164,18 +164,19 @@ def record(
     simulator = Simulator(worlds, speed, slip=slip, max_steps=max_steps)
     advice = np.zeros(len(worlds), dtype=np.int64)
 
-    def choose(simulator: Simulator, sensing: Sensing, robots: Actions) -> Actions:
+    def choose(simulator: Simulator, sensing: Sensing, asked: Actions) -> Actions:
         if labels is not None:
-            advice[robots] = labels(simulator, robots)
-        return expert(simulator, robots)
+            advice[asked] = labels(simulator, asked)
+        return expert(simulator, asked)
 
     rows: list[tuple[Actions, Sensing, Actions, Floats]] = []
-    for second in drive(simulator, choose, reflex=reflex):
-        done = second.executed if labels is None else advice[second.robots]
-        actions = np.where(second.asked, done, second.actions)
-        rows.append((second.robots, second.sensing, actions, second.poses))
+    for step in drive(simulator, choose, reflex=reflex):
+        done = executed(step.poses, simulator.poses) if labels is None else advice
+        actions = np.where(step.asked, done, step.actions)
+        robots = np.flatnonzero(step.running)
+        rows.append((robots, step.sensing[robots], actions[robots], step.poses[robots]))
         if progress is not None:
-            progress(len(worlds) - len(second.robots), len(worlds))
+            progress(len(worlds) - len(robots), len(worlds))
     return _by_drive(worlds, rows, speed, OUTCOMES[simulator.outcome])
 
 

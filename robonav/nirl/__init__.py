@@ -2,22 +2,22 @@
 
 from .apprenticeship import (
     Apprenticeship,
-    max_margin_method,
+    by_max_margin,
+    by_projection,
     nearest_mixture,
     project,
-    projection_method,
 )
-from .benchmark_mdps import TERRAIN_KINDS, TRUE_WEIGHTS, terrain
+from .benchmark_mdps import KINDS, TRUTH, terrain
 from .boltzmann import boltzmann
 from .feature_expectations import (
-    discounted_feature_sums,
+    average_by,
+    discounted_to_go,
     empirical_expectations,
     feature_expectations,
-    initial_expectations,
-    mean_by_pair,
+    start_expectations,
 )
-from .features import all_action_features, state_action_features
-from .max_margin import Margin, maximum_margin, maximum_margin_subgradient
+from .features import action_blocks, chosen_block
+from .max_margin import Margin, widest_margin, widest_margin_subgradient
 from .maximum_entropy import (
     MaximumEntropy,
     SoftSolution,
@@ -28,26 +28,26 @@ from .maximum_entropy import (
 from .methods import (
     METHODS,
     Learned,
-    from_all_states,
-    from_initial_state,
-    heuristic_estimate,
+    by_heuristic,
+    by_lstd,
+    from_everywhere,
+    from_start,
     learn,
-    learn_under_reward,
-    lstd_estimate,
+    learn_under,
 )
 from .model_selection import accuracy, balanced_accuracy
-from .nirl import Found, History, nirl, train_under_reward
+from .nirl import Found, History, nirl, practise
 from .policy_improvement import (
-    NEUTRAL_TERMINAL_VALUES,
-    SURVIVAL_BONUS,
-    ZERO_TERMINAL_VALUES,
-    ReplaySGD,
-    SingleGradientStep,
+    BONUS,
+    NEUTRAL,
+    NOTHING,
+    OneStep,
+    SampledDescent,
+    into_unit,
+    rewards_of,
     sarsa_targets,
-    scale_to_unit_interval,
-    transition_rewards,
 )
-from .refinement import Refined, map_uniform_prior, most_frequent
+from .refinement import Refined, most_frequent, most_telling
 from .relative_entropy import (
     RelativeEntropy,
     dual_gradient,
@@ -55,81 +55,81 @@ from .relative_entropy import (
     importance,
     relative_entropy,
 )
-from .reward_free_mdp import RewardFreeMDP, Walks
-from .reward_update import LeastSquaresReward, SubgradientMaxMargin, balance, contrast
-from .scirl import Classification, heuristic_mu, lstd_mu, structured_classification
-from .tasks import Course, RobotTask, TabularTask
-from .transitions import ENCODER, Steps, expert_transitions
+from .reward_free_mdp import FeaturedMDP, Walks
+from .reward_update import ByContrast, ByEquation514, balance, contrast
+from .scirl import Classification, lstd_mu, shown_only, structured_classification
+from .tasks import Course, ModelCourse, RobotCourse
+from .transitions import ENCODER, Steps, shown_steps
 
 __all__ = [
+    "BONUS",
     "ENCODER",
+    "KINDS",
     "METHODS",
-    "NEUTRAL_TERMINAL_VALUES",
-    "SURVIVAL_BONUS",
-    "TERRAIN_KINDS",
-    "TRUE_WEIGHTS",
-    "ZERO_TERMINAL_VALUES",
+    "NEUTRAL",
+    "NOTHING",
+    "TRUTH",
     "Apprenticeship",
+    "ByContrast",
+    "ByEquation514",
     "Classification",
     "Course",
+    "FeaturedMDP",
     "Found",
     "History",
     "Learned",
-    "LeastSquaresReward",
     "Margin",
     "MaximumEntropy",
+    "ModelCourse",
+    "OneStep",
     "Refined",
     "RelativeEntropy",
-    "ReplaySGD",
-    "RewardFreeMDP",
-    "RobotTask",
-    "SingleGradientStep",
+    "RobotCourse",
+    "SampledDescent",
     "SoftSolution",
     "Steps",
-    "SubgradientMaxMargin",
-    "TabularTask",
     "Walks",
     "accuracy",
-    "all_action_features",
+    "action_blocks",
+    "average_by",
     "balance",
     "balanced_accuracy",
     "boltzmann",
+    "by_heuristic",
+    "by_lstd",
+    "by_max_margin",
+    "by_projection",
+    "chosen_block",
     "contrast",
-    "discounted_feature_sums",
+    "discounted_to_go",
     "dual_gradient",
     "empirical_expectations",
-    "expert_transitions",
     "feature_expectations",
-    "from_all_states",
-    "from_initial_state",
-    "heuristic_estimate",
-    "heuristic_mu",
+    "from_everywhere",
+    "from_start",
     "hoeffding_slack",
     "importance",
-    "initial_expectations",
+    "into_unit",
     "learn",
-    "learn_under_reward",
-    "lstd_estimate",
+    "learn_under",
     "lstd_mu",
-    "map_uniform_prior",
-    "max_margin_method",
     "maximum_entropy",
-    "maximum_margin",
-    "maximum_margin_subgradient",
-    "mean_by_pair",
     "most_frequent",
+    "most_telling",
     "nearest_mixture",
     "nirl",
+    "practise",
     "project",
-    "projection_method",
     "relative_entropy",
+    "rewards_of",
     "sarsa_targets",
-    "scale_to_unit_interval",
+    "shown_only",
+    "shown_steps",
     "soft_maximum",
     "soft_value_iteration",
-    "state_action_features",
+    "start_expectations",
     "structured_classification",
     "terrain",
-    "train_under_reward",
-    "transition_rewards",
+    "widest_margin",
+    "widest_margin_subgradient",
 ]

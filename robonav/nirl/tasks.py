@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from robonav.lfd.demonstrations import LEARNED
 from robonav.networks.policy import sample_actions
 from robonav.robot import Encoder, Sensing, Simulator, Worlds, drive, random_worlds
-from robonav.robot._fast import ARRIVED, COLLIDED
+from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 from robonav.validation import check_integer, check_positive
 
-from .reward_free_mdp import RewardFreeMDP
+from .reward_free_mdp import FeaturedMDP
 from .transitions import ENCODER, Floats, Ints, Steps
 
 Chances = Callable[[Floats], Floats]
@@ -38,7 +38,7 @@ class Course(Protocol):
 
 
 @dataclass(frozen=True)
-class RobotTask:
+class RobotCourse:
     """The robot in new random maps; its reflexes act as ever, and only what the policy decided is kept.
 
     Attributes
@@ -86,20 +86,28 @@ def collect(
     decisions: int | None = None,
 ) -> Steps:
     """Run N episodes with a policy, of ``decisions`` decisions each at most, and keep what the policy decided."""
+    robots = np.arange(len(simulator))
     decided = np.zeros(len(simulator), dtype=np.int64)
+    outcome = np.zeros(len(simulator), dtype=np.int8)
     rows: list[tuple[Ints, Floats, Ints, Ints]] = []
 
-    def choose(simulator: Simulator, sensing: Sensing, robots: Ints) -> Ints:
-        inputs = encoder(sensing)
+    def choose(simulator: Simulator, sensing: Sensing, asked: Ints) -> Ints:
+        inputs = encoder(sensing[asked])
         actions = sample_actions(chances(inputs), rng.random(len(inputs)))
-        rows.append((robots, inputs, actions, simulator.steps[robots]))
-        decided[robots] += 1
+        seconds = simulator.steps[asked].copy()
+        rows.append((robots[asked], inputs, actions, seconds))
+        decided[robots[asked]] += 1
         return actions
 
-    for _ in drive(simulator, choose):
+    for step in drive(simulator, choose):
+        outcome[robots] = step.outcome
+        over = step.outcome != RUNNING
         if decisions is not None:
-            simulator.stop(np.flatnonzero(decided >= decisions))
-    return _by_drive(rows, encoder.size, simulator.outcome)
+            over |= decided[robots] >= decisions
+        if over.any():
+            robots = robots[~over]
+            simulator.keep(~over)
+    return _by_drive(rows, encoder.size, outcome)
 
 
 def _by_drive(
@@ -127,7 +135,7 @@ def _by_drive(
 
 
 @dataclass(frozen=True, eq=False)
-class TabularTask:
+class ModelCourse:
     """A finite MDP as a course: one input a state. A drive ends in a terminal state, or after ``steps``.
 
     Attributes
@@ -137,7 +145,7 @@ class TabularTask:
     steps : of each at most.
     """
 
-    mdp: RewardFreeMDP
+    mdp: FeaturedMDP
     trajectories: int = 10
     steps: int = 40
 

@@ -1,10 +1,9 @@
-"""Results of experiments as figures: bars with intervals, bands over seeds, the thesis's numbers beside ours."""
+"""Results of experiments as figures: bars with intervals, bands over seeds, and the thesis's numbers."""
 
 from __future__ import annotations
 
+import importlib
 import math
-from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 
 import matplotlib as mpl
@@ -14,8 +13,6 @@ from matplotlib.figure import Figure
 
 from robonav import atomic, style
 from robonav.experiments import Results
-
-from . import lfd, nirl, nnql, single_runs
 
 OURS, THESIS = style.BLUE, style.ORANGE
 
@@ -120,73 +117,24 @@ def draw_board(results: Results, metric: str) -> Figure:
     return figure
 
 
-DRAWN: dict[str, Callable[[Results], Figure]] = {
-    "leaderboard": partial(draw_board, metric="success"),
-    "figure-2.4": single_runs.plot_gaps,
-    "figure-3.4": single_runs.plot_paths,
-    "figure-4.2": single_runs.plot_paths,
-    "figure-4.5": single_runs.plot_paths,
-    "figure-5.3": single_runs.plot_paths,
-    "figure-5.5": single_runs.plot_paths,
-    "figure-5.6": single_runs.plot_paths,
-    "figure-5.9": single_runs.plot_paths,
-    "yardsticks": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "table-3.2": lfd.plot_demonstrations,
-    "table-3.3": lfd.plot_iterations,
-    "figure-3.5": lfd.plot_planners,
-    "figure-3.6": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "figure-3.7": lfd.plot_cost,
-    "figure-3.8": lfd.plot_methods,
-    "figure-3.9": partial(
-        draw_bars, metric="learned", label="length of drives, median (m)"
-    ),
-    "figure-3.10": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "lfd-encodings": partial(
-        draw_bars, metric="success", label="drives that arrive (%)"
-    ),
-    "lfd-margins": lfd.plot_margins,
-    "table-4.2": nnql.plot_speeds,
-    "table-4.3": nnql.plot_rates,
-    "figure-4.3": nnql.plot_weight_changes,
-    "figure-4.4": nnql.plot_learning,
-    "figure-4.6": nnql.plot_learning,
-    "figure-4.7": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "nnql-20-obstacles": partial(
-        draw_bars, metric="success", label="drives that arrive (%)"
-    ),
-    "nnql-circles": nnql.plot_variations,
-    "nnql-tuning": nnql.plot_trials,
-    "figure-5.4": nirl.plot_counts,
-    "figure-5.7": partial(nirl.plot_course, metric="margin", label="margin"),
-    "figure-5.8": partial(nirl.plot_course, metric="cost", label="cost"),
-    "figure-5.10": nirl.plot_densities,
-    "figure-5.11": nirl.plot_changes,
-    "figure-5.12": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "table-5.1": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "table-5.2": partial(nirl.plot_comparison, discount=0.65),
-    "nirl-controls": partial(
-        draw_bars, metric="success", label="drives that arrive (%)"
-    ),
-    "nirl-steps": nirl.plot_steps,
-    "nirl-choice": partial(draw_bars, metric="success", label="drives that arrive (%)"),
-    "nirl-transfer": partial(
-        draw_bars, metric="success", label="drives that arrive (%)"
-    ),
-    "nirl-refinement": partial(
-        draw_bars, metric="success", label="drives that arrive (%)"
-    ),
-    "nirl-tuning": nnql.plot_trials,
-}
-"""How each experiment is drawn, by its name."""
+def draw(results: Results) -> Figure | None:
+    """The figure of an experiment as its :class:`~robonav.experiments.Plot` names it; None if it has no figure."""
+    plot = results.experiment.plot
+    if isinstance(plot, str):
+        return None
+    module, function = plot.function.split(".")
+    draw_it = getattr(importlib.import_module(f"robonav.plots.{module}"), function)
+    figure: Figure = draw_it(results, **plot.options)
+    return figure
 
 
 def save_figure(results: Results, folder: Path) -> None:
-    """Write ``NAME.svg`` and ``NAME.png``, if the experiment has a figure; the same results give the same bytes."""
+    """Write ``NAME.svg`` and ``NAME.png`` if the experiment has a figure. The same results give the same bytes."""
     name = results.experiment.name
-    if name not in DRAWN:
-        return
     with mpl.rc_context(style.STYLE | {"svg.hashsalt": name}):
-        figure = DRAWN[name](results)
+        figure = draw(results)
+        if figure is None:
+            return
         for kind, silent in (("svg", "Date"), ("png", "Software")):
             with atomic.atomic_write(folder / f"{name}.{kind}") as file:
                 figure.savefig(file, format=kind, metadata={silent: None})

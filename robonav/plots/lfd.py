@@ -244,7 +244,7 @@ def plot_cost(results: Results) -> Figure:
         zip(results.experiment.cases, CYCLE, strict=False)
     ):
         runs = results.values("cost", case)
-        label = f"expert: {setting['expert']}; degrees {setting['degrees']}"
+        label = f"expert: {setting['expert']}; inputs {setting['inputs']}"
         axes.plot(runs.mean(axis=0), color=colour, label=label)
         axes.fill_between(
             np.arange(runs.shape[1]),

@@ -1,4 +1,4 @@
-"""Figures whose panels are single drives, plans and demonstrations, from the numbers of ``experiments.pictures``."""
+"""Figures whose panels are single episodes, plans and demonstrations (:mod:`robonav.experiments.single_runs`)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ COLUMNS = 4
 
 
 def plot_paths(results: Results) -> Figure:
-    """A map a case with the path in it; what a search visited as dots behind."""
+    """One map for each case with its path; dots are the nodes that a search visited."""
     cases = results.experiment.cases
     columns = min(len(cases), COLUMNS)
     rows = -(-len(cases) // columns)
@@ -24,7 +24,7 @@ def plot_paths(results: Results) -> Figure:
         rows, columns, figsize=(2.6 * columns, 2.9 * rows), squeeze=False
     )
     for place, (case, axes) in enumerate(zip(cases, panels.flat, strict=True)):
-        metrics = {row.metric for row in results.rows if row.case == place}
+        metrics = set(results.metrics(place))
         if "visited x" in metrics:
             visited = [results.values(f"visited {letter}", place)[0] for letter in "xy"]
             axes.plot(*visited, ".", color=style.SKY, markersize=1.5, zorder=0)
@@ -41,7 +41,7 @@ def plot_paths(results: Results) -> Figure:
 
 
 def plot_gaps(results: Results) -> Figure:
-    """Fig. 2.4: both distances after each half step, a panel a case."""
+    """Fig. 2.4: both gaps after each half step, one panel for each case."""
     cases = results.experiment.cases
     figure, panels = plt.subplots(
         1, len(cases), figsize=(3.2 * len(cases), 2.8), sharey=True
@@ -62,7 +62,7 @@ def plot_gaps(results: Results) -> Figure:
 
 
 def _title(results: Results, place: int, metrics: set[str]) -> str:
-    """What the panel shows: whatever varies among the cases, and how it ended."""
+    """The title of a panel: what varies among the cases, and the outcome."""
     cases = results.experiment.cases
     varies = [
         key

@@ -10,7 +10,7 @@ import pytest
 from browser import DESKTOP, PHONE, Visit
 from playwright.sync_api import Locator, expect
 
-from robonav.experiments import labs, load_results
+from robonav.experiments import labs, read_results
 
 NAMES = [experiment.name for experiment in labs.EXPERIMENTS]
 
@@ -29,7 +29,7 @@ def page(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[L
 @pytest.mark.parametrize("name", NAMES)
 def test_curves_are_the_committed_results(page, name):
     lab = page.locator(".training-lab").nth(NAMES.index(name))
-    results = load_results(labs.RESULTS, labs.EXPERIMENTS[NAMES.index(name)])
+    results = read_results(name)
     for index in (
         0,
         len(results.experiment.cases) // 2,

@@ -25,7 +25,7 @@ ALLOWED = {
     "nnql": {"mdp", "robot", "networks"},
     "nirl": {"mdp", "robot", "networks", "lfd", "nnql"},
     "experiments": CHAPTERS | {"benchmark"},
-    "benchmark": CHAPTERS | {"experiments"},
+    "benchmark": CHAPTERS,
     "plots": CHAPTERS | {"experiments", "benchmark"},
     "widgets": CHAPTERS | {"experiments", "benchmark", "plots"},
     "grading": CHAPTERS,

@@ -1,10 +1,11 @@
-"""Chapter 3 again: Table 3.2 and 3.3, Fig. 3.5 to 3.10; encoding and margin, on which the thesis is silent."""
+"""Tables 3.2 and 3.3, Figs. 3.5 to 3.10; encoding and margin, about which the thesis says nothing."""
 
 from __future__ import annotations
 
 import numpy as np
 from scipy.spatial import cKDTree
 
+from robonav.benchmark import BASELINES
 from robonav.lfd import (
     Demonstrations,
     demonstrate,
@@ -18,203 +19,205 @@ from robonav.lfd import (
     sketch,
 )
 from robonav.networks import accuracy
-from robonav.robot import Policy, navigate, neighbour_slip, random_worlds
+from robonav.robot import Policy, Worlds, navigate, neighbour_slip, random_worlds
 from robonav.robot.encoding import TARGET_ENCODINGS
 
-from ..baselines import RULES
-from ..runner.experiment import Case, Experiment
-from ..runner.results import RESULTS as RESULTS
+from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers, Plot
 from .setup import (
     ABOUT,
+    CONDITIONS,
+    DEMONSTRATION_SEED,
     DEMONSTRATIONS,
     ROUNDS,
     SEEDS,
-    SHOWN_WORLDS,
-    TEST_WORLDS,
-    Numbers,
-    aggregated,
-    cloned,
-    driven,
-    expert_in_new_worlds,
-    new_worlds,
-    shown,
-    trained,
-    unscaled,
+    SETUP,
+    cloned_policy,
+    dagger_result,
+    demonstrations,
+    expert_in_test_worlds,
+    policy_of,
+    training,
 )
 
-ITERATIONS, MOST_ITERATIONS = 300, 500
-OTHERS = 500  # run k is tested on the demonstrations of run k + 500
-MAPS = 20  # that a run plans in
-MARGIN = 2.0  # metres that planners keep: every map has a way that wide
-OTHER_WAY = 10.0  # metres that two paths may be apart before they count as two ways
-SLIP = 0.2  # how likely a slipping expert turns 30 degrees too far or too little
+ITERATIONS: int = CONDITIONS["iterations"]
+MOST_ITERATIONS: int = CONDITIONS["most_iterations"]
+OTHERS: int = CONDITIONS["others"]
+PLANNING = CONDITIONS["planning"]
+MARGIN: float = PLANNING["margin"]
 
 
 def with_demonstrations(case: Case, seed: int, scale: str) -> Numbers:
-    """Table 3.2: one network from so many demonstrations, driven through new maps."""
-    expert, degrees, drives = (
-        str(case["expert"]),
-        str(case["degrees"]),
-        int(case["demonstrations"]),
-    )
+    """Table 3.2: one network from a number of demonstrations, tested in new maps."""
+    expert, inputs = str(case["expert"]), str(case["inputs"])
+    number = int(case["demonstrations"])
     if case["target"] == "number":
-        policy = unscaled(
-            trained(seed, expert, degrees, drives=drives).network, degrees
-        )
+        trained = training(seed, expert, inputs, number=number)
+        policy = policy_of(trained.network, inputs)
     else:
-        policy = learn_policy(shown(seed, drives=drives, expert=expert), seed=seed)
-    return driven(policy, new_worlds(seed, scale))
+        learned_from = demonstrations(seed, number=number, expert=expert)
+        policy = learn_policy(learned_from, seed=seed)
+    return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
 
 
 def with_iterations(case: Case, seed: int, scale: str) -> Numbers:
-    """Table 3.3: agreement with the demonstrations learned from, and with others; cost; and what the robot does."""
-    expert, degrees = str(case["expert"]), str(case["degrees"])
-    training = trained(seed, expert, degrees, iterations=MOST_ITERATIONS)
-    assert training.networks is not None
-    done = min(int(case["iterations"]), training.iterations)
-    policy = unscaled(training.networks[done], degrees)
-    others = labelled_states(shown(seed + OTHERS, expert=expert), policy.encoder)
+    """Table 3.3: accuracy on the demonstrations learned from, and on others; cost; and success in new maps."""
+    expert, inputs = str(case["expert"]), str(case["inputs"])
+    trained = training(seed, expert, inputs, iterations=MOST_ITERATIONS)
+    assert trained.networks is not None
+    done = min(int(case["iterations"]), trained.iterations)
+    policy = policy_of(trained.networks[done], inputs)
+    others = labelled_states(
+        demonstrations(seed + OTHERS, expert=expert), policy.encoder
+    )
+    rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
     return {
-        "accuracy": 100 * training.accuracies[done],
+        "accuracy": 100 * trained.accuracies[done],
         "accuracy on others": 100 * accuracy(policy.network, *others),
-        "cost": training.costs[done],
-        "success": driven(policy, new_worlds(seed, scale))["success"],
+        "cost": trained.costs[done],
+        "success": rates["success"],
     }
 
 
-def cost(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.7: the cost before training and after each iteration; one that can fall no further stays."""
-    training = trained(seed, str(case["expert"]), str(case["degrees"]))
-    costs = np.pad(training.costs, (0, ITERATIONS - training.iterations), mode="edge")
+def training_cost(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 3.7: the cost before training and after each iteration. After convergence the last cost is repeated."""
+    trained = training(seed, str(case["expert"]), str(case["inputs"]))
+    costs = np.pad(trained.costs, (0, ITERATIONS - trained.iterations), mode="edge")
     return {"cost": costs, "cost at the end": costs[-1]}
 
 
-def plan_both(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.5: modified A* and grid A* in the same maps; lengths up to the target itself, which neither steps on."""
+def compare_planners(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 3.5: modified A* and grid A* in the same maps. Lengths go up to the target, which neither path reaches."""
     target = (90.0, float(case["target y"]))
-    worlds = random_worlds(
-        MAPS, int(case["obstacles"]), seed=TEST_WORLDS + seed, targets=(target,)
-    )
+    worlds = planning_worlds(seed, int(case["obstacles"]), target)
     ours = [plan(world, margin=MARGIN) for world in worlds]
     grids = [
         plan_on_grid(world, margin=MARGIN, cell=float(case["grid cell"]))
         for world in worlds
     ]
-    lengths = np.array([[made.length + np.linalg.norm(made.points[-1] - target) for made in pair]
-                        for pair in zip(ours, grids, strict=True) if all(made.found for made in pair)])  # fmt: skip
+    lengths = np.array(
+        [
+            [found.length + np.linalg.norm(found.points[-1] - target) for found in pair]
+            for pair in zip(ours, grids, strict=True)
+            if all(found.found for found in pair)
+        ]
+    )
     modified, grid = lengths.T
     return {
         "modified": modified.mean(),
         "grid": grid.mean(),
         "modified shorter": 100 * (modified < grid - 1e-6).mean(),
-        "modified expands": np.mean([made.expanded for made in ours]),
-        "grid expands": np.mean([made.expanded for made in grids]),
-        "found by both": 100 * len(lengths) / MAPS,
+        "modified expands": np.mean([found.expanded for found in ours]),
+        "grid expands": np.mean([found.expanded for found in grids]),
+        "found by both": 100 * len(lengths) / PLANNING["maps"],
     }
 
 
-def expert_drives(expert: str, seed: int) -> Demonstrations:
-    """25 demonstrations by the computer or a hand, steady or slipping (section 5.5.5)."""
-    worlds = random_worlds(DEMONSTRATIONS, seed=SHOWN_WORLDS + seed)
-    slip = neighbour_slip(SLIP) if expert.endswith("slipping") else None
+def planning_worlds(seed: int, obstacles: int, target: tuple[float, float]) -> Worlds:
+    """The maps that a run plans in."""
+    first = SETUP.test_seed + seed
+    return random_worlds(PLANNING["maps"], obstacles, seed=first, targets=(target,))
+
+
+def expert_demonstrations(expert: str, seed: int) -> Demonstrations:
+    """25 demonstrations by the computer or by hand, of a robot that slips or does not (section 5.5.5)."""
+    worlds = random_worlds(DEMONSTRATIONS, seed=DEMONSTRATION_SEED + seed)
+    slip = neighbour_slip(PLANNING["slip"]) if expert.endswith("slipping") else None
     if expert.startswith("computer"):
         return demonstrate(worlds, slip=slip)
     return demonstrate_by_hand(worlds, sketch(worlds, seed=seed), slip=slip)
 
 
-def experts(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.6: what 25 demonstrations hold, and how the robot drives that learned from them."""
-    demonstrations = expert_drives(str(case["expert"]), seed)
-    held = overview(demonstrations)
+def compare_experts(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 3.6: what 25 demonstrations hold, and the success of the policy learned from them."""
+    shown = expert_demonstrations(str(case["expert"]), seed)
+    held = overview(shown)
+    policy = learn_policy(shown, seed=seed)
+    rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
     return {
         "arrived": 100 * held.arrived / held.drives,
-        "steps a drive": held.steps / held.drives,
-        "effective pairs a drive": held.effective / held.drives,
-        "distinct states a drive": held.states / held.drives,
+        "steps an episode": held.steps / held.drives,
+        "effective pairs an episode": held.effective / held.drives,
+        "distinct states an episode": held.states / held.drives,
         "straight on": 100 * held.actions[0] / held.effective,
         "least range": held.closest,
-        "success": driven(
-            learn_policy(demonstrations, seed=seed), new_worlds(seed, scale)
-        )["success"],
+        "success": rates["success"],
     }
 
 
-def method(name: str, seed: int, scale: str, obstacles: int = 10) -> Policy:
-    """A policy by name, learned among so many obstacles."""
-    if name in RULES:
-        return RULES[name]
+def learned_policy(name: str, seed: int, obstacles: int = 10) -> Policy:
+    """A baseline, or the policy of a method trained among a number of obstacles."""
+    if name in BASELINES:
+        return BASELINES[name]
     if name == "DAgger":
-        return aggregated(seed, obstacles, rounds=ROUNDS).policy
+        return dagger_result(seed, obstacles, rounds=ROUNDS).policy
     if name == "cloning":
-        return cloned(seed, obstacles)
-    return learn_neighbours(shown(seed, obstacles), int(name.split()[0]))
+        return cloned_policy(seed, obstacles)
+    return learn_neighbours(demonstrations(seed, obstacles), int(name.split()[0]))
 
 
 def in_new_maps(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.8, counted: a method drives through maps with as many obstacles as it learned among."""
+    """Fig. 3.8 in numbers: a method is tested in maps with as many obstacles as it was trained among."""
     obstacles, name = int(case["obstacles"]), str(case["method"])
-    worlds = new_worlds(seed, scale, obstacles)
-    numbers = driven(method(name, seed, scale, obstacles), worlds)
-    if name == "DAgger":
-        policies = aggregated(seed, obstacles, rounds=ROUNDS).policies
-        numbers["success by round"] = np.array(
-            [driven(policy, worlds)["success"] for policy in policies]
-        )
-    return numbers
+    worlds = SETUP.test_worlds(seed, scale, obstacles)
+    rates = SETUP.evaluate(learned_policy(name, seed, obstacles), worlds)
+    if name != "DAgger":
+        return rates
+    policies = dagger_result(seed, obstacles, rounds=ROUNDS).policies
+    by_round = [SETUP.evaluate(policy, worlds)["success"] for policy in policies]
+    return rates | {"success by round": np.array(by_round)}
 
 
 def beside_the_expert(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.9: the same maps driven by what was learned and by the expert that it was learned from."""
-    expert = expert_in_new_worlds(seed, scale, int(case["obstacles"]))
+    """Fig. 3.9: a learned policy and the expert that it was learned from, in the same maps."""
+    obstacles = int(case["obstacles"])
+    expert = expert_in_test_worlds(seed, scale, obstacles)
     worlds = expert.worlds
-    policy = method(str(case["method"]), seed, scale, int(case["obstacles"]))
-    drives = navigate(policy, worlds, record_paths=True)
-    assert drives.paths is not None
-    both = np.flatnonzero(drives.success & (expert.outcome == "arrived"))
-    apart = [
-        cKDTree(expert.poses[expert.trajectory == drive, :2]).query(
-            drives.paths[drive][:, :2]
-        )[0]
-        for drive in both
-    ]
-    planned = [plan(worlds[drive], margin=MARGIN).length for drive in both]
+    policy = learned_policy(str(case["method"]), seed, obstacles)
+    learned = navigate(policy, worlds, record_paths=True)
+    assert learned.paths is not None
+    both = np.flatnonzero(learned.success & (expert.outcome == "arrived"))
+    distances = [
+        cKDTree(expert.poses[expert.trajectory == k, :2]).query(learned.paths[k][:, :2])[0]
+        for k in both
+    ]  # fmt: skip
+    planned = [plan(worlds[k], margin=MARGIN).length for k in both]
+    other = [apart.max() > PLANNING["other_path"] for apart in distances]
     return {
         "planned": np.median(planned),
-        "the expert's": 2.0 * np.median(expert.lengths[both]),
-        "learned": 2.0 * np.median(drives.steps[both]),
-        "learned, mean": 2.0 * drives.steps[both].mean(),
-        "apart": np.mean([distances.mean() for distances in apart]),
-        "another way": 100
-        * np.mean([distances.max() > OTHER_WAY for distances in apart]),
+        "expert": SETUP.speed * np.median(expert.lengths[both]),
+        "learned": SETUP.speed * np.median(learned.steps[both]),
+        "learned, mean": SETUP.speed * learned.steps[both].mean(),
+        "distance": np.mean([apart.mean() for apart in distances]),
+        "another path": 100 * np.mean(other),
     }
 
 
-def among_movers(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.10: standing and moving obstacles, for robots that learned among standing ones."""
-    worlds = new_worlds(seed, scale, int(case["standing"]), int(case["moving"]))
-    return driven(method(str(case["method"]), seed, scale), worlds)
+def among_moving_obstacles(case: Case, seed: int, scale: str) -> Numbers:
+    """Fig. 3.10: standing and moving obstacles, for policies learned among standing ones."""
+    worlds = SETUP.test_worlds(seed, scale, int(case["standing"]), int(case["moving"]))
+    return SETUP.evaluate(learned_policy(str(case["method"]), seed), worlds)
 
 
-def encoded(case: Case, seed: int, scale: str) -> Numbers:
-    """The target's sector written in one way or another."""
+def compare_encodings(case: Case, seed: int, scale: str) -> Numbers:
+    """The target's sector, encoded in four ways."""
     obstacles, target = int(case["obstacles"]), str(case["target"])
     if case["learner"] == "DAgger, 1 round":
-        policy = aggregated(seed, obstacles, target=target, rounds=1).policy
+        policy = dagger_result(seed, obstacles, target=target, rounds=1).policy
     else:
-        policy = cloned(seed, obstacles, target=target)
-    return driven(policy, new_worlds(seed, scale, obstacles))
+        policy = cloned_policy(seed, obstacles, target=target)
+    return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale, obstacles))
 
 
-def keeping_off(case: Case, seed: int, scale: str) -> Numbers:
-    """An expert that keeps so far off, and the robot that learned from it."""
+def expert_margin(case: Case, seed: int, scale: str) -> Numbers:
+    """An expert that keeps a distance, and the policy learned from it."""
     obstacles = int(case["obstacles"])
-    worlds = random_worlds(DEMONSTRATIONS, obstacles, seed=SHOWN_WORLDS + seed)
-    demonstrations = demonstrate(
-        worlds, margin=float(case["margin"]), caution=float(case["caution"])
+    shown = demonstrate(
+        random_worlds(DEMONSTRATIONS, obstacles, seed=DEMONSTRATION_SEED + seed),
+        margin=float(case["margin"]),
+        caution=float(case["caution"]),
     )
-    return driven(
-        learn_policy(demonstrations, seed=seed), new_worlds(seed, scale, obstacles)
-    )
+    policy = learn_policy(shown, seed=seed)
+    return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale, obstacles))
 
 
 TABLE_3_2 = Experiment(
@@ -224,13 +227,13 @@ TABLE_3_2 = Experiment(
         {
             "expert": expert,
             "target": target,
-            "degrees": degrees,
+            "inputs": inputs,
             "demonstrations": number,
         }
-        for expert, target, degrees in (
-            ("keeps off", "sine-cosine", "0 to 1"),
-            ("keeps off", "number", "0 to 1"),
-            ("shortest way", "number", "0 to 7"),
+        for expert, target, inputs in (
+            ("keeps clear", "sine-cosine", "0 to 1"),
+            ("keeps clear", "number", "0 to 1"),
+            ("shortest path", "number", "0 to 7"),
         )
         for number in (20, 25, 30, 35, 40)
     ],
@@ -238,19 +241,21 @@ TABLE_3_2 = Experiment(
     seeds=SEEDS,
     thesis={"success": [89, 92, 92, 93, 94] * 3},
     settings=ABOUT,
+    plot=Plot("lfd.plot_demonstrations"),
 )
 TABLE_3_3 = Experiment(
     name="table-3.3",
-    title="Agreement with the demonstrations against iterations of training",
+    title="Accuracy on the demonstrations against iterations of training",
     cases=[
-        {"expert": expert, "degrees": degrees, "iterations": iterations}
-        for expert, degrees in (("shortest way", "0 to 7"), ("keeps off", "0 to 1"))
+        {"expert": expert, "inputs": inputs, "iterations": iterations}
+        for expert, inputs in (("shortest path", "0 to 7"), ("keeps clear", "0 to 1"))
         for iterations in (100, 200, 250, 300, 350, 400, MOST_ITERATIONS)
     ],
     run=with_iterations,
     seeds=SEEDS,
     thesis={"accuracy": [81.12, 82.68, 82.83, 83.62, 83.31, 83.15, 83.46] * 2},
     settings=ABOUT,
+    plot=Plot("lfd.plot_iterations"),
 )
 FIGURE_3_5 = Experiment(
     name="figure-3.5",
@@ -261,51 +266,54 @@ FIGURE_3_5 = Experiment(
         for obstacles in (10, 20)
         for cell in (1, 2)
     ],
-    run=plan_both,
+    run=compare_planners,
     seeds={"quick": 2, "thesis": 10},
     thesis={"modified": [120.2053] + [None] * 7, "grid": [124.3638] + [None] * 7},
     settings={
-        "maps a run": MAPS,
+        "maps a run": PLANNING["maps"],
         "margin in m": MARGIN,
-        "first seed of the worlds": TEST_WORLDS,
+        "first seed of the worlds": SETUP.test_seed,
     },
+    plot=Plot("lfd.plot_planners"),
 )
 FIGURE_3_6 = Experiment(
     name="figure-3.6",
-    title="What 25 demonstrations hold, by expert, and how the robot drives that learned from them",
+    title="What 25 demonstrations hold, by expert, and the success of the policy learned from them",
     cases=[
         {"expert": expert}
         for expert in ("computer", "computer, slipping", "hand", "hand, slipping")
     ],
-    run=experts,
+    run=compare_experts,
     seeds=SEEDS,
     thesis={"success": [92, None, None, None]},
-    settings=ABOUT | {"slip": SLIP},
+    settings=ABOUT | {"slip": PLANNING["slip"]},
+    plot=SUCCESS_BARS,
 )
 FIGURE_3_7 = Experiment(
     name="figure-3.7",
-    title="The cost in training",
+    title="The cost during training",
     cases=[
-        {"expert": expert, "degrees": degrees}
-        for expert, degrees in (
-            ("shortest way", "0 to 7"),
-            ("keeps off", "0 to 7"),
-            ("keeps off", "0 to 1"),
+        {"expert": expert, "inputs": inputs}
+        for expert, inputs in (
+            ("shortest path", "0 to 7"),
+            ("keeps clear", "0 to 7"),
+            ("keeps clear", "0 to 1"),
         )
     ],
-    run=cost,
+    run=training_cost,
     seeds=SEEDS | {"thesis": 8},
     thesis={"cost at the end": [0.91] * 3},
     settings=ABOUT,
+    plot=Plot("lfd.plot_cost"),
 )
 FIGURE_3_8 = Experiment(
     name="figure-3.8",
-    title="Success in new maps: cloning, what came before and after it, and two rules that learn nothing",
+    title="Success in new maps: cloning, what came before and after it, and two baselines",
     cases=[
         {"obstacles": obstacles, "method": name}
         for obstacles in (10, 20, 30)
         for name in (
-            *RULES,
+            *BASELINES,
             "1 neighbour",
             "5 neighbours",
             "15 neighbours",
@@ -317,6 +325,7 @@ FIGURE_3_8 = Experiment(
     seeds=SEEDS,
     thesis={"success": [None] * 5 + [92] + [None] * 15},
     settings=ABOUT,
+    plot=Plot("lfd.plot_methods"),
 )
 FIGURE_3_9 = Experiment(
     name="figure-3.9",
@@ -329,44 +338,52 @@ FIGURE_3_9 = Experiment(
     run=beside_the_expert,
     seeds=SEEDS,
     settings=ABOUT,
+    plot=Plot(
+        "experiments.draw_bars",
+        metric="learned",
+        label="length of paths, median (m)",
+    ),
 )
 FIGURE_3_10 = Experiment(
     name="figure-3.10",
-    title="Among moving obstacles, learned among standing ones",
+    title="Among moving obstacles, for policies learned among standing ones",
     cases=[
         {"standing": standing, "moving": moving, "method": name}
         for standing, moving in ((10, 5), (10, 10))
-        for name in (*RULES, "cloning", "DAgger")
+        for name in (*BASELINES, "cloning", "DAgger")
     ],
-    run=among_movers,
+    run=among_moving_obstacles,
     seeds=SEEDS,
     settings=ABOUT,
+    plot=SUCCESS_BARS,
 )
 ENCODINGS = Experiment(
     name="lfd-encodings",
-    title="Four ways to write the target's sector",
+    title="Four encodings of the target's sector",
     cases=[
         {"learner": learner, "obstacles": obstacles, "target": target}
         for learner in ("cloning", "DAgger, 1 round")
         for obstacles in (10, 20)
         for target in TARGET_ENCODINGS
     ],
-    run=encoded,
+    run=compare_encodings,
     seeds=SEEDS | {"thesis": 6},
     settings=ABOUT,
+    plot=SUCCESS_BARS,
 )
 MARGINS = Experiment(
     name="lfd-margins",
-    title="How far the expert keeps off",
+    title="How far the expert keeps from obstacles",
     cases=[
         {"obstacles": obstacles, "caution": caution, "margin": margin}
         for obstacles in (10, 20)
         for caution in (0, 2)
         for margin in (1, 2, 3, 5)
     ],
-    run=keeping_off,
+    run=expert_margin,
     seeds=SEEDS,
     settings=ABOUT,
+    plot=Plot("lfd.plot_margins"),
 )
 
 EXPERIMENTS = (

@@ -1,4 +1,4 @@
-"""How learning goes wrong, one choice at a time: reward, temperature, encoding, scaling (not in the thesis)."""
+"""How learning fails, one choice at a time: reward, temperature, encoding, scaling (not in the thesis)."""
 
 from __future__ import annotations
 
@@ -14,10 +14,8 @@ from robonav.nnql.reward import REWARDS, reward_row
 from robonav.robot import NNQL_SENSORS, Encoder, Sensing, nnql_state
 from robonav.robot.environments import Reward, arrival_or_collision
 
-from ..runner.experiment import Case, Experiment
-from .setup import COLD, EPISODES, NAVIGATIONS, TEST_WORLDS, Numbers, judged, new_worlds
-from .tables import settings
-from .tuning import trained
+from ..runner.experiment import Case, Experiment, Numbers, Plot
+from .setup import ABOUT, EVALUATION_TEMPERATURE, SETUP, evaluate, training, tuned
 
 Array = NDArray[np.float64]
 
@@ -25,14 +23,14 @@ Array = NDArray[np.float64]
 def only_moving_away(
     before: Sensing, after: Sensing, outcome: NDArray[np.int8]
 ) -> Array:
-    """Table 4.1, but evading pays only where the nearest thing is farther than before."""
+    """Table 4.1, but evading earns its reward only if the nearest object is farther away than before."""
     farther = after.ranges.min(axis=1) > before.ranges.min(axis=1)
     evading = np.isin(reward_row(before, after, outcome), (6, 9))
     return np.where(evading & ~farther, 0.0, reward(before, after, outcome))
 
 
 def _rows_changed(changes: Mapping[int, float]) -> Reward:
-    """Table 4.1 with other numbers in some rows."""
+    """Table 4.1 with other rewards in some rows."""
     rewards = REWARDS.copy()
     rewards[list(changes)] = list(changes.values())
     return lambda before, after, outcome: rewards[reward_row(before, after, outcome)]
@@ -50,7 +48,7 @@ REWARDS_TRIED: dict[str, Reward] = {
 
 @dataclass(frozen=True)
 class RawNumbers(Encoder):
-    """The 16 numbers of Eq. (4.5) as they are, up to 7 and 9, where the others bring all within 1."""
+    """The 16 numbers of Eq. (4.5) as they are, up to 7 and 9. The other encoders scale them to at most 1."""
 
     walls: bool = True
     target: str = "number"
@@ -79,29 +77,26 @@ VARIATIONS: dict[str, dict[str, dict[str, Any]]] = {
         "raw numbers": {"encoder": RawNumbers()},
     },
     "Q into [0, 1]": {
-        f"{rescale}, discount {gamma}": {"rescale": rescale, "gamma": gamma}
+        f"{rescale}, discount {discount}": {"rescale": rescale, "discount": discount}
         for rescale in ("clip", "shift")
-        for gamma in (0.6, 0.7, 0.9)
+        for discount in (0.6, 0.7, 0.9)
     },
     "learning rate": {
-        "0.8 throughout": {"alpha": 0.8},
-        "0.8 to 0.1": {"alpha": (0.8, 0.1)},
+        "0.8 throughout": {"learning_rate": 0.8},
+        "0.8 to 0.1": {"learning_rate": (0.8, 0.1)},
     },
 }
-"""What is varied, one at a time, from the settings chosen for NNQL."""
+"""What is varied, one at a time, from the tuned hyperparameters of NNQL."""
 
 
 def vary(case: Case, seed: int, scale: str) -> Numbers:
-    """One seed of one variation: how drives end, greedily and cold, and how the last 100 episodes went."""
-    options = settings("nnql") | VARIATIONS[str(case["what"])][str(case["choice"])]
-    of_course = {
-        name: options.pop(name) for name in ("reward", "encoder") if name in options
-    }
-    training = trained("nnql", seed, scale, options, **of_course)
-    driven = judged(
-        training.policies[0], new_worlds(NAVIGATIONS[scale], TEST_WORLDS + seed)
-    )
-    return driven | {"last episodes": 100 * training.successes[0, -100:].mean()}
+    """One seed of one variation: outcome rates, and the success in the last 100 episodes of training."""
+    changes = VARIATIONS[str(case["what"])][str(case["choice"])]
+    of_task = {k: v for k, v in changes.items() if k in ("reward", "encoder")}
+    settings = tuned()["nnql"] | {k: v for k, v in changes.items() if k not in of_task}
+    trained = training("nnql", seed, scale, settings, **of_task)
+    rates = evaluate(trained.policies[0], SETUP.test_worlds(seed, scale))
+    return rates | {"last episodes": 100 * trained.successes[0, -100:].mean()}
 
 
 CIRCLES = Experiment(
@@ -115,12 +110,11 @@ CIRCLES = Experiment(
     run=vary,
     seeds={"quick": 1, "thesis": 8},
     settings={
-        "episodes": EPISODES,
-        "drives a run": NAVIGATIONS,
-        "first seed of the worlds": TEST_WORLDS,
-        "temperature of a cold policy": COLD,
-        "otherwise": settings("nnql"),
+        **ABOUT,
+        "evaluation temperature": EVALUATION_TEMPERATURE["nnql"],
+        "otherwise": dict(tuned()["nnql"]),
     },
+    plot=Plot("nnql.plot_variations"),
 )
 
 EXPERIMENTS = (CIRCLES,)

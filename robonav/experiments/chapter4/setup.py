@@ -1,72 +1,146 @@
-"""The conditions of section 4.5, which all experiments of chapter 4 share.
+"""The conditions of section 4.5, which all experiments of chapter 4 share; ``settings.toml`` beside this file has them.
 
-A run is one training seed: it trains a network and drives its greedy policy through new worlds. Worlds to train in, to
-tune on and to test on never meet.
+A run is one training seed: it trains a network and tests its greedy policy in new worlds. Worlds for training, for
+tuning and for testing never meet.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from robonav.benchmark import BASELINES
 from robonav.networks import NetworkPolicy
-from robonav.nnql import STARTS, TARGETS, NavigationTask
-from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
+from robonav.nnql import STARTS, TARGETS, NavigationTask, TrainingResult, train
+from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds
 
-from ..outcome_rates import rates
+from ..runner.settings import Settings, read_settings
+from ..runner.setup import Setup
 
-EPISODES = 300
-SHORTENED = {
-    "quick": 0.2,
-    "thesis": 1.0,
-}  # of a training, in experiments that have very many
-NAVIGATIONS = {"quick": 100, "thesis": 1000}
-SPEED = 2.5
-TEST_WORLDS = 40_000  # run k drives through the worlds of this seed + k
-COLD = 0.4  # temperature of a policy that is all but greedy: it takes the second best where that is nearly as good
-COLD_DQN = 0.04  # its outputs are the Q-values themselves, and lie closer together than the logits of the others
-BLOCK = 30  # episodes that Fig. 4.4 and 4.6 count successes in
+FOLDER = Path(__file__).parent
+CONDITIONS = read_settings(FOLDER / "settings.toml")
+SETUP = Setup(**CONDITIONS["test"], ends={"starts": STARTS, "targets": TARGETS})
+EPISODES: int = CONDITIONS["episodes"]
+BLOCK: int = CONDITIONS["block"]
+SEEDS_PER_BATCH: Mapping[str, int] = CONDITIONS["seeds_per_batch"]
+SHORTENED: Mapping[str, float] = CONDITIONS["shortened"]
+EVALUATION_TEMPERATURE: Mapping[str, float] = CONDITIONS["evaluation_temperature"]
+THESIS = {name: Settings.of(values) for name, values in CONDITIONS["thesis"].items()}
+DECAYING = Settings.of(CONDITIONS["decaying"]["nnql"])
 
-Numbers = Mapping[str, ArrayLike]
+HYPERPARAMETERS = FOLDER / "hyperparameters.toml"
+"""The hyperparameters of Table 4.3, as :mod:`robonav.experiments.chapter4.tuning` wrote them."""
 
-
-def course(*, target: str = "number", **changes: Any) -> NavigationTask:
-    """What section 4.5 trains on, with the target's sector written in one way or another."""
-    return NavigationTask(
-        **({"encoder": Encoder(NNQL_SENSORS, walls=True, target=target)} | changes)
-    )
-
-
-def new_worlds(n: int, seed: int, obstacles: int = 10, moving: int = 0) -> Worlds:
-    """Worlds to drive in, with the starts and targets of section 4.5."""
-    return random_worlds(
-        n, obstacles, moving, seed=seed, starts=STARTS, targets=TARGETS
-    )
+ABOUT: Mapping[str, Any] = {
+    "episodes": EPISODES,
+    "navigations a run": SETUP.navigations,
+    "first seed of the worlds": SETUP.test_seed,
+}
 
 
-def driven(policy: Policy, worlds: Worlds, speed: float = SPEED) -> dict[str, float]:
-    """How drives of 400 steps at most end, in per cent (Algorithm 9)."""
-    return rates(navigate(policy, worlds, speed, NavigationTask().max_steps))
+@lru_cache(maxsize=1)
+def tuned() -> dict[str, Settings]:
+    """The tuned hyperparameters of each method."""
+    found = read_settings(HYPERPARAMETERS)
+    return {method: Settings.of(values) for method, values in found.items()}
 
 
-def judged(
-    policy: Policy, worlds: Worlds, speed: float = SPEED, *, temperature: float = COLD
+def task(*, target: str = "number", **changes: Any) -> NavigationTask:
+    """The training task of section 4.5, with one of the encodings of the target's sector.
+
+    ``changes`` are other attributes of :class:`robonav.nnql.NavigationTask`.
+    """
+    encoder = Encoder(NNQL_SENSORS, walls=True, target=target)
+    return NavigationTask(**({"encoder": encoder} | changes))
+
+
+def training(
+    method: str,
+    seed: int,
+    scale: str,
+    settings: Settings,
+    *,
+    length: float = 1.0,
+    **changes: Any,
+) -> TrainingResult:
+    """One seed of a method.
+
+    At the thesis's scale seeds train together, ``SEEDS_PER_BATCH`` of them. Trainings are kept, since several tables
+    test the same networks.
+
+    Parameters
+    ----------
+    method : str
+        A method of :func:`robonav.nnql.train`.
+    seed : int
+        The seed.
+    scale : str
+        "quick" or "thesis".
+    settings : Settings
+        Hyperparameters.
+    length : float
+        The number of episodes, as a multiple of the usual.
+    **changes
+        Changes of the :func:`task`, and ``record``.
+    """
+    batch = SEEDS_PER_BATCH[scale]
+    episodes = round(EPISODES * length)
+    whole = _training(method, batch_of(seed, batch), episodes, settings, **changes)
+    return whole[seed % batch]
+
+
+@lru_cache(maxsize=64)
+def _training(
+    method: str,
+    seeds: range,
+    episodes: int,
+    settings: Settings,
+    *,
+    record: bool = False,
+    **changes: Any,
+) -> TrainingResult:
+    options = dict(settings)
+    where = task(target=options.pop("target"), **changes)
+    return train(method, seeds, episodes, task=where, record=record, **options)
+
+
+def batch_of(seed: int, size: int) -> range:
+    """The seeds that train together with this one, in batches of a size."""
+    first = seed - seed % size
+    return range(first, first + size)
+
+
+def trained_policy(name: str, seed: int, scale: str, **changes: Any) -> Policy:
+    """A baseline, or the policy of one training with the tuned hyperparameters."""
+    if name in BASELINES:
+        return BASELINES[name]
+    return training(name, seed, scale, tuned()[name], **changes).policies[0]
+
+
+def evaluate(
+    policy: Policy,
+    worlds: Worlds,
+    speed: float | None = None,
+    *,
+    temperature: float = EVALUATION_TEMPERATURE["nnql"],
 ) -> dict[str, float]:
-    """As :func:`driven`; for a network also ``success, cold``: with the policy at a low temperature."""
-    numbers = driven(policy, worlds, speed)
+    """Outcome rates of a greedy policy (Algorithm 9); of a network also its success at a low temperature."""
+    rates = SETUP.evaluate(policy, worlds, speed)
     if isinstance(policy, NetworkPolicy):
-        numbers["success, cold"] = driven(
-            replace(policy, temperature=temperature), worlds, speed
-        )["success"]
-    return numbers
+        nearly_greedy = replace(policy, temperature=temperature)
+        success = SETUP.evaluate(nearly_greedy, worlds, speed)["success"]
+        rates["success, low temperature"] = success
+    return rates
 
 
 def blocks(successes: ArrayLike, size: int = BLOCK) -> np.ndarray:
-    """Successes (S, E) counted in blocks of ``size`` episodes: (S, E / size); what is left over is dropped."""
+    """Successes (S, E) counted in blocks of ``size`` episodes: (S, E / size). An incomplete last block is dropped."""
     arrived = np.asarray(successes)
     seeds, episodes = arrived.shape
     counts: np.ndarray = (

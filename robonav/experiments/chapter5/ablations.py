@@ -1,4 +1,4 @@
-"""From Algorithm 10 as it is written to what works, one change at a time; and by what a policy is chosen."""
+"""From Algorithm 10 as written to what works, one change at a time; and how a run's policy is chosen."""
 
 from __future__ import annotations
 
@@ -10,66 +10,61 @@ import numpy as np
 
 from robonav.networks import Network, NetworkPolicy
 from robonav.nirl import (
-    ZERO_TERMINAL_VALUES,
+    NOTHING,
+    ByContrast,
+    ByEquation514,
     Learned,
-    LeastSquaresReward,
-    ReplaySGD,
-    SingleGradientStep,
-    SubgradientMaxMargin,
+    OneStep,
+    SampledDescent,
     accuracy,
     balanced_accuracy,
     learn,
 )
-from robonav.robot import Worlds, navigate, random_worlds
+from robonav.robot import Worlds, navigate
 
-from ..runner.experiment import Case, Experiment
+from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers, Plot
 from .setup import (
+    CONDITIONS,
     ITERATIONS,
-    NAVIGATIONS,
-    OBSTACLES,
-    Numbers,
-    course,
+    SETUP,
     demonstrations,
-    driven,
-    learned,
-    new_worlds,
+    task,
+    trained,
+    tuned,
 )
-from .tables import settings
 
-CHOOSING_WORLDS = (
-    80_000  # test drives by which a policy is chosen: not those it is tested on
-)
-EVERY = 5  # of a run's networks are tried, where test drives choose
+CHOOSING_SEED: int = CONDITIONS["choosing_seed"]
+EVERY = 5  # of a run's policies are tried where navigation in other worlds chooses
 
-_FAST = ReplaySGD(rate=(0.4, 0.4), ends=ZERO_TERMINAL_VALUES)
+_FAST = SampledDescent(rate=(0.4, 0.4), ends=NOTHING)
 CHANGES: dict[str, Mapping[str, Any]] = {
     "Algorithm 10 as written": {
-        "reward": LeastSquaresReward(),
-        "improve": SingleGradientStep(),
+        "reward": ByEquation514(),
+        "improve": OneStep(),
         "score": accuracy,
         "target": "number",
     },
     "reward: expert against policy, in the expert's states": {
-        "reward": SubgradientMaxMargin(power=0.0)
+        "reward": ByContrast(power=0.0)
     },
-    "rewards in [0, 1]; 300 steps, this iteration's drives": {
+    "rewards in [0, 1]; 300 steps, this iteration's episodes": {
         "improve": replace(_FAST, samples=300, replay=1)
     },
-    "9,600 steps, 20 iterations' drives": {"improve": _FAST},
-    "rare actions count alike": {"reward": SubgradientMaxMargin()},
+    "9,600 steps, 20 iterations' episodes": {"improve": _FAST},
+    "rare actions count alike": {"reward": ByContrast()},
     "chosen by balanced accuracy": {"score": balanced_accuracy},
     "the target's sector as sine and cosine": {"target": "sine-cosine"},
     "any end but a collision is worth the most": {
-        "improve": ReplaySGD(rate=(0.4, 0.4))
+        "improve": SampledDescent(rate=(0.4, 0.4))
     },
-    "learning rate falls": {"improve": ReplaySGD()},
-    "discount 0.9": {"improve": ReplaySGD(discount=0.9)},
+    "learning rate falls": {"improve": SampledDescent()},
+    "discount 0.9": {"improve": SampledDescent(discount=0.9)},
 }
-"""What each step changes; all that came before it stays."""
+"""What each step changes, on top of all steps before it."""
 
 
-def up_to(step: str) -> dict[str, Any]:
-    """The settings after a step and all before it."""
+def options_up_to(step: str) -> dict[str, Any]:
+    """The options after a step and all before it."""
     names = list(CHANGES)
     merged: dict[str, Any] = {}
     for name in names[: names.index(step) + 1]:
@@ -77,84 +72,78 @@ def up_to(step: str) -> dict[str, Any]:
     return merged
 
 
-def mend(case: Case, seed: int, scale: str) -> Numbers:
-    """One run after so many changes."""
-    options = up_to(str(case["step"]))
-    ground = course(options.pop("target"))
-    found = learn(
-        demonstrations(seed),
-        "nirl",
-        seed,
-        course=ground,
-        iterations=ITERATIONS,
-        **options,
+def ablation(case: Case, seed: int, scale: str) -> Numbers:
+    """One run after a number of changes."""
+    options = options_up_to(str(case["step"]))
+    course = task(options.pop("target"))
+    shown = demonstrations(seed)
+    learned = learn(
+        shown, "nirl", seed, course=course, iterations=ITERATIONS, **options
     )
-    return driven(found.policy, new_worlds(scale, seed))
+    return SETUP.evaluate(learned.policy, SETUP.test_worlds(seed, scale))
 
 
-def member(found: Learned, k: int) -> NetworkPolicy:
-    """The k-th policy of a run."""
-    stack = found.history.networks
+def policy_at(learned: Learned, k: int) -> NetworkPolicy:
+    """The policy of a run after iteration k."""
+    stack = learned.history.networks
     network = Network(
         tuple(w[k] for w in stack.weights), tuple(b[k] for b in stack.biases)
     )
-    return replace(found.policy, network=network)
+    return replace(learned.policy, network=network)
 
 
-def by_drives(found: Learned, worlds: Worlds) -> int:
-    """The policy that drives best in some worlds, of every so-many-th."""
-    tried = range(0, len(found.history.accuracies), EVERY)
-    return tried[
-        int(
-            np.argmax(
-                [navigate(member(found, k), worlds).success.mean() for k in tried]
-            )
-        )
-    ]
+def best_by_navigation(learned: Learned, worlds: Worlds) -> int:
+    """The iteration whose policy has the greatest success in some worlds, of every fifth one."""
+    tried = range(0, len(learned.history.accuracies), EVERY)
+    success = [navigate(policy_at(learned, k), worlds).success.mean() for k in tried]
+    return tried[int(np.argmax(success))]
 
 
 CHOICES: dict[str, Callable[[Learned, Worlds], int]] = {
-    "accuracy": lambda found, worlds: int(found.history.accuracies.argmax()),
-    "balanced accuracy": lambda found, worlds: int(found.history.balanced.argmax()),
-    "the last": lambda found, worlds: len(found.history.accuracies) - 1,
-    "test drives": by_drives,
+    "accuracy": lambda learned, worlds: int(learned.history.accuracies.argmax()),
+    "balanced accuracy": lambda learned, worlds: int(learned.history.balanced.argmax()),
+    "the last": lambda learned, worlds: len(learned.history.accuracies) - 1,
+    "navigation": best_by_navigation,
 }
 
 
-def choose(case: Case, seed: int, scale: str) -> Numbers:
-    """One run, with the reward learned or none at all, its policy chosen in one way or another."""
+def choose_policy(case: Case, seed: int, scale: str) -> Numbers:
+    """One run, with a learned reward or none, and its policy chosen in one of four ways."""
     method = "nirl" if case["reward"] == "learned" else "zero reward"
-    found = learned(method, seed, settings(method))
-    worlds = random_worlds(
-        NAVIGATIONS[scale] // 5, OBSTACLES, seed=CHOOSING_WORLDS + seed
-    )
-    k = CHOICES[str(case["chosen by"])](found, worlds)
-    scores = {
-        "accuracy": 100 * found.history.accuracies[k],
-        "balanced accuracy": 100 * found.history.balanced[k],
+    learned = trained(method, seed, tuned(method))
+    worlds = SETUP.worlds(SETUP.navigations[scale] // 5, CHOOSING_SEED + seed)
+    k = CHOICES[str(case["chosen by"])](learned, worlds)
+    rates = SETUP.evaluate(policy_at(learned, k), SETUP.test_worlds(seed, scale))
+    return rates | {
+        "accuracy": 100 * learned.history.accuracies[k],
+        "balanced accuracy": 100 * learned.history.balanced[k],
     }
-    return driven(member(found, k), new_worlds(scale, seed)) | scores
 
 
 STEPS = Experiment(
     name="nirl-steps",
-    title="From Algorithm 10 as it is written to what works, one change at a time",
+    title="From Algorithm 10 as written to what works, one change at a time",
     cases=[{"step": step} for step in CHANGES],
-    run=mend,
+    run=ablation,
     seeds={"quick": 1, "thesis": 10},
-    settings={"iterations": ITERATIONS, "drives a run": NAVIGATIONS},
+    settings={"iterations": ITERATIONS, "navigations a run": SETUP.navigations},
+    plot=Plot("nirl.plot_steps"),
 )
 CHOICE = Experiment(
     name="nirl-choice",
-    title="Which of a run's policies to keep, where a reward was learned and where there was none",
+    title="Which of a run's policies to keep, with a learned reward and with none",
     cases=[
         {"reward": reward, "chosen by": choice}
         for reward in ("learned", "none")
         for choice in CHOICES
     ],
-    run=choose,
+    run=choose_policy,
     seeds={"quick": 1, "thesis": 10},
-    settings={"drives a run": NAVIGATIONS, "settings": settings("nirl")},
+    settings={
+        "navigations a run": SETUP.navigations,
+        "settings": dict(tuned("nirl")),
+    },
+    plot=SUCCESS_BARS,
 )
 
 EXPERIMENTS = (STEPS, CHOICE)

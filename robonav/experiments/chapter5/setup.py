@@ -1,19 +1,20 @@
-"""The conditions of section 5.6, which all experiments of chapter 5 share.
+"""The conditions of section 5.6, which all experiments of chapter 5 share; ``settings.toml`` beside this file has them.
 
-A run is one seed: demonstrations of its own, a network trained from them, and new worlds to drive through. Worlds that
-an expert shows, worlds to tune on and worlds to test on never meet; those a robot practises in are drawn from its seed.
+A run is one seed: demonstrations of its own, a network trained from them, and new worlds to test it in. Worlds of
+demonstrations, worlds for tuning and worlds for testing never meet. The worlds of training are drawn from its seed.
 """
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from robonav.benchmark import BASELINES
 from robonav.lfd import (
     Demonstrations,
     demonstrate,
@@ -24,91 +25,112 @@ from robonav.lfd import (
 from robonav.lfd.demonstrations import LEARNED
 from robonav.networks import NetworkPolicy
 from robonav.nirl import (
-    NEUTRAL_TERMINAL_VALUES,
-    SURVIVAL_BONUS,
+    BONUS,
+    NEUTRAL,
+    ByContrast,
     Learned,
-    ReplaySGD,
-    RobotTask,
-    SubgradientMaxMargin,
-    from_all_states,
-    from_initial_state,
-    heuristic_estimate,
+    RobotCourse,
+    SampledDescent,
+    by_heuristic,
+    by_lstd,
+    from_everywhere,
+    from_start,
     learn,
-    learn_under_reward,
-    lstd_estimate,
+    learn_under,
 )
-from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds, navigate, random_worlds
+from robonav.robot import NNQL_SENSORS, Encoder, Policy, random_worlds
 
-from ..outcome_rates import rates
+from ..runner.settings import Settings, read_settings
+from ..runner.setup import Setup
 
-ITERATIONS, TRAJECTORIES = 140, 10
-SHORTENED = {
-    "quick": 0.1,
-    "thesis": 1.0,
-}  # of a training, in experiments that have very many
-NAVIGATIONS = {"quick": 100, "thesis": 1000}
-DEMONSTRATIONS, OBSTACLES, SPEED = 30, 20, 2.0
-SHOWN_WORLDS = 50_000  # run k's expert drives through the worlds of this seed + k
-TEST_WORLDS = 60_000  # run k drives through those of this seed + k
-
-Numbers = Mapping[str, ArrayLike]
-Settings = Mapping[str, Any]
-
-ENDS = {"bonus": SURVIVAL_BONUS, "neutral": NEUTRAL_TERMINAL_VALUES}
-EXPECTATIONS = {"everywhere": from_all_states, "start": from_initial_state}
-ESTIMATES = {"lstd": lstd_estimate, "heuristic": heuristic_estimate}
+FOLDER = Path(__file__).parent
+CONDITIONS = read_settings(FOLDER / "settings.toml")
+SETUP = Setup(**CONDITIONS["test"])
+DEMONSTRATIONS: int = CONDITIONS["demonstrations"]
+ITERATIONS: int = CONDITIONS["iterations"]
+EPISODES_PER_ITERATION: int = CONDITIONS["episodes_per_iteration"]
+SHORTENED: Mapping[str, float] = CONDITIONS["shortened"]
+DEMONSTRATION_SEED: int = CONDITIONS["demonstration_seed"]
+DISCOUNT, OTHER_DISCOUNT = CONDITIONS["discounts"]
+THESIS = {name: Settings.of(values) for name, values in CONDITIONS["thesis"].items()}
+METHODS = tuple(THESIS)
+LEARNERS = METHODS[:4]
 CONTROLS = ("zero reward", "random reward")
+
+HYPERPARAMETERS = FOLDER / "hyperparameters.toml"
+"""The hyperparameters of Table 5.2, as :mod:`robonav.experiments.chapter5.tuning` wrote them."""
+
+TERMINAL_VALUES = {"bonus": BONUS, "neutral": NEUTRAL}
+EXPECTATIONS = {"all states": from_everywhere, "initial state": from_start}
+ESTIMATES = {"lstd": by_lstd, "heuristic": by_heuristic}
+
+
+@lru_cache(maxsize=1)
+def _hyperparameters() -> dict[str, Any]:
+    return read_settings(HYPERPARAMETERS)
+
+
+def tuned(method: str, discount: float = DISCOUNT, **changes: Any) -> Settings:
+    """The tuned hyperparameters of a method for one of two discounts. A control has those of NIRL.
+
+    Cloning has no discount: its entry is the better of two sets of trials.
+    """
+    found = _hyperparameters()[method if method in METHODS else "nirl"]
+    return Settings.of(found if method == "cloning" else found[str(discount)]) | changes
 
 
 @lru_cache(maxsize=256)
 def demonstrations(
     seed: int, number: int = DEMONSTRATIONS, expert: str = "computer"
 ) -> Demonstrations:
-    """What an expert, "computer" or "human", shows a run, each drive in a map of its own."""
-    worlds = random_worlds(number, OBSTACLES, seed=SHOWN_WORLDS + seed)
+    """The demonstrations of a run by an expert, "computer" or "human", each in a map of its own."""
+    worlds = random_worlds(number, SETUP.obstacles, seed=DEMONSTRATION_SEED + seed)
     if expert == "human":
-        return demonstrate_by_hand(worlds, sketch(worlds, seed=seed), speed=SPEED)
-    return demonstrate(worlds, speed=SPEED)
+        drawn = sketch(worlds, seed=seed)
+        return demonstrate_by_hand(worlds, drawn, speed=SETUP.speed)
+    return demonstrate(worlds, speed=SETUP.speed)
 
 
 def encoder(target: str) -> Encoder:
-    """phi(s) of section 5.4.1, the target's sector written in one way or another."""
+    """phi(s) of section 5.4.1, with one of the encodings of the target's sector."""
     return Encoder(NNQL_SENSORS, walls=True, target=target)
 
 
-def course(target: str = "sine-cosine", **changes: Any) -> RobotTask:
-    """Where a robot practises: 20 obstacles, 2 m/s, ten drives an iteration."""
-    return RobotTask(TRAJECTORIES, encoder=encoder(target), **changes)
+def task(target: str = "sine-cosine", **changes: Any) -> RobotCourse:
+    """What a robot trains on: 20 obstacles, 2 m/s, ten episodes an iteration."""
+    return RobotCourse(EPISODES_PER_ITERATION, encoder=encoder(target), **changes)
 
 
-def descent(settings: Settings) -> ReplaySGD:
-    """The solver that all methods share."""
-    return ReplaySGD(
+def policy_improvement(settings: Settings) -> SampledDescent:
+    """The policy improvement that all methods share."""
+    return SampledDescent(
         discount=settings["discount"],
-        rate=tuple(settings["rate"]),
+        rate=settings["gradient_step"],
         samples=settings["samples"],
         replay=settings["replay"],
-        ends=ENDS[settings.get("ends", "bonus")],
+        ends=TERMINAL_VALUES[settings.get("terminal_values", "bonus")],
     )
 
 
-_OWN: dict[str, Callable[[Settings], dict[str, Any]]] = {
-    "nirl": lambda s: {"reward": SubgradientMaxMargin(power=s["power"])},
-    "apprenticeship": lambda s: {
-        "expectations": EXPECTATIONS[s["expectations"]],
-        "guesses": s["guesses"],
-    },
-    "relative_entropy": lambda s: {"horizon": s["horizon"], "slack": s["slack"]},
-    "scirl": lambda s: {
-        "estimate": ESTIMATES[s["estimate"]],
-        "power": s["power"],
-        "ridge": s["ridge"],
-    },
-}
-"""What each method has of its own, from its settings."""
+def own_options(method: str, settings: Settings, iterations: int) -> dict[str, Any]:
+    """The arguments that one method alone has."""
+    if method == "nirl":
+        return {"reward": ByContrast(power=settings["power"])}
+    if method == "apprenticeship":
+        return {
+            "expectations": EXPECTATIONS[settings["expectations"]],
+            "guesses": min(settings["rewards"], iterations),
+        }
+    if method == "relative_entropy":
+        return {"horizon": settings["horizon"], "slack": settings["slack"]}
+    return {
+        "estimate": ESTIMATES[settings["estimate"]],
+        "power": settings["power"],
+        "ridge": settings["regularisation"],
+    }
 
 
-def teach(
+def train_irl(
     method: str,
     shown: Demonstrations,
     seed: int,
@@ -117,45 +139,71 @@ def teach(
     length: float = 1.0,
     **changes: Any,
 ) -> Learned:
-    """Learn from demonstrations, or practise under a reward of zero or of chance, with settings by name.
+    """Train a method of inverse reinforcement learning, or a control under a reward that is not learned.
 
-    ``length`` is of the training, in times the usual; ``changes`` go to the method.
+    Parameters
+    ----------
+    method : str
+        A method of :func:`robonav.nirl.learn`, or one of :data:`CONTROLS`.
+    shown : Demonstrations
+        What the expert demonstrated.
+    seed : int
+        The seed of weights and training.
+    settings : Settings
+        Hyperparameters.
+    length : float
+        The number of iterations, as a multiple of the usual.
+    **changes
+        Other arguments of the method.
     """
     iterations = round(ITERATIONS * length)
-    practice: dict[str, Any] = {
-        "course": course(settings["target"]),
-        "improve": descent(settings),
+    common: dict[str, Any] = {
+        "course": task(settings["target"]),
+        "improve": policy_improvement(settings),
         "iterations": iterations,
-        "eta": settings["eta"],
+        "eta": settings["inverse_temperature"],
         "hidden": settings["hidden"],
     }
     if method in CONTROLS:
-        return learn_under_reward(
-            shown,
-            control(method, seed, practice["course"].inputs),
-            seed=seed,
-            **practice,
-        )
-    own = _OWN[method](settings)
-    if "guesses" in own:
-        own["guesses"] = min(own["guesses"], iterations)
-    return learn(shown, method, seed, **own, **practice, **changes)
+        weights = control_reward(method, seed, common["course"].inputs)
+        return learn_under(shown, weights, seed=seed, **common)
+    own = own_options(method, settings, iterations)
+    return learn(shown, method, seed, **own, **common, **changes)
 
 
-def control(name: str, seed: int, inputs: int) -> NDArray[np.float64]:
-    """The reward (5, k + 1) of a control: zero, or drawn by chance."""
+def control_reward(name: str, seed: int, inputs: int) -> NDArray[np.float64]:
+    """The reward weights (5, k + 1) of a control: zero, or random."""
     shape = (LEARNED, inputs + 1)
-    return (
-        np.zeros(shape)
-        if name == "zero reward"
-        else np.random.default_rng([seed, 5]).normal(size=shape)
-    )
+    if name == "zero reward":
+        return np.zeros(shape)
+    return np.random.default_rng([seed, 5]).normal(size=shape)
 
 
-def clone(shown: Demonstrations, seed: int, settings: Settings) -> NetworkPolicy:
-    """Plain cloning: the expert's decisions as examples, as in chapter 3."""
+@lru_cache(maxsize=300)
+def trained(
+    method: str,
+    seed: int,
+    settings: Settings,
+    number: int = DEMONSTRATIONS,
+    expert: str = "computer",
+    *,
+    length: float = 1.0,
+) -> Learned:
+    """One run of a method or control. Runs are kept, since several tables test the same policies."""
+    shown = demonstrations(seed, number, expert)
+    return train_irl(method, shown, seed, settings, length=length)
+
+
+@lru_cache(maxsize=300)
+def cloned_policy(
+    seed: int,
+    settings: Settings,
+    number: int = DEMONSTRATIONS,
+    expert: str = "computer",
+) -> NetworkPolicy:
+    """The policy of behaviour cloning from the same demonstrations, as in chapter 3."""
     return learn_policy(
-        shown,
+        demonstrations(seed, number, expert),
         settings["hidden"],
         settings["regularisation"],
         settings["iterations"],
@@ -164,61 +212,19 @@ def clone(shown: Demonstrations, seed: int, settings: Settings) -> NetworkPolicy
     )
 
 
-def learned(
+def trained_policy(
     method: str,
     seed: int,
-    settings: Settings,
+    settings: Settings | None = None,
     number: int = DEMONSTRATIONS,
     expert: str = "computer",
     *,
     length: float = 1.0,
-) -> Learned:
-    """One run of a method or control; what was learned once in a process is not learned again."""
-    return _learned(
-        method, seed, json.dumps(settings, sort_keys=True), number, expert, length
-    )
-
-
-@lru_cache(maxsize=300)
-def _learned(
-    method: str, seed: int, settings: str, number: int, expert: str, length: float
-) -> Learned:
-    return teach(
-        method,
-        demonstrations(seed, number, expert),
-        seed,
-        json.loads(settings),
-        length=length,
-    )
-
-
-def policy(
-    method: str,
-    seed: int,
-    settings: Settings,
-    number: int = DEMONSTRATIONS,
-    expert: str = "computer",
-    *,
-    length: float = 1.0,
-) -> NetworkPolicy:
-    """The policy of one run of a method, a control or cloning; what was learned once is not learned again."""
+) -> Policy:
+    """A baseline, or the policy of one run of a method, a control or cloning; by default with tuned hyperparameters."""
+    if method in BASELINES:
+        return BASELINES[method]
+    settings = tuned(method) if settings is None else settings
     if method == "cloning":
-        return _cloned(seed, json.dumps(settings, sort_keys=True), number, expert)
-    return learned(method, seed, settings, number, expert, length=length).policy
-
-
-@lru_cache(maxsize=300)
-def _cloned(seed: int, settings: str, number: int, expert: str) -> NetworkPolicy:
-    return clone(demonstrations(seed, number, expert), seed, json.loads(settings))
-
-
-def new_worlds(
-    scale: str, seed: int, obstacles: int = OBSTACLES, moving: int = 0
-) -> Worlds:
-    """Worlds to test in."""
-    return random_worlds(NAVIGATIONS[scale], obstacles, moving, seed=TEST_WORLDS + seed)
-
-
-def driven(robot: Policy, worlds: Worlds, speed: float = SPEED) -> dict[str, float]:
-    """How drives of 500 steps at most end, in per cent."""
-    return rates(navigate(robot, worlds, speed))
+        return cloned_policy(seed, settings, number, expert)
+    return trained(method, seed, settings, number, expert, length=length).policy

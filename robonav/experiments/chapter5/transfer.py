@@ -1,208 +1,210 @@
-"""What a learned reward is good for: practising elsewhere (section 5.5.4); and mending an expert that slips (5.12)."""
+"""What a learned reward is good for: training elsewhere (section 5.5.4), and an expert that slips (Eq. (5.12))."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robonav.lfd import Demonstrations, demonstrate
 from robonav.lfd.demonstrations import LEARNED
-from robonav.nirl import (
-    expert_transitions,
-    learn_under_reward,
-    map_uniform_prior,
-    most_frequent,
-)
+from robonav.nirl import learn_under, most_frequent, most_telling, shown_steps
 from robonav.nirl.methods import Refinement
 from robonav.nnql import NavigationTask, train
 from robonav.robot import Policy, neighbour_slip, random_worlds, turn_to_clearer_side
 
-from ..chapter4.tuning import arguments, block
-from ..runner.experiment import Case, Experiment
-from .ablations import member
+from ..chapter4.setup import batch_of
+from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers
+from ..runner.settings import Settings
+from .ablations import policy_at
 from .setup import (
+    CONDITIONS,
+    DEMONSTRATION_SEED,
     DEMONSTRATIONS,
     ITERATIONS,
-    NAVIGATIONS,
-    OBSTACLES,
+    SETUP,
     SHORTENED,
-    SHOWN_WORLDS,
-    SPEED,
-    Numbers,
-    control,
-    course,
+    control_reward,
     demonstrations,
-    descent,
-    driven,
     encoder,
-    learned,
-    new_worlds,
-    policy,
-    teach,
+    policy_improvement,
+    task,
+    train_irl,
+    trained,
+    trained_policy,
+    tuned,
 )
-from .tables import settings
 
-EPISODES = 1400  # of training with Table 4.1's reward: as many drives as practice takes
-TOGETHER = 5  # seeds that train at once under Table 4.1: quicker than one by one, with the same numbers
-PLACES = ((10, 2.0), (30, 2.0), (20, 1.0), (20, 3.0))
-SLIP = 0.3
-TABLE_SETTINGS: dict[str, Any] = {
-    "gamma": 0.7, "alpha": (0.4, 0.05), "rate": (0.3, 0.05), "temperature": (0.9, 0.05), "rescale": "clip",
-}  # fmt: skip
+TRANSFER_CONDITIONS = CONDITIONS["transfer"]
+PLACES = tuple(tuple(place) for place in TRANSFER_CONDITIONS["places"])
+SEEDS_PER_BATCH: int = TRANSFER_CONDITIONS["seeds_per_batch"]
+NNQL = Settings.of(TRANSFER_CONDITIONS["nnql"])
 
 
-def under(
-    theta: NDArray[np.float64], seed: int, length: float, obstacles: int, speed: float
+def train_under_reward(
+    reward_weights: NDArray[np.float64],
+    seed: int,
+    length: float,
+    obstacles: int,
+    speed: float,
 ) -> Policy:
-    """The last policy of a new robot that practises elsewhere under a reward (5, k + 1), and nothing else."""
-    chosen = settings("nirl")
+    """The last policy of a new robot that trains elsewhere under a given reward (5, k + 1)."""
+    settings = tuned("nirl")
     iterations = round(ITERATIONS * length)
-    practised = learn_under_reward(
+    learned = learn_under(
         demonstrations(seed),
-        theta,
-        course=course(chosen["target"], obstacles=obstacles, speed=speed),
+        reward_weights,
+        course=task(settings["target"], obstacles=obstacles, speed=speed),
         seed=seed + 1,
-        improve=descent(chosen),
+        improve=policy_improvement(settings),
         iterations=iterations,
-        eta=chosen["eta"],
-        hidden=chosen["hidden"],
+        eta=settings["inverse_temperature"],
+        hidden=settings["hidden"],
     )
-    return member(practised, iterations)
+    return policy_at(learned, iterations)
 
 
-def carried(seed: int, length: float, obstacles: int, speed: float) -> Policy:
-    """The policy learned among 20 obstacles at 2 m/s, as it is."""
-    return policy("nirl", seed, settings("nirl"), length=length)
-
-
-def cloned(seed: int, length: float, obstacles: int, speed: float) -> Policy:
-    """The policy cloned from the same demonstrations, as it is."""
-    return policy("cloning", seed, settings("cloning"))
-
-
-def by_reward(seed: int, length: float, obstacles: int, speed: float) -> Policy:
-    """A new robot, trained there under the reward learned among 20 obstacles at 2 m/s."""
-    theta = learned("nirl", seed, settings("nirl"), length=length).reward_weights
-    return under(theta, seed, length, obstacles, speed)
-
-
-def by_control(
-    seed: int, length: float, obstacles: int, speed: float, *, name: str
+def same_policy(
+    seed: int, length: float, obstacles: int, speed: float, *, method: str
 ) -> Policy:
-    """The same under a reward of zero, or of chance."""
-    theta = control(name, seed, encoder(settings("nirl")["target"]).size)
-    return under(theta, seed, length, obstacles, speed)
+    """The policy learned among 20 obstacles at 2 m/s, unchanged."""
+    return trained_policy(method, seed, length=length)
 
 
-def by_table(seed: int, length: float, obstacles: int, speed: float) -> Policy:
+def learned_reward(seed: int, length: float, obstacles: int, speed: float) -> Policy:
+    """A new robot, trained there under the reward learned among 20 obstacles at 2 m/s."""
+    weights = trained("nirl", seed, tuned("nirl"), length=length).reward_weights
+    return train_under_reward(weights, seed, length, obstacles, speed)
+
+
+def given_reward(
+    seed: int, length: float, obstacles: int, speed: float, *, control: str
+) -> Policy:
+    """A new robot, trained there under the reward of a control: zero, or random."""
+    weights = control_reward(control, seed, encoder(tuned("nirl")["target"]).size)
+    return train_under_reward(weights, seed, length, obstacles, speed)
+
+
+def reward_table(seed: int, length: float, obstacles: int, speed: float) -> Policy:
     """A new robot, trained there by NNQL with the reward of Table 4.1."""
-    return _by_table(block(seed, TOGETHER), length, obstacles, speed)[seed % TOGETHER]
+    seeds = batch_of(seed, SEEDS_PER_BATCH)
+    return _reward_table(seeds, length, obstacles, speed)[seed % SEEDS_PER_BATCH]
 
 
 @lru_cache(maxsize=16)
-def _by_table(
+def _reward_table(
     seeds: range, length: float, obstacles: int, speed: float
 ) -> Sequence[Policy]:
-    ground = NavigationTask(
+    there = NavigationTask(
         obstacles, speed=speed, starts=[(10, 10)], targets=[(90, 90)]
     )
-    return train(
-        "nnql",
-        seeds,
-        round(EPISODES * length),
-        task=ground,
-        **arguments(TABLE_SETTINGS),
-    ).policies
+    episodes = round(TRANSFER_CONDITIONS["episodes"] * length)
+    return train("nnql", seeds, episodes, task=there, **NNQL).policies
 
 
-def by_rule(seed: int, length: float, obstacles: int, speed: float) -> Policy:
-    """The rule of three lines."""
+def clearer_side(seed: int, length: float, obstacles: int, speed: float) -> Policy:
+    """The baseline."""
     return turn_to_clearer_side
 
 
-TAKEN: dict[str, Callable[[int, float, int, float], Policy]] = {
-    "the policy itself": carried,
-    "a cloned policy": cloned,
-    "trained there under the learned reward": by_reward,
-    "trained there under Table 4.1": by_table,
-    "trained there under no reward": partial(by_control, name="zero reward"),
-    "trained there under a random reward": partial(by_control, name="random reward"),
-    "freer side": by_rule,
+STRATEGIES: dict[str, Callable[[int, float, int, float], Policy]] = {
+    "the policy itself": partial(same_policy, method="nirl"),
+    "a cloned policy": partial(same_policy, method="cloning"),
+    "trained there under the learned reward": learned_reward,
+    "trained there under Table 4.1": reward_table,
+    "trained there under no reward": partial(given_reward, control="zero reward"),
+    "trained there under a random reward": partial(
+        given_reward, control="random reward"
+    ),
+    "freer-side": clearer_side,
 }
+"""How a robot drives elsewhere: with an old policy, or with a new one trained there."""
 
 
 def elsewhere(case: Case, seed: int, scale: str) -> Numbers:
-    """One run of one way to drive in maps of another density, or at another speed."""
+    """One run of one strategy in maps of another density, or at another speed."""
     obstacles, speed = int(case["obstacles"]), float(case["speed"])
-    robot = TAKEN[str(case["taken along"])](seed, SHORTENED[scale], obstacles, speed)
-    return driven(robot, new_worlds(scale, seed, obstacles), speed)
+    strategy = STRATEGIES[str(case["strategy"])]
+    policy = strategy(seed, SHORTENED[scale], obstacles, speed)
+    return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale, obstacles), speed)
 
 
 REFINEMENTS: dict[str, Refinement | None] = {
-    "as shown": None,
+    "as demonstrated": None,
     "most frequent": most_frequent,
-    "most telling": map_uniform_prior,
+    "most telling": most_telling,
 }
 
 
 @lru_cache(maxsize=64)
-def slipping(seed: int) -> Demonstrations:
-    """A computer expert whose turns come out 30 degrees off, three times in ten."""
-    worlds = random_worlds(DEMONSTRATIONS, OBSTACLES, seed=SHOWN_WORLDS + seed)
-    return demonstrate(worlds, speed=SPEED, slip=neighbour_slip(SLIP))
+def slipping_demonstrations(seed: int) -> Demonstrations:
+    """Demonstrations of an expert whose turns come out 30 degrees off, three times in ten."""
+    worlds = random_worlds(
+        DEMONSTRATIONS, SETUP.obstacles, seed=DEMONSTRATION_SEED + seed
+    )
+    slip = neighbour_slip(TRANSFER_CONDITIONS["slip"])
+    return demonstrate(worlds, speed=SETUP.speed, slip=slip)
 
 
 def refine(case: Case, seed: int, scale: str) -> Numbers:
-    """One run of NIRL from an expert that contradicts itself, mended by Eq. (5.12) in one way or another."""
+    """One run of NIRL from contradictory demonstrations, refined by Eq. (5.12) in one of two ways, or not."""
     shown = (
-        slipping(seed)
+        slipping_demonstrations(seed)
         if case["expert"] == "slipping"
         else demonstrations(seed, expert=str(case["expert"]))
     )
-    how = REFINEMENTS[str(case["actions"])]
+    refinement = REFINEMENTS[str(case["actions"])]
     changed = 0.0
-    if how is not None:
-        steps = expert_transitions(shown, encoder(settings("nirl")["target"]))
-        changed = (
-            100 * how(steps.inputs.round(6), steps.actions, LEARNED).changed.mean()
-        )
-    found = teach("nirl", shown, seed, settings("nirl"), refine=how)
-    return driven(found.policy, new_worlds(scale, seed)) | {"actions changed": changed}
+    if refinement is not None:
+        steps = shown_steps(shown, encoder(tuned("nirl")["target"]))
+        refined = refinement(steps.inputs.round(6), steps.actions, LEARNED)
+        changed = 100 * refined.changed.mean()
+    learned = train_irl("nirl", shown, seed, tuned("nirl"), refine=refinement)
+    rates = SETUP.evaluate(learned.policy, SETUP.test_worlds(seed, scale))
+    return rates | {"actions changed": changed}
 
 
 TRANSFER = Experiment(
     name="nirl-transfer",
-    title="Elsewhere: the policy taken along, or the reward alone; beside cloning, other rewards, and a rule",
+    title="Elsewhere: the old policy, or training under the learned reward; beside cloning, other rewards, a baseline",
     cases=[
-        {"obstacles": obstacles, "speed": speed, "taken along": taken}
+        {"obstacles": obstacles, "speed": speed, "strategy": strategy}
         for obstacles, speed in PLACES
-        for taken in TAKEN
+        for strategy in STRATEGIES
     ],
     run=elsewhere,
     seeds={"quick": 1, "thesis": 10},
     shortened="a tenth of the iterations",
     settings={
-        "learned with": {"obstacles": OBSTACLES, "speed": SPEED} | settings("nirl"),
-        "episodes with Table 4.1": EPISODES,
-        "NNQL": TABLE_SETTINGS,
-        "drives a run": NAVIGATIONS,
+        "learned with": {
+            "obstacles": SETUP.obstacles,
+            "speed": SETUP.speed,
+            **tuned("nirl"),
+        },
+        "episodes with Table 4.1": TRANSFER_CONDITIONS["episodes"],
+        "NNQL": dict(NNQL),
+        "navigations a run": SETUP.navigations,
     },
+    plot=SUCCESS_BARS,
 )
 REFINEMENT = Experiment(
     name="nirl-refinement",
-    title="Experts that contradict themselves, and what MAP refinement mends",
+    title="Experts that contradict themselves, and what MAP refinement repairs",
     cases=[
-        {"expert": expert, "actions": how}
+        {"expert": expert, "actions": refinement}
         for expert in ("computer", "human", "slipping")
-        for how in REFINEMENTS
+        for refinement in REFINEMENTS
     ],
     run=refine,
     seeds={"quick": 1, "thesis": 10},
-    settings={"slip": SLIP, "settings": settings("nirl"), "drives a run": NAVIGATIONS},
+    settings={
+        "slip": TRANSFER_CONDITIONS["slip"],
+        "settings": dict(tuned("nirl")),
+        "navigations a run": SETUP.navigations,
+    },
+    plot=SUCCESS_BARS,
 )
 
 EXPERIMENTS = (TRANSFER, REFINEMENT)

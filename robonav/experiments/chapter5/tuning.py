@@ -1,40 +1,56 @@
-"""How the settings of chapter 5's methods were chosen: as many trials for each, on worlds kept for that."""
+"""How the hyperparameters of chapter 5's methods were chosen: as many trials for each, in worlds kept for tuning.
+
+Run the trials, then write ``hyperparameters.toml`` from their results::
+
+    robonav reproduce nirl-tuning --scale thesis
+    python -m robonav.experiments.chapter5.tuning results
+"""
 
 from __future__ import annotations
 
 import json
+import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from robonav.robot import random_worlds
-
-from ..runner.experiment import Case, Experiment, Results
-from .setup import NAVIGATIONS, OBSTACLES, SHORTENED, Numbers, driven, policy
-
-TRIALS = 8  # with each of two discounts
-DISCOUNTS = (0.65, 0.9)
-TUNING_SEEDS = 1000  # run k learns with this seed + k, from demonstrations of its own; tables take others
-TUNING_WORLDS = (
-    70_000  # run k drives through the worlds of this seed + k; tables take others
+from ..runner.experiment import Case, Experiment, Numbers, Plot, Results
+from ..runner.results import RESULTS, read_results
+from ..runner.settings import Settings, write_hyperparameters
+from .setup import (
+    CONDITIONS,
+    HYPERPARAMETERS,
+    METHODS,
+    SETUP,
+    SHORTENED,
+    THESIS,
+    trained_policy,
 )
 
-METHODS = ("nirl", "apprenticeship", "relative_entropy", "scirl", "cloning")
+TRIALS = 8  # with each of two discounts
+DISCOUNTS: tuple[float, ...] = tuple(CONDITIONS["discounts"])
+TUNING_SEEDS = 1000  # run k trains with this seed + k, from demonstrations of its own; the tables take others
+SAMPLES = 9600  # steps of gradient descent an iteration, in all trials
+
 _SHARED: dict[str, list[Any]] = {
-    "eta": [15.0, 25.0, 40.0],
-    "rate": [(0.4, 0.4), (0.4, 0.1), (0.4, 0.02)],
+    "inverse_temperature": [15.0, 25.0, 40.0],
+    "gradient_step": [(0.4, 0.4), (0.4, 0.1), (0.4, 0.02)],
     "hidden": [10, 16],
     "replay": [10, 20, 40],
     "target": ["signed", "sine-cosine"],
 }
 _OWN: dict[str, dict[str, list[Any]]] = {
     "nirl": {"power": [0.5, 1.0]},
-    "apprenticeship": {"expectations": ["everywhere", "start"], "guesses": [7, 14, 28]},
+    "apprenticeship": {
+        "expectations": ["all states", "initial state"],
+        "rewards": [7, 14, 28],
+    },
     "relative_entropy": {"horizon": [3, 5, 8], "slack": [0.02, 0.05, 0.1]},
     "scirl": {
         "estimate": ["lstd", "heuristic"],
         "power": [0.0, 0.5, 1.0],
-        "ridge": [1e-6, 1e-4, 1e-2],
+        "regularisation": [1e-6, 1e-4, 1e-2],
     },
 }
 SPACE: dict[str, dict[str, list[Any]]] = {
@@ -47,36 +63,13 @@ SPACE: dict[str, dict[str, list[Any]]] = {
         "target": ["signed", "sine-cosine"],
     }
 }
-"""What a trial draws from, evenly and setting by setting; what all methods share is drawn alike for all."""
-
-_FIRST = {
-    "eta": 25.0,
-    "rate": (0.4, 0.4),
-    "hidden": 10,
-    "replay": 20,
-    "target": "sine-cosine",
-}
-FIRST: dict[str, dict[str, Any]] = {
-    "nirl": _FIRST | {"power": 1.0},
-    "apprenticeship": _FIRST | {"expectations": "everywhere", "guesses": 14},
-    "relative_entropy": _FIRST | {"horizon": 5, "slack": 0.05},
-    "scirl": _FIRST | {"estimate": "lstd", "power": 1.0, "ridge": 1e-6},
-    "cloning": {
-        "hidden": 8,
-        "regularisation": 1.0,
-        "iterations": 300,
-        "target": "sine-cosine",
-    },
-}
-"""Trial 0: what the thesis has, where it has anything."""
-
-SAMPLES = 9600
+"""The values of each hyperparameter. Those that methods share are drawn alike for all of them."""
 
 
 def draws(method: str, discount: float) -> list[dict[str, Any]]:
-    """The settings of all trials but the first: each choice about as often as the others, combined by chance.
+    """The hyperparameters of all trials but the first. Each value occurs about equally often, in random combinations.
 
-    Cloning knows no discount: it gets other draws instead.
+    Cloning has no discount: for the second one it gets other draws.
     """
     seed = [TUNING_SEEDS, DISCOUNTS.index(discount) if method == "cloning" else 0]
     rng = np.random.default_rng(seed)
@@ -93,39 +86,34 @@ def draws(method: str, discount: float) -> list[dict[str, Any]]:
     ]
 
 
-def trial_settings(method: str, trial: int, discount: float) -> dict[str, Any]:
-    """The settings of a trial."""
+def trial_settings(method: str, trial: int, discount: float) -> Settings:
+    """The hyperparameters of a trial."""
     first = trial == 0 and (method != "cloning" or discount == DISCOUNTS[0])
-    drawn = FIRST[method] if first else draws(method, discount)[trial]
-    return (
-        dict(drawn)
-        if method == "cloning"
-        else {**drawn, "discount": discount, "samples": SAMPLES}
-    )
+    drawn = dict(THESIS[method]) if first else draws(method, discount)[trial]
+    if method != "cloning":
+        drawn |= {"discount": discount, "samples": SAMPLES}
+    return Settings.of(drawn)
 
 
 def tune(case: Case, seed: int, scale: str) -> Numbers:
-    """One seed of one trial, on tuning worlds."""
-    chosen = json.loads(str(case["settings"]))
-    robot = policy(
-        str(case["method"]), TUNING_SEEDS + seed, chosen, length=SHORTENED[scale]
+    """One seed of a trial, tested in tuning worlds."""
+    settings = Settings.of(json.loads(str(case["settings"])))
+    policy = trained_policy(
+        str(case["method"]), TUNING_SEEDS + seed, settings, length=SHORTENED[scale]
     )
-    return driven(
-        robot, random_worlds(NAVIGATIONS[scale], OBSTACLES, seed=TUNING_WORLDS + seed)
-    )
+    worlds = SETUP.tuning_worlds(seed, SETUP.navigations[scale])
+    return SETUP.evaluate(policy, worlds)
 
 
 TUNING = Experiment(
     name="nirl-tuning",
-    title="Trials from which the settings of chapter 5's methods were chosen, as many for each",
+    title="Trials from which the hyperparameters of chapter 5's methods were chosen, as many for each",
     cases=[
         {
             "method": method,
             "discount": discount,
             "trial": trial,
-            "settings": json.dumps(
-                trial_settings(method, trial, discount), sort_keys=True
-            ),
+            "settings": trial_settings(method, trial, discount).as_json(),
         }
         for method in METHODS
         for discount in DISCOUNTS
@@ -134,20 +122,33 @@ TUNING = Experiment(
     run=tune,
     seeds={"quick": 1, "thesis": 2},
     shortened="a tenth of the iterations",
-    settings={"drives a run": NAVIGATIONS},
+    settings={"navigations a run": SETUP.navigations},
+    plot=Plot("nnql.plot_trials"),
 )
 
 
-def best_trials(results: Results) -> dict[str, dict[float, int]]:
-    """For each method and discount the trial with the greatest mean success over seeds."""
-    means = np.array(
-        [results.summary("success", case).mean for case in range(len(TUNING.cases))]
-    )
-    best = means.reshape(len(METHODS), len(DISCOUNTS), TRIALS).argmax(axis=2).tolist()
-    return {
-        m: dict(zip(DISCOUNTS, trials, strict=True))
-        for m, trials in zip(METHODS, best, strict=True)
-    }
+def best_trials(results: Results) -> dict[str, dict[str, Settings]]:
+    """For each method and discount the trial with the greatest mean success; for cloning one of all trials."""
+    best: dict[tuple[str, str], tuple[float, Settings]] = {}
+    for place, case in enumerate(results.experiment.cases):
+        method = str(case["method"])
+        key = method, "" if method == "cloning" else str(case["discount"])
+        success = results.summary("success", place).mean
+        if key not in best or success > best[key][0]:
+            best[key] = success, Settings.of(json.loads(str(case["settings"])))
+    found: dict[str, dict[str, Settings]] = {}
+    for (method, discount), (_, settings) in best.items():
+        found.setdefault(method, {})[discount] = settings
+    return found
+
+
+def write_tuned(folder: str | Path = RESULTS, path: Path = HYPERPARAMETERS) -> None:
+    """Write the hyperparameters of each method's best trial to TOML, from the results of ``nirl-tuning``."""
+    comment = "The best trials of nirl-tuning, by discount. Written by robonav.experiments.chapter5.tuning."
+    write_hyperparameters(path, comment, best_trials(read_results(TUNING, folder)))
 
 
 EXPERIMENTS = (TUNING,)
+
+if __name__ == "__main__":
+    write_tuned(sys.argv[1] if sys.argv[1:] else RESULTS)

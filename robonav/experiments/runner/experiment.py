@@ -1,10 +1,11 @@
-"""An experiment as data: what it varies, how often, what it computes, what the thesis has."""
+"""An experiment as data: what it varies, how often it runs, what it computes, and what the thesis reports."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,38 +14,99 @@ from robonav.validation import check_array, check_one_of
 
 from .statistics import Summary, summarise
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 Case = Mapping[str, str | float | int]
 """One setting of what an experiment varies, such as ``{"method": "nnql", "obstacles": 10}``."""
 
+Numbers = Mapping[str, ArrayLike]
+"""What one run measures, by metric: one number, or one number a step (T,)."""
+
+Row = tuple[int, int, str, int, float]
+"""One number of a run: case (its place), seed, metric, step, value."""
+
 SCALES = ("quick", "thesis")
+COLUMNS = ("case", "seed", "metric", "step", "value")
 
 
-@dataclass(frozen=True)
-class Experiment:
-    """A table or figure of the thesis, or one of ours.
+class Plot:
+    """A function of ``robonav.plots`` with its options, named here and imported when a figure is drawn.
 
     Parameters
     ----------
-    name : as on the command line: ``table-4.3``, ``figure-5.10``.
-    title : one line.
-    cases : what it varies; all with the same keys.
-    run : ``run(case, seed, scale)`` gives numbers by metric, each a single one or one a step (T,); nothing else may
-        decide them.
-    seeds : number of runs of each case, by scale: "quick" (under a minute in all), "thesis" (its number, or more).
-    thesis : what the thesis has: metric to one number a case, None where it has none.
-    settings : what else a reader needs to know, for the metadata.
-    shortened : what a quick run leaves out of the training, if anything; its numbers then foretell nothing. All others
-        are runs as at the thesis's scale, only fewer, with fewer drives.
+    function : str
+        Module and function, such as ``"nnql.plot_rates"``. The function takes results and the options.
+    **options
+        Keyword arguments of the function.
+
+    Examples
+    --------
+    >>> bars = Plot("experiments.draw_bars", metric="success")
+    >>> bars.function, bars.options
+    ('experiments.draw_bars', {'metric': 'success'})
+    """
+
+    def __init__(self, function: str, **options: Any) -> None:
+        self.function, self.options = function, options
+
+
+SUCCESS_BARS = Plot(
+    "experiments.draw_bars", metric="success", label="episodes that arrive (%)"
+)
+"""A bar a case with the share of episodes that arrive: the figure of most experiments."""
+
+
+@dataclass(frozen=True, eq=False)
+class Experiment:
+    """A table or figure of the thesis, or one of our own.
+
+    Parameters
+    ----------
+    name : str
+        The name on the command line, such as ``table-4.3`` or ``figure-5.10``.
+    title : str
+        One line.
+    cases : sequence of mappings
+        What the experiment varies. All cases have the same keys.
+    run : callable
+        ``run(case, seed, scale)`` returns numbers by metric: one number, or one number a step (T,). The numbers must
+        depend on these three arguments alone.
+    seeds : mapping
+        The number of runs of each case at each scale: "quick" takes less than a minute in all, "thesis" has the
+        thesis's number of runs or more.
+    thesis : mapping
+        What the thesis reports: metric to one number a case, None where it has none.
+    settings : mapping
+        What else a reader needs to know. It is written beside the results.
+    shortened : str
+        What a quick run leaves out of the training. The numbers of a shortened quick run say nothing about those at the
+        thesis's scale. With the empty string a quick run only has fewer seeds and fewer navigations.
+    plot : Plot or str
+        How results are drawn, or the reason why there is no figure.
+
+    Examples
+    --------
+    >>> dice = Experiment(
+    ...     name="dice",
+    ...     title="Mean of a die",
+    ...     cases=[{"sides": 6}],
+    ...     run=lambda case, seed, scale: {"mean": (case["sides"] + 1) / 2},
+    ...     seeds={"quick": 1, "thesis": 10},
+    ... )
+    >>> dice.run(dice.cases[0], 0, "quick")
+    {'mean': 3.5}
     """
 
     name: str
     title: str
     cases: Sequence[Case]
-    run: Callable[[Case, int, str], Mapping[str, ArrayLike]]
+    run: Callable[[Case, int, str], Numbers]
     seeds: Mapping[str, int]
     thesis: Mapping[str, Sequence[float | None]] = field(default_factory=dict)
     settings: Mapping[str, Any] = field(default_factory=dict)
     shortened: str = ""
+    plot: Plot | str = ""
 
     def __post_init__(self) -> None:
         if not self.cases or any(
@@ -64,33 +126,63 @@ class Experiment:
                 )
 
 
-@dataclass(frozen=True)
-class Row:
-    """One number: of a case (by its place), a seed, a metric, a step."""
-
-    case: int
-    seed: int
-    metric: str
-    step: int
-    value: float
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Results:
-    """All numbers of an experiment, ordered by case, seed, metric and step."""
+    """All numbers of an experiment.
+
+    Attributes
+    ----------
+    experiment : Experiment
+        The experiment that gave the numbers.
+    scale : str
+        "quick" or "thesis".
+    frame : pandas.DataFrame
+        One number a line, ordered by case, seed, metric and step. Columns: ``case`` (place among the experiment's
+        cases), ``seed``, ``metric``, ``step`` (0 for a single number), ``value``.
+
+    Examples
+    --------
+    >>> dice = Experiment("dice", "Dice", [{"sides": 6}], dict, {"quick": 2, "thesis": 2})
+    >>> results = Results.from_rows(dice, "quick", [(0, 0, "mean", 0, 3.0), (0, 1, "mean", 0, 4.0)])
+    >>> results.values("mean", 0)
+    array([3., 4.])
+    >>> results.summary("mean", 0).mean
+    3.5
+    """
 
     experiment: Experiment
     scale: str
-    rows: tuple[Row, ...]
+    frame: pd.DataFrame
+
+    @classmethod
+    def from_rows(
+        cls, experiment: Experiment, scale: str, rows: Iterable[Row]
+    ) -> Results:
+        """Results from rows such as :func:`rows_of` gives."""
+        import pandas as pd
+
+        return cls(experiment, scale, pd.DataFrame(list(rows), columns=list(COLUMNS)))
+
+    @cached_property
+    def _tables(self) -> dict[tuple[int, str], NDArray[np.float64]]:
+        """For each case and metric one row a seed, one column a step."""
+        return {
+            key: group.pivot(index="seed", columns="step", values="value").to_numpy()
+            for key, group in self.frame.groupby(["case", "metric"], sort=False)
+        }
+
+    def metrics(self, case: int) -> list[str]:
+        """The metrics of a case, sorted by name."""
+        return sorted(metric for place, metric in self._tables if place == case)
+
+    def scalars(self, case: int) -> list[str]:
+        """The metrics of a case that have one number a run."""
+        return [m for m in self.metrics(case) if self._tables[case, m].shape[1] == 1]
 
     def values(self, metric: str, case: int) -> NDArray[np.float64]:
         """One row a seed: (S,) of a metric with one number a run, (S, T) of one with a number a step."""
-        check_one_of("metric", metric, {row.metric: None for row in self.rows})
-        by_seed: dict[int, list[float]] = {}
-        for row in self.rows:
-            if row.case == case and row.metric == metric:
-                by_seed.setdefault(row.seed, []).append(row.value)
-        table = np.array([by_seed[seed] for seed in sorted(by_seed)])
+        check_one_of("metric", metric, dict.fromkeys(self.metrics(case)))
+        table = self._tables[case, metric]
         return table[:, 0] if table.shape[1] == 1 else table
 
     def summary(self, metric: str, case: int) -> Summary:
@@ -98,9 +190,9 @@ class Results:
         return summarise(self.values(metric, case))
 
 
-def rows_of(case: int, seed: int, numbers: Mapping[str, ArrayLike]) -> list[Row]:
-    """The numbers of one run as rows; ValueError for one that is neither a number nor a list of finite numbers."""
-    rows = []
+def rows_of(case: int, seed: int, numbers: Numbers) -> list[Row]:
+    """Numbers of one run as rows; ValueError for one that is neither a number nor a list of finite numbers."""
+    rows: list[Row] = []
     for metric in sorted(numbers):
         series = check_array(
             metric,
@@ -108,7 +200,7 @@ def rows_of(case: int, seed: int, numbers: Mapping[str, ArrayLike]) -> list[Row]
             shape=("steps",),
         )
         rows += [
-            Row(case, seed, metric, step, float(value))
+            (case, seed, metric, step, float(value))
             for step, value in enumerate(series)
         ]
     return rows

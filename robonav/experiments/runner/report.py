@@ -1,4 +1,4 @@
-"""Results for people and for programs: a table of text, and a dictionary for JSON."""
+"""Results as text, as Markdown tables and as a dictionary for JSON."""
 
 from __future__ import annotations
 
@@ -11,16 +11,8 @@ from .experiment import Results
 from .statistics import Summary
 
 
-def scalars(results: Results, case: int) -> list[str]:
-    """The metrics of a case with one number a run."""
-    rows = [row for row in results.rows if row.case == case]
-    return sorted(
-        {row.metric for row in rows} - {row.metric for row in rows if row.step > 0}
-    )
-
-
 def as_text(results: Results) -> str:
-    """Title and one line a case: mean, interval, best and worst of each metric, the thesis's number beside it."""
+    """Title and one line for each case and metric: mean, interval, worst and best, the thesis's number beside it."""
     experiment = results.experiment
     seeds = experiment.seeds[results.scale]
     heading = [results.scale, "1 run a case" if seeds == 1 else f"{seeds} runs a case"]
@@ -28,68 +20,58 @@ def as_text(results: Results) -> str:
         heading.append(f"{experiment.shortened}: not to be compared")
     lines = [f"{experiment.name}: {experiment.title} ({', '.join(heading)})"]
     for place, case in enumerate(experiment.cases):
-        said = ", ".join(f"{key} {value}" for key, value in case.items())
-        for metric in scalars(results, place):
-            thesis = experiment.thesis.get(metric, [None] * len(experiment.cases))[
-                place
-            ]
-            beside = "" if thesis is None else f"; thesis {thesis:g}"
-            lines.append(
-                f"  {said}: {metric} {_said(results.summary(metric, place))}{beside}"
-            )
+        label = ", ".join(f"{key} {value}" for key, value in case.items())
+        for metric in results.scalars(place):
+            number = thesis_number(results, metric, place)
+            beside = "" if number is None else f"; thesis {number:g}"
+            summary = _long(results.summary(metric, place))
+            lines.append(f"  {label}: {metric} {summary}{beside}")
     return "\n".join(lines)
 
 
 def as_table(results: Results, metric: str, *, rows: str, columns: str) -> str:
-    """A Markdown table of a metric's mean and interval, one line a value of ``rows``, one column one of ``columns``."""
-    cases = results.experiment.cases
-    across = list(dict.fromkeys(str(case[columns]) for case in cases))
-    lines = {str(case[rows]): dict.fromkeys(across, "") for case in cases}
-    for place, case in enumerate(cases):
-        if metric in scalars(results, place):
-            lines[str(case[rows])][str(case[columns])] = short(
-                results.summary(metric, place)
-            )
-    head = [rows, *across]
-    table = [[name, *cells.values()] for name, cells in lines.items()]
-    return "\n".join(
-        "| " + " | ".join(line) + " |" for line in [head, ["---"] * len(head), *table]
+    """A Markdown table of a metric's mean and interval: a line for each value of ``rows``, a column of ``columns``."""
+    import pandas as pd
+
+    cells = pd.DataFrame(
+        {
+            rows: [str(case[rows]) for case in results.experiment.cases],
+            columns: [str(case[columns]) for case in results.experiment.cases],
+            "cell": _cells(results, metric),
+        }
     )
+    table = cells.pivot_table(
+        index=rows, columns=columns, values="cell", aggfunc="first", sort=False
+    )
+    return _markdown(table.reset_index())
 
 
 def as_markdown(results: Results, metrics: Sequence[str]) -> str:
-    """A Markdown table, a line a case: what varies, each metric's mean and interval, the thesis's number beside it."""
+    """A Markdown table, a line for each case: what varies, each metric's mean and interval, the thesis's numbers."""
+    import pandas as pd
+
     experiment = results.experiment
-    cases = experiment.cases
-    varied = [
-        key for key in cases[0] if len({case[key] for case in cases}) > 1
-    ] or list(cases[0])
-    with_thesis = [
-        metric
-        for metric in metrics
-        if any(v is not None for v in experiment.thesis.get(metric, ()))
-    ]
-    head = [*varied, *metrics, *(f"{metric}, thesis" for metric in with_thesis)]
-    lines = [head, ["---"] * len(head)]
-    for place, case in enumerate(cases):
-        known = scalars(results, place)
-        ours = [
-            short(results.summary(metric, place)) if metric in known else ""
-            for metric in metrics
-        ]
-        theirs = [experiment.thesis[metric][place] for metric in with_thesis]
-        lines.append(
-            [
-                *(str(case[key]) for key in varied),
-                *ours,
-                *("" if v is None else f"{v:g}" for v in theirs),
-            ]
-        )
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    places = range(len(experiment.cases))
+    table = pd.DataFrame(list(experiment.cases)).astype(str)
+    varied = [key for key in table if table[key].nunique() > 1]
+    table = table[varied or list(table)]
+    for metric in metrics:
+        table[metric] = _cells(results, metric)
+    for metric in metrics:
+        numbers = [thesis_number(results, metric, place) for place in places]
+        if any(number is not None for number in numbers):
+            table[f"{metric}, thesis"] = ["" if n is None else f"{n:g}" for n in numbers]  # fmt: skip
+    return _markdown(table)
 
 
-def made(results: Results) -> str:
-    """What stands behind a table, in a sentence."""
+def thesis_number(results: Results, metric: str, case: int) -> float | None:
+    """What the thesis reports for a metric of a case; None if it reports nothing."""
+    numbers = results.experiment.thesis.get(metric)
+    return None if numbers is None else numbers[case]
+
+
+def number_of_runs(results: Results) -> str:
+    """How many runs a table rests on, in a sentence."""
     runs = results.experiment.seeds[results.scale]
     return (
         "One run a case."
@@ -120,8 +102,8 @@ def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
                 {
                     "case": dict(case),
                     "metrics": {
-                        metric: _plain(results.summary(metric, place))
-                        for metric in scalars(results, place)
+                        metric: _without_nan(results.summary(metric, place))
+                        for metric in results.scalars(place)
                     },
                     "thesis": {
                         metric: numbers[place]
@@ -135,7 +117,21 @@ def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
     ]
 
 
-def _said(summary: Summary) -> str:
+def _cells(results: Results, metric: str) -> list[str]:
+    """A metric's mean and interval for every case; the empty string for a case without it."""
+    return [
+        short(results.summary(metric, place)) if metric in results.scalars(place) else ""
+        for place in range(len(results.experiment.cases))
+    ]  # fmt: skip
+
+
+def _markdown(table: Any) -> str:
+    """A data frame of text as a Markdown table."""
+    text: str = table.to_markdown(index=False, tablefmt="pipe", disable_numparse=True)
+    return text
+
+
+def _long(summary: Summary) -> str:
     interval = (
         "" if math.isnan(summary.low) else f" [{summary.low:.4g}, {summary.high:.4g}]"
     )
@@ -152,7 +148,7 @@ def _said(summary: Summary) -> str:
     )
 
 
-def _plain(summary: Summary) -> dict[str, Any]:
+def _without_nan(summary: Summary) -> dict[str, Any]:
     return {
         key: None if isinstance(v, float) and math.isnan(v) else v
         for key, v in asdict(summary).items()

@@ -1,13 +1,11 @@
-"""Runs and results in files: a run that is finished stays, whatever happens to the next.
+"""Runs and results in files: a finished run is kept, whatever happens to the next one.
 
-A run is a small JSON file with a checksum of its numbers; one that does not fit its checksum is as good as none.
+A run is a small JSON file with a checksum of its numbers. A file that does not fit its checksum is not used.
 """
 
 from __future__ import annotations
 
-import csv
 import hashlib
-import io
 import json
 import os
 import platform
@@ -15,27 +13,27 @@ import re
 import sys
 import tempfile
 from collections.abc import Iterable, Mapping
-from dataclasses import astuple
-from functools import cache
 from importlib import metadata
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from robonav import atomic
 from robonav._version import __version__
 
+from .dependencies import code_digest
 from .experiment import Experiment, Results, Row
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 RESULTS = Path(__file__).parents[1] / "results"
-"""What the experiments gave at the thesis's scale: the pages show it."""
+"""The committed results of all experiments at the thesis's scale. The pages show them."""
 
 FORMAT = "robonav results 1"
-COMPUTING = ("mdp", "robot", "lfd", "nnql", "nirl", "experiments")
-COLUMNS = ("seed", "metric", "step", "value")
 
 
 def check_writable(name: str, folder: str | Path) -> None:
-    """Make the folder, if need be; ValueError, naming the argument, where nothing can be written in it."""
+    """Make the folder if need be; ValueError, naming the argument, if nothing can be written in it."""
     try:
         Path(folder).mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -49,54 +47,55 @@ def check_writable(name: str, folder: str | Path) -> None:
 def run_file(
     folder: Path, experiment: Experiment, scale: str, case: int, seed: int
 ) -> Path:
-    """Where one run is kept while its experiment is unfinished, and after."""
-    return (
-        folder
-        / ".runs"
-        / experiment.name
-        / f"{scale}-{_identity(experiment)}"
-        / f"{case}-{seed}.json"
-    )
+    """The file of one run. Its name holds the :func:`cache_key`, so other code or settings make another file."""
+    runs = folder / ".runs" / experiment.name / f"{scale}-{cache_key(experiment)}"
+    return runs / f"{case}-{seed}.json"
 
 
 def save_run(path: Path, rows: Iterable[Row], seconds: float) -> None:
-    """Keep the rows of a finished run."""
-    numbers = [astuple(row) for row in rows]
+    """Write the rows of a finished run."""
+    numbers = [tuple(row) for row in rows]
     content = {"sha256": _digest(numbers), "rows": numbers, "seconds": seconds}
     with atomic.atomic_write(path) as file:
         file.write(json.dumps(content).encode())
 
 
 def load_run(path: Path) -> tuple[list[Row], float] | None:
-    """The rows of a finished run and its seconds; None if there is none, or its file is damaged."""
+    """The rows of a finished run and its seconds; None if there is no file, or it is damaged."""
     try:
         content = json.loads(path.read_text())
         if content["sha256"] != _digest(content["rows"]):
             return None
-        return [Row(*numbers) for numbers in content["rows"]], float(content["seconds"])
+        rows = [
+            (case, seed, metric, step, value)
+            for case, seed, metric, step, value in content["rows"]
+        ]
+        return rows, float(content["seconds"])
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
 
-def save_results(folder: Path, results: Results) -> None:
-    """Write ``NAME.csv``, one number a line, and ``NAME.json``, which says what made it."""
-    experiment = results.experiment
-    keys = list(experiment.cases[0])
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*keys, *COLUMNS])
-    for row in results.rows:
-        case = experiment.cases[row.case]
-        writer.writerow(
-            [
-                *(case[key] for key in keys),
-                row.seed,
-                row.metric,
-                row.step,
-                repr(row.value),
-            ]
-        )
-    content = text.getvalue().encode()
+def save_results(folder: str | Path, results: Results) -> None:
+    """Write ``NAME.csv``, one number a line, and ``NAME.json``, which says how it was made.
+
+    Parameters
+    ----------
+    folder : str or Path
+        The folder to write in. It must exist.
+    results : Results
+        The numbers.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> yardsticks = read_results("baselines")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_results(folder, yardsticks)
+    ...     load_results("baselines", folder).equals(load_results("baselines"))
+    True
+    """
+    experiment, folder = results.experiment, Path(folder)
+    content = _tidy(results).to_csv(index=False, lineterminator="\n").encode()
     about = {
         "format": FORMAT,
         "name": experiment.name,
@@ -113,58 +112,127 @@ def save_results(folder: Path, results: Results) -> None:
         file.write((json.dumps(about, indent=2, sort_keys=True) + "\n").encode())
 
 
-def load_results(folder: Path, experiment: Experiment) -> Results:
-    """Read what :func:`save_results` wrote.
+def load_results(name: str, folder: str | Path = RESULTS) -> pd.DataFrame:
+    """All numbers of an experiment as a tidy table.
+
+    Parameters
+    ----------
+    name : str
+        The name of an experiment, such as ``table-4.3``.
+    folder : str or Path
+        Where :func:`reproduce` wrote; by default the committed results at the thesis's scale.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One number a line. The first columns say what the experiment varies (``method``, ``obstacles``, ...). The last
+        four are ``seed`` (the run), ``metric`` (such as ``success``, in per cent), ``step`` (place in a curve, 0 for a
+        single number) and ``value``.
 
     Raises
     ------
-    FileNotFoundError : if there is nothing.
-    ValueError : if a file is damaged, or they do not belong together or to the experiment.
+    FileNotFoundError
+        If there are no results of this name.
+    ValueError
+        If a file is damaged, or the two files do not belong together.
+
+    Examples
+    --------
+    >>> table = load_results("baselines")
+    >>> list(table.columns)
+    ['rule', 'standing', 'moving', 'speed', 'seed', 'metric', 'step', 'value']
+    >>> success = table[(table.metric == "success") & (table.speed == 2.0) & (table.moving == 0)]
+    >>> success.pivot_table(index="rule", columns="standing", values="value").round(0)
+    standing      10    20    30
+    rule
+    freer-side  92.0  75.0  51.0
+    straight    38.0  14.0   6.0
     """
-    path = folder / f"{experiment.name}.csv"
+    import pandas as pd
+
+    path = Path(folder) / f"{name}.csv"
     content = path.read_bytes()
     try:
-        about: Mapping[str, Any] = json.loads(
-            (folder / f"{experiment.name}.json").read_text()
-        )
-        fits = (
-            about["format"] == FORMAT
-            and about["sha256"] == hashlib.sha256(content).hexdigest()
-        )
-        if not fits:
+        about: Mapping[str, Any] = json.loads(path.with_suffix(".json").read_text())
+        whole = hashlib.sha256(content).hexdigest()
+        if (about["format"], about["sha256"]) != (FORMAT, whole):
             raise ValueError
-        places = {
-            tuple(str(v) for v in case.values()): place
-            for place, case in enumerate(experiment.cases)
-        }
-        lines = list(csv.reader(io.StringIO(content.decode())))[1:]
-        rows = tuple(
-            Row(
-                places[tuple(line[:-4])],
-                int(line[-4]),
-                line[-3],
-                int(line[-2]),
-                float(line[-1]),
-            )
-            for line in lines
-        )
-        return Results(experiment, about["scale"], rows)
+        return pd.read_csv(path, converters={"value": float}, keep_default_na=False)
     except (ValueError, KeyError, TypeError):
         raise ValueError(
-            f"{path.name} must hold results of {experiment.name}, but is damaged or of another"
+            f"{path.name} must hold results of {name}, but is damaged or of another"
         ) from None
+
+
+def read_results(experiment: Experiment | str, folder: str | Path = RESULTS) -> Results:
+    """Results with their experiment, for plots and reports.
+
+    Parameters
+    ----------
+    experiment : Experiment or str
+        The experiment, or its name.
+    folder : str or Path
+        As in :func:`load_results`.
+
+    Returns
+    -------
+    Results
+        The numbers of every case.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there are no results.
+    ValueError
+        If a file is damaged, or belongs to another experiment or to other cases.
+
+    Examples
+    --------
+    >>> results = read_results("table-4.3")
+    >>> results.experiment.cases[0], results.values("success", 0).shape
+    ({'robot': 'nnql'}, (50,))
+    """
+    if isinstance(experiment, str):
+        from ..registry import experiment as registered
+
+        experiment = registered(experiment)
+    path = Path(folder) / f"{experiment.name}.json"
+    table = load_results(experiment.name, folder)
+    keys = list(experiment.cases[0])
+    places = {
+        tuple(str(value) for value in case.values()): place
+        for place, case in enumerate(experiment.cases)
+    }
+    try:
+        cases = [places[case] for case in zip(*(table[key].astype(str) for key in keys), strict=True)]  # fmt: skip
+        frame = table.drop(columns=keys)
+        frame.insert(0, "case", cases)
+        return Results(experiment, json.loads(path.read_text())["scale"], frame)
+    except KeyError:
+        raise ValueError(
+            f"{path.stem}.csv must hold results of {experiment.name}, but is damaged or of another"
+        ) from None
+
+
+def _tidy(results: Results) -> pd.DataFrame:
+    """The table that is written: what the cases vary in the place of their numbers."""
+    import pandas as pd
+
+    frame, cases = results.frame, results.experiment.cases
+    varied = {key: [cases[place][key] for place in frame["case"]] for key in cases[0]}
+    return pd.concat(
+        [pd.DataFrame(varied, dtype=object), frame.drop(columns="case").reset_index(drop=True)],
+        axis=1,
+    )  # fmt: skip
 
 
 def save_timing(
     folder: Path, experiment: Experiment, spent: Mapping[str, float]
 ) -> None:
-    """Write ``NAME.machine.json``: what no other machine will repeat."""
+    """Write ``NAME.machine.json``: the times and the machine, which another run will not repeat."""
     with atomic.atomic_write(folder / f"{experiment.name}.machine.json") as file:
-        file.write(
-            (
-                json.dumps(machine() | dict(spent), indent=2, sort_keys=True) + "\n"
-            ).encode()
-        )
+        content = json.dumps(machine() | dict(spent), indent=2, sort_keys=True)
+        file.write((content + "\n").encode())
 
 
 def machine() -> dict[str, Any]:
@@ -186,24 +254,13 @@ def machine() -> dict[str, Any]:
     }
 
 
-@cache
-def code() -> str:
-    """SHA-256 of the package's code that computes."""
-    root = Path(__file__).parents[2]
-    digest = hashlib.sha256()
-    for path in sorted(
-        path for part in COMPUTING for path in (root / part).rglob("*.py")
-    ):
-        digest.update(path.relative_to(root).as_posix().encode())
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
+def cache_key(experiment: Experiment) -> str:
+    """Key of an experiment's kept runs: a digest of the code that its runs use, of its cases and of its settings."""
+    cases = [dict(case) for case in experiment.cases]
+    return _digest(
+        [code_digest(experiment.run), cases, dict(experiment.settings)],
+    )[:12]
 
 
 def _digest(numbers: object) -> str:
     return hashlib.sha256(json.dumps(numbers).encode()).hexdigest()
-
-
-def _identity(experiment: Experiment) -> str:
-    """What a kept run hangs on besides its case and seed: with other code or other settings it is another run."""
-    cases = [dict(case) for case in experiment.cases]
-    return _digest([code(), cases, dict(experiment.settings)])[:12]

@@ -1,4 +1,4 @@
-"""Running experiments: on this machine's cores or a cluster, cut and resumed, always with the same numbers."""
+"""Run experiments on this machine's cores or on a cluster; an interrupted experiment resumes with the same numbers."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from robonav.errors import WorkerLost
 from robonav.progress import Progress
 from robonav.validation import check_one_of
 
+from .dependencies import code_digest
 from .experiment import SCALES, Experiment, Results, Row, rows_of
 from .results import (
     check_writable,
-    code,
     load_run,
     run_file,
     save_results,
@@ -41,24 +41,49 @@ def reproduce(
     jobs: int = -1,
     progress: Progress | None = None,
 ) -> Results:
-    """Run what is not yet run, and write ``NAME.csv``, ``NAME.json`` and ``NAME.machine.json``.
+    """Run an experiment, and write ``NAME.csv``, ``NAME.json`` and ``NAME.machine.json``.
 
-    Finished runs stay in ``out/.runs``: an experiment that was cut goes on where it was. The numbers depend on neither
-    backend nor number of workers nor interruptions.
+    Finished runs are kept in ``out/.runs``, so an interrupted experiment resumes. The numbers depend neither on the
+    backend, nor on the number of workers, nor on interruptions.
 
     Parameters
     ----------
-    out : folder for the results.
-    scale : "quick" or "thesis".
-    backend, scheduler : "joblib" for this machine, or "dask" with the address of a Dask scheduler.
-    jobs : processes of joblib; -1 for one a core.
-    progress : called with runs done and runs in all.
+    experiment : Experiment
+        What to run.
+    out : str or Path
+        The folder for the results.
+    scale : str
+        "quick" or "thesis".
+    backend : str
+        "joblib" for this machine, "dask" for a cluster.
+    scheduler : str or None
+        The address of a Dask scheduler, with backend "dask" alone.
+    jobs : int
+        The number of processes on this machine; -1 for one a core.
+    progress : callable or None
+        Called with the number of finished runs and of all runs.
+
+    Returns
+    -------
+    Results
+        All numbers.
 
     Raises
     ------
-    ValueError : for an unknown scale or backend, no processes, dask without a scheduler that answers or a scheduler
-        without dask, workers with other code than this process, or a folder that cannot be written in.
-    WorkerLost : if processes that work die again and again; what is finished stays.
+    ValueError
+        For an unknown scale or backend, zero processes, dask without a scheduler that answers, a scheduler without
+        dask, workers with other code than this process, or a folder that cannot be written in.
+    WorkerLost
+        If worker processes die again and again. Finished runs are kept.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> dice = Experiment("dice", "Dice", [{"sides": 6}], lambda case, seed, scale: {"throw": seed + 1},
+    ...                   {"quick": 3, "thesis": 6})
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     reproduce(dice, folder, jobs=1).values("throw", 0)
+    array([1., 2., 3.])
     """
     check_one_of("scale", scale, SCALES)
     check_one_of("backend", backend, BACKENDS)
@@ -99,9 +124,8 @@ def reproduce(
         finished[unit] = rows, seconds
         if progress is not None:
             progress(len(finished), len(units))
-    results = Results(
-        experiment, scale, tuple(row for unit in units for row in finished[unit][0])
-    )
+    rows = [row for unit in units for row in finished[unit][0]]
+    results = Results.from_rows(experiment, scale, rows)
     save_results(folder, results)
     spent = {
         "runs": len(units),
@@ -118,7 +142,7 @@ def reproduce(
 
 
 def run_unit(experiment: Experiment, unit: Unit, scale: str) -> Done:
-    """One run, on one thread: sums come out the same however many cores there are. With it, its processor seconds."""
+    """The rows of one run, and its processor seconds. It has one thread, so that sums do not depend on the cores."""
     from threadpoolctl import threadpool_limits
 
     case, seed = unit
@@ -139,7 +163,7 @@ def run_unit(experiment: Experiment, unit: Unit, scale: str) -> Done:
 def _here(
     experiment: Experiment, units: Sequence[Unit], scale: str, jobs: int
 ) -> Iterator[Done]:
-    """Runs on this machine, as they finish; after a process died, what is not finished is begun again."""
+    """Runs on this machine, in the order in which they finish. If a process dies, its run starts again."""
     from joblib import Parallel, delayed
 
     waiting, deaths = dict.fromkeys(units), 0
@@ -159,7 +183,7 @@ def _here(
 def _on_cluster(
     experiment: Experiment, units: Sequence[Unit], scale: str, scheduler: str | None
 ) -> Iterator[Done]:
-    """Runs on a Dask cluster, as they finish; a worker that dies has its run done again by another."""
+    """Runs on a Dask cluster, in the order in which they finish. If a worker dies, another one does its run."""
     from dask.distributed import Client, KilledWorker, as_completed
 
     try:
@@ -170,7 +194,14 @@ def _on_cluster(
         ) from None
     with client:
         futures = [
-            client.submit(_on_worker, experiment, unit, scale, code(), pure=False)
+            client.submit(
+                _on_worker,
+                experiment,
+                unit,
+                scale,
+                code_digest(experiment.run),
+                pure=False,
+            )
             for unit in units
         ]
         try:
@@ -182,8 +213,8 @@ def _on_cluster(
 
 
 def _on_worker(experiment: Experiment, unit: Unit, scale: str, wanted: str) -> Done:
-    """A run on a machine that may have another version of the package."""
-    if code() != wanted:
+    """One run on a worker; ValueError if the worker has another version of the package."""
+    if code_digest(experiment.run) != wanted:
         raise ValueError(
             "workers must have the same robonav as the command, but one has another: install it anew there"
         )

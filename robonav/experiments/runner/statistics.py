@@ -1,4 +1,4 @@
-"""What a table says about runs: over seeds, never over episodes.
+"""Statistics over seeds, never over episodes.
 
 Interquartile mean and probability of improvement are those of Agarwal et al. (2021), "Deep reinforcement learning at
 the edge of the statistical precipice".
@@ -20,7 +20,26 @@ LEVEL = 0.95
 
 @dataclass(frozen=True)
 class Summary:
-    """One number a seed, summed up; ``low`` and ``high`` bound the mean with 95 % confidence."""
+    """Statistics of one number a seed.
+
+    Attributes
+    ----------
+    seeds : int
+        The number of seeds.
+    mean, deviation : float
+        Mean and sample standard deviation.
+    low, high : float
+        Bounds of the mean with 95 % confidence, see :func:`bootstrap_interval`.
+    best, worst : float
+        The greatest and the least number.
+    interquartile_mean : float
+        The mean of the middle half.
+
+    Examples
+    --------
+    >>> Summary(1, 3.0, 2.0, 4.0, 1.0, 4.0, 2.0, 3.0).mean
+    3.0
+    """
 
     seeds: int
     mean: float
@@ -33,14 +52,29 @@ class Summary:
 
 
 def summarise(values: ArrayLike) -> Summary:
-    """Sum up one value a seed (S,).
+    """Summarise one number a seed.
 
-    The interval is a percentile bootstrap over seeds with a fixed seed of its own: the same values, the same interval.
-    With one seed there is none: it is NaN.
+    Parameters
+    ----------
+    values : (S,) array
+        One number a seed.
+
+    Returns
+    -------
+    Summary
+        The interval has a fixed seed of its own, so the same numbers give the same interval. With one seed there is no
+        interval and no deviation: they are NaN.
 
     Raises
     ------
-    ValueError : if there is no value, or one is not finite.
+    ValueError
+        If there is no number, or one is not finite.
+
+    Examples
+    --------
+    >>> summary = summarise([90, 92, 94, 96])
+    >>> summary.mean, summary.worst, summary.interquartile_mean
+    (93.0, 90.0, 93.0)
     """
     runs = _runs("values", values)
     low, high = bootstrap_interval(runs)
@@ -57,10 +91,28 @@ def summarise(values: ArrayLike) -> Summary:
 
 
 def bootstrap_interval(values: ArrayLike) -> tuple[float, float]:
-    """Bounds of the mean over seeds (S,), 95 %: percentiles of the means of 10,000 resamples of the seeds."""
+    """Bounds of the mean over seeds with 95 % confidence.
+
+    Parameters
+    ----------
+    values : (S,) array
+        One number a seed.
+
+    Returns
+    -------
+    tuple of two floats
+        The 2.5 and 97.5 percentiles of the means of 10,000 resamples of the seeds. NaN with one seed.
+
+    Examples
+    --------
+    >>> low, high = bootstrap_interval([90, 92, 94, 96])
+    >>> low, high
+    (91.0, 95.0)
+    """
     runs = _runs("values", values)
     if len(runs) == 1:
         return float("nan"), float("nan")
+    # scipy.stats.bootstrap(method="percentile") draws its resamples in another order: published intervals would change.
     rng = np.random.default_rng(0)
     return _middle(
         runs[rng.integers(len(runs), size=(RESAMPLES, len(runs)))].mean(axis=1)
@@ -69,7 +121,20 @@ def bootstrap_interval(values: ArrayLike) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Improvement:
-    """How likely one method's run beats another's; ``low`` and ``high`` bound it with 95 % confidence."""
+    """How likely a run of one method is better than a run of another.
+
+    Attributes
+    ----------
+    probability : float
+        Of a better run.
+    low, high : float
+        Its bounds with 95 % confidence.
+
+    Examples
+    --------
+    >>> print(Improvement(0.9, 0.8, 1.0))
+    0.90 [0.80, 1.00]
+    """
 
     probability: float
     low: float
@@ -80,13 +145,30 @@ class Improvement:
 
 
 def probability_of_improvement(ours: ArrayLike, theirs: ArrayLike) -> Improvement:
-    """How likely a run of ours (S,) beats a run of theirs (R,); a tie counts half.
+    """How likely a run of one method is better than a run of another; a tie counts half.
 
-    The interval is a percentile bootstrap that draws runs of each method anew; with one run of a method it is NaN.
+    Parameters
+    ----------
+    ours : (S,) array
+        One number a run of the first method.
+    theirs : (R,) array
+        One number a run of the second method.
+
+    Returns
+    -------
+    Improvement
+        Its interval is a percentile bootstrap that resamples the runs of both methods. With one run of a method it is
+        NaN.
 
     Raises
     ------
-    ValueError : if there is no run, or one is not finite.
+    ValueError
+        If there is no run, or a number is not finite.
+
+    Examples
+    --------
+    >>> probability_of_improvement([3, 4], [1, 3]).probability
+    0.875
     """
     a, b = _runs("ours", ours), _runs("theirs", theirs)
     difference = a[:, None] - b[None, :]
@@ -103,7 +185,7 @@ def probability_of_improvement(ours: ArrayLike, theirs: ArrayLike) -> Improvemen
 
 
 def _middle(resampled: NDArray[np.float64]) -> tuple[float, float]:
-    """Between which 95 % of resampled numbers lie."""
+    """The bounds of the middle 95 % of resampled numbers."""
     low, high = np.quantile(resampled, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
     return float(low), float(high)
 

@@ -12,15 +12,15 @@ from robonav.benchmark.leaderboard import (
     DIGESTS,
     SETTINGS,
     Setting,
-    board,
     board_worlds,
     digest,
-    entry,
-    shortest_ways,
+    evaluate_on_board,
+    shortest_paths,
     spl,
 )
 from robonav.benchmark.policies import methods
 from robonav.cli import app, main
+from robonav.experiments.leaderboard import board
 from robonav.lfd import plan_on_grid
 from robonav.robot import navigate, turn_to_clearer_side
 
@@ -62,12 +62,12 @@ def test_spl_by_hand():
 def test_shortest_ways_end_where_the_robot_arrives():
     worlds = board_worlds("10 obstacles", 1, 4)
     expected = [plan_on_grid(worlds[i], margin=2.0).length - 3 for i in range(4)]
-    np.testing.assert_allclose(shortest_ways(10, 1, 4), expected)
+    np.testing.assert_allclose(shortest_paths(10, 1, 4), expected)
 
 
 def test_an_entry_is_navigate():
     drives = navigate(turn_to_clearer_side, board_worlds("20 obstacles", 2, 20), seed=2)
-    numbers = entry({"method": "freer-side", "setting": "20 obstacles"}, 2, "quick")
+    numbers = evaluate_on_board("freer-side", "20 obstacles", 2, 20)
     assert numbers["success"] == 100 * drives.success.mean()
     assert sum(
         numbers[key] for key in ("success", "collision", "out of steps")
@@ -78,7 +78,7 @@ def test_an_entry_is_navigate():
 def test_noise_slip_and_speed_reach_the_simulator():
     """Each makes another robot of the same rule in the same worlds."""
     found = {
-        name: entry({"method": "freer-side", "setting": name}, 0, "quick")["SPL"]
+        name: evaluate_on_board("freer-side", name, 0, 20)["SPL"]
         for name, setting in SETTINGS.items()
         if setting.obstacles == 20
     }
@@ -90,7 +90,6 @@ def test_noise_slip_and_speed_reach_the_simulator():
     )
 
 
-@pytest.mark.slow
 def test_a_readers_method_stands_on_the_board(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.py").write_text(OWN)
@@ -118,7 +117,7 @@ def test_a_readers_method_stands_on_the_board(tmp_path, monkeypatch):
 def test_the_pages_example_beats_going_straight():
     example = Path(__file__).parents[3] / "book" / "_static" / "my_method.py"
     own, straight = (
-        entry({"method": name, "setting": "20 obstacles"}, 0, "quick")["success"]
+        evaluate_on_board(name, "20 obstacles", 0, 20)["success"]
         for name in (str(example), "straight")
     )
     assert own > straight

@@ -5,7 +5,7 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from robonav.benchmark.policies import drive, method, methods
+from robonav.benchmark.policies import evaluate, method, methods
 from robonav.cli import app, main
 from robonav.networks import Weights, save_weights
 from robonav.networks.multilayer_perceptron import random_network
@@ -17,12 +17,14 @@ OWN = "import numpy as np\n\ndef policy(sensing, rng):\n    return np.where(sens
 def test_every_named_method_drives():
     assert {"straight", "freer-side"} <= set(methods())
     for name in methods():
-        result = drive(name, obstacles=5, moving=1, speed=2.0, worlds=3, seed=1)
+        result = evaluate(name, obstacles=5, moving=1, speed=2.0, worlds=3, seed=1)
         assert sum(result["outcomes"].values()) == 3
 
 
 def test_a_drive_is_navigate():
-    result = drive("freer-side", obstacles=20, moving=0, speed=2.0, worlds=50, seed=7)
+    result = evaluate(
+        "freer-side", obstacles=20, moving=0, speed=2.0, worlds=50, seed=7
+    )
     expected = navigate(turn_to_clearer_side, random_worlds(50, 20, seed=7))
     assert result["success"] == expected.success.mean()
     low, high = result["interval"]
@@ -92,12 +94,11 @@ def test_the_navigate_command(tmp_path):
     assert got["outcomes"]["arrived"] == round(20 * got["success"])
 
 
-@pytest.mark.slow
 def test_the_reproduce_command(tmp_path):
-    assert "yardsticks" in run("reproduce", "--list").output
+    assert "baselines" in run("reproduce", "--list").output
     done = run(
         "reproduce",
-        "yardsticks",
+        "baselines",
         "--out",
         str(tmp_path),
         "--jobs",
@@ -109,10 +110,10 @@ def test_the_reproduce_command(tmp_path):
     (got,) = json.loads((tmp_path / "y.json").read_text())
     assert len(got["cases"]) == 10
     assert 25 <= got["cases"][0]["metrics"]["success"]["mean"] <= 50
-    assert {p.name for p in tmp_path.glob("yardsticks.*")} >= {
-        "yardsticks.csv",
-        "yardsticks.svg",
-        "yardsticks.png",
+    assert {p.name for p in tmp_path.glob("baselines.*")} >= {
+        "baselines.csv",
+        "baselines.svg",
+        "baselines.png",
     }
 
 
@@ -122,7 +123,7 @@ def test_the_reproduce_command(tmp_path):
         ["navigate", "--method", "straight", "--speed", "0"],
         ["navigate", "--method", "straight", "--worlds", "0"],
         ["reproduce", "table-9.9"],
-        ["reproduce", "yardsticks", "--json", "/dev/null/y.json"],
+        ["reproduce", "baselines", "--json", "/dev/null/y.json"],
         ["navigate", "--method", "straight", "--json", "/dev"],
     ],
 )

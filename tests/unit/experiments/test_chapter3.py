@@ -3,30 +3,27 @@
 import numpy as np
 import pytest
 
-from robonav.benchmark.policies import drive
+from robonav.benchmark import evaluate
 from robonav.experiments.chapter3.setup import (
+    DAGGER_SEED,
+    DEMONSTRATION_SEED,
     INPUTS,
-    MORE_WORLDS,
-    NAVIGATIONS,
-    SHOWN_WORLDS,
-    TEST_WORLDS,
-    cloned,
-    driven,
-    new_worlds,
-    shown,
-    trained,
-    unscaled,
+    SETUP,
+    cloned_policy,
+    demonstrations,
+    policy_of,
+    training,
 )
-from robonav.experiments.chapter3.ship import FOLDER, SEED, shipped
 from robonav.experiments.chapter3.tables import (
     EXPERIMENTS,
     FIGURE_3_5,
     FIGURE_3_8,
     OTHERS,
     TABLE_3_2,
-    method,
+    learned_policy,
     with_demonstrations,
 )
+from robonav.experiments.ship import SEED, folder_of, lfd_weights
 from robonav.lfd import demonstrate, labelled_states, plan, plan_on_grid
 from robonav.networks import fit, load_weights
 from robonav.robot import navigate, random_worlds, straight
@@ -35,18 +32,21 @@ from robonav.robot import navigate, random_worlds, straight
 def test_worlds_shown_met_and_driven_never_meet():
     most = max(experiment.seeds["thesis"] for experiment in EXPERIMENTS)
     assert most <= OTHERS
-    assert most + OTHERS <= MORE_WORLDS - SHOWN_WORLDS
-    assert 10 * most <= TEST_WORLDS - MORE_WORLDS
+    assert most + OTHERS <= DAGGER_SEED - DEMONSTRATION_SEED
+    assert 10 * most <= SETUP.test_seed - DAGGER_SEED
 
 
 def test_more_demonstrations_begin_with_the_same_ones():
-    few, more = shown(3, drives=5), shown(3, drives=8)
+    few, more = demonstrations(3, number=5), demonstrations(3, number=8)
     assert np.array_equal(more.drives(np.arange(5)).actions, few.actions)
-    assert few.worlds.digest() == random_worlds(5, seed=SHOWN_WORLDS + 3).digest()
+    assert few.worlds.digest() == random_worlds(5, seed=DEMONSTRATION_SEED + 3).digest()
 
 
 def test_the_shortest_way_goes_nearer():
-    near, far = shown(0, drives=8, expert="shortest way"), shown(0, drives=8)
+    near, far = (
+        demonstrations(0, number=8, expert="shortest path"),
+        demonstrations(0, number=8),
+    )
     assert near.sensing.ranges.min() < far.sensing.ranges.min() - 0.5
     assert len(near) < len(far)
     assert np.array_equal(far.actions, demonstrate(far.worlds).actions)
@@ -54,23 +54,23 @@ def test_the_shortest_way_goes_nearer():
 
 def test_degrees_from_0_to_7_are_folded_into_the_weights():
     """The policy's network answers to the encoder's inputs what the trained one answered to seven times as much."""
-    training = trained(0, "keeps off", "0 to 7", drives=5, iterations=20)
-    policy = unscaled(training.network, "0 to 7")
-    x, y = labelled_states(shown(0, drives=5), policy.encoder)
+    trained = training(0, "keeps clear", "0 to 7", number=5, iterations=20)
+    policy = policy_of(trained.network, "0 to 7")
+    x, y = labelled_states(demonstrations(0, number=5), policy.encoder)
     assert policy.network.forward(x) == pytest.approx(
-        training.network.forward(x * np.array([7] * 9 + [9, 1]))
+        trained.network.forward(x * np.array([7] * 9 + [9, 1]))
     )
     assert (
-        training.costs[-1]
+        trained.costs[-1]
         == fit(x * INPUTS["0 to 7"], y, iterations=20, seed=0).costs[-1]
     )
-    plain = trained(0, "keeps off", "0 to 1", drives=5, iterations=20)
+    plain = training(0, "keeps clear", "0 to 1", number=5, iterations=20)
     assert plain.costs[-1] == fit(x, y, iterations=20, seed=0).costs[-1]
 
 
 def test_fewer_iterations_are_the_same_training_cut_short():
     few, more = (
-        trained(1, "keeps off", "0 to 1", drives=5, iterations=n) for n in (10, 15)
+        training(1, "keeps clear", "0 to 1", number=5, iterations=n) for n in (10, 15)
     )
     assert np.array_equal(few.network.weights[0], more.networks[10].weights[0])
 
@@ -78,9 +78,9 @@ def test_fewer_iterations_are_the_same_training_cut_short():
 def test_success_is_what_navigate_gives():
     case = TABLE_3_2.cases[0]
     numbers = with_demonstrations(case, 1, "quick")
-    worlds = random_worlds(NAVIGATIONS["quick"], seed=TEST_WORLDS + 1)
-    assert new_worlds(1, "quick").digest() == worlds.digest()
-    again = driven(method("straight", 1, "quick"), worlds)
+    worlds = random_worlds(SETUP.navigations["quick"], seed=SETUP.test_seed + 1)
+    assert SETUP.test_worlds(1, "quick").digest() == worlds.digest()
+    again = SETUP.evaluate(learned_policy("straight", 1), worlds)
     assert again["success"] == 100 * navigate(straight, worlds).success.mean()
     assert numbers["success"] > again["success"] + 30
     assert sum(again.values()) == pytest.approx(100)
@@ -88,7 +88,7 @@ def test_success_is_what_navigate_gives():
 
 def test_plans_are_counted_up_to_the_target():
     numbers = FIGURE_3_5.run(FIGURE_3_5.cases[0], 0, "quick")
-    worlds = random_worlds(20, 10, seed=TEST_WORLDS)
+    worlds = random_worlds(20, 10, seed=SETUP.test_seed)
     made = [
         (plan(world, margin=2.0), plan_on_grid(world, margin=2.0)) for world in worlds
     ]
@@ -104,25 +104,25 @@ def test_plans_are_counted_up_to_the_target():
 def test_methods_by_name():
     names = {case["method"] for case in FIGURE_3_8.cases}
     assert {"straight", "cloning", "DAgger"} <= names
-    assert method("5 neighbours", 0, "quick").k == 5
+    assert learned_policy("5 neighbours", 0).k == 5
 
 
 def test_what_ships_is_what_the_command_makes():
-    policy = cloned(SEED)
-    kept = load_weights(FOLDER / "lfd.safetensors")
+    policy = cloned_policy(SEED)
+    kept = load_weights(folder_of("lfd") / "lfd.safetensors")
     sensing = demonstrate(random_worlds(5, 10, seed=1)).effective.sensing
     rng = np.random.default_rng(0)
     assert (
         method_of(kept)(sensing, rng) == policy(sensing, rng)
     ).mean() > 0.98  # other machines, other last bits
-    assert kept.made == shipped()["lfd"].made
-    dagger = load_weights(FOLDER / "dagger.safetensors")
+    assert kept.made == lfd_weights()["lfd"].made
+    dagger = load_weights(folder_of("lfd") / "dagger.safetensors")
     assert (dagger.method, dagger.temperature, dagger.made["rounds"]) == (
         "dagger",
         0.4,
         3,
     )
-    assert all(path.stat().st_size < 4000 for path in FOLDER.iterdir())
+    assert all(path.stat().st_size < 4000 for path in folder_of("lfd").iterdir())
 
 
 def method_of(weights):
@@ -136,5 +136,7 @@ def method_of(weights):
     [("lfd", 10, 0.95), ("dagger", 10, 0.98), ("dagger", 20, 0.95)],
 )
 def test_what_ships_drives(name, obstacles, least):
-    result = drive(name, obstacles=obstacles, moving=0, speed=2.0, worlds=300, seed=77)
+    result = evaluate(
+        name, obstacles=obstacles, moving=0, speed=2.0, worlds=300, seed=77
+    )
     assert result["success"] >= least

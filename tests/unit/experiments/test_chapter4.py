@@ -6,8 +6,8 @@ import json
 import numpy as np
 import pytest
 
-from robonav.benchmark import policies
-from robonav.experiments import load_results
+from robonav.benchmark import BASELINES, policies
+from robonav.experiments import read_results
 from robonav.experiments.chapter4.ablations import (
     CIRCLES,
     REWARDS_TRIED,
@@ -15,40 +15,30 @@ from robonav.experiments.chapter4.ablations import (
     only_moving_away,
 )
 from robonav.experiments.chapter4.setup import (
-    TEST_WORLDS,
+    EVALUATION_TEMPERATURE,
+    HYPERPARAMETERS,
+    SETUP,
+    THESIS,
     blocks,
-    course,
-    judged,
-    new_worlds,
+    evaluate,
+    task,
+    training,
+    tuned,
 )
-from robonav.experiments.chapter4.ship import SHIPPED, best_of, ship
-from robonav.experiments.chapter4.tables import (
-    CHOSEN,
-    EXPERIMENTS,
-    RESULTS,
-    RULES,
-    SPEEDS,
-    STEPS,
-    TABLE_4_2,
-    TABLE_4_3,
-    TWENTY,
-    cold,
-    settings,
-)
+from robonav.experiments.chapter4.tables import EQUAL_STEPS, EXPERIMENTS, TABLE_4_3
 from robonav.experiments.chapter4.tuning import (
     FINALISTS,
     FINALS,
-    FIRST,
     SPACE,
     TRIALS,
     TUNING,
     TUNING_SEEDS,
-    TUNING_WORLDS,
-    arguments,
-    ranking,
-    trained,
     trial_settings,
+    write_finalists,
+    write_tuned,
 )
+from robonav.experiments.runner.settings import Settings
+from robonav.experiments.ship import folder_of, nnql_weights
 from robonav.networks import NetworkPolicy, load_weights
 from robonav.nnql import METHODS, reward, train
 from robonav.nnql.reward import reward_row
@@ -64,7 +54,10 @@ def test_every_method_has_as_many_trials():
     for method in METHODS:
         for trial in range(TRIALS):
             drawn = trial_settings(method, trial)
-            assert set(drawn) == set(SPACE[method])
+            names = set(SPACE[method])
+            if "sweeps and epochs" in names:
+                names = names - {"sweeps and epochs"} | {"sweeps", "epochs"}
+            assert set(drawn) == names
     assert all(
         trial_settings("nnql", trial) == trial_settings("online", trial)
         for trial in range(TRIALS)
@@ -73,27 +66,19 @@ def test_every_method_has_as_many_trials():
 
 def test_tuning_and_testing_never_meet():
     assert max(experiment.seeds["thesis"] for experiment in ALL) < min(
-        TUNING_SEEDS, TUNING_WORLDS - TEST_WORLDS
+        TUNING_SEEDS, SETUP.tuning_seed - SETUP.test_seed
     )
     tuned = {
         tuple(key)
         for seed in range(8)
-        for key in new_worlds(50, TUNING_WORLDS + seed).keys
+        for key in SETUP.worlds(50, SETUP.tuning_seed + seed).keys
     }
     tested = {
         tuple(key)
         for seed in range(50)
-        for key in new_worlds(50, TEST_WORLDS + seed).keys
+        for key in SETUP.worlds(50, SETUP.test_seed + seed).keys
     }
     assert not tuned & tested
-
-
-def test_what_was_chosen_is_the_best_of_the_published_trials():
-    trials, finals = load_results(RESULTS, TUNING), load_results(RESULTS, FINALS)
-    assert {
-        name: tuple(trials[:4]) for name, trials in ranking(trials).items()
-    } == FINALISTS
-    assert {name: trials[0] for name, trials in ranking(finals).items()} == CHOSEN
 
 
 def test_finalists_have_other_seeds_than_the_trials_they_were_picked_by():
@@ -104,9 +89,7 @@ def test_finalists_have_other_seeds_than_the_trials_they_were_picked_by():
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_method_comes_with_the_settings_that_were_chosen(method):
-    chosen = arguments(settings(method))
-    if "fitting" in chosen:
-        chosen["sweeps"], chosen["epochs"] = chosen.pop("fitting")
+    chosen = dict(tuned()[method])
     chosen.pop("target")
     defaults = {
         name: p.default
@@ -115,40 +98,13 @@ def test_a_method_comes_with_the_settings_that_were_chosen(method):
     assert {name: defaults[name] for name in chosen} == chosen
 
 
-def test_table_4_3_holds_what_the_book_says_of_it():
-    results = load_results(RESULTS, TABLE_4_3)
-    nnql = results.values("success", 0)
-    assert len(nnql) >= 50
-    assert nnql.mean() >= 98
-    assert np.percentile(nnql, 5) >= 95
-
-
-def test_every_speed_is_driven_well():
-    results = load_results(RESULTS, TABLE_4_2)
-    for k, case in enumerate(TABLE_4_2.cases):
-        if case["robot"] == "nnql":
-            assert case["speed"] in SPEEDS
-            assert results.summary("success", k).mean >= 95
-
-
-def test_twenty_obstacles_are_driven_well_with_a_little_chance_and_nearly_so_without():
-    results = load_results(RESULTS, TWENTY)
-    ours = [
-        k
-        for k, case in enumerate(TWENTY.cases)
-        if case["robot"] == "rates that fall" and case["episodes"] == 600
-    ]
-    assert results.summary("success, cold", ours[0]).mean >= 94
-    assert results.summary("success", ours[0]).mean >= 93
-
-
 def test_no_method_had_more_learning_steps_than_nnql():
-    results, table = load_results(RESULTS, STEPS), load_results(RESULTS, TABLE_4_3)
+    results, table = read_results(EQUAL_STEPS), read_results(TABLE_4_3)
     nnql = results.values("learning steps", 0)
     np.testing.assert_array_equal(
         results.values("success", 0), table.values("success", 0)
     )
-    for k in range(len(STEPS.cases)):
+    for k in range(len(EQUAL_STEPS.cases)):
         spent, whole = (
             results.values(name, k)
             for name in ("learning steps", "learning steps, whole training")
@@ -160,30 +116,34 @@ def test_no_method_had_more_learning_steps_than_nnql():
 
 
 def test_a_method_is_stopped_where_nnqls_steps_end():
-    numbers = STEPS.run({"robot": "nfq"}, 1, "quick")
-    allowed = trained("nnql", 1, "quick", settings("nnql")).decisions[0].sum()
-    training = trained("nfq", 1, "quick", settings("nfq"), record=True)
+    numbers = EQUAL_STEPS.run({"robot": "nfq"}, 1, "quick")
+    allowed = training("nnql", 1, "quick", tuned()["nnql"]).decisions[0].sum()
+    trained = training("nfq", 1, "quick", tuned()["nfq"], record=True)
     last = int(numbers["episodes"])
-    assert training.decisions[0, :last].sum() == numbers["learning steps"] <= allowed
-    assert training.steps[0, :last].sum() == numbers["seconds driven"]
-    assert last == 300 or training.decisions[0, : last + 1].sum() > allowed
-    policy = NetworkPolicy(training.history[0, last], training.encoder)
+    assert trained.decisions[0, :last].sum() == numbers["learning steps"] <= allowed
+    assert trained.steps[0, :last].sum() == numbers["simulated seconds"]
+    assert last == 300 or trained.decisions[0, : last + 1].sum() > allowed
+    policy = NetworkPolicy(trained.history[0, last], trained.encoder)
     assert (
-        judged(policy, new_worlds(100, TEST_WORLDS + 1))["success"]
-        == numbers["success"]
+        evaluate(policy, SETUP.test_worlds(1, "quick"))["success"] == numbers["success"]
     )
 
 
 def test_a_rule_is_judged_once_and_a_network_also_when_cold():
-    worlds = new_worlds(40, 5)
-    assert set(judged(RULES["straight"], worlds)) == {
+    worlds = SETUP.worlds(40, 5)
+    assert set(evaluate(BASELINES["straight"], worlds)) == {
         "success",
         "collision",
         "out of steps",
     }
-    policy = trained("nnql", 3, "quick", settings("nnql"), length=0.1).policies[0]
-    numbers = judged(policy, worlds)
-    assert set(numbers) == {"success", "collision", "out of steps", "success, cold"}
+    policy = training("nnql", 3, "quick", tuned()["nnql"], length=0.1).policies[0]
+    numbers = evaluate(policy, worlds)
+    assert set(numbers) == {
+        "success",
+        "collision",
+        "out of steps",
+        "success, low temperature",
+    }
     assert numbers["success"] + numbers["collision"] + numbers[
         "out of steps"
     ] == pytest.approx(100)
@@ -191,54 +151,24 @@ def test_a_rule_is_judged_once_and_a_network_also_when_cold():
 
 @pytest.mark.parametrize("name", METHODS)
 def test_a_network_of_every_method_ships_with_what_made_it(name):
-    weights = load_weights(SHIPPED / f"{name}.safetensors")
+    weights = load_weights(folder_of("nnql") / f"{name}.safetensors")
     assert weights.method == name
-    assert weights.temperature == cold(name)
-    assert weights.made["settings"] == json.loads(json.dumps(settings(name)))
+    assert weights.temperature == EVALUATION_TEMPERATURE[name]
+    assert weights.made["settings"] == json.loads(json.dumps(dict(tuned()[name])))
     assert weights.made["seed"] in weights.made["seeds"]
     policy = policies.method(name)
     assert isinstance(policy, NetworkPolicy)
-    assert judged(policy, new_worlds(200, 77))["success"] > 93
-
-
-def test_the_best_of_several_robots_is_shipped(tmp_path, monkeypatch):
-    best = best_of("nnql", (0, 1, 2), length=0.1)
-    alone = [
-        best_of("nnql", (seed,), length=0.1).made["success in tuning worlds (%)"]
-        for seed in range(3)
-    ]
-    assert best.made["success in tuning worlds (%)"] == max(alone)
-    assert best.made["seed"] == int(np.argmax(alone))
-    monkeypatch.setattr("robonav.experiments.chapter4.ship.best_of", lambda name: best)
-    ship(tmp_path)
-    assert sorted(path.stem for path in tmp_path.iterdir()) == sorted(METHODS)
+    assert evaluate(policy, SETUP.worlds(200, 77))["success"] > 93
 
 
 def test_training_twice_in_a_process_is_training_once():
-    first = trained("nnql", 3, "quick", settings("nnql"), length=0.1)
-    again = trained(
-        "nnql", 3, "quick", json.loads(json.dumps(settings("nnql"))), length=0.1
-    )
+    first = training("nnql", 3, "quick", tuned()["nnql"], length=0.1)
+    same = Settings.of(json.loads(tuned()["nnql"].as_json()))
+    again = training("nnql", 3, "quick", same, length=0.1)
     assert first.outcomes.shape == (1, 30)
     assert np.shares_memory(first.outcomes, again.outcomes)
-    dense = trained("nnql", 3, "quick", settings("nnql"), length=0.1, obstacles=20)
+    dense = training("nnql", 3, "quick", tuned()["nnql"], length=0.1, obstacles=20)
     assert not np.shares_memory(first.outcomes, dense.outcomes)
-
-
-@pytest.mark.parametrize("name", METHODS)
-def test_seeds_train_together_as_they_would_alone(name):
-    together = trained(name, 11, "thesis", FIRST[name], length=1 / 75)
-    options = dict(FIRST[name])
-    if "fitting" in options:
-        options["sweeps"], options["epochs"] = options.pop("fitting")
-    task = course(target=options.pop("target"))
-    alone = train(name, [11], 4, task=task, **arguments(options))
-    assert together.seeds == alone.seeds == (11,)
-    np.testing.assert_array_equal(together.outcomes, alone.outcomes)
-    for ours, theirs in zip(
-        together.network.weights, alone.network.weights, strict=True
-    ):
-        np.testing.assert_array_equal(ours, theirs)
 
 
 def test_blocks_count():
@@ -281,4 +211,38 @@ def test_raw_numbers_are_the_sixteen_of_the_thesis():
     raw = RawNumbers()(before)
     assert raw.shape == (5, RawNumbers().size) == (5, 16)
     assert raw.max() > 1
-    np.testing.assert_allclose(raw[:, :7] / 7, course().encoder(before)[:, :7])
+    np.testing.assert_allclose(raw[:, :7] / 7, task().encoder(before)[:, :7])
+
+
+def test_the_tuning_writes_the_hyperparameters(tmp_path):
+    """From the published trials, byte for byte what the tables read."""
+    write_finalists(path=tmp_path / "finalists.toml")
+    write_tuned(path=tmp_path / "hyperparameters.toml")
+    assert (tmp_path / "finalists.toml").read_bytes() == FINALISTS.read_bytes()
+    assert (
+        tmp_path / "hyperparameters.toml"
+    ).read_bytes() == HYPERPARAMETERS.read_bytes()
+
+
+def test_the_best_of_several_seeds_ships():
+    best = nnql_weights("nnql", (0, 1, 2), length=0.1)
+    alone = [
+        nnql_weights("nnql", (seed,), length=0.1).made["success in tuning worlds (%)"]
+        for seed in range(3)
+    ]
+    assert best.made["success in tuning worlds (%)"] == max(alone)
+    assert best.made["seed"] == int(np.argmax(alone))
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_seeds_in_a_batch_train_as_alone(name):
+    together = training(name, 11, "thesis", THESIS[name], length=1 / 75)
+    options = dict(THESIS[name])
+    where = task(target=options.pop("target"))
+    alone = train(name, [11], 4, task=where, **options)
+    assert together.seeds == alone.seeds == (11,)
+    np.testing.assert_array_equal(together.outcomes, alone.outcomes)
+    for ours, theirs in zip(
+        together.network.weights, alone.network.weights, strict=True
+    ):
+        np.testing.assert_array_equal(ours, theirs)

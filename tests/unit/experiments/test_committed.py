@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from robonav.experiments import RESULTS, experiment, load_results, names, reproduce
+from robonav.experiments import RESULTS, experiment, names, read_results, reproduce
 from robonav.experiments.runner.results import FORMAT
 from robonav.experiments.runner.run import run_unit
 
@@ -16,7 +16,7 @@ CHANCE = (
 )
 RATES = {
     "success",
-    "success, cold",
+    "success, low temperature",
     "collision",
     "out of steps",
     "SPL",
@@ -36,16 +36,19 @@ def test_committed_results_are_of_the_code_as_it_is(name):
     about = json.loads((RESULTS / f"{name}.json").read_text())
     assert (about["format"], about["scale"]) == (FORMAT, "thesis")
     assert about["settings"] == settled(known.settings)
-    rows = load_results(RESULTS, known).rows
+    committed = read_results(known)
     expected = {
         (case, seed)
         for case in range(len(known.cases))
         for seed in range(known.seeds["thesis"])
     }
-    assert {(row.case, row.seed) for row in rows} == expected
-    assert {metric for metric, numbers in known.thesis.items() if any(numbers)} <= {
-        row.metric for row in rows
-    }
+    assert (
+        set(committed.frame[["case", "seed"]].itertuples(index=False, name=None))
+        == expected
+    )
+    assert {metric for metric, numbers in known.thesis.items() if any(numbers)} <= set(
+        committed.frame.metric
+    )
 
 
 def foretold(values, runs, drives):
@@ -72,10 +75,10 @@ def foretold(values, runs, drives):
 def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_path):
     """All of an experiment, run again on this machine, with this code."""
     known = experiment(name)
-    quick, committed = reproduce(known, tmp_path, jobs=1), load_results(RESULTS, known)
+    quick, committed = reproduce(known, tmp_path, jobs=1), read_results(known)
     drives = DRIVES.get(name, 100)
     for case, settings in enumerate(known.cases):
-        for metric in sorted({row.metric for row in quick.rows if row.case == case}):
+        for metric in quick.metrics(case):
             again, values = (
                 results.values(metric, case) for results in (quick, committed)
             )
@@ -93,13 +96,11 @@ def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_pa
     "name", [name for name in names() if experiment(name).shortened]
 )
 def test_what_is_shortened_gives_the_same_kinds_of_numbers(name):
-    known, committed = experiment(name), load_results(RESULTS, experiment(name))
+    known, committed = experiment(name), read_results(name)
     assert "shorten" not in known.shortened  # it says how
     _, rows, _ = run_unit(known, (0, 0), "quick")
-    assert {row.metric for row in rows} == {
-        row.metric for row in committed.rows if row.case == 0
-    }
-    assert all(math.isfinite(row.value) for row in rows)
+    assert {metric for _, _, metric, _, _ in rows} == set(committed.metrics(0))
+    assert all(math.isfinite(value) for *_, value in rows)
 
 
 def test_a_prediction_by_hand():

@@ -5,21 +5,21 @@ from itertools import product
 import numpy as np
 import pytest
 
-from robonav.experiments import labs, load_results
+from robonav.experiments import labs, read_results
 
 
 @pytest.fixture(params=labs.EXPERIMENTS, ids=lambda experiment: experiment.name)
 def results(request):
-    return load_results(labs.RESULTS, request.param)
+    return read_results(request.param)
 
 
 def test_every_combination_is_there_in_the_order_of_its_choices(results):
-    offered = labs.offered(results)
+    choices = labs.choices(results)
     cases = [
         tuple(str(choice) for choice in case.values())
         for case in results.experiment.cases
     ]
-    assert cases == list(product(*offered.values()))
+    assert cases == list(product(*choices.values()))
 
 
 def test_every_number_is_taken_where_it_is_said_to_be(results):
@@ -34,7 +34,7 @@ def test_every_number_is_taken_where_it_is_said_to_be(results):
 @pytest.mark.parametrize(("name", "case"), [("lab-lfd", 3), ("lab-nirl", 0)])
 def test_a_run_comes_out_again(name, case):
     experiment = next(found for found in labs.EXPERIMENTS if found.name == name)
-    kept = load_results(labs.RESULTS, experiment)
+    kept = read_results(experiment)
     again = experiment.run(experiment.cases[case], 1, "thesis")
     for metric in labs.STEPS[name]:
         np.testing.assert_allclose(

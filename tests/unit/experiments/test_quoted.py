@@ -4,21 +4,21 @@ from pathlib import Path
 
 import pytest
 
-from robonav.experiments import RESULTS, experiment, load_results
+from robonav.experiments import read_results
 from robonav.experiments.runner.report import short
 
 BOOK = Path(__file__).parents[3] / "book"
 PAGE = (BOOK / "reproduction.md").read_text() if BOOK.is_dir() else ""
 NIRL = {"method": "nirl", "discount": 0.65}
 QUOTED = [  # what a row says first, experiment, metric, case, what is quoted: mean with interval, mean, best or worst
-    ("25 demonstrations", "table-3.2", "success", {"expert": "keeps off", "target": "sine-cosine"}, 1, "interval"),
-    ("Training settles", "table-3.3", "accuracy", {"expert": "shortest way", "iterations": 300}, 0, "mean"),
+    ("25 demonstrations", "table-3.2", "success", {"expert": "keeps clear", "target": "sine-cosine"}, 1, "interval"),
+    ("Training settles", "table-3.3", "accuracy", {"expert": "shortest path", "iterations": 300}, 0, "mean"),
     ("NNQL learns", "table-4.3", "success", {"robot": "nnql"}, 0, "interval"),
     ("NNQL learns", "table-4.3", "success", {"robot": "nnql"}, 0, "best"),
     ("NNQL learns", "table-4.3", "success", {"robot": "nnql"}, 0, "worst"),
-    ("NNQL learns", "table-4.3", "success", {"robot": "freer side"}, 0, "mean"),
-    ("Online learning", "table-4.3", "success, cold", {"robot": "online"}, 0, "mean"),
-    ("Online learning", "table-4.3", "success, cold", {"robot": "nfq"}, 0, "mean"),
+    ("NNQL learns", "table-4.3", "success", {"robot": "freer-side"}, 0, "mean"),
+    ("Online learning", "table-4.3", "success, low temperature", {"robot": "online"}, 0, "mean"),
+    ("Online learning", "table-4.3", "success, low temperature", {"robot": "nfq"}, 0, "mean"),
     ("Online learning", "table-4.3", "success", {"robot": "nfq"}, 0, "mean"),
     ("NIRL drives", "table-5.2", "success", NIRL, 0, "interval"),
     ("NIRL drives", "table-5.2", "success", NIRL, 0, "worst"),
@@ -28,11 +28,11 @@ QUOTED = [  # what a row says first, experiment, metric, case, what is quoted: m
     ("So a reward", "table-5.2", "success", {"method": "cloning"}, 0, "mean"),
     ("Learning from a human", "table-5.1", "success", {"expert": "human", "demonstrations": 30}, 0, "mean"),
     ("Learning from a human", "table-5.1", "success", {"expert": "computer", "demonstrations": 40}, 0, "mean"),
-    ("Contradictory", "nirl-refinement", "success", {"expert": "slipping", "actions": "as shown"}, 0, "mean"),
+    ("Contradictory", "nirl-refinement", "success", {"expert": "slipping", "actions": "as demonstrated"}, 0, "mean"),
     ("Contradictory", "nirl-refinement", "success", {"expert": "slipping", "actions": "most frequent"}, 0, "mean"),
     ("Contradictory", "nirl-refinement", "success", {"expert": "slipping", "actions": "most telling"}, 0, "mean"),
     ("The policy that best", "nirl-choice", "success", {"reward": "learned", "chosen by": "accuracy"}, 0, "mean"),
-    ("The policy that best", "nirl-choice", "success", {"reward": "learned", "chosen by": "test drives"}, 0, "mean"),
+    ("The policy that best", "nirl-choice", "success", {"reward": "learned", "chosen by": "navigation"}, 0, "mean"),
 ]  # fmt: skip
 
 
@@ -40,7 +40,7 @@ QUOTED = [  # what a row says first, experiment, metric, case, what is quoted: m
 @pytest.mark.parametrize(("row", "name", "metric", "wanted", "which", "form"), QUOTED)
 def test_what_a_row_quotes_is_what_was_measured(row, name, metric, wanted, which, form):
     (line,) = [line for line in PAGE.splitlines() if line.startswith(f"| {row}")]
-    results = load_results(RESULTS, experiment(name))
+    results = read_results(name)
     fitting = [
         place
         for place, case in enumerate(results.experiment.cases)

@@ -1,5 +1,6 @@
 """Same numbers whatever the backend, the workers and the interruptions."""
 
+import importlib
 import json
 import os
 import signal
@@ -10,11 +11,26 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from robonav.errors import WorkerLost
-from robonav.experiments import Experiment, experiment, load_results, names, reproduce
-from robonav.experiments.runner.results import code, load_run, run_file
+from robonav.experiments import (
+    Experiment,
+    Plot,
+    experiment,
+    load_results,
+    names,
+    read_results,
+    reproduce,
+)
+from robonav.experiments.runner.dependencies import (
+    PACKAGE,
+    _file_of,
+    code_digest,
+    dependencies,
+)
+from robonav.experiments.runner.results import load_run, run_file
 from robonav.experiments.runner.run import _on_worker
 
 
@@ -51,8 +67,16 @@ def content(folder):
 def test_results_read_back(tmp_path):
     results = reproduce(toy(), tmp_path, jobs=1)
     assert set(content(tmp_path)) == {"toy.csv", "toy.json"}
-    back = load_results(tmp_path, toy())
-    assert back.rows == results.rows
+    back = read_results(toy(), tmp_path)
+    pd.testing.assert_frame_equal(back.frame, results.frame)
+    assert list(load_results("toy", tmp_path).columns) == [
+        "sides",
+        "kind",
+        "seed",
+        "metric",
+        "step",
+        "value",
+    ]
     assert results.values("throws", 1).shape == (4, 5)
     assert results.values("mean", 0).shape == (4,)
     np.testing.assert_array_equal(
@@ -122,7 +146,7 @@ def test_damaged_results_are_refused_with_a_sentence(tmp_path):
     path = tmp_path / "toy.csv"
     path.write_bytes(path.read_bytes().replace(b"mean", b"mode"))
     with pytest.raises(ValueError, match="must hold results of toy, but is damaged"):
-        load_results(tmp_path, toy())
+        read_results(toy(), tmp_path)
 
 
 def test_a_killed_experiment_goes_on_where_it_was(tmp_path):
@@ -214,14 +238,16 @@ def test_a_run_that_always_kills_its_process_is_one_sentence(tmp_path):
 
 
 def test_a_worker_with_other_code_is_refused():
-    assert _on_worker(toy(), (0, 1), "quick", code())[0] == (0, 1)
+    assert _on_worker(toy(), (0, 1), "quick", code_digest(roll))[0] == (0, 1)
     with pytest.raises(ValueError, match="workers must have the same robonav"):
         _on_worker(toy(), (0, 1), "quick", "another")
 
 
 def test_a_run_kept_from_other_code_is_run_again(tmp_path, monkeypatch):
     before = run_file(tmp_path, toy(), "quick", 0, 0)
-    monkeypatch.setattr("robonav.experiments.runner.results.code", lambda: "another")
+    monkeypatch.setattr(
+        "robonav.experiments.runner.results.code_digest", lambda run: "another"
+    )
     assert run_file(tmp_path, toy(), "quick", 0, 0) != before
 
 
@@ -267,10 +293,39 @@ def test_a_run_that_gives_no_number_is_refused(tmp_path):
 
 
 def test_the_catalogue(tmp_path):
-    assert "yardsticks" in names()
+    assert "baselines" in names()
     with pytest.raises(ValueError, match="name must be all or one of"):
         experiment("table-9.9")
     for name in names():
         found = experiment(name)
         json.dumps([dict(case) for case in found.cases])
         json.dumps(dict(found.settings))
+
+
+def test_a_run_depends_on_the_code_that_it_imports():
+    known = {
+        name: {path.relative_to(PACKAGE).as_posix() for path in files}
+        for name, files in (
+            (name, dependencies(_file_of(experiment(name).run.__module__)))
+            for name in ("figure-3.8", "table-4.3")
+        )
+    }
+    assert {"lfd/astar.py", "robot/_fast.py"} <= known["figure-3.8"]
+    assert "experiments/chapter3/settings.toml" in known["figure-3.8"]
+    assert not any(path.startswith("nirl/") for path in known["table-4.3"])
+    assert "nnql/nnql.py" in known["table-4.3"]
+    assert code_digest(experiment("figure-3.8").run) != code_digest(
+        experiment("table-4.3").run
+    )
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_experiment_has_a_figure_or_a_reason(name):
+    plot = experiment(name).plot
+    if isinstance(plot, Plot):
+        module, function = plot.function.split(".")
+        assert callable(
+            getattr(importlib.import_module(f"robonav.plots.{module}"), function)
+        )
+    else:
+        assert len(plot.split()) > 3

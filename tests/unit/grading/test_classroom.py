@@ -16,20 +16,15 @@ from xml.etree import ElementTree
 
 import pytest
 
-from robonav.grading import classroom, sandbox_check, session
-from robonav.grading.classroom import (
-    GradingConfig,
-    grade_class,
-    grade_submission,
-    students,
-)
+from robonav.grading import classroom, probe, proxy
+from robonav.grading.classroom import Marking, grade_class, mark, students
 from robonav.grading.course import Course
 from robonav.grading.sandbox import Limits
 from robonav.grading.submission import Submission
 
 COURSE = Course.around(Path(__file__).parent)
-OFFICIAL = GradingConfig(COURSE, "official")
-HERE = GradingConfig(COURSE, "practice")
+OFFICIAL = Marking(COURSE, "official")
+HERE = Marking(COURSE, "practice")
 PASSES = (COURSE.solutions / "ch2/improve.py").read_text()
 NAMES = ["anna", "=1+1", "<b>bo</b>", "carl", "döra", "eve"]
 
@@ -75,11 +70,11 @@ def course(tmp_path):
 
 @pytest.fixture
 def quick(monkeypatch):
-    """Grading without a sandbox: one point for each file, and a log of who was marked."""
+    """Marking without a sandbox: one point for each file, and a log of who was marked."""
     marked = []
 
-    def count(config, loaded, ids=()):
-        marked.append((len(loaded.files), tuple(ids)))
+    def count(marking, taken, ids=()):
+        marked.append((len(taken.files), tuple(ids)))
         exercises = [
             exercise
             for exercise in COURSE.exercises.values()
@@ -88,7 +83,7 @@ def quick(monkeypatch):
         entries = [
             {
                 "id": e.id,
-                "points": len(loaded.files),
+                "points": len(taken.files),
                 "max_points": e.points,
                 "state": "partial",
                 "feedback": str(len(marked)),
@@ -98,11 +93,11 @@ def quick(monkeypatch):
         return {
             "points": 0,
             "max_points": 44,
-            "tier": config.tier,
+            "tier": marking.tier,
             "exercises": entries,
         }
 
-    monkeypatch.setattr(classroom, "grade_submission", count)
+    monkeypatch.setattr(classroom, "mark", count)
     return marked
 
 
@@ -115,11 +110,11 @@ def records(out):
 
 @pytest.mark.sandbox
 def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_path):
-    if fault := sandbox_check.fault("official"):
+    if fault := probe.fault("official"):
         pytest.skip(fault)
     out, seen = tmp_path / "out", []
     grade_class(
-        GradingConfig(course, "official"),
+        Marking(course, "official"),
         folder,
         out,
         jobs=2,
@@ -186,22 +181,20 @@ def test_what_is_graded_stays_and_what_changed_is_graded_again(folder, tmp_path,
     shutil.rmtree(out / "students/carl")
     grade_class(HERE, folder, out, jobs=1)
     assert len(quick) == 9
-    grade_class(
-        GradingConfig(COURSE, "practice", b"another secret"), folder, out, jobs=1
-    )
+    grade_class(Marking(COURSE, "practice", b"another secret"), folder, out, jobs=1)
     assert len(quick) == 15
 
 
 def test_a_fault_of_the_grader_is_graded_again(folder, tmp_path, quick, monkeypatch):
-    out, honest = tmp_path / "out", classroom.grade_submission
+    out, honest = tmp_path / "out", classroom.mark
 
-    def fails_for_anna(config, loaded, ids=()):
-        grade = honest(config, loaded, ids)
-        if PASSES.encode() in loaded.files.values():
+    def fails_for_anna(marking, taken, ids=()):
+        grade = honest(marking, taken, ids)
+        if PASSES.encode() in taken.files.values():
             grade["exercises"][0] |= {"points": None, "state": "grader-fault"}
         return grade
 
-    monkeypatch.setattr(classroom, "grade_submission", fails_for_anna)
+    monkeypatch.setattr(classroom, "mark", fails_for_anna)
     grade_class(HERE, folder, out, jobs=1)
     assert "2.1" in (out / "gradebook.csv").read_text().splitlines()[3]
     assert "To be graded again" in (out / "students/anna/feedback.html").read_text()
@@ -212,7 +205,7 @@ def test_a_fault_of_the_grader_is_graded_again(folder, tmp_path, quick, monkeypa
         ElementTree.parse(out / "students/anna/junit.xml").getroot().get("errors")
         == "1"
     )
-    monkeypatch.setattr(classroom, "grade_submission", honest)
+    monkeypatch.setattr(classroom, "mark", honest)
     grade_class(HERE, folder, out, jobs=1)
     assert len(quick) == 6 + 2
 
@@ -248,11 +241,9 @@ def test_a_scheduler_gets_a_few_submissions_at_once(tmp_path, quick, monkeypatch
     with distributed.LocalCluster(
         1, threads_per_worker=1, processes=False, dashboard_address=":0"
     ) as cluster:
-        read = classroom.submission.load_submission
+        read = classroom.submission.taken
         monkeypatch.setattr(
-            classroom.submission,
-            "load_submission",
-            lambda path: held.append(path) or read(path),
+            classroom.submission, "taken", lambda path: held.append(path) or read(path)
         )
         seen = []
         grade_class(
@@ -306,7 +297,7 @@ def test_an_exception_in_the_grader_is_a_fault_not_a_crash(monkeypatch):
         raise OSError("no space left")
 
     monkeypatch.setattr(classroom, "graded", broken)
-    grade = grade_submission(HERE, Submission({}))
+    grade = mark(HERE, Submission({}))
     assert {entry["state"] for entry in grade["exercises"]} == {"grader-fault"}
     assert {entry["points"] for entry in grade["exercises"]} == {None}
 
@@ -329,9 +320,9 @@ def documented():
 @pytest.mark.sandbox
 def test_the_example_class_gets_the_documented_results(tmp_path, monkeypatch):
     """With a shorter deadline than it has, of which Eve uses up each second."""
-    if fault := sandbox_check.fault("official"):
+    if fault := probe.fault("official"):
         pytest.skip(fault)
-    monkeypatch.setattr(session, "Limits", lambda: Limits(call_seconds=1.5))
+    monkeypatch.setattr(proxy, "Limits", lambda: Limits(call_seconds=1.5))
     grade_class(OFFICIAL, COURSE.solutions / "example-class", tmp_path, jobs=1)
     found = {}
     for name, record in records(tmp_path).items():
@@ -343,7 +334,7 @@ def test_the_example_class_gets_the_documented_results(tmp_path, monkeypatch):
 
 @pytest.mark.sandbox
 def test_what_gradescope_runs_writes_what_gradescope_reads(tmp_path):
-    if fault := sandbox_check.fault("official"):
+    if fault := probe.fault("official"):
         pytest.skip(fault)
     (tmp_path / "venv").symlink_to(Path(sys.executable).parents[1])
     (tmp_path / "source").mkdir()
@@ -405,7 +396,7 @@ cli.app({["grade", *map(str, arguments), "--jobs", str(jobs)]!r})
 @pytest.mark.sandbox
 def test_a_run_killed_twenty_times_ends_as_one_that_was_not(folder, course, tmp_path):
     """SIGKILL at random moments; no grade changes once it is there, and the end is byte for byte the same."""
-    if fault := sandbox_check.fault("official"):
+    if fault := probe.fault("official"):
         pytest.skip(fault)
     whole, cut, moments = tmp_path / "whole", tmp_path / "cut", random.Random(1)
     usual, seen, finished = {}, {}, 0

@@ -14,7 +14,6 @@ from robonav.experiments.chapter5.tables import (
     FIGURE_5_10,
     TABLE_5_2,
 )
-from robonav.experiments.runner.experiment import Row
 from robonav.plots import nirl as draw
 from robonav.robot import Encoder, neighbour_slip, random_worlds
 
@@ -33,13 +32,13 @@ def axes():
 def made_up(experiment, metrics, steps=1, seeds=3):
     """Results whose numbers say where they are from: 100 times the case, 10 times the seed, and the step."""
     rows = [
-        Row(case, seed, metric, step, 100.0 * case + 10 * seed + step)
+        (case, seed, metric, step, 100.0 * case + 10 * seed + step)
         for case in range(len(experiment.cases))
         for seed in range(seeds)
         for metric in metrics
         for step in range(steps)
     ]
-    return Results(experiment, "thesis", tuple(rows))
+    return Results.from_rows(experiment, "thesis", rows)
 
 
 def test_the_margin_lies_between_the_expert_and_the_nearest_other(axes):

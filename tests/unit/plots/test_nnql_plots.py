@@ -6,7 +6,7 @@ import pytest
 from matplotlib import pyplot as plt
 
 from robonav import style
-from robonav.experiments import Experiment, Results, Row
+from robonav.experiments import Experiment, Results
 from robonav.plots import nnql as draw
 from robonav.robot import random_worlds
 
@@ -84,13 +84,13 @@ def results_of(cases, numbers, **more):
         "toy", "toy", cases, lambda *_: {}, {"quick": 2, "thesis": 2}, **more
     )
     rows = [
-        Row(case, seed, metric, step, float(value))
+        (case, seed, metric, step, float(value))
         for case in range(len(cases))
         for seed in range(2)
         for metric, values in sorted(numbers(case, seed).items())
         for step, value in enumerate(np.atleast_1d(values))
     ]
-    return Results(experiment, "quick", tuple(rows))
+    return Results.from_rows(experiment, "quick", rows)
 
 
 @pytest.fixture

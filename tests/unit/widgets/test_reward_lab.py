@@ -7,12 +7,7 @@ import numpy as np
 import pytest
 
 from robonav.lfd import demonstrate
-from robonav.nirl import (
-    ENCODER,
-    expert_transitions,
-    scale_to_unit_interval,
-    transition_rewards,
-)
+from robonav.nirl import ENCODER, into_unit, rewards_of, shown_steps
 from robonav.nirl.transitions import with_constant
 from robonav.robot import Reflex, Simulator, navigate, random_worlds
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
@@ -24,7 +19,7 @@ SPEED, DISCOUNT = 2.0, 0.9
 
 @pytest.fixture(scope="module")
 def shown():
-    return expert_transitions(demonstrate(random_worlds(6, 20, seed=3)))
+    return shown_steps(demonstrate(random_worlds(6, 20, seed=3)))
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +53,7 @@ def test_rewards_and_judgements_are_pythons(page, shown, theta):
     seen = page(body, data)
     np.testing.assert_allclose(seen["all"], shown.features @ theta.T, atol=1e-12)
     assert seen["scale"] == pytest.approx(
-        np.percentile(abs(transition_rewards(theta, shown)), 95), abs=1e-12
+        np.percentile(abs(rewards_of(theta, shown)), 95), abs=1e-12
     )
     assert seen["agreement"] == np.mean(
         (shown.features @ theta.T).argmax(axis=1) == shown.actions
@@ -67,7 +62,7 @@ def test_rewards_and_judgements_are_pythons(page, shown, theta):
 
 def plan(shown, theta, depth):
     encoder = lab(shown, theta).data["encoder"]
-    scale = float(np.percentile(abs(transition_rewards(theta, shown)), 95))
+    scale = float(np.percentile(abs(rewards_of(theta, shown)), 95))
     return {
         "theta": theta.ravel().tolist(),
         "encoder": encoder,
@@ -108,7 +103,7 @@ def worths(theta, scale, simulator, depth):
     """The same by brute force: a copy of the simulator for each action."""
     sensing = simulator.sense()
     rewards = (with_constant(ENCODER(sensing)) @ theta.T)[0]
-    units = scale_to_unit_interval(np.append(rewards, [scale] * 1000))[:5]
+    units = into_unit(np.append(rewards, [scale] * 1000))[:5]
     found = []
     for action in range(5):
         after = copy_of(simulator)
@@ -180,7 +175,7 @@ def test_percentiles_are_numpys(page):
 @pytest.mark.parametrize("target", ["number", "signed", "one-hot", "sine-cosine"])
 def test_every_feature_has_a_name(shown, target):
     encoder = replace(ENCODER, target=target)
-    steps = expert_transitions(demonstrate(random_worlds(2, 20, seed=3)), encoder)
+    steps = shown_steps(demonstrate(random_worlds(2, 20, seed=3)), encoder)
     features = lab(steps, np.zeros((5, encoder.size + 1)), encoder=encoder).data[
         "features"
     ]

@@ -1,0 +1,51 @@
+"""The leaderboard as an experiment: a run is a method in one set of worlds of one setting."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from robonav.benchmark import (
+    SETTINGS,
+    VERSION,
+    evaluate_on_board,
+    fingerprint,
+    leaderboard,
+    methods,
+)
+
+from .runner.experiment import Case, Experiment, Numbers, Plot
+
+WORLDS = {"quick": 20, "thesis": leaderboard.WORLDS}
+
+
+def evaluate_entry(case: Case, seed: int, scale: str) -> Numbers:
+    """A method in one set of worlds of a setting."""
+    return evaluate_on_board(
+        str(case["method"]), str(case["setting"]), seed, WORLDS[scale]
+    )
+
+
+def board(names: Sequence[str]) -> Experiment:
+    """The leaderboard of some methods: those that ship, or a reader's own files."""
+    return Experiment(
+        name="leaderboard",
+        title="Methods on the same worlds, which none that ships was trained or tuned on",
+        cases=[
+            {"method": name, "setting": setting}
+            for name in names
+            for setting in SETTINGS
+        ],
+        run=evaluate_entry,
+        seeds={"quick": 1, "thesis": leaderboard.SETS},
+        settings={
+            "version of the worlds": VERSION,
+            "worlds a set": WORLDS,
+            "a run": "a set of worlds; each method is one policy, as it ships",
+            "settings": {name: vars(setting) for name, setting in SETTINGS.items()},
+            "methods": {name: fingerprint(name) for name in names},
+        },
+        plot=Plot("experiments.draw_board", metric="success"),
+    )
+
+
+EXPERIMENTS = (board(methods()),)

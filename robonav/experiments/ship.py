@@ -1,0 +1,165 @@
+"""The networks that ship with the package; ``python -m robonav.experiments.ship`` trains them again.
+
+Chapter 3's are the first run of its tables. Of each method of chapters 4 and 5 some seeds train as for Tables 4.3 and
+5.2, and the policy with the greatest success in worlds kept for tuning ships.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from robonav.networks import NetworkPolicy, Weights, save_weights
+from robonav.nnql import METHODS
+from robonav.progress import bar
+from robonav.robot import Worlds
+
+from .chapter3 import setup as chapter3
+from .chapter4 import setup as chapter4
+from .chapter4 import tuning as tuning4
+from .chapter5 import setup as chapter5
+from .chapter5 import tuning as tuning5
+from .runner.setup import Setup
+
+SEED = 0  # of chapter 3's networks
+SEEDS_4 = tuple(range(tuning4.TUNING_SEEDS, tuning4.TUNING_SEEDS + 8))
+SEEDS_5 = tuple(range(tuning5.TUNING_SEEDS + 10, tuning5.TUNING_SEEDS + 14))
+TEMPERATURE_5 = (
+    0.05  # a robot without memory can go in circles, and a little randomness ends that
+)
+COMMAND = "python -m robonav.experiments.ship"
+
+
+def folder_of(chapter: str) -> Path:
+    """Where a chapter's networks lie: "lfd", "nnql" or "nirl"."""
+    return Path(str(files(f"robonav.{chapter}"))) / "shipped"
+
+
+def lfd_weights() -> dict[str, Weights]:
+    """``lfd``, cloned from 25 demonstrations, and ``dagger``, after three rounds of as many maps."""
+    made = {
+        "seed": SEED,
+        "demonstrations": chapter3.DEMONSTRATIONS,
+        "obstacles": chapter3.SETUP.obstacles,
+        "speed": chapter3.SETUP.speed,
+        "seed of the worlds": chapter3.DEMONSTRATION_SEED + SEED,
+    }
+    rounds = {
+        "rounds": chapter3.ROUNDS,
+        "seed of the worlds of round 1": chapter3.DAGGER_SEED + 10 * SEED,
+    }
+    cloned, dagger = chapter3.cloned_policy(SEED), chapter3.dagger_result(SEED).policy
+    return {
+        "lfd": weights_of("lfd", cloned, made),
+        "dagger": weights_of("dagger", dagger, made | rounds),
+    }
+
+
+def nnql_weights(
+    method: str, seeds: Sequence[int] = SEEDS_4, *, length: float = 1.0
+) -> Weights:
+    """The best of some seeds of a method of chapter 4."""
+    settings = chapter4.tuned()[method]
+    temperature = chapter4.EVALUATION_TEMPERATURE[method]
+
+    def train(seed: int) -> NetworkPolicy:
+        trained = chapter4.training(method, seed, "thesis", settings, length=length)
+        return replace(trained.policies[0], temperature=temperature)
+
+    worlds = chapter4.SETUP.tuning_worlds(
+        len(SEEDS_4), chapter4.SETUP.navigations["thesis"]
+    )
+    seed, policy, success = best_of(train, seeds, chapter4.SETUP, worlds)
+    made = {
+        "command": COMMAND,
+        "seed": seed,
+        "seeds": list(seeds),
+        "episodes": round(chapter4.EPISODES * length),
+        "speed": chapter4.SETUP.speed,
+        "obstacles": chapter4.SETUP.obstacles,
+        "settings": dict(settings),
+        "success in tuning worlds (%)": success,
+    }
+    return weights_of(method, policy, made)
+
+
+def nirl_weights(
+    method: str,
+    seeds: Sequence[int] = SEEDS_5,
+    *,
+    length: float = 1.0,
+    discount: float = chapter5.OTHER_DISCOUNT,
+) -> Weights:
+    """The best of some seeds of a method of chapter 5, with the reward that it learned."""
+    settings = chapter5.tuned(method, discount)
+
+    def train(seed: int) -> NetworkPolicy:
+        learned = chapter5.trained(method, seed, settings, length=length)
+        return replace(learned.policy, temperature=TEMPERATURE_5)
+
+    worlds = chapter5.SETUP.tuning_worlds(
+        len(SEEDS_5), chapter5.SETUP.navigations["thesis"]
+    )
+    seed, policy, success = best_of(train, seeds, chapter5.SETUP, worlds)
+    learned = chapter5.trained(method, seed, settings, length=length)
+    made = {
+        "command": COMMAND,
+        "seed": seed,
+        "seeds": list(seeds),
+        "demonstrations": chapter5.DEMONSTRATIONS,
+        "iterations": round(chapter5.ITERATIONS * length),
+        "speed": chapter5.SETUP.speed,
+        "obstacles": chapter5.SETUP.obstacles,
+        "settings": dict(settings),
+        "success in tuning worlds (%)": success,
+        "reward weights": learned.reward_weights.tolist(),
+    }
+    return weights_of(method, policy, made)
+
+
+def best_of(
+    train: Callable[[int], NetworkPolicy],
+    seeds: Sequence[int],
+    setup: Setup,
+    worlds: Worlds,
+) -> tuple[int, NetworkPolicy, float]:
+    """Train once a seed; seed, policy and success of the policy that arrives most often, of equal ones the first."""
+    policies = {seed: train(seed) for seed in seeds}
+    success = {
+        seed: setup.evaluate(policy, worlds)["success"]
+        for seed, policy in policies.items()
+    }
+    best = max(seeds, key=lambda seed: success[seed])
+    return best, policies[best], success[best]
+
+
+def weights_of(method: str, policy: NetworkPolicy, made: dict[str, Any]) -> Weights:
+    """A policy with what made it, as a file holds it."""
+    return Weights(policy.network, method, policy.encoder, made, policy.temperature)
+
+
+def all_weights() -> Iterator[tuple[str, str, Weights]]:
+    """Chapter, file name and weights of every network that ships."""
+    for name, weights in lfd_weights().items():
+        yield "lfd", name, weights
+    for method in METHODS:
+        yield "nnql", method, nnql_weights(method)
+    for method in chapter5.LEARNERS:
+        yield "nirl", method.replace("_", "-"), nirl_weights(method)
+
+
+def ship() -> None:
+    """Write a file for every network where the package looks for it."""
+    total = 2 + len(METHODS) + len(chapter5.LEARNERS)
+    with bar("networks that ship") as progress:
+        for done, (chapter, name, weights) in enumerate(all_weights()):
+            folder_of(chapter).mkdir(exist_ok=True)
+            save_weights(folder_of(chapter) / f"{name}.safetensors", weights)
+            progress(done + 1, total)
+
+
+if __name__ == "__main__":
+    ship()
