@@ -13,9 +13,13 @@ from .dynamic_programming import (
     policy_iteration,
     value_iteration,
 )
-from .environments import GridEnvironment
 from .episodes import Trajectory, discounted_return, rollouts
-from .evaluation import EvaluationResult, iterative_policy_evaluation, policy_evaluation
+from .evaluation import (
+    EvaluationResult,
+    expected_return,
+    iterative_policy_evaluation,
+    policy_evaluation,
+)
 from .exploration import (
     Schedule,
     epsilon_greedy,
@@ -31,7 +35,7 @@ from .finite_horizon import (
     finite_horizon_evaluation,
 )
 from .generalised_policy_iteration import GPIHistory, generalized_policy_iteration
-from .gridworld import Cell, GridWorld, four_by_three
+from .gridworld import Cell, GridEnvironment, GridWorld, four_by_three
 from .linear import LinearControlResult, linear_q_learning, linear_sarsa, with_bias
 from .localisation import Localiser, PoseGrid, RangeSensor, pose_transitions
 from .models import FiniteMDP, expected_rewards
@@ -60,6 +64,7 @@ from .value_functions import (
     bellman_action_value_operator,
     bellman_optimality_operator,
     bellman_policy_operator,
+    best_values_of_any_policy,
     is_optimal,
     policy_action_values,
 )
@@ -95,10 +100,12 @@ __all__ = [
     "bellman_action_value_operator",
     "bellman_optimality_operator",
     "bellman_policy_operator",
+    "best_values_of_any_policy",
     "corridor",
     "discounted_return",
     "entropy",
     "epsilon_greedy",
+    "expected_return",
     "expected_rewards",
     "expected_sarsa",
     "exponential_decay",

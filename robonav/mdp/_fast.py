@@ -1,9 +1,9 @@
-"""The inner loops of planning, compiled: a sweep over all states each.
+"""The loops of asynchronous value iteration, compiled: twins of ``in_place_sweep`` and ``prioritized_backups``.
 
-Transitions come as the three arrays of ``FiniteMDP.rows``, a CSR matrix whose row s A + a holds T(s, a, .): the
-successors of (s, a) are ``successors[starts[row]:starts[row + 1]]``, their probabilities stand likewise in ``chances``.
-Positions are unsigned, which spares numba the test for Python's negative ones (twice as fast). All is serial, without
-the interpreter's lock, and in one file because numba's cache does not see an edit in another.
+Transitions are the three arrays of ``FiniteMDP.rows``, a CSR matrix whose row s A + a holds T(s, a, .): the successors
+of (s, a) are ``successors[starts[row]:starts[row + 1]]``, and ``probabilities`` is laid out in the same way. Positions
+are unsigned, so that numba need not handle Python's negative ones (twice as fast). All kernels are serial, release the
+interpreter's lock, and are in one file because numba's cache does not notice an edit in another.
 """
 
 from __future__ import annotations
@@ -39,14 +39,14 @@ def action_value(
     reward: float,
     starts: Unsigned,
     successors: Unsigned,
-    chances: Floats,
+    probabilities: Floats,
     discount: float,
     values: Floats,
 ) -> float:
-    """One entry of the backup: r(s, a) + gamma sum_s' T(s, a, s') V(s')."""
+    """One action value: r(s, a) + gamma sum over s' of T(s, a, s') V(s')."""
     ahead = 0.0
     for k in range(starts[np.uint64(row)], starts[np.uint64(row + 1)]):
-        ahead += chances[k] * values[successors[k]]
+        ahead += probabilities[k] * values[successors[k]]
     return reward + discount * ahead
 
 
@@ -55,7 +55,7 @@ def best_action(
     state: int,
     starts: Unsigned,
     successors: Unsigned,
-    chances: Floats,
+    probabilities: Floats,
     rewards: Floats,
     discount: float,
     values: Floats,
@@ -70,7 +70,7 @@ def best_action(
             reward,
             starts,
             successors,
-            chances,
+            probabilities,
             discount,
             values,
         )
@@ -80,66 +80,10 @@ def best_action(
 
 
 @compiled
-def optimal_sweep(
-    starts: Unsigned,
-    successors: Unsigned,
-    chances: Floats,
-    rewards: Floats,
-    discount: float,
-    values: Floats,
-    out: Floats,
-    policy: Actions,
-) -> tuple[float, float]:
-    """``out`` = the best action value of each state, ``policy`` its action; least and largest change."""
-    least, most = np.inf, -np.inf
-    for state in range(values.size):
-        best, chosen = best_action(
-            state, starts, successors, chances, rewards, discount, values
-        )
-        out[state] = best
-        policy[state] = chosen
-        change = best - values[state]
-        least = min(least, change)
-        most = max(most, change)
-    return least, most
-
-
-@compiled
-def policy_sweep(
-    starts: Unsigned,
-    successors: Unsigned,
-    chances: Floats,
-    rewards: Floats,
-    discount: float,
-    values: Floats,
-    out: Floats,
-    policy: Actions,
-) -> float:
-    """``out`` = the action value of each state under ``policy``; largest absolute change."""
-    actions = rewards.shape[1]
-    most = 0.0
-    for state in range(values.size):
-        action = policy[state]
-        reward = rewards[state, action]
-        value = action_value(
-            state * actions + action,
-            reward,
-            starts,
-            successors,
-            chances,
-            discount,
-            values,
-        )
-        out[state] = value
-        most = max(most, abs(value - values[state]))
-    return most
-
-
-@compiled
 def in_place_sweep(
     starts: Unsigned,
     successors: Unsigned,
-    chances: Floats,
+    probabilities: Floats,
     rewards: Floats,
     discount: float,
     values: Floats,
@@ -148,7 +92,7 @@ def in_place_sweep(
     most = 0.0
     for state in range(values.size):
         best, _ = best_action(
-            state, starts, successors, chances, rewards, discount, values
+            state, starts, successors, probabilities, rewards, discount, values
         )
         most = max(most, abs(best - values[state]))
         values[state] = best
@@ -156,14 +100,14 @@ def in_place_sweep(
 
 
 @compiled
-def sink(heap: Actions, place: Actions, urgency: Floats) -> None:
+def sink(heap: Actions, place: Actions, priority: Floats) -> None:
     """Let the state on top of the heap sink to where it belongs."""
     state, at = heap[0], 0
     while 2 * at + 1 < heap.size:
         child = 2 * at + 1
-        if child + 1 < heap.size and urgency[heap[child + 1]] > urgency[heap[child]]:
+        if child + 1 < heap.size and priority[heap[child + 1]] > priority[heap[child]]:
             child += 1
-        if urgency[heap[child]] <= urgency[state]:
+        if priority[heap[child]] <= priority[state]:
             break
         heap[at] = heap[child]
         place[heap[at]] = at
@@ -173,10 +117,10 @@ def sink(heap: Actions, place: Actions, urgency: Floats) -> None:
 
 
 @compiled
-def rise(heap: Actions, place: Actions, urgency: Floats, at: int) -> None:
+def rise(heap: Actions, place: Actions, priority: Floats, at: int) -> None:
     """Let the state at one place of the heap rise to where it belongs."""
     state = heap[at]
-    while at > 0 and urgency[heap[(at - 1) // 2]] < urgency[state]:
+    while at > 0 and priority[heap[(at - 1) // 2]] < priority[state]:
         heap[at] = heap[(at - 1) // 2]
         place[heap[at]] = at
         at = (at - 1) // 2
@@ -188,39 +132,39 @@ def rise(heap: Actions, place: Actions, urgency: Floats, at: int) -> None:
 def prioritized_backups(
     starts: Unsigned,
     successors: Unsigned,
-    chances: Floats,
+    probabilities: Floats,
     rewards: Floats,
     discount: float,
     into: Unsigned,
     predecessors: Unsigned,
     weights: Floats,
     values: Floats,
-    urgency: Floats,
+    priority: Floats,
     heap: Actions,
-    enough: float,
+    limit: float,
     max_backups: int,
 ) -> tuple[int, float]:
-    """Back up the most urgent state until none is more urgent than ``enough``; backups done, largest urgency left.
+    """Back up the state of largest priority until none exceeds ``limit``; backups done, largest priority left.
 
-    ``values`` and ``urgency`` change in place. ``heap`` is a binary heap of states, the most urgent on top (sorted is
-    a heap too); ``place`` says where in it each state is.
+    ``values`` and ``priority`` change in place. ``heap`` is a binary heap of states, the largest priority on top (a
+    sorted array is a heap); ``place`` holds the position of each state in it.
     """
     place = np.empty_like(heap)
     for at in range(heap.size):
         place[heap[at]] = at
     backups = 0
-    while urgency[heap[0]] > enough and backups < max_backups:
+    while priority[heap[0]] > limit and backups < max_backups:
         state = heap[0]
         best, _ = best_action(
-            state, starts, successors, chances, rewards, discount, values
+            state, starts, successors, probabilities, rewards, discount, values
         )
         change = abs(best - values[state])
         values[state] = best
-        urgency[state] = 0.0
-        sink(heap, place, urgency)
+        priority[state] = 0.0
+        sink(heap, place, priority)
         for k in range(into[np.uint64(state)], into[np.uint64(state + 1)]):
             before = predecessors[k]
-            urgency[before] += discount * weights[k] * change
-            rise(heap, place, urgency, place[before])
+            priority[before] += discount * weights[k] * change
+            rise(heap, place, priority, place[before])
         backups += 1
-    return backups, urgency[heap[0]]
+    return backups, priority[heap[0]]

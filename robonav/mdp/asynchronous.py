@@ -1,18 +1,26 @@
-"""Asynchronous value iteration: states backed up in place, in order or the most urgent first."""
+"""Asynchronous value iteration: one state at a time, in order or the most urgent first.
+
+Both methods back up single states, which Python does slowly. Their loops therefore run compiled (``_fast``);
+:func:`in_place_sweep` and :func:`prioritized_backups` are the same loops to be read, and a test holds both equal.
+"""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_instance, check_integer, check_positive
-
-from .dynamic_programming import Solution, first_values, greedy_policy, stacked
-from .evaluation import warn_unfinished
+from .arguments import validated
+from .dynamic_programming import Solution, first_values, greedy_policy, solution_of
+from .evaluation import History, warn_not_converged
 from .models import FiniteMDP
 
+Floats = NDArray[np.float64]
 
+
+@validated
 def in_place_value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -23,41 +31,66 @@ def in_place_value_iteration(
 ) -> Solution:
     """Value iteration whose sweeps use each new value at once (Gauss-Seidel): fewer sweeps, the same guarantee.
 
-    A value changed early in a sweep changes later ones: a full backup after the sweep would move no value by more
-    than discount times its largest change, so the stopping distance of ``value_iteration`` serves here too.
+    A value changed early in a sweep changes later ones. A full backup after the sweep would move no value by more than
+    the discount times the largest change, so the stopping rule of :func:`~robonav.mdp.value_iteration` holds here too.
 
-    Parameters, result and warning are those of ``value_iteration``.
+    Parameters
+    ----------
+    mdp : FiniteMDP
+        S states, A actions.
+    tolerance : float
+        Largest loss of value accepted, in units of reward.
+    start : (S,) array, optional
+        Values to start from; zeros by default. Without discount, the values of a policy that is greedy for them and
+        sure to end.
+    max_iterations : int
+        Number of sweeps after which to give up.
+    record : bool
+        Whether to keep ``history``, (iterations + 1, S), and the greedy policy of each of its rows.
+
+    Returns
+    -------
+    Solution
+
+    Warns
+    -----
+    ConvergenceWarning
+        If ``max_iterations`` sweeps were not enough; the message says how far the values still moved.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, in_place_value_iteration, value_iteration
+    >>> mdp = GridWorld("G . . . . .").mdp(discount=0.9)
+    >>> in_place_value_iteration(mdp).iterations, value_iteration(mdp).iterations
+    (2, 6)
     """
     from . import _fast
 
-    check_instance("mdp", mdp, FiniteMDP)
-    enough = mdp.residual_for(tolerance)
     values = first_values(mdp, start)
-    history, chosen = (
-        ([values.copy()], [greedy_policy(mdp, values, tolerance)])
-        if record
-        else ([], [])
-    )
-    for iterations in range(
-        1, check_integer("max_iterations", max_iterations, at_least=1) + 1
-    ):
-        distance = _fast.in_place_sweep(*mdp.arrays, values)
-        if record:
-            history.append(values.copy())
-            chosen.append(greedy_policy(mdp, values, tolerance))
-        if distance <= enough:
+    limit, history = mdp.residual_for(tolerance), History(record)
+    history.append(values)
+    for iteration in range(1, max_iterations + 1):
+        residual = _fast.in_place_sweep(*mdp.arrays, values)
+        history.append(values)
+        if residual <= limit:
             break
-        if iterations == max_iterations:
-            warn_unfinished("in_place_value_iteration", iterations, distance, enough)
-    return Solution(
-        values,
-        greedy_policy(mdp, values, tolerance),
-        iterations,
-        distance,
-        *stacked(history, chosen),
-    )
+    else:
+        warn_not_converged("in_place_value_iteration", iteration, residual, limit)
+    policy = greedy_policy(mdp, values, tolerance)
+    return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
 
 
+def in_place_sweep(mdp: FiniteMDP, values: Floats) -> float:
+    """Back up all states in order, in place, each with the values as they are by then; return the largest change."""
+    largest = 0.0
+    for state in range(mdp.n_states):
+        best = best_action_value(mdp, state, values)
+        largest = max(largest, abs(best - values[state]))
+        values[state] = best
+    return largest
+
+
+@validated
 def prioritized_sweeping(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -65,56 +98,107 @@ def prioritized_sweeping(
     start: ArrayLike | None = None,
     max_backups: int = 100_000_000,
 ) -> Solution:
-    """Value iteration of one state at a time, always the one whose value may be furthest from its backup.
+    """Prioritised sweeping: value iteration of one state at a time, the one with the largest possible error first.
 
-    The priority of a state bounds its Bellman error from above: a change of V(s') by d raises the bound of each
-    predecessor by discount times max_a T(s, a, s') times d. Stops when no bound exceeds ``tolerance * (1 - discount)
-    / 2`` (without discount ``tolerance``): the greedy policy is then within ``tolerance`` of optimal. Moore and
-    Atkeson (1993), with a known model.
+    Stops when no state's error may exceed ``tolerance * (1 - discount) / 2`` (``tolerance`` without discount). The
+    greedy policy then loses at most ``tolerance`` (Moore and Atkeson 1993, here with a known model).
 
     Parameters
     ----------
-    tolerance : largest loss of value accepted, in units of reward; positive.
-    start : values (S,) to start from; zeros if not given. Without discount what the greedy policy for them earns.
-    max_backups : backups of single states after which to give up.
+    mdp : FiniteMDP
+        S states, A actions.
+    tolerance : float
+        Largest loss of value accepted, in units of reward.
+    start : (S,) array, optional
+        Values to start from; zeros by default. Without discount, the values of a policy that is greedy for them and
+        sure to end.
+    max_backups : int
+        Number of backups of single states after which to give up.
 
     Returns
     -------
-    Solution, whose ``iterations`` counts backups of single states.
+    Solution
+        Its ``iterations`` counts backups of single states.
 
     Warns
     -----
-    ConvergenceWarning : if ``max_backups`` did not suffice; says how large the largest bound still was.
+    ConvergenceWarning
+        If ``max_backups`` were not enough; the message says how large an error may still be.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, prioritized_sweeping
+    >>> prioritized_sweeping(GridWorld(". . . . G").mdp(discount=0.9)).iterations
+    4
     """
     from . import _fast
 
-    check_instance("mdp", mdp, FiniteMDP)
-    enough = check_positive("tolerance", tolerance) * (
-        1 if mdp.discount == 1 else (1 - mdp.discount) / 2
-    )
     values = first_values(mdp, start)
-    urgency = abs(mdp.action_values(values).max(axis=1) - values)
-    backups, distance = _fast.prioritized_backups(
+    priority = abs(mdp.action_values(values).max(axis=1) - values)
+    limit = tolerance * (1 if mdp.discount == 1 else (1 - mdp.discount) / 2)
+    backward = likeliest_predecessors(mdp)
+    starts, states = unsigned(backward.indptr, backward.indices)
+    backups, residual = _fast.prioritized_backups(
         *mdp.arrays,
-        *_predecessors(mdp),
+        starts,
+        states,
+        backward.data,
         values,
-        urgency,
-        np.argsort(-urgency),
-        enough,
-        check_integer("max_backups", max_backups, at_least=1),
+        priority,
+        np.argsort(-priority),
+        limit,
+        max_backups,
     )
-    if distance > enough:
-        warn_unfinished("prioritized_sweeping", backups, distance, enough)
-    return Solution(values, greedy_policy(mdp, values, tolerance), backups, distance)
+    if residual > limit:
+        warn_not_converged("prioritized_sweeping", backups, residual, limit)
+    policy = greedy_policy(mdp, values, tolerance)
+    return Solution(values, policy, backups, residual)
 
 
-def _predecessors(mdp: FiniteMDP) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """For each state s' its predecessors s and max_a T(s, a, s'), as starts, predecessors, weights of a CSR matrix."""
+def prioritized_backups(
+    mdp: FiniteMDP, values: Floats, limit: float, max_backups: int
+) -> tuple[int, float]:
+    """Back up the state with the largest priority, in place, until no priority exceeds ``limit``.
+
+    The priority of a state bounds its Bellman error from above: a change of V(s') by d raises the priority of each
+    predecessor s by at most discount * max over a of T(s, a, s') * d.
+
+    Returns
+    -------
+    backups : int
+        Number of backups done.
+    largest : float
+        Largest priority left.
+    """
+    backward = likeliest_predecessors(mdp)
+    priority = abs(mdp.action_values(values).max(axis=1) - values)
+    backups = 0
+    while priority.max() > limit and backups < max_backups:
+        state = int(priority.argmax())
+        change = abs(best_action_value(mdp, state, values) - values[state])
+        values[state] = best_action_value(mdp, state, values)
+        priority[state] = 0.0
+        before = slice(*backward.indptr[state : state + 2])
+        likeliest = backward.data[before]  # max over a of T(s, a, s')
+        priority[backward.indices[before]] += mdp.discount * likeliest * change
+        backups += 1
+    return backups, float(priority.max())
+
+
+def best_action_value(mdp: FiniteMDP, state: int, values: Floats) -> float:
+    """Backup of one state: max over a of r(s, a) + discount * sum over s' of T(s, a, s') V(s')."""
+    own = slice(state * mdp.n_actions, (state + 1) * mdp.n_actions)
+    return (mdp.rewards[state] + mdp.discount * (mdp.rows[own] @ values)).max()
+
+
+def unsigned(*positions: NDArray[Any]) -> list[NDArray[Any]]:
+    """Arrays of positions as ``_fast`` takes them."""
+    return [part.view(f"u{part.itemsize}") for part in positions]
+
+
+def likeliest_predecessors(mdp: FiniteMDP) -> sp.csr_array:
+    """Largest probability of reaching s' from s by any action, (S, S): row s', column s."""
     likeliest = mdp.rows[:: mdp.n_actions]
     for action in range(1, mdp.n_actions):
         likeliest = likeliest.maximum(mdp.rows[action :: mdp.n_actions])
-    backward = sp.csr_array(likeliest.T)
-    starts, predecessors = (
-        part.view(f"u{part.itemsize}") for part in (backward.indptr, backward.indices)
-    )
-    return starts, predecessors, backward.data
+    return sp.csr_array(likeliest.T)

@@ -21,7 +21,7 @@ from robonav.validation import (
 )
 
 from .dynamic_programming import value_iteration
-from .policies import check_distributions
+from .policies import as_distributions
 from .pomdp import POMDP, SAME, BeliefMDP
 
 Floats = NDArray[np.float64]
@@ -45,8 +45,7 @@ class AlphaVectors:
     def value(self, belief: ArrayLike) -> Floats:
         """Value (...) of one belief (S,) or many (..., S): the largest of the linear functions."""
         return (
-            check_distributions("belief", belief, self.vectors.shape[1])
-            @ self.vectors.T
+            as_distributions("belief", belief, self.vectors.shape[1]) @ self.vectors.T
         ).max(axis=-1)
 
     def action(self, belief: ArrayLike) -> int:
@@ -56,7 +55,7 @@ class AlphaVectors:
             self.actions[
                 (
                     self.vectors
-                    @ check_distributions("belief", belief, self.vectors.shape[1])
+                    @ as_distributions("belief", belief, self.vectors.shape[1])
                 ).argmax()
             ]
         )
@@ -144,7 +143,7 @@ def point_based_value_iteration(
     if pomdp.mdp.discount == 1:
         raise ValueError("point_based_value_iteration needs a discount below 1, got 1")
     check_array("beliefs", beliefs, shape=("N", pomdp.mdp.n_states))
-    points = check_distributions("beliefs", beliefs, pomdp.mdp.n_states)
+    points = as_distributions("beliefs", beliefs, pomdp.mdp.n_states)
     if len(points) == 0:
         raise ValueError("beliefs must hold at least one belief, got none")
     enough = check_positive("tolerance", tolerance) * (1 - pomdp.mdp.discount)

@@ -1,44 +1,64 @@
-"""Planning with a known model: Algorithms 1 and 2 of the thesis, and what lies between them (section 2.3)."""
+"""Planning with a known model: Algorithms 1 and 2 of the thesis, and modified policy iteration (section 2.3)."""
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.errors import ConvergenceWarning
-from robonav.validation import check_instance, check_integer, check_positive
-
-from . import policies
-from .evaluation import solve_chain, solve_differences, starting_values, warn_unfinished
+from . import policies, undiscounted
+from .arguments import validated
+from .evaluation import (
+    History,
+    evaluation_residual,
+    starting_values,
+    warn_not_converged,
+)
+from .linear_solver import solve
 from .models import FiniteMDP
-from .value_functions import or_rest
+from .rounding import gains_and_rounding, warn_if_hidden
+
+Floats = NDArray[np.float64]
+Actions = NDArray[np.intp]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Solution:
-    """What a planner found: the optimal values V*, the largest of any policy (Eq. (2.9)), and a policy that has them.
+    """Optimal values and an optimal policy, as a planner found them.
 
     Attributes
     ----------
-    values : (S,), in units of reward.
-    policy : (S,), action indices.
-    iterations : sweeps over all states, or policies evaluated.
-    residual : largest change of a value that one more improvement still promised.
-    history : (steps, S), the values on the way, if recorded: see each planner.
-    policies : (steps, S), the policy that goes with each row of ``history``.
+    values : (S,) array
+        The optimal values, in units of reward.
+    policy : (S,) array of ints
+    iterations : int
+        Number of sweeps over all states, or of policies evaluated.
+    residual : float
+        Largest change of a value that one more improvement still promised.
+    history : (rows, S) array or None
+        The values of each iteration, if recorded; see each planner.
+    policies : (rows, S) array of ints or None
+        The policy that goes with each row of ``history``.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three, value_iteration
+    >>> solution = value_iteration(four_by_three().mdp(discount=0.95))
+    >>> solution.policy
+    array([1, 1, 1, 0, 0, 0, 0, 0, 1, 0, 3])
     """
 
-    values: NDArray[np.float64]
-    policy: NDArray[np.intp]
+    values: Floats
+    policy: Actions
     iterations: int
     residual: float
-    history: NDArray[np.float64] | None = None
-    policies: NDArray[np.intp] | None = None
+    history: Floats | None = None
+    policies: Actions | None = None
 
 
+@validated
 def value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -47,49 +67,61 @@ def value_iteration(
     max_iterations: int = 100_000,
     record: bool = False,
 ) -> Solution:
-    """Optimal values and a greedy policy by value iteration (Algorithm 2, Eq. (2.26)).
+    """Value iteration, Algorithm 2, Eq. (2.26).
 
-    Stops when a sweep changes no value by more than ``tolerance * (1 - discount) / (2 * discount)``: the policy is
-    then within ``tolerance`` of optimal in every state, the values within half of that (Puterman 2005, Theorem 6.3.1).
-    Without discount there is no such bound; ``tolerance`` itself is taken.
+    Stops when a sweep changes no value by more than ``tolerance * (1 - discount) / (2 * discount)``. The greedy policy
+    then loses at most ``tolerance`` in every state, and the values are within half of that (Puterman 2005, Theorem
+    6.3.1). Without discount there is no such bound, and ``tolerance`` itself is used.
 
     Parameters
     ----------
-    tolerance : largest loss of value accepted, in units of reward; positive.
-    start : values (S,) to start from; zeros if not given. Without discount what the greedy policy for them earns.
-    max_iterations : sweeps after which to give up.
-    record : keep ``history`` (iterations + 1, S) and the greedy policy of each of its rows.
+    mdp : FiniteMDP
+        S states, A actions.
+    tolerance : float
+        Largest loss of value accepted, in units of reward.
+    start : (S,) array, optional
+        Values to start from; zeros by default. Without discount, the values of a policy that is greedy for them and
+        sure to end.
+    max_iterations : int
+        Number of sweeps after which to give up.
+    record : bool
+        Whether to keep ``history``, (iterations + 1, S), and the greedy policy of each of its rows.
+
+    Returns
+    -------
+    Solution
 
     Warns
     -----
-    ConvergenceWarning : if ``max_iterations`` sweeps did not suffice; says how far the values still moved.
+    ConvergenceWarning
+        If ``max_iterations`` sweeps were not enough; the message says how far the values still moved.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three, value_iteration
+    >>> solution = value_iteration(four_by_three().mdp(discount=0.95))
+    >>> solution.iterations, solution.values.round(2)[:4]
+    (25, array([0.69, 0.78, 0.87, 0.  ]))
     """
-    from . import _fast
-
-    check_instance("mdp", mdp, FiniteMDP)
-    enough = mdp.residual_for(tolerance)
-    values = first_values(mdp, start)
-    updated, policy = np.empty_like(values), np.empty(mdp.n_states, dtype=np.intp)
-    history, chosen = ([values.copy()], []) if record else ([], [])
-    for iterations in range(
-        1, check_integer("max_iterations", max_iterations, at_least=1) + 1
-    ):
-        least, most = _fast.optimal_sweep(*mdp.arrays, values, updated, policy)
-        values, updated = updated, values
-        distance = max(-least, most)
-        if record:
-            history.append(values.copy())
-            chosen.append(policy.copy())
-        if distance <= enough:
+    values = first_values(mdp, start)  # 1 and 2
+    history = History(record)
+    history.append(values)
+    for iteration in range(1, max_iterations + 1):  # 3
+        before = values
+        q = mdp.action_values(before)  # r(s, a) + discount * sum over s' of T V(s')
+        values = q.max(axis=1)  # 4  Eq. (2.26)
+        history.append(values)  # 5
+        residual = abs(values - before).max()
+        if residual <= mdp.residual_for(tolerance):  # 6
             break
-        if iterations == max_iterations:
-            warn_unfinished("value_iteration", iterations, distance, enough)
-    policy = greedy_policy(mdp, values, tolerance)
-    return Solution(
-        values, policy, iterations, distance, *stacked(history, [*chosen, policy])
-    )
+    else:
+        limit = mdp.residual_for(tolerance)
+        warn_not_converged("value_iteration", iteration, residual, limit)
+    policy = greedy_policy(mdp, values, tolerance)  # 7  Eq. (2.25)
+    return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
 
 
+@validated
 def policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-9,
@@ -98,63 +130,72 @@ def policy_iteration(
     max_iterations: int = 1000,
     record: bool = False,
 ) -> Solution:
-    """An optimal policy and its values by policy iteration (Algorithm 1), each policy evaluated exactly.
+    """Policy iteration, Algorithm 1, with each policy evaluated exactly.
 
-    An action changes only where that gains more than ``tolerance * (1 - discount)``, and more than rounding could
-    feign: every change then improves the policy truly, and where actions tie it ends all the same. Without discount
-    there is no bound on the loss, and only rounding counts.
+    Actions are switched only if the gain exceeds ``tolerance * (1 - discount)`` and the floating-point error. Each
+    switch is then a strict improvement, so the loop terminates even with ties. Without discount there is no bound on
+    the loss, and only the floating-point error counts.
 
     Parameters
     ----------
-    tolerance : largest loss of value accepted, in units of reward; positive.
-    start : policy (S,) to start from; if not given, the shortest way to a terminal state where there is one, else the
-        action with the best immediate reward. Without discount it must be sure to end.
-    max_iterations : policies after which to give up.
-    record : keep ``history`` (iterations, S), the values of each policy, and ``policies`` (iterations, S).
+    mdp : FiniteMDP
+        S states, A actions.
+    tolerance : float
+        Largest loss of value accepted, in units of reward.
+    start : (S,) array of ints, optional
+        Policy to start from. By default the shortest path to a terminal state where there is one, and the action with
+        the largest immediate reward elsewhere. Without discount it must be sure to end.
+    max_iterations : int
+        Number of policies after which to give up.
+    record : bool
+        Whether to keep ``history``, the values of each policy, and ``policies``, both (iterations, S).
+
+    Returns
+    -------
+    Solution
 
     Raises
     ------
-    ValueError : if, without discount, rewards can be collected for ever.
+    ValueError
+        If, without discount, rewards can be collected forever.
 
     Warns
     -----
-    ConvergenceWarning : if ``max_iterations`` policies did not suffice; says how much the last could be improved. Also
-        if rounding hides gains that are worth more than the tolerance, near discount 1; says how much may be lost.
+    ConvergenceWarning
+        If ``max_iterations`` policies were not enough; the message says by how much the last could be improved. Also
+        if rounding near discount 1 hides gains that are worth more than the tolerance.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three, policy_iteration
+    >>> solution = policy_iteration(four_by_three().mdp(discount=0.95))
+    >>> solution.iterations, solution.policy
+    (3, array([1, 1, 1, 0, 0, 0, 0, 0, 1, 0, 3]))
     """
-    check_instance("mdp", mdp, FiniteMDP)
-    worth = check_positive("tolerance", tolerance) * (1 - mdp.discount)
-    check_integer("max_iterations", max_iterations, at_least=1)
-    policy = (
-        _first_policy(mdp)
-        if start is None
-        else policies.check_deterministic_policy(
-            "start", start, mdp.n_states, mdp.n_actions
-        )
-    )
-    values, name = np.zeros(mdp.n_states), "policy" if start is None else "start"
-    history, chosen = [], []
-    for iterations in range(1, max_iterations + 1):
-        values = solve_chain(
-            *mdp.induced_chain(policy), mdp.discount, values, name=name
-        )
-        name = "policy"
-        gains, rounding = _gains(mdp, policy, values, worth)
-        gain, enough = gains.max(axis=1), max(worth, rounding)
-        if record:
-            history.append(values)
-            chosen.append(policy)
-        if gain.max() <= enough:
-            _warn_if_hidden(rounding, worth, mdp.discount)
+    policy = first_policy(mdp, start)  # 1 and 2
+    values = np.zeros(mdp.n_states)  # 3
+    smallest = tolerance * (1 - mdp.discount)
+    history, chosen = History(record), History(record)
+    for iteration in range(1, max_iterations + 1):  # 4
+        values = evaluated(mdp, policy, values)  # 5 to 7: solves Eq. (2.5)
+        history.append(values)
+        chosen.append(policy)
+        gains, rounding = gains_and_rounding(mdp, policy, values, smallest)  # Q - V
+        limit = max(smallest, rounding)
+        gain = gains.max(axis=1)
+        if gain.max() <= limit:  # 11
+            warn_if_hidden(rounding, smallest, mdp.discount)
             break
-        if iterations == max_iterations:
-            warn_unfinished("policy_iteration", iterations, gain.max(), enough)
+        if iteration == max_iterations:
+            warn_not_converged("policy_iteration", iteration, gain.max(), limit)
             break
-        policy = np.where(gain > enough, gains.argmax(axis=1), policy)
-    return Solution(
-        values, policy, iterations, float(gain.max()), *stacked(history, chosen)
-    )
+        improved = gains.argmax(axis=1)  # 8 and 9  Eq. (2.25)
+        policy = np.where(gain > limit, improved, policy)
+    residual = float(gain.max())
+    return Solution(values, policy, iteration, residual, history.rows, chosen.rows)
 
 
+@validated
 def modified_policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -164,183 +205,143 @@ def modified_policy_iteration(
     max_iterations: int = 100_000,
     record: bool = False,
 ) -> Solution:
-    """Optimal values and a greedy policy by modified policy iteration: between Algorithms 1 and 2.
+    """Modified policy iteration, between Algorithms 1 and 2.
 
     Each iteration improves the policy once and evaluates it by ``sweeps`` sweeps (0: value iteration; many: policy
-    iteration). Stops when the changes of the improvement differ by no more than ``tolerance * (1 - discount) /
-    discount`` from state to state: the policy is then within ``tolerance`` of optimal, and the values, moved by what
-    all states still have to gain alike, within half of that (Puterman 2005, section 6.6). Without discount no change
-    may exceed ``tolerance``.
+    iteration). Stops when the changes of the improvement differ by at most ``tolerance * (1 - discount) / discount``
+    between states. The greedy policy then loses at most ``tolerance``, and the values, shifted by the middle of the
+    bounds on what is still missing, are within half of that (Puterman 2005, section 6.6). Without discount no value
+    may change by more than ``tolerance``.
 
     Parameters
     ----------
-    tolerance : largest loss of value accepted, in units of reward; positive.
-    sweeps : evaluation sweeps after each improvement.
-    start : values (S,) to start from; if not given, some that every policy improves on. Without discount what the
-        greedy policy for them earns.
-    max_iterations : improvements after which to give up.
-    record : keep ``history`` (iterations + 1, S) and the greedy policy of each of its rows.
+    mdp : FiniteMDP
+        S states, A actions.
+    tolerance : float
+        Largest loss of value accepted, in units of reward.
+    sweeps : int
+        Evaluation sweeps after each improvement.
+    start : (S,) array, optional
+        Values to start from. By default values so small that every policy improves on them. Without discount, the
+        values of a policy that is greedy for them and sure to end.
+    max_iterations : int
+        Number of improvements after which to give up.
+    record : bool
+        Whether to keep ``history``, (iterations + 1, S), and the greedy policy of each of its rows.
+
+    Returns
+    -------
+    Solution
 
     Warns
     -----
-    ConvergenceWarning : if ``max_iterations`` improvements did not suffice; says how far the values still moved.
-    """
-    from . import _fast
+    ConvergenceWarning
+        If ``max_iterations`` improvements were not enough; the message says how far the values still moved.
 
-    check_instance("mdp", mdp, FiniteMDP)
-    enough = mdp.residual_for(tolerance) * (1 if mdp.discount == 1 else 2)
-    check_integer("sweeps", sweeps, at_least=0)
-    values = _values_below(mdp) if start is None else first_values(mdp, start)
-    updated, policy = np.empty_like(values), np.empty(mdp.n_states, dtype=np.intp)
-    history, chosen = ([values.copy()], []) if record else ([], [])
-    for iterations in range(
-        1, check_integer("max_iterations", max_iterations, at_least=1) + 1
-    ):
-        least, most = _fast.optimal_sweep(*mdp.arrays, values, updated, policy)
-        values, updated = updated, values
-        distance = most - least if mdp.discount < 1 else max(-least, most)
-        if record:
-            chosen.append(policy.copy())
-        if distance <= enough:
-            values = _centred(mdp, values, least, most)
-        else:
-            for _ in range(sweeps):
-                _fast.policy_sweep(*mdp.arrays, values, updated, policy)
-                values, updated = updated, values
-        if record:
-            history.append(values.copy())
-        if distance <= enough:
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three, modified_policy_iteration
+    >>> solution = modified_policy_iteration(four_by_three().mdp(discount=0.95))
+    >>> solution.values.round(2)[:4]
+    array([0.69, 0.78, 0.87, 0.  ])
+    """
+    values = values_below(mdp) if start is None else first_values(mdp, start)
+    history = History(record)
+    history.append(values)
+    limit = evaluation_residual(mdp, tolerance)
+    for iteration in range(1, max_iterations + 1):
+        q = mdp.action_values(values)
+        change = q.max(axis=1) - values
+        values = q.max(axis=1)  # improve  Eqs. (2.25) and (2.26)
+        residual = spread(mdp, change)
+        if residual <= limit:
             break
-        if iterations == max_iterations:
-            warn_unfinished("modified_policy_iteration", iterations, distance, enough)
+        transitions, rewards = mdp.induced_chain(q.argmax(axis=1))
+        for _ in range(sweeps):  # evaluate  Eq. (2.24)
+            values = rewards + mdp.discount * (transitions @ values)
+        history.append(values)
+    else:
+        warn_not_converged("modified_policy_iteration", iteration, residual, limit)
     policy = greedy_policy(mdp, values, tolerance)
-    return Solution(
-        values, policy, iterations, distance, *stacked(history, [*chosen, policy])
-    )
+    if residual <= limit:
+        values = shifted_to_middle(mdp, values, change)
+        history.append(values)
+    return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
 
 
 def first_values(
     mdp: FiniteMDP, start: ArrayLike | None, *, name: str = "start"
-) -> NDArray[np.float64]:
-    """Values (S,) for sweeps to start from: those given under ``name``, or zeros.
-
-    Without discount sweeps may come to rest on values that nobody earns, where waiting costs nothing and so keeps what
-    it was told. From below they cannot. So they start from what a policy earns that is sure to end, greedy for
-    those given where that leads to an end, or from the 0 of one who rests where that is more.
-    """
+) -> Floats:
+    """Values (S,) for sweeps to start from; without discount those of a policy that is sure to end."""
     values = starting_values(name, mdp, start)
-    if mdp.discount < 1:
-        return values
-    _, out = mdp.way_to(mdp.terminal)
-    steps, onwards = mdp.way_to(
-        mdp.terminal, policies.greedy_actions(mdp.action_values(values))
-    )
-    earned = solve_chain(
-        *mdp.induced_chain(np.where(np.isfinite(steps), onwards, out)), 1, values
-    )
-    return np.where(mdp.rests.any(axis=1), np.maximum(earned, 0), earned)
+    return values if mdp.discount < 1 else undiscounted.proper_values(mdp, values)
 
 
-def greedy_policy(
-    mdp: FiniteMDP, values: NDArray[np.float64], tolerance: float
-) -> NDArray[np.intp]:
-    """The greedy policy (S,) for optimal values known to within ``tolerance``.
-
-    Without discount an action that waits for ever can be as greedy as the one that goes (and is worth nothing): of the
-    greedy actions take one that comes closer to an end, or, where 0 is the best, to a place to rest.
-    """
-    if mdp.discount < 1:
-        return mdp.greedy(values)
-    q = or_rest(mdp, mdp.action_values(values))
-    best = policies.greedy_actions(q, tolerance=tolerance)
-    steps, onwards = mdp.way_to(mdp.terminal, best)
-    ends = np.isfinite(steps)
-    rests = mdp.rests.any(axis=1) & (values <= tolerance) & ~ends
-    steps, towards = mdp.way_to(ends | rests, best)
-    return np.select(
-        [ends, rests, np.isfinite(steps)],
-        [onwards, mdp.rests.argmax(axis=1), towards],
-        default=q.argmax(axis=1),
-    )
-
-
-def stacked(
-    history: list[NDArray], chosen: list[NDArray]
-) -> tuple[NDArray | None, NDArray | None]:
-    """Recorded values and policies, each (steps, S); nothing where nothing was recorded."""
-    return (np.stack(history), np.stack(chosen)) if history else (None, None)
-
-
-def _first_policy(mdp: FiniteMDP) -> NDArray[np.intp]:
-    """A policy to start from: the way to an end where there is one (a proper policy), else the best reward at once."""
-    steps, out = mdp.way_to(mdp.terminal)
-    return np.where(np.isfinite(steps), out, mdp.rewards.argmax(axis=1))
-
-
-def _values_below(mdp: FiniteMDP) -> NDArray[np.float64]:
-    """Values (S,) that no sweep lowers, so that modified policy iteration climbs from them steadily."""
+def values_below(mdp: FiniteMDP) -> Floats:
+    """Values (S,) that no sweep lowers, so that modified policy iteration climbs steadily from them."""
     if mdp.discount == 1:
         return first_values(mdp, None)
     return np.where(mdp.terminal, 0, min(mdp.rewards.min(), 0) / (1 - mdp.discount))
 
 
-def _centred(
-    mdp: FiniteMDP, values: NDArray[np.float64], least: float, most: float
-) -> NDArray[np.float64]:
-    """The middle of the bounds on the optimal values that a sweep with changes from ``least`` to ``most`` leaves."""
+def first_policy(mdp: FiniteMDP, start: ArrayLike | None) -> Actions:
+    """Policy (S,) to start from: a proper one where there is one, else the largest immediate reward."""
+    if start is None:
+        steps, shortest = undiscounted.shortest_path_policy(mdp, mdp.terminal)
+        return np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
+    policy = policies.as_deterministic_policy(
+        "start", start, mdp.n_states, mdp.n_actions
+    )
+    if mdp.discount == 1:
+        undiscounted.closed_classes(*mdp.induced_chain(policy), "start")
+    return policy
+
+
+def evaluated(mdp: FiniteMDP, policy: Actions, guess: Floats) -> Floats:
+    """Values (S,) of a policy as ``policy_evaluation`` finds them, from a guess that is near them."""
+    transitions, rewards = mdp.induced_chain(policy)
+    if mdp.discount == 1:
+        return undiscounted.policy_values(transitions, rewards, guess=guess)
+    identity = sp.eye_array(mdp.n_states, format="csr")
+    return solve(identity - mdp.discount * transitions, rewards, guess)
+
+
+def greedy_policy(mdp: FiniteMDP, values: Floats, tolerance: float) -> Actions:
+    """Greedy policy (S,) for optimal values known to within ``tolerance``; without discount one that ends."""
+    if mdp.discount < 1:
+        return mdp.greedy(values)
+    return undiscounted.greedy_policy(mdp, values, tolerance)
+
+
+def spread(mdp: FiniteMDP, change: Floats) -> float:
+    """Difference between the largest and the least change of a value; without discount the largest change."""
+    if mdp.discount == 1:
+        return abs(change).max()
+    return change.max() - change.min()
+
+
+def shifted_to_middle(mdp: FiniteMDP, values: Floats, change: Floats) -> Floats:
+    """Middle of the bounds on the optimal values after a sweep with these changes (Puterman 2005, section 6.6)."""
     if mdp.discount == 1:
         return values
-    return np.where(
-        mdp.terminal, 0, values + mdp.discount / (1 - mdp.discount) * (least + most) / 2
+    missing = mdp.discount / (1 - mdp.discount) * (change.min() + change.max()) / 2
+    return np.where(mdp.terminal, 0, values + missing)
+
+
+def solution_of(
+    mdp: FiniteMDP,
+    values: Floats,
+    policy: Actions,
+    iterations: int,
+    residual: float,
+    history: History,
+    tolerance: float,
+) -> Solution:
+    """The result of a planner; with a recorded history also the greedy policy of each of its rows."""
+    rows = history.rows
+    if rows is None:
+        return Solution(values, policy, iterations, float(residual))
+    greedy = [greedy_policy(mdp, row, tolerance) for row in rows[:-1]]
+    return Solution(
+        values, policy, iterations, float(residual), rows, np.stack([*greedy, policy])
     )
-
-
-def _gains(
-    mdp: FiniteMDP, policy: NDArray[np.intp], values: NDArray[np.float64], worth: float
-) -> tuple[NDArray[np.float64], float]:
-    """What each action (S, A) gains over the policy, whose ``values`` are given, and how much of it may be rounding.
-
-    If rounding may hide gains larger than ``worth``, and no larger ones are to be seen, look closer: what all values
-    share cancels in a gain, and near discount 1 that is nearly all of them.
-    """
-    state = np.arange(mdp.n_states)
-    q = mdp.action_values(values)
-    own = q[state, policy]
-    gains, rounding = (
-        or_rest(mdp, q) - own[:, None],
-        rounding_of_gains(mdp, values, own),
-    )
-    if mdp.discount == 1 or rounding <= worth or gains.max() > rounding:
-        return gains, rounding
-    differences, step = solve_differences(
-        *mdp.induced_chain(policy), mdp.discount, values
-    )
-    q, moved = mdp.action_values(differences), mdp.action_values(step) - mdp.rewards
-    size = abs(differences).max() + abs(mdp.rewards).max()
-    rounding = (
-        2 * abs(moved - moved[state, policy][:, None]).max()
-        + 4 * np.finfo(float).eps * size
-    )
-    return q - q[state, policy][:, None], rounding
-
-
-def rounding_of_gains(
-    mdp: FiniteMDP, values: NDArray[np.float64], own: NDArray[np.float64]
-) -> float:
-    """How much of a gain the error of a policy's ``values`` (S,) can explain at most, given their backup ``own``."""
-    rounding = np.finfo(float).eps * abs(values).max()
-    error = max(abs(own - values).max(), rounding) * (
-        mdp.n_states if mdp.discount == 1 else 1 / (1 - mdp.discount)
-    )
-    return max(2 * mdp.discount * error, 2 * rounding)
-
-
-def _warn_if_hidden(rounding: float, worth: float, discount: float) -> None:
-    """ConvergenceWarning at the caller's caller if gains hide in rounding that are worth more than was accepted."""
-    if discount < 1 and rounding > worth:
-        warnings.warn(
-            f"policy_iteration cannot tell gains below {rounding:.3g} from rounding: its policy may lose "
-            f"{rounding / (1 - discount):.3g}, where {worth / (1 - discount):.3g} was asked for",
-            ConvergenceWarning,
-            stacklevel=3,
-        )

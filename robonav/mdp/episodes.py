@@ -229,7 +229,7 @@ def policy_sampler(
 
     ``policy`` is (S,) of action numbers or (S, A) of probabilities.
     """
-    table = policies.check_policy(policy, states, actions)
+    table = policies.as_policy(policy, states, actions)
     if table.ndim == 1:
         return table.tolist().__getitem__
     thresholds = np.cumsum(table, axis=1)

@@ -1,58 +1,95 @@
-"""What a policy is worth: the linear equations (2.14), solved at once or sweep by sweep."""
+"""Policy evaluation: the values of a policy, from Bellman's linear equations at once or sweep by sweep."""
 
 from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csgraph, linalg
 
 from robonav.errors import ConvergenceWarning
-from robonav.validation import (
-    check_array,
-    check_instance,
-    check_integer,
-    check_positive,
-)
+from robonav.validation import check_array
 
-from .models import FiniteMDP, packed
+from . import undiscounted
+from .arguments import validated
+from .linear_solver import solve
+from .models import FiniteMDP
+from .policies import as_distributions
 
-DIRECT_SOLVE = (
-    1000  # up to so many equations elimination is quick whatever their pattern
-)
+Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class EvaluationResult:
-    """Values of a policy, found sweep by sweep: ``history`` (iterations + 1, S) if recorded."""
+    """Values of a policy, found sweep by sweep.
 
-    values: NDArray[np.float64]
+    Attributes
+    ----------
+    values : (S,) array
+    iterations : int
+        Number of sweeps.
+    residual : float
+        Largest change of a value in the last sweep.
+    history : (iterations + 1, S) array or None
+        The values before the first sweep and after each, if recorded.
+
+    Examples
+    --------
+    >>> from robonav.mdp import FiniteMDP, iterative_policy_evaluation
+    >>> mdp = FiniteMDP([[[1.0]]], [[1.0]], discount=0.5)  # a reward of 1 in every step
+    >>> result = iterative_policy_evaluation(mdp, [0], tolerance=0.1)
+    >>> result.iterations, result.residual, result.values
+    (5, 0.0625, array([1.9375]))
+    """
+
+    values: Floats
     iterations: int
     residual: float
-    history: NDArray[np.float64] | None = None
+    history: Floats | None = None
 
 
-def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> NDArray[np.float64]:
-    """The values (S,) of a policy, exact to rounding: the solution of V = r_pi + gamma T_pi V (Eqs. (2.6), (2.14)).
+@validated
+def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
+    """Values of a policy, the solution of Bellman's equation, Eq. (2.5).
 
-    These are its expected returns, Eq. (2.4); Eq. (2.5) takes the first step out of them, and leaves linear equations.
+    Exact to rounding. Bellman's equation takes the first step out of the expected return, Eq. (2.4), which leaves one
+    linear equation a state: V = r_pi + gamma T_pi V.
 
     Parameters
     ----------
-    mdp : finite MDP with S states and A actions.
-    policy : (S,) actions or (S, A) probabilities.
+    mdp : FiniteMDP
+        S states, A actions.
+    policy : (S,) array of ints or (S, A) array of probabilities
+
+    Returns
+    -------
+    (S,) array
 
     Raises
     ------
-    ValueError : if, without discount, the policy collects rewards for ever, so that its value is not finite.
+    ValueError
+        If, without discount, the policy collects rewards forever, so that its value is not finite.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three, policy_evaluation
+    >>> mdp = four_by_three().mdp(discount=0.95)
+    >>> always_up = [0] * mdp.n_states
+    >>> policy_evaluation(mdp, always_up).round(2)[:4]
+    array([-0.8 , -0.81, -0.66,  0.  ])
     """
-    check_instance("mdp", mdp, FiniteMDP)
-    return solve_chain(*mdp.induced_chain(policy), mdp.discount, np.zeros(mdp.n_states))
+    transitions, rewards = mdp.induced_chain(policy)
+    guess = np.zeros(mdp.n_states)
+    if mdp.discount == 1:
+        return undiscounted.policy_values(transitions, rewards, guess=guess)
+    identity = sp.eye_array(mdp.n_states, format="csr")
+    return solve(identity - mdp.discount * transitions, rewards, guess)  # Eq. (2.5)
 
 
+@validated
 def iterative_policy_evaluation(
     mdp: FiniteMDP,
     policy: ArrayLike,
@@ -62,162 +99,122 @@ def iterative_policy_evaluation(
     max_iterations: int = 100_000,
     record: bool = False,
 ) -> EvaluationResult:
-    """The values of a policy by repeated sweeps (Eq. (2.24), steps 5 to 8 of Algorithm 1).
+    """Values of a policy by repeated sweeps, Eq. (2.24): steps 5 to 7 of Algorithm 1.
 
-    Stops when a sweep changes no value by more than ``tolerance * (1 - discount) / discount``: every value is then
-    within ``tolerance`` of the policy's. Without discount there is no such bound; ``tolerance`` itself is taken.
+    Stops when a sweep changes no value by more than ``tolerance * (1 - discount) / discount``. Every value is then
+    within ``tolerance`` of the policy's. Without discount there is no such bound, and ``tolerance`` itself is used.
 
     Parameters
     ----------
-    start : values (S,) to start from; zeros if not given.
-    max_iterations : sweeps after which to give up.
-    record : keep the values of every sweep.
-
-    Warns
-    -----
-    ConvergenceWarning : if ``max_iterations`` sweeps did not suffice; says how far the values still moved.
-    """
-    check_instance("mdp", mdp, FiniteMDP)
-    from . import _fast
-
-    check_positive("tolerance", tolerance)
-    enough = tolerance if mdp.discount == 1 else 2 * mdp.residual_for(tolerance)
-    transitions, rewards = mdp.induced_chain(policy)
-    chain = packed(
-        transitions, rewards[:, None], mdp.discount
-    )  # an MDP with one action
-    values = starting_values("start", mdp, start)
-    updated, only_action = np.empty_like(values), np.zeros(mdp.n_states, dtype=np.intp)
-    history = [values.copy()] if record else []
-    for iterations in range(
-        1, check_integer("max_iterations", max_iterations, at_least=1) + 1
-    ):
-        distance = _fast.policy_sweep(*chain, values, updated, only_action)
-        values, updated = updated, values
-        if record:
-            history.append(values.copy())
-        if distance <= enough:
-            break
-        if iterations == max_iterations:
-            warn_unfinished("iterative_policy_evaluation", iterations, distance, enough)
-    return EvaluationResult(
-        values, iterations, distance, np.stack(history) if record else None
-    )
-
-
-def starting_values(
-    name: str, mdp: FiniteMDP, given: ArrayLike | None
-) -> NDArray[np.float64]:
-    """A fresh copy of the values to start from, zeros unless given."""
-    return (
-        np.zeros(mdp.n_states)
-        if given is None
-        else check_array(name, given, shape=(mdp.n_states,)).copy()
-    )
-
-
-def warn_unfinished(name: str, iterations: int, distance: float, enough: float) -> None:
-    """ConvergenceWarning at the caller's caller."""
-    warnings.warn(
-        f"{name} gave up after {iterations} iterations: the last one still changed a value by {distance:.3g}, "
-        f"where {enough:.3g} was asked for",
-        ConvergenceWarning,
-        stacklevel=3,
-    )
-
-
-def solve_chain(
-    transitions: sp.csr_array,
-    rewards: NDArray[np.float64],
-    discount: float,
-    guess: NDArray[np.float64],
-    *,
-    name: str = "policy",
-) -> NDArray[np.float64]:
-    """V = r + gamma T V for the Markov chain of the policy ``name``, improving on ``guess`` (S,)."""
-    if discount < 1:
-        return _solve(
-            sp.eye_array(rewards.size, format="csr") - discount * transitions,
-            rewards,
-            guess,
-        )
-    moving = ~_resting(transitions, rewards, name)
-    values = np.zeros(rewards.size)
-    equations = (
-        sp.eye_array(moving.sum(), format="csr") - transitions[moving][:, moving]
-    )
-    values[moving] = _solve(equations, rewards[moving], guess[moving])
-    return values
-
-
-def solve_differences(
-    transitions: sp.csr_array,
-    rewards: NDArray[np.float64],
-    discount: float,
-    values: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The solution of V = r + gamma T V but for a number that all states share, refined from ``values`` (S,).
-
-    Near discount 1 values are large, because all states share the mean reward over 1 - gamma, and the differences
-    that matter drown in the rounding of what is shared. Here it is left out. Rows of ``transitions`` are taken to sum
-    to one exactly.
+    mdp : FiniteMDP
+        S states, A actions.
+    policy : (S,) array of ints or (S, A) array of probabilities
+    tolerance : float
+        Largest error of a value accepted, in units of reward.
+    start : (S,) array, optional
+        Values to start from; zeros by default.
+    max_iterations : int
+        Number of sweeps after which to give up.
+    record : bool
+        Whether to keep the values of every sweep.
 
     Returns
     -------
-    differences : (S,), V less a number.
-    step : (S,), what the last refinement still changed: as much as rounding makes it.
+    EvaluationResult
+
+    Warns
+    -----
+    ConvergenceWarning
+        If ``max_iterations`` sweeps were not enough; the message says how far the values still moved.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three, iterative_policy_evaluation
+    >>> mdp = four_by_three().mdp(discount=0.95)
+    >>> iterative_policy_evaluation(mdp, [0] * 11).values.round(2)[:4]
+    array([-0.8 , -0.81, -0.66,  0.  ])
     """
-    equations = sp.eye_array(rewards.size, format="csr") - discount * transitions
-    differences, step = _less_shared(values), values
-    for _ in range(3):
-        missing = _less_shared(rewards - equations @ differences)
-        step = _less_shared(_solve(equations, missing, np.zeros_like(missing)))
-        differences = differences + step
-    return differences, step
-
-
-def _less_shared(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Numbers about 0: less the middle between the least and the largest."""
-    return numbers - (numbers.min() + numbers.max()) / 2
-
-
-def _resting(
-    transitions: sp.csr_array, rewards: NDArray[np.float64], name: str
-) -> NDArray[np.bool_]:
-    """Which states (S,) the chain never leaves for others and where it collects nothing: their value is 0."""
-    count, member = csgraph.connected_components(transitions, connection="strong")
-    source, reached = transitions.nonzero()
-    closed = np.ones(count, dtype=bool)
-    closed[member[source[member[source] != member[reached]]]] = False
-    rewarded = closed[member] & (rewards != 0)
-    if rewarded.any():
-        raise ValueError(
-            f"{name} must not collect rewards for ever where discount is 1, "
-            f"got one that does in state {int(rewarded.argmax())} and never ends"
-        )
-    return closed[member]
-
-
-def _solve(
-    equations: sp.csr_array, right: NDArray[np.float64], guess: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Solve a sparse system to rounding: elimination for few equations, else a Krylov method, refined.
-
-    Elimination fills up where states lead anywhere; the Krylov method does not, and says how well it did. Where it
-    fails elimination is the last resort.
-    """
-    if right.size <= DIRECT_SOLVE:
-        return linalg.spsolve(equations.tocsc(), right) if right.size else right
-    solution = guess
-    for _ in range(6):
-        missing = right - equations @ solution
-        rounding = np.finfo(float).eps * max(abs(solution).max(), abs(right).max())
-        if abs(missing).max() <= 16 * rounding:
-            return solution
-        step, _ = linalg.bicgstab(
-            equations, missing, rtol=1e-10, atol=4 * rounding, maxiter=1000
-        )
-        if not np.isfinite(step).all():
+    transitions, rewards = mdp.induced_chain(policy)
+    values = starting_values("start", mdp, start)
+    history = History(record)
+    history.append(values)
+    limit = evaluation_residual(mdp, tolerance)
+    for iteration in range(1, max_iterations + 1):  # 5
+        before = values
+        values = rewards + mdp.discount * (transitions @ before)  # 6  Eq. (2.24)
+        history.append(values)
+        residual = abs(values - before).max()  # 7
+        if residual <= limit:
             break
-        solution = solution + step
-    return linalg.spsolve(equations.tocsc(), right)
+    else:
+        warn_not_converged("iterative_policy_evaluation", iteration, residual, limit)
+    return EvaluationResult(values, iteration, float(residual), history.rows)
+
+
+@validated
+def expected_return(mdp: FiniteMDP, policy: ArrayLike, start: ArrayLike) -> float:
+    """Expected discounted return of a policy from random start states, Eq. (2.28).
+
+    Parameters
+    ----------
+    mdp : FiniteMDP
+        S states, A actions.
+    policy : (S,) array of ints or (S, A) array of probabilities
+    start : (S,) array
+        Probability of starting in each state.
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> from robonav.mdp import expected_return, four_by_three, value_iteration
+    >>> grid = four_by_three()
+    >>> mdp = grid.mdp(discount=0.95)
+    >>> round(expected_return(mdp, value_iteration(mdp).policy, grid.start), 3)
+    0.504
+    """
+    probabilities = as_distributions("start", start, mdp.n_states)
+    return float(probabilities @ policy_evaluation(mdp, policy))  # Eq. (2.28)
+
+
+class History:
+    """The values of each iteration, if they are to be kept."""
+
+    def __init__(self, record: bool) -> None:
+        self._rows: list[NDArray[Any]] | None = [] if record else None
+
+    def append(self, values: NDArray[Any]) -> None:
+        """Keep a copy of the values (S,) of one more iteration."""
+        if self._rows is not None:
+            self._rows.append(values.copy())
+
+    @property
+    def rows(self) -> NDArray[Any] | None:
+        """All of them, (rows, S), or None if nothing is kept."""
+        return None if self._rows is None else np.stack(self._rows)
+
+
+def evaluation_residual(mdp: FiniteMDP, tolerance: float) -> float:
+    """Change of a sweep below which all values are within ``tolerance`` of their limit."""
+    return (1 if mdp.discount == 1 else 2) * mdp.residual_for(tolerance)
+
+
+def starting_values(name: str, mdp: FiniteMDP, given: ArrayLike | None) -> Floats:
+    """A copy of the values to start from; zeros unless given."""
+    if given is None:
+        return np.zeros(mdp.n_states)
+    return check_array(name, given, shape=(mdp.n_states,)).copy()
+
+
+def warn_not_converged(
+    name: str, iterations: int, residual: float, limit: float
+) -> None:
+    """ConvergenceWarning at the line that called the planner ``name``."""
+    warnings.warn(
+        f"{name} gave up after {iterations} iterations: the last one still changed a value by {residual:.3g}, "
+        f"where {limit:.3g} was asked for",
+        ConvergenceWarning,
+        stacklevel=4,
+    )

@@ -1,4 +1,4 @@
-"""Finite horizon: so many steps to go, planned backward from the last (Eq. (2.27))."""
+"""Finite horizon: a fixed number of steps to go, planned backwards from the last (Eq. (2.27))."""
 
 from __future__ import annotations
 
@@ -7,58 +7,106 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_instance, check_integer
-
+from .arguments import validated
 from .evaluation import starting_values
 from .models import FiniteMDP
 
+Floats = NDArray[np.float64]
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class FiniteHorizonSolution:
-    """The best that can be done in the next H steps.
+    """Optimal values and policy of the next H steps.
 
     Attributes
     ----------
-    values : (H + 1, S); ``values[t]`` with t steps done and H - t to go, ``values[H]`` the final ones.
-    policy : (H, S); ``policy[t]`` is the best action with t steps done.
+    values : (H + 1, S) array
+        ``values[t]`` holds with t steps done and H - t to go; ``values[H]`` are the final values.
+    policy : (H, S) array of ints
+        ``policy[t]`` holds the best actions with t steps done.
+
+    Examples
+    --------
+    >>> from robonav.mdp import backward_induction, four_by_three
+    >>> plan = backward_induction(four_by_three().mdp(discount=1.0), horizon=3)
+    >>> plan.values.shape, plan.policy.shape
+    ((4, 11), (3, 11))
     """
 
-    values: NDArray[np.float64]
+    values: Floats
     policy: NDArray[np.intp]
 
 
+@validated
 def backward_induction(
     mdp: FiniteMDP, horizon: int, *, final_values: ArrayLike | None = None
 ) -> FiniteHorizonSolution:
-    """Optimal values and policy for each of the next ``horizon`` steps: the return J of Eq. (2.27), discounted.
+    """Backward induction: optimal values and policy for each of the next ``horizon`` steps.
+
+    Maximises the expected return J of Eq. (2.27), discounted by the model's discount.
 
     Parameters
     ----------
-    horizon : number of steps H, at least 0.
-    final_values : (S,), what it is worth to stand in each state at the end; zeros if not given.
+    mdp : FiniteMDP
+        S states, A actions.
+    horizon : int
+        Number of steps H.
+    final_values : (S,) array, optional
+        Value of standing in each state at the end; zeros by default.
+
+    Returns
+    -------
+    FiniteHorizonSolution
+
+    Examples
+    --------
+    >>> from robonav.mdp import FiniteMDP, backward_induction
+    >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[1.0, 2.0]], discount=0.5)
+    >>> backward_induction(mdp, horizon=2).values.ravel()
+    array([3., 2., 0.])
     """
-    check_instance("mdp", mdp, FiniteMDP)
-    steps = check_integer("horizon", horizon, at_least=0)
-    values = np.empty((steps + 1, mdp.n_states))
-    policy = np.empty((steps, mdp.n_states), dtype=np.intp)
-    values[steps] = starting_values("final_values", mdp, final_values)
-    for t in reversed(range(steps)):
+    values = np.empty((horizon + 1, mdp.n_states))
+    policy = np.empty((horizon, mdp.n_states), dtype=np.intp)
+    values[horizon] = starting_values("final_values", mdp, final_values)
+    for t in reversed(range(horizon)):
         q = mdp.action_values(values[t + 1])
         values[t], policy[t] = q.max(axis=1), q.argmax(axis=1)
     return FiniteHorizonSolution(values, policy)
 
 
+@validated
 def finite_horizon_evaluation(
     mdp: FiniteMDP,
     policy: ArrayLike,
     horizon: int,
     *,
     final_values: ArrayLike | None = None,
-) -> NDArray[np.float64]:
-    """Expected return (S,) of the next ``horizon`` steps under one policy, (S,) actions or (S, A) probabilities."""
-    check_instance("mdp", mdp, FiniteMDP)
+) -> Floats:
+    """Expected return of a policy in the next ``horizon`` steps, Eq. (2.27); discounted by the model's discount.
+
+    Parameters
+    ----------
+    mdp : FiniteMDP
+        S states, A actions.
+    policy : (S,) array of ints or (S, A) array of probabilities
+    horizon : int
+        Number of steps H.
+    final_values : (S,) array, optional
+        Value of standing in each state at the end; zeros by default.
+
+    Returns
+    -------
+    (S,) array
+
+    Examples
+    --------
+    >>> from robonav.mdp import FiniteMDP, finite_horizon_evaluation
+    >>> mdp = FiniteMDP([[[1.0]]], [[1.0]], discount=0.5)
+    >>> finite_horizon_evaluation(mdp, [0], horizon=3)
+    array([1.75])
+    """
     transitions, rewards = mdp.induced_chain(policy)
     values = starting_values("final_values", mdp, final_values)
-    for _ in range(check_integer("horizon", horizon, at_least=0)):
-        values = rewards + mdp.discount * (transitions @ values)
+    for _ in range(horizon):
+        values = rewards + mdp.discount * (transitions @ values)  # Eq. (2.27)
     return values

@@ -1,46 +1,66 @@
-"""Generalized policy iteration, step by step (Fig. 2.4): evaluation and improvement chase each other."""
+"""Generalised policy iteration, step by step (Fig. 2.4): evaluation and improvement take turns."""
 
 from __future__ import annotations
 
 import math
 import warnings
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.errors import ConvergenceWarning
-from robonav.validation import check_array, check_instance, check_integer
+from robonav.validation import check_array, check_integer
 
-from . import policies
-from .dynamic_programming import first_values, rounding_of_gains
+from .arguments import validated, validated_with
+from .dynamic_programming import first_values
 from .evaluation import policy_evaluation
 from .models import FiniteMDP
-from .value_functions import or_rest
+from .policies import as_deterministic_policy
+from .rounding import rounding_of_gains
+from .undiscounted import clamp_undiscounted
+
+Floats = NDArray[np.float64]
+Actions = NDArray[np.intp]
 
 
-@dataclass(frozen=True)
+def _sweeps(name: str, value: Any) -> float:
+    """A number of sweeps from 1 to infinity."""
+    return value if value == math.inf else check_integer(name, value, at_least=1)
+
+
+@dataclass(frozen=True, eq=False)
 class GPIHistory:
-    """Every half step of generalized policy iteration, n of them, from the start (row 0).
+    """Every half step of generalised policy iteration, n of them, from the start (row 0).
 
     Attributes
     ----------
-    values : (n + 1, S).
-    policies : (n + 1, S), actions.
-    improves : (n,), whether half step i, from row i to row i + 1, improved the policy (else it evaluated).
-    evaluation_gap : (n + 1,), largest difference of the values to what one evaluation sweep makes of them: 0 on the
-        line V = V^pi of Fig. 2.4(b).
-    greedy_gap : (n + 1,), most that another action than the policy's promises under the values: 0 on the line
-        pi = greedy(V).
+    values : (n + 1, S) array
+    policies : (n + 1, S) array of ints
+    improves : (n,) array of bools
+        Whether half step i, from row i to row i + 1, improved the policy; otherwise it evaluated.
+    evaluation_gap : (n + 1,) array
+        Largest change that one evaluation sweep would make to the values: 0 on the line V = V^pi of Fig. 2.4(b).
+    greedy_gap : (n + 1,) array
+        Largest gain that another action than the policy's promises: 0 on the line pi = greedy(V).
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three, generalized_policy_iteration
+    >>> history = generalized_policy_iteration(four_by_three().mdp(discount=0.9), sweeps=5)
+    >>> len(history.values) - len(history.improves)
+    1
     """
 
-    values: NDArray[np.float64]
-    policies: NDArray[np.intp]
+    values: Floats
+    policies: Actions
     improves: NDArray[np.bool_]
-    evaluation_gap: NDArray[np.float64]
-    greedy_gap: NDArray[np.float64]
+    evaluation_gap: Floats
+    greedy_gap: Floats
 
 
+@validated_with(sweeps=_sweeps)
 def generalized_policy_iteration(
     mdp: FiniteMDP,
     *,
@@ -50,121 +70,149 @@ def generalized_policy_iteration(
     start_policy: ArrayLike | None = None,
     max_rounds: int = 10_000,
 ) -> GPIHistory:
-    """Evaluate by some sweeps, improve, and so on until both agree; all recorded, for pages to step through.
+    """Generalised policy iteration: evaluate by some sweeps, improve, repeat until both agree; all recorded.
 
     Parameters
     ----------
-    sweeps : evaluation sweeps in each round: 1 is value iteration, ``math.inf`` (exact evaluation) policy iteration.
-    tolerance : largest loss of value accepted, in units of reward; positive. What rounding can feign is accepted too.
-    start_values, start_policy : (S,); zeros if not given, without discount as in ``value_iteration``.
-    max_rounds : evaluations after which to give up.
+    mdp : FiniteMDP
+        S states, A actions.
+    sweeps : int or math.inf
+        Evaluation sweeps in each round: 1 is value iteration, ``math.inf`` (exact evaluation) policy iteration.
+    tolerance : float
+        Largest loss of value accepted, in units of reward. Losses that rounding can explain are accepted too.
+    start_values : (S,) array, optional
+        Values to start from; zeros by default, without discount as in :func:`~robonav.mdp.value_iteration`.
+    start_policy : (S,) array of ints, optional
+        Policy to start from; action 0 everywhere by default.
+    max_rounds : int
+        Number of evaluations after which to give up.
+
+    Returns
+    -------
+    GPIHistory
 
     Warns
     -----
-    ConvergenceWarning : if ``max_rounds`` did not suffice; says how far the values and how many actions still moved.
+    ConvergenceWarning
+        If ``max_rounds`` were not enough; the message says how far the values and how many actions still moved.
+
+    Examples
+    --------
+    >>> import math
+    >>> from robonav.mdp import four_by_three, generalized_policy_iteration
+    >>> mdp = four_by_three().mdp(discount=0.9)
+    >>> history = generalized_policy_iteration(mdp, sweeps=math.inf)
+    >>> history.policies[-1]
+    array([1, 1, 1, 0, 0, 0, 0, 0, 1, 0, 3])
     """
-    check_instance("mdp", mdp, FiniteMDP)
-    if sweeps != math.inf:
-        check_integer("sweeps", sweeps, at_least=1)
-    enough = mdp.residual_for(tolerance)
     values = first_values(mdp, start_values, name="start_values")
-    chosen = (
-        np.zeros(mdp.n_states, dtype=np.intp) if start_policy is None else start_policy
-    )
-    policy = policies.check_deterministic_policy(
-        "start_policy", chosen, mdp.n_states, mdp.n_actions
-    )
-    rows = [(values, policy, False)]
-    for rounds in range(1, check_integer("max_rounds", max_rounds, at_least=1) + 1):
-        evaluated, rounding = _evaluated(mdp, policy, values, sweeps)
-        improved = _improved(mdp, policy, evaluated, rounding)
-        rows += [(evaluated, policy, False), (evaluated, improved, True)]
-        moved = abs(
-            or_rest(mdp, mdp.action_values(evaluated)).max(axis=1) - evaluated
-        ).max()
+    policy = first_or_given(mdp, start_policy)
+    limit, rows = mdp.residual_for(tolerance), [(values, policy, False)]
+    for rounds in range(1, max_rounds + 1):
+        values, rounding = evaluate(mdp, policy, values, sweeps)
+        improved = improve(mdp, policy, values, rounding)
+        rows += [(values, policy, False), (values, improved, True)]
+        best = clamp_undiscounted(mdp, mdp.action_values(values)).max(axis=1)
+        residual = abs(best - values).max()
         changed = int((improved != policy).sum())
-        if moved <= max(enough, rounding) and not changed:
+        if residual <= max(limit, rounding) and not changed:
             break
-        if rounds == max_rounds:
-            _warn_unfinished(rounds, moved, enough, changed)
-        values, policy = evaluated, improved
-    return _traced(mdp, rows)
+        policy = improved
+    else:
+        _warn_not_converged(rounds, residual, limit, changed)
+    return history_of(mdp, rows)
 
 
-def _evaluated(
-    mdp: FiniteMDP, policy: NDArray[np.intp], values: NDArray[np.float64], sweeps: float
-) -> tuple[NDArray[np.float64], float]:
-    """The values moved towards the policy's by some sweeps, all the way by infinitely many; and what a gain may feign.
+def evaluate(
+    mdp: FiniteMDP, policy: Actions, values: Floats, sweeps: float
+) -> tuple[Floats, float]:
+    """Move the values towards the policy's by some sweeps, all the way by infinitely many.
 
-    That is more for exact values: the equations pass rounding on.
+    Returns
+    -------
+    values : (S,) array
+    rounding : float
+        Largest gain of an action that rounding can explain: more for exact values, since the equations amplify it.
     """
     state = np.arange(mdp.n_states)
     if sweeps == math.inf:
         exact = policy_evaluation(mdp, policy)
-        return exact, rounding_of_gains(
-            mdp, exact, mdp.action_values(exact)[state, policy]
-        )
+        own = mdp.action_values(exact)[state, policy]
+        return exact, rounding_of_gains(mdp, exact, own)
     for _ in range(int(sweeps)):
-        values = or_rest(mdp, mdp.action_values(values))[state, policy]
+        values = clamp_undiscounted(mdp, mdp.action_values(values))[state, policy]
     return values, 4 * np.finfo(float).eps * float(abs(values).max())
 
 
-def _improved(
-    mdp: FiniteMDP,
-    policy: NDArray[np.intp],
-    values: NDArray[np.float64],
-    rounding: float,
-) -> NDArray[np.intp]:
-    """The greedy policy, but an action that is as good as the best stays (else ties would go round for ever)."""
+def improve(
+    mdp: FiniteMDP, policy: Actions, values: Floats, rounding: float
+) -> Actions:
+    """The greedy policy, except that an action as good as the best stays: otherwise ties could alternate forever."""
     q = mdp.action_values(values)
-    promised = or_rest(mdp, q)
-    stays = promised.max(axis=1) - q[np.arange(mdp.n_states), policy] <= rounding
-    return np.where(stays, policy, promised.argmax(axis=1))
+    clamped = clamp_undiscounted(mdp, q)
+    gain = clamped.max(axis=1) - q[np.arange(mdp.n_states), policy]
+    return np.where(gain <= rounding, policy, clamped.argmax(axis=1))
 
 
-def _warn_unfinished(rounds: int, moved: float, enough: float, changed: int) -> None:
-    """ConvergenceWarning at the caller's caller."""
+def first_or_given(mdp: FiniteMDP, policy: ArrayLike | None) -> Actions:
+    """The policy (S,) to start from: action 0 everywhere unless given."""
+    chosen = np.zeros(mdp.n_states, dtype=np.intp) if policy is None else policy
+    return as_deterministic_policy("start_policy", chosen, mdp.n_states, mdp.n_actions)
+
+
+def _warn_not_converged(
+    rounds: int, residual: float, limit: float, changed: int
+) -> None:
+    """ConvergenceWarning at the line that called."""
     warnings.warn(
         f"generalized_policy_iteration gave up after {rounds} rounds: the last one left a value to move by "
-        f"{moved:.3g}, where {enough:.3g} was asked for, and changed {changed} actions",
+        f"{residual:.3g}, where {limit:.3g} was asked for, and changed {changed} actions",
         ConvergenceWarning,
-        stacklevel=3,
+        stacklevel=4,
     )
 
 
-def _traced(
-    mdp: FiniteMDP, rows: list[tuple[NDArray[np.float64], NDArray[np.intp], bool]]
-) -> GPIHistory:
-    """The rows (values, policy, whether improved) as arrays, with their distances from the two lines."""
+def history_of(mdp: FiniteMDP, rows: list[tuple[Floats, Actions, bool]]) -> GPIHistory:
+    """The rows (values, policy, whether improved) as arrays, with their distances from the two lines of Fig. 2.4."""
     state = np.arange(mdp.n_states)
     gaps = []
     for values, policy, _ in rows:
         q = mdp.action_values(values)
         backed_up = q[state, policy]
         gaps.append((abs(backed_up - values).max(), (q.max(axis=1) - backed_up).max()))
-    values, chosen, improves = (np.stack(column) for column in zip(*rows, strict=True))
+    values, policies, improves = (
+        np.stack(column) for column in zip(*rows, strict=True)
+    )
     evaluation_gap, greedy_gap = np.array(gaps).T
-    return GPIHistory(values, chosen, improves[1:], evaluation_gap, greedy_gap)
+    return GPIHistory(values, policies, improves[1:], evaluation_gap, greedy_gap)
 
 
+@validated
 def suboptimality(
-    mdp: FiniteMDP, values: ArrayLike, chosen: ArrayLike, *, best: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """How far each step of a history is from the best: (n,) for its values, (n,) for its policy.
+    mdp: FiniteMDP, history: ArrayLike, policies: ArrayLike, *, best: ArrayLike
+) -> tuple[Floats, Floats]:
+    """Distance of each row of a history from the optimum.
 
     Parameters
     ----------
-    values : (n, S), such as a recorded ``Solution.history``.
-    chosen : (n, S), the policies that go with them.
-    best : (S,), the optimal values.
+    mdp : FiniteMDP
+        S states, A actions.
+    history : (n, S) array
+        Values, such as a recorded ``Solution.history``.
+    policies : (n, S) array of ints
+        The policies that go with them.
+    best : (S,) array
+        The optimal values.
 
     Returns
     -------
-    largest difference of the values of each step from the best, and the most that its policy loses in any state.
+    errors : (n,) array
+        Largest error of a value.
+    losses : (n,) array
+        Largest loss of value under the policy, in any state.
     """
-    check_instance("mdp", mdp, FiniteMDP)
     optimum = check_array("best", best, shape=(mdp.n_states,))
-    held = check_array("values", values, shape=("n", mdp.n_states))
-    kept = check_array("chosen", chosen, shape=held.shape, dtype=np.intp)
-    loss = [(optimum - policy_evaluation(mdp, policy)).max() for policy in kept]
-    return abs(held - optimum).max(axis=1), np.array(loss)
+    values = check_array("history", history, shape=("n", mdp.n_states))
+    chosen = check_array("policies", policies, shape=values.shape, dtype=np.intp)
+    losses = [(optimum - policy_evaluation(mdp, policy)).max() for policy in chosen]
+    return abs(values - optimum).max(axis=1), np.array(losses)

@@ -6,24 +6,31 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import Any, ClassVar
 
+import gymnasium as gym
 import numpy as np
 import scipy.sparse as sp
+from gymnasium import spaces
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_instance, check_real
+from robonav.validation import (
+    check_instance,
+    check_integer,
+    check_one_of,
+    check_real,
+)
 
 from .models import FiniteMDP
-
-if TYPE_CHECKING:
-    from .environments import GridEnvironment
 
 UP, RIGHT, DOWN, LEFT = range(4)
 STEPS = np.array(
     [(-1, 0), (0, 1), (1, 0), (0, -1)]
 )  # rows and columns, in the order of the actions
 ARROWS = "↑→↓←"
+
+# probability, state reached, reward, whether the episode ends
+Outcome = tuple[float, int, float, bool]
 
 
 @dataclass(frozen=True)
@@ -200,8 +207,6 @@ class GridWorld:
 
     def environment(self, *, render_mode: str | None = None) -> GridEnvironment:
         """The grid as a Gymnasium environment with the same transitions and rewards as its model."""
-        from .environments import GridEnvironment
-
         return GridEnvironment(self, render_mode=render_mode)
 
     def on_map(self, numbers: ArrayLike, *, walls: float = np.nan) -> NDArray:
@@ -229,6 +234,88 @@ class GridWorld:
     def _of_states(self, what: Callable[[Cell], float], dtype: type) -> NDArray:
         """A property of each state, (S,)."""
         return self._of_symbols(what, dtype)[tuple(self.cells.T)]
+
+
+class GridEnvironment(gym.Env[Any, Any]):
+    """A gridworld to walk through; its transitions are published in ``P``, as those of Gymnasium's toy texts are.
+
+    Observations are state numbers, actions 0 to 3 (up, right, down, left). An episode ends in a terminal cell; add
+    ``gymnasium.wrappers.TimeLimit`` for a limit of steps.
+
+    Attributes
+    ----------
+    grid : the gridworld.
+    P : ``P[s][a]`` is a list of (probability, next state, reward, whether the episode ends).
+    initial_state_distrib : (S,), where episodes start.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["ansi"], "render_fps": 4}  # type: ignore[misc]
+
+    def __init__(self, grid: GridWorld, *, render_mode: str | None = None) -> None:
+        if render_mode is not None:
+            check_one_of("render_mode", render_mode, self.metadata["render_modes"])
+        self.grid, self.render_mode = grid, render_mode
+        self.observation_space = spaces.Discrete(grid.n_states)
+        self.action_space = spaces.Discrete(4)
+        self.initial_state_distrib = grid.start
+        self.P = {
+            state: {action: self._outcomes(state, action) for action in range(4)}
+            for state in range(grid.n_states)
+        }
+        self.state = int(grid.start.argmax())
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[int, dict[str, Any]]:
+        """A new episode, from a cell drawn among the start cells."""
+        super().reset(seed=seed)
+        self.state = int(
+            self.np_random.choice(self.grid.n_states, p=self.initial_state_distrib)
+        )
+        return self.state, {}
+
+    def step(self, action: int) -> tuple[int, float, bool, bool, dict[str, Any]]:
+        """One move: state reached and reward, drawn from P(. | s, a) (Eq. (2.1)), and whether it ended the episode."""
+        taken = check_integer("action", action, at_least=0, at_most=3)
+        probability, self.state, reward, ended = self._drawn(self.P[self.state][taken])
+        return self.state, reward, ended, False, {"probability": probability}
+
+    def render(self) -> str | None:
+        """The map as text, with an R where the robot is."""
+        if self.render_mode is None:
+            return None
+        here = self.grid.cells[self.state]
+        rows = [list(row) for row in self.grid.rows]
+        rows[here[0]][here[1]] = "R"
+        return "\n".join(" ".join(row) for row in rows) + "\n"
+
+    def _drawn(self, outcomes: list[Outcome]) -> Outcome:
+        """One of the outcomes, by its probability."""
+        left = self.np_random.random()
+        for outcome in outcomes:
+            left -= outcome[0]
+            if left < 0:
+                break
+        return outcome
+
+    def _outcomes(self, state: int, action: int) -> list[Outcome]:
+        """The entry ``P[s][a]``: what can follow, the same state once."""
+        reached, chances = (part[state, action] for part in self.grid.outcomes)
+        if self.grid.terminal[state]:
+            return [(1.0, state, 0.0, True)]
+        total: dict[int, float] = {}
+        for to, chance in zip(reached.tolist(), chances.tolist(), strict=True):
+            if chance > 0:
+                total[to] = total.get(to, 0.0) + chance
+        return [
+            (
+                chance,
+                to,
+                float(self.grid.cell_rewards[to]),
+                bool(self.grid.terminal[to]),
+            )
+            for to, chance in total.items()
+        ]
 
 
 def four_by_three(*, slip: float = 0.2, step_reward: float = -0.04) -> GridWorld:

@@ -22,7 +22,7 @@ from robonav.validation import (
     check_real,
 )
 
-from .policies import SUM_TOLERANCE, check_distributions
+from .policies import SUM_TOLERANCE, as_distributions
 
 Floats = NDArray[np.float64]
 
@@ -290,4 +290,4 @@ class Localiser:
 
     def _belief(self, belief: ArrayLike) -> Floats:
         check_array("belief", belief, shape=(len(self.predicted),))
-        return check_distributions("belief", belief, len(self.predicted))
+        return as_distributions("belief", belief, len(self.predicted))

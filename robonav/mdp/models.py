@@ -2,42 +2,71 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, wraps
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csgraph
 
-from robonav.validation import check_array, check_positive, check_real
+from robonav.validation import check_array, check_real
 
 from . import policies
+from .arguments import require_type, validated
 
 Arrays = tuple[
     NDArray[Any], NDArray[Any], NDArray[np.float64], NDArray[np.float64], float
 ]
 
 
+def takes_values(method: Callable[..., Any]) -> Callable[..., Any]:
+    """Let a method of a model take ``values`` as any array-like of shape (S,), and check them."""
+
+    @wraps(method)
+    def checked(self: FiniteMDP, values: ArrayLike) -> Any:
+        return method(self, check_array("values", values, shape=(self.n_states,)))
+
+    return checked
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class FiniteMDP:
     """A finite MDP with S states and A actions, checked when it is made.
 
-    What comes next depends on the state and the action alone (Eq. (2.2)): one row of ``transitions`` for each pair.
+    The next state depends on the present state and action alone, Eq. (2.2): each pair has one row of ``transitions``.
 
     Parameters
     ----------
-    transitions : ``transitions[a][s, s']`` is the probability T(s, a, s') of reaching s' by action a from s: an array
-        (A, S, S), or a sequence of A scipy sparse matrices (S, S). Kept in the form it came in, read-only.
-    rewards : (S, A), the expected immediate reward r(s, a).
-    discount : gamma in [0, 1]. Without discount (1) there must be terminal states (absorbing under every action,
-        with reward 0) and a way to one of them from every state.
+    transitions : (A, S, S) array or sequence of A sparse (S, S) matrices
+        ``transitions[a][s, s']`` is the probability T(s, a, s') of reaching s' from s by action a. Kept in the form
+        in which it was given, read-only.
+    rewards : (S, A) array
+        Expected immediate reward r(s, a).
+    discount : float
+        gamma, in [0, 1]. A discount of 1 needs terminal states (absorbing under every action, reward 0), at least one
+        of which can be reached from every state.
 
     Raises
     ------
-    TypeError, ValueError : if shapes do not fit, numbers are not finite, probabilities are negative or do not sum
-        to one, or the discount is out of range.
+    TypeError, ValueError
+        If shapes do not fit, numbers are not finite, probabilities are negative or do not sum to one, or the discount
+        is out of range.
+
+    Examples
+    --------
+    State 0 is left by action 1, for a reward of 1; state 1 is terminal.
+
+    >>> from robonav.mdp import FiniteMDP
+    >>> stay, leave = [[1, 0], [0, 1]], [[0, 1], [0, 1]]
+    >>> mdp = FiniteMDP([stay, leave], rewards=[[0, 1], [0, 0]], discount=0.9)
+    >>> mdp
+    FiniteMDP(2 states, 2 actions, discount 0.9, dense)
+    >>> mdp.action_values([1.0, 0.0])
+    array([[0.9, 1. ],
+           [0. , 0. ]])
     """
 
     transitions: Any
@@ -47,17 +76,14 @@ class FiniteMDP:
     def __post_init__(self) -> None:
         transitions = _checked_transitions(self.transitions)
         shape = (transitions[0].shape[0], len(transitions))
-        rewards = check_array("rewards", self.rewards, shape=shape).copy()
+        rewards = check_array("rewards", self.rewards, shape=shape).copy(order="F")
         rewards.flags.writeable = False
+        discount = check_real("discount", self.discount, at_least=0, at_most=1)
         object.__setattr__(self, "transitions", transitions)
         object.__setattr__(self, "rewards", rewards)
-        object.__setattr__(
-            self,
-            "discount",
-            check_real("discount", self.discount, at_least=0, at_most=1),
-        )
-        if self.discount == 1:
-            stranded = np.isinf(self.steps_to_end)
+        object.__setattr__(self, "discount", discount)
+        if discount == 1:
+            stranded = ~self._reaching_terminal()
             if stranded.any():
                 raise ValueError(
                     "discount must be less than 1 unless every state can reach a terminal state (absorbing, reward 0), "
@@ -70,18 +96,16 @@ class FiniteMDP:
 
     @classmethod
     def from_gymnasium(cls, env: Any, discount: float) -> FiniteMDP:
-        """The model of an environment that publishes its table ``P[s][a] = [(probability, s', reward, ended), ...]``.
+        """Return the model of an environment that publishes its table of transitions.
 
-        Gymnasium's FrozenLake, Taxi and CliffWalking do. A state in which an episode ends becomes terminal.
+        The table is ``P[s][a] = [(probability, s', reward, terminated), ...]``, as Gymnasium's FrozenLake, Taxi and
+        CliffWalking have it. A state in which an episode ends becomes terminal.
 
         Raises
         ------
-        ValueError : if the environment has no such table.
+        ValueError
+            If the environment has no such table.
         """
-        from .environments import (
-            tabulate,  # the other way round, environments are made from models
-        )
-
         return cls(*tabulate(env), discount)
 
     @property
@@ -96,27 +120,8 @@ class FiniteMDP:
 
     @property
     def is_sparse(self) -> bool:
-        """Whether the transitions came as sparse matrices."""
+        """Whether the transitions are sparse matrices."""
         return isinstance(self.transitions, tuple)
-
-    @cached_property
-    def rows(self) -> sp.csr_array:
-        """All transitions as one sparse matrix (S A, S); row s A + a holds T(s, a, .)."""
-        if not self.is_sparse:
-            return sp.csr_array(
-                self.transitions.swapaxes(0, 1).reshape(-1, self.n_states)
-            )
-        by_action = sp.vstack(self.transitions, format="csr")
-        return by_action[
-            np.arange(self.n_states * self.n_actions)
-            .reshape(self.n_actions, self.n_states)
-            .T.ravel()
-        ]
-
-    @cached_property
-    def arrays(self) -> Arrays:
-        """What the compiled sweeps take: see ``packed``."""
-        return packed(self.rows, self.rewards, self.discount)
 
     @cached_property
     def terminal(self) -> NDArray[np.bool_]:
@@ -127,135 +132,103 @@ class FiniteMDP:
         ).all(axis=1)
 
     @cached_property
-    def steps_to_end(self) -> NDArray[np.float64]:
-        """Least number of steps (S,) in which a terminal state can be reached; infinite where none can."""
-        return self.way_to(self.terminal)[0]
+    def by_action(self) -> sp.csr_array:
+        """All transitions as one sparse matrix (A S, S); row a S + s holds T(s, a, .)."""
+        if not self.is_sparse:
+            return sp.csr_array(self.transitions.reshape(-1, self.n_states))
+        return sp.csr_array(sp.vstack(self.transitions, format="csr"))
 
     @cached_property
-    def rests(self) -> NDArray[np.bool_]:
-        """Which actions (S, A) keep one for ever, if one likes, among states where nothing is earned: worth 0 for sure.
-
-        Those of the terminal states do; elsewhere it is what a free wait is, or a free walk in circles.
-        """
-        rests = self.rewards == 0
-        pairs = rests.ravel()  # a view
-        restless = np.flatnonzero(~rests.any(axis=1))
-        while restless.size:
-            lost = np.unique(self.leading_to[restless].indices)
-            lost = lost[pairs[lost]]
-            pairs[lost] = False
-            touched = np.unique(lost // self.n_actions)
-            restless = touched[~rests[touched].any(axis=1)]
-        rests.flags.writeable = False
-        return rests
+    def rows(self) -> sp.csr_array:
+        """All transitions as one sparse matrix (S A, S); row s A + a holds T(s, a, .)."""
+        pairs = np.arange(self.n_states * self.n_actions)
+        return self.by_action[pairs.reshape(self.n_actions, self.n_states).T.ravel()]
 
     @cached_property
-    def leading_to(self) -> sp.csr_array:
-        """Where each state can be reached from, (S, S A): row s', column s A + a holds T(s, a, s')."""
-        return sp.csr_array(self.rows.T)
+    def arrays(self) -> Arrays:
+        """Model as ``_fast`` takes it: starts, successors, probabilities, rewards, discount."""
+        starts, successors = (
+            part.view(f"u{part.itemsize}")
+            for part in (self.rows.indptr, self.rows.indices)
+        )
+        rewards = np.ascontiguousarray(self.rewards)
+        rewards.flags.writeable = False  # numba compiles once for read-only arrays
+        return starts, successors, self.rows.data, rewards, self.discount
 
-    def way_to(
-        self, goals: NDArray[np.bool_], allowed: NDArray[np.bool_] | None = None
-    ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-        """The way to some of the states ``goals`` (S,) with the fewest steps that can succeed.
+    @takes_values
+    def action_values(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Action values one step ahead of ``values``, Eqs. (2.11) and (2.15).
 
         Parameters
         ----------
-        goals : (S,), where to go.
-        allowed : (S, A), the actions that may be used; all if left out.
+        values : (S,) array
+            Optimal values for Eq. (2.11), values of a policy for Eq. (2.15), or any others.
 
         Returns
         -------
-        steps : (S,), infinite where no goal can be reached.
-        policy : (S,), whose every action leads one step closer as likely as any can (0 where none does). Followed for
-            ever, it gets there with probability 1 if all steps are finite.
+        (S, A) array
         """
-        usable = (
-            np.ones(self.rewards.size, dtype=bool)
-            if allowed is None
-            else allowed.ravel()
-        )
-        steps = np.where(goals, 0.0, np.inf)
-        policy = np.zeros(self.n_states, dtype=np.intp)
-        frontier = np.flatnonzero(goals)
-        while frontier.size:
-            distance = steps[frontier[0]] + 1
-            closer = self.leading_to[frontier]
-            found, which = np.unique(closer.indices, return_inverse=True)
-            chance = np.bincount(which, closer.data, found.size)
-            new = usable[found] & np.isinf(steps[found // self.n_actions])
-            likeliest = np.lexsort((-chance[new], found[new] // self.n_actions))
-            found = found[new][likeliest]
-            frontier, first = np.unique(found // self.n_actions, return_index=True)
-            steps[frontier], policy[frontier] = distance, found[first] % self.n_actions
-        return steps, policy
+        if self.is_sparse:  # mean over s' of V(s'), (A, S)
+            mean = (self.by_action @ values).reshape(self.n_actions, self.n_states)
+        else:
+            mean = self.transitions @ values  # Eq. (2.11)
+        return self.rewards + self.discount * mean.T  # Eq. (2.15)
 
-    def action_values(self, values: ArrayLike) -> NDArray[np.float64]:
-        """Action values (S, A) one step ahead of ``values`` (S,): r(s, a) + gamma sum_s' T(s, a, s') V(s').
-
-        This is Q from V, Eq. (2.11) for the optimal values and Eq. (2.15) for those of a policy.
-        """
-        v = check_array("values", values, shape=(self.n_states,))
-        ahead = (
-            (self.rows @ v).reshape(self.rewards.shape)
-            if self.is_sparse
-            else (self.transitions @ v).T
-        )
-        return self.rewards + self.discount * ahead
-
-    def greedy(self, values: ArrayLike) -> NDArray[np.intp]:
-        """The greedy policy (S,) with regard to ``values`` (S,), Eq. (2.25); of equal actions the first."""
-        return self.action_values(values).argmax(axis=1)
+    @takes_values
+    def greedy(self, values: NDArray[np.float64]) -> NDArray[np.intp]:
+        """Greedy policy (S,) with respect to ``values`` (S,), Eq. (2.25); of equal actions the first."""
+        return self.action_values(values).argmax(axis=1)  # Eq. (2.25)
 
     def induced_chain(
         self, policy: ArrayLike
     ) -> tuple[sp.csr_array, NDArray[np.float64]]:
-        """The Markov chain that a policy makes of the process: transitions (S, S) and rewards (S,).
+        """Markov chain that a policy induces, Eq. (2.6): its transitions T_pi (S, S) and rewards r_pi (S,).
 
-        ``policy`` is (S,) actions or (S, A) probabilities; a stochastic one averages over its actions, Eq. (2.6).
+        Parameters
+        ----------
+        policy : (S,) array of ints or (S, A) array of probabilities
+            A stochastic policy averages over its actions.
         """
-        chosen = policies.check_policy(policy, self.n_states, self.n_actions)
-        state = np.arange(self.n_states)
-        if chosen.ndim == 1:
-            return self.rows[state * self.n_actions + chosen], self.rewards[
-                state, chosen
-            ]
-        starts = np.arange(0, chosen.size + 1, self.n_actions)
-        average = sp.csr_array(
-            (chosen.ravel(), np.arange(chosen.size), starts),
-            (self.n_states, chosen.size),
-        )
-        return sp.csr_array(average @ self.rows), (chosen * self.rewards).sum(axis=1)
+        pi = policies.as_policy(policy, self.n_states, self.n_actions)
+        if pi.ndim == 1:
+            state = np.arange(self.n_states)
+            return self.rows[state * self.n_actions + pi], self.rewards[state, pi]
+        starts = np.arange(0, pi.size + 1, self.n_actions)
+        average = sp.csr_array((pi.ravel(), np.arange(pi.size), starts))
+        return average @ self.rows, (pi * self.rewards).sum(axis=1)  # Eq. (2.6)
 
+    @validated
     def residual_for(self, tolerance: float) -> float:
-        """How little a sweep of value iteration must change for its greedy policy to lose at most ``tolerance``.
+        """Change of a sweep below which the greedy policy loses at most ``tolerance`` in every state.
 
-        tolerance (1 - gamma) / (2 gamma), Puterman (2005), Theorem 6.3.1: infinite for discount 0. Without
-        discount there is no such bound, and it is ``tolerance`` itself.
+        It is tolerance (1 - gamma) / (2 gamma) (Puterman 2005, Theorem 6.3.1), and infinite for discount 0. Without
+        discount there is no such bound; ``tolerance`` itself is returned.
         """
-        check_positive("tolerance", tolerance)
+        if self.discount == 1:
+            return tolerance
         if self.discount == 0:
             return np.inf
-        return (
-            tolerance
-            if self.discount == 1
-            else tolerance * (1 - self.discount) / (2 * self.discount)
-        )
+        return tolerance * (1 - self.discount) / (2 * self.discount)
+
+    def _reaching_terminal(self) -> NDArray[np.bool_]:
+        """Which states (S,) can reach a terminal state."""
+        backward = sum(
+            (sp.csr_array(matrix) for matrix in self.transitions),
+            start=sp.csr_array((self.n_states, self.n_states)),
+        ).T
+        return reachable(sp.csr_array(backward), np.flatnonzero(self.terminal))
 
 
-def packed(rows: sp.csr_array, rewards: NDArray[np.float64], discount: float) -> Arrays:
-    """A model as the compiled sweeps take it: starts, successors, chances (see ``kernels``), rewards, discount.
+require_type("mdp", FiniteMDP)
 
-    ``rows`` is (S A, S), row s A + a holding T(s, a, .); ``rewards`` (S, A).
-    """
-    starts, successors = (
-        part.view(f"u{part.itemsize}") for part in (rows.indptr, rows.indices)
+
+def reachable(steps: sp.csr_array, starts: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Which states (S,) can be reached from some of ``starts`` along the nonzero entries of ``steps`` (S, S)."""
+    if not starts.size:
+        return np.zeros(steps.shape[0], dtype=bool)
+    return np.isfinite(
+        csgraph.dijkstra(steps, indices=starts, unweighted=True, min_only=True)
     )
-    fixed = rewards.view()
-    fixed.flags.writeable = (
-        False  # numba compiles for a read-only array anew: one kind only
-    )
-    return starts, successors, rows.data, fixed, discount
 
 
 def expected_rewards(transitions: Any, rewards: ArrayLike) -> NDArray[np.float64]:
@@ -343,3 +316,85 @@ def _check_rows(action: int, matrix: NDArray[np.float64] | sp.csr_array) -> None
             "transitions must sum to 1 over the states reached, "
             f"got {totals[state]:.10g} at action {action}, state {state}"
         )
+
+
+def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
+    """Sparse transitions and rewards (S, A) of an environment that publishes its table ``P``.
+
+    A state that a transition marked as ended leads to becomes terminal: absorbing, with reward 0. Wrappers are not
+    looked at.
+
+    Raises
+    ------
+    ValueError : if the environment publishes no table or an incomplete one, does not keep to it, or may end an episode
+        in a state and go on from it another time, so that the state alone does not say what is to come.
+    """
+    bare = getattr(env, "unwrapped", env)
+    table = getattr(bare, "P", None)
+    if table is None:
+        raise ValueError(
+            f"env must publish its transitions as P[s][a] (FrozenLake, Taxi, CliffWalking), got {env}"
+        )
+    if getattr(bare, "fickle_passenger", False):
+        raise ValueError(
+            "env must move as its table P says, got a taxi whose fickle passenger is not in it"
+        )
+    rows = [_in_order(row) for row in _in_order(table)]
+    states, actions = len(rows), len(rows[0]) if rows else 0
+    if actions == 0 or any(len(row) != actions for row in rows):
+        raise ValueError(
+            "env must publish P[s][a] for as many actions in every state, and for at least one of each"
+        )
+    entries = np.array(
+        [
+            (action, state, reached, probability, probability * reward, ended)
+            for state, row in enumerate(rows)
+            for action, outcomes in enumerate(row)
+            for probability, reached, reward, ended in outcomes
+            if probability > 0
+        ],
+        dtype=float,
+    ).reshape(-1, 6)
+    action, state, reached = entries[:, :3].astype(np.intp).T
+    if reached.min(initial=0) < 0 or reached.max(initial=0) >= states:
+        raise ValueError(
+            f"env must publish transitions to states from 0 to {states - 1}, got {reached.max()}"
+        )
+    ended = entries[:, 5] == 1
+    terminal = np.zeros(states, dtype=bool)
+    terminal[reached[ended]] = True
+    starts = np.asarray(getattr(bare, "initial_state_distrib", np.ones(states)))
+    leaving = np.zeros(states, dtype=bool)
+    leaving[state[(reached != state) | (entries[:, 4] != 0)]] = True
+    going_on = sp.csr_array(
+        (np.ones((~ended).sum()), (state[~ended], reached[~ended])), (states, states)
+    )
+    passed = terminal & leaving & reachable(going_on, np.flatnonzero(starts))
+    if passed.any():
+        raise ValueError(
+            "env must end an episode in a state always or never: its number alone must say what is to come, got state "
+            f"{int(passed.argmax())}, in which it may end and may go on"
+        )
+    inside = ~terminal[state]
+    rewards = np.zeros((states, actions))
+    np.add.at(rewards, (state[inside], action[inside]), entries[inside, 4])
+    ends = np.flatnonzero(terminal)
+    transitions = []
+    for which in range(actions):
+        own = inside & (action == which)
+        coordinates = np.append(state[own], ends), np.append(reached[own], ends)
+        probability = np.append(entries[own, 3], np.ones(ends.size))
+        transitions.append(
+            sp.coo_array((probability, coordinates), (states, states)).tocsr()
+        )
+    return transitions, rewards
+
+
+def _in_order(part: Any) -> list[Any]:
+    """What a list, or a dictionary with the keys 0, 1, 2, ..., holds."""
+    try:
+        return [part[key] for key in range(len(part))]
+    except (TypeError, LookupError):
+        raise ValueError(
+            f"env must publish P[s][a] with states and actions numbered from 0, got {part}"
+        ) from None

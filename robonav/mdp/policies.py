@@ -15,7 +15,7 @@ SUM_TOLERANCE = (
 )
 
 
-def check_deterministic_policy(
+def as_deterministic_policy(
     name: str, policy: ArrayLike, states: int, actions: int
 ) -> NDArray[np.intp]:
     """The policy as an integer array (S,).
@@ -39,7 +39,7 @@ def check_deterministic_policy(
     return actions_taken
 
 
-def check_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
+def as_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
     """The policy as an integer array (S,) or a float array (S, A).
 
     Raises
@@ -48,7 +48,7 @@ def check_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
     ValueError : if its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
     """
     if check_array("policy", policy).ndim == 1:
-        return check_deterministic_policy("policy", policy, states, actions)
+        return as_deterministic_policy("policy", policy, states, actions)
     chances = check_array("policy", policy, shape=(states, actions))
     wrong = (chances < 0).any(axis=1) | (abs(chances.sum(axis=1) - 1) > SUM_TOLERANCE)
     if wrong.any():
@@ -61,13 +61,11 @@ def check_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
 
 def probabilities(policy: ArrayLike, states: int, actions: int) -> NDArray[np.float64]:
     """The policy as probabilities (S, A), whichever of the two forms it comes in."""
-    given = check_policy(policy, states, actions)
+    given = as_policy(policy, states, actions)
     return given if given.ndim == 2 else np.eye(actions)[given]
 
 
-def check_distributions(
-    name: str, value: ArrayLike, states: int
-) -> NDArray[np.float64]:
+def as_distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.float64]:
     """Distributions over S states, an array (..., S): beliefs.
 
     Raises
@@ -112,3 +110,17 @@ def greedy_mixture(
     """The stochastic policy (S, A) that chooses evenly among the greedy actions."""
     best = greedy_actions(action_values, tolerance=tolerance)
     return best / best.sum(axis=1, keepdims=True)
+
+
+def optimal_values_of(action_values: ArrayLike) -> NDArray[np.float64]:
+    """Value of each state if its best action is taken, Eq. (2.10).
+
+    Parameters
+    ----------
+    action_values : (..., A) array
+
+    Returns
+    -------
+    (...) array
+    """
+    return np.max(action_values, axis=-1)  # Eq. (2.10)

@@ -17,7 +17,7 @@ from robonav.validation import (
 )
 
 from .models import FiniteMDP
-from .policies import SUM_TOLERANCE, check_distributions
+from .policies import SUM_TOLERANCE, as_distributions
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
 
 def entropy(belief: ArrayLike) -> float:
     """How uncertain a belief (S,) is, in bits: 0 where one state is sure, log2 S where all are alike."""
-    b = check_distributions(
+    b = as_distributions(
         "belief", belief, len(check_array("belief", belief, shape=("S",)))
     )
     sure = b[b > 0]
@@ -143,7 +143,7 @@ class POMDP:
 
     def _belief(self, belief: ArrayLike) -> Floats:
         check_array("belief", belief, shape=(self.mdp.n_states,))
-        return check_distributions("belief", belief, self.mdp.n_states)
+        return as_distributions("belief", belief, self.mdp.n_states)
 
     def _action(self, action: int) -> int:
         return check_integer(

@@ -500,3 +500,42 @@ def test_wrong_tolerances_are_refused(planner, tolerance):
 def test_wrong_options_of_policy_iteration_are_refused(options, error, sentence):
     with pytest.raises(error, match=sentence):
         policy_iteration(two_states(0.9), **options)
+
+
+LEAVE_OR_STAY = FiniteMDP(
+    np.stack([np.eye(3), np.eye(3)[[2, 1, 2]]]),
+    rewards=[[0, 2], [2, 2], [0, 0]],
+    discount=0.99,
+)
+"""State 0 may leave for the terminal state 2 with reward 2, or stay with 0; state 1 loops with 2."""
+
+
+@pytest.mark.parametrize("sweeps", [0, 1, 8, 50])
+def test_modified_policy_iteration_with_a_terminal_state(sweeps):
+    """Shifting all values but those of terminal states would make staying look better than leaving."""
+    solution = modified_policy_iteration(LEAVE_OR_STAY, tolerance=0.05, sweeps=sweeps)
+    assert solution.policy[0] == 1
+    np.testing.assert_allclose(solution.values, [2, 200, 0], atol=0.025 + 1e-9)
+
+
+def with_terminal_states(seed, discount):
+    """A random model of ten states, two of them terminal, with rewards of both signs."""
+    rng = np.random.default_rng(seed)
+    transitions = rng.dirichlet(np.full(10, 0.2), size=(3, 10))
+    rewards = rng.normal(rng.choice([-3, 0, 3]), 1, size=(10, 3))
+    transitions[:, :2], rewards[:2] = np.eye(10)[:2], 0
+    return FiniteMDP(transitions, rewards, discount)
+
+
+@pytest.mark.parametrize("discount", [0.5, 0.9, 0.99])
+@pytest.mark.parametrize("tolerance", [1e-4, 0.05, 1.0, 10.0])
+@each_planner
+def test_promised_loss_with_terminal_states(planner, tolerance, discount):
+    for seed in range(12):
+        mdp = with_terminal_states(seed, discount)
+        best = policy_iteration(mdp).values
+        solution = planner(mdp, tolerance)
+        loss = best - policy_evaluation(mdp, solution.policy)
+        assert loss.max() <= tolerance + 1e-9
+        assert abs(solution.values - best).max() <= tolerance + 1e-9
+        np.testing.assert_allclose(solution.values[:2], 0, atol=1e-9)

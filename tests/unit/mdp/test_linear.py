@@ -277,7 +277,7 @@ def test_seeds_reproduce(learn):
         {"tiles": (0, 3)},
         {"tiles": (4,)},
         {"tilings": 0},
-        {"actions": 0},
+        {"n_actions": 0},
     ],
 )
 def test_tiles_check_their_numbers(wrong):
@@ -288,7 +288,7 @@ def test_tiles_check_their_numbers(wrong):
                 "high": (1.0, 1.0),
                 "tiles": (2, 2),
                 "tilings": 2,
-                "actions": 2,
+                "n_actions": 2,
                 **wrong,
             }
         )

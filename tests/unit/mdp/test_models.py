@@ -9,7 +9,7 @@ import scipy.sparse as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robonav.mdp import FiniteMDP, GridWorld, expected_rewards, value_iteration
+from robonav.mdp import FiniteMDP, expected_rewards, value_iteration
 
 
 def random_mdp(seed, *, states=6, actions=3, discount=0.9, sparse=False, spread=1.0):
@@ -169,43 +169,6 @@ def test_wrong_models_are_refused_in_one_sentence(
 def test_wrong_types_are_refused(transitions):
     with pytest.raises(TypeError, match="transitions must"):
         FiniteMDP(transitions, np.zeros((2, 1)), 0.9)
-
-
-def test_terminal_states_and_the_way_to_them():
-    """A corridor 0 - 1 - 2 - 3 that ends at 0, and a room 4 that nobody leaves but where something is earned."""
-    left = np.eye(5)[[0, 0, 1, 2, 4]]
-    right = np.eye(5)[[0, 2, 3, 3, 4]]
-    rewards = np.zeros((5, 2))
-    rewards[4, 1] = 1
-    mdp = FiniteMDP([left, right], rewards, 0.9)
-    assert mdp.terminal.tolist() == [True, False, False, False, False]
-    assert mdp.steps_to_end.tolist() == [0, 1, 2, 3, np.inf]
-    steps, policy = mdp.way_to(mdp.terminal)
-    assert policy[1:4].tolist() == [0, 0, 0]
-    only_right = np.zeros((5, 2), dtype=bool)
-    only_right[:, 1] = True
-    steps, _ = mdp.way_to(mdp.terminal, only_right)
-    assert np.isinf(steps[1:]).all()
-
-
-def test_the_way_goes_where_it_is_likeliest_to():
-    """Above the goal a step down gets there four times in five, one to the side by a slip only."""
-    slippery = GridWorld("...\n..G", slip=0.2).mdp(0.9)
-    steps, policy = slippery.way_to(slippery.terminal)
-    assert steps.tolist() == [3, 2, 1, 2, 1, 0]
-    assert policy[[2, 4]].tolist() == [2, 1]
-
-
-def test_one_rests_where_nothing_is_earned_for_ever():
-    """A ring 0 - 1 - 2 free of charge, a corridor 3 - 4 that leads into something that costs, and an end 5."""
-    on = np.eye(6)[[1, 2, 0, 4, 5, 5]]
-    out = np.eye(6)[[3, 5, 2, 3, 3, 5]]
-    rewards = np.zeros((6, 2))
-    rewards[4] = -1
-    rewards[3, 1] = -1
-    for transitions in (np.stack([on, out]), [sp.csr_array(on), sp.csr_array(out)]):
-        rests = FiniteMDP(transitions, rewards, 0.9).rests
-        assert rests.tolist() == [[1, 0], [1, 1], [1, 1], [0, 0], [0, 0], [1, 1]]
 
 
 def test_rewards_of_the_state_reached_are_averaged():

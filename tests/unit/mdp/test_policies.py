@@ -39,7 +39,7 @@ def test_both_forms_say_the_same():
 )
 def test_what_is_no_policy_is_refused(policy, error, sentence):
     with pytest.raises(error, match=sentence):
-        policies.check_policy(policy, 2, 3)
+        policies.as_policy(policy, 2, 3)
 
 
 @settings(deadline=None)

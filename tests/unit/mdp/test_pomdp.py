@@ -27,16 +27,16 @@ def random_pomdp(seed, states=4, actions=3, observations=3, sparse=False):
     """A POMDP with some impossible transitions and observations."""
     rng = np.random.default_rng(seed)
 
-    def check_distributions(*shape):
+    def as_distributions(*shape):
         weights = rng.random(shape) * (rng.random(shape) < 0.6)
         weights[..., 0] += 1e-3
         return weights / weights.sum(axis=-1, keepdims=True)
 
-    transitions = check_distributions(actions, states, states)
+    transitions = as_distributions(actions, states, states)
     if sparse:
         transitions = [sp.csr_array(matrix) for matrix in transitions]
     mdp = FiniteMDP(transitions, rng.normal(size=(states, actions)), 0.9)
-    return POMDP(mdp, check_distributions(actions, states, observations)), rng
+    return POMDP(mdp, as_distributions(actions, states, observations)), rng
 
 
 def history_posterior(pomdp, start, actions, observations):
