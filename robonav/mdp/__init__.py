@@ -8,7 +8,6 @@ from .belief_planning import (
     spread_beliefs,
 )
 from .dynamic_programming import (
-    Solution,
     modified_policy_iteration,
     policy_iteration,
     value_iteration,
@@ -51,6 +50,7 @@ from .pomdp import (
     without_sensing,
 )
 from .small_pomdps import corridor, fork, tiger
+from .solutions import Solution
 from .temporal_difference import (
     ControlResult,
     PredictionResult,

@@ -1,4 +1,4 @@
-"""The loops of asynchronous value iteration, compiled: twins of ``in_place_sweep`` and ``prioritized_backups``.
+"""Inner loops of planning, compiled: one sweep over all states each.
 
 Transitions are the three arrays of ``FiniteMDP.rows``, a CSR matrix whose row s A + a holds T(s, a, .): the successors
 of (s, a) are ``successors[starts[row]:starts[row + 1]]``, and ``probabilities`` is laid out in the same way. Positions
@@ -77,6 +77,62 @@ def best_action(
         if value > best:
             best, chosen = value, action
     return best, chosen
+
+
+@compiled
+def optimal_sweep(
+    starts: Unsigned,
+    successors: Unsigned,
+    probabilities: Floats,
+    rewards: Floats,
+    discount: float,
+    values: Floats,
+    out: Floats,
+    policy: Actions,
+) -> tuple[float, float]:
+    """``out`` = the best action value of each state, ``policy`` its action; least and largest change."""
+    least, most = np.inf, -np.inf
+    for state in range(values.size):
+        best, chosen = best_action(
+            state, starts, successors, probabilities, rewards, discount, values
+        )
+        out[state] = best
+        policy[state] = chosen
+        change = best - values[state]
+        least = min(least, change)
+        most = max(most, change)
+    return least, most
+
+
+@compiled
+def policy_sweep(
+    starts: Unsigned,
+    successors: Unsigned,
+    probabilities: Floats,
+    rewards: Floats,
+    discount: float,
+    values: Floats,
+    out: Floats,
+    policy: Actions,
+) -> float:
+    """``out`` = the action value of each state under ``policy``; largest absolute change."""
+    actions = rewards.shape[1]
+    most = 0.0
+    for state in range(values.size):
+        action = policy[state]
+        reward = rewards[state, action]
+        value = action_value(
+            state * actions + action,
+            reward,
+            starts,
+            successors,
+            probabilities,
+            discount,
+            values,
+        )
+        out[state] = value
+        most = max(most, abs(value - values[state]))
+    return most
 
 
 @compiled

@@ -13,9 +13,9 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
 from .arguments import validated
-from .dynamic_programming import Solution, first_values, greedy_policy, solution_of
 from .evaluation import History, warn_not_converged
 from .models import FiniteMDP
+from .solutions import Solution, first_values, greedy_policy, solution_of
 
 Floats = NDArray[np.float64]
 
@@ -129,7 +129,7 @@ def prioritized_sweeping(
     --------
     >>> from robonav.mdp import GridWorld, prioritized_sweeping
     >>> prioritized_sweeping(GridWorld(". . . . G").mdp(discount=0.9)).iterations
-    4
+    9
     """
     from . import _fast
 

@@ -79,7 +79,7 @@ def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
     >>> mdp = four_by_three().mdp(discount=0.95)
     >>> always_up = [0] * mdp.n_states
     >>> policy_evaluation(mdp, always_up).round(2)[:4]
-    array([-0.8 , -0.81, -0.66,  0.  ])
+    array([-0.47, -0.3 ,  0.13, -0.  ])
     """
     transitions, rewards = mdp.induced_chain(policy)
     guess = np.zeros(mdp.n_states)
@@ -132,7 +132,7 @@ def iterative_policy_evaluation(
     >>> from robonav.mdp import four_by_three, iterative_policy_evaluation
     >>> mdp = four_by_three().mdp(discount=0.95)
     >>> iterative_policy_evaluation(mdp, [0] * 11).values.round(2)[:4]
-    array([-0.8 , -0.81, -0.66,  0.  ])
+    array([-0.47, -0.3 ,  0.13,  0.  ])
     """
     transitions, rewards = mdp.induced_chain(policy)
     values = starting_values("start", mdp, start)
@@ -173,7 +173,7 @@ def expected_return(mdp: FiniteMDP, policy: ArrayLike, start: ArrayLike) -> floa
     >>> grid = four_by_three()
     >>> mdp = grid.mdp(discount=0.95)
     >>> round(expected_return(mdp, value_iteration(mdp).policy, grid.start), 3)
-    0.504
+    0.501
     """
     probabilities = as_distributions("start", start, mdp.n_states)
     return float(probabilities @ policy_evaluation(mdp, policy))  # Eq. (2.28)
@@ -209,12 +209,12 @@ def starting_values(name: str, mdp: FiniteMDP, given: ArrayLike | None) -> Float
 
 
 def warn_not_converged(
-    name: str, iterations: int, residual: float, limit: float
+    name: str, iterations: int, residual: float, limit: float, *, stacklevel: int = 4
 ) -> None:
     """ConvergenceWarning at the line that called the planner ``name``."""
     warnings.warn(
         f"{name} gave up after {iterations} iterations: the last one still changed a value by {residual:.3g}, "
         f"where {limit:.3g} was asked for",
         ConvergenceWarning,
-        stacklevel=4,
+        stacklevel=stacklevel,
     )

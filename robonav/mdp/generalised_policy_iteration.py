@@ -14,11 +14,11 @@ from robonav.errors import ConvergenceWarning
 from robonav.validation import check_array, check_integer
 
 from .arguments import validated, validated_with
-from .dynamic_programming import first_values
 from .evaluation import policy_evaluation
 from .models import FiniteMDP
 from .policies import as_deterministic_policy
 from .rounding import rounding_of_gains
+from .solutions import first_values
 from .undiscounted import clamp_undiscounted
 
 Floats = NDArray[np.float64]

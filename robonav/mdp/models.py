@@ -136,13 +136,16 @@ class FiniteMDP:
         """All transitions as one sparse matrix (A S, S); row a S + s holds T(s, a, .)."""
         if not self.is_sparse:
             return sp.csr_array(self.transitions.reshape(-1, self.n_states))
-        return sp.csr_array(sp.vstack(self.transitions, format="csr"))
+        return with_small_indices(
+            sp.csr_array(sp.vstack(self.transitions, format="csr"))
+        )
 
     @cached_property
     def rows(self) -> sp.csr_array:
         """All transitions as one sparse matrix (S A, S); row s A + a holds T(s, a, .)."""
         pairs = np.arange(self.n_states * self.n_actions)
-        return self.by_action[pairs.reshape(self.n_actions, self.n_states).T.ravel()]
+        order = pairs.reshape(self.n_actions, self.n_states).T.ravel()
+        return with_small_indices(self.by_action[order])
 
     @cached_property
     def arrays(self) -> Arrays:
@@ -299,7 +302,15 @@ def _checked_sparse(
     copy.sum_duplicates()
     copy.eliminate_zeros()
     check_array("transitions", copy.data)
-    return copy
+    return with_small_indices(copy)
+
+
+def with_small_indices(matrix: sp.csr_array) -> sp.csr_array:
+    """The matrix with 32-bit indices where they suffice: products with a vector are then faster."""
+    if matrix.nnz < 2**31 and max(matrix.shape) < 2**31:
+        matrix.indices = matrix.indices.astype(np.int32, copy=False)
+        matrix.indptr = matrix.indptr.astype(np.int32, copy=False)
+    return matrix
 
 
 def _check_rows(action: int, matrix: NDArray[np.float64] | sp.csr_array) -> None:

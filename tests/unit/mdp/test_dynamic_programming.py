@@ -539,3 +539,20 @@ def test_promised_loss_with_terminal_states(planner, tolerance, discount):
         assert loss.max() <= tolerance + 1e-9
         assert abs(solution.values - best).max() <= tolerance + 1e-9
         np.testing.assert_allclose(solution.values[:2], 0, atol=1e-9)
+
+
+@pytest.mark.parametrize("planner", [value_iteration, modified_policy_iteration])
+@pytest.mark.parametrize("seed", range(6))
+def test_compiled_twins(planner, seed):
+    """What runs and what the page shows give the same bits (on sparse models: dense products sum in BLAS's order)."""
+    ended = with_terminal_states(seed, 0.9)
+    sparse = FiniteMDP(
+        [sp.csr_array(matrix) for matrix in ended.transitions], ended.rewards, 0.9
+    )
+    for mdp in (sparse, four_by_three().mdp(0.99), sampled(seed, sparse=True)):
+        compiled = planner(mdp, 1e-3, record=True)
+        readable = planner.__wrapped__(mdp, 1e-3, record=True)
+        for name in ("values", "policy", "iterations", "residual", "history"):
+            np.testing.assert_array_equal(
+                getattr(compiled, name), getattr(readable, name)
+            )
