@@ -44,7 +44,7 @@ def main() -> None:
     learn(shown, iterations=1)  # compiled
     slow = False
     for size, (demonstrations, iterations, most) in LIMITS.items():
-        some = shown.drives(range(demonstrations))
+        some = shown.select_trajectories(range(demonstrations))
         spent = statistics.median(run(some, iterations, clock) for _ in range(ROUNDS))
         print(
             f"{size}: {demonstrations} demonstrations, {iterations} iterations: {spent:.2f} s (at most {most:g} s)"

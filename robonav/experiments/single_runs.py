@@ -114,7 +114,7 @@ def slipping_demonstration(case: Case, seed: int, scale: str) -> Numbers:
     slip = neighbour_slip(float(case["slip"]))
     executed = record(ComputerExpert(), world_of(case), slip=slip)
     intended = record(
-        ComputerExpert(), world_of(case), slip=slip, labels=ComputerExpert()
+        ComputerExpert(), world_of(case), slip=slip, labeller=ComputerExpert()
     )
     return path_of(executed.poses) | {
         "slipped": float((executed.actions != intended.actions).sum())

@@ -3,10 +3,10 @@
 from .astar import GridPlan, Plan, plan, plan_on_grid
 from .behaviour_cloning import labelled_states, learn_policy
 from .computer_expert import ComputerExpert, demonstrate
-from .dagger import Aggregation, advised, dagger
-from .dataset_summary import Overview, overview
+from .dagger import DaggerResult, collect_with_expert_labels, dagger
+from .dataset_summary import DatasetSummary, summarise_dataset
 from .demonstration_files import load_demonstrations, save_demonstrations
-from .demonstrations import Demonstrations, Expert, join, record
+from .demonstrations import Demonstrations, Expert, concatenate, record
 from .human_expert import (
     PathFollower,
     demonstrate_by_hand,
@@ -17,25 +17,24 @@ from .human_expert import (
 from .nearest_neighbours import NeighbourPolicy, learn_neighbours
 
 __all__ = [
-    "Aggregation",
     "ComputerExpert",
+    "DaggerResult",
+    "DatasetSummary",
     "Demonstrations",
     "Expert",
     "GridPlan",
     "NeighbourPolicy",
-    "Overview",
     "PathFollower",
     "Plan",
-    "advised",
+    "collect_with_expert_labels",
+    "concatenate",
     "dagger",
     "demonstrate",
     "demonstrate_by_hand",
-    "join",
     "labelled_states",
     "learn_neighbours",
     "learn_policy",
     "load_demonstrations",
-    "overview",
     "path_clearance",
     "plan",
     "plan_on_grid",
@@ -43,4 +42,5 @@ __all__ = [
     "save_demonstrations",
     "sketch",
     "smooth_path",
+    "summarise_dataset",
 ]

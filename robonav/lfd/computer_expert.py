@@ -27,7 +27,7 @@ _NOBODY = np.empty((0, 3))
 
 
 @dataclass
-class Way:
+class FollowedPlan:
     """A plan that a robot is following: its poses and actions, and how far it is."""
 
     poses: NDArray[np.float64]
@@ -61,7 +61,7 @@ class ComputerExpert:
             "margin", margin, at_least=COLLISION_DISTANCE, at_most=LARGEST_MAP / 2
         )
         self.caution = check_real("caution", caution, at_least=0)
-        self._ways: dict[int, Way] = {}
+        self._plans: dict[int, FollowedPlan] = {}
 
     def __call__(self, simulator: Simulator, asked: Actions) -> Actions:
         """The next actions (n,) of the robots ``asked`` (n,)."""
@@ -70,17 +70,17 @@ class ComputerExpert:
         )
 
     def _next(self, simulator: Simulator, robot: int) -> int:
-        way = self._ways.get(robot)
+        way = self._plans.get(robot)
         if (
             way is None
             or not way.follows(simulator.poses[robot])
             or simulator.worlds.speeds[robot].any()
         ):
-            way = self._ways[robot] = self.way(simulator, robot)
+            way = self._plans[robot] = self.plan_from(simulator, robot)
         way.done += 1
         return int(way.actions[way.done - 1])
 
-    def way(self, simulator: Simulator, robot: int) -> Way:
+    def plan_from(self, simulator: Simulator, robot: int) -> FollowedPlan:
         """A way for one robot from where it is, as wide as there is one; a single step straight on if there is none."""
         world = simulator.worlds
         for margin in np.append(
@@ -91,8 +91,8 @@ class ComputerExpert:
                 world.targets[robot], simulator.speed, margin, self.caution, simulator.speed, LIMIT, False, _NOBODY,
             )  # fmt: skip
             if found:
-                return Way(poses, actions)
-        return Way(simulator.poses[robot][None], np.zeros(1, dtype=np.int64))
+                return FollowedPlan(poses, actions)
+        return FollowedPlan(simulator.poses[robot][None], np.zeros(1, dtype=np.int64))
 
 
 def demonstrate(

@@ -14,13 +14,20 @@ from robonav.validation import check_generator
 
 from .behaviour_cloning import learn_policy
 from .computer_expert import ComputerExpert
-from .demonstrations import MAX_STEPS, Actions, Demonstrations, Expert, join, record
+from .demonstrations import (
+    MAX_STEPS,
+    Actions,
+    Demonstrations,
+    Expert,
+    concatenate,
+    record,
+)
 
 TEMPERATURE = 0.4
 
 
 @dataclass(frozen=True, eq=False)
-class Aggregation:
+class DaggerResult:
     """What DAgger went through, round by round; in round 0 there are the first demonstrations alone.
 
     Attributes
@@ -38,7 +45,7 @@ class Aggregation:
         return self.policies[-1]
 
 
-def advised(
+def collect_with_expert_labels(
     policy: Policy,
     worlds: Worlds,
     *,
@@ -63,14 +70,14 @@ def advised(
     """
     rng = check_generator("seed", seed)
 
-    def drives(simulator: Simulator, asked: Actions) -> Actions:
+    def follow_policy(simulator: Simulator, asked: Actions) -> Actions:
         return np.asarray(policy(simulator.sense()[asked], rng), dtype=np.int64)
 
     return record(
-        drives,
+        follow_policy,
         worlds,
         speed=speed,
-        labels=expert or ComputerExpert(),
+        labeller=expert or ComputerExpert(),
         max_steps=max_steps,
     )
 
@@ -88,7 +95,7 @@ def dagger(
     temperature: float = TEMPERATURE,
     max_steps: int = MAX_STEPS,
     progress: Progress | None = None,
-) -> Aggregation:
+) -> DaggerResult:
     """Clone the demonstrations, drive, have the expert label the states met, learn from everything; again.
 
     Parameters
@@ -115,7 +122,7 @@ def dagger(
 
     gathered, policies = [demonstrations], [learned(demonstrations)]
     for number, worlds in enumerate(rounds, start=1):
-        met = advised(
+        met = collect_with_expert_labels(
             policies[-1],
             worlds,
             expert=expert(),
@@ -123,8 +130,8 @@ def dagger(
             seed=seed,
             max_steps=max_steps,
         )
-        gathered.append(join([gathered[-1], met]))
+        gathered.append(concatenate([gathered[-1], met]))
         policies.append(learned(gathered[-1]))
         if progress is not None:
             progress(number, len(rounds))
-    return Aggregation(tuple(policies), tuple(gathered))
+    return DaggerResult(tuple(policies), tuple(gathered))

@@ -14,7 +14,7 @@ from .demonstrations import LEARNED, Demonstrations
 
 
 @dataclass(frozen=True, eq=False)
-class Overview:
+class DatasetSummary:
     """A set of demonstrations in a few numbers; as text, a few lines.
 
     Attributes
@@ -47,7 +47,7 @@ class Overview:
         )
 
 
-def overview(demonstrations: Demonstrations) -> Overview:
+def summarise_dataset(demonstrations: Demonstrations) -> DatasetSummary:
     """Sum up a set of demonstrations.
 
     Raises
@@ -55,7 +55,7 @@ def overview(demonstrations: Demonstrations) -> Overview:
     TypeError : if these are no demonstrations.
     """
     pairs = check_instance("demonstrations", demonstrations, Demonstrations).effective
-    return Overview(
+    return DatasetSummary(
         drives=len(demonstrations.worlds),
         arrived=int((demonstrations.outcome == "arrived").sum()),
         steps=len(demonstrations),

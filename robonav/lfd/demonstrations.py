@@ -18,9 +18,9 @@ from robonav.robot import (
     Sensing,
     Simulator,
     Worlds,
-    concatenate,
     drive,
 )
+from robonav.robot.worlds import concatenate as concatenate_worlds
 from robonav.validation import check_array, check_integer, check_one_of, check_positive
 
 Floats = NDArray[np.float64]
@@ -111,7 +111,7 @@ class Demonstrations:
         """Steps (D,) of each drive."""
         return np.bincount(self.trajectory, minlength=len(self.worlds))
 
-    def drives(self, index: ArrayLike) -> Demonstrations:
+    def select_trajectories(self, index: ArrayLike) -> Demonstrations:
         """Whole drives alone, picked by indices or a mask and counted anew from 0."""
         chosen = np.arange(len(self.worlds))[np.asarray(index)]
         none = np.empty(0, np.int64)
@@ -140,7 +140,7 @@ def record(
     speed: float = 2.0,
     slip: ArrayLike | None = None,
     reflex: Reflex | None = REFLEX,
-    labels: Expert | None = None,
+    labeller: Expert | None = None,
     max_steps: int = MAX_STEPS,
     progress: Progress | None = None,
 ) -> Demonstrations:
@@ -153,7 +153,7 @@ def record(
     speed : m/s, positive.
     slip : (6, 6) probabilities that action a (row) turns into another; what is kept is what was executed.
     reflex : what the robot does before the expert is asked; None leaves every step to the expert.
-    labels : another expert, who is asked the same and not obeyed; what it says is kept as the action.
+    labeller : another expert, who is asked the same and not obeyed; what it says is kept as the action.
     max_steps : seconds after which a drive is out of steps.
 
     Raises
@@ -165,13 +165,17 @@ def record(
     advice = np.zeros(len(worlds), dtype=np.int64)
 
     def choose(simulator: Simulator, sensing: Sensing, asked: Actions) -> Actions:
-        if labels is not None:
-            advice[asked] = labels(simulator, asked)
+        if labeller is not None:
+            advice[asked] = labeller(simulator, asked)
         return expert(simulator, asked)
 
     rows: list[tuple[Actions, Sensing, Actions, Floats]] = []
     for step in drive(simulator, choose, reflex=reflex):
-        done = executed(step.poses, simulator.poses) if labels is None else advice
+        done = (
+            actions_from_poses(step.poses, simulator.poses)
+            if labeller is None
+            else advice
+        )
         actions = np.where(step.asked, done, step.actions)
         robots = np.flatnonzero(step.running)
         rows.append((robots, step.sensing[robots], actions[robots], step.poses[robots]))
@@ -180,7 +184,7 @@ def record(
     return _by_drive(worlds, rows, speed, OUTCOMES[simulator.outcome])
 
 
-def join(sets: Sequence[Demonstrations]) -> Demonstrations:
+def concatenate(sets: Sequence[Demonstrations]) -> Demonstrations:
     """Several sets of demonstrations as one, their drives counted on.
 
     Raises
@@ -193,7 +197,7 @@ def join(sets: Sequence[Demonstrations]) -> Demonstrations:
         )
     before = np.cumsum([0, *(len(each.worlds) for each in sets)])
     return Demonstrations(
-        worlds=concatenate([each.worlds for each in sets]),
+        worlds=concatenate_worlds([each.worlds for each in sets]),
         trajectory=np.concatenate(
             [each.trajectory + n for each, n in zip(sets, before[:-1], strict=True)]
         ),
@@ -205,7 +209,7 @@ def join(sets: Sequence[Demonstrations]) -> Demonstrations:
     )
 
 
-def executed(before: Floats, after: Floats) -> Actions:
+def actions_from_poses(before: Floats, after: Floats) -> Actions:
     """The actions (N,) that led from poses ``before`` to ``after`` (N, 3): by the turn, or B where it went back."""
     turned = np.rint((after[:, 2] - before[:, 2]) / np.radians(30)).astype(int) % 12
     actions = np.select(

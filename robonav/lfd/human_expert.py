@@ -193,7 +193,7 @@ def sketch(worlds: Worlds, *, seed: int, shake: float = 1.0) -> list[Floats]:
 
 def _sketch(world: Worlds, rng: np.random.Generator, shake: float) -> Floats:
     """Key points (K, 2) in one world."""
-    way = ComputerExpert().way(Simulator(world), 0).poses[:, :2]
+    way = ComputerExpert().plan_from(Simulator(world), 0).poses[:, :2]
     for care in CARE:
         bends = _bends(way, STRAIGHT * care)[1:-1]
         points = bends + rng.normal(scale=shake * care, size=bends.shape)

@@ -20,7 +20,7 @@ from .multilayer_perceptron import (
 )
 from .optimisers import fit, gradient_descent, lbfgs, one_hot
 from .policy import NetworkPolicy
-from .training_history import Training, accuracy
+from .training_history import TrainingHistory, accuracy
 from .weights import Weights, load_weights, save_weights
 
 __all__ = [
@@ -29,7 +29,7 @@ __all__ = [
     "Network",
     "NetworkPolicy",
     "Objective",
-    "Training",
+    "TrainingHistory",
     "Weights",
     "accuracy",
     "backpropagate",

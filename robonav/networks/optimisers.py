@@ -12,7 +12,7 @@ from robonav.validation import check_array, check_integer, check_positive, check
 
 from .backpropagation import SQUARED_ERROR, Objective, examples
 from .multilayer_perceptron import Array, Network, random_network
-from .training_history import State, Training, accuracy, follow
+from .training_history import Iterate, TrainingHistory, accuracy, run_optimiser
 
 MOST_ITERATIONS = 100_000  # minutes of work; more is a slip of the pen
 
@@ -33,13 +33,13 @@ def gradient_descent(
     x: ArrayLike,
     y: ArrayLike,
     *,
-    rate: float,
+    gradient_step: float,
     iterations: int,
     regularisation: float = 0.0,
     objective: Objective = SQUARED_ERROR,
     record: bool = False,
     progress: Progress | None = None,
-) -> Training:
+) -> TrainingHistory:
     """Batch gradient descent, Eq. (3.8), (3.16), (3.28): all examples, one step against the gradient, and again.
 
     Parameters
@@ -47,7 +47,7 @@ def gradient_descent(
     network : where to start.
     x : inputs (m, s[0]).
     y : labels (m, s[-1]) in [0, 1].
-    rate : the learning rate alpha, positive; too large, and the cost rises or jumps about.
+    gradient_step : the learning rate alpha, positive; too large, and the cost rises or jumps about.
     iterations : steps to take, at most 100,000.
     regularisation : lambda, at least 0.
     objective : ``SQUARED_ERROR``, Eq. (3.7), or ``CROSS_ENTROPY``, Eq. (3.22).
@@ -58,17 +58,17 @@ def gradient_descent(
     ------
     ValueError : if shapes do not fit, an argument lies outside its range, or the weights grow out of all bounds.
     """
-    alpha = check_positive("rate", rate)
+    alpha = check_positive("gradient_step", gradient_step)
     steps = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
 
-    def state(current: Network) -> State:
-        return State(
+    def state(current: Network) -> Iterate:
+        return Iterate(
             current,
             objective.cost(current, x, y, regularisation=regularisation),
             accuracy(current, x, y),
         )
 
-    def descend() -> Iterator[State]:
+    def descend() -> Iterator[Iterate]:
         current = network
         yield state(current)
         for _ in range(steps):
@@ -85,7 +85,7 @@ def gradient_descent(
             )
             yield state(current)
 
-    return follow(descend(), steps, record=record, progress=progress)
+    return run_optimiser(descend(), steps, record=record, progress=progress)
 
 
 def lbfgs(
@@ -97,7 +97,7 @@ def lbfgs(
     iterations: int = 300,
     record: bool = False,
     progress: Progress | None = None,
-) -> Training:
+) -> TrainingHistory:
     """Minimise the cost of Eq. (3.22) by L-BFGS (Liu and Nocedal, 1989), from ``network`` on.
 
     The thesis's fminunc is of the same quasi-Newton family. Ends early where no step lowers the cost any more.
@@ -106,10 +106,14 @@ def lbfgs(
     inputs, labels = examples(network, x, y)
     decay = check_real("regularisation", regularisation, at_least=0)
     steps = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
-    from .lbfgs import minimise  # brings torch, which planning can do without
+    from .torch_lbfgs import (
+        lbfgs_iterates,  # brings torch, which planning can do without
+    )
 
-    iterates = minimise(network, inputs, labels, regularisation=decay, iterations=steps)
-    return follow(iterates, steps, record=record, progress=progress)
+    iterates = lbfgs_iterates(
+        network, inputs, labels, regularisation=decay, iterations=steps
+    )
+    return run_optimiser(iterates, steps, record=record, progress=progress)
 
 
 def fit(
@@ -122,7 +126,7 @@ def fit(
     seed: int | np.random.Generator = 0,
     record: bool = False,
     progress: Progress | None = None,
-) -> Training:
+) -> TrainingHistory:
     """Train a new network on examples, as Algorithm 3 does (step 7): random weights, then L-BFGS on Eq. (3.22).
 
     Parameters

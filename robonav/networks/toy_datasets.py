@@ -14,7 +14,7 @@ EXTENT = 1.5
 """The square [-EXTENT, EXTENT] on either axis holds every example."""
 
 
-def corners(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
+def xor(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
     """Four clouds; those in opposite corners belong together (exclusive or): one line cannot part them.
 
     Returns
@@ -28,7 +28,7 @@ def corners(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
     ).astype(float)
 
 
-def island(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
+def disc(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
     """A disc inside a ring: no line does, and two do not either."""
     rng = check_generator("seed", seed)
     inside = rng.random(_count(m)) < 0.5
@@ -55,9 +55,9 @@ def moons(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
     )
 
 
-PROBLEMS: dict[str, Callable[..., tuple[Array, Array]]] = {
-    "corners": corners,
-    "island": island,
+TOY_DATASETS: dict[str, Callable[..., tuple[Array, Array]]] = {
+    "xor": xor,
+    "disc": disc,
     "moons": moons,
 }
 

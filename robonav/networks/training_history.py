@@ -16,7 +16,7 @@ from .multilayer_perceptron import Array, Network, stacked
 
 
 @dataclass(frozen=True, eq=False)
-class Training:
+class TrainingHistory:
     """A trained network and how it came about; row 0 is the network before training.
 
     Parameters
@@ -38,7 +38,7 @@ class Training:
         return len(self.costs) - 1
 
 
-class State(NamedTuple):
+class Iterate(NamedTuple):
     """Where an optimiser stands."""
 
     network: Network
@@ -46,9 +46,13 @@ class State(NamedTuple):
     accuracy: float
 
 
-def follow(
-    states: Iterator[State], iterations: int, *, record: bool, progress: Progress | None
-) -> Training:
+def run_optimiser(
+    states: Iterator[Iterate],
+    iterations: int,
+    *,
+    record: bool,
+    progress: Progress | None,
+) -> TrainingHistory:
     """Run an optimiser, given as the states it goes through, and keep its history."""
     costs, accuracies, networks = [], [], []
     for done, state in enumerate(states):
@@ -58,7 +62,7 @@ def follow(
             networks.append(state.network)
         if progress is not None:
             progress(done, iterations)
-    return Training(
+    return TrainingHistory(
         state.network,
         np.array(costs),
         np.array(accuracies),
@@ -76,10 +80,10 @@ def accuracy(network: Network, x: ArrayLike, y: ArrayLike) -> float:
     y : labels (m, s[-1]) in [0, 1].
     """
     inputs, labels = examples(network, x, y)
-    return answered(network.logits(inputs), labels)
+    return fraction_correct(network.logits(inputs), labels)
 
 
-def answered(z: Any, y: Any) -> float:
+def fraction_correct(z: Any, y: Any) -> float:
     """The fraction of logits (m, K), NumPy or torch, that say what the labels (m, K) say."""
     right = (z > 0) == (y > 0.5) if z.shape[1] == 1 else z.argmax(1) == y.argmax(1)
     return float(right.sum()) / len(z)

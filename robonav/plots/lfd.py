@@ -91,7 +91,7 @@ def draw_demonstrations(
     for place, drive in enumerate(drives, start=1):
         axes = figure.add_subplot(rows, columns, place)
         draw_world(axes, demonstrations.worlds[drive])
-        shown = demonstrations.drives([drive])
+        shown = demonstrations.select_trajectories([drive])
         axes.plot(*shown.poses[:, :2].T, color=style.GREY, linewidth=1)
         axes.plot(
             *shown.effective.poses[:, :2].T,

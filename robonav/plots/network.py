@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav import style
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.toy_datasets import EXTENT
-from robonav.networks.training_history import Training
+from robonav.networks.training_history import TrainingHistory
 
 NO, YES = style.BLUE, style.ORANGE
 NEGATIVE, POSITIVE = style.VERMILION, style.BLUE
@@ -135,7 +135,7 @@ def _line_style(network: Network | None, layer: int) -> dict[str, Any]:
 
 def plot_costs(
     axes: Axes,
-    trainings: Mapping[str, Training],
+    trainings: Mapping[str, TrainingHistory],
     *,
     colours: Mapping[str, str] | None = None,
 ) -> None:
@@ -149,7 +149,7 @@ def plot_costs(
 
 def plot_accuracies(
     axes: Axes,
-    trainings: Mapping[str, Training],
+    trainings: Mapping[str, TrainingHistory],
     *,
     colours: Mapping[str, str] | None = None,
 ) -> None:

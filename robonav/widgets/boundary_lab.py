@@ -11,7 +11,7 @@ import numpy as np
 import traitlets
 
 from robonav.networks.toy_datasets import EXTENT
-from robonav.networks.training_history import Training
+from robonav.networks.training_history import TrainingHistory
 
 from .shared import front_end, packed, packed_network, style_sheet
 
@@ -26,7 +26,7 @@ class BoundaryLab(anywidget.AnyWidget):
 
 def boundary_lab(
     controls: Mapping[str, Sequence[str]],
-    runs: Mapping[tuple[str, ...], Training],
+    runs: Mapping[tuple[str, ...], TrainingHistory],
     examples: Mapping[str, tuple[np.ndarray, np.ndarray]],
     *,
     frames: Sequence[int],
@@ -81,7 +81,7 @@ def boundary_lab(
 
 
 def _run(
-    combination: tuple[str, ...], training: Training, frames: Sequence[int]
+    combination: tuple[str, ...], training: TrainingHistory, frames: Sequence[int]
 ) -> dict[str, Any]:
     """One training as the page reads it; single precision is more than a picture shows."""
     if training.networks is None:

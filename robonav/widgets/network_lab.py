@@ -8,7 +8,7 @@ import anywidget
 import numpy as np
 import traitlets
 
-from robonav.networks.training_history import Training
+from robonav.networks.training_history import TrainingHistory
 from robonav.robot._fast import SENSOR_RANGE
 from robonav.robot.encoding import DANGER_BORDERS
 from robonav.validation import check_integer
@@ -25,7 +25,7 @@ class NetworkLab(anywidget.AnyWidget):
 
 
 def network_lab(
-    training: Training,
+    training: TrainingHistory,
     situations: Mapping[str, tuple[Sequence[int], int]],
     *,
     frames: int = 60,

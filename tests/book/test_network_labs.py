@@ -75,8 +75,8 @@ def unpacked(array: dict[str, Any]) -> np.ndarray:
 @pytest.mark.parametrize(
     ("problem", "hidden", "first", "rate", "iteration"),
     [
-        ("corners", 2, "random", 3, 150),
-        ("island", 3, "all zero", 30, 7),
+        ("xor", 2, "random", 3, 150),
+        ("disc", 3, "all zero", 30, 7),
         ("moons", 8, "random again", 0.3, 56),
     ],
 )
@@ -99,12 +99,12 @@ def test_every_setting_shows_its_own_training(
         first
     ]
     start = networks.random_network((2, hidden, 1), seed=seed, spread=spread)
-    x, y = toy_datasets.PROBLEMS[problem](100, seed=0)
+    x, y = toy_datasets.TOY_DATASETS[problem](100, seed=0)
     training = networks.gradient_descent(
         start,
         x,
         y,
-        rate=rate,
+        gradient_step=rate,
         iterations=iteration,
         regularisation=0.01,
         objective=networks.CROSS_ENTROPY,

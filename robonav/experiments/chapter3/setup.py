@@ -13,14 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from robonav.lfd import (
-    Aggregation,
+    DaggerResult,
     Demonstrations,
     dagger,
     demonstrate,
     labelled_states,
     learn_policy,
 )
-from robonav.networks import Network, NetworkPolicy, Training, fit
+from robonav.networks import Network, NetworkPolicy, TrainingHistory, fit
 from robonav.robot import Encoder, random_worlds
 
 from ..runner.settings import read_settings
@@ -100,7 +100,7 @@ def training(
     *,
     number: int = DEMONSTRATIONS,
     iterations: int = CONDITIONS["iterations"],
-) -> Training:
+) -> TrainingHistory:
     """A training on the thesis's 11 numbers, with the network of every iteration.
 
     Parameters
@@ -134,7 +134,7 @@ def policy_of(network: Network, inputs: str) -> NetworkPolicy:
 @lru_cache(32)
 def dagger_result(
     seed: int, obstacles: int = 10, *, target: str = "sine-cosine", rounds: int = ROUNDS
-) -> Aggregation:
+) -> DaggerResult:
     """DAgger from a run's demonstrations, each round with as many new maps as there are demonstrations."""
     worlds = [
         random_worlds(DEMONSTRATIONS, obstacles, seed=DAGGER_SEED + 10 * seed + number)

@@ -13,10 +13,10 @@ from robonav.lfd import (
     labelled_states,
     learn_neighbours,
     learn_policy,
-    overview,
     plan,
     plan_on_grid,
     sketch,
+    summarise_dataset,
 )
 from robonav.networks import accuracy
 from robonav.robot import Policy, Worlds, navigate, neighbour_slip, random_worlds
@@ -130,7 +130,7 @@ def expert_demonstrations(expert: str, seed: int) -> Demonstrations:
 def compare_experts(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 3.6: what 25 demonstrations hold, and the success of the policy learned from them."""
     shown = expert_demonstrations(str(case["expert"]), seed)
-    held = overview(shown)
+    held = summarise_dataset(shown)
     policy = learn_policy(shown, seed=seed)
     rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
     return {

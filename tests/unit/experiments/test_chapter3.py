@@ -38,7 +38,7 @@ def test_worlds_shown_met_and_driven_never_meet():
 
 def test_more_demonstrations_begin_with_the_same_ones():
     few, more = demonstrations(3, number=5), demonstrations(3, number=8)
-    assert np.array_equal(more.drives(np.arange(5)).actions, few.actions)
+    assert np.array_equal(more.select_trajectories(np.arange(5)).actions, few.actions)
     assert few.worlds.digest() == random_worlds(5, seed=DEMONSTRATION_SEED + 3).digest()
 
 

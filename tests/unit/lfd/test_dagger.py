@@ -6,10 +6,10 @@ import pytest
 from robonav.lfd import (
     ComputerExpert,
     NeighbourPolicy,
-    advised,
+    collect_with_expert_labels,
+    concatenate,
     dagger,
     demonstrate,
-    join,
     learn_neighbours,
     learn_policy,
 )
@@ -24,7 +24,7 @@ def shown():
 
 @pytest.fixture(scope="module")
 def gone_straight():
-    return advised(straight, random_worlds(6, 20, seed=71))
+    return collect_with_expert_labels(straight, random_worlds(6, 20, seed=71))
 
 
 def test_the_policy_drives_and_the_expert_advises(gone_straight):
@@ -61,20 +61,20 @@ def test_advice_is_the_first_action_of_a_plan_from_here(gone_straight):
 
 
 def test_joined_sets(shown, gone_straight):
-    both = join([shown, gone_straight])
+    both = concatenate([shown, gone_straight])
     assert len(both) == len(shown) + len(gone_straight)
     assert both.lengths.tolist() == [*shown.lengths, *gone_straight.lengths]
-    back = both.drives(np.arange(len(shown.worlds), len(both.worlds)))
+    back = both.select_trajectories(np.arange(len(shown.worlds), len(both.worlds)))
     assert np.array_equal(back.poses, gone_straight.poses)
     assert np.array_equal(back.sensing.walls, gone_straight.sensing.walls)
     assert back.worlds.digest() == gone_straight.worlds.digest()
     for sets in ([], [shown, demonstrate(random_worlds(1, 0, seed=1), speed=1.0)]):
         with pytest.raises(ValueError, match="sets must be at least one, of one speed"):
-            join(sets)
+            concatenate(sets)
 
 
 def test_a_round_of_dagger_beats_cloning_little(shown):
-    few = shown.drives(range(3))
+    few = shown.select_trajectories(range(3))
     unseen = random_worlds(300, 20, seed=73)
     gathered = dagger(few, [random_worlds(15, 20, seed=74)], seed=1, iterations=100)
     cloned, mended = (
@@ -93,8 +93,10 @@ def test_each_round_adds_advice_on_its_own_worlds_to_everything_before(shown):
     assert [policy.temperature for policy in made.policies] == [0.3] * 3
     gathered = begin
     for number, worlds in enumerate(rounds):
-        met = advised(made.policies[number], worlds, speed=1.5, seed=2)
-        gathered = join([gathered, met])
+        met = collect_with_expert_labels(
+            made.policies[number], worlds, speed=1.5, seed=2
+        )
+        gathered = concatenate([gathered, met])
         assert np.array_equal(made.demonstrations[number + 1].poses, gathered.poses)
         assert np.array_equal(made.demonstrations[number + 1].actions, gathered.actions)
         learned = learn_policy(gathered, seed=2, iterations=20)
@@ -113,7 +115,7 @@ def test_dagger_asks_the_expert_it_is_given(shown):
         expert=lambda: always_left,
         iterations=20,
     )
-    added = made.demonstrations[1].drives(
+    added = made.demonstrations[1].select_trajectories(
         np.arange(len(shown.worlds), len(shown.worlds) + 3)
     )
     assert set(added.effective.actions) == {2}
@@ -121,7 +123,10 @@ def test_dagger_asks_the_expert_it_is_given(shown):
 
 def test_a_drive_that_is_stopped_early_gives_no_more_advice(shown):
     worlds = random_worlds(3, 20, seed=83)
-    whole, cut = advised(straight, worlds), advised(straight, worlds, max_steps=7)
+    whole, cut = (
+        collect_with_expert_labels(straight, worlds),
+        collect_with_expert_labels(straight, worlds, max_steps=7),
+    )
     assert (cut.lengths <= 7).all()
     assert set(cut.outcome[whole.lengths > 7]) == {"out of steps"}
     first = np.concatenate(

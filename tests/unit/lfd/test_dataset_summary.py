@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from robonav.lfd import demonstrate, labelled_states, overview
+from robonav.lfd import demonstrate, labelled_states, summarise_dataset
 from robonav.robot import Encoder, random_worlds
 
 
 def test_an_overview_counts():
     shown = demonstrate(random_worlds(6, 12, seed=21))
-    held = overview(shown)
+    held = summarise_dataset(shown)
     x, y = labelled_states(shown, Encoder(target="number"))
     assert (held.drives, held.arrived, held.steps, held.effective) == (
         6,
@@ -29,7 +29,7 @@ def test_an_overview_counts():
 
 
 def test_nothing_shown_nothing_held():
-    held = overview(demonstrate(random_worlds(0, 5, seed=1)))
+    held = summarise_dataset(demonstrate(random_worlds(0, 5, seed=1)))
     assert (held.drives, held.steps, held.effective, held.states, held.closest) == (
         0,
         0,
@@ -45,4 +45,4 @@ def test_only_demonstrations():
     with pytest.raises(
         TypeError, match="demonstrations must be Demonstrations, got str"
     ):
-        overview("x")
+        summarise_dataset("x")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from robonav.lfd import ComputerExpert, Demonstrations, demonstrate, record
-from robonav.lfd.demonstrations import executed
+from robonav.lfd.demonstrations import actions_from_poses
 from robonav.robot import (
     REFLEX,
     Action,
@@ -60,11 +60,11 @@ def test_the_expert_keeps_clear(shown):
 
 def test_each_drive_is_its_worlds_alone(shown):
     alone = demonstrate(shown.worlds[3])
-    of_the_batch = shown.drives([3])
+    of_the_batch = shown.select_trajectories([3])
     assert np.array_equal(alone.actions, of_the_batch.actions)
     assert np.array_equal(alone.poses, of_the_batch.poses)
     assert (of_the_batch.trajectory == 0).all()
-    picked = shown.drives([5, 3])
+    picked = shown.select_trajectories([5, 3])
     assert picked.lengths.tolist() == shown.lengths[[5, 3]].tolist()
     assert picked.worlds.digest() == shown.worlds[[5, 3]].digest()
 
@@ -74,9 +74,9 @@ class Counting(ComputerExpert):
 
     plans = 0
 
-    def way(self, simulator, robot):
+    def plan_from(self, simulator, robot):
         self.plans += 1
-        return super().way(simulator, robot)
+        return super().plan_from(simulator, robot)
 
 
 def test_a_plan_is_made_where_the_last_was_left():
@@ -99,7 +99,7 @@ def test_a_slipping_expert_shows_what_was_executed():
     same = shown.trajectory[1:] == shown.trajectory[:-1]
     decided = same & (shown.actions[:-1] < 5) & ~shown.sensing.safe[:-1]
     assert np.array_equal(
-        executed(shown.poses[:-1], shown.poses[1:])[decided],
+        actions_from_poses(shown.poses[:-1], shown.poses[1:])[decided],
         shown.actions[:-1][decided],
     )
     commands = REFLEX(shown.sensing, shown.speed)
@@ -112,7 +112,7 @@ def test_executed_actions_are_read_off_the_poses(action, heading):
     robot = Simulator(random_worlds(1, 0, seed=1))
     robot.poses[0] = 50, 50, heading
     robot.step(np.array([action]))
-    assert executed(np.array([[50, 50, heading]]), robot.poses) == [action]
+    assert actions_from_poses(np.array([[50, 50, heading]]), robot.poses) == [action]
 
 
 def test_moving_obstacles_are_planned_around():

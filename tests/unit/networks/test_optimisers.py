@@ -82,7 +82,7 @@ def test_one_step_of_gradient_descent_is_the_thesis_step():
         ):
             sum_ += part
     step = gradient_descent(
-        start, x, y, rate=rate, iterations=1, regularisation=decay
+        start, x, y, gradient_step=rate, iterations=1, regularisation=decay
     ).network
     np.testing.assert_allclose(
         step.weights[0], w1 - rate * (total[0] / 10 + decay * w1)
@@ -99,7 +99,7 @@ def test_small_steps_downhill_lower_the_cost_every_time(objective):
     x, y = examples(50, 4, 3)
     start = random_network((4, 5, 3), seed=0)
     history = gradient_descent(
-        start, x, y, rate=0.2, iterations=50, objective=objective
+        start, x, y, gradient_step=0.2, iterations=50, objective=objective
     )
     assert (np.diff(history.costs) < 0).all()
 
@@ -107,7 +107,7 @@ def test_small_steps_downhill_lower_the_cost_every_time(objective):
 def test_identical_hidden_units_never_part():
     x, y = examples(50, 4, 3)
     start = random_network((4, 5, 3), seed=0, spread=0)
-    trained = gradient_descent(start, x, y, rate=1.0, iterations=30).network
+    trained = gradient_descent(start, x, y, gradient_step=1.0, iterations=30).network
     assert np.ptp(trained.weights[0], axis=0).max() < 1e-12
     assert abs(trained.weights[0]).max() > 0
     assert (
@@ -213,7 +213,7 @@ def test_no_iterations_give_the_network_back():
     start = random_network((3, 2), seed=0)
     for training in (
         lbfgs(start, x, y, iterations=0),
-        gradient_descent(start, x, y, rate=1, iterations=0),
+        gradient_descent(start, x, y, gradient_step=1, iterations=0),
     ):
         np.testing.assert_array_equal(flat(training.network), flat(start))
         assert training.iterations == 0
@@ -240,8 +240,10 @@ def test_wrong_arguments_of_fit_get_a_sentence(change, error, message):
 
 def test_wrong_arguments_elsewhere_get_a_sentence():
     x, y = examples(20, 3, 2)
-    with pytest.raises(ValueError, match="rate must be greater than 0"):
-        gradient_descent(random_network((3, 2), seed=0), x, y, rate=0, iterations=1)
+    with pytest.raises(ValueError, match="gradient_step must be greater than 0"):
+        gradient_descent(
+            random_network((3, 2), seed=0), x, y, gradient_step=0, iterations=1
+        )
     with pytest.raises(ValueError, match=r"actions must lie in 0..4, got 0..5"):
         one_hot([0, 5], 5)
     np.testing.assert_array_equal(one_hot([3], 5), [[0, 0, 0, 1, 0]])

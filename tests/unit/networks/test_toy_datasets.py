@@ -5,10 +5,10 @@ import pytest
 
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.optimisers import fit
-from robonav.networks.toy_datasets import EXTENT, PROBLEMS, corners, field, island
+from robonav.networks.toy_datasets import EXTENT, TOY_DATASETS, disc, field, xor
 
 
-@pytest.mark.parametrize("problem", PROBLEMS.values(), ids=PROBLEMS)
+@pytest.mark.parametrize("problem", TOY_DATASETS.values(), ids=TOY_DATASETS)
 def test_problems_are_balanced_bounded_and_their_seeds_own(problem):
     x, y = problem(400, seed=0)
     assert x.shape == (400, 2)
@@ -21,15 +21,15 @@ def test_problems_are_balanced_bounded_and_their_seeds_own(problem):
 
 
 def test_labels_follow_the_geometry():
-    x, y = corners(200, seed=0)
+    x, y = xor(200, seed=0)
     np.testing.assert_array_equal(y[:, 0], x.prod(axis=1) > 0)
-    x, y = island(200, seed=0)
+    x, y = disc(200, seed=0)
     np.testing.assert_array_equal(y[:, 0], np.hypot(*x.T) < 0.6)
 
 
-@pytest.mark.parametrize("problem", ["corners", "island"])
+@pytest.mark.parametrize("problem", ["xor", "disc"])
 def test_no_line_parts_the_examples_but_a_few_hidden_units_do(problem):
-    x, y = PROBLEMS[problem](200, seed=0)
+    x, y = TOY_DATASETS[problem](200, seed=0)
     assert fit(x, y, hidden=(), regularisation=0.01).accuracies[-1] < 0.85
     assert (
         max(

@@ -53,7 +53,7 @@ def test_lines_show_sign_and_size_of_weights_and_bias(axes):
 
 
 def test_curves_are_the_history(axes):
-    x, y = toy_datasets.corners(30, seed=0)
+    x, y = toy_datasets.xor(30, seed=0)
     trainings = {
         f"seed {seed}": fit(x, y, hidden=2, iterations=10, seed=seed) for seed in (0, 1)
     }
@@ -70,7 +70,7 @@ def test_curves_are_the_history(axes):
 
 
 def test_answers_are_drawn_with_their_boundary_and_examples(axes):
-    x, y = toy_datasets.corners(30, seed=0)
+    x, y = toy_datasets.xor(30, seed=0)
     network = random_network((2, 3, 1), seed=0, spread=3)
     draw_answers(axes, toy_datasets.field(network, resolution=20), x, y)
     np.testing.assert_allclose(

@@ -167,13 +167,13 @@ def test_network_lab_holds_the_training_it_was_given():
 
 
 def test_boundary_lab_holds_every_combination():
-    problem = toy_datasets.corners(30, seed=0)
-    controls = {"problem": ["corners"], "hidden": ["1", "2"], "rate": ["1", "3"]}
+    problem = toy_datasets.xor(30, seed=0)
+    controls = {"problem": ["xor"], "hidden": ["1", "2"], "rate": ["1", "3"]}
     runs = {
         key: gradient_descent(
             random_network((2, int(key[1]), 1), seed=0),
             *problem,
-            rate=float(key[2]),
+            gradient_step=float(key[2]),
             iterations=8,
             record=True,
         )
@@ -182,16 +182,16 @@ def test_boundary_lab_holds_every_combination():
     lab = boundary_lab(
         controls,
         runs,
-        {"corners": problem},
+        {"xor": problem},
         frames=[0, 4, 20],
-        start=("corners", "2", "1"),
+        start=("xor", "2", "1"),
     )
     assert [control["value"] for control in lab.data["controls"]] == [0, 1, 0]
     assert [run["networks"]["sizes"][1] for run in lab.data["runs"]] == [1, 1, 2, 2]
     assert lab.data["runs"][0]["networks"]["weights"][0]["shape"] == [3, 1, 2]
     with pytest.raises(ValueError, match="runs must hold a training for"):
         boundary_lab(
-            controls | {"rate": ["1", "9"]}, runs, {"corners": problem}, frames=[0]
+            controls | {"rate": ["1", "9"]}, runs, {"xor": problem}, frames=[0]
         )
 
 

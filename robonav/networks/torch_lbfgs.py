@@ -9,16 +9,16 @@ import torch
 from torch.nn.functional import binary_cross_entropy_with_logits
 
 from .multilayer_perceptron import Array, Network, propagate
-from .training_history import State, answered
+from .training_history import Iterate, fraction_correct
 
 MEMORY = 10  # pairs of steps and gradient changes that stand for the curvature
 LINE_SEARCH = 25  # evaluations a line search may take
 FLAT = 1e-9  # largest entry of a gradient that counts as zero
 
 
-def minimise(
+def lbfgs_iterates(
     network: Network, x: Array, y: Array, *, regularisation: float, iterations: int
-) -> Iterator[State]:
+) -> Iterator[Iterate]:
     """The states that L-BFGS goes through, the first as it finds it; ends early where no step lowers the cost.
 
     Parameters
@@ -66,9 +66,9 @@ def minimise(
                 parameter.grad = slope
         return value.detach()
 
-    def state() -> State:
+    def state() -> Iterate:
         reached = Network(tuple(map(_numbers, weights)), tuple(map(_numbers, biases)))
-        return State(reached, float(cost()), answered(z, labels))
+        return Iterate(reached, float(cost()), fraction_correct(z, labels))
 
     with _one_thread():
         yield state()
