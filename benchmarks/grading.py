@@ -18,8 +18,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from robonav import progress
-from robonav.grading import probe
-from robonav.grading.classroom import Marking, grade_class
+from robonav.grading import sandbox_check
+from robonav.grading.classroom import GradingConfig, grade_class
 from robonav.grading.course import Course, Exercise
 from robonav.grading.reference import mistakes
 from robonav.grading.worker import STUB
@@ -86,11 +86,11 @@ def main() -> None:
     adopt_orphans()
     with tempfile.TemporaryDirectory() as folder:
         a_class(course, Path(folder, "class"), chosen.students, chosen.hostile)
-        marking = Marking(course, probe.best())
+        config = GradingConfig(course, sandbox_check.best())
         clock, processor = time.monotonic(), processor_seconds()
         with progress.bar("grading") as shown:
             grade_class(
-                marking,
+                config,
                 Path(folder, "class"),
                 Path(folder, "out"),
                 jobs=chosen.jobs,
@@ -105,7 +105,7 @@ def main() -> None:
     processor = processor_seconds() - processor
     each = processor / chosen.students
     print(
-        f"{chosen.students} submissions, {len(course.exercises)} exercises, {marking.tier} sandbox, {chosen.jobs} jobs"
+        f"{chosen.students} submissions, {len(course.exercises)} exercises, {config.tier} sandbox, {chosen.jobs} jobs"
     )
     print(
         f"{clock:.0f} s by the clock, {processor:.0f} s of processor time, {each:.2f} s a submission"

@@ -148,21 +148,21 @@ def grade(
 ) -> None:
     """Grade a class. Run it again after it was cut: what is graded stays."""
     from robonav import progress
-    from robonav.grading import probe
-    from robonav.grading.classroom import Marking, grade_class
+    from robonav.grading import sandbox_check
+    from robonav.grading.cases import secret_from
+    from robonav.grading.classroom import GradingConfig, grade_class
     from robonav.grading.course import Course
-    from robonav.grading.parts import secret_from
 
     course = Course.around(Path(__file__).parent, Path.cwd())
     ids = [course.named(key).id for key in exercise or []]
-    marking = Marking(course, probe.best(), secret_from(secret))
-    if marking.tier == "practice" and not practice:
+    config = GradingConfig(course, sandbox_check.best(), secret_from(secret))
+    if config.tier == "practice" and not practice:
         raise ValueError(
-            f"there is no sandbox here, only --practice: {probe.fault('official')}"
+            f"there is no sandbox here, only --practice: {sandbox_check.fault('official')}"
         )
     with progress.bar("grading") as shown:
         grade_class(
-            marking,
+            config,
             folder,
             out,
             again=student or [],

@@ -18,7 +18,7 @@ from typing import Any
 
 from robonav.atomic import atomic_write
 
-from .check import Here, graded
+from .check import InProcessCalls, graded
 from .course import Course, Exercise
 from .reference import Recorder, solution
 from .worker import STUB
@@ -122,7 +122,10 @@ def students_zip(course: Course, path: Path) -> None:
         for exercise in course.exercises.values():
             if (
                 result := graded(
-                    course, exercise, Here(solution(course, exercise)), recorder
+                    course,
+                    exercise,
+                    InProcessCalls(solution(course, exercise)),
+                    recorder,
                 )
             )["state"] != "correct":
                 raise ValueError(

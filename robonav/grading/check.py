@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from . import frames
+from .cases import PUBLIC, generator, outcome, parts_of
 from .course import Course, Exercise
 from .grade import Unaccepted, exercise_grade
-from .parts import PUBLIC, generator, outcome, parts_of
-from .proxy import Answer, Calls
 from .reference import Reference, reference
+from .session import Answer, Calls
 
 
 def check(key: str, function: Callable[..., Any]) -> float:
@@ -22,7 +22,9 @@ def check(key: str, function: Callable[..., Any]) -> float:
     The points earned, which nbgrader takes as the score of a cell that ends with this call.
     """
     course = Course.around(Path.cwd())
-    result = graded(course, course.named(key), Here(function), reference(course))
+    result = graded(
+        course, course.named(key), InProcessCalls(function), reference(course)
+    )
     print(result["feedback"])
     return float(result["points"] or 0)
 
@@ -47,7 +49,7 @@ def graded(
     return exercise_grade(exercise, parts)
 
 
-class Here:
+class InProcessCalls:
     """In place of a sandbox: the function is called here, its arguments and its answer copied as frames would be."""
 
     secret = False

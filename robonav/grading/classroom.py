@@ -20,17 +20,17 @@ from robonav import atomic
 from robonav.progress import Progress
 
 from . import report, submission
+from .cases import PUBLIC
 from .check import graded
 from .course import Course
 from .grade import fault_grade, grade
-from .parts import PUBLIC
-from .proxy import Session
 from .reference import reference
+from .session import Session
 from .submission import Refused, Submission
 
 
 @dataclass(frozen=True)
-class Marking:
+class GradingConfig:
     """How submissions are marked; the same for a whole class."""
 
     course: Course
@@ -53,31 +53,31 @@ class Marking:
         return digest.hexdigest()
 
 
-def mark(
-    marking: Marking, taken: Submission | Refused, ids: Collection[str] = ()
+def grade_submission(
+    config: GradingConfig, loaded: Submission | Refused, ids: Collection[str] = ()
 ) -> dict[str, Any]:
     """The grade of one submission, or of these exercises of it: the same as by ``pytest tests/exercises``."""
-    course = marking.course
+    course = config.course
     exercises = [
         exercise
         for exercise in course.exercises.values()
         if not ids or exercise.id in ids
     ]
     session, known = (
-        Session(taken, marking.tier, secret=bool(marking.secret)),
+        Session(loaded, config.tier, secret=bool(config.secret)),
         reference(course),
     )
     try:
-        seed = marking.secret or PUBLIC
+        seed = config.secret or PUBLIC
         return grade(
             [
                 graded(course, exercise, session, known, seed=seed)
                 for exercise in exercises
             ],
-            marking.tier,
+            config.tier,
         )
     except Exception:  # whatever it is, it is not the student's doing
-        return fault_grade(exercises, marking.tier)
+        return fault_grade(exercises, config.tier)
     finally:
         session.close()
 
@@ -125,7 +125,7 @@ def _is_submission(path: Path) -> bool:
 
 
 def grade_class(
-    marking: Marking,
+    config: GradingConfig,
     folder: Path,
     out: Path,
     *,
@@ -150,39 +150,37 @@ def grade_class(
         raise ValueError(f"no submission of {name} in {folder}")
     with _alone(out):
         atomic.remove_partial_files(out)
-        key, tasks = marking.key(), []
+        key, tasks = config.key(), []
         for name, path in submissions.items():
             entry = {
                 "student": name,
-                "submission": _digest(submission.taken(path)),
-                "marking": key,
+                "submission": _digest(submission.load_submission(path)),
+                "config": key,
             }
             old = _written(out, entry)
             chosen = name in again if again else bool(ids)
             if old is None or chosen:
                 tasks.append((entry, path, old, ids if chosen and old else ()))
-        for done, record in enumerate(
-            _marked(marking, tasks, jobs, scheduler), start=1
-        ):
+        for done, record in enumerate(_marked(config, tasks, jobs, scheduler), start=1):
             report.write_student(
-                out / "students" / record["student"], record, marking.course
+                out / "students" / record["student"], record, config.course
             )
             if progress is not None:
                 progress(done, len(tasks))
-        report.write_class(out, list(submissions), passed_over(folder), marking.course)
+        report.write_class(out, list(submissions), passed_over(folder), config.course)
 
 
 Task = tuple[dict[str, str], Path, dict[str, Any] | None, Collection[str]]
 
 
 def _marked(
-    marking: Marking, tasks: Sequence[Task], jobs: int, scheduler: str | None
+    config: GradingConfig, tasks: Sequence[Task], jobs: int, scheduler: str | None
 ) -> Iterator[dict[str, Any]]:
     """The records of all tasks, as they are done; of the submissions only those in work are held."""
     calls = (
-        (marking, {**entry, "submission": _digest(taken)}, taken, old, ids)
+        (config, {**entry, "submission": _digest(loaded)}, loaded, old, ids)
         for entry, path, old, ids in tasks
-        for taken in [submission.taken(path)]
+        for loaded in [submission.load_submission(path)]
     )
     if scheduler is None:
         from joblib import Parallel, delayed
@@ -210,28 +208,28 @@ def _marked(
 
 
 def _record(
-    marking: Marking,
+    config: GradingConfig,
     entry: dict[str, str],
-    taken: Submission | Refused,
+    loaded: Submission | Refused,
     old: dict[str, Any] | None,
     ids: Collection[str],
 ) -> dict[str, Any]:
     """A student's grade with what it was graded from; exercises that were not asked for keep their old entries."""
-    new = mark(marking, taken, ids)
+    new = grade_submission(config, loaded, ids)
     if old is not None and ids:
         fresh = {graded["id"]: graded for graded in new["exercises"]}
         new = grade(
-            [fresh.get(kept["id"], kept) for kept in old["exercises"]], marking.tier
+            [fresh.get(kept["id"], kept) for kept in old["exercises"]], config.tier
         )
     return {**entry, **new}
 
 
-def _digest(taken: Submission | Refused) -> str:
-    return taken.digest if isinstance(taken, Submission) else f"refused: {taken}"
+def _digest(loaded: Submission | Refused) -> str:
+    return loaded.digest if isinstance(loaded, Submission) else f"refused: {loaded}"
 
 
 def _written(out: Path, entry: dict[str, str]) -> dict[str, Any] | None:
-    """The grade that is there, if it is of this submission by this marking and whole."""
+    """The grade that is there, if it is of this submission by this config and whole."""
     try:
         record = json.loads(
             (out / "students" / entry["student"] / "grade.json").read_bytes()

@@ -12,12 +12,12 @@ import pytest
 
 from robonav.atomic import atomic_write
 
-from . import probe, submission
+from . import sandbox_check, submission
+from .cases import PUBLIC, generator, outcome, secret_from
 from .course import Course, Exercise
 from .grade import Part, exercise_grade, grade
-from .parts import PUBLIC, generator, outcome, secret_from
-from .proxy import Answer, Session
 from .reference import reference
+from .session import Answer, Session
 
 
 class Run:
@@ -32,17 +32,17 @@ class Run:
             self.only = {
                 self.course.named(key).id for key in config.getoption("exercise")
             }
-            taken = submission.taken(config.getoption("submission"))
+            loaded = submission.load_submission(config.getoption("submission"))
             secret = secret_from(config.getoption("secret"))
         except ValueError as error:
             raise pytest.UsageError(str(error)) from None
-        tier = config.getoption("tier") or probe.best()
+        tier = config.getoption("tier") or sandbox_check.best()
         if secret and tier == "practice":
             raise pytest.UsageError(
-                f"no marks in the practice tier: {probe.fault('official')}"
+                f"no marks in the practice tier: {sandbox_check.fault('official')}"
             )
         self.seed = secret or PUBLIC
-        self.session = Session(taken, tier, secret=bool(secret))
+        self.session = Session(loaded, tier, secret=bool(secret))
         self.reference = reference(self.course)
         self.parts: dict[str, list[Part]] = {}
         if (

@@ -6,7 +6,7 @@ restricted Linux as root where namespaces are refused   another user, Landlock, 
 practice   anywhere                                     a process and a deadline; no mark is given from it
 ========== ============================================ ==========================================================
 
-In all three the worker limits its resources, and on Linux refuses itself new processes and sockets (``confine``).
+In all three the worker limits its resources, and on Linux refuses itself new processes and sockets (``hardening``).
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from . import frames
 
 START_SECONDS = 60.0  # for the worker's own start, before any of the student's code
 STAGED = (
-    "confine",
+    "hardening",
     "frames",
     "notebook",
     "supervisor",

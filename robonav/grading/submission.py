@@ -27,7 +27,7 @@ PASSED_OVER = {
 
 
 class Refused(ValueError):
-    """The submission itself cannot be taken; the message says why."""
+    """The submission as a whole cannot be graded; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ def is_zip(path: Path) -> bool:
     return path.suffix.lower() == ".zip"
 
 
-def taken(path: str | Path) -> Submission | Refused:
+def load_submission(path: str | Path) -> Submission | Refused:
     """The submission at ``path``, or why it is refused."""
     try:
         return read(path)
@@ -115,10 +115,12 @@ def _unreadable(error: OSError) -> NoReturn:
 
 def _from_folder(folder: Path) -> Iterator[tuple[str, bytes]]:
     for place, folders, names in os.walk(folder, onerror=_unreadable):
-        folders[:] = sorted(name for name in folders if _is_taken(PurePosixPath(name)))
+        folders[:] = sorted(
+            name for name in folders if _is_considered(PurePosixPath(name))
+        )
         for name in sorted(names):
             path = Path(place, name)
-            if path.suffix in KINDS and _is_taken(PurePosixPath(name)):
+            if path.suffix in KINDS and _is_considered(PurePosixPath(name)):
                 yield _checked(path.relative_to(folder).as_posix()), _content(path)
 
 
@@ -132,7 +134,7 @@ def _from_zip(path: Path) -> Iterator[tuple[str, bytes]]:
                 if (
                     entry.is_dir()
                     or inside.suffix not in KINDS
-                    or not _is_taken(inside)
+                    or not _is_considered(inside)
                 ):
                     continue
                 if stat.S_ISLNK(entry.external_attr >> 16):
@@ -164,7 +166,7 @@ def _content(path: Path) -> bytes:
         return file.read(MOST_BYTES + 1)
 
 
-def _is_taken(path: PurePosixPath) -> bool:
+def _is_considered(path: PurePosixPath) -> bool:
     return not any(
         part in PASSED_OVER or (part.startswith(".") and part != "..")
         for part in path.parts

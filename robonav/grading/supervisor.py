@@ -12,7 +12,7 @@ import signal
 from collections.abc import Sequence
 from contextlib import suppress
 
-from . import confine, worker
+from . import hardening, worker
 
 
 def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) -> None:
@@ -20,8 +20,8 @@ def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) ->
     if (child := os.fork()) == 0:
         try:
             os.close(lifeline)
-            confine.become(user)
-            if confine.restrict_files(readable, [folder, os.devnull]):
+            hardening.become(user)
+            if hardening.restrict_files(readable, [folder, os.devnull]):
                 worker.main()
         finally:
             os._exit(0)

@@ -19,7 +19,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from . import confine, frames, notebook
+from . import frames, hardening, notebook
 
 STUB = 'raise NotImplementedError("{name} is yours to write")'  # what stands in a file before the student writes it
 ALLOWED = {"numpy", *sys.stdlib_module_names}
@@ -56,7 +56,7 @@ def main() -> None:
     _close_the_gate(
         {part.removesuffix(".py") for name in files for part in name.split("/")}
     )
-    confine.limit(opening["limits"])
+    hardening.limit(opening["limits"])
     frames.write(replies, "ready")
     home = Path.cwd()
     try:
@@ -128,7 +128,7 @@ def _serve_in_child(
     if (child := os.fork()) == 0:
         status = 1
         try:
-            confine.filter_calls()
+            hardening.filter_calls()
             _serve(requests, replies, request)
             status = 0
         finally:

@@ -164,23 +164,18 @@ def record(
     simulator = Simulator(worlds, speed, slip=slip, max_steps=max_steps)
     advice = np.zeros(len(worlds), dtype=np.int64)
 
-    def choose(simulator: Simulator, sensing: Sensing, asked: Actions) -> Actions:
+    def choose(simulator: Simulator, sensing: Sensing, robots: Actions) -> Actions:
         if labeller is not None:
-            advice[asked] = labeller(simulator, asked)
-        return expert(simulator, asked)
+            advice[robots] = labeller(simulator, robots)
+        return expert(simulator, robots)
 
     rows: list[tuple[Actions, Sensing, Actions, Floats]] = []
-    for step in drive(simulator, choose, reflex=reflex):
-        done = (
-            actions_from_poses(step.poses, simulator.poses)
-            if labeller is None
-            else advice
-        )
-        actions = np.where(step.asked, done, step.actions)
-        robots = np.flatnonzero(step.running)
-        rows.append((robots, step.sensing[robots], actions[robots], step.poses[robots]))
+    for second in drive(simulator, choose, reflex=reflex):
+        done = second.executed if labeller is None else advice[second.robots]
+        actions = np.where(second.asked, done, second.actions)
+        rows.append((second.robots, second.sensing, actions, second.poses))
         if progress is not None:
-            progress(len(worlds) - len(robots), len(worlds))
+            progress(len(worlds) - len(second.robots), len(worlds))
     return _by_drive(worlds, rows, speed, OUTCOMES[simulator.outcome])
 
 

@@ -2,22 +2,22 @@
 
 from .apprenticeship import (
     Apprenticeship,
-    by_max_margin,
-    by_projection,
+    max_margin_method,
     nearest_mixture,
     project,
+    projection_method,
 )
-from .benchmark_mdps import KINDS, TRUTH, terrain
+from .benchmark_mdps import TERRAIN_KINDS, TRUE_WEIGHTS, terrain
 from .boltzmann import boltzmann
 from .feature_expectations import (
-    average_by,
-    discounted_to_go,
+    discounted_feature_sums,
     empirical_expectations,
     feature_expectations,
-    start_expectations,
+    initial_expectations,
+    mean_by_pair,
 )
-from .features import action_blocks, chosen_block
-from .max_margin import Margin, widest_margin, widest_margin_subgradient
+from .features import all_action_features, state_action_features
+from .max_margin import Margin, maximum_margin, maximum_margin_subgradient
 from .maximum_entropy import (
     MaximumEntropy,
     SoftSolution,
@@ -28,26 +28,26 @@ from .maximum_entropy import (
 from .methods import (
     METHODS,
     Learned,
-    by_heuristic,
-    by_lstd,
-    from_everywhere,
-    from_start,
+    from_all_states,
+    from_initial_state,
+    heuristic_estimate,
     learn,
-    learn_under,
+    learn_under_reward,
+    lstd_estimate,
 )
 from .model_selection import accuracy, balanced_accuracy
-from .nirl import Found, History, nirl, practise
+from .nirl import Found, History, nirl, train_under_reward
 from .policy_improvement import (
-    BONUS,
-    NEUTRAL,
-    NOTHING,
-    OneStep,
-    SampledDescent,
-    into_unit,
-    rewards_of,
+    NEUTRAL_TERMINAL_VALUES,
+    SURVIVAL_BONUS,
+    ZERO_TERMINAL_VALUES,
+    ReplaySGD,
+    SingleGradientStep,
     sarsa_targets,
+    scale_to_unit_interval,
+    transition_rewards,
 )
-from .refinement import Refined, most_frequent, most_telling
+from .refinement import Refined, map_uniform_prior, most_frequent
 from .relative_entropy import (
     RelativeEntropy,
     dual_gradient,
@@ -55,81 +55,81 @@ from .relative_entropy import (
     importance,
     relative_entropy,
 )
-from .reward_free_mdp import FeaturedMDP, Walks
-from .reward_update import ByContrast, ByEquation514, balance, contrast
-from .scirl import Classification, lstd_mu, shown_only, structured_classification
-from .tasks import Course, ModelCourse, RobotCourse
-from .transitions import ENCODER, Steps, shown_steps
+from .reward_free_mdp import RewardFreeMDP, Walks
+from .reward_update import LeastSquaresReward, SubgradientMaxMargin, balance, contrast
+from .scirl import Classification, heuristic_mu, lstd_mu, structured_classification
+from .tasks import Course, RobotTask, TabularTask
+from .transitions import ENCODER, Steps, expert_transitions
 
 __all__ = [
-    "BONUS",
     "ENCODER",
-    "KINDS",
     "METHODS",
-    "NEUTRAL",
-    "NOTHING",
-    "TRUTH",
+    "NEUTRAL_TERMINAL_VALUES",
+    "SURVIVAL_BONUS",
+    "TERRAIN_KINDS",
+    "TRUE_WEIGHTS",
+    "ZERO_TERMINAL_VALUES",
     "Apprenticeship",
-    "ByContrast",
-    "ByEquation514",
     "Classification",
     "Course",
-    "FeaturedMDP",
     "Found",
     "History",
     "Learned",
+    "LeastSquaresReward",
     "Margin",
     "MaximumEntropy",
-    "ModelCourse",
-    "OneStep",
     "Refined",
     "RelativeEntropy",
-    "RobotCourse",
-    "SampledDescent",
+    "ReplaySGD",
+    "RewardFreeMDP",
+    "RobotTask",
+    "SingleGradientStep",
     "SoftSolution",
     "Steps",
+    "SubgradientMaxMargin",
+    "TabularTask",
     "Walks",
     "accuracy",
-    "action_blocks",
-    "average_by",
+    "all_action_features",
     "balance",
     "balanced_accuracy",
     "boltzmann",
-    "by_heuristic",
-    "by_lstd",
-    "by_max_margin",
-    "by_projection",
-    "chosen_block",
     "contrast",
-    "discounted_to_go",
+    "discounted_feature_sums",
     "dual_gradient",
     "empirical_expectations",
+    "expert_transitions",
     "feature_expectations",
-    "from_everywhere",
-    "from_start",
+    "from_all_states",
+    "from_initial_state",
+    "heuristic_estimate",
+    "heuristic_mu",
     "hoeffding_slack",
     "importance",
-    "into_unit",
+    "initial_expectations",
     "learn",
-    "learn_under",
+    "learn_under_reward",
+    "lstd_estimate",
     "lstd_mu",
+    "map_uniform_prior",
+    "max_margin_method",
     "maximum_entropy",
+    "maximum_margin",
+    "maximum_margin_subgradient",
+    "mean_by_pair",
     "most_frequent",
-    "most_telling",
     "nearest_mixture",
     "nirl",
-    "practise",
     "project",
+    "projection_method",
     "relative_entropy",
-    "rewards_of",
     "sarsa_targets",
-    "shown_only",
-    "shown_steps",
+    "scale_to_unit_interval",
     "soft_maximum",
     "soft_value_iteration",
-    "start_expectations",
+    "state_action_features",
     "structured_classification",
     "terrain",
-    "widest_margin",
-    "widest_margin_subgradient",
+    "train_under_reward",
+    "transition_rewards",
 ]

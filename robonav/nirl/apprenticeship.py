@@ -17,7 +17,7 @@ from scipy.optimize import nnls
 from robonav.progress import Progress
 from robonav.validation import check_array, check_integer, check_real
 
-from .max_margin import widest_margin
+from .max_margin import maximum_margin
 
 Floats = NDArray[np.float64]
 Found = TypeVar("Found")
@@ -86,7 +86,7 @@ def nearest_mixture(expert: ArrayLike, found: ArrayLike) -> Floats:
     return shares / shares.sum()
 
 
-def by_projection(
+def projection_method(
     expert: ArrayLike,
     solve: Solver,
     first: tuple[Any, ArrayLike],
@@ -119,7 +119,7 @@ def by_projection(
     )
 
 
-def by_max_margin(
+def max_margin_method(
     expert: ArrayLike,
     solve: Solver,
     first: tuple[Any, ArrayLike],
@@ -128,13 +128,13 @@ def by_max_margin(
     iterations: int = 50,
     progress: Progress | None = None,
 ) -> Apprenticeship:
-    """The max-margin method (Abbeel and Ng 2004, section 3): the reward of :func:`widest_margin` in each iteration.
+    """The max-margin method (Abbeel and Ng 2004, section 3): the reward of :func:`maximum_margin` in each iteration.
 
-    Parameters as in :func:`by_projection`.
+    Parameters as in :func:`projection_method`.
     """
 
     def most_apart(mu: Floats, found: list[Floats]) -> tuple[Floats, float]:
-        widest = widest_margin(mu, np.stack(found))
+        widest = maximum_margin(mu, np.stack(found))
         return widest.weights, widest.margin
 
     return _learn(expert, solve, first, most_apart, tolerance, iterations, progress)

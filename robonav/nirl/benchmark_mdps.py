@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from robonav.mdp.gridworld import Cell, GridWorld
 
-from .reward_free_mdp import FeaturedMDP
+from .reward_free_mdp import RewardFreeMDP
 
 GROUND = {
     "m": Cell(),
@@ -22,15 +22,15 @@ TERRAIN = """
     . r m . . r .
     . . . m m . .
 """
-KINDS = ("grass", "mud", "road", "target")
+TERRAIN_KINDS = ("grass", "mud", "road", "target")
 _SYMBOLS = ".mrT"
-TRUTH: NDArray[np.float64] = np.array([-0.3, -1.0, -0.05, 3.0])
-"""What a step onto each of the ``KINDS`` is worth."""
+TRUE_WEIGHTS: NDArray[np.float64] = np.array([-0.3, -1.0, -0.05, 3.0])
+"""What a step onto each of the ``TERRAIN_KINDS`` is worth."""
 
 
 def terrain(
     *, slip: float = 0.2, discount: float = 0.9
-) -> tuple[GridWorld, FeaturedMDP]:
+) -> tuple[GridWorld, RewardFreeMDP]:
     """Four kinds of ground, a start and a target; the features of a step are the shares of ground it may end on.
 
     Parameters
@@ -41,6 +41,6 @@ def terrain(
     grid = GridWorld(TERRAIN, legend=GROUND, slip=slip)
     symbols = np.array([grid.rows[row][column] for row, column in grid.cells])
     symbols[symbols == "S"] = "."
-    return grid, FeaturedMDP.of_grid(
+    return grid, RewardFreeMDP.of_grid(
         grid, (symbols[:, None] == np.array(list(_SYMBOLS))).astype(float), discount
     )

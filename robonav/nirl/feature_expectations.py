@@ -11,12 +11,12 @@ from scipy.signal import lfilter
 from robonav.mdp import policies
 from robonav.validation import check_array, check_integer, check_real
 
-from .reward_free_mdp import FeaturedMDP
+from .reward_free_mdp import RewardFreeMDP
 
 Floats = NDArray[np.float64]
 
 
-def feature_expectations(mdp: FeaturedMDP, policy: ArrayLike) -> Floats:
+def feature_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
     """mu(s, a) = E[sum_t gamma^t f(s_t, a_t) | s, a], Eq. (5.3), (S, A, K), from the transition matrix.
 
     Each feature is treated as a reward, and its action values are found from the Bellman equation
@@ -36,7 +36,7 @@ def feature_expectations(mdp: FeaturedMDP, policy: ArrayLike) -> Floats:
     )
 
 
-def start_expectations(mdp: FeaturedMDP, policy: ArrayLike) -> Floats:
+def initial_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
     """mu of a policy from the start, (K,): with reward theta . f the policy is worth theta . mu (Eq. (5.4))."""
     chances = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
     return np.einsum(
@@ -44,7 +44,7 @@ def start_expectations(mdp: FeaturedMDP, policy: ArrayLike) -> Floats:
     )
 
 
-def discounted_to_go(
+def discounted_feature_sums(
     features: ArrayLike, trajectory: ArrayLike, discount: float
 ) -> Floats:
     """From every step the discounted features of the rest of its trajectory, itself included: (M, K).
@@ -79,20 +79,20 @@ def empirical_expectations(
     ------
     ValueError : if there is no trajectory.
     """
-    to_go = discounted_to_go(features, trajectory, discount)
+    to_go = discounted_feature_sums(features, trajectory, discount)
     first = [start for start, _ in spans(trajectory, len(to_go))]
     if not first:
         raise ValueError("features must hold at least one trajectory, got none")
     return to_go[first].mean(axis=0)
 
 
-def average_by(pair: ArrayLike, to_go: ArrayLike, pairs: int) -> Floats:
+def mean_by_pair(pair: ArrayLike, to_go: ArrayLike, pairs: int) -> Floats:
     """Monte Carlo estimate of mu for each of P pairs of state and action, (P, K); NaN for one never met.
 
     Parameters
     ----------
     pair : (M,) which pair each step was.
-    to_go : (M, K) what followed it, from :func:`discounted_to_go`.
+    to_go : (M, K) what followed it, from :func:`discounted_feature_sums`.
     pairs : P.
     """
     values = check_array("to_go", to_go, shape=("M", "K"))

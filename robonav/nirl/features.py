@@ -10,7 +10,7 @@ from robonav.validation import check_array, check_integer
 Floats = NDArray[np.float64]
 
 
-def action_blocks(state_features: ArrayLike, actions: int) -> Floats:
+def all_action_features(state_features: ArrayLike, actions: int) -> Floats:
     """The features f(s, a) of every action: (M, A, A k), zero but for the block of ``a``, which holds phi(s).
 
     Eq. (5.5), (5.6). With them the reward theta . f(s, a) is theta_a . phi(s): a linear function of the state for
@@ -30,7 +30,9 @@ def action_blocks(state_features: ArrayLike, actions: int) -> Floats:
     return blocks.reshape(m, count, count * k)
 
 
-def chosen_block(state_features: ArrayLike, chosen: ArrayLike, actions: int) -> Floats:
+def state_action_features(
+    state_features: ArrayLike, chosen: ArrayLike, actions: int
+) -> Floats:
     """The features f(s_t, a_t) of one action a state: (M, A k), from phi(s_t) (M, k) and a_t (M,)."""
     phi = check_array("state_features", state_features, shape=("M", "k"))
     taken = check_array("chosen", chosen, shape=(len(phi),), dtype=np.int64)

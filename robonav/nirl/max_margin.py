@@ -42,7 +42,7 @@ def contrasts(expert: ArrayLike, others: ArrayLike) -> Floats:
     return mu - found
 
 
-def widest_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
+def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
     """The weights theta, ||theta|| <= 1, that make the least of theta . (mu_E - mu_j) largest (Abbeel and Ng 2004).
 
     A quadratic program. Written as min ||w||^2 with w . (mu_E - mu_j) >= 1, it is the least-distance problem of Lawson
@@ -73,12 +73,12 @@ def widest_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
     return Margin(weights, max(float((apart @ weights).min()), 0.0))
 
 
-def widest_margin_subgradient(
+def maximum_margin_subgradient(
     expert: ArrayLike, others: ArrayLike, *, iterations: int = 10_000
 ) -> Margin:
     """The same by projected subgradient ascent: step towards the closest rival's contrast, back into the unit ball.
 
-    Slower and less exact than :func:`widest_margin`; it needs nothing but the one worst policy at a time, which is what
+    Slower and less exact than :func:`maximum_margin`; it needs nothing but the one worst policy at a time, which is what
     makes it usable where the policies are found by learning.
 
     Parameters
@@ -96,11 +96,11 @@ def widest_margin_subgradient(
         worst = int(advantage.argmin())
         if advantage[worst] > best.margin:
             best = Margin(weights, float(advantage[worst]))
-        weights = into_unit_ball(weights + apart[worst] / (scale * np.sqrt(k)))
+        weights = project_to_unit_ball(weights + apart[worst] / (scale * np.sqrt(k)))
     return best
 
 
-def into_unit_ball(weights: Floats) -> Floats:
+def project_to_unit_ball(weights: Floats) -> Floats:
     """The nearest weights with ||theta|| <= 1."""
     length = np.linalg.norm(weights)
     return weights / length if length > 1 else weights

@@ -18,8 +18,8 @@ from robonav.errors import ConvergenceWarning
 from robonav.mdp.models import FiniteMDP
 from robonav.validation import check_array, check_integer, check_positive, check_real
 
-from .feature_expectations import start_expectations
-from .reward_free_mdp import FeaturedMDP
+from .feature_expectations import initial_expectations
+from .reward_free_mdp import RewardFreeMDP
 
 Floats = NDArray[np.float64]
 
@@ -105,7 +105,7 @@ def soft_value_iteration(
 
 
 def maximum_entropy(
-    mdp: FeaturedMDP,
+    mdp: RewardFreeMDP,
     expert: ArrayLike,
     *,
     ridge: float = 1e-6,
@@ -134,7 +134,7 @@ def maximum_entropy(
         nonlocal values
         soft = soft_value_iteration(mdp.with_reward(theta), start=values)
         values = soft.values
-        gap = mu - start_expectations(mdp, soft.policy)
+        gap = mu - initial_expectations(mdp, soft.policy)
         log_likelihood = float(
             theta @ mu - mdp.starts @ soft.values - decay / 2 * theta @ theta
         )

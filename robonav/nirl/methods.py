@@ -13,18 +13,18 @@ from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.validation import check_generator, check_integer, check_one_of, check_real
 
-from .apprenticeship import by_projection
-from .feature_expectations import discounted_to_go, empirical_expectations
-from .features import action_blocks, chosen_block
+from .apprenticeship import projection_method
+from .feature_expectations import discounted_feature_sums, empirical_expectations
+from .features import all_action_features, state_action_features
 from .model_selection import balanced_accuracy
-from .nirl import Found, History, Practice, Score, nirl, practise
-from .policy_improvement import SampledDescent
+from .nirl import Found, History, Practice, Score, nirl, train_under_reward
+from .policy_improvement import ReplaySGD
 from .refinement import Refined
 from .relative_entropy import relative_entropy
 from .reward_update import balance
-from .scirl import lstd_mu, shown_only, structured_classification
-from .tasks import RobotCourse, collect, start_at
-from .transitions import Floats, Steps, shown_steps
+from .scirl import heuristic_mu, lstd_mu, structured_classification
+from .tasks import RobotTask, collect, start_at
+from .transitions import Floats, Steps, expert_transitions
 
 Refinement = Callable[[Any, Any, int], Refined]
 
@@ -70,13 +70,13 @@ def learn(
 
 
 def prepared(
-    demonstrations: Demonstrations, course: RobotCourse, refine: Refinement | None
+    demonstrations: Demonstrations, course: RobotTask, refine: Refinement | None
 ) -> Steps:
     """The expert's decisions as the course's encoder sees them, refined if asked for.
 
     States count as equal where all that the network reads is equal.
     """
-    shown = shown_steps(demonstrations, course.encoder)
+    shown = expert_transitions(demonstrations, course.encoder)
     if refine is None:
         return shown
     return shown.with_actions(
@@ -87,7 +87,7 @@ def prepared(
 def learn_nirl(
     demonstrations: Demonstrations,
     *,
-    course: RobotCourse | None = None,
+    course: RobotTask | None = None,
     refine: Refinement | None = None,
     seed: int | np.random.Generator,
     **settings: Any,
@@ -98,10 +98,10 @@ def learn_nirl(
     ----------
     demonstrations : of an expert.
     course : where the robot practises: by default 10 drives an iteration, 20 obstacles, 2 m/s.
-    refine : :func:`most_frequent` or :func:`most_telling`, for an expert that contradicts itself (5.12).
+    refine : :func:`most_frequent` or :func:`map_uniform_prior`, for an expert that contradicts itself (5.12).
     settings : of :func:`~robonav.nirl.nirl`: iterations, eta, reward, improve, score and so on.
     """
-    ground = course or RobotCourse()
+    ground = course or RobotTask()
     return _learned(
         nirl(prepared(demonstrations, ground, refine), ground, seed=seed, **settings),
         ground,
@@ -112,31 +112,33 @@ Expectations = Callable[[Steps, int, float], Floats]
 """``expectations(steps, actions, discount) -> (A (k + 1),)``: feature expectations of a driver."""
 
 
-def from_start(steps: Steps, actions: int, discount: float) -> Floats:
+def from_initial_state(steps: Steps, actions: int, discount: float) -> Floats:
     """Discounted from each drive's first decision on: Eq. (5.13). What comes a dozen decisions later hardly counts."""
     return empirical_expectations(
-        chosen_block(steps.features, steps.actions, actions), steps.trajectory, discount
+        state_action_features(steps.features, steps.actions, actions),
+        steps.trajectory,
+        discount,
     )
 
 
-def from_everywhere(steps: Steps, actions: int, discount: float) -> Floats:
+def from_all_states(steps: Steps, actions: int, discount: float) -> Floats:
     """Discounted from every decision on, and averaged over them all: each part of a drive counts alike."""
-    features = chosen_block(steps.features, steps.actions, actions)
-    return discounted_to_go(features, steps.trajectory, discount).mean(axis=0)
+    features = state_action_features(steps.features, steps.actions, actions)
+    return discounted_feature_sums(features, steps.trajectory, discount).mean(axis=0)
 
 
 def learn_apprenticeship(
     demonstrations: Demonstrations,
     *,
-    course: RobotCourse | None = None,
+    course: RobotTask | None = None,
     refine: Refinement | None = None,
-    search: Callable[..., Any] = by_projection,
-    expectations: Expectations = from_everywhere,
+    search: Callable[..., Any] = projection_method,
+    expectations: Expectations = from_all_states,
     guesses: int = 14,
     iterations: int = 140,
     hidden: int = 10,
     eta: float = 25.0,
-    improve: SampledDescent | None = None,
+    improve: ReplaySGD | None = None,
     score: Score = balanced_accuracy,
     seed: int | np.random.Generator,
     progress: Progress | None = None,
@@ -145,15 +147,15 @@ def learn_apprenticeship(
 
     Parameters
     ----------
-    search : :func:`by_projection` or :func:`by_max_margin`.
-    expectations : :func:`from_everywhere`, or :func:`from_start` to the letter.
+    search : :func:`projection_method` or :func:`max_margin_method`.
+    expectations : :func:`from_all_states`, or :func:`from_initial_state` to the letter.
     guesses : rewards tried. They share the ``iterations``, and the network goes on from reward to reward.
 
     The others are those of :func:`learn_nirl`.
     """
-    ground = course or RobotCourse()
+    ground = course or RobotTask()
     shown = prepared(demonstrations, ground, refine)
-    better = improve or SampledDescent()
+    better = improve or ReplaySGD()
     each = max(
         check_integer("iterations", iterations, at_least=1)
         // check_integer("guesses", guesses, at_least=1),
@@ -188,12 +190,12 @@ def learn_apprenticeship(
 def learn_relative_entropy(
     demonstrations: Demonstrations,
     *,
-    course: RobotCourse | None = None,
+    course: RobotTask | None = None,
     refine: Refinement | None = None,
     samples: int = 6000,
     horizon: int = 5,
     slack: float = 0.05,
-    improve: SampledDescent | None = None,
+    improve: ReplaySGD | None = None,
     seed: int | np.random.Generator,
     **settings: Any,
 ) -> Learned:
@@ -210,9 +212,9 @@ def learn_relative_entropy(
 
     The others are those of :func:`learn_nirl`. The maps must stand still: segments begin in the middle of a drive.
     """
-    ground = course or RobotCourse()
+    ground = course or RobotTask()
     shown = prepared(demonstrations, ground, refine)
-    better, rng = improve or SampledDescent(), check_generator("seed", seed)
+    better, rng = improve or ReplaySGD(), check_generator("seed", seed)
     expert = segments(
         shown,
         ground.actions,
@@ -226,8 +228,8 @@ def learn_relative_entropy(
         horizon,
         rng,
     )
-    drawn = discounted_to_go(
-        chosen_block(random.features, random.actions, ground.actions),
+    drawn = discounted_feature_sums(
+        state_action_features(random.features, random.actions, ground.actions),
         random.trajectory,
         better.discount,
     )[np.flatnonzero(np.diff(random.trajectory, prepend=-1))]
@@ -237,27 +239,28 @@ def learn_relative_entropy(
     )
     theta = found.weights.reshape(ground.actions, -1)
     return _learned(
-        practise(shown, ground, theta, improve=better, seed=rng, **settings), ground
+        train_under_reward(shown, ground, theta, improve=better, seed=rng, **settings),
+        ground,
     )
 
 
 def segments(steps: Steps, actions: int, discount: float, horizon: int) -> Floats:
     """Discounted features of ``horizon`` decisions from each one on, (M, A (k + 1)); fewer at the end of a drive."""
-    features = chosen_block(steps.features, steps.actions, actions)
-    to_go = discounted_to_go(features, steps.trajectory, discount)
+    features = state_action_features(steps.features, steps.actions, actions)
+    to_go = discounted_feature_sums(features, steps.trajectory, discount)
     beyond = np.arange(len(steps)) + horizon
     inside = beyond < len(steps)
     inside[inside] = steps.trajectory[beyond[inside]] == steps.trajectory[inside]
     to_go[inside] -= (
         discount**horizon
-        * discounted_to_go(features, steps.trajectory, discount)[beyond[inside]]
+        * discounted_feature_sums(features, steps.trajectory, discount)[beyond[inside]]
     )
     return to_go
 
 
 def random_segments(
     demonstrations: Demonstrations,
-    course: RobotCourse,
+    course: RobotTask,
     samples: int,
     horizon: int,
     rng: np.random.Generator,
@@ -278,19 +281,19 @@ Estimate = Callable[[Steps, int, float], Floats]
 """``estimate(shown, actions, discount) -> (M, A, A (k + 1))``: mu_E(s_t, a) of every action in the states shown."""
 
 
-def by_lstd(shown: Steps, actions: int, discount: float) -> Floats:
+def lstd_estimate(shown: Steps, actions: int, discount: float) -> Floats:
     """LSTD-mu over the state-action features themselves: what one action leads to is guessed from similar states."""
-    own = chosen_block(shown.features, shown.actions, actions)
+    own = state_action_features(shown.features, shown.actions, actions)
     following = np.where(shown.after[:, None] >= 0, own[shown.after], 0.0)
     coefficients = lstd_mu(own, following, own, discount, ridge=1e-3)
-    return action_blocks(shown.features, actions) @ coefficients
+    return all_action_features(shown.features, actions) @ coefficients
 
 
-def by_heuristic(shown: Steps, actions: int, discount: float) -> Floats:
+def heuristic_estimate(shown: Steps, actions: int, discount: float) -> Floats:
     """Monte Carlo for the expert's own actions; gamma times that for all others (Klein et al. 2012)."""
-    own = chosen_block(shown.features, shown.actions, actions)
-    return shown_only(
-        discounted_to_go(own, shown.trajectory, discount),
+    own = state_action_features(shown.features, shown.actions, actions)
+    return heuristic_mu(
+        discounted_feature_sums(own, shown.trajectory, discount),
         shown.actions,
         actions,
         discount,
@@ -300,12 +303,12 @@ def by_heuristic(shown: Steps, actions: int, discount: float) -> Floats:
 def learn_scirl(
     demonstrations: Demonstrations,
     *,
-    course: RobotCourse | None = None,
+    course: RobotTask | None = None,
     refine: Refinement | None = None,
-    estimate: Estimate = by_lstd,
+    estimate: Estimate = lstd_estimate,
     ridge: float = 1e-6,
     power: float = 1.0,
-    improve: SampledDescent | None = None,
+    improve: ReplaySGD | None = None,
     seed: int | np.random.Generator,
     **settings: Any,
 ) -> Learned:
@@ -313,16 +316,16 @@ def learn_scirl(
 
     Parameters
     ----------
-    estimate : of mu_E, :func:`by_lstd` or :func:`by_heuristic`.
+    estimate : of mu_E, :func:`lstd_estimate` or :func:`heuristic_estimate`.
     ridge : lambda of the classifier.
     power : how far rare actions are made up for, see :func:`balance`; 0 is the paper's cost, to which they are too few
         to matter.
 
     The others are those of :func:`learn_nirl`.
     """
-    ground = course or RobotCourse()
+    ground = course or RobotTask()
     shown = prepared(demonstrations, ground, refine)
-    better = improve or SampledDescent()
+    better = improve or ReplaySGD()
     mu = estimate(shown, ground.actions, better.discount)
     share = balance(shown.actions, ground.actions, power=power)
     classified = structured_classification(
@@ -330,7 +333,8 @@ def learn_scirl(
     )
     theta = classified.weights.reshape(ground.actions, -1)
     return _learned(
-        practise(shown, ground, theta, improve=better, seed=seed, **settings), ground
+        train_under_reward(shown, ground, theta, improve=better, seed=seed, **settings),
+        ground,
     )
 
 
@@ -342,22 +346,22 @@ METHODS: dict[str, Callable[..., Learned]] = {
 }
 
 
-def learn_under(
+def learn_under_reward(
     demonstrations: Demonstrations,
     weights: Floats,
     *,
-    course: RobotCourse | None = None,
+    course: RobotTask | None = None,
     seed: int | np.random.Generator,
     **settings: Any,
 ) -> Learned:
     """A policy for a given reward theta (5, k + 1): a control (zero, random), or a reward learned elsewhere.
 
-    The demonstrations only choose among the policies found. Settings are those of :func:`~robonav.nirl.practise`.
+    The demonstrations only choose among the policies found. Settings: see :func:`~robonav.nirl.train_under_reward`.
     """
-    ground = course or RobotCourse()
+    ground = course or RobotTask()
     return _learned(
-        practise(
-            shown_steps(demonstrations, ground.encoder),
+        train_under_reward(
+            expert_transitions(demonstrations, ground.encoder),
             ground,
             weights,
             seed=seed,
@@ -367,7 +371,7 @@ def learn_under(
     )
 
 
-def _learned(found: Found, course: RobotCourse) -> Learned:
+def _learned(found: Found, course: RobotTask) -> Learned:
     return Learned(
         NetworkPolicy(found.network, course.encoder),
         found.weights,

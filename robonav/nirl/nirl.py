@@ -14,10 +14,10 @@ from robonav.progress import Progress
 from robonav.validation import check_array, check_generator, check_integer, check_real
 
 from .boltzmann import boltzmann
-from .max_margin import into_unit_ball
+from .max_margin import project_to_unit_ball
 from .model_selection import accuracy, balanced_accuracy
-from .policy_improvement import Improver, SampledDescent
-from .reward_update import ByContrast, balance, contrast
+from .policy_improvement import Improver, ReplaySGD
+from .reward_update import SubgradientMaxMargin, balance, contrast
 from .tasks import Course
 from .transitions import Floats, Steps
 
@@ -120,8 +120,8 @@ def nirl(
     tolerance : epsilon: ends when the margin is no larger than this.
     hidden : units of the network.
     eta : of the Boltzmann policy (5.10) over the network's outputs, which lie between 0 and 1.
-    reward : step 5, by default :class:`ByContrast`; :class:`ByEquation514` is the thesis to the letter.
-    improve : step 10, by default :class:`SampledDescent`; :class:`OneStep` is the thesis to the letter.
+    reward : step 5, by default :class:`SubgradientMaxMargin`; :class:`LeastSquaresReward` is the thesis to the letter.
+    improve : step 10, by default :class:`ReplaySGD`; :class:`SingleGradientStep` is the thesis to the letter.
     score : by which the policy to keep is chosen: :func:`balanced_accuracy`, or the thesis's :func:`accuracy`.
     seed : a whole number or a generator.
     progress : called as ``progress(done, iterations)``.
@@ -130,9 +130,9 @@ def nirl(
     ------
     ValueError : if nothing was shown, an action shown does not exist, or an argument is out of bounds.
     """
-    rule = reward or ByContrast()
+    rule = reward or SubgradientMaxMargin()
     epsilon = check_real("tolerance", tolerance)
-    practice = Practice(shown, course, hidden, eta, improve or SampledDescent(), seed)
+    practice = Practice(shown, course, hidden, eta, improve or ReplaySGD(), seed)
     theta = np.zeros((course.actions, shown.features.shape[1]))
     for iteration in range(1, check_integer("iterations", iterations, at_least=1) + 1):
         practice.drive()
@@ -145,7 +145,7 @@ def nirl(
     return practice.found(score)
 
 
-def practise(
+def train_under_reward(
     shown: Steps,
     course: Course,
     weights: Floats,
@@ -162,7 +162,7 @@ def practise(
 
     The demonstrations serve to choose among the policies found, and for nothing else. Parameters as in :func:`nirl`.
     """
-    practice = Practice(shown, course, hidden, eta, improve or SampledDescent(), seed)
+    practice = Practice(shown, course, hidden, eta, improve or ReplaySGD(), seed)
     theta = check_array(
         "weights", weights, shape=(course.actions, shown.features.shape[1])
     )
@@ -241,7 +241,7 @@ class Practice:
 
     def iterate(self, theta: Floats, fraction: float) -> float:
         """Improve the network for the reward theta; the margin by which that reward prefers the expert to it before."""
-        weights = into_unit_ball(theta)
+        weights = project_to_unit_ball(theta)
         margin = float(
             (weights * contrast(self.shown, self.chances, self._balance)).sum()
         )

@@ -15,11 +15,11 @@ from robonav.validation import check_integer, check_positive, check_real
 
 from .transitions import Floats, Steps, joined
 
-BONUS = (0.0, 1.0)
+SURVIVAL_BONUS = (0.0, 1.0)
 """A collision ends it all with the worst there is, any other end with the best: a reward for survival."""
-NOTHING = (0.0, 0.0)
+ZERO_TERMINAL_VALUES = (0.0, 0.0)
 """Whatever ends a drive, nothing more is to be had. With rewards of at least 0 this too rewards survival."""
-NEUTRAL = (0.5, 0.5)
+NEUTRAL_TERMINAL_VALUES = (0.5, 0.5)
 """Any end is worth what the mean reward for ever would be: how a drive ended teaches nothing."""
 
 
@@ -44,16 +44,16 @@ class Improver(Protocol):
         """The next network and the cost on the way; ``fraction`` of the training is over."""
 
 
-def rewards_of(weights: ArrayLike, steps: Steps) -> Floats:
+def transition_rewards(weights: ArrayLike, steps: Steps) -> Floats:
     """r(s_t, a_t) = theta . f(s_t, a_t), (M,), for weights (A, k + 1): Eq. (5.2) with the blocks of Eq. (5.5)."""
     theta = np.asarray(weights, dtype=float)
     return np.einsum("mk,mk->m", steps.features, theta[steps.actions])
 
 
-def into_unit(rewards: ArrayLike, *, percentile: float = 95.0) -> Floats:
+def scale_to_unit_interval(rewards: ArrayLike, *, percentile: float = 95.0) -> Floats:
     """Rewards in [0, 1], with 1/2 where they were 0: divided by a percentile of their size, clipped, shifted.
 
-    An increasing affine map but for the clipping, so that with NEUTRAL ends it changes no preference. All zeros become
+    An increasing affine map but for the clipping, so that with NEUTRAL_TERMINAL_VALUES ends it changes no preference. All zeros become
     all 1/2.
     """
     r = np.asarray(rewards, dtype=float)
@@ -84,7 +84,7 @@ def sarsa_targets(
 
 
 @dataclass(frozen=True)
-class SampledDescent:
+class ReplaySGD:
     """Many small steps an iteration, each for one decision drawn from the last few iterations' drives.
 
     The network's output is y = (1 - gamma) Q, which lies in [0, 1] when rewards do: nothing is cut off, and the target
@@ -97,7 +97,7 @@ class SampledDescent:
     rate : sigma at the first and at the last iteration, falling by the same factor each.
     samples : decisions drawn an iteration.
     replay : iterations whose drives are remembered.
-    ends : what is left to be had after a collision and after any other end, in [0, 1]: see ``BONUS``, ``NEUTRAL``.
+    ends : what is left to be had after a collision and after any other end, in [0, 1]: see ``SURVIVAL_BONUS``, ``NEUTRAL_TERMINAL_VALUES``.
     """
 
     discount: float = 0.65
@@ -105,7 +105,7 @@ class SampledDescent:
     rate: tuple[float, float] = (0.4, 0.1)
     samples: int = 9600
     replay: int = 20
-    ends: tuple[float, float] = BONUS
+    ends: tuple[float, float] = SURVIVAL_BONUS
 
     def __post_init__(self) -> None:
         check_real("discount", self.discount, at_least=0, below=1)
@@ -131,7 +131,9 @@ class SampledDescent:
         steps = joined(drives[-self.replay :])
         if len(steps) == 0:
             return Improved(network, np.nan)
-        rewards = (1 - self.discount) * into_unit(rewards_of(weights, steps))
+        rewards = (1 - self.discount) * scale_to_unit_interval(
+            transition_rewards(weights, steps)
+        )
         ends = np.where(steps.failed[steps.trajectory], *self.ends)
         w1, w2 = (weight.T.copy(order="C") for weight in network.weights)
         b1, b2 = (bias.copy() for bias in network.biases)
@@ -145,11 +147,11 @@ class SampledDescent:
 
 
 @dataclass(frozen=True)
-class OneStep:
+class SingleGradientStep:
     """Algorithm 10 to the letter: one gradient step on the cost (5.15) an iteration, over its own drives alone.
 
     Targets are (5.16) as it stands, cut off at 0 and 1; nothing follows the last decision of a drive.
-    Attributes as in :class:`SampledDescent`; ``regularisation`` is lambda of Eq. (5.15).
+    Attributes as in :class:`ReplaySGD`; ``regularisation`` is lambda of Eq. (5.15).
     """
 
     discount: float = 0.65
@@ -175,7 +177,7 @@ class OneStep:
         targets = outputs.copy()
         targets[row, steps.actions] = sarsa_targets(
             q,
-            rewards_of(weights, steps),
+            transition_rewards(weights, steps),
             following,
             alpha=self.alpha,
             discount=self.discount,

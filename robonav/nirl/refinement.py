@@ -74,7 +74,7 @@ def most_frequent(states: ArrayLike, shown: ArrayLike, actions: int) -> Refined:
     return _refined(table, which, table, shown)
 
 
-def most_telling(states: ArrayLike, shown: ArrayLike, actions: int) -> Refined:
+def map_uniform_prior(states: ArrayLike, shown: ArrayLike, actions: int) -> Refined:
     """Give every step the action under which its state is likeliest: argmax_a P(s | a), Eq. (5.12), uniform prior.
 
     The thesis says that this too is the action shown most often. It is not: an action that is rarely shown at all, once

@@ -19,7 +19,7 @@ Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
-class FeaturedMDP:
+class RewardFreeMDP:
     r"""A finite MDP without its reward, MDP\\R, and K features in which the reward is linear (Eq. (5.2)).
 
     Parameters
@@ -60,7 +60,7 @@ class FeaturedMDP:
     @classmethod
     def of_grid(
         cls, grid: GridWorld, cell_features: ArrayLike, discount: float
-    ) -> FeaturedMDP:
+    ) -> RewardFreeMDP:
         """A gridworld with features phi(s') of the cell that a step ends in, (S, K).
 
         f(s, a) = sum_s' T(s, a, s') phi(s'): so a step that may slip is worth what it may lead to. A terminal cell

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from robonav.validation import check_real
 
-from .feature_expectations import discounted_to_go
-from .features import chosen_block
-from .max_margin import into_unit_ball
+from .feature_expectations import discounted_feature_sums
+from .features import state_action_features
+from .max_margin import project_to_unit_ball
 from .transitions import Floats, Steps
 
 
@@ -42,7 +42,7 @@ def contrast(shown: Steps, chances: Floats, weights: Floats) -> Floats:
 
 
 @dataclass(frozen=True)
-class ByContrast:
+class SubgradientMaxMargin:
     """Max-margin by subgradient steps: theta gathers the contrasts to one policy after the other.
 
     The margin sum_t w_t [r(s_t, a_t) - sum_a pi(a | s_t) r(s_t, a)] is linear in theta, with :func:`contrast` as its
@@ -71,7 +71,7 @@ class ByContrast:
 
 
 @dataclass(frozen=True)
-class ByEquation514:
+class LeastSquaresReward:
     """Eq. (5.14) to the letter: the theta in the unit ball that minimises it.
 
     J(theta) = mean_t (theta . mu_E(s_t, a_t) - Q(s_t, a_t))^2 + lambda ||theta||, with mu_E the discounted features of
@@ -98,8 +98,8 @@ class ByEquation514:
     ) -> Floats:
         """Theta (A, k + 1); arguments as in ``RewardRule``."""
         actions = values.shape[1]
-        mu = discounted_to_go(
-            chosen_block(shown.features, shown.actions, actions),
+        mu = discounted_feature_sums(
+            state_action_features(shown.features, shown.actions, actions),
             shown.trajectory,
             self.discount,
         )
@@ -109,7 +109,7 @@ class ByEquation514:
         for _ in range(self.steps):
             slope = 2 * mu.T @ (mu @ theta - q) / len(mu)
             length = np.linalg.norm(theta)
-            theta = into_unit_ball(
+            theta = project_to_unit_ball(
                 theta
                 - rate * (slope + (self.ridge / length * theta if length > 0 else 0.0))
             )

@@ -62,7 +62,7 @@ def lstd_mu(
     return np.linalg.solve(equations, psi.T @ f)
 
 
-def shown_only(
+def heuristic_mu(
     expectations: ArrayLike, shown: ArrayLike, actions: int, discount: float
 ) -> Floats:
     """mu_E(s, a) of every action, (M, A, K), where only the expert's own is known (Klein et al. 2012, section 5).
@@ -73,7 +73,7 @@ def shown_only(
     Parameters
     ----------
     expectations : mu(s_t, a_t) of the expert's steps, (M, K), for instance by
-        :func:`~robonav.nirl.discounted_to_go`.
+        :func:`~robonav.nirl.discounted_feature_sums`.
     shown : the expert's actions a_t, (M,).
     """
     mu = check_array("expectations", expectations, shape=("M", "K"))

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from robonav.lfd.demonstrations import LEARNED
 from robonav.networks.policy import sample_actions
 from robonav.robot import Encoder, Sensing, Simulator, Worlds, drive, random_worlds
-from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
+from robonav.robot._fast import ARRIVED, COLLIDED
 from robonav.validation import check_integer, check_positive
 
-from .reward_free_mdp import FeaturedMDP
+from .reward_free_mdp import RewardFreeMDP
 from .transitions import ENCODER, Floats, Ints, Steps
 
 Chances = Callable[[Floats], Floats]
@@ -38,7 +38,7 @@ class Course(Protocol):
 
 
 @dataclass(frozen=True)
-class RobotCourse:
+class RobotTask:
     """The robot in new random maps; its reflexes act as ever, and only what the policy decided is kept.
 
     Attributes
@@ -86,28 +86,20 @@ def collect(
     decisions: int | None = None,
 ) -> Steps:
     """Run N episodes with a policy, of ``decisions`` decisions each at most, and keep what the policy decided."""
-    robots = np.arange(len(simulator))
     decided = np.zeros(len(simulator), dtype=np.int64)
-    outcome = np.zeros(len(simulator), dtype=np.int8)
     rows: list[tuple[Ints, Floats, Ints, Ints]] = []
 
-    def choose(simulator: Simulator, sensing: Sensing, asked: Ints) -> Ints:
-        inputs = encoder(sensing[asked])
+    def choose(simulator: Simulator, sensing: Sensing, robots: Ints) -> Ints:
+        inputs = encoder(sensing)
         actions = sample_actions(chances(inputs), rng.random(len(inputs)))
-        seconds = simulator.steps[asked].copy()
-        rows.append((robots[asked], inputs, actions, seconds))
-        decided[robots[asked]] += 1
+        rows.append((robots, inputs, actions, simulator.steps[robots]))
+        decided[robots] += 1
         return actions
 
-    for step in drive(simulator, choose):
-        outcome[robots] = step.outcome
-        over = step.outcome != RUNNING
+    for _ in drive(simulator, choose):
         if decisions is not None:
-            over |= decided[robots] >= decisions
-        if over.any():
-            robots = robots[~over]
-            simulator.keep(~over)
-    return _by_drive(rows, encoder.size, outcome)
+            simulator.stop(np.flatnonzero(decided >= decisions))
+    return _by_drive(rows, encoder.size, simulator.outcome)
 
 
 def _by_drive(
@@ -135,7 +127,7 @@ def _by_drive(
 
 
 @dataclass(frozen=True, eq=False)
-class ModelCourse:
+class TabularTask:
     """A finite MDP as a course: one input a state. A drive ends in a terminal state, or after ``steps``.
 
     Attributes
@@ -145,7 +137,7 @@ class ModelCourse:
     steps : of each at most.
     """
 
-    mdp: FeaturedMDP
+    mdp: RewardFreeMDP
     trajectories: int = 10
     steps: int = 40
 

@@ -82,7 +82,9 @@ def joined(parts: Sequence[Steps]) -> Steps:
     return Steps(**columns)
 
 
-def shown_steps(demonstrations: Demonstrations, encoder: Encoder = ENCODER) -> Steps:
+def expert_transitions(
+    demonstrations: Demonstrations, encoder: Encoder = ENCODER
+) -> Steps:
     """What an expert decided: the effective pairs of its demonstrations.
 
     Raises

@@ -345,6 +345,7 @@ def _sense_borders(size, x, y, heading, rays, ranges, walls):
 def sense(
     start,
     stop,
+    robots,
     kinds,
     shapes,
     centres,
@@ -359,30 +360,32 @@ def sense(
     region,
     seen,
 ):
-    """What the robots ``start`` to ``stop`` read: ranges and wall flags (N, 9), target region 1..9 and seen (N,).
+    """What ``robots[start]`` to ``robots[stop - 1]`` read: ranges and walls (K, 9), target region and seen (K,).
 
-    ``noise`` is the standard deviation, in metres, of an error on every range that sees something.
+    ``robots`` (K,) are rows of the N worlds. ``noise`` is the standard deviation, in metres, of an error on every
+    range that sees something.
     """
     rays = _sector_rays()
-    for i in range(start, stop):
+    for j in range(start, stop):
+        i = robots[j]
         x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
-        ranges[i] = SENSOR_RANGE
-        walls[i] = False
+        ranges[j] = SENSOR_RANGE
+        walls[j] = False
         _sense_obstacles(
-            kinds[i], shapes[i], centres[i], x, y, heading, rays, ranges[i]
+            kinds[i], shapes[i], centres[i], x, y, heading, rays, ranges[j]
         )
-        _sense_borders(size, x, y, heading, rays, ranges[i], walls[i])
+        _sense_borders(size, x, y, heading, rays, ranges[j], walls[j])
         for k in range(SENSORS):
-            distance = _micrometres(ranges[i, k])
+            distance = _micrometres(ranges[j, k])
             if noise > 0.0 and distance < SENSOR_RANGE:
                 error = noise * _normal(keys[i], SENSING, steps[i], k)
                 distance = _micrometres(min(max(distance + error, 0.0), SENSOR_RANGE))
-            ranges[i, k] = distance
-            walls[i, k] = walls[i, k] and distance < SENSOR_RANGE
+            ranges[j, k] = distance
+            walls[j, k] = walls[j, k] and distance < SENSOR_RANGE
         tx, ty = targets[i, 0] - x, targets[i, 1] - y
         bearing = math.atan2(ty, tx) - heading
-        region[i] = 1 + math.floor(_micrometres(bearing) / SECTOR + 0.5) % SENSORS
-        seen[i] = _micrometres(math.hypot(tx, ty)) <= SENSOR_RANGE
+        region[j] = 1 + math.floor(_micrometres(bearing) / SECTOR + 0.5) % SENSORS
+        seen[j] = _micrometres(math.hypot(tx, ty)) <= SENSOR_RANGE
 
 
 @compiled
@@ -465,25 +468,28 @@ def drift(start, stop, kinds, shapes, speeds, keys, steps, size, centres, headin
 
 @compiled
 def step(
-    start, stop, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, commands, poses, centres, headings,
-    steps, outcome,
+    start, stop, robots, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, actions, poses, centres,
+    headings, steps, outcome,
 ):  # fmt: skip
-    """One second in worlds ``start`` to ``stop``: turn, go; obstacles drift; did it collide, arrive, run out of steps?
+    """One second for ``robots[start]`` to ``robots[stop - 1]``: turn, go; did it collide, arrive, run out of steps?
 
-    A collision anywhere along the way counts. ``slip`` is (6, 6), or (0, 0) for none. Worlds whose outcome is no longer
-    RUNNING stand still.
+    A collision anywhere along the way counts. ``slip`` is (6, 6), or (0, 0) for none; where a robot slips, ``actions``
+    (K,) gets what it did instead. Robots whose outcome is no longer RUNNING stand still.
     """
     before = np.empty_like(centres[0])
-    for i in range(start, stop):
+    for j in range(start, stop):
+        i = robots[j]
         if outcome[i] != RUNNING:
             continue
         x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
-        action = commands[i]
+        action = actions[j]
         if action == TO_TARGET:
             heading = math.atan2(targets[i, 1] - y, targets[i, 0] - x)
             action = 0
         if slip.shape[0] > 0:
-            action = _slipped(action, slip, keys[i], steps[i])
+            slipped = _slipped(action, slip, keys[i], steps[i])
+            if slipped != action:
+                action = actions[j] = slipped
         heading = _wrap(heading + TURNS[action])
         length = -speed if action == BACKWARD else speed
         x1, y1 = x + length * math.cos(heading), y + length * math.sin(heading)

@@ -1,10 +1,13 @@
-"""The one rollout: robots sense, their reflex or a policy chooses, the simulator steps."""
+"""One loop that lets robots act: sense, ask the reflex, ask the policy, move (Algorithm 9 with any policy).
+
+:func:`drive` is that loop. :func:`navigate`, demonstrations, DAgger, Q-learning and the episodes of inverse
+reinforcement learning stand on it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,152 +16,155 @@ from robonav.progress import Progress
 from robonav.validation import check_generator
 
 from ._fast import RUNNING
-from .simulator import OUTCOMES, Action, Reflex, Sensing, Simulator, check_actions
+from .simulator import OUTCOMES, Reflex, Sensing, Simulator, check_actions
 from .worlds import Worlds
 
 Policy = Callable[[Sensing, np.random.Generator], ArrayLike]
 """``policy(sensing, rng) -> (N,)`` indices of actions, for any number N of robots."""
 
+Chooser = Callable[[Simulator, Sensing, NDArray[np.int64]], ArrayLike]
+"""``choose(simulator, sensing, robots) -> (K,)`` actions of the robots with these indices (K,) in the simulator.
+
+``sensing`` has K rows: what these robots sense."""
+
 ReflexRule = Callable[[Sensing, float], NDArray[np.int64]]
-"""``reflex(sensing, speed) -> (N,)`` actions, -1 where the policy decides."""
+"""``reflex(sensing, speed) -> (N,)`` actions, -1 where the policy decides; see :class:`Reflex`."""
 
 REFLEX = Reflex()
 
 
-Chooser = Callable[[Simulator, Sensing, NDArray[np.int64]], ArrayLike]
-"""``choose(simulator, sensing, asked) -> (n,)`` actions of the robots with indices ``asked`` (n,)."""
-
-
 @dataclass(frozen=True, eq=False)
 class Transition:
-    """One simulated second of the N robots of a simulator.
+    """One simulated second of the K robots that were running.
 
     Attributes
     ----------
-    simulator : Simulator
-        The simulator after the step.
-    running : (N,) array of bool
-        Whether the robot was still running before the step. The other rows of a transition mean nothing.
-    asked : (N,) array of bool
-        Whether the policy chose the action. Elsewhere the reflex did.
+    robots : (K,) int array
+        Indices of these robots in the simulator, ascending.
     sensing : Sensing
-        What the robots sensed before the step, N rows.
-    poses : (N, 3) array
-        Their x, y (metres) and heading (radians) before the step.
-    actions : (N,) array of int
-        The actions commanded, members of :class:`robonav.robot.Action`.
-    outcome : (N,) array of int
-        How each episode stands after the step: an index into :data:`robonav.robot.OUTCOMES`.
+        What they perceived before they acted.
+    actions : (K,) int array
+        What they were told to do, by the reflex or by the policy.
+    executed : (K,) int array
+        What they did: ``actions``, or another action where a robot slipped.
+    asked : (K,) bool array
+        Whether the policy chose the action; elsewhere the reflex did.
+    poses : (K, 3) array
+        x and y in metres and the heading in radians, before they acted.
+    next_sensing : Sensing
+        What they perceived afterwards.
+    outcome : (K,) int array
+        How their episodes stand afterwards: codes into ``OUTCOMES``, 0 for those that go on.
     """
 
-    simulator: Simulator
-    running: NDArray[np.bool_]
-    asked: NDArray[np.bool_]
+    robots: NDArray[np.int64]
     sensing: Sensing
-    poses: NDArray[np.float64]
     actions: NDArray[np.int64]
+    executed: NDArray[np.int64]
+    asked: NDArray[np.bool_]
+    poses: NDArray[np.float64]
+    next_sensing: Sensing
     outcome: NDArray[np.int8]
-
-    @cached_property
-    def next_sensing(self) -> Sensing:
-        """What the robots sense after the step, N rows. Read it before the simulator moves on."""
-        return self.simulator.sense()
 
 
 def drive(
     simulator: Simulator, choose: Chooser, *, reflex: ReflexRule | None = REFLEX
 ) -> Iterator[Transition]:
-    """Step the robots of a simulator until none of them is running.
+    """Let the robots of a simulator act until none is running; one transition a simulated second.
 
-    Between two transitions the caller may change the simulator: put robots into new worlds
-    (:meth:`Simulator.restart`) or go on with some of them (:meth:`Simulator.keep`).
+    A robot leaves when its episode ends. Between two transitions the caller may end an episode
+    (:meth:`Simulator.stop`) or begin a new one (:meth:`Simulator.restart`); the loop goes on with whoever is running.
 
     Parameters
     ----------
     simulator : Simulator
         N robots, one a world.
     choose : callable
-        ``choose(simulator, sensing, asked)`` returns the actions of the robots ``asked``; see
-        :func:`follow_policy` for a policy.
+        ``choose(simulator, sensing, robots)`` returns the actions of those K ``robots`` whose reflex does not decide;
+        :func:`follow_policy` makes one of a policy.
     reflex : callable, optional
-        What the robot does before ``choose`` is asked. None leaves every step to ``choose``.
+        What a robot does before ``choose`` is asked. None leaves every step to ``choose``.
 
     Yields
     ------
     Transition
-        One a simulated second.
+        Arrays of its own, which later seconds do not change.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the actions chosen are not whole numbers 0 to 5, one a robot.
 
     Examples
     --------
     >>> from robonav.robot import Simulator, drive, follow_policy, random_worlds, straight
-    >>> simulator = Simulator(random_worlds(3, obstacles=0, seed=1))
-    >>> sum(transition.running.sum() for transition in drive(simulator, follow_policy(straight)))
-    np.int64(168)
+    >>> simulator = Simulator(random_worlds(3, obstacles=10, seed=2))
+    >>> seconds = list(drive(simulator, follow_policy(straight, rng=0)))
+    >>> seconds[0].robots.tolist(), seconds[-1].robots.tolist()
+    ([0, 1, 2], [0])
     """
-    while (running := simulator.outcome == RUNNING).any():
-        sensing, poses = simulator.sense(), simulator.poses.copy()
-        actions = reflex_actions(reflex, sensing, simulator.speed)
-        asked = running & (actions < 0)
-        actions[~running] = Action.F  # these robots stand still
+    reflex = reflex or undecided
+    robots = np.flatnonzero(simulator.outcome == RUNNING)
+    sensing = simulator.sense(robots)
+    while len(robots):
+        actions = reflex(sensing, simulator.speed)
+        asked = actions < 0
         if asked.any():
-            actions[asked] = choose(simulator, sensing, np.flatnonzero(asked))
-        simulator.step(actions)
-        outcome = simulator.outcome.copy()
-        yield Transition(simulator, running, asked, sensing, poses, actions, outcome)
+            chosen = choose(simulator, sensing[asked], robots[asked])
+            actions[asked] = check_actions(chosen, (int(asked.sum()),))
+        poses = simulator.poses[robots]
+        executed = simulator.step(actions, robots)
+        outcome, after = simulator.outcome[robots], simulator.sense(robots)
+        yield Transition(
+            robots, sensing, actions, executed, asked, poses, after, outcome
+        )
+        left = simulator.outcome[robots] != RUNNING
+        robots = np.flatnonzero(simulator.outcome == RUNNING)
+        if not simulator.steps[robots].all():  # the caller has restarted a robot
+            sensing = simulator.sense(robots)
+        else:
+            sensing = after[~left] if left.any() else after
 
 
-def reflex_actions(
-    reflex: ReflexRule | None, sensing: Sensing, speed: float
-) -> NDArray[np.int64]:
-    """Return the actions (N,) of a reflex, -1 where the policy decides."""
-    return np.full(len(sensing), -1) if reflex is None else reflex(sensing, speed)
+def undecided(sensing: Sensing, speed: float) -> NDArray[np.int64]:
+    """The reflex of a robot that has none: -1 (N,), the policy decides everywhere."""
+    return np.full(len(sensing), -1)
 
 
-def follow_policy(policy: Policy, rng: np.random.Generator | int = 0) -> Chooser:
-    """Let a policy choose in :func:`drive`.
+def follow_policy(policy: Policy, rng: np.random.Generator | int) -> Chooser:
+    """Let a policy, which looks at nothing but what the robots sense, choose in :func:`drive`.
 
     Parameters
     ----------
     policy : callable
         ``policy(sensing, rng)`` returns one action (0 to 5) for each row of ``sensing``.
-    rng : Generator or int
+    rng : numpy.random.Generator or int
         What the policy draws random numbers from.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the policy's actions are not whole numbers 0 to 5, one a robot.
 
     Examples
     --------
     >>> import numpy as np
     >>> from robonav.robot import Simulator, follow_policy, random_worlds, straight
-    >>> simulator = Simulator(random_worlds(3, seed=1))
-    >>> follow_policy(straight)(simulator, simulator.sense(), np.array([0, 2]))
+    >>> simulator, robots = Simulator(random_worlds(3, seed=1)), np.array([0, 2])
+    >>> follow_policy(straight, rng=0)(simulator, simulator.sense(robots), robots)
     array([0, 0])
     """
     generator = check_generator("rng", rng)
-
-    def choose(
-        simulator: Simulator, sensing: Sensing, asked: NDArray[np.int64]
-    ) -> NDArray[np.int64]:
-        return check_actions(policy(sensing[asked], generator), (len(asked),))
-
-    return choose
+    return lambda simulator, sensing, robots: policy(sensing, generator)
 
 
 @dataclass(frozen=True, eq=False)
 class Navigation:
-    """How N robots ended.
+    """How N episodes ended.
 
     Attributes
     ----------
-    outcome : (N,) array of str
+    outcome : (N,) str array
         "arrived", "collided" or "out of steps".
-    steps : (N,) array of int
-        Seconds driven.
-    paths : tuple of arrays, optional
-        N arrays (steps + 1, 3) of x, y (metres) and heading (radians), if recorded.
+    steps : (N,) int array
+        How many seconds each episode took.
+    paths : tuple of (steps + 1, 3) arrays, optional
+        x, y and heading of each robot over time, if recorded; else None.
     """
 
     outcome: NDArray[np.str_]
@@ -167,12 +173,12 @@ class Navigation:
 
     @property
     def success(self) -> NDArray[np.bool_]:
-        """(N,) whether the robot arrived."""
+        """Which robots arrived, (N,)."""
         return self.outcome == "arrived"
 
     @property
     def collision(self) -> NDArray[np.bool_]:
-        """(N,) whether the robot collided."""
+        """Which robots collided, (N,)."""
         return self.outcome == "collided"
 
 
@@ -189,43 +195,45 @@ def navigate(
     seed: int | np.random.Generator = 0,
     progress: Progress | None = None,
 ) -> Navigation:
-    """Drive one robot through each of N worlds.
+    """Let a policy steer one robot through each of N worlds.
 
     Parameters
     ----------
     policy : callable
-        ``policy(sensing, rng)`` returns the actions of the robots whose reflex does not decide.
+        ``policy(sensing, rng) -> (K,)`` actions, asked about the K robots whose reflex does not decide.
     worlds : Worlds
-        Batch of N.
+        A batch of N.
     speed : float
-        Metres a second, positive.
+        Of the robots, in m/s; positive.
     max_steps : int
-        Seconds after which an episode is out of steps.
+        An episode ends as "out of steps" after this many seconds.
     record_paths : bool
         Whether to keep the poses.
     reflex : callable, optional
-        What the robot does before the policy is asked. None leaves every step to the policy.
-    slip, noise : array and float, optional
-        Uncertainty of motion and sensing, see :class:`Simulator`.
-    seed : int or Generator
-        Of the random numbers that the policy may draw.
+        What a robot does before the policy is asked; None leaves every step to the policy.
+    slip, noise : (6, 6) array, float
+        Uncertainty of motion and of sensing, see :class:`Simulator`.
+    seed : int or numpy.random.Generator
+        Seed of the generator that the policy is handed.
     progress : callable, optional
-        Called as ``progress(robots done, N)``.
+        ``progress(done, total)``, called each second with the number of episodes that have ended.
 
     Returns
     -------
     Navigation
+        How the episodes ended.
 
     Raises
     ------
     TypeError, ValueError
-        If the policy's actions are not N whole numbers 0 to 5, or an argument is out of bounds.
+        If the policy's actions are not whole numbers 0 to 5, one a robot, or if an argument is out of bounds.
 
     Examples
     --------
-    >>> from robonav.robot import navigate, random_worlds, straight
-    >>> navigate(straight, random_worlds(3, obstacles=0, seed=1)).outcome.tolist()
-    ['arrived', 'arrived', 'arrived']
+    >>> from robonav.robot import navigate, random_worlds, turn_to_clearer_side
+    >>> result = navigate(turn_to_clearer_side, random_worlds(100, obstacles=10, seed=1))
+    >>> int(result.success.sum()), int(result.collision.sum())
+    (97, 1)
     """
     if not callable(policy):
         raise TypeError(
@@ -237,30 +245,26 @@ def navigate(
         )
     choose = follow_policy(policy, check_generator("seed", seed))
     simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
-    n = len(worlds)
-    robots = np.arange(n)
-    outcome, steps = np.zeros(n, dtype=np.int8), np.zeros(n, dtype=np.int64)
-    track = [(robots, simulator.poses.copy())]
-    for transition in drive(simulator, choose, reflex=reflex):
+    n, ended = len(worlds), 0
+    track: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
+    for second in drive(simulator, choose, reflex=reflex):
         if record_paths:
-            track.append((robots, simulator.poses.copy()))
-        ended = transition.outcome != RUNNING
-        if ended.any():
-            outcome[robots[ended]] = transition.outcome[ended]
-            steps[robots[ended]] = simulator.steps[ended]
-            robots = robots[~ended]
-            simulator.keep(~ended)
+            track.append((second.robots, second.poses))
+        ended += int((second.outcome != RUNNING).sum())
         if progress is not None:
-            progress(n - len(robots), n)
+            progress(ended, n)
+    track.append((np.arange(n), simulator.poses))
     return Navigation(
-        OUTCOMES[outcome], steps, _paths(track, n) if record_paths else None
+        OUTCOMES[simulator.outcome],
+        simulator.steps,
+        _by_robot(track, n) if record_paths else None,
     )
 
 
-def _paths(
+def _by_robot(
     track: list[tuple[NDArray[np.int64], NDArray[np.float64]]], n: int
 ) -> tuple[NDArray[np.float64], ...]:
-    """Poses by robot from poses by step."""
+    """The path of each of N robots from (robots, poses) of each second."""
     owners = np.concatenate([owner for owner, _ in track])
     poses = np.concatenate([pose for _, pose in track])
     order = np.argsort(owners, kind="stable")

@@ -18,7 +18,7 @@ from robonav.validation import (
 )
 
 from . import _fast
-from ._fast import RUNNING
+from ._fast import OUT_OF_STEPS, RUNNING
 from .worlds import Worlds
 
 OUTCOMES = np.array(["running", "arrived", "collided", "out of steps"])
@@ -182,6 +182,7 @@ class Simulator:
             "max_steps", max_steps, at_least=1, at_most=NEVER
         )
         self._owns_worlds = False
+        self._everyone = np.arange(len(worlds))
         self.poses = worlds.start_poses
         self.centres = worlds.centres.copy()
         self.headings = worlds.headings.copy()
@@ -191,42 +192,69 @@ class Simulator:
     def __len__(self) -> int:
         return len(self.worlds)
 
-    def sense(self) -> Sensing:
-        """What each robot perceives now."""
-        w, read = self.worlds, Sensing.empty(len(self))
+    def sense(self, robots: NDArray[np.int64] | None = None) -> Sensing:
+        """What ``robots`` (K,) perceive now; by default all N."""
+        rows = self._rows(robots)
+        w, read = self.worlds, Sensing.empty(len(rows))
         _fast.in_threads(
-            _fast.sense, len(self), w.kinds, w.shapes, self.centres, w.size, self.poses, w.targets, w.keys,
+            _fast.sense, len(rows), rows, w.kinds, w.shapes, self.centres, w.size, self.poses, w.targets, w.keys,
             self.steps, self.noise, read.ranges, read.walls, read.target_region, read.target_seen,
         )  # fmt: skip
         return read
 
-    def step(self, commands: NDArray[np.int64]) -> None:
-        """One second for every robot still running; ``commands`` (N,) of ``Action``.
+    def step(
+        self, commands: NDArray[np.int64], robots: NDArray[np.int64] | None = None
+    ) -> NDArray[np.int64]:
+        """One second for ``robots`` (K,), by default all N; those whose episode has ended stand still.
+
+        Parameters
+        ----------
+        commands : (K,) int64 array
+            What each robot is to do, codes of :class:`Action`.
+        robots : (K,) int64 array, optional
+            Indices of different robots. For all others, time stands still.
+
+        Returns
+        -------
+        (K,) int64 array
+            What each robot did: ``commands``, or another action where it slipped.
 
         Raises
         ------
-        ValueError : if the commands are not N whole numbers 0 to 6.
+        ValueError
+            If the commands are not K whole numbers 0 to 6.
         """
+        rows = self._rows(robots)
         fits = (
             isinstance(commands, np.ndarray)
             and commands.dtype == np.int64
-            and commands.shape == self.outcome.shape
+            and commands.shape == rows.shape
         )
         if not fits or (commands.astype(np.uint64) > Action.TO_TARGET).any():
             raise ValueError(
-                f"commands must be an array of {len(self)} whole numbers 0 to 6, got {commands!r}"
+                f"commands must be an array of {len(rows)} whole numbers 0 to 6, got {commands!r}"
             )
         w = self.worlds
+        executed = commands.copy() if len(self.slip) else commands
         _fast.in_threads(
-            _fast.step, len(self), w.kinds, w.shapes, w.speeds, w.keys, w.size, w.targets, self.slip, self.speed,
-            self.max_steps, commands, self.poses, self.centres, self.headings, self.steps, self.outcome,
+            _fast.step, len(rows), rows, w.kinds, w.shapes, w.speeds, w.keys, w.size, w.targets, self.slip, self.speed,
+            self.max_steps, executed, self.poses, self.centres, self.headings, self.steps, self.outcome,
         )  # fmt: skip
+        return executed
 
-    def keep(self, mask: NDArray[np.bool_]) -> None:
-        """Go on with the robots of ``mask`` (N,) alone."""
-        self.worlds = self.worlds[mask]
-        for name in ("poses", "centres", "headings", "steps", "outcome"):
-            setattr(self, name, np.ascontiguousarray(getattr(self, name)[mask]))
+    def stop(self, robots: NDArray[np.int64]) -> None:
+        """End the episodes of ``robots`` (K,) that still run; their outcome is "out of steps"."""
+        rows = self._rows(robots)
+        self.outcome[rows[self.outcome[rows] == RUNNING]] = OUT_OF_STEPS
+
+    def _rows(self, robots: NDArray[np.int64] | None) -> NDArray[np.int64]:
+        """The robots to sense or step; the compiled code below does not look whether they exist."""
+        if robots is None:
+            return self._everyone
+        rows = check_array("robots", robots, shape=("K",), dtype=np.int64)
+        if len(rows) and not 0 <= rows.min() <= rows.max() < len(self):
+            raise ValueError(f"robots must lie in 0..{len(self) - 1}, got {robots!r}")
+        return rows
 
     def restart(self, index: NDArray[np.int64], worlds: Worlds) -> None:
         """Put the robots ``index`` (K,) at the start of K new worlds, of no more obstacle slots than the old."""

@@ -10,12 +10,12 @@ import numpy as np
 
 from robonav.networks import Network, NetworkPolicy
 from robonav.nirl import (
-    NOTHING,
-    ByContrast,
-    ByEquation514,
+    ZERO_TERMINAL_VALUES,
     Learned,
-    OneStep,
-    SampledDescent,
+    LeastSquaresReward,
+    ReplaySGD,
+    SingleGradientStep,
+    SubgradientMaxMargin,
     accuracy,
     balanced_accuracy,
     learn,
@@ -36,29 +36,29 @@ from .setup import (
 CHOOSING_SEED: int = CONDITIONS["choosing_seed"]
 EVERY = 5  # of a run's policies are tried where navigation in other worlds chooses
 
-_FAST = SampledDescent(rate=(0.4, 0.4), ends=NOTHING)
+_FAST = ReplaySGD(rate=(0.4, 0.4), ends=ZERO_TERMINAL_VALUES)
 CHANGES: dict[str, Mapping[str, Any]] = {
     "Algorithm 10 as written": {
-        "reward": ByEquation514(),
-        "improve": OneStep(),
+        "reward": LeastSquaresReward(),
+        "improve": SingleGradientStep(),
         "score": accuracy,
         "target": "number",
     },
     "reward: expert against policy, in the expert's states": {
-        "reward": ByContrast(power=0.0)
+        "reward": SubgradientMaxMargin(power=0.0)
     },
     "rewards in [0, 1]; 300 steps, this iteration's episodes": {
         "improve": replace(_FAST, samples=300, replay=1)
     },
     "9,600 steps, 20 iterations' episodes": {"improve": _FAST},
-    "rare actions count alike": {"reward": ByContrast()},
+    "rare actions count alike": {"reward": SubgradientMaxMargin()},
     "chosen by balanced accuracy": {"score": balanced_accuracy},
     "the target's sector as sine and cosine": {"target": "sine-cosine"},
     "any end but a collision is worth the most": {
-        "improve": SampledDescent(rate=(0.4, 0.4))
+        "improve": ReplaySGD(rate=(0.4, 0.4))
     },
-    "learning rate falls": {"improve": SampledDescent()},
-    "discount 0.9": {"improve": SampledDescent(discount=0.9)},
+    "learning rate falls": {"improve": ReplaySGD()},
+    "discount 0.9": {"improve": ReplaySGD(discount=0.9)},
 }
 """What each step changes, on top of all steps before it."""
 

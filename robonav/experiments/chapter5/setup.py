@@ -25,18 +25,18 @@ from robonav.lfd import (
 from robonav.lfd.demonstrations import LEARNED
 from robonav.networks import NetworkPolicy
 from robonav.nirl import (
-    BONUS,
-    NEUTRAL,
-    ByContrast,
+    NEUTRAL_TERMINAL_VALUES,
+    SURVIVAL_BONUS,
     Learned,
-    RobotCourse,
-    SampledDescent,
-    by_heuristic,
-    by_lstd,
-    from_everywhere,
-    from_start,
+    ReplaySGD,
+    RobotTask,
+    SubgradientMaxMargin,
+    from_all_states,
+    from_initial_state,
+    heuristic_estimate,
     learn,
-    learn_under,
+    learn_under_reward,
+    lstd_estimate,
 )
 from robonav.robot import NNQL_SENSORS, Encoder, Policy, random_worlds
 
@@ -60,9 +60,9 @@ CONTROLS = ("zero reward", "random reward")
 HYPERPARAMETERS = FOLDER / "hyperparameters.toml"
 """The hyperparameters of Table 5.2, as :mod:`robonav.experiments.chapter5.tuning` wrote them."""
 
-TERMINAL_VALUES = {"bonus": BONUS, "neutral": NEUTRAL}
-EXPECTATIONS = {"all states": from_everywhere, "initial state": from_start}
-ESTIMATES = {"lstd": by_lstd, "heuristic": by_heuristic}
+TERMINAL_VALUES = {"bonus": SURVIVAL_BONUS, "neutral": NEUTRAL_TERMINAL_VALUES}
+EXPECTATIONS = {"all states": from_all_states, "initial state": from_initial_state}
+ESTIMATES = {"lstd": lstd_estimate, "heuristic": heuristic_estimate}
 
 
 @lru_cache(maxsize=1)
@@ -96,14 +96,14 @@ def encoder(target: str) -> Encoder:
     return Encoder(NNQL_SENSORS, walls=True, target=target)
 
 
-def task(target: str = "sine-cosine", **changes: Any) -> RobotCourse:
+def task(target: str = "sine-cosine", **changes: Any) -> RobotTask:
     """What a robot trains on: 20 obstacles, 2 m/s, ten episodes an iteration."""
-    return RobotCourse(EPISODES_PER_ITERATION, encoder=encoder(target), **changes)
+    return RobotTask(EPISODES_PER_ITERATION, encoder=encoder(target), **changes)
 
 
-def policy_improvement(settings: Settings) -> SampledDescent:
+def policy_improvement(settings: Settings) -> ReplaySGD:
     """The policy improvement that all methods share."""
-    return SampledDescent(
+    return ReplaySGD(
         discount=settings["discount"],
         rate=settings["gradient_step"],
         samples=settings["samples"],
@@ -115,7 +115,7 @@ def policy_improvement(settings: Settings) -> SampledDescent:
 def own_options(method: str, settings: Settings, iterations: int) -> dict[str, Any]:
     """The arguments that one method alone has."""
     if method == "nirl":
-        return {"reward": ByContrast(power=settings["power"])}
+        return {"reward": SubgradientMaxMargin(power=settings["power"])}
     if method == "apprenticeship":
         return {
             "expectations": EXPECTATIONS[settings["expectations"]],
@@ -166,7 +166,7 @@ def train_irl(
     }
     if method in CONTROLS:
         weights = control_reward(method, seed, common["course"].inputs)
-        return learn_under(shown, weights, seed=seed, **common)
+        return learn_under_reward(shown, weights, seed=seed, **common)
     own = own_options(method, settings, iterations)
     return learn(shown, method, seed, **own, **common, **changes)
 

@@ -10,7 +10,12 @@ from numpy.typing import NDArray
 
 from robonav.lfd import Demonstrations, demonstrate
 from robonav.lfd.demonstrations import LEARNED
-from robonav.nirl import learn_under, most_frequent, most_telling, shown_steps
+from robonav.nirl import (
+    expert_transitions,
+    learn_under_reward,
+    map_uniform_prior,
+    most_frequent,
+)
 from robonav.nirl.methods import Refinement
 from robonav.nnql import NavigationTask, train
 from robonav.robot import Policy, neighbour_slip, random_worlds, turn_to_clearer_side
@@ -53,7 +58,7 @@ def train_under_reward(
     """The last policy of a new robot that trains elsewhere under a given reward (5, k + 1)."""
     settings = tuned("nirl")
     iterations = round(ITERATIONS * length)
-    learned = learn_under(
+    learned = learn_under_reward(
         demonstrations(seed),
         reward_weights,
         course=task(settings["target"], obstacles=obstacles, speed=speed),
@@ -134,7 +139,7 @@ def elsewhere(case: Case, seed: int, scale: str) -> Numbers:
 REFINEMENTS: dict[str, Refinement | None] = {
     "as demonstrated": None,
     "most frequent": most_frequent,
-    "most telling": most_telling,
+    "most telling": map_uniform_prior,
 }
 
 
@@ -158,7 +163,7 @@ def refine(case: Case, seed: int, scale: str) -> Numbers:
     refinement = REFINEMENTS[str(case["actions"])]
     changed = 0.0
     if refinement is not None:
-        steps = shown_steps(shown, encoder(tuned("nirl")["target"]))
+        steps = expert_transitions(shown, encoder(tuned("nirl")["target"]))
         refined = refinement(steps.inputs.round(6), steps.actions, LEARNED)
         changed = 100 * refined.changed.mean()
     learned = train_irl("nirl", shown, seed, tuned("nirl"), refine=refinement)

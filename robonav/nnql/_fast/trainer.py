@@ -10,11 +10,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from robonav.networks.policy import sample_actions
 from robonav.progress import Progress
-from robonav.robot import Simulator, Worlds
+from robonav.robot import Sensing, Simulator, Transition, Worlds, drive
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 
 from ..schedules import Schedule, geometric_schedule, softmax_policy
@@ -95,69 +94,54 @@ class Trainer:
         self.simulator = Simulator(
             self._worlds_of(everyone), task.speed, max_steps=task.max_steps
         )
-        self.sensing = self.simulator.sense()
         self._begin(everyone)
 
     def run(self, progress: Progress | None = None) -> None:
         """Continue until every robot has finished its episodes."""
-        while (self.episode < self.last).any():
-            self._step()
-            over = self.simulator.outcome != RUNNING
-            over &= self.episode < self.last
-            if over.any():
-                self._next_episode(np.flatnonzero(over))
+        for step in drive(self.simulator, self._choose, reflex=self.task.reflex):
+            if step.asked.any():
+                self._learn(step)
+            if self.statistics.record:
+                for row in step.robots:
+                    self.tracks[row].append(self.simulator.poses[row].copy())
+            ended = step.robots[step.outcome != RUNNING]
+            if len(ended):
+                self._next_episode(ended)
             if progress is not None:
                 progress(int(self.episode.sum()), len(self.seeds) * self.episodes)
 
-    def _step(self) -> None:
-        """One second of all running robots; those whose policy decides learn from it."""
-        running = self.simulator.outcome == RUNNING
-        commands = self.task.reflex(self.sensing, self.task.speed)
-        rows = np.flatnonzero(running & (commands < 0))
-        before, inputs, values = self.sensing[rows], np.empty(0), np.empty(0)
-        if len(rows):
-            inputs = self.task.encoder(before)
-            values = self.agent.values(rows, inputs)
-            commands[rows] = self._explore(rows, values)
-        self.simulator.step(commands.clip(0))
-        self.sensing = self.simulator.sense()
-        if self.statistics.record:
-            for row in np.flatnonzero(running):
-                self.tracks[row].append(self.simulator.poses[row].copy())
-        if len(rows):
-            after, outcome = self.sensing[rows], self.simulator.outcome[rows]
-            rewards = np.asarray(self.task.reward(before, after, outcome), dtype=float)
-            self._learn(rows, inputs, values, commands[rows], rewards)
-
-    def _explore(self, rows: Rows, values: Array) -> NDArray[np.int64]:
-        """Actions (K,) of the softmax policy, from Q-values (K, A)."""
+    def _choose(self, simulator: Simulator, sensing: Sensing, rows: Rows) -> Rows:
+        """Actions (K,) of the softmax policies of ``rows`` (K,)."""
+        self.inputs = self.task.encoder(sensing)
+        self.values = self.agent.values(rows, self.inputs)
         temperature = geometric_schedule(self.temperature, self._fraction(rows))
-        uniforms = self.uniforms[rows, self.simulator.steps[rows]]
-        return sample_actions(softmax_policy(values, temperature), uniforms)
+        uniforms = self.uniforms[rows, simulator.steps[rows]]
+        return sample_actions(softmax_policy(self.values, temperature), uniforms)
 
     def _fraction(self, rows: Rows) -> Array:
         """How much of the training was over when the present episodes began, 0 to 1."""
         fraction: Array = self.episode[rows] / max(self.episodes - 1, 1)
         return fraction
 
-    def _learn(
-        self,
-        rows: Rows,
-        inputs: Array,
-        values: Array,
-        actions: NDArray[np.int64],
-        rewards: Array,
-    ) -> None:
-        """Let the agents of ``rows`` learn from the step just made, and count it."""
+    def _learn(self, step: Transition) -> None:
+        """Let the agents whose policy chose learn from the step, and count it."""
+        rows, outcome = step.robots[step.asked], step.outcome[step.asked]
+        before, after = step.sensing[step.asked], step.next_sensing[step.asked]
+        rewards = np.asarray(self.task.reward(before, after, outcome), dtype=float)
         self.statistics.decisions[rows, self.episode[rows]] += 1
         self.statistics.returns[rows, self.episode[rows]] += rewards
-        outcome = self.simulator.outcome[rows]
-        terminal = (outcome == ARRIVED) | (outcome == COLLIDED)
-        reached = self.task.encoder(self.sensing[rows])
         self.agent.observe(
             rows,
-            Decisions(inputs, values, actions, rewards, reached, terminal, self._fraction(rows)),
-        )  # fmt: skip
+            Decisions(
+                inputs=self.inputs,
+                values=self.values,
+                actions=step.actions[step.asked],
+                rewards=rewards,
+                reached=self.task.encoder(after),
+                terminal=(outcome == ARRIVED) | (outcome == COLLIDED),
+                fraction=self._fraction(rows),
+            ),
+        )
 
     def _next_episode(self, rows: Rows) -> None:
         """Record the episodes of ``rows``, which have ended, and begin the next ones."""
@@ -172,7 +156,6 @@ class Trainer:
         fresh = rows[self.episode[rows] < self.last]
         if len(fresh):
             self.simulator.restart(fresh, self._worlds_of(fresh))
-            self.sensing = self.simulator.sense()
             self._begin(fresh)
 
     def _worlds_of(self, rows: Rows) -> Worlds:

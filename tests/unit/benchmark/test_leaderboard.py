@@ -90,6 +90,7 @@ def test_noise_slip_and_speed_reach_the_simulator():
     )
 
 
+@pytest.mark.slow
 def test_a_readers_method_stands_on_the_board(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.py").write_text(OWN)

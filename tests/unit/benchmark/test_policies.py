@@ -94,6 +94,7 @@ def test_the_navigate_command(tmp_path):
     assert got["outcomes"]["arrived"] == round(20 * got["success"])
 
 
+@pytest.mark.slow
 def test_the_reproduce_command(tmp_path):
     assert "baselines" in run("reproduce", "--list").output
     done = run(

@@ -32,7 +32,13 @@ from robonav.experiments.chapter5.tuning import (
 from robonav.experiments.runner.settings import Settings
 from robonav.experiments.ship import folder_of, nirl_weights
 from robonav.networks import load_weights
-from robonav.nirl import NOTHING, ByEquation514, OneStep, accuracy, balanced_accuracy
+from robonav.nirl import (
+    ZERO_TERMINAL_VALUES,
+    LeastSquaresReward,
+    SingleGradientStep,
+    accuracy,
+    balanced_accuracy,
+)
 from robonav.nnql import NavigationTask, train
 from robonav.robot import random_worlds
 
@@ -129,13 +135,13 @@ def test_learning_twice_in_a_process_is_learning_once():
 
 def test_steps_begin_with_the_algorithm_as_written_and_add_up():
     written = ablations.options_up_to("Algorithm 10 as written")
-    assert isinstance(written["reward"], ByEquation514)
-    assert isinstance(written["improve"], OneStep)
+    assert isinstance(written["reward"], LeastSquaresReward)
+    assert isinstance(written["improve"], SingleGradientStep)
     assert written["score"] is accuracy
     half = ablations.options_up_to("chosen by balanced accuracy")
     assert half["score"] is balanced_accuracy
     assert half["target"] == "number"
-    assert half["improve"].ends == NOTHING
+    assert half["improve"].ends == ZERO_TERMINAL_VALUES
     assert ablations.options_up_to("discount 0.9")["improve"].discount == 0.9
 
 

@@ -11,12 +11,12 @@ from pathlib import Path
 
 import pytest
 
-from robonav.grading import probe
+from robonav.grading import sandbox_check
 from robonav.grading.check import graded
 from robonav.grading.course import Course
-from robonav.grading.proxy import Session
 from robonav.grading.reference import Solutions
 from robonav.grading.sandbox import Limits
+from robonav.grading.session import Session
 from robonav.grading.submission import Submission
 
 pytestmark = pytest.mark.sandbox
@@ -431,7 +431,7 @@ def tiers():
         if (
             hasattr(os, "geteuid")
             and os.geteuid() == 0
-            and probe.fault("restricted", python) is None
+            and sandbox_check.fault("restricted", python) is None
         ):
             yield "restricted", python
             break
@@ -489,7 +489,7 @@ def attacks(request):
 
 @pytest.mark.parametrize(("tier", "python", "source"), list(cases()))
 def test_an_attack_earns_nothing_and_harms_nobody(tier, python, source, attacks):
-    if tier == "official" and (fault := probe.fault(tier)):
+    if tier == "official" and (fault := sandbox_check.fault(tier)):
         pytest.skip(fault)
     attacked, honest, seconds = attacks[tier, python, source].result()
     assert attacked["state"] not in ("correct", "partial", "grader-fault"), attacked[

@@ -16,15 +16,20 @@ from xml.etree import ElementTree
 
 import pytest
 
-from robonav.grading import classroom, probe, proxy
-from robonav.grading.classroom import Marking, grade_class, mark, students
+from robonav.grading import classroom, sandbox_check, session
+from robonav.grading.classroom import (
+    GradingConfig,
+    grade_class,
+    grade_submission,
+    students,
+)
 from robonav.grading.course import Course
 from robonav.grading.sandbox import Limits
 from robonav.grading.submission import Submission
 
 COURSE = Course.around(Path(__file__).parent)
-OFFICIAL = Marking(COURSE, "official")
-HERE = Marking(COURSE, "practice")
+OFFICIAL = GradingConfig(COURSE, "official")
+HERE = GradingConfig(COURSE, "practice")
 PASSES = (COURSE.solutions / "ch2/improve.py").read_text()
 NAMES = ["anna", "=1+1", "<b>bo</b>", "carl", "döra", "eve"]
 
@@ -70,11 +75,11 @@ def course(tmp_path):
 
 @pytest.fixture
 def quick(monkeypatch):
-    """Marking without a sandbox: one point for each file, and a log of who was marked."""
+    """Grading without a sandbox: one point for each file, and a log of who was marked."""
     marked = []
 
-    def count(marking, taken, ids=()):
-        marked.append((len(taken.files), tuple(ids)))
+    def count(config, loaded, ids=()):
+        marked.append((len(loaded.files), tuple(ids)))
         exercises = [
             exercise
             for exercise in COURSE.exercises.values()
@@ -83,7 +88,7 @@ def quick(monkeypatch):
         entries = [
             {
                 "id": e.id,
-                "points": len(taken.files),
+                "points": len(loaded.files),
                 "max_points": e.points,
                 "state": "partial",
                 "feedback": str(len(marked)),
@@ -93,11 +98,11 @@ def quick(monkeypatch):
         return {
             "points": 0,
             "max_points": 44,
-            "tier": marking.tier,
+            "tier": config.tier,
             "exercises": entries,
         }
 
-    monkeypatch.setattr(classroom, "mark", count)
+    monkeypatch.setattr(classroom, "grade_submission", count)
     return marked
 
 
@@ -110,11 +115,11 @@ def records(out):
 
 @pytest.mark.sandbox
 def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_path):
-    if fault := probe.fault("official"):
+    if fault := sandbox_check.fault("official"):
         pytest.skip(fault)
     out, seen = tmp_path / "out", []
     grade_class(
-        Marking(course, "official"),
+        GradingConfig(course, "official"),
         folder,
         out,
         jobs=2,
@@ -181,20 +186,22 @@ def test_what_is_graded_stays_and_what_changed_is_graded_again(folder, tmp_path,
     shutil.rmtree(out / "students/carl")
     grade_class(HERE, folder, out, jobs=1)
     assert len(quick) == 9
-    grade_class(Marking(COURSE, "practice", b"another secret"), folder, out, jobs=1)
+    grade_class(
+        GradingConfig(COURSE, "practice", b"another secret"), folder, out, jobs=1
+    )
     assert len(quick) == 15
 
 
 def test_a_fault_of_the_grader_is_graded_again(folder, tmp_path, quick, monkeypatch):
-    out, honest = tmp_path / "out", classroom.mark
+    out, honest = tmp_path / "out", classroom.grade_submission
 
-    def fails_for_anna(marking, taken, ids=()):
-        grade = honest(marking, taken, ids)
-        if PASSES.encode() in taken.files.values():
+    def fails_for_anna(config, loaded, ids=()):
+        grade = honest(config, loaded, ids)
+        if PASSES.encode() in loaded.files.values():
             grade["exercises"][0] |= {"points": None, "state": "grader-fault"}
         return grade
 
-    monkeypatch.setattr(classroom, "mark", fails_for_anna)
+    monkeypatch.setattr(classroom, "grade_submission", fails_for_anna)
     grade_class(HERE, folder, out, jobs=1)
     assert "2.1" in (out / "gradebook.csv").read_text().splitlines()[3]
     assert "To be graded again" in (out / "students/anna/feedback.html").read_text()
@@ -205,7 +212,7 @@ def test_a_fault_of_the_grader_is_graded_again(folder, tmp_path, quick, monkeypa
         ElementTree.parse(out / "students/anna/junit.xml").getroot().get("errors")
         == "1"
     )
-    monkeypatch.setattr(classroom, "mark", honest)
+    monkeypatch.setattr(classroom, "grade_submission", honest)
     grade_class(HERE, folder, out, jobs=1)
     assert len(quick) == 6 + 2
 
@@ -241,9 +248,11 @@ def test_a_scheduler_gets_a_few_submissions_at_once(tmp_path, quick, monkeypatch
     with distributed.LocalCluster(
         1, threads_per_worker=1, processes=False, dashboard_address=":0"
     ) as cluster:
-        read = classroom.submission.taken
+        read = classroom.submission.load_submission
         monkeypatch.setattr(
-            classroom.submission, "taken", lambda path: held.append(path) or read(path)
+            classroom.submission,
+            "load_submission",
+            lambda path: held.append(path) or read(path),
         )
         seen = []
         grade_class(
@@ -297,7 +306,7 @@ def test_an_exception_in_the_grader_is_a_fault_not_a_crash(monkeypatch):
         raise OSError("no space left")
 
     monkeypatch.setattr(classroom, "graded", broken)
-    grade = mark(HERE, Submission({}))
+    grade = grade_submission(HERE, Submission({}))
     assert {entry["state"] for entry in grade["exercises"]} == {"grader-fault"}
     assert {entry["points"] for entry in grade["exercises"]} == {None}
 
@@ -320,9 +329,9 @@ def documented():
 @pytest.mark.sandbox
 def test_the_example_class_gets_the_documented_results(tmp_path, monkeypatch):
     """With a shorter deadline than it has, of which Eve uses up each second."""
-    if fault := probe.fault("official"):
+    if fault := sandbox_check.fault("official"):
         pytest.skip(fault)
-    monkeypatch.setattr(proxy, "Limits", lambda: Limits(call_seconds=1.5))
+    monkeypatch.setattr(session, "Limits", lambda: Limits(call_seconds=1.5))
     grade_class(OFFICIAL, COURSE.solutions / "example-class", tmp_path, jobs=1)
     found = {}
     for name, record in records(tmp_path).items():
@@ -334,7 +343,7 @@ def test_the_example_class_gets_the_documented_results(tmp_path, monkeypatch):
 
 @pytest.mark.sandbox
 def test_what_gradescope_runs_writes_what_gradescope_reads(tmp_path):
-    if fault := probe.fault("official"):
+    if fault := sandbox_check.fault("official"):
         pytest.skip(fault)
     (tmp_path / "venv").symlink_to(Path(sys.executable).parents[1])
     (tmp_path / "source").mkdir()
@@ -396,7 +405,7 @@ cli.app({["grade", *map(str, arguments), "--jobs", str(jobs)]!r})
 @pytest.mark.sandbox
 def test_a_run_killed_twenty_times_ends_as_one_that_was_not(folder, course, tmp_path):
     """SIGKILL at random moments; no grade changes once it is there, and the end is byte for byte the same."""
-    if fault := probe.fault("official"):
+    if fault := sandbox_check.fault("official"):
         pytest.skip(fault)
     whole, cut, moments = tmp_path / "whole", tmp_path / "cut", random.Random(1)
     usual, seen, finished = {}, {}, 0

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from robonav.grading import probe
+from robonav.grading import sandbox_check
 from robonav.grading.build import code
-from robonav.grading.classroom import Marking, mark
+from robonav.grading.classroom import GradingConfig, grade_submission
 from robonav.grading.course import Course
 from robonav.grading.reference import Recorder, solution
 from robonav.grading.submission import read
@@ -26,7 +26,7 @@ PASSES = (COURSE.solutions / "ch2/improve.py").read_text()
 
 @pytest.fixture(scope="module", autouse=True)
 def _official():
-    if fault := probe.fault("official"):
+    if fault := sandbox_check.fault("official"):
         pytest.skip(fault)
 
 
@@ -153,7 +153,9 @@ def test_the_class_runner_gives_the_same_grade(tmp_path):
         track="",
     )
     _, _, grade = run(TESTS, "--submission", submission, folder=tmp_path)
-    assert grade == mark(Marking(COURSE, "official"), read(submission))
+    assert grade == grade_submission(
+        GradingConfig(COURSE, "official"), read(submission)
+    )
 
 
 @pytest.mark.parametrize(
@@ -267,10 +269,10 @@ def crib():
         )
         return function(*arguments)
 
-    from robonav.grading.check import Here, graded
+    from robonav.grading.check import InProcessCalls, graded
 
     function = solution(COURSE, COURSE.named("2.2"))
-    graded(COURSE, COURSE.named("2.2"), Here(learn), recorder)
+    graded(COURSE, COURSE.named("2.2"), InProcessCalls(learn), recorder)
     return f"""
 KNOWN = {known!r}
 def improve(q, policy, tolerance):

@@ -9,7 +9,7 @@ import time
 import numpy as np
 import pytest
 
-from robonav.grading import confine, probe, sandbox
+from robonav.grading import hardening, sandbox, sandbox_check
 from robonav.grading.sandbox import Limits, SandboxFault, TimedOut
 
 pytestmark = pytest.mark.sandbox
@@ -26,14 +26,14 @@ def probed():
         yield from [
             ("restricted", python)
             for python in (None, "/usr/bin/python3")
-            if not probe.fault("restricted", python)
+            if not sandbox_check.fault("restricted", python)
         ][:1]
 
 
 @pytest.fixture(params=list(probed()), ids=lambda param: param[0])
 def start(request):
     tier, python = request.param
-    if fault := probe.fault(tier, python):
+    if fault := sandbox_check.fault(tier, python):
         pytest.skip(fault)
     workers = []
 
@@ -204,9 +204,9 @@ def test_an_interpreter_that_is_none_is_a_fault_of_the_sandbox(tier):
 def test_the_probe_finds_a_sandbox_that_leaks(monkeypatch):
     """A practice worker that is passed off as the official tier does what it must not."""
     monkeypatch.setattr(sandbox, "_official", sandbox._practice)
-    probe.fault.cache_clear()
-    assert "lets out" in probe.fault("official")
-    probe.fault.cache_clear()
+    sandbox_check.fault.cache_clear()
+    assert "lets out" in sandbox_check.fault("official")
+    sandbox_check.fault.cache_clear()
 
 
 def test_importing_the_grader_is_light():
@@ -219,7 +219,7 @@ def test_importing_the_grader_is_light():
 
 def run_filter(program, machine, call, first_argument=0):
     """A small interpreter of classic BPF: what the kernel would do with a system call."""
-    data = {0: call, 4: confine.MACHINES[machine][1], 16: first_argument}
+    data = {0: call, 4: hardening.MACHINES[machine][1], 16: first_argument}
     steps = [
         struct.unpack_from("=HBBI", program, at) for at in range(0, len(program), 8)
     ]
@@ -227,48 +227,48 @@ def run_filter(program, machine, call, first_argument=0):
     while True:
         code, then, otherwise, value = steps[at]
         match code:
-            case confine.LOAD:
+            case hardening.LOAD:
                 accumulator = data[value]
-            case confine.RETURN:
+            case hardening.RETURN:
                 return value
             case _:
                 tests = {
-                    confine.EQUAL: accumulator == value,
-                    confine.AT_LEAST: accumulator >= value,
+                    hardening.EQUAL: accumulator == value,
+                    hardening.AT_LEAST: accumulator >= value,
                 }
-                tests[confine.HAS_BITS] = bool(accumulator & value)
+                tests[hardening.HAS_BITS] = bool(accumulator & value)
                 at += then if tests[code] else otherwise
         at += 1
 
 
-@pytest.mark.parametrize("machine", list(confine.MACHINES))
+@pytest.mark.parametrize("machine", list(hardening.MACHINES))
 def test_the_filter_refuses_what_it_lists_and_nothing_else(machine):
-    program, column = confine.filter_program(machine), confine.MACHINES[machine][0]
-    refused = {numbers[column] for numbers in confine.REFUSED.values()} - {None}
-    clone, clone3 = confine.CLONE[column], confine.CLONE3[column]
+    program, column = hardening.filter_program(machine), hardening.MACHINES[machine][0]
+    refused = {numbers[column] for numbers in hardening.REFUSED.values()} - {None}
+    clone, clone3 = hardening.CLONE[column], hardening.CLONE3[column]
     for call in range(460):
         result = run_filter(program, machine, call)
         if call in refused | {clone}:
-            assert result == confine.REFUSE | 1, call
+            assert result == hardening.REFUSE | 1, call
         elif call == clone3:
-            assert result == confine.REFUSE | 38
+            assert result == hardening.REFUSE | 38
         else:
-            assert result == confine.ALLOW, call
+            assert result == hardening.ALLOW, call
     assert (
-        run_filter(program, machine, clone, confine.CLONE_THREAD | 0x3D0F00)
-        == confine.ALLOW
+        run_filter(program, machine, clone, hardening.CLONE_THREAD | 0x3D0F00)
+        == hardening.ALLOW
     )
     assert (
-        run_filter(program, machine, confine.PRLIMIT[column], 4321)
-        == confine.REFUSE | 1
+        run_filter(program, machine, hardening.PRLIMIT[column], 4321)
+        == hardening.REFUSE | 1
     )
     if machine == "x86_64":
-        assert run_filter(program, machine, 0x40000000 + 59) == confine.REFUSE | 1
+        assert run_filter(program, machine, 0x40000000 + 59) == hardening.REFUSE | 1
 
 
 def test_another_architecture_is_killed():
-    program = confine.filter_program("x86_64")
-    wrong = {**confine.MACHINES, "x86_64": (0, 0x40000003)}
+    program = hardening.filter_program("x86_64")
+    wrong = {**hardening.MACHINES, "x86_64": (0, 0x40000003)}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(confine, "MACHINES", wrong)
-        assert run_filter(program, "x86_64", 0) == confine.KILL
+        patch.setattr(hardening, "MACHINES", wrong)
+        assert run_filter(program, "x86_64", 0) == hardening.KILL

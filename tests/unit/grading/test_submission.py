@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robonav.grading import submission
-from robonav.grading.submission import Refused, Submission, read, taken
+from robonav.grading.submission import Refused, Submission, load_submission, read
 
 
 def zipped(folder, entries, name="work.zip"):
@@ -173,7 +173,7 @@ def test_a_folder_that_cannot_be_read_is_refused_and_not_empty(
 @pytest.mark.parametrize("content", [b"", b"no zip", b"PK\x03\x04" + b"\0" * 40])
 def test_a_broken_zip_is_refused(tmp_path, content):
     (tmp_path / "a.zip").write_bytes(content)
-    assert isinstance(taken(tmp_path / "a.zip"), Refused)
+    assert isinstance(load_submission(tmp_path / "a.zip"), Refused)
 
 
 @given(st.data())
@@ -188,7 +188,7 @@ def test_a_damaged_zip_is_read_or_refused(tmp_path_factory, data):
             st.integers(0, 255)
         )
     path.write_bytes(content)
-    assert isinstance(taken(path), Submission | Refused)
+    assert isinstance(load_submission(path), Submission | Refused)
 
 
 def test_what_is_no_submission_is_named(tmp_path):

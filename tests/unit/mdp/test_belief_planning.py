@@ -166,6 +166,7 @@ def test_backups_from_zero_are_the_finite_horizon(seed):
 
 @settings(max_examples=10, deadline=None)
 @given(st.integers(0, 10**6))
+@pytest.mark.slow
 def test_point_based_values_lie_below_the_truth_and_qmdp_above(seed):
     pomdp = random_pomdp(seed)
     start = np.full(3, 1 / 3)

@@ -10,7 +10,7 @@ from robonav.mdp import policies
 from robonav.mdp.dynamic_programming import policy_iteration
 from robonav.mdp.evaluation import policy_evaluation
 from robonav.mdp.gridworld import GridWorld
-from robonav.nirl import FeaturedMDP
+from robonav.nirl import RewardFreeMDP
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class Case:
     """A task, its true reward, and the two policies between which a learned one is rated."""
 
     grid: GridWorld
-    task: FeaturedMDP
+    task: RewardFreeMDP
     truth: np.ndarray
     expert: np.ndarray
 
@@ -48,7 +48,7 @@ def case(grid, task, truth):
 @pytest.fixture(scope="session")
 def terrain():
     """Four kinds of ground, some slipping, a start, a target."""
-    return case(*nirl.terrain(), nirl.TRUTH)
+    return case(*nirl.terrain(), nirl.TRUE_WEIGHTS)
 
 
 @pytest.fixture(scope="session", params=range(4))
@@ -59,4 +59,4 @@ def scattered(request):
     blocks = grid.cells // 2
     phi = np.eye(9)[blocks[:, 0] * 3 + blocks[:, 1]]
     truth = rng.normal(size=9) * (rng.random(9) < 0.6)
-    return case(grid, FeaturedMDP.of_grid(grid, phi, 0.8), truth)
+    return case(grid, RewardFreeMDP.of_grid(grid, phi, 0.8), truth)

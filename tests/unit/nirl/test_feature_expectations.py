@@ -8,22 +8,24 @@ from hypothesis.extra.numpy import arrays
 
 from robonav.mdp.evaluation import policy_evaluation
 from robonav.nirl import (
-    FeaturedMDP,
-    action_blocks,
-    chosen_block,
-    discounted_to_go,
+    RewardFreeMDP,
+    all_action_features,
+    discounted_feature_sums,
     empirical_expectations,
     feature_expectations,
-    start_expectations,
+    initial_expectations,
+    state_action_features,
 )
 
 
 def test_each_action_has_its_own_block():
-    blocks = action_blocks([[1.0, 2.0]], 3)
+    blocks = all_action_features([[1.0, 2.0]], 3)
     np.testing.assert_array_equal(
         blocks[0], [[1, 2, 0, 0, 0, 0], [0, 0, 1, 2, 0, 0], [0, 0, 0, 0, 1, 2]]
     )
-    np.testing.assert_array_equal(chosen_block([[1.0, 2.0]], [2], 3), blocks[:, 2])
+    np.testing.assert_array_equal(
+        state_action_features([[1.0, 2.0]], [2], 3), blocks[:, 2]
+    )
 
 
 @settings(deadline=None)
@@ -34,10 +36,10 @@ def test_each_action_has_its_own_block():
 def test_a_reward_over_blocks_is_linear_in_the_state_for_each_action(phi, chosen):
     theta = np.arange(15.0).reshape(5, 3)
     np.testing.assert_allclose(
-        action_blocks(phi, 5) @ theta.ravel(), phi @ theta.T, atol=1e-9
+        all_action_features(phi, 5) @ theta.ravel(), phi @ theta.T, atol=1e-9
     )
     np.testing.assert_allclose(
-        chosen_block(phi, chosen, 5) @ theta.ravel(),
+        state_action_features(phi, chosen, 5) @ theta.ravel(),
         (phi @ theta.T)[range(4), chosen],
         atol=1e-9,
     )
@@ -47,13 +49,15 @@ def test_an_action_out_of_range_gets_a_sentence():
     with pytest.raises(
         ValueError, match="chosen must hold actions from 0 to 4, got 0 to 7"
     ):
-        chosen_block(np.ones((2, 3)), [0, 7], 5)
+        state_action_features(np.ones((2, 3)), [0, 7], 5)
 
 
 def test_exact_expectations_are_the_sum_of_the_series():
     rng = np.random.default_rng(0)
     transitions = rng.dirichlet(np.ones(3), (2, 3))
-    task = FeaturedMDP(transitions, rng.normal(size=(3, 2, 4)), 0.9, np.full(3, 1 / 3))
+    task = RewardFreeMDP(
+        transitions, rng.normal(size=(3, 2, 4)), 0.9, np.full(3, 1 / 3)
+    )
     policy = rng.dirichlet(np.ones(2), 3)
     total, weight = np.zeros((3, 2, 4)), 1.0
     pair = np.eye(6).reshape(3, 2, 3, 2)
@@ -72,24 +76,24 @@ def test_equal_expectations_equal_values(terrain, weights):
     worth = terrain.task.starts @ policy_evaluation(
         terrain.task.with_reward(weights), policy
     )
-    assert start_expectations(terrain.task, policy) @ weights == pytest.approx(worth)
+    assert initial_expectations(terrain.task, policy) @ weights == pytest.approx(worth)
 
 
 def test_sampled_expectations_approach_the_exact_ones(terrain):
     walks = terrain.task.walk(terrain.expert, 4000, 80, seed=1)
     features = terrain.task.features[walks.states, walks.actions].reshape(-1, 4)
     estimate = empirical_expectations(features, walks.trajectory, terrain.task.discount)
-    parts = discounted_to_go(features, walks.trajectory, terrain.task.discount).reshape(
-        4000, 80, 4
-    )[:, 0]
+    parts = discounted_feature_sums(
+        features, walks.trajectory, terrain.task.discount
+    ).reshape(4000, 80, 4)[:, 0]
     standard_error = parts.std(axis=0) / np.sqrt(4000)
-    exact = start_expectations(terrain.task, terrain.expert)
+    exact = initial_expectations(terrain.task, terrain.expert)
     assert (abs(estimate - exact) < 4 * standard_error + 1e-3).all()
 
 
 def test_discounted_to_go_by_hand():
     features = np.array([[1.0], [2.0], [4.0], [8.0], [16.0]])
-    to_go = discounted_to_go(features, [0, 0, 0, 7, 7], 0.5)
+    to_go = discounted_feature_sums(features, [0, 0, 0, 7, 7], 0.5)
     np.testing.assert_allclose(to_go[:, 0], [1 + 1 + 1, 2 + 2, 4, 8 + 8, 16])
     np.testing.assert_allclose(
         empirical_expectations(features, [0, 0, 0, 7, 7], 0.5), [(3 + 16) / 2]
@@ -104,13 +108,13 @@ def test_one_trajectory_is_enough_and_none_is_not():
 
 def test_a_torn_trajectory_gets_a_sentence():
     with pytest.raises(ValueError, match="keep the steps of one trajectory together"):
-        discounted_to_go(np.ones((3, 1)), [0, 1, 0], 0.65)
+        discounted_feature_sums(np.ones((3, 1)), [0, 1, 0], 0.65)
 
 
 def test_walks_follow_the_transitions():
     """A ring in which action 1 goes on and action 0 stays, without chance."""
     stay, go = np.eye(4), np.roll(np.eye(4), 1, axis=1)
-    task = FeaturedMDP(
+    task = RewardFreeMDP(
         np.stack([stay, go]), np.zeros((4, 2, 1)), 0.5, np.array([0, 0, 1.0, 0])
     )
     walks = task.walk(np.array([1, 1, 1, 0]), 2, 4, seed=0)
@@ -135,4 +139,4 @@ def test_a_task_that_cannot_be_gets_a_sentence(change, message):
         "starts": np.array([0.5, 0.5]),
     }
     with pytest.raises(ValueError, match=message):
-        FeaturedMDP(**{**good, **change})
+        RewardFreeMDP(**{**good, **change})

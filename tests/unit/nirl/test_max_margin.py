@@ -8,13 +8,13 @@ from hypothesis.extra.numpy import arrays
 from scipy.optimize import linprog
 
 from robonav.nirl import (
-    by_max_margin,
-    by_projection,
+    initial_expectations,
+    max_margin_method,
+    maximum_margin,
+    maximum_margin_subgradient,
     nearest_mixture,
     project,
-    start_expectations,
-    widest_margin,
-    widest_margin_subgradient,
+    projection_method,
 )
 
 POINTS = st.integers(1, 6).flatmap(
@@ -35,7 +35,7 @@ def brute_force(expert, others):
 @given(POINTS)
 def test_the_margin_is_the_widest_of_all_directions(others):
     expert = np.array([0.4, -0.2])
-    found = widest_margin(expert, others)
+    found = maximum_margin(expert, others)
     assert found.margin == pytest.approx(brute_force(expert, others), abs=1e-4)
     assert np.linalg.norm(found.weights) <= 1 + 1e-9
     assert ((expert - others) @ found.weights).min() == pytest.approx(
@@ -47,8 +47,8 @@ def test_the_margin_is_the_widest_of_all_directions(others):
 @given(arrays(float, (5, 3), elements=st.floats(-3, 3).map(lambda x: round(x, 2))))
 def test_subgradient_steps_come_to_the_same(others):
     expert = np.array([2.0, -1.0, 0.5])
-    exact = widest_margin(expert, others).margin
-    stepped = widest_margin_subgradient(expert, others, iterations=3000).margin
+    exact = maximum_margin(expert, others).margin
+    stepped = maximum_margin_subgradient(expert, others, iterations=3000).margin
     assert stepped <= exact + 1e-9
     assert stepped == pytest.approx(
         exact, abs=0.03 * np.linalg.norm(expert - others, axis=1).max()
@@ -66,17 +66,17 @@ def test_no_margin_exactly_where_the_expert_is_a_mixture(others):
         b_eq=[*expert, 1],
         bounds=(0, None),
     )
-    margin = widest_margin(expert, others).margin
+    margin = maximum_margin(expert, others).margin
     assume(not 0 < margin < 1e-5)
     assert (margin == 0) == hull.success
 
 
 def test_an_expert_no_better_than_itself():
-    same = widest_margin([1.0, 2.0], [[1.0, 2.0]])
+    same = maximum_margin([1.0, 2.0], [[1.0, 2.0]])
     assert same.margin == 0
     assert same.weights.tolist() == [0, 0]
     with pytest.raises(ValueError, match="at least one policy, got none"):
-        widest_margin([1.0], np.empty((0, 1)))
+        maximum_margin([1.0], np.empty((0, 1)))
 
 
 @settings(deadline=None)
@@ -96,7 +96,7 @@ def test_the_nearest_mixture_of_a_square():
     np.testing.assert_allclose(outside, [0, 0.5, 0.5, 0], atol=1e-6)
 
 
-@pytest.fixture(params=[by_projection, by_max_margin])
+@pytest.fixture(params=[projection_method, max_margin_method])
 def method(request):
     return request.param
 
@@ -104,7 +104,7 @@ def method(request):
 def solver(case):
     def solve(weights):
         policy = case.best(weights)
-        return policy, start_expectations(case.task, policy)
+        return policy, initial_expectations(case.task, policy)
 
     return solve
 
@@ -113,14 +113,17 @@ def learn(case, method, expert, **options):
     solve = solver(case)
     first = np.zeros(case.task.n_states, dtype=int)
     return method(
-        expert, solve, (first, start_expectations(case.task, first)), **options
+        expert, solve, (first, initial_expectations(case.task, first)), **options
     )
 
 
 def test_the_apprentice_matches_the_expert(terrain, method):
     """With the expert's exact expectations: distances fall, and the mixture is worth what the expert is."""
     learned = learn(
-        terrain, method, start_expectations(terrain.task, terrain.expert), iterations=30
+        terrain,
+        method,
+        initial_expectations(terrain.task, terrain.expert),
+        iterations=30,
     )
     assert (np.diff(learned.distances) <= 1e-9).all()
     assert learned.distances[-1] < 1e-3
@@ -136,7 +139,7 @@ def test_the_apprentice_of_random_rewards(scattered, method):
     learned = learn(
         scattered,
         method,
-        start_expectations(scattered.task, scattered.expert),
+        initial_expectations(scattered.task, scattered.expert),
         iterations=40,
     )
     assert scattered.loss(learned.policies[learned.closest]) < 0.05
@@ -155,10 +158,10 @@ def test_the_apprentice_of_demonstrations(terrain, method):
 
 def test_both_ways_walk_the_same_first_step(terrain):
     """Against one policy, the widest margin and the projection point the same way."""
-    expert = start_expectations(terrain.task, terrain.expert)
+    expert = initial_expectations(terrain.task, terrain.expert)
     a, b = (
         learn(terrain, way, expert, iterations=1).weights[0]
-        for way in (by_projection, by_max_margin)
+        for way in (projection_method, max_margin_method)
     )
     np.testing.assert_allclose(a / np.linalg.norm(a), b / np.linalg.norm(b), atol=1e-6)
 
@@ -167,8 +170,8 @@ def test_a_projection_never_lies_beyond_the_best_policy(terrain):
     """So the bound in ``project`` changes nothing of the paper's method where rewards are solved exactly."""
     learned = learn(
         terrain,
-        by_projection,
-        start_expectations(terrain.task, terrain.expert),
+        projection_method,
+        initial_expectations(terrain.task, terrain.expert),
         iterations=20,
     )
     mean = learned.expectations[0]
@@ -182,7 +185,9 @@ def test_a_projection_never_lies_beyond_the_best_policy(terrain):
 
 
 def test_an_expert_met_at_once_ends_it(terrain, method):
-    first = start_expectations(terrain.task, np.zeros(terrain.task.n_states, dtype=int))
+    first = initial_expectations(
+        terrain.task, np.zeros(terrain.task.n_states, dtype=int)
+    )
     learned = learn(terrain, method, first)
     assert len(learned.policies) == 1
     assert learned.distances.tolist() == [0]

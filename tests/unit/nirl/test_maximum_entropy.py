@@ -14,10 +14,10 @@ from robonav.mdp.models import FiniteMDP
 from robonav.nirl import (
     boltzmann,
     empirical_expectations,
+    initial_expectations,
     maximum_entropy,
     soft_maximum,
     soft_value_iteration,
-    start_expectations,
 )
 
 
@@ -91,7 +91,7 @@ def test_gradient_of_the_log_likelihood_is_the_gap(terrain):
 
     error = check_grad(
         lambda theta: task.starts @ soft(theta).values,
-        lambda theta: start_expectations(task, soft(theta).policy),
+        lambda theta: initial_expectations(task, soft(theta).policy),
         rng.normal(size=4),
     )
     assert error < 1e-4
@@ -104,7 +104,7 @@ def test_it_matches_the_features_of_a_soft_expert(terrain):
     """
     task = terrain.task
     driver = soft_value_iteration(task.with_reward(terrain.truth)).policy
-    learned = maximum_entropy(task, start_expectations(task, driver), ridge=0.0)
+    learned = maximum_entropy(task, initial_expectations(task, driver), ridge=0.0)
     assert learned.gaps[-1] < 1e-3
     pointless = np.array([1, 1, 1, 1 / (1 - task.discount)])
     gap = learned.weights - terrain.truth
@@ -117,7 +117,7 @@ def test_it_matches_the_features_of_a_soft_expert(terrain):
 def test_its_reward_makes_the_expert_again(terrain, demonstrations):
     task = terrain.task
     if demonstrations is None:
-        expert = start_expectations(task, terrain.expert)
+        expert = initial_expectations(task, terrain.expert)
     else:
         walks = task.walk(terrain.expert, demonstrations, 60, seed=2)
         expert = empirical_expectations(
@@ -130,6 +130,6 @@ def test_its_reward_makes_the_expert_again(terrain, demonstrations):
 
 
 def test_random_rewards(scattered):
-    expert = start_expectations(scattered.task, scattered.expert)
+    expert = initial_expectations(scattered.task, scattered.expert)
     learned = maximum_entropy(scattered.task, expert, ridge=1e-4)
     assert scattered.loss(scattered.best(learned.weights)) < 0.05

@@ -8,25 +8,25 @@ from hypothesis.extra.numpy import arrays
 
 from robonav.networks.multilayer_perceptron import Network, random_network
 from robonav.nirl import (
-    NEUTRAL,
-    NOTHING,
-    ByContrast,
-    ByEquation514,
-    ModelCourse,
-    OneStep,
-    SampledDescent,
+    NEUTRAL_TERMINAL_VALUES,
+    ZERO_TERMINAL_VALUES,
+    LeastSquaresReward,
+    ReplaySGD,
+    SingleGradientStep,
     Steps,
+    SubgradientMaxMargin,
+    TabularTask,
     accuracy,
-    action_blocks,
+    all_action_features,
     balance,
     balanced_accuracy,
     contrast,
-    discounted_to_go,
-    into_unit,
+    discounted_feature_sums,
     nirl,
-    practise,
-    rewards_of,
     sarsa_targets,
+    scale_to_unit_interval,
+    train_under_reward,
+    transition_rewards,
 )
 from robonav.nirl._fast import descend
 
@@ -52,8 +52,8 @@ def made_up(decisions=12, inputs=3, actions=4, drives=3, seed=0):
 
 def test_rewards_are_theta_times_the_blocks():
     steps, theta = made_up(), RNG.normal(size=(4, 4))
-    blocks = action_blocks(steps.features, 4)[np.arange(12), steps.actions]
-    np.testing.assert_allclose(rewards_of(theta, steps), blocks @ theta.ravel())
+    blocks = all_action_features(steps.features, 4)[np.arange(12), steps.actions]
+    np.testing.assert_allclose(transition_rewards(theta, steps), blocks @ theta.ravel())
 
 
 def test_sarsa_by_hand():
@@ -69,16 +69,18 @@ def test_sarsa_by_hand():
     st.floats(0.1, 50),
 )
 def test_scaled_rewards_lie_in_the_unit_interval_whatever_their_unit(rewards, unit):
-    scaled = into_unit(rewards)
+    scaled = scale_to_unit_interval(rewards)
     assert scaled.min() >= 0
     assert scaled.max() <= 1
-    np.testing.assert_allclose(into_unit(unit * rewards), scaled, atol=1e-9)
-    np.testing.assert_allclose(into_unit(-rewards), 1 - scaled, atol=1e-9)
+    np.testing.assert_allclose(
+        scale_to_unit_interval(unit * rewards), scaled, atol=1e-9
+    )
+    np.testing.assert_allclose(scale_to_unit_interval(-rewards), 1 - scaled, atol=1e-9)
     assert (np.diff(scaled[np.argsort(rewards)]) >= 0).all()
 
 
 def test_no_reward_is_neither_good_nor_bad():
-    assert into_unit(np.zeros(3)).tolist() == [0.5, 0.5, 0.5]
+    assert scale_to_unit_interval(np.zeros(3)).tolist() == [0.5, 0.5, 0.5]
 
 
 def test_after_is_the_next_decision_of_the_same_drive():
@@ -160,7 +162,7 @@ def test_it_finds_the_values_of_a_chain():
         np.array([True]),
     )
     theta = np.array([[1.0, -1.0, 1.0, 0.0]])
-    improve = SampledDescent(discount=0.5, alpha=1.0, rate=(2.0, 2.0), samples=20_000)
+    improve = ReplaySGD(discount=0.5, alpha=1.0, rate=(2.0, 2.0), samples=20_000)
     network = improve(
         random_network((3, 6, 1), seed=0), [steps], theta, 0.0, np.random.default_rng(0)
     ).network
@@ -176,7 +178,7 @@ def test_only_the_last_drives_are_remembered():
     old, new = made_up(seed=1), made_up(seed=2)
     start = random_network((3, 5, 4), seed=0)
     theta = RNG.normal(size=(4, 4))
-    improve = SampledDescent(replay=1, samples=50)
+    improve = ReplaySGD(replay=1, samples=50)
     both = improve(start, [old, new], theta, 0.0, np.random.default_rng(0)).network
     alone = improve(start, [new], theta, 0.0, np.random.default_rng(0)).network
     np.testing.assert_array_equal(both.weights[0], alone.weights[0])
@@ -186,13 +188,15 @@ def test_the_step_to_the_letter_is_a_gradient_step():
     """With targets (5.16), cut to [0, 1], for the taken action, and no change asked of the others."""
     steps, theta = made_up(), RNG.normal(size=(4, 4))
     network = random_network((3, 5, 4), seed=1)
-    stepped, cost = OneStep(rate=0.1)(network, [steps], theta, 0.0, RNG)
-    again, lower = OneStep(rate=0.1)(stepped, [steps], theta, 0.0, RNG)
+    stepped, cost = SingleGradientStep(rate=0.1)(network, [steps], theta, 0.0, RNG)
+    again, lower = SingleGradientStep(rate=0.1)(stepped, [steps], theta, 0.0, RNG)
     assert lower < cost
     outputs = network.forward(steps.inputs)
     q = outputs[np.arange(12), steps.actions]
     following = np.where(steps.after >= 0, np.append(q[1:], 0), 0)
-    target = np.clip(q + 0.8 * (rewards_of(theta, steps) + 0.65 * following - q), 0, 1)
+    target = np.clip(
+        q + 0.8 * (transition_rewards(theta, steps) + 0.65 * following - q), 0, 1
+    )
     slope = np.zeros(4)
     np.add.at(slope, steps.actions, (q - target) / 12)
     np.testing.assert_allclose(
@@ -242,11 +246,11 @@ def test_equation_514_finds_the_least_squares_fit():
     """Without a constraint that binds, it is what numpy's least squares finds: the learner's own values, explained."""
     shown = made_up(decisions=40)
     values = np.full((40, 4), 0.01) + 0.001 * RNG.random((40, 4))
-    theta = ByEquation514(discount=0.65, ridge=0.0, steps=20_000)(
+    theta = LeastSquaresReward(discount=0.65, ridge=0.0, steps=20_000)(
         shown, values, values, np.zeros((4, 4)), 1
     )
-    mu = discounted_to_go(
-        action_blocks(shown.features, 4)[np.arange(40), shown.actions],
+    mu = discounted_feature_sums(
+        all_action_features(shown.features, 4)[np.arange(40), shown.actions],
         shown.trajectory,
         0.65,
     )
@@ -273,16 +277,16 @@ def test_plain_accuracy_likes_one_action_for_everything():
 
 
 def learn(case):
-    course = ModelCourse(case.task, steps=30)
+    course = TabularTask(case.task, steps=30)
     shown = course.shown(case.expert, 100, seed=1)
-    improve = SampledDescent(discount=case.task.discount, samples=8000)
+    improve = ReplaySGD(discount=case.task.discount, samples=8000)
     return nirl(
         shown,
         course,
         iterations=150,
         hidden=30,
         improve=improve,
-        reward=ByContrast(power=0.5),
+        reward=SubgradientMaxMargin(power=0.5),
         seed=0,
     )
 
@@ -291,6 +295,7 @@ def greedy(case, found):
     return found.network.decide(np.eye(case.task.n_states))
 
 
+@pytest.mark.slow
 def test_nirl_on_ground_of_four_kinds(terrain):
     found = learn(terrain)
     assert terrain.loss(greedy(terrain, found)) < 0.05
@@ -303,54 +308,60 @@ def test_nirl_on_ground_of_four_kinds(terrain):
     assert history.changes[0, 1] == pytest.approx(by_hand)
 
 
+@pytest.mark.slow
 def test_nirl_on_random_rewards(scattered):
     assert scattered.loss(greedy(scattered, learn(scattered))) < 0.05
 
 
 def test_without_a_reward_nothing_is_learned(terrain):
     """The control: all rewards alike and neutral ends leave every action alike, whatever is practised."""
-    course = ModelCourse(terrain.task, steps=30)
+    course = TabularTask(terrain.task, steps=30)
     shown = course.shown(terrain.expert, 20, seed=1)
     nothing = np.zeros((4, terrain.task.n_states + 1))
-    found = practise(
+    found = train_under_reward(
         shown,
         course,
         nothing,
         iterations=20,
-        improve=SampledDescent(ends=NEUTRAL),
+        improve=ReplaySGD(ends=NEUTRAL_TERMINAL_VALUES),
         seed=0,
     )
     latest = found.history.networks[-1]
     assert np.ptp(latest.forward(np.eye(terrain.task.n_states))) < 0.1
 
 
+@pytest.mark.slow
 def test_the_true_reward_makes_an_expert(terrain):
     """The solver alone: expected rewards of each cell and action given, practice finds a policy as good."""
     task = terrain.task
     theta = np.zeros((4, task.n_states + 1))
     theta[:, :-1] = (task.features @ terrain.truth).T
-    course = ModelCourse(task, steps=30)
+    course = TabularTask(task, steps=30)
     shown = course.shown(terrain.expert, 20, seed=1)
-    improve = SampledDescent(discount=task.discount, ends=(0.5, 0.5))
-    found = practise(
+    improve = ReplaySGD(discount=task.discount, ends=(0.5, 0.5))
+    found = train_under_reward(
         shown, course, theta, iterations=150, hidden=30, improve=improve, seed=0
     )
     assert terrain.loss(greedy(terrain, found)) < 0.15
 
 
 def test_it_ends_when_the_margin_is_small(terrain):
-    course = ModelCourse(terrain.task)
+    course = TabularTask(terrain.task)
     shown = course.shown(terrain.expert, 5, seed=1)
     found = nirl(shown, course, iterations=50, tolerance=1e9, seed=0)
     assert len(found.history.margins) == 1
 
 
 def test_the_same_seed_gives_the_same_numbers(terrain):
-    course = ModelCourse(terrain.task)
+    course = TabularTask(terrain.task)
     shown = course.shown(terrain.expert, 5, seed=1)
     one, same, other = (
         nirl(
-            shown, course, iterations=3, improve=SampledDescent(ends=NOTHING), seed=s
+            shown,
+            course,
+            iterations=3,
+            improve=ReplaySGD(ends=ZERO_TERMINAL_VALUES),
+            seed=s,
         ).history.networks.weights[0]
         for s in (0, 0, 1)
     )
@@ -359,7 +370,7 @@ def test_the_same_seed_gives_the_same_numbers(terrain):
 
 
 def test_nothing_shown_gets_a_sentence(terrain):
-    course = ModelCourse(terrain.task)
+    course = TabularTask(terrain.task)
     shown = course.shown(terrain.expert, 5, seed=1)
     with pytest.raises(
         ValueError,
@@ -381,4 +392,4 @@ def test_nothing_shown_gets_a_sentence(terrain):
 )
 def test_settings_out_of_bounds_get_a_sentence(setting):
     with pytest.raises(ValueError, match=next(iter(setting))):
-        SampledDescent(**setting)
+        ReplaySGD(**setting)

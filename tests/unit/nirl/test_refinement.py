@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from robonav.nirl import boltzmann, most_frequent, most_telling
+from robonav.nirl import boltzmann, map_uniform_prior, most_frequent
 
 # State 7: action 0 ten times, action 1 twice. Action 0 is common elsewhere, action 1 is shown nowhere else.
 STATES = np.array([7] * 12 + [3] * 90)
@@ -22,7 +22,7 @@ def test_counting_takes_the_most_frequent_action():
 
 def test_the_likelihood_alone_takes_the_rare_action():
     """P(state 7 | action 1) = 1 and P(state 7 | action 0) = 0.1: ten right labels are turned into wrong ones."""
-    refined = most_telling(STATES, SHOWN, 5)
+    refined = map_uniform_prior(STATES, SHOWN, 5)
     assert set(refined.actions[STATES == 7]) == {1}
     assert set(refined.actions[STATES == 3]) == {0}
     assert refined.changed.sum() == 10

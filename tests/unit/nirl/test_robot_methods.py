@@ -10,29 +10,29 @@ from robonav.lfd.demonstrations import LEARNED
 from robonav.nirl import (
     ENCODER,
     METHODS,
-    NEUTRAL,
-    ByEquation514,
-    OneStep,
-    RobotCourse,
-    SampledDescent,
+    NEUTRAL_TERMINAL_VALUES,
+    LeastSquaresReward,
+    ReplaySGD,
+    RobotTask,
+    SingleGradientStep,
     accuracy,
-    by_heuristic,
-    by_lstd,
-    by_max_margin,
-    chosen_block,
-    from_everywhere,
-    from_start,
+    expert_transitions,
+    from_all_states,
+    from_initial_state,
+    heuristic_estimate,
     learn,
-    learn_under,
+    learn_under_reward,
+    lstd_estimate,
+    max_margin_method,
     most_frequent,
-    shown_steps,
+    state_action_features,
 )
 from robonav.nirl.methods import prepared, random_segments, segments
 from robonav.nirl.tasks import collect
 from robonav.robot import Simulator, navigate, random_worlds
 
-SMALL = {"improve": SampledDescent(samples=500), "iterations": 3}
-COURSE = RobotCourse(trajectories=3, obstacles=10)
+SMALL = {"improve": ReplaySGD(samples=500), "iterations": 3}
+COURSE = RobotTask(trajectories=3, obstacles=10)
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +68,7 @@ def test_a_practice_drive_is_a_drive(action):
 
 def test_experts_and_learners_are_seen_alike(demonstrations):
     """An expert's decisions are its effective pairs, with the seconds at which they were made."""
-    shown = shown_steps(demonstrations)
+    shown = expert_transitions(demonstrations)
     pairs = demonstrations.effective
     np.testing.assert_array_equal(shown.actions, pairs.actions)
     np.testing.assert_array_equal(shown.inputs, ENCODER(pairs.sensing))
@@ -78,9 +78,9 @@ def test_experts_and_learners_are_seen_alike(demonstrations):
 
 
 def test_segments_stop_after_their_horizon(demonstrations):
-    shown = shown_steps(demonstrations)
+    shown = expert_transitions(demonstrations)
     found = segments(shown, LEARNED, 0.65, 3)
-    block = chosen_block(shown.features, shown.actions, LEARNED)
+    block = state_action_features(shown.features, shown.actions, LEARNED)
     for t in range(len(shown) - 3):
         inside = [
             block[t + k] * 0.65**k
@@ -92,24 +92,26 @@ def test_segments_stop_after_their_horizon(demonstrations):
 
 def test_random_segments_begin_where_the_expert_decided(demonstrations):
     rng = np.random.default_rng(0)
-    steps = random_segments(demonstrations, RobotCourse(), 50, 4, rng)
+    steps = random_segments(demonstrations, RobotTask(), 50, 4, rng)
     assert (np.bincount(steps.trajectory) <= 4).all()
     begun = steps.inputs[np.flatnonzero(np.diff(steps.trajectory, prepend=-1))]
-    known = {tuple(row) for row in shown_steps(demonstrations).inputs.round(9)}
+    known = {tuple(row) for row in expert_transitions(demonstrations).inputs.round(9)}
     assert all(tuple(row) in known for row in begun.round(9))
 
 
-@pytest.mark.parametrize("estimate", [by_lstd, by_heuristic])
+@pytest.mark.parametrize("estimate", [lstd_estimate, heuristic_estimate])
 def test_expectations_of_the_experts_actions_are_known(demonstrations, estimate):
-    shown = shown_steps(demonstrations)
+    shown = expert_transitions(demonstrations)
     mu = estimate(shown, LEARNED, 0.65)
     assert mu.shape == (len(shown), LEARNED, LEARNED * (ENCODER.size + 1))
     assert np.isfinite(mu).all()
 
 
 def test_two_kinds_of_expectations(demonstrations):
-    shown = shown_steps(demonstrations)
-    start, everywhere = (f(shown, LEARNED, 0.65) for f in (from_start, from_everywhere))
+    shown = expert_transitions(demonstrations)
+    start, everywhere = (
+        f(shown, LEARNED, 0.65) for f in (from_initial_state, from_all_states)
+    )
     constants = (np.arange(1, LEARNED + 1) * (ENCODER.size + 1)) - 1
     assert start[constants].sum() == pytest.approx(
         1 / 0.35, rel=1e-3
@@ -147,7 +149,11 @@ def test_one_trajectory_is_enough(demonstrations, method):
 
 
 def test_algorithm_10_to_the_letter_runs(demonstrations):
-    to_the_letter = {"reward": ByEquation514(), "improve": OneStep(), "score": accuracy}
+    to_the_letter = {
+        "reward": LeastSquaresReward(),
+        "improve": SingleGradientStep(),
+        "score": accuracy,
+    }
     learned = learn(
         demonstrations, seed=0, course=COURSE, iterations=3, **to_the_letter
     )
@@ -157,10 +163,10 @@ def test_algorithm_10_to_the_letter_runs(demonstrations):
     assert np.isfinite(learned.history.costs).all()
 
 
-@pytest.mark.parametrize("expectations", [from_start, from_everywhere])
+@pytest.mark.parametrize("expectations", [from_initial_state, from_all_states])
 def test_an_apprentice_by_the_widest_margin(demonstrations, expectations):
     learned = learn(
-        demonstrations, "apprenticeship", seed=0, course=COURSE, search=by_max_margin, guesses=2,
+        demonstrations, "apprenticeship", seed=0, course=COURSE, search=max_margin_method, guesses=2,
         expectations=expectations, **(SMALL | {"iterations": 4}),
     )  # fmt: skip
     assert len(learned.history.costs) == 4
@@ -217,7 +223,7 @@ def test_refinement_makes_demonstrations_consistent(demonstrations):
         actions=actions,
         poses=pairs.poses[thrice],
     )
-    refined = prepared(doubled, RobotCourse(), most_frequent)
+    refined = prepared(doubled, RobotTask(), most_frequent)
     states, counts = np.unique(refined.inputs, axis=0, return_counts=True)
     for state in states:
         assert len(set(refined.actions[(refined.inputs == state).all(axis=1)])) == 1
@@ -226,13 +232,15 @@ def test_refinement_makes_demonstrations_consistent(demonstrations):
 
 def test_a_reward_can_be_taken_elsewhere(demonstrations):
     theta = np.zeros((LEARNED, ENCODER.size + 1))
-    learned = learn_under(
+    learned = learn_under_reward(
         demonstrations, theta, course=replace(COURSE, speed=1.0), seed=0, iterations=2
     )
     assert (learned.reward_weights == 0).all()
-    neutral = SampledDescent(ends=NEUTRAL, samples=2000)
-    idle = learn_under(
+    neutral = ReplaySGD(ends=NEUTRAL_TERMINAL_VALUES, samples=2000)
+    idle = learn_under_reward(
         demonstrations, theta, course=COURSE, seed=0, iterations=2, improve=neutral
     )
-    outputs = idle.history.networks[-1].forward(shown_steps(demonstrations).inputs)
+    outputs = idle.history.networks[-1].forward(
+        expert_transitions(demonstrations).inputs
+    )
     assert abs(outputs - 0.5).mean() < 0.1

@@ -8,11 +8,11 @@ from hypothesis.extra.numpy import arrays
 from scipy.optimize import approx_fprime
 
 from robonav.nirl import (
-    average_by,
-    discounted_to_go,
+    discounted_feature_sums,
     feature_expectations,
+    heuristic_mu,
     lstd_mu,
-    shown_only,
+    mean_by_pair,
     structured_classification,
 )
 from robonav.nirl.scirl import cost
@@ -24,6 +24,7 @@ SHOWN = RNG.integers(0, 3, 40)
 
 @settings(deadline=None)
 @given(arrays(float, 4, elements=st.floats(-2, 2)), st.floats(0, 1))
+@pytest.mark.slow
 def test_the_subgradient_is_that_of_the_cost(theta, ridge):
     def at(weights):
         return cost(weights, MU, SHOWN, ridge=ridge)[0]
@@ -49,6 +50,7 @@ def test_a_separable_case_is_separated():
     assert learned.costs[-1] < 0.5 * learned.costs[0]
 
 
+@pytest.mark.slow
 def test_weights_do_not_hang_on_the_unit_of_the_features():
     one = structured_classification(MU, SHOWN).weights
     other = structured_classification(1000 * MU, SHOWN).weights
@@ -56,7 +58,7 @@ def test_weights_do_not_hang_on_the_unit_of_the_features():
 
 
 def test_only_the_shown_action_is_known():
-    every = shown_only([[2.0, 4.0], [6.0, 8.0]], [1, 0], 3, 0.5)
+    every = heuristic_mu([[2.0, 4.0], [6.0, 8.0]], [1, 0], 3, 0.5)
     np.testing.assert_allclose(
         every, [[[1, 2], [2, 4], [1, 2]], [[6, 8], [3, 4], [3, 4]]]
     )
@@ -87,6 +89,7 @@ def lstd(case, walks, policy, seed):
     return omega.reshape(task.n_states, task.n_actions, -1)
 
 
+@pytest.mark.slow
 def test_lstd_mu_finds_what_the_model_says(terrain):
     policy = np.full((terrain.task.n_states, 4), 0.25)
     estimate = lstd(terrain, 2000, policy, 1)
@@ -121,9 +124,9 @@ def test_scirl_with_monte_carlo(terrain):
     task, drawn = terrain.task, terrain.task.walk(noisy(terrain), 3000, 40, seed=3)
     features = task.features[drawn.states, drawn.actions].reshape(-1, 4)
     pairs = (drawn.states * 4 + drawn.actions).ravel()
-    mu = average_by(
+    mu = mean_by_pair(
         pairs,
-        discounted_to_go(features, drawn.trajectory, task.discount),
+        discounted_feature_sums(features, drawn.trajectory, task.discount),
         task.n_states * 4,
     )
     mu = mu.reshape(task.n_states, 4, -1)
@@ -140,9 +143,9 @@ def test_scirl_with_the_heuristic(scattered):
     task, drawn = scattered.task, scattered.task.walk(scattered.expert, 40, 30, seed=4)
     features = task.features[drawn.states, drawn.actions].reshape(drawn.states.size, -1)
     shown = drawn.actions.ravel()
-    to_go = discounted_to_go(features, drawn.trajectory, task.discount)
+    to_go = discounted_feature_sums(features, drawn.trajectory, task.discount)
     learned = structured_classification(
-        shown_only(to_go, shown, 4, task.discount), shown, ridge=1e-2
+        heuristic_mu(to_go, shown, 4, task.discount), shown, ridge=1e-2
     )
     assert scattered.loss(scattered.best(learned.weights)) < 0.05
 

@@ -69,6 +69,7 @@ def learned_values(agent):
     )
 
 
+@pytest.mark.slow
 def test_nfq_converges_to_the_known_values():
     agent = NFQAgent(
         networks(),
@@ -294,6 +295,7 @@ def test_nfq_fits_only_every_so_many_episodes():
     assert (agent.networks.parameters()[1] != before[1]).any()
 
 
+@pytest.mark.slow
 def test_rprop_is_that_of_torch():
     import torch
 

@@ -168,6 +168,7 @@ def test_a_checkpoint_of_another_version_or_a_torn_one_is_refused(
     assert load_checkpoint(tmp_path / "none", {}, None, None) == 0
 
 
+@pytest.mark.slow
 def test_a_short_training_learns_and_its_curve_rises():
     training = train("nnql", 4, 120)
     curve = training.successes.reshape(4, 4, 30).mean(axis=(0, 2))

@@ -105,6 +105,7 @@ def test_clearance_of_a_step_agrees_with_shapely():
         )  # shapely's circle is a polygon of 1024 corners
 
 
+@pytest.mark.slow
 def test_clearance_against_a_moving_obstacle_agrees_with_many_moments():
     rng = np.random.default_rng(4)
     for _ in range(200):

@@ -60,6 +60,7 @@ def least_distances(pose, sectors, things):
     return np.nan_to_num(distance, nan=np.inf).min(axis=1, initial=np.inf)
 
 
+@pytest.mark.slow
 def test_ranges_and_walls_agree_with_shapely_in_thousands_of_worlds():
     n = 2000
     worlds = random_worlds(n, obstacles=12, seed=101)
@@ -264,6 +265,7 @@ def test_bad_poses_are_refused_with_a_sentence(poses, message):
         sense(make_world(), poses)
 
 
+@pytest.mark.slow
 def test_circles_agree_with_shapely_to_the_micrometre():
     """A polygon of 131,072 corners lies within 2 nanometres of its circle."""
     rng = np.random.default_rng(9)

@@ -7,7 +7,12 @@ import numpy as np
 import pytest
 
 from robonav.lfd import demonstrate
-from robonav.nirl import ENCODER, into_unit, rewards_of, shown_steps
+from robonav.nirl import (
+    ENCODER,
+    expert_transitions,
+    scale_to_unit_interval,
+    transition_rewards,
+)
 from robonav.nirl.transitions import with_constant
 from robonav.robot import Reflex, Simulator, navigate, random_worlds
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
@@ -19,7 +24,7 @@ SPEED, DISCOUNT = 2.0, 0.9
 
 @pytest.fixture(scope="module")
 def shown():
-    return shown_steps(demonstrate(random_worlds(6, 20, seed=3)))
+    return expert_transitions(demonstrate(random_worlds(6, 20, seed=3)))
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +58,7 @@ def test_rewards_and_judgements_are_pythons(page, shown, theta):
     seen = page(body, data)
     np.testing.assert_allclose(seen["all"], shown.features @ theta.T, atol=1e-12)
     assert seen["scale"] == pytest.approx(
-        np.percentile(abs(rewards_of(theta, shown)), 95), abs=1e-12
+        np.percentile(abs(transition_rewards(theta, shown)), 95), abs=1e-12
     )
     assert seen["agreement"] == np.mean(
         (shown.features @ theta.T).argmax(axis=1) == shown.actions
@@ -62,7 +67,7 @@ def test_rewards_and_judgements_are_pythons(page, shown, theta):
 
 def plan(shown, theta, depth):
     encoder = lab(shown, theta).data["encoder"]
-    scale = float(np.percentile(abs(rewards_of(theta, shown)), 95))
+    scale = float(np.percentile(abs(transition_rewards(theta, shown)), 95))
     return {
         "theta": theta.ravel().tolist(),
         "encoder": encoder,
@@ -103,7 +108,7 @@ def worths(theta, scale, simulator, depth):
     """The same by brute force: a copy of the simulator for each action."""
     sensing = simulator.sense()
     rewards = (with_constant(ENCODER(sensing)) @ theta.T)[0]
-    units = into_unit(np.append(rewards, [scale] * 1000))[:5]
+    units = scale_to_unit_interval(np.append(rewards, [scale] * 1000))[:5]
     found = []
     for action in range(5):
         after = copy_of(simulator)
@@ -175,7 +180,7 @@ def test_percentiles_are_numpys(page):
 @pytest.mark.parametrize("target", ["number", "signed", "one-hot", "sine-cosine"])
 def test_every_feature_has_a_name(shown, target):
     encoder = replace(ENCODER, target=target)
-    steps = shown_steps(demonstrate(random_worlds(2, 20, seed=3)), encoder)
+    steps = expert_transitions(demonstrate(random_worlds(2, 20, seed=3)), encoder)
     features = lab(steps, np.zeros((5, encoder.size + 1)), encoder=encoder).data[
         "features"
     ]

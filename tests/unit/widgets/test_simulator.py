@@ -184,6 +184,7 @@ NETWORKS = [name for name in methods() if isinstance(method(name), NetworkPolicy
 
 
 @pytest.mark.parametrize("name", NETWORKS)
+@pytest.mark.slow
 def test_shipped_policies_drive_a_thousand_worlds_in_the_page_as_in_python(
     node, thousand, name
 ):
