@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Sequence
-from types import FrameType
 from typing import Any, ClassVar
 
 import gymnasium
@@ -17,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.validation import check_instance, check_integer, check_one_of
 
 from ._fast import ARRIVED, COLLIDED, OUT_OF_STEPS, RUNNING, SENSOR_RANGE, SENSORS
-from .rollout import REFLEX
-from .simulator import NEVER, OUTCOMES, Reflex, Sensing, Simulator, check_actions
+from .rollout import REFLEX, ReflexRule
+from .simulator import NEVER, OUTCOMES, Sensing, Simulator, check_actions
 from .worlds import (
     MOVING_SPEEDS,
     SIZE,
@@ -33,18 +31,39 @@ MAX_STEPS = 500
 _OUTCOME_NAMES = OUTCOMES.astype(object)
 
 Reward = Callable[[Sensing, Sensing, NDArray[np.int8]], ArrayLike]
-"""``reward(before, after, outcome) -> (N,)``: what N robots sensed before and after a step, and outcome codes."""
+"""``reward(before, after, outcome) -> (N,)``: from what N robots sensed before and after a step, and the outcomes."""
 
 
 def arrival_or_collision(
     before: Sensing, after: Sensing, outcome: NDArray[np.int8]
 ) -> NDArray[np.float64]:
-    """1 for arriving, -1 for colliding, else 0: (N,)."""
+    """Return the reward 1 for an arrival, -1 for a collision, else 0.
+
+    Parameters
+    ----------
+    before, after : Sensing
+        What N robots sensed before and after the step; not used.
+    outcome : (N,) int array
+        How their episodes stand after the step: codes into ``OUTCOMES``.
+
+    Returns
+    -------
+    (N,) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.robot import Sensing
+    >>> from robonav.robot.environments import arrival_or_collision
+    >>> nothing = Sensing.empty(3)
+    >>> arrival_or_collision(nothing, nothing, np.array([0, 1, 2]))
+    array([ 0.,  1., -1.])
+    """
     return (outcome == ARRIVED).astype(float) - (outcome == COLLIDED)
 
 
 def observation_space() -> gymnasium.spaces.Dict:
-    """What one robot senses, as :class:`Sensing` has it."""
+    """Return the space of one robot's observations: the fields of :class:`Sensing`."""
     return gymnasium.spaces.Dict(
         {
             "ranges": gymnasium.spaces.Box(0.0, SENSOR_RANGE, (SENSORS,), np.float64),
@@ -56,7 +75,25 @@ def observation_space() -> gymnasium.spaces.Dict:
 
 
 def as_sensing(observation: dict[str, Any]) -> Sensing:
-    """An environment's observation, single or batched, as the batch that encoders and policies take."""
+    """Turn an environment's observation into the batch that encoders and policies take.
+
+    Parameters
+    ----------
+    observation : dict
+        Of one robot, or of N from the vector environment.
+
+    Returns
+    -------
+    Sensing
+        One row, or N.
+
+    Examples
+    --------
+    >>> from robonav.robot.environments import NavigationEnv, as_sensing
+    >>> observation, _ = NavigationEnv().reset(seed=0)
+    >>> as_sensing(observation).ranges.shape
+    (1, 9)
+    """
     return Sensing(
         np.atleast_2d(observation["ranges"]),
         np.atleast_2d(observation["walls"]).astype(bool),
@@ -66,26 +103,37 @@ def as_sensing(observation: dict[str, Any]) -> Sensing:
 
 
 class NavigationVectorEnv(gymnasium.vector.VectorEnv):
-    """N robots in N worlds, a new world each episode; the vector twin of :class:`NavigationEnv`.
+    """N robots in N worlds, stepped in one compiled call: the vector twin of :class:`NavigationEnv`.
 
-    A robot that has arrived, collided or run out of steps starts anew with the next step, whose action it ignores
-    (``AutoresetMode.NEXT_STEP``).
+    Actions, observations, rewards, the start and the end of an episode are those of :class:`NavigationEnv`, with a
+    leading dimension N. ``gymnasium.make_vec("robonav/Navigation-v0", num_envs=N,
+    vectorization_mode="vector_entry_point")`` makes one.
+
+    A robot whose episode has ended starts a new one in the next step, in a new world. That step ignores its action and
+    gives reward 0 (``AutoresetMode.NEXT_STEP``).
 
     Parameters
     ----------
-    num_envs : N.
-    obstacles, moving, starts, targets, moving_speeds : of the worlds drawn, see :func:`random_worlds`.
-    worlds : take these, in turn and by chance, instead of drawing new ones.
-    speed, slip, noise : of the robot, see :class:`Simulator`.
-    reward : see ``Reward``.
-    reflex : what the robot does before the action given counts; None turns it off.
-    max_episode_steps : seconds after which an episode is out of steps.
-    render_mode : "rgb_array" or None.
+    num_envs : int
+        N.
+    obstacles, moving, starts, targets, moving_speeds, worlds, speed, slip, noise, reward, reflex
+        See :class:`NavigationEnv`.
+    max_episode_steps : int
+        An episode is truncated after this many seconds; its outcome is "out of steps".
+    render_mode : {"rgb_array"}, optional
+        What :meth:`render` returns.
 
-    Notes
-    -----
-    ``info`` has, for every robot: ``outcome`` ("running", "arrived", "collided", "out of steps"), ``reflex`` (the
-    action that the reflex put in place of the one given, else -1), ``pose`` (x, y, heading).
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.robot.environments import NavigationVectorEnv
+    >>> env = NavigationVectorEnv(3, obstacles=10)
+    >>> observation, info = env.reset(seed=0)
+    >>> observation["ranges"].shape
+    (3, 9)
+    >>> _, reward, terminated, truncated, info = env.step(np.zeros(3, dtype=int))
+    >>> info["outcome"].tolist()
+    ['running', 'running', 'running']
     """
 
     metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
@@ -108,7 +156,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         slip: ArrayLike | None = None,
         noise: float = 0.0,
         reward: Reward = arrival_or_collision,
-        reflex: Reflex | None = REFLEX,
+        reflex: ReflexRule | None = REFLEX,
         max_episode_steps: int = MAX_STEPS,
         render_mode: str | None = None,
     ) -> None:
@@ -146,7 +194,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         }
         self.simulator = Simulator(
             self._next_worlds(np.arange(0)), **self._robot
-        )  # empty until reset
+        )  # no robots before the first reset
         self.sensing = self.simulator.sense()
 
     def reset(
@@ -155,9 +203,9 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Start every robot anew; robot i is seeded with seed + i, as Gymnasium does.
+        """Begin a new episode for every robot; robot i gets the seed ``seed + i``, as Gymnasium does.
 
-        ``options={"worlds": ...}`` puts the robots into N given worlds.
+        ``options={"worlds": worlds}`` puts the robots into N given worlds.
         """
         self.seed(seed)
         for option in check_instance("options", options or {}, dict):
@@ -178,7 +226,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         return self._observation(), self._info(np.full(self.num_envs, -1))
 
     def seed(self, seed: int | Sequence[int | None] | None) -> None:
-        """Give every robot its generator: from seed + i, from its own seed, or, the first time, by chance."""
+        """Give every robot its random generator: from seed + i, or from its own seed, or else from fresh entropy."""
         seeds: list[int | None]
         if isinstance(seed, Sequence):
             seeds = [
@@ -208,7 +256,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         NDArray[np.bool_],
         dict[str, Any],
     ]:
-        """One second for all; see the class for what happens after the end of an episode."""
+        """Simulate one second; the class says what happens after the end of an episode."""
         reward, terminated, truncated, reflexes = self.advance(actions)
         return self._observation(), reward, terminated, truncated, self._info(reflexes)
 
@@ -217,7 +265,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
     ) -> tuple[
         NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], NDArray[np.int64]
     ]:
-        """A step without its observation and info: rewards, terminated, truncated, reflexes, each (N,)."""
+        """Step, and return rewards, terminated, truncated and the actions of the reflexes, each (N,)."""
         if len(self.simulator) == 0:
             raise ValueError("step: call reset first")
         commands = check_actions(actions, (self.num_envs,))
@@ -248,7 +296,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         return reward, terminated, simulator.steps >= simulator.max_steps, reflexes
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
-        """A picture (H, W, 3) of every world, if ``render_mode`` is "rgb_array"."""
+        """Draw every world as an image (H, W, 3), if ``render_mode`` is "rgb_array"."""
         if self.render_mode is None:
             return None
         if len(self.simulator) == 0:
@@ -258,7 +306,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         return tuple(picture(self.simulator, i) for i in range(self.num_envs))
 
     def _next_worlds(self, robots: NDArray[np.int64]) -> Worlds:
-        """The next world of each of these robots, drawn from its own generator."""
+        """Draw the next world of each of these robots from its own generator."""
         if self.worlds is not None:
             return self.worlds[
                 [int(self._generators[i].integers(len(self.worlds))) for i in robots]
@@ -274,7 +322,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
     def _observation(self) -> dict[str, Any]:
         read = self.sensing
         return {
-            "ranges": read.ranges.copy(),  # the reader's to change
+            "ranges": read.ranges.copy(),  # a copy, which the caller may change
             "walls": read.walls.astype(np.int8),
             "target_region": read.target_region.copy(),
             "target_seen": read.target_seen.astype(np.int64),
@@ -291,10 +339,115 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
 
 
 class NavigationEnv(gymnasium.Env):
-    """One robot on its way to a target: the batch of one of :class:`NavigationVectorEnv`, which has the parameters.
+    """A mobile robot has to reach a target in an unknown map without hitting anything (section 2.5).
 
-    ``render_mode`` may be "rgb_array" or "human". ``reset(options={"worlds": world})`` puts the robot into a given
-    world.
+    ## Description
+
+    The robot crosses a square map of 100 m with circular and rectangular obstacles. It senses distances in nine
+    sectors of 40 degrees and the direction of its target, never the map. One step lasts one second. This is the batch
+    of one of :class:`NavigationVectorEnv`, with the same numbers bit for bit.
+
+    ## Action space
+
+    ``Discrete(6)``, Eq. (4.4). The robot turns, then goes straight on for one second.
+
+    | number | action | turn                | distance |
+    |--------|--------|---------------------|----------|
+    | 0      | F      | none                | speed    |
+    | 1      | L30    | 30 degrees left     | speed    |
+    | 2      | L60    | 60 degrees left     | speed    |
+    | 3      | R30    | 30 degrees right    | speed    |
+    | 4      | R60    | 60 degrees right    | speed    |
+    | 5      | B      | none                | -speed   |
+
+    The reflex comes first. If nothing is in sensor range, the robot turns to its target and goes forward (6). If all
+    five sectors ahead are blocked, it steps back (5). In both cases it ignores the action given, and
+    ``info["reflex"]`` names what it did instead.
+
+    ## Observation space
+
+    ``Dict``, the fields of :class:`Sensing` for one robot.
+
+    | key           | space                    | unit   | meaning                                               |
+    |---------------|--------------------------|--------|-------------------------------------------------------|
+    | ranges        | Box(0, 10, (9,), float64) | metres | least distance in each sector, 10 if nothing is in range |
+    | walls         | MultiBinary(9)           | -      | whether that nearest thing is the map's border        |
+    | target_region | Discrete(9, start=1)     | -      | sector that holds the target                          |
+    | target_seen   | Discrete(2)              | -      | whether the target is within 10 m                     |
+
+    Sector 1 (column 0) looks ahead; sectors are numbered counter-clockwise.
+
+    ## Rewards
+
+    1 for an arrival, -1 for a collision, else 0. ``reward`` replaces this; ``robonav.nnql.reward`` is Table 4.1.
+
+    ## Starting state
+
+    Each episode has a new random map, drawn as :func:`random_worlds` does from the seed of ``reset``. The robot stands
+    at (10, 10), faces its target at (90, 90), and is at least 6 m from every obstacle.
+
+    ## Episode end
+
+    1. Termination: the robot arrives, within 3 m of the target (outcome "arrived").
+    2. Termination: the robot comes nearer than 1 m to an obstacle or a border (outcome "collided").
+    3. Truncation: ``gymnasium.make`` cuts episodes after 500 steps, or after its ``max_episode_steps``, by Gymnasium's
+       ``TimeLimit``. The environment does not see this: its outcome stays "running". An environment made with a limit
+       of its own, ``NavigationEnv(max_episode_steps=...)``, and the vector environment say "out of steps".
+
+    ## Information
+
+    | key     | type           | meaning                                                                |
+    |---------|----------------|------------------------------------------------------------------------|
+    | outcome | str            | "running", "arrived", "collided" or "out of steps"                     |
+    | reflex  | int            | the action that the reflex put in place of the one given, else -1      |
+    | pose    | (3,) float64   | x and y in metres, heading in radians; a robot does not know its pose  |
+
+    ## Options
+
+    ``reset(options={"worlds": world})`` puts the robot into a given world, a batch of one.
+
+    ## Version history
+
+    v0: first version.
+
+    Parameters
+    ----------
+    obstacles : int
+        Obstacles that stand still, in each new map.
+    moving : int
+        Obstacles that move, on top of them.
+    starts, targets : sequence of (x, y)
+        Points in metres, of which each map gets one at random.
+    moving_speeds : (float, float)
+        Least and greatest speed of moving obstacles, in m/s.
+    worlds : Worlds, optional
+        Choose the map of each episode among these at random, instead of drawing new ones.
+    speed : float
+        Of the robot, in m/s.
+    slip : (6, 6) array, optional
+        Probabilities that action a (row) turns into another, see :class:`Simulator`.
+    noise : float
+        Standard deviation in metres of the error of a range.
+    reward : callable
+        ``reward(before, after, outcome) -> (N,)`` rewards of N robots, see ``Reward``.
+    reflex : callable, optional
+        What the robot does before the action given counts; None turns it off.
+    max_episode_steps : int, optional
+        Limit of the environment itself. By default it has none and leaves the limit to Gymnasium's wrapper.
+    render_mode : {"human", "rgb_array"}, optional
+        Whether :meth:`render` shows a window or returns an image.
+
+    Examples
+    --------
+    >>> import gymnasium
+    >>> import robonav
+    >>> env = gymnasium.make("robonav/Navigation-v0", obstacles=0)
+    >>> observation, info = env.reset(seed=0)
+    >>> terminated = truncated = False
+    >>> while not (terminated or truncated):
+    ...     observation, reward, terminated, truncated, info = env.step(0)
+    >>> info["outcome"], reward
+    ('arrived', 1.0)
     """
 
     metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
@@ -305,17 +458,38 @@ class NavigationEnv(gymnasium.Env):
     def __init__(
         self,
         *,
+        obstacles: int = 10,
+        moving: int = 0,
+        starts: Sequence[tuple[float, float]] = (START,),
+        targets: Sequence[tuple[float, float]] = (TARGET,),
+        moving_speeds: tuple[float, float] = MOVING_SPEEDS,
+        worlds: Worlds | None = None,
+        speed: float = 2.0,
+        slip: ArrayLike | None = None,
+        noise: float = 0.0,
+        reward: Reward = arrival_or_collision,
+        reflex: ReflexRule | None = REFLEX,
+        max_episode_steps: int | None = None,
         render_mode: str | None = None,
-        max_episode_steps: int = MAX_STEPS,
-        **settings: Any,
     ) -> None:
         self.render_mode = check_one_of(
             "render_mode", render_mode, [None, *self.metadata["render_modes"]]
         )
         self.batch = NavigationVectorEnv(
-            1, max_episode_steps=max_episode_steps, **settings
+            1,
+            obstacles=obstacles,
+            moving=moving,
+            starts=starts,
+            targets=targets,
+            moving_speeds=moving_speeds,
+            worlds=worlds,
+            speed=speed,
+            slip=slip,
+            noise=noise,
+            reward=reward,
+            reflex=reflex,
+            max_episode_steps=NEVER if max_episode_steps is None else max_episode_steps,
         )
-        self._max_episode_steps = max_episode_steps
         self.observation_space = self.batch.single_observation_space
         self.action_space = self.batch.single_action_space
         self._window: Any = None
@@ -323,14 +497,11 @@ class NavigationEnv(gymnasium.Env):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Start anew, in a new world unless ``options["worlds"]`` gives one."""
+        """Begin an episode, in a new world unless ``options["worlds"]`` gives one."""
         super().reset(seed=seed)
         self.batch.seed(seed)
         self._np_random = self.batch.np_random
         self.batch.reset(options=options)
-        self.batch.simulator.max_steps = _limit_of_callers(
-            default=self._max_episode_steps
-        )
         if self.render_mode == "human":
             self.render()
         return self._observation(), self._info(-1)
@@ -338,7 +509,7 @@ class NavigationEnv(gymnasium.Env):
     def step(
         self, action: int
     ) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
-        """One second; ValueError or TypeError for an action that is not 0 to 5."""
+        """Simulate one second; raise ValueError or TypeError for an action that is not 0 to 5."""
         if len(self.batch.simulator) and self.batch.simulator.outcome[0] != RUNNING:
             raise ValueError("step: the episode has ended; call reset first")
         reward, terminated, truncated, reflexes = self.batch.advance(
@@ -357,7 +528,7 @@ class NavigationEnv(gymnasium.Env):
     def _observation(self) -> dict[str, Any]:
         read = self.batch.sensing
         return {
-            "ranges": read.ranges[0].copy(),  # the reader's to change
+            "ranges": read.ranges[0].copy(),  # a copy, which the caller may change
             "walls": read.walls[0].astype(np.int8),
             "target_region": read.target_region[0],
             "target_seen": np.int64(read.target_seen[0]),
@@ -372,7 +543,7 @@ class NavigationEnv(gymnasium.Env):
         }
 
     def render(self) -> NDArray[np.uint8] | None:
-        """A picture (H, W, 3), or a window that shows it."""
+        """Return an image (H, W, 3), or show it in a window."""
         if self.render_mode is None:
             return None
         from .drawing import Window, picture
@@ -388,21 +559,3 @@ class NavigationEnv(gymnasium.Env):
         if self._window is not None:
             self._window.close()
             self._window = None
-
-
-def _limit_of_callers(default: int) -> int:
-    """The steps allowed by a ``TimeLimit`` wrapper that is calling ``reset``, else the default.
-
-    ``gymnasium.make(..., max_episode_steps=5)`` tells the wrapper and not the environment, whose ``info`` is to say
-    "out of steps" when the wrapper truncates. So the one who calls is asked.
-    """
-    frame: FrameType | None = sys._getframe(2)
-    for _ in range(10):  # wrappers, each a frame or two, stand between the two
-        if frame is None:
-            break
-        caller = frame.f_locals.get("self")
-        if isinstance(caller, gymnasium.wrappers.TimeLimit):
-            limit: int = caller._max_episode_steps
-            return limit
-        frame = frame.f_back
-    return default

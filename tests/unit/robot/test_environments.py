@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
+from functools import partial
+
 import gymnasium
 import numpy as np
 import pytest
@@ -57,13 +60,16 @@ def equal(one, other):
     "settings",
     [{"obstacles": 15, "moving": 3}, {"obstacles": 25, "reflex": None, "noise": 0.3}],
 )
-def test_vector_environment_equals_gymnasiums_over_the_single_one(settings):
+@pytest.mark.parametrize("limit", ["of the environment", "of the wrapper"])
+def test_vector_environment_equals_gymnasiums_over_the_single_one(settings, limit):
     n = 6
+    wrapped = limit == "of the wrapper"
     settings = settings | {"max_episode_steps": 40}
     native = gymnasium.make_vec(
         NAME, n, vectorization_mode="vector_entry_point", **settings
     )
-    synced = SyncVectorEnv([lambda: gymnasium.make(NAME, **settings)] * n)
+    made = partial(gymnasium.make, NAME) if wrapped else NavigationEnv
+    synced = SyncVectorEnv([lambda: made(**settings)] * n)
     assert native.observation_space == synced.observation_space
     assert native.action_space == synced.action_space
     for one, other in zip(native.reset(seed=3), synced.reset(seed=3), strict=True):
@@ -77,8 +83,10 @@ def test_vector_environment_equals_gymnasiums_over_the_single_one(settings):
         for a, b in zip(one[1:4], other[1:4], strict=True):
             np.testing.assert_array_equal(a, b)
             assert a.dtype == b.dtype
-        equal(one[4], other[4])
         seen.update(one[4]["outcome"])
+        if wrapped:  # whose truncation the environment does not see
+            one[4]["outcome"][one[3]] = "running"
+        equal(one[4], other[4])
         assert all(
             one[0][key] in space for key, space in native.observation_space.items()
         )
@@ -142,6 +150,12 @@ def test_out_of_steps_is_truncation_single_and_vector():
     env.reset(seed=0)
     for _ in range(5):
         *_, terminated, truncated, info = env.step(0)
+    assert (terminated, truncated) == (False, True)
+    assert info["outcome"] == "running"  # the wrapper cut the episode, not the robot
+    env = NavigationEnv(max_episode_steps=5)
+    env.reset(seed=0)
+    for _ in range(5):
+        *_, terminated, truncated, info = env.step(0)
     assert (terminated, truncated, info["outcome"]) == (False, True, "out of steps")
     batch = gymnasium.make_vec(
         NAME, 3, vectorization_mode="vector_entry_point", max_episode_steps=5
@@ -152,6 +166,25 @@ def test_out_of_steps_is_truncation_single_and_vector():
     assert truncated.all()
     assert not terminated.any()
     assert info["outcome"].tolist() == ["out of steps"] * 3
+
+
+def test_a_limit_above_the_registered_one_holds():
+    worlds = make_world(circles=[(20, 20, 4)])
+    env = gymnasium.make(NAME, worlds=worlds, reflex=None, max_episode_steps=600)
+    env.reset(seed=0)
+    for step in range(1, 601):  # six turns of 60 degrees: in circles
+        *_, terminated, truncated, _ = env.step(Action.L60)
+        assert (terminated, truncated) == (False, step == 600)
+
+
+def test_the_parameters_of_both_environments_are_listed():
+    single = inspect.signature(NavigationEnv).parameters
+    vector = inspect.signature(NavigationVectorEnv).parameters
+    assert set(single) == set(vector) - {"num_envs"}
+    assert all(kind.kind is kind.KEYWORD_ONLY for kind in single.values())
+    for name in set(single) - {"max_episode_steps"}:
+        assert single[name].default == vector[name].default
+        assert name in NavigationEnv.__doc__
 
 
 def test_reflexes_are_reported_and_can_be_turned_off():
