@@ -13,6 +13,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import re
+import sys
 import textwrap
 from pathlib import Path
 from typing import Any, ClassVar
@@ -36,7 +37,11 @@ def resolve(name: str) -> Any:
     """The object of a dotted name: an attribute where there is one, as Python has it, else a module."""
     package, *parts = name.split(".")
     found: Any = importlib.import_module(package)
+    path = package
     for part in parts:
+        if not inspect.ismodule(found) and not hasattr(found, part) and path in sys.modules:
+            found = sys.modules[path]  # a package may give a function the name of its module
+        path = f"{path}.{part}"
         fields = getattr(found, "__dataclass_fields__", {})
         if part in fields:
             found = fields[part]
