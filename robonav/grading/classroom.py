@@ -16,6 +16,8 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+from filelock import FileLock, Timeout
+
 from robonav import atomic
 from robonav.progress import Progress
 
@@ -148,7 +150,7 @@ def grade_class(
     submissions = students(folder)
     for name in set(again) - set(submissions):
         raise ValueError(f"no submission of {name} in {folder}")
-    with _alone(out):
+    with _locked(out):
         atomic.remove_partial_files(out)
         key, tasks = config.key(), []
         for name, path in submissions.items():
@@ -246,16 +248,11 @@ def _written(out: Path, entry: dict[str, str]) -> dict[str, Any] | None:
 
 
 @contextmanager
-def _alone(out: Path) -> Iterator[None]:
-    """No two runs into the same folder at once; a run that died leaves no trace of that."""
+def _locked(out: Path) -> Iterator[None]:
+    """Keep a second run out of the same folder; the system releases the lock of a run that died."""
     out.mkdir(parents=True, exist_ok=True)
-    with (out / ".lock").open("w") as file:
-        try:
-            import fcntl
-
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except ImportError:  # Windows
-            pass
-        except OSError:
-            raise ValueError(f"another run is grading into {out}") from None
-        yield
+    try:
+        with FileLock(out / ".lock", timeout=0):
+            yield
+    except Timeout:
+        raise ValueError(f"another run is grading into {out}") from None

@@ -295,7 +295,7 @@ def test_an_unknown_student_is_named(folder, tmp_path):
 
 def test_two_runs_do_not_meet(folder, tmp_path):
     with (
-        classroom._alone(tmp_path / "out"),
+        classroom._locked(tmp_path / "out"),
         pytest.raises(ValueError, match="another run"),
     ):
         grade_class(HERE, folder, tmp_path / "out")
