@@ -12,7 +12,7 @@ from .dynamic_programming import (
     policy_iteration,
     value_iteration,
 )
-from .episodes import Trajectory, discounted_return, rollouts
+from .episodes import Trajectory, discounted_return, mean_return, rollouts
 from .evaluation import (
     EvaluationResult,
     expected_return,
@@ -51,9 +51,8 @@ from .pomdp import (
 )
 from .small_pomdps import corridor, fork, tiger
 from .solutions import Solution
+from .tabular import ControlResult, PredictionResult
 from .temporal_difference import (
-    ControlResult,
-    PredictionResult,
     expected_sarsa,
     q_learning,
     sarsa,
@@ -122,6 +121,7 @@ __all__ = [
     "linear_decay",
     "linear_q_learning",
     "linear_sarsa",
+    "mean_return",
     "modified_policy_iteration",
     "monte_carlo_control",
     "monte_carlo_prediction",

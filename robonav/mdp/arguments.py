@@ -12,6 +12,7 @@ from typing import Any, ParamSpec, TypeVar
 
 from robonav.validation import (
     check_array,
+    check_generator,
     check_instance,
     check_integer,
     check_one_of,
@@ -27,6 +28,8 @@ COUNT = partial(check_integer, at_least=1)
 
 RULES: dict[str, Rule] = {
     "tolerance": check_positive,
+    "episodes": COUNT,
+    "max_steps": COUNT,
     "max_iterations": COUNT,
     "max_backups": COUNT,
     "max_rounds": COUNT,
@@ -36,6 +39,8 @@ RULES: dict[str, Rule] = {
     "steps": partial(check_integer, at_least=0),
     "discount": partial(check_real, at_least=0, at_most=1),
     "initial": check_real,
+    "seed": check_generator,
+    "rewards": partial(check_array, shape=("T",)),
     "visit": partial(check_one_of, choices=("first", "every")),
 }
 """What each argument of this name must be; the rule gets the name and the value, and returns the value to use."""

@@ -1,4 +1,4 @@
-"""Exploring or exploiting: epsilon-greedy choice, and rates that fall as experience grows."""
+"""Exploration: epsilon-greedy choice, and rates that fall with experience."""
 
 from __future__ import annotations
 
@@ -10,37 +10,58 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import check_array, check_integer, check_positive, check_real
 
+from .arguments import validated_with
 from .episodes import uniform_stream
 
 Schedule = Callable[[int], float]
-"""A rate as a function of how often something has happened before: 0, 1, 2, ..."""
+"""A rate as a function of the number of earlier events: 0, 1, 2, ..."""
 
 
 def constant(value: float) -> Schedule:
-    """The same rate for ever. Values then never settle, but they can follow a world that changes."""
+    """The same rate always. Values then never converge, but they can follow an environment that changes."""
     _rate("value", value)
     return lambda n: value
 
 
 def linear_decay(start: float, end: float, over: int) -> Schedule:
-    """In equal steps from ``start`` to ``end``, reached at ``over`` and kept."""
+    """Fall (or rise) in equal steps from ``start`` to ``end``, which is reached after ``over`` events and kept.
+
+    Examples
+    --------
+    >>> from robonav.mdp import linear_decay
+    >>> [linear_decay(1.0, 0.0, over=4)(n) for n in range(6)]
+    [1.0, 0.75, 0.5, 0.25, 0.0, 0.0]
+    """
     _rate("start", start), _rate("end", end)
     check_integer("over", over, at_least=1)
     return lambda n: start + (end - start) * min(n / over, 1.0)
 
 
 def exponential_decay(start: float, end: float, half_life: float) -> Schedule:
-    """From ``start`` towards ``end``, the gap halving every ``half_life``."""
+    """Move from ``start`` towards ``end``; the gap halves every ``half_life`` events.
+
+    Examples
+    --------
+    >>> from robonav.mdp import exponential_decay
+    >>> [exponential_decay(1.0, 0.0, half_life=1)(n) for n in range(4)]
+    [1.0, 0.5, 0.25, 0.125]
+    """
     _rate("start", start), _rate("end", end)
     check_positive("half_life", half_life)
     return lambda n: end + (start - end) * 0.5 ** (n / half_life)
 
 
 def harmonic_decay(start: float = 1.0, half_life: float = 1.0) -> Schedule:
-    """``start * h / (h + n)``: halved after ``half_life`` = h, and never done falling.
+    """Fall as ``start * h / (h + n)``: the rate is halved after ``half_life`` = h events.
 
-    Its sum is infinite and the sum of its squares is not, which is what the convergence of Q-learning asks of a
-    learning rate (Watkins and Dayan 1992). With the defaults it is 1, 1/2, 1/3, ...: the plain average.
+    The sum of the rates is infinite and the sum of their squares is finite, as the convergence of Q-learning requires
+    (Watkins and Dayan 1992). With the defaults the rates are 1, 1/2, 1/3, ...: the plain average.
+
+    Examples
+    --------
+    >>> from robonav.mdp import harmonic_decay
+    >>> [harmonic_decay()(n) for n in (0, 1, 3)]
+    [1.0, 0.5, 0.25]
     """
     _rate("start", start)
     check_positive("half_life", half_life)
@@ -48,17 +69,23 @@ def harmonic_decay(start: float = 1.0, half_life: float = 1.0) -> Schedule:
 
 
 def polynomial_decay(power: float) -> Schedule:
-    """``1 / (1 + n) ** power``; a ``power`` in (1/2, 1] makes Q-learning converge, and below 1 it does so sooner.
+    """Fall as ``1 / (1 + n) ** power``. A ``power`` in (1/2, 1] makes Q-learning converge, faster below 1.
 
-    With 1 the first, wrong targets weigh as much as the last ones, and a discount near 1 makes that endless; Even-Dar
-    and Mansour (2003) find that about 0.77 does best.
+    With a power of 1 the first, wrong targets weigh as much as the last ones, which slows learning down greatly for a
+    discount near 1. Even-Dar and Mansour (2003) find that about 0.77 is best.
+
+    Examples
+    --------
+    >>> from robonav.mdp import polynomial_decay
+    >>> [polynomial_decay(0.5)(n) for n in (0, 3)]
+    [1.0, 0.5]
     """
     check_real("power", power, above=0)
     return lambda n: (1 + n) ** -power
 
 
 def schedule(name: str, value: float | Schedule) -> Schedule:
-    """A schedule whose rates are checked as they come, or a number as a constant one: all from 0 to 1."""
+    """A schedule whose rates, all in [0, 1], are checked when used; a number becomes a constant schedule."""
     if not callable(value):
         return constant(_rate(name, value))
 
@@ -78,16 +105,29 @@ def _rate(name: str, value: Any) -> float:
     return check_real(name, value, at_least=0, at_most=1)
 
 
+@validated_with(q=check_array, epsilon=_rate)
 def epsilon_greedy(q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
-    """The policy, probabilities of shape (..., A): with probability ``epsilon`` any action, else one of the best.
+    """Epsilon-greedy policy: with probability ``epsilon`` a random action, otherwise one of the best.
 
     Parameters
     ----------
-    q : action values (..., A); actions of exactly equal value share.
-    epsilon : in [0, 1]; 0 is the greedy policy, 1 chooses blindly.
+    q : (..., A) array
+        Action values; actions of exactly equal value share their probability.
+    epsilon : float
+        In [0, 1]: 0 is the greedy policy, 1 chooses at random.
+
+    Returns
+    -------
+    (..., A) array
+        The probability of each action.
+
+    Examples
+    --------
+    >>> from robonav.mdp import epsilon_greedy
+    >>> epsilon_greedy([1.0, 3.0], epsilon=0.2)
+    array([0.1, 0.9])
     """
-    values = check_array("q", q)
-    check_real("epsilon", epsilon, at_least=0, at_most=1)
+    values = np.asarray(q)
     best = values == values.max(axis=-1, keepdims=True)
     return epsilon / values.shape[-1] + (1 - epsilon) * best / best.sum(
         axis=-1, keepdims=True
@@ -95,9 +135,9 @@ def epsilon_greedy(q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
 
 
 class EpsilonGreedy:
-    """Draws actions from :func:`epsilon_greedy`, quickly: ``choose(values)`` with one state's action values (A,).
+    """Draw actions from :func:`epsilon_greedy` quickly: ``choose(values)`` with the action values (A,) of one state.
 
-    ``epsilon`` is a number or a schedule over episodes; :meth:`begin` tells which episode it is.
+    ``epsilon`` is a number or a schedule over episodes; :meth:`begin` sets the episode.
     """
 
     def __init__(self, epsilon: float | Schedule, rng: np.random.Generator) -> None:
@@ -106,7 +146,7 @@ class EpsilonGreedy:
         self.epsilon = 1.0
 
     def begin(self, episode: int) -> None:
-        """Take the epsilon of this episode."""
+        """Use the epsilon of this episode."""
         self.epsilon = self._schedule(episode)
 
     def __call__(self, values: Sequence[Any]) -> int:
@@ -119,7 +159,7 @@ class EpsilonGreedy:
         return ties[int(self._draw() * len(ties))]
 
     def expected(self, values: Sequence[float]) -> float:
-        """The mean of the values under the policy: what SARSA's target is on average."""
+        """Mean of the values under the policy: the mean of SARSA's target."""
         return self.epsilon * sum(values) / len(values) + (1 - self.epsilon) * max(
             values
         )

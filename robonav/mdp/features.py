@@ -1,7 +1,7 @@
 """Features of a state and an action, for values that are linear in them (Eq. (4.3)).
 
-A feature map is anything callable as ``features(state) -> (A, n)``: the n numbers f_1(s, a) ... f_n(s, a) for each of
-the A actions.
+A feature map is any callable ``features(state) -> (A, n)``: the n numbers f_1(s, a) ... f_n(s, a) of each of the A
+actions.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Features = Callable[[Any], NDArray[np.float64]]
 def for_each_action(
     state_features: NDArray[np.float64], actions: int
 ) -> NDArray[np.float64]:
-    """State features (d,) with their own weights for each action: (A, A * d), zero but for the action's block."""
+    """State features (d,) with weights of their own for each action: (A, A * d), zero except in the action's block."""
     blocks = np.zeros((actions, actions, len(state_features)))
     blocks[np.arange(actions), np.arange(actions)] = state_features
     return blocks.reshape(actions, -1)
@@ -30,7 +30,19 @@ def for_each_action(
 
 @dataclass(frozen=True)
 class OneHot:
-    """One feature for each state and action: a table, written as a linear function. States are numbers from 0."""
+    """One feature for each state and action: a table, written as a linear function.
+
+    Parameters
+    ----------
+    n_states, n_actions : int
+        S and A; states are numbers from 0.
+
+    Examples
+    --------
+    >>> from robonav.mdp import OneHot
+    >>> OneHot(n_states=2, n_actions=1)(0)
+    array([[1., 0.]])
+    """
 
     n_states: int
     n_actions: int
@@ -46,19 +58,30 @@ class OneHot:
 
 @dataclass(frozen=True)
 class Tiles:
-    """Tile coding: several grids laid over the state, each shifted a little; one feature for each tile and action.
+    """Tile coding: several grids over the state, each shifted a little; one feature for each tile and action.
 
-    A state is in one tile of each tiling, so that neighbours share most of their tiles, and what is learned in one
-    place is half known next to it. With k tilings divide the learning rate by k.
+    A state lies in one tile of each tiling. Neighbours share most of their tiles, so what is learned in one place is
+    half known next to it. With k tilings divide the learning rate by k.
 
-    Attributes
+    Parameters
     ----------
-    low, high : bounds of the state's d coordinates; what lies outside counts as on the edge.
-    tiles : tiles along each coordinate, (d,).
-    tilings : how many grids. The i-th is shifted by i / tilings of a tile along the first coordinate, three times that
-        along the second, five times along the third ...: odd numbers keep the tilings apart in every direction
-        (Sutton and Barto 2018, 9.5.4).
-    actions : A.
+    low, high : (d,) tuple of floats
+        Bounds of the state's coordinates; a state outside counts as on the edge.
+    tiles : (d,) tuple of ints
+        Number of tiles along each coordinate.
+    tilings : int
+        Number of grids. Grid i is shifted by i / tilings of a tile along the first coordinate, three times that along
+        the second, five times along the third, and so on: odd numbers keep the tilings apart in every direction
+        (Sutton and Barto 2018, section 9.5.4).
+    n_actions : int
+        A.
+
+    Examples
+    --------
+    >>> from robonav.mdp import Tiles
+    >>> tiles = Tiles(low=(0.0,), high=(1.0,), tiles=(2,), tilings=2, n_actions=1)
+    >>> tiles([0.3])
+    array([[1., 0., 0., 0., 1., 0.]])
     """
 
     low: tuple[float, ...]
@@ -81,17 +104,17 @@ class Tiles:
 
     @cached_property
     def shape(self) -> tuple[int, ...]:
-        """(tilings, tiles along each coordinate + 1): the shift makes room for one more."""
+        """(tilings, tiles along each coordinate + 1); the shift needs one tile more."""
         return (self.tilings, *(tiles + 1 for tiles in self.tiles))
 
     @cached_property
     def shifts(self) -> NDArray[np.float64]:
-        """(tilings, d) how far each tiling is shifted, in tiles."""
+        """Shift of each tiling, in tiles: (tilings, d)."""
         odd = 2 * np.arange(len(self.tiles)) + 1
         return np.outer(np.arange(self.tilings), odd) % self.tilings / self.tilings
 
     def active(self, state: ArrayLike) -> NDArray[np.int64]:
-        """(tilings,) the number of the tile that holds the state, in each tiling."""
+        """Number of the tile that holds the state in each tiling: (tilings,)."""
         low, high = np.asarray(self.low), np.asarray(self.high)
         given = check_array("state", state, shape=low.shape)
         place = (

@@ -1,4 +1,4 @@
-"""Learning from whole episodes: Monte Carlo prediction and control (2.4.2)."""
+"""Learning from whole episodes: Monte Carlo prediction and control (section 2.4.2)."""
 
 from __future__ import annotations
 
@@ -10,30 +10,26 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robonav.progress import Progress
-from robonav.validation import check_generator, check_one_of, check_real
 
-from .episodes import (
-    EpisodeRunner,
-    discounted_return,
-    discretise_spaces,
-    policy_sampler,
-    space_sizes,
-)
-from .exploration import EpsilonGreedy, Schedule, harmonic_decay
-from .temporal_difference import ControlResult, PredictionResult, QTable
+from .arguments import validated
+from .discrete_spaces import discretise_spaces, space_sizes
+from .episodes import EpisodeRunner, discounted_return, policy_sampler
+from .exploration import Schedule, harmonic_decay
+from .tabular import ControlResult, PredictionResult, TabularTraining
 
 Visit = Literal["first", "every"]
 
 
 def counted_visits(passed: Sequence[Hashable], visit: Visit) -> Iterator[int]:
-    """The steps whose returns count: all of them, or for each thing passed only the first time it was."""
+    """Steps whose returns count: all of them, or only the first of each element passed."""
     seen: set[Hashable] = set()
-    for step, thing in enumerate(passed):
-        if visit == "every" or thing not in seen:
-            seen.add(thing)
+    for step, element in enumerate(passed):
+        if visit == "every" or element not in seen:
+            seen.add(element)
             yield step
 
 
+@validated
 def monte_carlo_prediction(
     env: gym.Env[Any, Any],
     policy: ArrayLike,
@@ -46,49 +42,62 @@ def monte_carlo_prediction(
     record: bool = False,
     progress: Progress | None = None,
 ) -> PredictionResult:
-    """The values of a policy, each the average of the returns that followed the state.
+    """Monte Carlo prediction: the value of a state is the mean of the returns that followed it.
 
     Parameters
     ----------
-    env : Gymnasium environment with S discrete states and A actions.
-    policy : (S,) of action numbers, or (S, A) of probabilities.
-    episodes : how many to play.
-    visit : ``"first"`` counts a state once an episode, which is unbiased; ``"every"`` each time it is passed, which is
-        biased in the short run and right in the long one (Singh and Sutton 1996).
-    discount : gamma, in [0, 1].
-    max_steps : steps after which an episode is cut off; it then counts as if nothing more had come.
-    seed : number or generator, for the environment and for the choices.
-    record : keep ``history``.
-    progress : called as ``progress(episodes done, episodes)``.
+    env : gymnasium.Env
+        S discrete states, A discrete actions.
+    policy : (S,) array of ints or (S, A) array of probabilities
+    episodes : int
+        Number of episodes.
+    visit : {"first", "every"}
+        ``"first"`` counts a state once an episode, which is unbiased; ``"every"`` counts each visit, which is biased
+        for few episodes and right in the limit (Singh and Sutton 1996).
+    discount : float
+        gamma, in [0, 1].
+    max_steps : int
+        Steps after which an episode is cut off. It then counts as if no more rewards had come.
+    seed : int or numpy.random.Generator
+        For the environment and for the choices.
+    record : bool
+        Whether to keep ``history``, a copy of the estimates for every episode, and the states passed.
+    progress : callable, optional
+        Called as ``progress(episodes done, episodes)``.
 
     Returns
     -------
-    PredictionResult with ``values`` (S,), NaN where a state was never passed, and ``visits`` (S,).
+    PredictionResult
+        Its ``values`` are NaN for states that were never visited; its ``visits`` count the returns averaged.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, monte_carlo_prediction
+    >>> env = GridWorld("S . G").environment()
+    >>> monte_carlo_prediction(env, [1, 1, 1], 5, discount=0.5).values
+    array([0.5, 1. , nan])
     """
-    env, rng = discretise_spaces(env), check_generator("seed", seed)
-    discount = check_real("discount", discount, at_least=0, at_most=1)
-    check_one_of("visit", visit, ("first", "every"))
-    states, actions = space_sizes(env)
-    course = EpisodeRunner(
-        env, episodes, max_steps=max_steps, rng=rng, progress=progress
+    env, rng = discretise_spaces(env), np.random.default_rng(seed)
+    n_states, n_actions = space_sizes(env)
+    runner = EpisodeRunner(
+        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
     )
-    choose = policy_sampler(policy, states, actions, rng)
-    values, visits = np.full(states, np.nan), np.zeros(states, dtype=np.int64)
-    history = [values.copy()]
-    for start in course.episodes():
-        episode = course.walk(start, choose)
+    choose = policy_sampler(policy, n_states, n_actions, rng)
+    values, visits = np.full(n_states, np.nan), np.zeros(n_states, dtype=np.int64)
+    runner.watch(values)
+    for start in runner.episodes():
+        episode = runner.rollout(start, choose)
         returns = discounted_return(episode.rewards, discount)
-        passed = episode.states[:-1]
-        for step in counted_visits(passed.tolist(), visit):
+        passed = episode.states[:-1].tolist()
+        for step in counted_visits(passed, visit):
             state = passed[step]
             visits[state] += 1
-            known = 0.0 if visits[state] == 1 else values[state]
-            values[state] = known + (returns[step] - known) / visits[state]
-        if record:
-            history.append(values.copy())
-    return PredictionResult(values, visits, np.stack(history) if record else None)
+            mean = 0.0 if visits[state] == 1 else values[state]
+            values[state] = mean + (returns[step] - mean) / visits[state]
+    return PredictionResult(values, visits, runner.history)
 
 
+@validated
 def monte_carlo_control(
     env: gym.Env[Any, Any],
     episodes: int,
@@ -103,34 +112,64 @@ def monte_carlo_control(
     record: bool = False,
     progress: Progress | None = None,
 ) -> ControlResult:
-    """On-policy Monte Carlo control: average what followed each action, and act epsilon-greedily on the averages.
+    """Monte Carlo control: average the returns after each action, and act epsilon-greedily on the averages.
 
     Parameters
     ----------
-    visit : ``"first"`` or ``"every"`` visit of a state and action in an episode.
-    learning_rate : weight of a new return, a number in [0, 1] or a schedule over the visits of the pair; left out, it
-        is 1, 1/2, 1/3, ...: the plain average. A constant forgets what was earned by policies long abandoned.
-    max_steps : steps after which an episode is cut off; it then counts as if nothing more had come.
+    env : gymnasium.Env
+        S discrete states, A discrete actions.
+    episodes : int
+        Number of episodes.
+    visit : {"first", "every"}
+        Whether the first or every visit of a state and action in an episode counts.
+    discount : float
+        gamma, in [0, 1].
+    learning_rate : float or Schedule, optional
+        Weight of a new return, in [0, 1], or a schedule over the visits of the pair. By default 1, 1/2, 1/3, ...,
+        which is the plain average. A constant forgets the returns of policies abandoned long ago.
+    epsilon : float or Schedule
+        Probability of a random action, in [0, 1], or a schedule over episodes.
+    initial : float
+        Value of every pair at the start. Above any possible return, it makes the agent try everything.
+    max_steps : int
+        Steps after which an episode is cut off. It then counts as if no more rewards had come.
+    seed : int or numpy.random.Generator
+        For the environment and for the choices.
+    record : bool
+        Whether to keep ``history``, a copy of the estimates for every episode, and the states passed.
+    progress : callable, optional
+        Called as ``progress(episodes done, episodes)``.
 
-    The others, and the result, are those of :func:`~robonav.mdp.q_learning`.
+    Returns
+    -------
+    ControlResult
+
+    Raises
+    ------
+    TypeError
+        If ``env`` is not a Gymnasium environment or its spaces are not discrete.
+    ValueError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, monte_carlo_control
+    >>> env = GridWorld("S . . G", step_reward=-1).environment()
+    >>> monte_carlo_control(env, 50, max_steps=50).policy[:3]
+    array([1, 1, 1])
     """
-    env, rng = discretise_spaces(env), check_generator("seed", seed)
-    discount = check_real("discount", discount, at_least=0, at_most=1)
-    check_one_of("visit", visit, ("first", "every"))
     rate = harmonic_decay() if learning_rate is None else learning_rate
-    table = QTable(space_sizes(env), initial=initial, learning_rate=rate, record=record)
-    course = EpisodeRunner(
-        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
+    training = TabularTraining(
+        env, episodes, (rate, epsilon), initial, max_steps, seed, record, progress
     )
-    choose, q = EpsilonGreedy(epsilon, rng), table.q
-    for start in course.episodes():
-        choose.begin(course.number)
-        episode = course.walk(start, lambda state: choose(q[state]))
+    q = training.q
+    for start in training.episodes():
+        episode = training.rollout(start, lambda state: training.choose(q[state]))
         returns = discounted_return(episode.rewards, discount).tolist()
-        pairs = list(
-            zip(episode.states[:-1].tolist(), episode.actions.tolist(), strict=True)
-        )
+        states, actions = episode.states[:-1].tolist(), episode.actions.tolist()
+        pairs = list(zip(states, actions, strict=True))
         for step in counted_visits(pairs, visit):
-            table.learn(*pairs[step], returns[step])
-        table.keep()
-    return table.learned(course)
+            state, action = pairs[step]
+            error = returns[step] - q[state][action]
+            q[state][action] += training.step_size(state, action) * error
+    return training.result()

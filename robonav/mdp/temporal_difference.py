@@ -1,112 +1,23 @@
-"""Learning from each step: TD(0), Q-learning (Algorithm 5), SARSA (Algorithm 6), expected SARSA."""
+"""Learning from each step: Q-learning (Algorithm 5), SARSA (Algorithm 6), expected SARSA, and TD(0)."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from robonav.progress import Progress
-from robonav.validation import check_generator, check_real
 
-from .episodes import EpisodeRunner, discretise_spaces, policy_sampler, space_sizes
-from .exploration import EpsilonGreedy, Schedule, schedule
-
-
-@dataclass(frozen=True)
-class ControlResult:
-    """Action values learned from episodes, and how the learning went.
-
-    Attributes
-    ----------
-    q : (S, A) action values.
-    visits : (S, A) how often each was updated.
-    returns : (episodes,) rewards of each training episode, summed without discount.
-    lengths : (episodes,) its steps.
-    history : (episodes + 1, S, A) ``q`` before the first episode and after each, if recorded.
-    visited_states : the states passed in each episode, (steps + 1,), if recorded.
-    """
-
-    q: NDArray[np.float64]
-    visits: NDArray[np.int64]
-    returns: NDArray[np.float64]
-    lengths: NDArray[np.int64]
-    history: NDArray[np.float64] | None = None
-    visited_states: tuple[NDArray[np.int64], ...] | None = None
-
-    @cached_property
-    def policy(self) -> NDArray[np.int64]:
-        """(S,) the greedy action of each state, the first where several tie."""
-        return self.q.argmax(axis=1)
-
-    @cached_property
-    def values(self) -> NDArray[np.float64]:
-        """(S,) value of the best action, Eq. (2.10)."""
-        return self.q.max(axis=1)
+from .arguments import validated
+from .discrete_spaces import discretise_spaces, space_sizes
+from .episodes import EpisodeRunner, policy_sampler
+from .exploration import Schedule, schedule
+from .tabular import ControlResult, PredictionResult, TabularTraining
 
 
-@dataclass(frozen=True)
-class PredictionResult:
-    """State values of one policy, estimated from episodes.
-
-    Attributes
-    ----------
-    values : (S,); NaN where there is no estimate.
-    visits : (S,) how often each was updated.
-    history : (episodes + 1, S) values before the first episode and after each, if recorded.
-    """
-
-    values: NDArray[np.float64]
-    visits: NDArray[np.int64]
-    history: NDArray[np.float64] | None = None
-
-
-class QTable:
-    """Action values while they are being learned: nested lists, which Python reads one entry of faster than arrays."""
-
-    def __init__(
-        self,
-        shape: tuple[int, int],
-        *,
-        initial: float,
-        learning_rate: float | Schedule,
-        record: bool,
-    ) -> None:
-        states, actions = shape
-        self.q = [[check_real("initial", initial)] * actions for _ in range(states)]
-        self.visits = [[0] * actions for _ in range(states)]
-        self._rate = schedule("learning_rate", learning_rate)
-        self._history = [np.array(self.q)] if record else None
-
-    def learn(self, state: int, action: int, target: float) -> None:
-        """Move one value towards a target by the learning rate, which may depend on how often that was done before."""
-        rate = self._rate(self.visits[state][action])
-        self.visits[state][action] += 1
-        self.q[state][action] += rate * (target - self.q[state][action])
-
-    def keep(self) -> None:
-        """Write the values down, if a history is wanted."""
-        if self._history is not None:
-            self._history.append(np.array(self.q))
-
-    def learned(self, course: EpisodeRunner) -> ControlResult:
-        """All of it as arrays."""
-        return ControlResult(
-            np.array(self.q),
-            np.array(self.visits),
-            np.array(course.returns),
-            np.array(course.lengths),
-            None if self._history is None else np.stack(self._history),
-            None
-            if self._history is None
-            else tuple(map(np.array, course.visited_states)),
-        )
-
-
+@validated
 def q_learning(
     env: gym.Env[Any, Any],
     episodes: int,
@@ -120,54 +31,72 @@ def q_learning(
     record: bool = False,
     progress: Progress | None = None,
 ) -> ControlResult:
-    """One-step Q-learning (Algorithm 5; Eqs. (2.29), (4.1)): learn what the best policy earns while following another.
+    """One-step Q-learning, Algorithm 5, Eq. (2.29).
+
+    Learns the values of the best policy while it follows another. Eq. (4.1) of the thesis is the same update.
 
     Parameters
     ----------
-    env : Gymnasium environment with discrete observations and actions.
-    episodes : how many to play.
-    discount : gamma, in [0, 1].
-    learning_rate : alpha, a number in [0, 1] or a schedule over the visits of a state and action (0 at the first).
-        Values converge if every pair is visited for ever and the schedule falls neither too fast nor too slowly
-        (:func:`~robonav.mdp.harmonic_decay`, :func:`~robonav.mdp.polynomial_decay`).
-    epsilon : chance of a blind action, in [0, 1], or a schedule over episodes.
-    initial : value of every pair at the start; above what can be earned, it makes the agent try everything.
-    max_steps : steps after which an episode is cut off, whatever the environment says. The last state is then not
-        taken for a terminal one: its value still counts.
-    seed : number or generator, for the environment and for the choices.
-    record : keep ``history``, a copy of ``q`` for every episode, and ``walks``.
-    progress : called as ``progress(episodes done, episodes)``.
+    env : gymnasium.Env
+        S discrete states, A discrete actions.
+    episodes : int
+        Number of episodes.
+    discount : float
+        gamma, in [0, 1].
+    learning_rate : float or Schedule
+        alpha, in [0, 1], or a schedule over the visits of a state and action. Values converge if every pair is visited
+        again and again and the schedule falls neither too fast nor too slowly (:func:`~robonav.mdp.harmonic_decay`,
+        :func:`~robonav.mdp.polynomial_decay`).
+    epsilon : float or Schedule
+        Probability of a random action, in [0, 1], or a schedule over episodes.
+    initial : float
+        Value of every pair at the start. Above any possible return, it makes the agent try everything.
+    max_steps : int
+        Steps after which an episode is cut off. The last state then does not count as terminal: its value still counts.
+    seed : int or numpy.random.Generator
+        For the environment and for the choices.
+    record : bool
+        Whether to keep ``history``, a copy of the estimates for every episode, and the states passed.
+    progress : callable, optional
+        Called as ``progress(episodes done, episodes)``.
 
     Returns
     -------
-    ControlResult with ``q`` (S, A), ``visits``, ``returns``, ``lengths``, and ``history`` and ``walks`` if recorded.
+    ControlResult
 
     Raises
     ------
-    TypeError : if ``env`` is no Gymnasium environment or its spaces are not discrete.
-    ValueError : if a number is out of its range.
+    TypeError
+        If ``env`` is not a Gymnasium environment or its spaces are not discrete.
+    ValueError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, q_learning
+    >>> env = GridWorld("S . . G", step_reward=-1).environment()
+    >>> q_learning(env, 50, learning_rate=0.5).policy[:3]
+    array([1, 1, 1])
     """
-    env, rng = discretise_spaces(env), check_generator("seed", seed)
-    discount = check_real("discount", discount, at_least=0, at_most=1)
-    table = QTable(
-        space_sizes(env), initial=initial, learning_rate=learning_rate, record=record
+    rates = learning_rate, epsilon
+    training = TabularTraining(
+        env, episodes, rates, initial, max_steps, seed, record, progress
     )
-    course = EpisodeRunner(
-        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
-    )
-    choose, q = EpsilonGreedy(epsilon, rng), table.q
-    for state in course.episodes():
-        choose.begin(course.number)
-        while not course.over:
-            action = choose(q[state])
-            successor, reward, terminated = course.step(action)
-            future = 0.0 if terminated else max(q[successor])
-            table.learn(state, action, reward + discount * future)
-            state = successor
-        table.keep()
-    return table.learned(course)
+    q = training.q
+    for state in training.episodes():  # 2 and 3
+        while not training.done:  # 4
+            action = training.choose(q[state])  # 5
+            next_state, reward, terminated = training.step(action)  # 6
+            future = 0.0 if terminated else max(q[next_state])
+            error = reward + discount * future - q[state][action]
+            q[state][action] += (
+                training.step_size(state, action) * error
+            )  # 7  Eq. (2.29)
+            state = next_state  # 8
+    return training.result()
 
 
+@validated
 def sarsa(
     env: gym.Env[Any, Any],
     episodes: int,
@@ -181,33 +110,74 @@ def sarsa(
     record: bool = False,
     progress: Progress | None = None,
 ) -> ControlResult:
-    """SARSA (Algorithm 6; Eqs. (2.30), (4.2)): learn what the policy earns that is being followed, exploring included.
+    """On-policy SARSA, Algorithm 6, Eq. (2.30).
 
-    Parameters, result and errors are those of :func:`q_learning`. The values tend to the optimal ones only if, besides,
-    ``epsilon`` falls to zero (Singh et al. 2000).
+    Learns the values of the policy that it follows, exploration included. They tend to the optimal values only if
+    ``epsilon`` falls to zero as well (Singh et al. 2000). Eq. (4.2) of the thesis is the same update.
+
+    Parameters
+    ----------
+    env : gymnasium.Env
+        S discrete states, A discrete actions.
+    episodes : int
+        Number of episodes.
+    discount : float
+        gamma, in [0, 1].
+    learning_rate : float or Schedule
+        alpha, in [0, 1], or a schedule over the visits of a state and action. Values converge if every pair is visited
+        again and again and the schedule falls neither too fast nor too slowly (:func:`~robonav.mdp.harmonic_decay`,
+        :func:`~robonav.mdp.polynomial_decay`).
+    epsilon : float or Schedule
+        Probability of a random action, in [0, 1], or a schedule over episodes.
+    initial : float
+        Value of every pair at the start. Above any possible return, it makes the agent try everything.
+    max_steps : int
+        Steps after which an episode is cut off. The last state then does not count as terminal: its value still counts.
+    seed : int or numpy.random.Generator
+        For the environment and for the choices.
+    record : bool
+        Whether to keep ``history``, a copy of the estimates for every episode, and the states passed.
+    progress : callable, optional
+        Called as ``progress(episodes done, episodes)``.
+
+    Returns
+    -------
+    ControlResult
+
+    Raises
+    ------
+    TypeError
+        If ``env`` is not a Gymnasium environment or its spaces are not discrete.
+    ValueError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, sarsa
+    >>> env = GridWorld("S . . G", step_reward=-1).environment()
+    >>> sarsa(env, 50, learning_rate=0.5).policy[:3]
+    array([1, 1, 1])
     """
-    env, rng = discretise_spaces(env), check_generator("seed", seed)
-    discount = check_real("discount", discount, at_least=0, at_most=1)
-    table = QTable(
-        space_sizes(env), initial=initial, learning_rate=learning_rate, record=record
+    rates = learning_rate, epsilon
+    training = TabularTraining(
+        env, episodes, rates, initial, max_steps, seed, record, progress
     )
-    course = EpisodeRunner(
-        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
-    )
-    choose, q = EpsilonGreedy(epsilon, rng), table.q
-    for state in course.episodes():
-        choose.begin(course.number)
-        action = choose(q[state])
-        while not course.over:
-            successor, reward, terminated = course.step(action)
-            next_action = choose(q[successor])
-            future = 0.0 if terminated else q[successor][next_action]
-            table.learn(state, action, reward + discount * future)
-            state, action = successor, next_action
-        table.keep()
-    return table.learned(course)
+    q = training.q
+    for state in training.episodes():  # 2 and 3
+        action = training.choose(q[state])  # 4
+        while not training.done:  # 5
+            next_state, reward, terminated = training.step(action)  # 6
+            next_action = training.choose(q[next_state])  # 7
+            future = 0.0 if terminated else q[next_state][next_action]
+            error = reward + discount * future - q[state][action]
+            q[state][action] += (
+                training.step_size(state, action) * error
+            )  # 8  Eq. (2.30)
+            state, action = next_state, next_action  # 9
+    return training.result()
 
 
+@validated
 def expected_sarsa(
     env: gym.Env[Any, Any],
     episodes: int,
@@ -221,32 +191,71 @@ def expected_sarsa(
     record: bool = False,
     progress: Progress | None = None,
 ) -> ControlResult:
-    """Expected SARSA (van Seijen et al. 2009): SARSA with the mean over the next action in place of one draw of it.
+    """Expected SARSA (van Seijen et al. 2009): SARSA with the mean over the next action instead of one draw of it.
 
-    Parameters, result and errors are those of :func:`q_learning`. The target varies less than SARSA's, so that a larger
-    learning rate does; where nothing in the world is random, a rate of 1 is the best.
+    The target varies less than SARSA's, so a larger learning rate works. In a deterministic environment a rate of 1 is
+    the best.
+
+    Parameters
+    ----------
+    env : gymnasium.Env
+        S discrete states, A discrete actions.
+    episodes : int
+        Number of episodes.
+    discount : float
+        gamma, in [0, 1].
+    learning_rate : float or Schedule
+        alpha, in [0, 1], or a schedule over the visits of a state and action. Values converge if every pair is visited
+        again and again and the schedule falls neither too fast nor too slowly (:func:`~robonav.mdp.harmonic_decay`,
+        :func:`~robonav.mdp.polynomial_decay`).
+    epsilon : float or Schedule
+        Probability of a random action, in [0, 1], or a schedule over episodes.
+    initial : float
+        Value of every pair at the start. Above any possible return, it makes the agent try everything.
+    max_steps : int
+        Steps after which an episode is cut off. The last state then does not count as terminal: its value still counts.
+    seed : int or numpy.random.Generator
+        For the environment and for the choices.
+    record : bool
+        Whether to keep ``history``, a copy of the estimates for every episode, and the states passed.
+    progress : callable, optional
+        Called as ``progress(episodes done, episodes)``.
+
+    Returns
+    -------
+    ControlResult
+
+    Raises
+    ------
+    TypeError
+        If ``env`` is not a Gymnasium environment or its spaces are not discrete.
+    ValueError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, expected_sarsa
+    >>> env = GridWorld("S . . G", step_reward=-1).environment()
+    >>> expected_sarsa(env, 50, learning_rate=0.5).policy[:3]
+    array([1, 1, 1])
     """
-    env, rng = discretise_spaces(env), check_generator("seed", seed)
-    discount = check_real("discount", discount, at_least=0, at_most=1)
-    table = QTable(
-        space_sizes(env), initial=initial, learning_rate=learning_rate, record=record
+    rates = learning_rate, epsilon
+    training = TabularTraining(
+        env, episodes, rates, initial, max_steps, seed, record, progress
     )
-    course = EpisodeRunner(
-        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
-    )
-    choose, q = EpsilonGreedy(epsilon, rng), table.q
-    for state in course.episodes():
-        choose.begin(course.number)
-        while not course.over:
-            action = choose(q[state])
-            successor, reward, terminated = course.step(action)
-            future = 0.0 if terminated else choose.expected(q[successor])
-            table.learn(state, action, reward + discount * future)
-            state = successor
-        table.keep()
-    return table.learned(course)
+    q = training.q
+    for state in training.episodes():
+        while not training.done:
+            action = training.choose(q[state])
+            next_state, reward, terminated = training.step(action)
+            future = 0.0 if terminated else training.choose.expected(q[next_state])
+            error = reward + discount * future - q[state][action]
+            q[state][action] += training.step_size(state, action) * error
+            state = next_state
+    return training.result()
 
 
+@validated
 def td_prediction(
     env: gym.Env[Any, Any],
     policy: ArrayLike,
@@ -260,42 +269,64 @@ def td_prediction(
     record: bool = False,
     progress: Progress | None = None,
 ) -> PredictionResult:
-    """TD(0) (2.4.3): the values of a policy, each estimate learning from the next one without waiting for the end.
-
-    ``V(s) += alpha * (r + gamma * V(s') - V(s))``
+    """TD(0) prediction: the values of a policy, each estimate updated towards the next (section 2.4.3).
 
     Parameters
     ----------
-    env : Gymnasium environment with S discrete states and A actions.
-    policy : (S,) of action numbers, or (S, A) of probabilities.
-    learning_rate : a number in [0, 1] or a schedule over the visits of a state.
-    initial : value of every state at the start.
-
-    The others are those of :func:`q_learning`.
+    env : gymnasium.Env
+        S discrete states, A discrete actions.
+    policy : (S,) array of ints or (S, A) array of probabilities
+    episodes : int
+        Number of episodes.
+    discount : float
+        gamma, in [0, 1].
+    learning_rate : float or Schedule
+        alpha, in [0, 1], or a schedule over the visits of a state.
+    initial : float
+        Value of every state at the start.
+    max_steps : int
+        Steps after which an episode is cut off. The last state then does not count as terminal: its value still counts.
+    seed : int or numpy.random.Generator
+        For the environment and for the choices.
+    record : bool
+        Whether to keep ``history``, a copy of the estimates for every episode, and the states passed.
+    progress : callable, optional
+        Called as ``progress(episodes done, episodes)``.
 
     Returns
     -------
-    PredictionResult with ``values`` (S,), ``visits`` (S,), and ``history`` (episodes + 1, S) if recorded.
+    PredictionResult
+
+    Raises
+    ------
+    TypeError
+        If ``env`` is not a Gymnasium environment or its spaces are not discrete.
+    ValueError
+        If a number is out of its range, or the policy does not fit the environment.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, td_prediction
+    >>> env = GridWorld("S . G").environment()
+    >>> td_prediction(env, [1, 1, 1], 5, discount=0.5, learning_rate=1.0).values
+    array([0.5, 1. , 0. ])
     """
-    env, rng = discretise_spaces(env), check_generator("seed", seed)
-    discount = check_real("discount", discount, at_least=0, at_most=1)
-    rate = schedule("learning_rate", learning_rate)
-    states, actions = space_sizes(env)
-    choose = policy_sampler(policy, states, actions, rng)
-    course = EpisodeRunner(
-        env, episodes, max_steps=max_steps, rng=rng, progress=progress
+    env, rng = discretise_spaces(env), np.random.default_rng(seed)
+    (n_states, n_actions), rate = (
+        space_sizes(env),
+        schedule("learning_rate", learning_rate),
     )
-    values, visits = [check_real("initial", initial)] * states, [0] * states
-    history = [np.array(values)]
-    for state in course.episodes():
-        while not course.over:
-            successor, reward, terminated = course.step(choose(state))
-            target = reward + discount * (0.0 if terminated else values[successor])
-            values[state] += rate(visits[state]) * (target - values[state])
+    choose = policy_sampler(policy, n_states, n_actions, rng)
+    runner = EpisodeRunner(
+        env, episodes, max_steps=max_steps, rng=rng, record=record, progress=progress
+    )
+    values, visits = runner.watch([initial] * n_states), [0] * n_states
+    for state in runner.episodes():
+        while not runner.done:
+            next_state, reward, terminated = runner.step(choose(state))
+            future = 0.0 if terminated else values[next_state]
+            error = reward + discount * future - values[state]
+            values[state] += rate(visits[state]) * error
             visits[state] += 1
-            state = successor
-        if record:
-            history.append(np.array(values))
-    return PredictionResult(
-        np.array(values), np.array(visits), np.stack(history) if record else None
-    )
+            state = next_state
+    return PredictionResult(np.array(values), np.array(visits), runner.history)

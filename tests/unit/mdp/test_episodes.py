@@ -18,13 +18,8 @@ from robonav.mdp import (
     sarsa,
     td_prediction,
 )
-from robonav.mdp.episodes import (
-    count,
-    discretise_spaces,
-    element,
-    number,
-    policy_sampler,
-)
+from robonav.mdp.discrete_spaces import count, discretise_spaces, element, number
+from robonav.mdp.episodes import policy_sampler
 
 REWARDS = st.lists(st.floats(-10, 10), min_size=1, max_size=30)
 
