@@ -8,16 +8,12 @@ Shapes: M obstacle slots. Metres, radians counter-clockwise. Kernels are serial 
 
 from __future__ import annotations
 
-import hashlib
 import heapq
 import math
-from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numba import njit
-from numba.core.caching import FunctionCache
 
+from robonav.compilation import compiler
 from robonav.robot import _fast as simulator
 from robonav.robot._fast import ARRIVAL_DISTANCE, SENSOR_RANGE, swept_clearance
 
@@ -27,21 +23,8 @@ CLOSE_ENOUGH = (
     ARRIVAL_DISTANCE - 2e-6
 )  # the simulator rounds to a micrometre; what we call arrived, it does too
 NONE = -1
-SIMULATOR = hashlib.sha256(Path(simulator.__file__).read_bytes()).hexdigest()
 
-
-class CacheSeeingSimulator(FunctionCache):
-    """numba's cache of one kernel, which an edit of the simulator's kernels makes out of date."""
-
-    def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
-        return (*super()._index_key(sig, codegen), SIMULATOR)
-
-
-def compiled(function: Any) -> Any:
-    """Compile a kernel that may call the simulator's."""
-    kernel: Any = njit(nogil=True, error_model="numpy")(function)
-    kernel._cache = CacheSeeingSimulator(function)
-    return kernel
+compiled = compiler(simulator)
 
 
 @compiled

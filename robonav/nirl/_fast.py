@@ -1,7 +1,6 @@
 """SARSA with a small network, compiled: one decision at a time, the target worked out as it is used (Eq. (5.16)).
 
-One file, because numba's cache watches the file a kernel stands in and not the files it calls. Weights lie with the
-unit they come from first, so that inner loops run along memory; inputs that are 0 (most are) cost nothing.
+The passes through the network are those of :mod:`robonav.networks._fast`.
 """
 
 from __future__ import annotations
@@ -9,31 +8,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-compiled = njit(cache=True, nogil=True, error_model="numpy")
+from robonav.compilation import compiler
+from robonav.networks import _fast as network
+from robonav.networks._fast import hidden_layer, output_logit
 
-
-@compiled
-def _hidden(w1, b1, x, h):
-    """Activations ``h`` (H,) of the hidden layer, Eq. (5.9)."""
-    for j in range(len(h)):
-        h[j] = b1[j]
-    for i in range(len(x)):
-        if x[i] != 0.0:
-            for j in range(len(h)):
-                h[j] += x[i] * w1[i, j]
-    for j in range(len(h)):
-        h[j] = 1.0 / (1.0 + math.exp(-h[j]))
-
-
-@compiled
-def _logit(w2, b2, h, a):
-    """Weighted sum of output unit ``a``."""
-    z = b2[a]
-    for j in range(len(h)):
-        z += h[j] * w2[j, a]
-    return z
+compiled = compiler(network)
 
 
 @compiled
@@ -61,11 +41,11 @@ def descend(
     for i in order:
         future = ends[i]
         if after[i] >= 0:
-            _hidden(w1, b1, inputs[after[i]], h)
-            future = 1.0 / (1.0 + math.exp(-_logit(w2, b2, h, actions[after[i]])))
+            hidden_layer(w1, b1, inputs[after[i]], h)
+            future = 1.0 / (1.0 + math.exp(-output_logit(w2, b2, h, actions[after[i]])))
         x, a = inputs[i], actions[i]
-        _hidden(w1, b1, x, h)
-        z = _logit(w2, b2, h, a)
+        hidden_layer(w1, b1, x, h)
+        z = output_logit(w2, b2, h, a)
         q = 1.0 / (1.0 + math.exp(-z))
         target = min(max(q + alpha * (rewards[i] + discount * future - q), 0.0), 1.0)
         cost += max(z, 0.0) - target * z + math.log1p(math.exp(-abs(z)))

@@ -15,7 +15,15 @@ import pytest
 import robonav
 
 PACKAGE = Path(robonav.__file__).parent
-BASE = {"errors", "_version", "atomic", "progress", "style", "validation"}
+BASE = {
+    "errors",
+    "_version",
+    "atomic",
+    "compilation",
+    "progress",
+    "style",
+    "validation",
+}
 CHAPTERS = {"mdp", "robot", "networks", "lfd", "nnql", "nirl"}
 ALLOWED = {
     "mdp": set(),

@@ -10,9 +10,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-compiled = njit(cache=True, nogil=True, error_model="numpy")
+from robonav.compilation import compiler
+from robonav.networks import _fast as network
+from robonav.networks._fast import hidden_layer, output_logits
+
+compiled = compiler(network)
 
 
 @compiled
@@ -25,29 +28,6 @@ def unpacked(row, n, h, a):
         row[second:third].reshape(h, a),
         row[third:],
     )
-
-
-@compiled
-def _hidden(w1, b1, x, hidden):
-    """Activations (H,) of the hidden layer for one input."""
-    for j in range(len(hidden)):
-        hidden[j] = b1[j]
-    for i in range(len(x)):
-        if x[i] != 0.0:
-            for j in range(len(hidden)):
-                hidden[j] += x[i] * w1[i, j]
-    for j in range(len(hidden)):
-        hidden[j] = 1.0 / (1.0 + math.exp(-hidden[j]))
-
-
-@compiled
-def _outputs(w2, b2, hidden, z):
-    """Logits (A,) from the hidden layer."""
-    for a in range(len(z)):
-        z[a] = b2[a]
-    for j in range(len(hidden)):
-        for a in range(len(z)):
-            z[a] += hidden[j] * w2[j, a]
 
 
 @compiled
@@ -66,8 +46,8 @@ def logits(parameters, rows, x, z):
     for k in range(len(rows)):
         w1, b1, w2, b2 = unpacked(parameters[rows[k]], n, h, a)
         for i in range(x.shape[1]):
-            _hidden(w1, b1, x[k, i], hidden)
-            _outputs(w2, b2, hidden, z[k, i])
+            hidden_layer(w1, b1, x[k, i], hidden)
+            output_logits(w2, b2, hidden, z[k, i])
 
 
 @compiled
@@ -76,8 +56,8 @@ def _pass(w1, b1, w2, b2, inputs, targets, gradient_step, hidden, z, d1):
     cost = 0.0
     for i in range(len(inputs)):
         x, target = inputs[i], targets[i]
-        _hidden(w1, b1, x, hidden)
-        _outputs(w2, b2, hidden, z)
+        hidden_layer(w1, b1, x, hidden)
+        output_logits(w2, b2, hidden, z)
         odds = 1.0  # one logarithm of a product instead of a sum of logarithms
         for a in range(len(z)):
             e = math.exp(-abs(z[a]))
@@ -132,7 +112,7 @@ def gradients(parameters, rows, x, actions, targets, outputs, linear, slope, cos
         g1, c1, g2, c2 = unpacked(slope[k], n, h, a)
         total = 0.0
         for i in range(m):
-            _hidden(w1, b1, x[k, i], hidden)
+            hidden_layer(w1, b1, x[k, i], hidden)
             taken, target = actions[k, i], targets[k, i]
             z = b2[taken]
             for j in range(h):

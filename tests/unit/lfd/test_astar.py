@@ -1,6 +1,5 @@
 """The planners against exhaustive search and against shapely, an independent geometry library."""
 
-import importlib
 import itertools
 import math
 
@@ -14,7 +13,7 @@ from scipy.sparse.csgraph import dijkstra
 from shapely import LineString, Point, box
 from shapely.affinity import rotate
 
-from robonav.lfd import _fast, plan, plan_on_grid
+from robonav.lfd import plan, plan_on_grid
 from robonav.robot import ARRIVAL_DISTANCE, Simulator, make_world, random_worlds
 
 TURNS = np.radians([0, 30, 60, -30, -60])
@@ -278,17 +277,3 @@ def test_one_world_at_a_time(planner):
         planner(random_worlds(2, 2, seed=1))
     with pytest.raises(TypeError, match="world must be Worlds, got str"):
         planner("x")
-
-
-def test_compiled_searches_are_kept_with_the_simulators_digest(monkeypatch):
-    """numba's cache does not see an edit in another file; ours has that file's digest in its key."""
-    cache = _fast.search_actions._cache
-    signature = (
-        _fast.search_actions.signatures[0] if _fast.search_actions.signatures else ()
-    )
-    codegen = importlib.import_module(
-        "numba.core.registry"
-    ).cpu_target.target_context.codegen()
-    before = cache._index_key(signature, codegen)
-    monkeypatch.setattr(_fast, "SIMULATOR", "another")
-    assert cache._index_key(signature, codegen) != before

@@ -1,0 +1,40 @@
+"""Compiling the fast twins with numba, also where one calls a kernel of another file."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from numba import njit
+from numba.core.caching import FunctionCache
+
+
+def compiler(*used: ModuleType) -> Callable[[Any], Any]:
+    """Return a decorator that compiles kernels and caches them on disk.
+
+    numba recompiles a cached kernel when its own file changes, but not when a file changes whose kernels it calls.
+    The cache of this decorator therefore also depends on the contents of the files of ``used``.
+
+    Parameters
+    ----------
+    *used : module
+        The modules whose kernels the decorated ones call.
+    """
+    digests = tuple(
+        hashlib.sha256(Path(str(module.__file__)).read_bytes()).hexdigest()
+        for module in used
+    )
+
+    class Cache(FunctionCache):
+        def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
+            return (*super()._index_key(sig, codegen), *digests)
+
+    def compiled(function: Any) -> Any:
+        kernel: Any = njit(nogil=True, error_model="numpy")(function)
+        kernel._cache = Cache(function)
+        return kernel
+
+    return compiled

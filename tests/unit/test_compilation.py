@@ -1,0 +1,38 @@
+"""Kernels that call kernels of other files are compiled again when those files change."""
+
+from types import ModuleType
+
+import pytest
+
+from robonav.compilation import compiler
+
+
+def add_one(x):
+    return x + 1
+
+
+@pytest.fixture
+def cache_key(tmp_path):
+    """The key under which a kernel is cached that uses a file with the given text."""
+
+    def key(text):
+        file = tmp_path / "used.py"
+        file.write_text(text)
+        used = ModuleType("used")
+        used.__file__ = str(file)
+        kernel = compiler(used)(add_one)
+        kernel(1)
+        codegen = kernel.targetctx.codegen()
+        return kernel._cache._index_key(kernel.signatures[0], codegen)
+
+    return key
+
+
+def test_cache_key_of_a_used_file(cache_key):
+    before = cache_key("x = 1")
+    assert cache_key("x = 1") == before
+    assert cache_key("x = 2") != before
+
+
+def test_kernel_of_its_own_file():
+    assert compiler()(add_one)(2) == 3
