@@ -55,6 +55,13 @@ def property_at(
     -------
     (N,) array of int
         Codes of :class:`Property`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nnql import property_at
+    >>> property_at(np.array([10.0, 7.5, 5.0, 2.0]))  # safe, cozy, cozy, dangerous
+    array([0, 1, 1, 2])
     """
     cozy_or_safe = np.where(nearest < SENSOR_RANGE, COZY, SAFE)
     properties = np.where(nearest < COZY_DISTANCE, DANGEROUS, cozy_or_safe)  # Eq. (4.6)
@@ -67,7 +74,9 @@ def property_at(
 def state_property(
     sensing: Sensing, outcome: NDArray[np.int8] | None = None
 ) -> NDArray[np.int64]:
-    """The property of what N robots sense; uses Eq. (4.6), see :func:`property_at`.
+    """The property of the states that N robots sense.
+
+    Uses Eq. (4.6), see :func:`property_at`.
 
     Parameters
     ----------
@@ -165,7 +174,29 @@ ROW_NUMBERS = _row_numbers()
 def reward_row(
     before: Sensing, after: Sensing, outcome: NDArray[np.int8]
 ) -> NDArray[np.int64]:
-    """Which row (N,) of ``TABLE`` holds for a step; parameters as in :func:`reward`."""
+    """Which row of Table 4.1 holds for a step.
+
+    Parameters
+    ----------
+    before, after : Sensing
+        What N robots sensed before and after the step.
+    outcome : (N,) array of int
+        Outcome codes of the simulator after the step.
+
+    Returns
+    -------
+    (N,) array of int
+        Indices into ``TABLE``.
+
+    Examples
+    --------
+    >>> from robonav.nnql import reward_row
+    >>> from robonav.robot import Simulator, random_worlds
+    >>> simulator = Simulator(random_worlds(2, seed=0))
+    >>> sensing = simulator.sense()
+    >>> reward_row(sensing, sensing, simulator.outcome)  # safe before and after
+    array([2, 2])
+    """
     distance_before = before.ranges.min(axis=1)  # d_min at t - 1
     distance_after = after.ranges.min(axis=1)  # d_min at t
     nearer = np.floor(distance_before - distance_after).astype(np.int64).clip(0, 3)

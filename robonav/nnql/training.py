@@ -103,7 +103,7 @@ class TrainingResult:
 
     @cached_property
     def policies(self) -> tuple[NetworkPolicy, ...]:
-        """The greedy policy (Algorithm 9) of each seed."""
+        """The greedy policy of each seed, as Algorithm 9 follows it."""
         return tuple(
             NetworkPolicy(self.network[row], self.encoder)
             for row in range(len(self.seeds))

@@ -305,7 +305,7 @@ _MOMENTS = (0.9, 0.999)  # of Adam, as in Kingma and Ba (2015)
 def adam(
     gradient: Array, first: Array, second: Array, number: ArrayLike
 ) -> tuple[Array, Array, Array]:
-    """The direction of Adam (Kingma and Ba 2015, Algorithm 1), for networks that have made different numbers of steps.
+    """The direction of Adam (Kingma and Ba 2015), for networks that have made different numbers of steps.
 
     torch's Adam has one count of steps for all parameters. Here each row of a batch has its own, because the episodes
     of the robots have different lengths.

@@ -52,7 +52,10 @@ def logits(parameters, rows, x, z):
 
 @compiled
 def _pass(w1, b1, w2, b2, inputs, targets, gradient_step, hidden, z, d1):
-    """Once through the pairs, a step of Eq. (4.12) after each; the mean cost, Eq. (4.11), met on the way."""
+    """One pass of gradient descent through the pairs, with a step after each; the mean cost met on the way.
+
+    Uses Eqs. (4.11) and (4.12).
+    """
     cost = 0.0
     for i in range(len(inputs)):
         x, target = inputs[i], targets[i]
