@@ -1,4 +1,7 @@
-"""The command ``robonav``. What a command needs is imported when it runs, so that ``robonav --help`` is quick."""
+"""The command ``robonav``.
+
+Each command imports what it needs when it runs, so that ``robonav --help`` is quick.
+"""
 
 from __future__ import annotations
 
@@ -11,22 +14,45 @@ from typing import Annotated, Any
 
 import typer
 
+from robonav._version import __version__
 from robonav.errors import WorkerLost
 
 app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    help=__doc__,
+    help="Robot learning for autonomous navigation: imitation learning, reinforcement learning, and inverse "
+    "reinforcement learning. The commands drive robots, reproduce the thesis's results, and check and grade exercises.",
 )
 exercises = typer.Typer(
-    no_args_is_help=True, help="Make what students get from solutions/."
+    no_args_is_help=True, help="Make the students' exercises from the solutions."
 )
 app.add_typer(exercises, name="exercises")
 
 
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"robonav {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version",
+            callback=_version,
+            is_eager=True,
+            help="Print name and version, and exit.",
+        ),
+    ] = False,
+) -> None:
+    """Options of the command itself."""
+
+
 def main() -> None:
-    """Run the command; a wrong input is one line and exit code 2."""
+    """Run the command. A wrong input gives one line on stderr and exit code 2."""
     try:
         app()
     except (ValueError, TypeError, WorkerLost) as error:
@@ -39,11 +65,11 @@ def exercises_build(
     check: Annotated[
         bool,
         typer.Option(
-            "--check", help="Write nothing; exit 1 if anything is out of date."
+            "--check", help="Write nothing. Exit with 1 if a file is out of date."
         ),
     ] = False,
 ) -> None:
-    """Write exercises/ and nbgrader's notebooks from solutions/."""
+    """Write exercises/ and the nbgrader notebooks from solutions/."""
     from robonav.grading import build
     from robonav.grading.course import Course
 
@@ -58,9 +84,9 @@ def exercises_build(
 
 @exercises.command("zip")
 def exercises_zip(
-    path: Annotated[Path, typer.Argument(help="The zip to write.")],
+    path: Annotated[Path, typer.Argument(help="The zip file to write.")],
 ) -> None:
-    """A zip for students: stubs, notebooks and tests, without the solutions."""
+    """Write a zip file for students: stubs, notebooks and tests, without the solutions."""
     from robonav.grading.build import students_zip
     from robonav.grading.course import Course
 
@@ -71,14 +97,18 @@ def exercises_zip(
 def check(
     keys: Annotated[
         list[str] | None,
-        typer.Argument(help="Exercises, such as 3.2; all if none is named."),
+        typer.Argument(
+            help="Ids of exercises, such as 3.2. The default is all of them."
+        ),
     ] = None,
     submission: Annotated[
         Path | None,
-        typer.Option(help="Your folder, notebook or zip; exercises/ by default."),
+        typer.Option(
+            help="Your folder, notebook or zip file. The default is exercises/."
+        ),
     ] = None,
 ) -> None:
-    """Check your answers to the exercises, as the grader would, on the public cases."""
+    """Check your answers to the exercises as the grader does, on the public cases."""
     from robonav.grading.course import Course
     from robonav.grading.plugin import command, environment
 
@@ -114,39 +144,42 @@ def grade(
     folder: Annotated[
         Path,
         typer.Argument(
-            help="A folder with one folder, zip or notebook for each student."
+            help="A folder that holds one folder, zip file or notebook per student."
         ),
     ],
     out: Annotated[
-        Path, typer.Option(help="Where grades, feedback and the overview go.")
+        Path, typer.Option(help="The folder for grades, feedback and the overview.")
     ],
     secret: Annotated[
         Path | None,
         typer.Option(
-            help="Draw the cases from this file's content; or set ROBONAV_SECRET."
+            help="A file whose content seeds the test cases. ROBONAV_SECRET does the same."
         ),
     ] = None,
     student: Annotated[
-        list[str] | None, typer.Option(help="Grade this one again; may be repeated.")
+        list[str] | None,
+        typer.Option(help="Grade this student again. May be repeated."),
     ] = None,
     exercise: Annotated[
-        list[str] | None, typer.Option(help="Grade only this again; may be repeated.")
+        list[str] | None,
+        typer.Option(help="Grade only this exercise again. May be repeated."),
     ] = None,
     jobs: Annotated[
-        int, typer.Option(help="How many at once; -1 for one a processor.")
+        int,
+        typer.Option(help="How many submissions at once; -1 for one per processor."),
     ] = -1,
     scheduler: Annotated[
         str | None,
-        typer.Option(help="Address of a Dask scheduler to send the work to."),
+        typer.Option(help="Address of a Dask scheduler that does the work."),
     ] = None,
     practice: Annotated[
         bool,
         typer.Option(
-            "--practice", help="Go on where there is no sandbox; gives no marks."
+            "--practice", help="Continue without a sandbox. The grades do not count."
         ),
     ] = False,
 ) -> None:
-    """Grade a class. Run it again after it was cut: what is graded stays."""
+    """Grade a class. Run the command again to resume: grades that exist are kept."""
     from robonav import progress
     from robonav.grading import sandbox_check
     from robonav.grading.cases import secret_from
@@ -158,7 +191,7 @@ def grade(
     config = GradingConfig(course, sandbox_check.best(), secret_from(secret))
     if config.tier == "practice" and not practice:
         raise ValueError(
-            f"there is no sandbox here, only --practice: {sandbox_check.fault('official')}"
+            f"this machine has no sandbox, so only --practice works: {sandbox_check.fault('official')}"
         )
     with progress.bar("grading") as shown:
         grade_class(
@@ -179,33 +212,33 @@ def reproduce(
     name: Annotated[
         str,
         typer.Argument(
-            help="all, or a name such as table-3.2 or figure-4.6; see --list."
+            help="A table or figure such as table-3.2 or figure-4.6, or all. See --list."
         ),
     ] = "",
-    out: Annotated[Path, typer.Option(help="Folder for results and figures.")] = Path(
-        "results"
-    ),
+    out: Annotated[
+        Path, typer.Option(help="The folder for results and figures.")
+    ] = Path("results"),
     json_file: Annotated[
         Path | None,
-        typer.Option("--json", help="Also write what each case came to here."),
+        typer.Option("--json", help="Also write the results to this file."),
     ] = None,
     scale: Annotated[
-        str, typer.Option(help="quick, or thesis for the thesis's own number of runs.")
+        str, typer.Option(help="quick, or thesis for as many runs as the thesis made.")
     ] = "quick",
     backend: Annotated[
-        str, typer.Option(help="joblib for this machine, or dask.")
+        str, typer.Option(help="joblib to run on this machine, or dask.")
     ] = "joblib",
     scheduler: Annotated[
-        str | None, typer.Option(help="Address of a Dask scheduler.")
+        str | None, typer.Option(help="The address of a Dask scheduler.")
     ] = None,
     jobs: Annotated[
-        int, typer.Option(help="Processes on this machine; -1 for one a core.")
+        int, typer.Option(help="Processes on this machine; -1 for one per core.")
     ] = -1,
     show: Annotated[
-        bool, typer.Option("--list", help="Only list what can be reproduced.")
+        bool, typer.Option("--list", help="List the tables and figures, and exit.")
     ] = False,
 ) -> None:
-    """Run a table or figure of the thesis again; cut and started anew, it goes on where it was."""
+    """Reproduce a table or figure of the thesis. An interrupted run resumes when it is started again."""
     from robonav import experiments, progress
     from robonav.experiments.runner.report import as_json, as_text
     from robonav.plots.experiments import save_figure
@@ -244,22 +277,26 @@ def navigate(
     method: Annotated[
         str,
         typer.Option(
-            help="A method by name, or a file: .safetensors or .py; see --list."
+            help="A method by name, or a .safetensors or .py file. See --list."
         ),
     ] = "",
-    obstacles: Annotated[int, typer.Option(help="Standing obstacles.")] = 10,
-    moving: Annotated[int, typer.Option(help="Moving obstacles on top.")] = 0,
-    speed: Annotated[float, typer.Option(help="Of the robot, in m/s.")] = 2.0,
-    worlds: Annotated[int, typer.Option(help="How many new worlds.")] = 200,
-    seed: Annotated[int, typer.Option(help="Of the worlds.")] = 0,
+    obstacles: Annotated[
+        int, typer.Option(help="Number of obstacles that stand still.")
+    ] = 10,
+    moving: Annotated[
+        int, typer.Option(help="Number of moving obstacles, in addition.")
+    ] = 0,
+    speed: Annotated[float, typer.Option(help="Speed of the robot in m/s.")] = 2.0,
+    worlds: Annotated[int, typer.Option(help="Number of random worlds.")] = 200,
+    seed: Annotated[int, typer.Option(help="Seed of the random worlds.")] = 0,
     json_file: Annotated[
-        Path | None, typer.Option("--json", help="Also write the result here.")
+        Path | None, typer.Option("--json", help="Also write the result to this file.")
     ] = None,
     show: Annotated[
-        bool, typer.Option("--list", help="Only list the methods.")
+        bool, typer.Option("--list", help="List the methods, and exit.")
     ] = False,
 ) -> None:
-    """Drive a method through new worlds."""
+    """Drive a robot with one method through random worlds, and report how often it arrives."""
     from robonav.benchmark import policies
     from robonav.validation import check_integer
 
@@ -289,18 +326,20 @@ def navigate(
 def leaderboard(
     method: Annotated[
         list[str] | None,
-        typer.Argument(help="Methods by name, or files; by default all."),
+        typer.Argument(help="Methods by name, or files. The default is all methods."),
     ] = None,
-    out: Annotated[Path, typer.Option(help="Folder for results.")] = Path("results"),
+    out: Annotated[Path, typer.Option(help="The folder for results.")] = Path(
+        "results"
+    ),
     json_file: Annotated[
         Path | None,
-        typer.Option("--json", help="Also write what each case came to here."),
+        typer.Option("--json", help="Also write the results to this file."),
     ] = None,
     scale: Annotated[
-        str, typer.Option(help="quick, or thesis for all of the board's worlds.")
+        str, typer.Option(help="quick, or thesis for all worlds of the leaderboard.")
     ] = "thesis",
 ) -> None:
-    """Put methods, your own in a file among them, on the board of all chapters' methods."""
+    """Compare methods on the frozen worlds of the leaderboard. A method of your own is a file."""
     from robonav import experiments, progress
     from robonav.benchmark import method as known
     from robonav.benchmark import methods
@@ -319,7 +358,7 @@ def leaderboard(
 
 
 def _check_json(path: Path | None) -> None:
-    """Say now what could not be written later."""
+    """Fail before the work starts if the file cannot be written after it."""
     from robonav.experiments.runner.results import check_writable
 
     if path is not None:
@@ -336,7 +375,7 @@ def _write_json(path: Path, content: Any) -> None:
 
 
 def _tell(course: Any, grade: dict[str, Any], *, everything: bool) -> None:
-    """A grade for its student to read; exercises not yet begun in one line, unless asked for."""
+    """Print a grade for its student. An exercise that was not begun takes one line unless ``everything`` is set."""
     for entry in grade["exercises"]:
         exercise = course.exercises[entry["id"]]
         print(
@@ -344,16 +383,16 @@ def _tell(course: Any, grade: dict[str, Any], *, everything: bool) -> None:
         )
         if entry["state"] == "missing":
             print(
-                f"  Not begun yet: write {exercise.name} in exercises/{exercise.file} or the notebook."
+                f"  Not begun: write {exercise.name} in exercises/{exercise.file} or the notebook."
             )
         elif entry["state"] != "correct" or everything:
             print("\n".join(f"  {line}" for line in entry["feedback"].splitlines()))
     print(
-        f"\nTogether {grade['points']} of {grade['max_points']} points, on the public cases."
+        f"\nTotal: {grade['points']} of {grade['max_points']} points on the public cases."
     )
     if all(entry["state"] == "correct" for entry in grade["exercises"]):
         print(
-            "Well done: marks are given on other cases of the same kind, so this should hold there too."
+            "Well done. Marks are given on other cases of the same kind, so your answers should pass there too."
         )
 
 

@@ -161,7 +161,7 @@ def test_a_student_with_the_zip_alone_checks_an_answer(tmp_path):
     code, said = check("2.2")
     assert (
         code,
-        "Not begun yet: write improve in exercises/ch2/improve.py" in said,
+        "Not begun: write improve in exercises/ch2/improve.py" in said,
     ) == (1, True)
     stub = (home / "exercises/ch2/improve.py").read_text()
     (home / "exercises/ch2/improve.py").write_text(
