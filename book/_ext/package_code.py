@@ -39,8 +39,14 @@ def resolve(name: str) -> Any:
     found: Any = importlib.import_module(package)
     path = package
     for part in parts:
-        if not inspect.ismodule(found) and not hasattr(found, part) and path in sys.modules:
-            found = sys.modules[path]  # a package may give a function the name of its module
+        if (
+            not inspect.ismodule(found)
+            and not hasattr(found, part)
+            and path in sys.modules
+        ):
+            found = sys.modules[
+                path
+            ]  # a package may give a function the name of its module
         path = f"{path}.{part}"
         fields = getattr(found, "__dataclass_fields__", {})
         if part in fields:
