@@ -133,7 +133,7 @@ def evaluate(
     --------
     >>> result = evaluate("straight", obstacles=10, moving=0, speed=2.0, worlds=20, seed=7)
     >>> result["outcomes"]
-    {'arrived': 9, 'collided': 11, 'out of steps': 0}
+    {'arrived': 7, 'collided': 13, 'out of steps': 0}
     """
     from scipy.stats import binomtest
 

@@ -483,7 +483,7 @@ def plot_steps(results: Results) -> Figure:
     draw_steps(
         axes,
         {
-            str(case["step"]): results.values("success", k)
+            str(case["change"]): results.values("success", k)
             for k, case in enumerate(cases)
         },
     )

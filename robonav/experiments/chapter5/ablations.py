@@ -60,21 +60,21 @@ CHANGES: dict[str, Mapping[str, Any]] = {
     "learning rate falls": {"improve": ReplaySGD()},
     "discount 0.9": {"improve": ReplaySGD(discount=0.9)},
 }
-"""What each step changes, on top of all steps before it."""
+"""What each change sets, on top of all changes before it."""
 
 
-def options_up_to(step: str) -> dict[str, Any]:
-    """The options after a step and all before it."""
+def options_up_to(change: str) -> dict[str, Any]:
+    """The options after a change and all before it."""
     names = list(CHANGES)
     merged: dict[str, Any] = {}
-    for name in names[: names.index(step) + 1]:
+    for name in names[: names.index(change) + 1]:
         merged |= CHANGES[name]
     return merged
 
 
 def ablation(case: Case, seed: int, scale: str) -> Numbers:
     """One run after a number of changes."""
-    options = options_up_to(str(case["step"]))
+    options = options_up_to(str(case["change"]))
     course = task(options.pop("target"))
     shown = demonstrations(seed)
     learned = learn(
@@ -123,7 +123,7 @@ def choose_policy(case: Case, seed: int, scale: str) -> Numbers:
 STEPS = Experiment(
     name="nirl-steps",
     title="From Algorithm 10 as written to what works, one change at a time",
-    cases=[{"step": step} for step in CHANGES],
+    cases=[{"change": change} for change in CHANGES],
     run=ablation,
     seeds={"quick": 1, "thesis": 10},
     settings={"iterations": ITERATIONS, "navigations a run": SETUP.navigations},

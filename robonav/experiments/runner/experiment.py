@@ -115,6 +115,10 @@ class Experiment:
             raise ValueError(
                 f"cases of {self.name} must be at least one, all with the same keys"
             )
+        if taken := set(self.cases[0]) & set(COLUMNS):
+            raise ValueError(
+                f"cases of {self.name} must not have the keys {', '.join(COLUMNS)}, got {sorted(taken)}"
+            )
         if set(self.seeds) != set(SCALES):
             raise ValueError(
                 f"seeds of {self.name} must be given for {', '.join(SCALES)}, got {sorted(self.seeds)}"

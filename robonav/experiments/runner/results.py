@@ -88,9 +88,9 @@ def save_results(folder: str | Path, results: Results) -> None:
     Examples
     --------
     >>> import tempfile
-    >>> yardsticks = read_results("baselines")
+    >>> baselines = read_results("baselines")
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     save_results(folder, yardsticks)
+    ...     save_results(folder, baselines)
     ...     load_results("baselines", folder).equals(load_results("baselines"))
     True
     """
@@ -142,11 +142,11 @@ def load_results(name: str, folder: str | Path = RESULTS) -> pd.DataFrame:
     >>> list(table.columns)
     ['rule', 'standing', 'moving', 'speed', 'seed', 'metric', 'step', 'value']
     >>> success = table[(table.metric == "success") & (table.speed == 2.0) & (table.moving == 0)]
-    >>> success.pivot_table(index="rule", columns="standing", values="value").round(0)
-    standing      10    20    30
-    rule
-    freer-side  92.0  75.0  51.0
-    straight    38.0  14.0   6.0
+    >>> print(success.pivot_table(index="rule", columns="standing", values="value").round().to_markdown())
+    | rule       |   10 |   20 |   30 |
+    |:-----------|-----:|-----:|-----:|
+    | freer-side |   99 |   90 |   71 |
+    | straight   |   36 |   13 |    5 |
     """
     import pandas as pd
 

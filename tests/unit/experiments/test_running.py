@@ -276,6 +276,7 @@ def test_a_scheduler_that_does_not_answer_is_one_sentence(tmp_path, monkeypatch)
     [
         ({"cases": []}, "cases of toy must be at least one"),
         ({"cases": [{"a": 1}, {"b": 1}]}, "all with the same keys"),
+        ({"cases": [{"step": 1}]}, "cases of toy must not have the keys case, seed"),
         ({"seeds": {"quick": 1}}, "seeds of toy must be given"),
         ({"thesis": {"mean": [1.0]}}, "thesis of toy must have one number a case"),
     ],
