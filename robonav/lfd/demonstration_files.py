@@ -29,7 +29,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav import atomic
+from robonav import archive
 from robonav.robot import OUTCOMES, Sensing, Worlds
 from robonav.validation import check_array, check_instance
 
@@ -58,8 +58,7 @@ def save_demonstrations(path: str | Path, demonstrations: Demonstrations) -> Non
     arrays["outcome"] = order[
         np.searchsorted(OUTCOMES, demonstrations.outcome, sorter=order)
     ].astype(np.int8)
-    with atomic.atomic_write(path) as file:
-        np.savez_compressed(file, format=np.array(FORMAT), **arrays)
+    archive.write_archive(path, {"format": np.array(FORMAT)} | arrays)
 
 
 def load_demonstrations(path: str | Path) -> Demonstrations:
@@ -72,7 +71,14 @@ def load_demonstrations(path: str | Path) -> Demonstrations:
         what no demonstration can be.
     """
     name = Path(path).name
-    arrays = _read(path, name)
+    try:
+        arrays = archive.read_archive(path)
+    except archive.Pickled:
+        raise ValueError(
+            f"{name} holds a pickled object, which could run code and is never loaded"
+        ) from None
+    except archive.Damaged:
+        raise ValueError(f"{name} is damaged, or no npz archive") from None
     written = str(arrays.pop("format", ""))
     if written != FORMAT:
         raise ValueError(f"{name} has the format {written!r}, expected {FORMAT!r}")
@@ -85,22 +91,6 @@ def load_demonstrations(path: str | Path) -> Demonstrations:
         return _demonstrations(arrays)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} does not hold demonstrations: {error}") from None
-
-
-def _read(path: str | Path, name: str) -> dict[str, NDArray[Any]]:
-    """Every array of an archive; one sentence if it cannot be read."""
-    with open(path, "rb") as file:
-        try:
-            with np.load(file, allow_pickle=False) as archive:
-                return {key: archive[key] for key in archive.files}
-        except (
-            Exception
-        ) as error:  # a damaged zip or header can end in almost any of them
-            if "Object arrays" in str(error):  # numpy's words for one inside an archive
-                raise ValueError(
-                    f"{name} holds a pickled object, which could run code and is never loaded"
-                ) from None
-            raise ValueError(f"{name} is damaged, or no npz archive") from None
 
 
 def _demonstrations(arrays: Mapping[str, NDArray[Any]]) -> Demonstrations:

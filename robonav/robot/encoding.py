@@ -1,4 +1,4 @@
-"""From what the robot senses to the numbers a network reads: Table 3.1, Eq. (3.17) and (4.5)."""
+"""Encodings: what the robot senses as the numbers that a network reads (Table 3.1, state vectors)."""
 
 from __future__ import annotations
 
@@ -14,28 +14,38 @@ from ._fast import SECTOR, SENSOR_RANGE, SENSORS
 from .simulator import Sensing
 
 DANGER_BORDERS = np.array([3, 7, 11, 15, 20, 25, 30]) * SENSOR_RANGE / 30
-"""Table 3.1 in metres: its sensor sees 30 cm, ours 10 m. Below the first border, degree 7: collision."""
+"""Borders between the degrees of Table 3.1, in metres. The table's sensor sees 30 cm, this one sees 10 m."""
 
 LFD_SENSORS = (1, 2, 3, 4, 5, 6, 7, 8, 9)
-NNQL_SENSORS = (
-    1,
-    2,
-    3,
-    4,
-    7,
-    8,
-    9,
-)  # section 4.4.1: action B makes up for 5 and 6, which look back
+NNQL_SENSORS = (1, 2, 3, 4, 7, 8, 9)
+"""Section 4.4.1: sensors 5 and 6 look back, and action B makes up for them."""
 
 Floats = NDArray[np.float64]
 
 
 def degree_of_danger(ranges: ArrayLike) -> NDArray[np.int64]:
-    """Degrees of danger 0 (nothing near) to 7 (collision) of ranges in metres, any shape (Table 3.1).
+    """Return the degrees of danger of ranges, 0 (nothing near) to 7 (collision): Table 3.1.
+
+    Parameters
+    ----------
+    ranges : array
+        Distances in metres, of any shape.
+
+    Returns
+    -------
+    array of int
+        Of the same shape.
 
     Raises
     ------
-    ValueError : if a range is negative or not a number.
+    ValueError
+        If a range is negative or not a number.
+
+    Examples
+    --------
+    >>> from robonav.robot import degree_of_danger
+    >>> degree_of_danger([0.5, 1.0, 4.0, 9.9, 10.0])
+    array([7, 6, 4, 1, 0])
     """
     if not (np.asarray(ranges) >= 0).all():
         raise ValueError(
@@ -48,24 +58,33 @@ def degree_of_danger(ranges: ArrayLike) -> NDArray[np.int64]:
 
 
 def as_number(region: ArrayLike) -> Floats:
-    """The sector as the thesis has it, 1 to 9, over 9: (N, 1). Sector 9 lies next to 1 and far from it in number."""
+    """Encode the target's sector as the thesis does: its number 1 to 9, divided by 9; (N, 1).
+
+    Sectors 9 and 1 are neighbours, but their numbers are far apart.
+    """
     return np.asarray(region, dtype=float)[:, None] / SENSORS
 
 
 def as_signed(region: ArrayLike) -> Floats:
-    """The sector counted from ahead, left positive, -4 to 4, over 4: (N, 1). The break lies behind the robot."""
+    """Encode the target's sector by counting from ahead, left positive: -4 to 4, divided by 4; (N, 1).
+
+    The jump from 4 to -4 lies behind the robot.
+    """
     turn = np.asarray(region, dtype=float)[:, None] - 1
     return np.where(turn > SENSORS // 2, turn - SENSORS, turn) / (SENSORS // 2)
 
 
 def as_one_hot(region: ArrayLike) -> Floats:
-    """One input a sector: (N, 9)."""
+    """Encode the target's sector with one input for each sector: (N, 9)."""
     rows: Floats = np.eye(SENSORS)[np.asarray(region) - 1]
     return rows
 
 
 def as_sine_cosine(region: ArrayLike) -> Floats:
-    """Sine and cosine of the sector's centre against the heading: (N, 2). Nowhere a break."""
+    """Encode the target's sector by the sine and cosine of its centre's angle to the heading: (N, 2).
+
+    This encoding has no jump.
+    """
     angle = (np.asarray(region, dtype=float) - 1) * SECTOR
     return np.column_stack([np.sin(angle), np.cos(angle)])
 
@@ -87,34 +106,88 @@ def _columns(sensors: tuple[int, ...]) -> list[int]:
 
 
 def lfd_state(sensing: Sensing) -> NDArray[np.int64]:
-    """The state of 11 numbers, Eq. (3.17): 9 degrees of danger, target region 1..9, target seen 0/1."""
+    """State vector of chapter 3, Eq. (3.17): 9 degrees of danger, target region, target seen.
+
+    Parameters
+    ----------
+    sensing : Sensing
+        What N robots sense.
+
+    Returns
+    -------
+    (N, 11) int array
+        Degrees of danger 0 to 7 of sensors 1 to 9, target region 1 to 9, target seen 0 or 1.
+
+    Examples
+    --------
+    >>> from robonav.robot import lfd_state, make_world, sense
+    >>> world = make_world(circles=[(20, 10, 2)])
+    >>> lfd_state(sense(world, [(10, 10, 0)]))
+    array([[2, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0]])
+    """
+    danger = degree_of_danger(sensing.ranges)
     return np.column_stack(
-        [degree_of_danger(sensing.ranges), sensing.target_region, sensing.target_seen]
-    )
+        [danger, sensing.target_region, sensing.target_seen]
+    )  # Eq. (3.17)
 
 
 def nnql_state(sensing: Sensing) -> NDArray[np.int64]:
-    """The state of 16 numbers, Eq. (4.5): 7 degrees of danger, target region 1..9, target seen 0/1, 7 wall flags."""
-    columns = _columns(NNQL_SENSORS)
-    degrees = degree_of_danger(sensing.ranges[:, columns])
-    return np.column_stack(
-        [degrees, sensing.target_region, sensing.target_seen, sensing.walls[:, columns]]
+    """State vector of chapter 4, Eq. (4.5): 7 degrees of danger, target region, target seen, 7 wall flags.
+
+    Parameters
+    ----------
+    sensing : Sensing
+        What N robots sense.
+
+    Returns
+    -------
+    (N, 16) int array
+        Degrees of danger 0 to 7 of sensors 1 to 4 and 7 to 9, target region 1 to 9, target seen 0 or 1, and whether
+        each of these sensors sees the map's border.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world, nnql_state, sense
+    >>> nnql_state(sense(make_world(), [(95, 50, 0)]))
+    array([[3, 3, 0, 0, 0, 0, 3, 3, 0, 1, 1, 0, 0, 0, 0, 1]])
+    """
+    columns = [sensor - 1 for sensor in NNQL_SENSORS]
+    danger, walls = (
+        degree_of_danger(sensing.ranges[:, columns]),
+        sensing.walls[:, columns],
     )
+    target = np.column_stack([sensing.target_region, sensing.target_seen])
+    return np.column_stack([danger, target, walls])  # Eq. (4.5)
 
 
 @dataclass(frozen=True)
 class Encoder:
-    """What a network reads: degrees of danger over 7, target sector, target seen, and perhaps wall flags.
+    """A network's inputs: degrees of danger over 7, target sector, target seen, and optionally wall flags.
+
+    All inputs lie between -1 and 1.
 
     Parameters
     ----------
-    sensors : which of the sensors 1 to 9.
-    walls : whether the wall flags of these sensors follow.
-    target : how the target's sector is written: "number", "signed", "one-hot" or "sine-cosine".
+    sensors : tuple of int
+        Which of the sensors 1 to 9.
+    walls : bool
+        Whether the wall flags of these sensors follow.
+    target : {"number", "signed", "one-hot", "sine-cosine"}
+        How the target's sector is encoded.
 
     Raises
     ------
-    ValueError : for a sensor that is not there or another target encoding.
+    TypeError, ValueError
+        For a sensor that does not exist, or another encoding of the target.
+
+    Examples
+    --------
+    >>> from robonav.robot import Encoder, make_world, sense
+    >>> encoder = Encoder(sensors=(1, 2, 9), target="signed")
+    >>> encoder.size
+    5
+    >>> encoder(sense(make_world(), [(50, 50, 0)]))
+    array([[0.  , 0.  , 0.  , 0.25, 0.  ]])
     """
 
     sensors: tuple[int, ...] = LFD_SENSORS
@@ -136,7 +209,7 @@ class Encoder:
         )
 
     def __call__(self, sensing: Sensing) -> Floats:
-        """Inputs (N, size) of N robots."""
+        """Encode what N robots sense as inputs (N, size)."""
         columns = _columns(self.sensors)
         parts: list[NDArray] = [
             degree_of_danger(sensing.ranges[:, columns]) / len(DANGER_BORDERS),

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from robonav import atomic
+from robonav import archive
 from robonav.validation import check_array, check_instance
 
 from . import _fast
@@ -20,11 +19,8 @@ FORMAT = "robonav worlds 1"
 def save_worlds(path: str | Path, worlds: Worlds) -> None:
     """Write a batch as npz (format "robonav worlds 1": the fields of ``Worlds`` by name)."""
     check_instance("worlds", worlds, Worlds)
-    arrays: dict[str, Any] = {
-        field.name: getattr(worlds, field.name) for field in fields(Worlds)
-    }
-    with atomic.atomic_write(path) as file:
-        np.savez_compressed(file, format=np.array(FORMAT), **arrays)
+    arrays = {field.name: getattr(worlds, field.name) for field in fields(Worlds)}
+    archive.write_archive(path, {"format": np.array(FORMAT)} | arrays)
 
 
 def load_worlds(path: str | Path) -> Worlds:
@@ -35,11 +31,8 @@ def load_worlds(path: str | Path) -> Worlds:
     ValueError : if the file is damaged, of another format, or its worlds are not valid.
     """
     try:
-        with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
-    except FileNotFoundError:
-        raise
-    except Exception:  # a damaged archive can end in almost any of them
+        arrays = archive.read_archive(path)
+    except (archive.Damaged, archive.Pickled):
         raise ValueError(
             f"path must be a file of worlds, but {path} is damaged or of another kind"
         ) from None

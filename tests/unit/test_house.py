@@ -18,6 +18,7 @@ PACKAGE = Path(robonav.__file__).parent
 BASE = {
     "errors",
     "_version",
+    "archive",
     "atomic",
     "compilation",
     "progress",

@@ -7,8 +7,6 @@ agents have learned has to be kept.
 from __future__ import annotations
 
 import dataclasses
-import io
-import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -16,7 +14,7 @@ from typing import Any
 import joblib
 import numpy as np
 
-from robonav import atomic
+from robonav import archive
 from robonav._version import __version__
 
 from .agents import Agent
@@ -47,8 +45,7 @@ def save_checkpoint(
         f"about.{key}": np.array(value) for key, value in about.items()
     }
     arrays |= agent.state() | {name: getattr(statistics, name) for name in _STATISTICS}
-    with atomic.atomic_write(path) as file:
-        np.savez(file, **arrays)
+    archive.write_archive(path, arrays, compressed=False)
 
 
 def load_checkpoint(
@@ -68,13 +65,12 @@ def load_checkpoint(
     if not Path(path).exists():
         return 0
     try:
-        with np.load(io.BytesIO(Path(path).read_bytes()), allow_pickle=False) as file:
-            arrays = dict(file)
+        arrays = archive.read_archive(path)
         about = {
             key: arrays.pop(f"about.{key}").item()
             for key in ("format", "version", "training", "done")
         }
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+    except (OSError, ValueError, KeyError):
         raise ValueError(f"{name} is not a whole checkpoint of robonav") from None
     if (about["format"], about["version"]) != (FORMAT, __version__):
         raise ValueError(

@@ -1,0 +1,51 @@
+"""Arrays in npz files that name their format, read with one sentence for each thing that can be wrong with a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import atomic
+
+
+class Damaged(ValueError):
+    """The file is no npz archive, or not all of one."""
+
+
+class Pickled(ValueError):
+    """The archive holds a Python object, which could run code and is never loaded."""
+
+
+def write_archive(
+    path: str | Path, arrays: Mapping[str, Any], *, compressed: bool = True
+) -> None:
+    """Write arrays by name as an npz file, whole or not at all."""
+    save = np.savez_compressed if compressed else np.savez
+    with atomic.atomic_write(path) as file:
+        save(file, **arrays)
+
+
+def read_archive(path: str | Path) -> dict[str, NDArray[Any]]:
+    """Read every array of an npz file by its name.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    Damaged
+        If the file is no whole npz archive.
+    Pickled
+        If the archive holds a Python object.
+    """
+    with open(path, "rb") as file:
+        try:
+            with np.load(file, allow_pickle=False) as archive:
+                return {name: archive[name] for name in archive.files}
+        except Exception as error:  # a damaged archive can end in almost any of them
+            if "Object arrays" in str(error):  # numpy's words for one inside an archive
+                raise Pickled(str(error)) from None
+            raise Damaged(str(error)) from None
