@@ -1,4 +1,4 @@
-"""The simulator: N worlds as arrays, sensed and stepped in one compiled call (section 2.5)."""
+"""The simulator: N robots in N worlds, held as arrays, sensed and stepped in one compiled call (section 2.5)."""
 
 from __future__ import annotations
 
@@ -22,33 +22,59 @@ from ._fast import OUT_OF_STEPS, RUNNING
 from .worlds import Worlds
 
 OUTCOMES = np.array(["running", "arrived", "collided", "out of steps"])
+"""How an episode stands, by the codes 0 to 3."""
+
 NO_SLIP = np.zeros((0, 0))
-NEVER = 2**19  # steps: as far as the random numbers of a world count
+NEVER = 2**19  # steps; the random numbers of a world count no further
 
 
 class Action(IntEnum):
-    """What the robot can do in a step, Eq. (4.4); a policy chooses among the first five, or all six."""
+    """Actions of a step, Eq. (4.4): F forward, L and R turn left and right by so many degrees, B steps back.
 
-    F = 0
+    A policy chooses among the first five, or all six. TO_TARGET belongs to the reflex alone.
+
+    Examples
+    --------
+    >>> from robonav.robot import Action
+    >>> Action.L60, int(Action.L60)
+    (<Action.L60: 2>, 2)
+    """
+
+    F = 0  # Eq. (4.4)
     L30 = 1
     L60 = 2
     R30 = 3
     R60 = 4
     B = 5
-    TO_TARGET = 6  # the reflex of a safe state: turn to the target and go; never a policy's choice
+    TO_TARGET = 6  # in a safe state: turn to the target and go
 
 
 @dataclass(frozen=True)
 class Sensing:
-    """What N robots perceive; how to encode it is a policy's own business.
+    """What N robots sense; a policy decides for itself how to encode it.
+
+    ``sensing[index]`` picks rows by a slice, a mask or indices.
 
     Attributes
     ----------
-    ranges : (N, 9) least distance in each sector in metres, 10 where nothing is in range. Column 0 is sensor 1, which
-        looks ahead; sensors are numbered counter-clockwise.
-    walls : (N, 9) whether that nearest thing is the map's border.
-    target_region : (N,) number 1..9 of the sector that holds the target.
-    target_seen : (N,) whether the target is within sensor range.
+    ranges : (N, 9) array
+        Least distance in each sector in metres; 10 where nothing is in range. Column 0 is sensor 1, which looks ahead;
+        sensors are numbered counter-clockwise.
+    walls : (N, 9) bool array
+        Whether that nearest thing is the map's border.
+    target_region : (N,) int array
+        Number 1 to 9 of the sector that holds the target.
+    target_seen : (N,) bool array
+        Whether the target is within sensor range.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world, sense
+    >>> sensing = sense(make_world(circles=[(58, 50, 2)]), [(50, 50, 0)])
+    >>> sensing.ranges
+    array([[ 6., 10., 10., 10., 10., 10., 10., 10., 10.]])
+    >>> sensing.target_region, sensing.safe
+    (array([2]), array([False]))
     """
 
     ranges: NDArray[np.float64]
@@ -60,7 +86,7 @@ class Sensing:
         return len(self.ranges)
 
     def __getitem__(self, index: slice | NDArray[Any]) -> Sensing:
-        """The rows picked by a slice, a mask or indices."""
+        """Pick rows by a slice, a mask or indices."""
         return Sensing(
             self.ranges[index],
             self.walls[index],
@@ -70,12 +96,12 @@ class Sensing:
 
     @property
     def safe(self) -> NDArray[np.bool_]:
-        """Safe states, Eq. (4.6): nothing in sensor range."""
+        """Which robots (N,) are in a safe state: nothing is in sensor range."""
         return self.ranges.min(axis=1) >= _fast.SENSOR_RANGE
 
     @staticmethod
     def empty(n: int) -> Sensing:
-        """Rows to be filled in."""
+        """Return N rows whose values are still to be filled in."""
         shape = (n, _fast.SENSORS)
         return Sensing(
             np.empty(shape),
@@ -89,19 +115,26 @@ class Sensing:
 class Reflex:
     """What the robot does before any policy is asked (Algorithms 8 and 9).
 
-    In a safe state it turns to its target and goes; where the five sectors ahead all read less than a step and the
-    collision distance, it steps back (action B).
+    In a safe state, with nothing in sensor range, it turns to its target and goes forward. Where all five sectors
+    ahead read less than one step plus the collision distance, it steps back. Elsewhere the policy decides.
+
+    Examples
+    --------
+    >>> from robonav.robot import Reflex, make_world, sense
+    >>> world = make_world(circles=[(58, 50, 2)])
+    >>> [int(Reflex()(sense(world, [pose]), speed=2.0)[0]) for pose in [(50, 50, 0), (20, 20, 0)]]
+    [-1, 6]
     """
 
     def __call__(self, sensing: Sensing, speed: float) -> NDArray[np.int64]:
-        """Commands (N,): ``Action.TO_TARGET``, ``Action.B``, or -1 where the policy decides."""
+        """Return ``Action.TO_TARGET``, ``Action.B``, or -1 where the policy decides, (N,)."""
         commands = np.empty(len(sensing), dtype=np.int64)
         _fast.in_threads(_fast.reflexes, len(sensing), sensing.ranges, speed, commands)
         return commands
 
 
 def check_actions(actions: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.int64]:
-    """Actions of this shape as whole numbers 0..5; TypeError or ValueError for anything else."""
+    """Return actions of this shape as whole numbers 0 to 5; raise TypeError or ValueError for anything else."""
     try:
         given = np.asarray(actions)
     except ValueError:
@@ -114,7 +147,7 @@ def check_actions(actions: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.int6
         raise ValueError(f"action must have shape {shape}, got {given.shape}")
     if (
         given.size and given.astype(np.uint64).max() > _fast.BACKWARD
-    ):  # what is negative becomes very large
+    ):  # negative numbers become very large ones
         wrong = given[(given < 0) | (given > _fast.BACKWARD)].flat[0]
         raise ValueError(
             f"action must be one of F, L30, L60, R30, R60, B (0 to 5), got {wrong}"
@@ -123,7 +156,7 @@ def check_actions(actions: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.int6
 
 
 def check_slip(slip: ArrayLike | None) -> NDArray[np.float64]:
-    """A matrix (6, 6) whose row a says how likely action a turns into each action; None for no slipping."""
+    """Check a slip matrix (6, 6), whose row a says how likely action a turns into each action; None never slips."""
     if slip is None:
         return NO_SLIP
     matrix = check_array("slip", slip, shape=(6, 6))
@@ -133,7 +166,24 @@ def check_slip(slip: ArrayLike | None) -> NDArray[np.float64]:
 
 
 def neighbour_slip(probability: float) -> NDArray[np.float64]:
-    """A slip matrix (6, 6): with ``probability`` a turn comes out 30 degrees off, to either side; B never slips."""
+    """Return the slip matrix of a robot whose turns come out 30 degrees off with some probability.
+
+    Parameters
+    ----------
+    probability : float
+        Of a slip, to either side; at the ends, R60 and L60, to the one side there is. Action B never slips.
+
+    Returns
+    -------
+    (6, 6) array
+        Row a says how likely action a turns into each action.
+
+    Examples
+    --------
+    >>> from robonav.robot import Action, neighbour_slip
+    >>> neighbour_slip(0.2)[Action.F].round(2)
+    array([0.8, 0.1, 0. , 0.1, 0. , 0. ])
+    """
     check_real("probability", probability, at_least=0, at_most=1)
     by_angle = [Action.R60, Action.R30, Action.F, Action.L30, Action.L60]
     matrix = np.eye(6)
@@ -145,24 +195,48 @@ def neighbour_slip(probability: float) -> NDArray[np.float64]:
 
 
 class Simulator:
-    """N robots, one a world, driven step by step.
+    """N robots, one in each of N worlds, stepped together; a step is one second.
 
     Parameters
     ----------
-    worlds : batch of N.
-    speed : of the robot in m/s, positive; a step is one second.
-    slip : prediction uncertainty, section 2.5.1: (6, 6) probabilities that action a (row) turns into another; or None.
-    noise : sensing uncertainty: standard deviation in metres of an error on every range that sees something.
-    max_steps : seconds after which a drive is out of steps.
+    worlds : Worlds
+        A batch of N.
+    speed : float
+        Of the robots in m/s, positive.
+    slip : (6, 6) array, optional
+        Uncertainty of prediction, section 2.5.1: probabilities that action a (row) turns into another.
+    noise : float
+        Uncertainty of sensing: standard deviation in metres of an error on every range that sees something.
+    max_steps : int
+        An episode ends as "out of steps" after this many seconds.
 
     Attributes
     ----------
-    poses : (N, 3) x, y, heading. ``centres`` (N, M, 2) and ``headings`` (N, M): the obstacles now.
-    steps : (N,) taken. ``outcome`` (N,): codes into ``OUTCOMES``.
+    poses : (N, 3) array
+        x and y in metres and heading in radians, now.
+    centres : (N, M, 2) array
+        Where the obstacles are now.
+    headings : (N, M) array
+        Where moving obstacles are going now.
+    steps : (N,) int array
+        Steps taken.
+    outcome : (N,) int array
+        How the episodes stand: codes into ``OUTCOMES``.
 
     Raises
     ------
-    ValueError : if speed is not positive, noise negative, or slip not (6, 6) with rows that sum to one.
+    ValueError
+        If speed is not positive, noise negative, or slip not (6, 6) with rows that sum to one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.robot import Action, Simulator, make_world
+    >>> simulator = Simulator(make_world(start=(10, 10), target=(10, 90)), speed=2.0)
+    >>> simulator.step(np.array([Action.F]))
+    array([0])
+    >>> simulator.poses.round(3)
+    array([[10.   , 12.   ,  1.571]])
     """
 
     def __init__(
@@ -257,36 +331,50 @@ class Simulator:
         return rows
 
     def restart(self, index: NDArray[np.int64], worlds: Worlds) -> None:
-        """Put the robots ``index`` (K,) at the start of K new worlds, of no more obstacle slots than the old."""
+        """Put the robots ``index`` (K,) at the start of K new worlds.
+
+        The new worlds may have no more obstacle slots than the old ones, and the same map size.
+        """
         if worlds.size != self.worlds.size:
             raise ValueError(
                 f"worlds must have the map size of those they replace, {self.worlds.size:g} m, got {worlds.size:g} m"
             )
-        if not self._owns_worlds:  # those handed in stay as they are
+        if not self._owns_worlds:  # the caller's worlds are not changed
             self.worlds, self._owns_worlds = self.worlds[:], True
         worlds = worlds.with_slots(self.worlds.slots)
-        for name in (
-            "kinds",
-            "shapes",
-            "centres",
-            "speeds",
-            "headings",
-            "starts",
-            "targets",
-            "keys",
-        ):
-            getattr(self.worlds, name)[index] = getattr(worlds, name)
+        self.worlds.put(index, worlds)
         self.poses[index] = worlds.start_poses
         self.centres[index], self.headings[index] = worlds.centres, worlds.headings
         self.steps[index], self.outcome[index] = 0, RUNNING
 
 
 def sense(worlds: Worlds, poses: ArrayLike, *, noise: float = 0.0) -> Sensing:
-    """What robots at ``poses`` (N, 3) would perceive, one in each of N worlds, obstacles where they start.
+    """Return what robots at given poses would sense, one in each of N worlds, obstacles where they start.
+
+    Parameters
+    ----------
+    worlds : Worlds
+        A batch of N.
+    poses : (N, 3) array
+        x and y in metres and heading in radians.
+    noise : float
+        Standard deviation in metres of an error on every range that sees something.
+
+    Returns
+    -------
+    Sensing
+        N rows.
 
     Raises
     ------
-    ValueError : if poses are not finite, not (N, 3), or outside the map.
+    ValueError
+        If poses are not finite, not (N, 3), or outside the map.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world, sense
+    >>> sense(make_world(circles=[(58, 50, 2)]), [(50, 50, 0)]).ranges[0, :2]
+    array([ 6., 10.])
     """
     simulator = Simulator(worlds, noise=noise)
     placed = check_array("poses", poses, shape=(len(worlds), 3))
@@ -297,7 +385,26 @@ def sense(worlds: Worlds, poses: ArrayLike, *, noise: float = 0.0) -> Sensing:
 
 
 def obstacle_tracks(worlds: Worlds, steps: int) -> NDArray[np.float64]:
-    """Where the obstacles are (N, steps + 1, M, 2) over time: the robot does not move them."""
+    """Return where the obstacles are over time; the robot does not influence them.
+
+    Parameters
+    ----------
+    worlds : Worlds
+        A batch of N, with M obstacle slots each.
+    steps : int
+        Seconds.
+
+    Returns
+    -------
+    (N, steps + 1, M, 2) array
+        Centres in metres, from the start on.
+
+    Examples
+    --------
+    >>> from robonav.robot import obstacle_tracks, random_worlds
+    >>> obstacle_tracks(random_worlds(2, obstacles=3, moving=1, seed=0), steps=5).shape
+    (2, 6, 4, 2)
+    """
     check_instance("worlds", worlds, Worlds)
     check_integer("steps", steps, at_least=0, at_most=NEVER)
     centres, headings = worlds.centres.copy(), worlds.headings.copy()

@@ -1,4 +1,4 @@
-"""Worlds to and from files: a whole batch as npz, one world as text that a person can read and write."""
+"""Worlds in files: a whole batch as npz, one world as text that a person can read and write."""
 
 from __future__ import annotations
 
@@ -17,7 +17,26 @@ FORMAT = "robonav worlds 1"
 
 
 def save_worlds(path: str | Path, worlds: Worlds) -> None:
-    """Write a batch as npz (format "robonav worlds 1": the fields of ``Worlds`` by name)."""
+    """Write a batch of worlds as an npz file.
+
+    Parameters
+    ----------
+    path : path
+        Of the file, which appears whole or not at all.
+    worlds : Worlds
+        The file holds its fields by name, and ``format``, "robonav worlds 1".
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> from robonav.robot import load_worlds, random_worlds, save_worlds
+    >>> worlds = random_worlds(3, seed=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "worlds.npz")
+    ...     save_worlds(path, worlds)
+    ...     load_worlds(path).digest() == worlds.digest()
+    True
+    """
     check_instance("worlds", worlds, Worlds)
     arrays = {field.name: getattr(worlds, field.name) for field in fields(Worlds)}
     archive.write_archive(path, {"format": np.array(FORMAT)} | arrays)
@@ -26,9 +45,25 @@ def save_worlds(path: str | Path, worlds: Worlds) -> None:
 def load_worlds(path: str | Path) -> Worlds:
     """Read what :func:`save_worlds` wrote.
 
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    Worlds
+
     Raises
     ------
-    ValueError : if the file is damaged, of another format, or its worlds are not valid.
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If the file is damaged or of another format, or its worlds are not valid.
+
+    Examples
+    --------
+    See :func:`save_worlds`.
     """
     try:
         arrays = archive.read_archive(path)
@@ -50,7 +85,29 @@ def load_worlds(path: str | Path) -> Worlds:
 
 
 def format_world(worlds: Worlds) -> str:
-    """One world (a batch of one) as text, which :func:`parse_world` reads back to the last bits of its angles."""
+    """Write one world as text, which :func:`parse_world` reads.
+
+    Parameters
+    ----------
+    worlds : Worlds
+        A batch of one.
+
+    Returns
+    -------
+    str
+        Only angles lose their last bits, since the text has them in degrees.
+
+    Examples
+    --------
+    >>> from robonav.robot import format_world, make_world
+    >>> print(format_world(make_world(circles=[(40, 50, 3)])), end="")
+    # metres, degrees and seconds
+    size 100.0
+    start 10.0 10.0
+    target 90.0 90.0
+    key 0 0
+    circle 40.0 50.0 radius 3.0
+    """
     if len(check_instance("worlds", worlds, Worlds)) != 1:
         raise ValueError(f"worlds must be a batch of one, got {len(worlds)}")
     start, target, key = worlds.starts[0], worlds.targets[0], worlds.keys[0]
@@ -76,9 +133,10 @@ def format_world(worlds: Worlds) -> str:
 
 
 def parse_world(text: str) -> Worlds:
-    """One world from text: a line each for size, start, target, key (all may be left out) and obstacles.
+    """Read one world from text.
 
-    ::
+    There is one line for each obstacle, and one each for size, start, target and key, which may be missing. After a #
+    come comments::
 
         size 100
         start 10 10
@@ -87,9 +145,26 @@ def parse_world(text: str) -> Worlds:
         rectangle 60 30 sides 8 4 turned 45
         circle 70 70 radius 2 speed 0.5 towards 90    # moves
 
+    Parameters
+    ----------
+    text : str
+        Metres, degrees and seconds.
+
+    Returns
+    -------
+    Worlds
+        A batch of one.
+
     Raises
     ------
-    ValueError : naming the line that cannot be read, or if the world is not valid.
+    ValueError
+        If a line cannot be read (the message names it), or if the world is not valid.
+
+    Examples
+    --------
+    >>> from robonav.robot import parse_world
+    >>> parse_world("circle 40 50 radius 3").centres
+    array([[[40., 50.]]])
     """
     header: dict[str, list[float]] = {
         "size": [SIZE],
@@ -137,7 +212,7 @@ def parse_world(text: str) -> Worlds:
 
 
 def _parse_obstacle(words: list[str]) -> tuple[float, ...]:
-    """Kind, x, y, shape, speed and heading of one obstacle line; ValueError or KeyError if it does not read so."""
+    """Read kind, x, y, shape, speed and heading from an obstacle's words; raise ValueError or KeyError if it fails."""
     kind, rest = words[0], words[1:]
     lengths = {"circle": {"radius": 1}, "rectangle": {"sides": 2, "turned": 1}}[
         kind

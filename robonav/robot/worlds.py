@@ -37,18 +37,33 @@ class Worlds:
 
     Attributes
     ----------
-    kinds : (N, M) 0 no obstacle, 1 circle, 2 rectangle.
-    shapes : (N, M, 3) radius, 0, 0 of a circle; half length, half width and angle in radians of a rectangle; metres.
-    centres : (N, M, 2) where obstacles stand at the start.
-    speeds, headings : (N, M) of moving obstacles, in m/s and radians; speed 0 stands still.
-    starts, targets : (N, 2) of the robot.
-    keys : (N, 2) of 32 bits: what is random while driving (moving obstacles, noise, slips) hangs on them alone.
-    size : side of the map in metres.
+    kinds : (N, M) int array
+        0 no obstacle, 1 circle, 2 rectangle.
+    shapes : (N, M, 3) array
+        Radius, 0, 0 of a circle; half length, half width and angle in radians of a rectangle; metres.
+    centres : (N, M, 2) array
+        Where obstacles stand at the start, in metres.
+    speeds, headings : (N, M) array
+        Of moving obstacles, in m/s and radians. An obstacle of speed 0 stands still.
+    starts, targets : (N, 2) array
+        Of the robot, in metres.
+    keys : (N, 2) array of 32-bit numbers
+        All that is random during an episode (moving obstacles, noise, slips) depends on these alone.
+    size : float
+        Side of the map in metres.
 
     Raises
     ------
-    ValueError : for shapes that do not fit, numbers that are not finite, a radius or side that is not positive, an
-        obstacle over a start or target, or any of these outside the map.
+    ValueError
+        If shapes do not fit, numbers are not finite, a radius or side is not positive, an obstacle covers a start or
+        target, or any of these lies outside the map.
+
+    Examples
+    --------
+    >>> from robonav.robot import random_worlds
+    >>> worlds = random_worlds(5, obstacles=10, seed=1)
+    >>> len(worlds), worlds.centres.shape, len(worlds[[0, 3]])
+    (5, (5, 10, 2), 2)
     """
 
     kinds: NDArray[np.int8]
@@ -146,7 +161,7 @@ class Worlds:
         return len(self.kinds)
 
     def __getitem__(self, index: int | slice | ArrayLike) -> Worlds:
-        """Worlds picked by a slice, indices or a mask, copied; one whole number gives a batch of one."""
+        """Pick worlds by a slice, indices or a mask, as copies; one whole number gives a batch of one."""
         if not isinstance(index, slice) and (
             isinstance(index, bool | tuple) or np.ndim(index) > 1
         ):
@@ -158,7 +173,7 @@ class Worlds:
             if not -len(self) <= number < len(self):
                 raise IndexError(f"world {number} of a batch of {len(self)}")
             index = [number]
-        picked = Worlds.__new__(Worlds)  # rows of a checked batch need no second check
+        picked = Worlds.__new__(Worlds)  # rows of a checked batch are valid
         for field in fields(self):
             value = getattr(self, field.name)
             kept = value if field.name == "size" else np.array(value[index], order="C")
@@ -170,11 +185,11 @@ class Worlds:
 
     @property
     def slots(self) -> int:
-        """M, the number of places for obstacles."""
+        """M, the number of obstacle slots."""
         return self.kinds.shape[1]
 
     def with_slots(self, slots: int) -> Worlds:
-        """The same worlds with empty places for obstacles added up to ``slots``."""
+        """Return the same worlds with empty obstacle slots added, ``slots`` in all."""
         more = slots - self.slots
         if more == 0:
             return self
@@ -188,9 +203,15 @@ class Worlds:
             )
         return padded
 
+    def put(self, index: NDArray[np.int64], worlds: Worlds) -> None:
+        """Replace the worlds ``index`` (K,) of this batch, in place, by K others with as many slots."""
+        for field in fields(self):
+            if field.name != "size":
+                getattr(self, field.name)[index] = getattr(worlds, field.name)
+
     @property
     def start_poses(self) -> Floats:
-        """Poses (N, 3) at the start: x, y and heading; the robot faces its target."""
+        """Poses (N, 3) at the start: x, y and heading. The robot faces its target."""
         bearing = np.arctan2(
             self.targets[:, 1] - self.starts[:, 1],
             self.targets[:, 0] - self.starts[:, 0],
@@ -198,7 +219,7 @@ class Worlds:
         return np.column_stack([self.starts, bearing])
 
     def digest(self) -> str:
-        """SHA-256 of the worlds to the micrometre: equal for equal worlds on any machine."""
+        """Return the SHA-256 of the worlds, rounded to a micrometre; equal worlds give equal digests on any machine."""
         lengths = (
             self.shapes,
             self.centres,
@@ -220,7 +241,26 @@ def _point(place: Floats) -> str:
 
 
 def clearance(worlds: Worlds, points: ArrayLike) -> Floats:
-    """Distance (N,) in metres from one point of each world (N, 2) to its nearest obstacle or border."""
+    """Return the distance from one point of each world to its nearest obstacle or border.
+
+    Parameters
+    ----------
+    worlds : Worlds
+        A batch of N.
+    points : (N, 2) array
+        In metres.
+
+    Returns
+    -------
+    (N,) array
+        Metres; 0 inside an obstacle.
+
+    Examples
+    --------
+    >>> from robonav.robot import clearance, make_world
+    >>> clearance(make_world(circles=[(50, 50, 3)]), [(60, 50)])
+    array([7.])
+    """
     check_instance("worlds", worlds, Worlds)
     places = check_array("points", points, shape=(len(worlds), 2))
     return np.array(
@@ -243,7 +283,25 @@ def clearance(worlds: Worlds, points: ArrayLike) -> Floats:
 
 
 def world_keys(n: int, seed: int) -> NDArray[np.uint32]:
-    """Keys (n, 2) of the worlds of a seed; key i depends on (seed, i) alone (splitmix64, Steele et al. 2014)."""
+    """Return the keys of the worlds of a seed (splitmix64, Steele et al. 2014).
+
+    Parameters
+    ----------
+    n : int
+        Number of keys.
+    seed : int
+        Key i depends on (seed, i) alone.
+
+    Returns
+    -------
+    (n, 2) array of 32-bit numbers
+
+    Examples
+    --------
+    >>> from robonav.robot import world_keys
+    >>> bool((world_keys(3, seed=1) == world_keys(9, seed=1)[:3]).all())
+    True
+    """
     golden = 0x9E3779B97F4A7C15
     origin = np.random.SeedSequence(seed).generate_state(1, np.uint64)[0]
     with np.errstate(over="ignore"):
@@ -267,23 +325,43 @@ def random_worlds(
     moving_speeds: tuple[float, float] = MOVING_SPEEDS,
     size: float = SIZE,
 ) -> Worlds:
-    """Draw n worlds in which the target can be reached with 2 m to spare (section 3.6; frozen, see ``digest``).
+    """Draw n worlds in which the target can be reached with 2 m to spare (section 3.6).
 
-    Half of the obstacles are circles of radius 1.5 to 4 m, half rectangles of sides 3 to 8 m turned at random, none
-    within 6 m of start or target. World i depends on (seed, i) alone.
+    Half of the obstacles are circles of radius 1.5 to 4 m, half are rectangles of sides 3 to 8 m, turned at random.
+    None is within 6 m of start or target. World i depends on (seed, i) alone. The generator is frozen: a test compares
+    the digest of its worlds.
 
     Parameters
     ----------
-    n : number of worlds; 0 is legal.
-    obstacles, moving : how many stand still and how many move on top of them; 0 of either is legal.
-    seed : whole number or Generator.
-    starts, targets : points of which each world gets one at random.
-    moving_speeds : least and greatest speed of moving obstacles, in m/s.
-    size : side of the map in metres.
+    n : int
+        Number of worlds, 0 or more.
+    obstacles : int
+        Obstacles that stand still, 0 or more.
+    moving : int
+        Obstacles that move, on top of them.
+    seed : int or numpy.random.Generator
+        A Generator gives a new seed in each call.
+    starts, targets : sequence of (x, y)
+        Points of which each world gets one at random.
+    moving_speeds : (float, float)
+        Least and greatest speed of moving obstacles, in m/s.
+    size : float
+        Side of the map in metres.
+
+    Returns
+    -------
+    Worlds
 
     Raises
     ------
-    ValueError : if an argument is out of bounds, or no solvable map was found in 1000 draws.
+    ValueError
+        If an argument is out of bounds, or 1000 draws gave no map with a way to the target.
+
+    Examples
+    --------
+    >>> from robonav.robot import random_worlds
+    >>> random_worlds(100, obstacles=10, moving=2, seed=1).kinds.shape
+    (100, 12)
     """
     check_integer("n", n, at_least=0, at_most=MOST_WORLDS)
     check_drawing(obstacles, moving, starts, targets, moving_speeds, size)
@@ -301,7 +379,7 @@ def check_drawing(
     moving_speeds: tuple[float, float],
     size: float,
 ) -> None:
-    """Refuse settings from which no worlds can be drawn, see :func:`random_worlds`."""
+    """Check the settings of :func:`random_worlds`."""
     check_integer("obstacles", obstacles, at_least=0)
     check_integer("moving", moving, at_least=0)
     check_integer("obstacles + moving", obstacles + moving, at_most=_fast.MAX_OBSTACLES)
@@ -332,7 +410,25 @@ def draw_worlds(
     moving_speeds: tuple[float, float] = MOVING_SPEEDS,
     size: float = SIZE,
 ) -> Worlds:
-    """The worlds (N) that belong to ``keys`` (N, 2); see :func:`random_worlds`."""
+    """Draw the worlds that belong to given keys.
+
+    Parameters
+    ----------
+    keys : (N, 2) array of 32-bit numbers
+        One a world, see :func:`world_keys`.
+    obstacles, moving, starts, targets, moving_speeds, size
+        See :func:`random_worlds`.
+
+    Returns
+    -------
+    Worlds
+
+    Examples
+    --------
+    >>> from robonav.robot import draw_worlds, world_keys
+    >>> len(draw_worlds(world_keys(3, seed=1), obstacles=10, moving=0))
+    3
+    """
     n, m = len(keys), obstacles + moving
     kinds = np.zeros((n, m), dtype=np.int8)
     shapes, centres = np.zeros((n, m, 3)), np.zeros((n, m, 2))
@@ -350,7 +446,7 @@ def draw_worlds(
         )
     drawn = Worlds.__new__(
         Worlds
-    )  # right by construction: the checks would cost more than the drawing
+    )  # valid by construction; checks would take longer than drawing
     values = (
         kinds,
         shapes,
@@ -376,12 +472,31 @@ def make_world(
     size: float = SIZE,
     key: tuple[int, int] = (0, 0),
 ) -> Worlds:
-    """One world with standing obstacles, by hand.
+    """Make one world with obstacles that stand still.
 
     Parameters
     ----------
-    circles : (x, y, radius) each, in metres.
-    rectangles : (x, y, length, width, angle) each, in metres and degrees.
+    circles : sequence of (x, y, radius)
+        In metres.
+    rectangles : sequence of (x, y, length, width, angle)
+        In metres and degrees.
+    start, target : (float, float)
+        Of the robot, in metres.
+    size : float
+        Side of the map in metres.
+    key : (int, int)
+        Of the random numbers during an episode (noise and slips), see :class:`Worlds`.
+
+    Returns
+    -------
+    Worlds
+        A batch of one.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world
+    >>> make_world(circles=[(50, 50, 3)], rectangles=[(30, 60, 8, 4, 45)]).kinds
+    array([[1, 2]], dtype=int8)
     """
     round_ones: Any = (
         check_array("circles", circles, shape=("number", 3)) if len(circles) else []
@@ -411,7 +526,29 @@ def make_world(
 
 
 def concatenate(batches: Sequence[Worlds]) -> Worlds:
-    """One batch of several of the same map size; missing obstacle slots stay empty."""
+    """Join several batches of worlds of the same map size into one.
+
+    Parameters
+    ----------
+    batches : sequence of Worlds
+        At least one. Missing obstacle slots stay empty.
+
+    Returns
+    -------
+    Worlds
+
+    Raises
+    ------
+    ValueError
+        If there is no batch, or if map sizes differ.
+
+    Examples
+    --------
+    >>> from robonav.robot import concatenate, random_worlds
+    >>> easy, hard = random_worlds(2, 5, seed=1), random_worlds(3, 20, seed=1)
+    >>> concatenate([easy, hard]).kinds.shape
+    (5, 20)
+    """
     if len(batches) == 0:
         raise ValueError("batches must hold at least one batch of worlds")
     for batch in batches:
