@@ -19,7 +19,7 @@ def accumulated(
     ended: bool,
     number: int,
     discount: float,
-    rate: float,
+    gradient_step: float,
 ) -> NDArray[np.float64]:
     """The weights after an episode.
 
@@ -30,7 +30,7 @@ def accumulated(
     ended : whether nothing follows the last step.
     number : of actions A.
     discount : discount factor in [0, 1].
-    rate : the step size sigma.
+    gradient_step : the step size sigma.
 
     Returns
     -------

@@ -20,7 +20,7 @@ def rescaled(
     ended: NDArray[np.bool_],
     bounds: tuple[float, float],
     discount: float,
-    rate: float,
+    learning_rate: float,
 ) -> NDArray[np.float64]:
     """Targets for the network.
 
@@ -31,7 +31,7 @@ def rescaled(
     ended : (N,), whether the episode ended with it: what follows is then worth exactly 0 as a Q-value.
     bounds : the least and the greatest reward.
     discount : discount factor in [0, 1).
-    rate : learning rate of Q-learning in [0, 1].
+    learning_rate : learning rate of Q-learning in [0, 1].
 
     Returns
     -------

@@ -17,7 +17,7 @@ def accumulated(
     ended: bool,
     number: int,
     discount: float,
-    rate: float,
+    gradient_step: float,
 ) -> NDArray[np.float64]:
     """The weights after an episode.
 
@@ -28,7 +28,7 @@ def accumulated(
     ended : whether nothing follows the last step.
     number : of actions A.
     discount : discount factor in [0, 1].
-    rate : the step size sigma.
+    gradient_step : the step size sigma.
 
     Returns
     -------
@@ -41,6 +41,6 @@ def accumulated(
         last = ended and t == len(rewards) - 1
         targets.append(reward + (0.0 if last else discount * (weights @ features[t + 1]).max()))
         for target, action, phi in zip(targets, actions, features):
-            weights[action] += rate * (target - weights[action] @ phi) * phi
+            weights[action] += gradient_step * (target - weights[action] @ phi) * phi
     return weights
     ### END SOLUTION

@@ -18,7 +18,7 @@ def rescaled(
     ended: NDArray[np.bool_],
     bounds: tuple[float, float],
     discount: float,
-    rate: float,
+    learning_rate: float,
 ) -> NDArray[np.float64]:
     """Targets for the network.
 
@@ -29,7 +29,7 @@ def rescaled(
     ended : (N,), whether the episode ended with it: what follows is then worth exactly 0 as a Q-value.
     bounds : the least and the greatest reward.
     discount : discount factor in [0, 1).
-    rate : learning rate of Q-learning in [0, 1].
+    learning_rate : learning rate of Q-learning in [0, 1].
 
     Returns
     -------
@@ -40,6 +40,6 @@ def rescaled(
     taken = np.arange(len(actions)), actions
     q = least + (greatest - least) * outputs
     following = np.where(ended, 0.0, least + (greatest - least) * next_outputs.max(axis=1))
-    q[taken] += rate * (rewards + discount * following - q[taken])
+    q[taken] += learning_rate * (rewards + discount * following - q[taken])
     return ((q - least) / (greatest - least)).clip(0.0, 1.0)
     ### END SOLUTION

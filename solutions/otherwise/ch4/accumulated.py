@@ -1,7 +1,7 @@
 """4.4 in plain numbers."""
 
 
-def accumulated(features, actions, rewards, ended, number, discount, rate):
+def accumulated(features, actions, rewards, ended, number, discount, gradient_step):
     rows = features.tolist()
     weights = [[0.0] * len(rows[0]) for _ in range(number)]
     memory = []
@@ -16,5 +16,5 @@ def accumulated(features, actions, rewards, ended, number, discount, rate):
         memory.append((rows[t], int(actions[t]), rewards[t] + discount * following))
         for phi, action, target in memory:
             error = target - q(action, phi)
-            weights[action] = [w + rate * error * x for w, x in zip(weights[action], phi)]
+            weights[action] = [w + gradient_step * error * x for w, x in zip(weights[action], phi)]
     return weights

@@ -3,8 +3,8 @@
 import numpy as np
 
 
-def _weights(features, actions, rewards, ended, number, discount, rate, *, all_so_far=True, fresh=False, oldest=True,
-             end=True, after=False, at_once=False):  # fmt: skip
+def _weights(features, actions, rewards, ended, number, discount, gradient_step, *, all_so_far=True, fresh=False,
+             oldest=True, end=True, after=False, at_once=False):  # fmt: skip
     weights, targets, steps = np.zeros((number, features.shape[1])), [], len(rewards)
 
     def target(t):
@@ -20,7 +20,7 @@ def _weights(features, actions, rewards, ended, number, discount, rate, *, all_s
             targets = [target(k) for k in range(t + 1)]
         old = weights.copy() if at_once else weights
         for k in seen if oldest else seen[::-1]:
-            weights[actions[k]] += rate * (targets[k] - old[actions[k]] @ features[k]) * features[k]
+            weights[actions[k]] += gradient_step * (targets[k] - old[actions[k]] @ features[k]) * features[k]
     return weights
 
 
