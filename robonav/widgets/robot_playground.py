@@ -1,4 +1,4 @@
-"""Robot playground: the simulator in the page, the reader's worlds, and whoever is to drive."""
+"""Robot playground: the simulator in the page, with worlds to edit and a choice of policies."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from robonav.validation import check_positive
 from .shared import front_end, style_sheet
 from .simulator import page_policy, page_world
 
-RULES = ("straight", "freer side")
+RULES = ("straight", "freer-side")
 
 
 class RobotPlayground(anywidget.AnyWidget):
-    """Drag obstacles, let a policy drive or drive yourself, take the drive away as a demonstration."""
+    """A map to edit, in which a policy or the reader steers the robot; the episode can be downloaded."""
 
     _esm = front_end("simulator", "maps", "files", "robot_playground")
     _css = style_sheet("maps", "robot_playground")
@@ -31,17 +31,25 @@ def robot_playground(
     *,
     speeds: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0),
 ) -> RobotPlayground:
-    """The playground with some worlds to begin with and some networks to drive; two rules and the reader come on top.
+    """Make a playground with some worlds and networks; the two baselines and the reader can always steer.
 
     Parameters
     ----------
-    worlds : named batches of one.
-    policies : named networks with their encoders.
-    speeds : to choose from, in m/s; 2 among them.
+    worlds : mapping of str to Worlds
+        Batches of one, by the names to choose from.
+    policies : mapping of str to NetworkPolicy, optional
+        Networks with their encoders, by name.
+    speeds : sequence of float
+        Speeds to choose from, in m/s; 2 must be among them.
+
+    Returns
+    -------
+    RobotPlayground
 
     Raises
     ------
-    ValueError : if there is no world, or 2 m/s is not among the speeds.
+    ValueError
+        If there is no world, or 2 m/s is not among the speeds.
     """
     if not worlds:
         raise ValueError("worlds must hold at least one, got none")

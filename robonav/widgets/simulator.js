@@ -264,7 +264,7 @@ export function freerSide({ ranges }) {
 }
 
 /** Policies that need no network. */
-export const RULES = { straight: () => 0, "freer side": freerSide };
+export const RULES = { straight: () => 0, "freer-side": freerSide };
 
 /** Gumbel noise for each action in a step: the largest of z + T noise is drawn as Boltzmann's distribution has it. */
 export const gumbel = (key, step) => (action) => -Math.log(-Math.log(uniform(key, CHOOSING, step, action, 0)));

@@ -63,7 +63,7 @@ def test_rules_end_as_in_python(lab):
         ("10 standing, 10 moving", None),
     ):
         choose(lab, "world", world)
-        choose(lab, "who drives", "rule: freer side")
+        choose(lab, "who drives", "rule: freer-side")
         expected = navigate(
             turn_to_clearer_side, made or random_worlds(1, 10, 10, seed=44)
         )

@@ -125,7 +125,7 @@ def test_the_page_gets_worlds_and_policies():
     assert [policy["name"] for policy in lab.data["policies"]] == [
         "own",
         "rule: straight",
-        "rule: freer side",
+        "rule: freer-side",
     ]
     assert len(lab.data["worlds"][0]["world"]["obstacles"]) == 3
 

@@ -73,7 +73,7 @@ def thousand():
 
 
 @pytest.mark.parametrize(
-    ("rule", "policy"), [("straight", straight), ("freer side", turn_to_clearer_side)]
+    ("rule", "policy"), [("straight", straight), ("freer-side", turn_to_clearer_side)]
 )
 @pytest.mark.parametrize("speed", [2.0, 3.5])
 def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(
