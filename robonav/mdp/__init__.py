@@ -7,6 +7,7 @@ from .belief_planning import (
     qmdp,
     spread_beliefs,
 )
+from .belief_rollout import BeliefTrajectory, belief_rollout
 from .dynamic_programming import (
     modified_policy_iteration,
     policy_iteration,
@@ -43,13 +44,10 @@ from .policies import greedy_actions, greedy_mixture
 from .pomdp import (
     POMDP,
     BeliefMDP,
-    BeliefTrajectory,
     bayes,
-    belief_rollout,
     entropy,
-    without_sensing,
 )
-from .small_pomdps import corridor, fork, tiger
+from .small_pomdps import corridor, fork, tiger, without_sensing
 from .solutions import Solution
 from .tabular import ControlResult, PredictionResult
 from .temporal_difference import (

@@ -1,25 +1,22 @@
-"""Acting on beliefs: QMDP and point-based value iteration.
+"""Planning with beliefs: QMDP and point-based value iteration.
 
 The value of a belief is convex and, over a finite horizon, the largest of finitely many linear functions (Smallwood and
-Sondik 1973). Each such function is a vector of one value a state, with the action it stands for.
+Sondik 1973). Each linear function is an alpha vector: one value a state, and the action that it stands for.
 """
 
 from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.errors import ConvergenceWarning
-from robonav.validation import (
-    check_array,
-    check_instance,
-    check_integer,
-    check_positive,
-)
+from robonav.validation import check_array
 
+from .arguments import validated
 from .dynamic_programming import value_iteration
 from .policies import as_distributions
 from .pomdp import POMDP, SAME, BeliefMDP
@@ -27,15 +24,24 @@ from .pomdp import POMDP, SAME, BeliefMDP
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AlphaVectors:
-    """A policy over beliefs, and what it is thought to earn.
+    """A policy over beliefs with the values that it promises.
 
     Attributes
     ----------
-    vectors : (K, S).
-    actions : (K,) the action that goes with each.
-    iterations : backups of the whole set that were done.
+    vectors : (K, S) array
+    actions : (K,) array of ints
+        The action of each vector.
+    iterations : int
+        Number of backups of the whole set.
+
+    Examples
+    --------
+    >>> from robonav.mdp import qmdp, tiger
+    >>> plan = qmdp(tiger())
+    >>> plan.action([0.5, 0.5]), plan.action([0.0, 1.0])
+    (0, 1)
     """
 
     vectors: Floats
@@ -43,62 +49,82 @@ class AlphaVectors:
     iterations: int = 0
 
     def value(self, belief: ArrayLike) -> Floats:
-        """Value (...) of one belief (S,) or many (..., S): the largest of the linear functions."""
-        return (
-            as_distributions("belief", belief, self.vectors.shape[1]) @ self.vectors.T
-        ).max(axis=-1)
+        """Value (...) of one belief (S,) or of many (..., S): the largest of the linear functions."""
+        b = as_distributions("belief", belief, self.vectors.shape[1])
+        return (b @ self.vectors.T).max(axis=-1)
 
     def action(self, belief: ArrayLike) -> int:
-        """The action of the vector that is largest at a belief (S,)."""
+        """Action of the vector that is largest at a belief (S,)."""
         check_array("belief", belief, shape=("S",))
-        return int(
-            self.actions[
-                (
-                    self.vectors
-                    @ as_distributions("belief", belief, self.vectors.shape[1])
-                ).argmax()
-            ]
-        )
+        b = as_distributions("belief", belief, self.vectors.shape[1])
+        return int(self.actions[(self.vectors @ b).argmax()])
 
 
+@validated
 def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
-    """Act as if all doubt were gone after this one step (Littman, Cassandra and Kaelbling 1995).
+    """QMDP: act as if the state were known after the next step (Littman, Cassandra and Kaelbling 1995).
 
-    One vector an action, Q*(., a) of the MDP underneath. Its values are an upper bound; its policy never takes an
-    action only to learn something, since it believes that it will know everything anyway.
+    One vector an action: Q*(., a) of the underlying MDP. Its values are upper bounds. Its policy never takes an action
+    only to learn something, since it assumes that it will know everything anyway.
+
+    Parameters
+    ----------
+    pomdp : POMDP
+    tolerance : float
+        Largest loss of value in the underlying MDP.
+
+    Returns
+    -------
+    AlphaVectors
+
+    Examples
+    --------
+    >>> from robonav.mdp import qmdp, tiger
+    >>> qmdp(tiger()).vectors.round(1)
+    array([[189., 189.],
+           [ 90., 200.],
+           [200.,  90.]])
     """
-    check_instance("pomdp", pomdp, POMDP)
     values = value_iteration(pomdp.mdp, tolerance).values
-    return AlphaVectors(
-        pomdp.mdp.action_values(values).T.copy(), np.arange(pomdp.mdp.n_actions)
-    )
+    q = pomdp.mdp.action_values(values)
+    return AlphaVectors(q.T.copy(), np.arange(pomdp.mdp.n_actions))
 
 
+@validated
 def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
-    """Up to ``count`` beliefs (N, S) that can be reached from ``start``, as far apart as they come.
+    """Up to ``count`` beliefs that can be reached from ``start``, as far apart as possible.
 
-    Each new one is the successor, by any action and observation, that is furthest (sum of absolute differences) from
-    those taken before; so the choice involves no chance. There are fewer where fewer can be reached.
+    Each new belief is the successor, by any action and observation, that is furthest (sum of absolute differences)
+    from those taken before, so nothing is random.
+
+    Parameters
+    ----------
+    pomdp : POMDP
+    start : (S,) array
+        The first belief.
+    count : int
+
+    Returns
+    -------
+    (N, S) array
+        N is less than ``count`` if fewer can be reached.
+
+    Examples
+    --------
+    >>> from robonav.mdp import spread_beliefs, tiger
+    >>> spread_beliefs(tiger(), [0.5, 0.5], 3).round(2)
+    array([[0.5 , 0.5 ],
+           [0.85, 0.15],
+           [0.15, 0.85]])
     """
-    check_instance("pomdp", pomdp, POMDP)
-    check_integer("count", count, at_least=1)
-    taken = [pomdp._belief(start)]
+    taken = [pomdp.as_belief(start)]
     candidates, distances = np.empty((0, pomdp.mdp.n_states)), np.empty(0)
     while len(taken) < count:
         distances = np.minimum(distances, abs(candidates - taken[-1]).sum(axis=1))
-        new = np.concatenate(
-            [
-                BeliefMDP(pomdp).successors(taken[-1], action)[0]
-                for action in range(pomdp.mdp.n_actions)
-            ]
-        )
-        new_distances = np.min(
-            [abs(new - belief).sum(axis=1) for belief in taken], axis=0
-        )
-        candidates, distances = (
-            np.concatenate([candidates, new]),
-            np.concatenate([distances, new_distances]),
-        )
+        new = all_successors(pomdp, taken[-1])
+        new_distances = np.min([abs(new - b).sum(axis=1) for b in taken], axis=0)
+        candidates = np.concatenate([candidates, new])
+        distances = np.concatenate([distances, new_distances])
         furthest = int(distances.argmax())
         if distances[furthest] <= SAME:
             break
@@ -109,6 +135,14 @@ def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
     return np.stack(taken)
 
 
+def all_successors(pomdp: POMDP, belief: Floats) -> Floats:
+    """Beliefs (K, S) that can follow a belief by any action."""
+    beliefs = BeliefMDP(pomdp)
+    actions = range(pomdp.mdp.n_actions)
+    return np.concatenate([beliefs.successors(belief, a)[0] for a in actions])
+
+
+@validated
 def point_based_value_iteration(
     pomdp: POMDP,
     beliefs: ArrayLike,
@@ -116,85 +150,102 @@ def point_based_value_iteration(
     tolerance: float = 1e-6,
     max_iterations: int = 10_000,
 ) -> AlphaVectors:
-    """Value iteration at some beliefs only, one vector for each (Pineau, Gordon and Thrun 2003).
+    """Point-based value iteration: back up at some beliefs only, one vector each (Pineau, Gordon and Thrun 2003).
 
-    Starts below every value (the worst reward for ever), and keeps for each point the best vector found so far; of
-    vectors that are equally good there the one that is larger on the whole, since the next backup may look from
-    another belief. So the values of the points rise, and stay a lower bound of the true ones, everywhere. More points
-    come closer.
+    Starts below every value (the worst reward forever) and keeps the best vector found so far for each belief. Of
+    vectors that are equally good there, it keeps the one with the larger sum, since the next backup may start from
+    another belief. So the values of the beliefs rise and stay lower bounds everywhere. More beliefs come closer.
 
     Parameters
     ----------
-    beliefs : (N, S) the points, such as :func:`spread_beliefs` finds.
-    tolerance : how far values may still rise, in units of reward; positive. Stops when a backup replaces no point's
-        vector by one that is larger by more than ``tolerance * (1 - discount)`` in any state: if it goes on like that,
-        rises shrink by the discount, and all that would follow stay below the tolerance.
-    max_iterations : backups after which to give up.
+    pomdp : POMDP
+    beliefs : (N, S) array
+        Such as :func:`spread_beliefs` finds.
+    tolerance : float
+        How far values may still rise, in units of reward. Stops when a backup replaces no belief's vector by one that
+        is larger by more than ``tolerance * (1 - discount)`` in any state: if later rises shrink by the discount, their
+        sum stays below the tolerance.
+    max_iterations : int
+        Number of backups after which to give up.
+
+    Returns
+    -------
+    AlphaVectors
 
     Raises
     ------
-    ValueError : if the discount is 1, with which there is nothing to start from, or a point is no belief.
+    ValueError
+        If the discount is 1, for which there are no values to start from, or a row of ``beliefs`` is not a belief.
 
     Warns
     -----
-    ConvergenceWarning : if values were still rising; says by how much.
+    ConvergenceWarning
+        If values were still rising; the message says by how much.
+
+    Examples
+    --------
+    >>> from robonav.mdp import point_based_value_iteration, spread_beliefs, tiger
+    >>> pomdp = tiger()
+    >>> plan = point_based_value_iteration(pomdp, spread_beliefs(pomdp, [0.5, 0.5], 10))
+    >>> round(float(plan.value([0.5, 0.5])), 2)
+    19.37
     """
-    check_instance("pomdp", pomdp, POMDP)
+    points = as_points(pomdp, beliefs)
+    found = worst_vectors(pomdp)
+    for iteration in range(1, max_iterations + 1):
+        backed_up = backup(pomdp, points, found)
+        found, rise = best_of_both(points, found, backed_up, iteration)
+        if rise <= tolerance * (1 - pomdp.mdp.discount):
+            break
+    else:
+        _warn_still_rising(max_iterations, rise)
+    return found
+
+
+def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
+    """The best vector at each of N beliefs, one step ahead of the known ones.
+
+    For each action and observation, the known vectors, which are values of the next state s', are carried back to the
+    present state s: g(s) = sum over s' of T(s, a, s') Z(o, s', a) alpha(s'). Each belief takes the best g for each
+    observation.
+    """
+    mdp = pomdp.mdp
+    candidates = np.empty((mdp.n_actions, *points.shape))
+    for action in range(mdp.n_actions):
+        candidates[action] = mdp.rewards[:, action]
+        for likelihood in pomdp.observations[action].T:  # Z(o, s', a) over s'
+            g = (mdp.transitions[action] @ (likelihood * known.vectors).T).T  # (K, S)
+            best_g = (points @ g.T).argmax(axis=1)
+            candidates[action] += mdp.discount * g[best_g]
+    best = np.einsum("ans,ns->na", candidates, points).argmax(axis=1)
+    return AlphaVectors(candidates[best, np.arange(len(points))], best)
+
+
+def as_points(pomdp: POMDP, beliefs: Any) -> Floats:
+    """The beliefs (N, S) to back up, checked; a ValueError without discount."""
     if pomdp.mdp.discount == 1:
         raise ValueError("point_based_value_iteration needs a discount below 1, got 1")
     check_array("beliefs", beliefs, shape=("N", pomdp.mdp.n_states))
     points = as_distributions("beliefs", beliefs, pomdp.mdp.n_states)
     if len(points) == 0:
         raise ValueError("beliefs must hold at least one belief, got none")
-    enough = check_positive("tolerance", tolerance) * (1 - pomdp.mdp.discount)
-    check_integer("max_iterations", max_iterations, at_least=1)
+    return points
+
+
+def worst_vectors(pomdp: POMDP) -> AlphaVectors:
+    """One vector (1, S) below all values: the worst reward forever."""
     worst = pomdp.mdp.rewards.min() / (1 - pomdp.mdp.discount)
-    found = AlphaVectors(
+    return AlphaVectors(
         np.full((1, pomdp.mdp.n_states), worst), np.zeros(1, dtype=np.int64)
     )
-    for iterations in range(1, max_iterations + 1):
-        found, rise = improved_at(
-            points, found, backup(pomdp, points, found), iterations
-        )
-        if rise <= enough:
-            return found
-    warnings.warn(
-        f"point_based_value_iteration stopped after {max_iterations} backups with a value still rising by {rise:.3g}",
-        ConvergenceWarning,
-        stacklevel=2,
-    )
-    return found
 
 
-def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
-    """The best vector at each of N points, one step ahead of those known.
-
-    For each action and observation the known vectors, which speak of the state s' that comes, are carried back to the
-    state s that is: g(s) = sum_s' T(s, a, s') Z(o, s', a) alpha(s'). Each point takes the best g for each observation.
-    """
-    mdp = pomdp.mdp
-    candidates = np.empty((mdp.n_actions, *points.shape))
-    for action in range(mdp.n_actions):
-        candidates[action] = mdp.rewards[:, action]
-        for likelihood in pomdp.observations[action].T:
-            carried = (
-                mdp.transitions[action] @ (likelihood * known.vectors).T
-            ).T  # (K, S)
-            candidates[action] += (
-                mdp.discount * carried[(points @ carried.T).argmax(axis=1)]
-            )
-    best = np.einsum("ans,ns->na", candidates, points).argmax(axis=1)
-    return AlphaVectors(candidates[best, np.arange(len(points))], best)
-
-
-def improved_at(
+def best_of_both(
     points: Floats, old: AlphaVectors, new: AlphaVectors, iterations: int
 ) -> tuple[AlphaVectors, float]:
-    """Of two sets, the vectors that are best at some point, and the most by which a point's vector rose in a state."""
-    vectors, actions = (
-        np.concatenate([old.vectors, new.vectors]),
-        np.concatenate([old.actions, new.actions]),
-    )
+    """The vectors of two sets that are best at some belief, and the largest rise of a belief's vector in a state."""
+    vectors = np.concatenate([old.vectors, new.vectors])
+    actions = np.concatenate([old.actions, new.actions])
     chosen = best_at(points, vectors)
     rise = (vectors[chosen] - old.vectors[best_at(points, old.vectors)]).max()
     kept = np.unique(chosen)
@@ -202,8 +253,17 @@ def improved_at(
 
 
 def best_at(points: Floats, vectors: Floats) -> NDArray[np.intp]:
-    """Which vector is best at each point (N,); of those equal to rounding the one with the largest sum."""
-    worth = points @ vectors.T
+    """Index of the best vector at each belief (N,); of those equal to rounding, the one with the largest sum."""
+    values = points @ vectors.T
     rounding = 16 * np.finfo(float).eps * abs(vectors).max()
-    ties = worth >= worth.max(axis=1, keepdims=True) - rounding
+    ties = values >= values.max(axis=1, keepdims=True) - rounding
     return np.where(ties, vectors.sum(axis=1), -np.inf).argmax(axis=1)
+
+
+def _warn_still_rising(backups: int, rise: float) -> None:
+    """ConvergenceWarning at the line that called."""
+    warnings.warn(
+        f"point_based_value_iteration stopped after {backups} backups with a value still rising by {rise:.3g}",
+        ConvergenceWarning,
+        stacklevel=4,
+    )

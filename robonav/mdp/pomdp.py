@@ -1,41 +1,26 @@
-"""Partial observation: the POMDP, the belief and its update, and the MDP of beliefs (section 2.2.2)."""
+"""Partial observation: the POMDP, the belief and its update, and the belief MDP (section 2.2.2)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import (
-    check_array,
-    check_generator,
-    check_instance,
-    check_integer,
-)
+from robonav.validation import check_array, check_instance, check_integer
 
+from .arguments import require_type, validated_with
 from .models import FiniteMDP
 from .policies import SUM_TOLERANCE, as_distributions
 
 Floats = NDArray[np.float64]
 
-SAME = 1e-9  # beliefs that differ by no more than this, in any state, count as one
+SAME = 1e-9  # beliefs that differ by at most this in every state count as equal
 
 
-def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
-    """Bayes' rule: the belief (S,) after evidence, and how probable the evidence was.
-
-    Parameters
-    ----------
-    prior : (S,) belief before it.
-    likelihood : (S,) probability, or density, of the evidence in each state.
-
-    Raises
-    ------
-    ValueError : if no state that is believed possible could have given the evidence, or a number is negative.
-    """
+def as_evidence(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, Floats]:
+    """Prior and likelihood as arrays (S,), checked: neither holds a negative number."""
     before = check_array("prior", prior, shape=("S",))
     explained = check_array("likelihood", likelihood, shape=before.shape)
     for name, numbers in (("prior", before), ("likelihood", explained)):
@@ -43,6 +28,42 @@ def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
             raise ValueError(
                 f"{name} must hold no negative numbers, got {numbers.min():.10g}"
             )
+    return before, explained
+
+
+def _belief(name: str, value: Any) -> Floats:
+    """A distribution (S,)."""
+    return as_distributions(name, value, len(check_array(name, value, shape=("S",))))
+
+
+def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
+    """Bayes' rule: the belief after evidence, and the probability of the evidence.
+
+    Parameters
+    ----------
+    prior : (S,) array
+        The belief before the evidence.
+    likelihood : (S,) array
+        Probability, or density, of the evidence in each state.
+
+    Returns
+    -------
+    posterior : (S,) array
+    probability : float
+
+    Raises
+    ------
+    ValueError
+        If no state that is believed possible could have given the evidence, or a number is negative.
+
+    Examples
+    --------
+    >>> from robonav.mdp import bayes
+    >>> posterior, probability = bayes([0.5, 0.5], likelihood=[0.9, 0.3])
+    >>> posterior.round(2), round(probability, 2)
+    (array([0.75, 0.25]), 0.6)
+    """
+    before, explained = as_evidence(prior, likelihood)
     joint = before * explained
     probability = float(joint.sum())
     if not probability > 0:
@@ -52,28 +73,53 @@ def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
     return joint / probability, probability
 
 
+@validated_with(belief=_belief)
 def entropy(belief: ArrayLike) -> float:
-    """How uncertain a belief (S,) is, in bits: 0 where one state is sure, log2 S where all are alike."""
-    b = as_distributions(
-        "belief", belief, len(check_array("belief", belief, shape=("S",)))
-    )
-    sure = b[b > 0]
-    return float(-(sure * np.log2(sure)).sum()) + 0.0  # not -0
+    """Entropy of a belief in bits: 0 if one state is certain, log2 S if all are equally likely.
+
+    Parameters
+    ----------
+    belief : (S,) array
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> from robonav.mdp import entropy
+    >>> entropy([0.5, 0.5]), entropy([1.0, 0.0])
+    (1.0, 0.0)
+    """
+    b = np.asarray(belief)
+    possible = b[b > 0]
+    return float(-(possible * np.log2(possible)).sum()) + 0.0  # not -0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class POMDP:
-    """A finite MDP whose state is not seen: <S, A, T, O, Z, R>. A belief about it is an array (S,), Eq. (2.17).
+    """A finite MDP whose state is hidden: <S, A, T, O, Z, R>. A belief about it is an array (S,), Eq. (2.17).
 
-    Attributes
+    Parameters
     ----------
-    mdp : S states, A actions, transitions, rewards and discount.
-    observations : Z, (A, S', O): ``observations[a, s', o]`` is the probability of observing o in the state s' that
-        action a led to.
+    mdp : FiniteMDP
+        S states, A actions, transitions, rewards and discount.
+    observations : (A, S', O) array
+        ``observations[a, s', o]`` is the probability Z(o, s', a) of observing o in the state s' that action a led to.
 
     Raises
     ------
-    TypeError, ValueError : if ``observations`` has another shape or a row is no distribution.
+    TypeError, ValueError
+        If ``observations`` has another shape or a row is not a distribution.
+
+    Examples
+    --------
+    >>> from robonav.mdp import tiger
+    >>> pomdp = tiger(accuracy=0.85)
+    >>> pomdp
+    POMDP(FiniteMDP(2 states, 3 actions, discount 0.95, dense), 2 observations)
+    >>> pomdp.update([0.5, 0.5], action=0, observation=0)
+    array([0.85, 0.15])
     """
 
     mdp: FiniteMDP
@@ -100,66 +146,93 @@ class POMDP:
         return f"POMDP({self.mdp!r}, {self.observations.shape[2]} observations)"
 
     def uniform(self) -> Floats:
-        """The belief (S,) of one who knows nothing."""
+        """The belief (S,) in which all states are equally likely."""
         return np.full(self.mdp.n_states, 1 / self.mdp.n_states)
 
     def predict(self, belief: ArrayLike, action: int) -> Floats:
-        """The belief (S,) after an action, before anything is observed: sum_s b(s) T(s, a, .)."""
-        b = self._belief(belief)
-        return np.asarray(b @ self.mdp.transitions[self._action(action)])
+        """Belief (S,) after an action, before anything is observed: sum over s of b(s) T(s, a, .)."""
+        b, a = self.as_belief(belief), self.as_action(action)
+        return np.asarray(b @ self.mdp.transitions[a])
 
     def update(self, belief: ArrayLike, action: int, observation: int) -> Floats:
-        """The belief (S,) after an action and an observation, b' = tau(b, a, o) (Eqs. (2.18), (2.19)).
+        """Belief after an action and an observation, Eq. (2.18); Eq. (2.19) calls this function tau.
 
-        Eq. (2.18) writes the sum as T(s, a, s') over s', the state *before*; here it is s that is summed over:
-        b'(s') is proportional to Z(o, s', a) sum_s b(s) T(s, a, s').
+        The thesis writes the sum of Eq. (2.18) over s', the state *before*. Here s is summed over: b'(s') is
+        proportional to Z(o, s', a) times the sum over s of b(s) T(s, a, s').
+
+        Parameters
+        ----------
+        belief : (S,) array
+        action, observation : int
+
+        Returns
+        -------
+        (S,) array
 
         Raises
         ------
-        ValueError : if the belief is no distribution over S states, an index does not exist, or the observation has
+        ValueError
+            If the belief is not a distribution over S states, an index does not exist, or the observation has
             probability zero.
         """
-        seen = check_integer(
-            "observation",
-            observation,
-            at_least=0,
-            at_most=self.observations.shape[2] - 1,
-        )
-        prior = self.predict(belief, action)
-        try:
-            return bayes(prior, self.observations[action, :, seen])[0]
-        except ValueError:
+        predicted = self.predict(belief, action)  # sum over s of b(s) T(s, a, s')
+        joint = self.likelihood(action, observation) * predicted
+        if joint.sum() == 0:
             raise ValueError(
-                f"observation must be possible: {seen} has probability zero after action {action} from this belief"
-            ) from None
+                f"observation must be possible: {observation} has probability zero "
+                f"after action {action} from this belief"
+            )
+        return joint / joint.sum()  # Eq. (2.18)
+
+    def likelihood(self, action: int, observation: int) -> Floats:
+        """Probability Z(o, s', a) of an observation in each state s', (S',)."""
+        last = self.observations.shape[2] - 1
+        seen = check_integer("observation", observation, at_least=0, at_most=last)
+        return self.observations[self.as_action(action), :, seen]
 
     def observation_probabilities(self, belief: ArrayLike, action: int) -> Floats:
-        """Probability (O,) of each observation after an action (Eq. (2.20))."""
-        return self.predict(belief, action) @ self.observations[action]
+        """Probability (O,) of each observation after an action, Eq. (2.20)."""
+        predicted = self.predict(belief, action)  # sum over s of b(s) T(s, a, s')
+        return predicted @ self.observations[self.as_action(action)]  # Eq. (2.20)
 
     def expected_rewards(self, belief: ArrayLike) -> Floats:
-        """Expected reward (A,) of each action, r(a | b) = sum_s b(s) R(s, a) (Eqs. (2.21), (2.23))."""
-        return self._belief(belief) @ self.mdp.rewards
+        """Expected reward (A,) of each action, r(a | b), Eq. (2.21)."""
+        return self.as_belief(belief) @ self.mdp.rewards  # Eq. (2.21)
 
-    def _belief(self, belief: ArrayLike) -> Floats:
+    def as_belief(self, belief: ArrayLike) -> Floats:
+        """The belief as an array (S,), checked."""
         check_array("belief", belief, shape=(self.mdp.n_states,))
         return as_distributions("belief", belief, self.mdp.n_states)
 
-    def _action(self, action: int) -> int:
-        return check_integer(
-            "action", action, at_least=0, at_most=self.mdp.n_actions - 1
-        )
+    def as_vector(self, name: str, numbers: ArrayLike) -> Floats:
+        """Numbers as an array (S,), checked."""
+        return check_array(name, numbers, shape=(self.mdp.n_states,))
+
+    def as_action(self, action: int) -> int:
+        """The action as an index, checked."""
+        last = self.mdp.n_actions - 1
+        return check_integer("action", action, at_least=0, at_most=last)
 
 
-def without_sensing(mdp: FiniteMDP) -> POMDP:
-    """A robot with no sensing at all (2.5.1): whatever the state, it observes the same."""
-    check_instance("mdp", mdp, FiniteMDP)
-    return POMDP(mdp, np.ones((mdp.n_actions, mdp.n_states, 1)))
+require_type("pomdp", POMDP)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BeliefMDP:
-    """The MDP whose states are the beliefs of a POMDP: <B, A, tau, r, gamma>. From each, few others can be reached."""
+    """The MDP whose states are the beliefs of a POMDP: <B, A, tau, r, gamma>. From each, few others can be reached.
+
+    Parameters
+    ----------
+    pomdp : POMDP
+
+    Examples
+    --------
+    >>> from robonav.mdp import BeliefMDP, tiger
+    >>> beliefs, probabilities = BeliefMDP(tiger()).successors([0.5, 0.5], action=0)
+    >>> beliefs.round(2), probabilities
+    (array([[0.85, 0.15],
+           [0.15, 0.85]]), array([0.5, 0.5]))
+    """
 
     pomdp: POMDP
 
@@ -168,16 +241,16 @@ class BeliefMDP:
 
     @property
     def discount(self) -> float:
-        """gamma, the POMDP's own."""
+        """gamma of the POMDP."""
         return self.pomdp.mdp.discount
 
     def successors(self, belief: ArrayLike, action: int) -> tuple[Floats, Floats]:
-        """The beliefs (K, S) that can follow, and their probabilities (K,); two observations may lead to the same."""
-        prior = self.pomdp.predict(belief, action)
-        likelihoods = self.pomdp.observations[action].T  # (O, S')
+        """Beliefs (K, S) that can follow, and their probabilities (K,); two observations may lead to the same one."""
+        predicted = self.pomdp.predict(belief, action)
+        likelihoods = self.pomdp.observations[self.pomdp.as_action(action)].T  # (O, S')
         found: list[tuple[Floats, float]] = []
-        for likelihood in likelihoods[likelihoods @ prior > 0]:
-            posterior, probability = bayes(prior, likelihood)
+        for likelihood in likelihoods[likelihoods @ predicted > 0]:
+            posterior, probability = bayes(predicted, likelihood)
             for k, (known, so_far) in enumerate(found):
                 if abs(known - posterior).max() <= SAME:
                     found[k] = known, so_far + probability
@@ -187,83 +260,13 @@ class BeliefMDP:
         return np.stack([b for b, _ in found]), np.array([p for _, p in found])
 
     def transition(self, belief: ArrayLike, action: int, successor: ArrayLike) -> float:
-        """tau(b, a, b'), the probability that ``successor`` follows (Eq. (2.22))."""
-        wanted = check_array("successor", successor, shape=(self.pomdp.mdp.n_states,))
+        """Probability tau(b, a, b') that the belief ``successor`` follows, Eq. (2.22)."""
         beliefs, probabilities = self.successors(belief, action)
-        return float(probabilities[(abs(beliefs - wanted) <= SAME).all(axis=1)].sum())
+        wanted = self.pomdp.as_vector("successor", successor)
+        same = (abs(beliefs - wanted) <= SAME).all(axis=1)
+        return float(probabilities[same].sum())  # Eq. (2.22)
 
     def reward(self, belief: ArrayLike, action: int) -> float:
-        """r(b, a) = sum_s b(s) R(s, a) (Eq. (2.23))."""
-        return float(self.pomdp.expected_rewards(belief)[self.pomdp._action(action)])
-
-
-@dataclass(frozen=True)
-class BeliefTrajectory:
-    """One run through a POMDP (Fig. 2.3): what happened, what was observed, what was believed.
-
-    Attributes
-    ----------
-    states : (T + 1,) the true ones, hidden from the agent.
-    actions, observations : (T,).
-    rewards : (T,) expected reward R(s, a) of each state and action passed.
-    beliefs : (T + 1, S).
-    """
-
-    states: NDArray[np.int64]
-    actions: NDArray[np.int64]
-    observations: NDArray[np.int64]
-    rewards: Floats
-    beliefs: Floats
-
-
-def belief_rollout(
-    pomdp: POMDP,
-    choose: Callable[[Floats], int],
-    steps: int,
-    *,
-    belief: ArrayLike | None = None,
-    state: int | None = None,
-    seed: int | np.random.Generator,
-) -> BeliefTrajectory:
-    """Act on beliefs for some steps.
-
-    Parameters
-    ----------
-    choose : ``choose(belief) -> action``, such as :meth:`AlphaVectors.action`.
-    belief : (S,) to start with; uniform if left out.
-    state : the true first state; drawn from ``belief`` if left out.
-    seed : number or generator, for what is random in the world.
-    """
-    check_instance("pomdp", pomdp, POMDP)
-    rng = check_generator("seed", seed)
-    check_integer("steps", steps, at_least=0)
-    beliefs = [pomdp.uniform() if belief is None else pomdp._belief(belief)]
-    if state is None:
-        state = rng.choice(pomdp.mdp.n_states, p=beliefs[0])
-    check_integer("state", state, at_least=0, at_most=pomdp.mdp.n_states - 1)
-    states, actions, observations, rewards = [state], [], [], []
-    for _ in range(steps):
-        action = pomdp._action(choose(beliefs[-1]))
-        rewards.append(pomdp.mdp.rewards[states[-1], action])
-        states.append(
-            rng.choice(
-                pomdp.mdp.n_states,
-                p=successor_probabilities(pomdp.mdp, states[-1], action),
-            )
-        )
-        observations.append(
-            rng.choice(
-                pomdp.observations.shape[2], p=pomdp.observations[action, states[-1]]
-            )
-        )
-        beliefs.append(pomdp.update(beliefs[-1], action, observations[-1]))
-        actions.append(action)
-    return BeliefTrajectory(
-        *map(np.array, (states, actions, observations, rewards, beliefs))
-    )
-
-
-def successor_probabilities(mdp: FiniteMDP, state: int, action: int) -> Floats:
-    """T(s, a, .), (S,), dense."""
-    row = mdp.transitions[action][[state]]
-    return np.asarray(row.toarray() if mdp.is_sparse else row).ravel()
+        """Expected reward r(b, a) of an action at a belief, Eq. (2.23)."""
+        b, a = self.pomdp.as_belief(belief), self.pomdp.as_action(action)
+        return float((b @ self.pomdp.mdp.rewards)[a])  # Eq. (2.23)

@@ -1,6 +1,7 @@
 """Beliefs, their update and their MDP, against brute force over whole histories."""
 
 import itertools
+import numbers
 
 import numpy as np
 import pytest
@@ -344,4 +345,47 @@ def test_a_ring_closes():
     np.testing.assert_allclose(ring.predict([1, 0, 0, 0], 0), [0, 0, 0, 1])
     np.testing.assert_allclose(
         corridor("D...", slip=0.0).predict([1, 0, 0, 0], 0), [1, 0, 0, 0]
+    )
+
+
+def test_belief_rollout_of_no_steps_keeps_the_types():
+    none, one = (
+        belief_rollout(tiger(), lambda belief: 0, steps, seed=0) for steps in (0, 1)
+    )
+    for name in ("states", "actions", "observations", "rewards", "beliefs"):
+        assert getattr(none, name).dtype == getattr(one, name).dtype
+    assert none.beliefs.shape == (1, 2)
+
+
+@pytest.mark.parametrize(
+    "wrong", [1.0, np.float64(1.0), True, "1", None, [0, 1], slice(None), -1, 3]
+)
+def test_action_is_checked_by_every_method(wrong):
+    """The action is used as it was checked, not as it came: -1 is not the last action, nor True the second."""
+    pomdp = tiger()
+    for use in (
+        lambda: pomdp.update([0.5, 0.5], wrong, 0),
+        lambda: pomdp.predict([0.5, 0.5], wrong),
+        lambda: pomdp.likelihood(wrong, 0),
+        lambda: pomdp.observation_probabilities([0.5, 0.5], wrong),
+        lambda: BeliefMDP(pomdp).successors([0.5, 0.5], wrong),
+        lambda: BeliefMDP(pomdp).reward([0.5, 0.5], wrong),
+    ):
+        with pytest.raises((TypeError, ValueError), match="action must be"):
+            use()
+
+
+class Third(numbers.Integral):
+    """A whole number 2 that cannot serve as an index before it is turned into an int."""
+
+    def __int__(self):
+        return 2
+
+
+Third.__abstractmethods__ = frozenset()
+
+
+def test_update_uses_the_checked_action():
+    np.testing.assert_array_equal(
+        tiger().update([0.9, 0.1], Third(), 0), tiger().update([0.9, 0.1], 2, 0)
     )
