@@ -1,4 +1,4 @@
-"""Training a network: batch gradient descent by hand (section 3.3.1), then L-BFGS with torch (section 3.4.3)."""
+"""Training a network: batch gradient descent (section 3.3.1), and L-BFGS with torch (section 3.4.3)."""
 
 from __future__ import annotations
 
@@ -14,11 +14,34 @@ from .backpropagation import SQUARED_ERROR, Objective, examples
 from .multilayer_perceptron import Array, Network, random_network
 from .training_history import Iterate, TrainingHistory, accuracy, run_optimiser
 
-MOST_ITERATIONS = 100_000  # minutes of work; more is a slip of the pen
+MOST_ITERATIONS = 100_000  # these take minutes; a larger number is a slip of the pen
 
 
 def one_hot(actions: ArrayLike, count: int) -> Array:
-    """Labels (m, count) with a 1 at each example's action, 0 elsewhere (section 3.4.1)."""
+    """Make labels (m, count) with a 1 at each example's action and 0 elsewhere (section 3.4.1).
+
+    Parameters
+    ----------
+    actions : (m,) array of int
+        In 0..count - 1.
+    count : int
+        Number of actions.
+
+    Returns
+    -------
+    (m, count) array
+
+    Raises
+    ------
+    ValueError
+        If an action lies outside the range.
+
+    Examples
+    --------
+    >>> from robonav.networks import one_hot
+    >>> one_hot([2, 0], 3).tolist()
+    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+    """
     indices = check_array("actions", actions, shape=("m",), dtype=np.intp)
     width = check_integer("count", count, at_least=1)
     if len(indices) and not 0 <= indices.min() <= indices.max() < width:
@@ -26,6 +49,70 @@ def one_hot(actions: ArrayLike, count: int) -> Array:
             f"actions must lie in 0..{width - 1}, got {indices.min()}..{indices.max()}"
         )
     return np.eye(width)[indices]
+
+
+def descend(network: Network, gradient: Network, gradient_step: float) -> Network:
+    """One step of gradient descent, Eqs. (3.8) and (3.28).
+
+    Parameters
+    ----------
+    network : Network
+        A single network.
+    gradient : Network
+        The derivatives of the cost by its weights and biases, in the shape of a network.
+    gradient_step : float
+        alpha, which the thesis calls the learning rate.
+
+    Returns
+    -------
+    Network
+        One step further down.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import Network, descend
+    >>> network = Network((np.array([[3.0]]),), (np.array([1.0]),))
+    >>> descend(network, network, 0.5).weights
+    (array([[1.5]]),)
+    """
+    pairs = zip(network.weights, gradient.weights, strict=True)
+    weights = [w - gradient_step * dw for w, dw in pairs]  # Eqs. (3.8) and (3.28)
+    pairs = zip(network.biases, gradient.biases, strict=True)
+    biases = [b - gradient_step * db for b, db in pairs]
+    return Network(tuple(weights), tuple(biases))
+
+
+def gradient_descent_iterates(
+    network: Network,
+    x: Array,
+    y: Array,
+    *,
+    gradient_step: float,
+    iterations: int,
+    regularisation: float,
+    objective: Objective,
+) -> Iterator[Iterate]:
+    """Batch gradient descent, Eq. (3.16).
+
+    Each iteration uses all examples for one step against the gradient. Parameters are those of
+    :func:`gradient_descent`.
+
+    Yields
+    ------
+    Iterate
+        The first is the network as it came.
+    """
+
+    def measured() -> Iterate:
+        cost = objective.cost(network, x, y, regularisation=regularisation)
+        return Iterate(network, cost, accuracy(network, x, y))
+
+    yield measured()
+    for _ in range(iterations):
+        gradient = objective.gradient(network, x, y, regularisation=regularisation)
+        network = descend(network, gradient, gradient_step)  # Eq. (3.16)
+        yield measured()
 
 
 def gradient_descent(
@@ -40,52 +127,55 @@ def gradient_descent(
     record: bool = False,
     progress: Progress | None = None,
 ) -> TrainingHistory:
-    """Batch gradient descent, Eq. (3.8), (3.16), (3.28): all examples, one step against the gradient, and again.
+    """Train a network by batch gradient descent, see :func:`gradient_descent_iterates`.
 
     Parameters
     ----------
-    network : where to start.
-    x : inputs (m, s[0]).
-    y : labels (m, s[-1]) in [0, 1].
-    gradient_step : the learning rate alpha, positive; too large, and the cost rises or jumps about.
-    iterations : steps to take, at most 100,000.
-    regularisation : lambda, at least 0.
-    objective : ``SQUARED_ERROR``, Eq. (3.7), or ``CROSS_ENTROPY``, Eq. (3.22).
-    record : keep the network of every iteration.
-    progress : called as ``progress(done, iterations)``.
+    network : Network
+        Where to start.
+    x : (m, s[0]) array
+        Inputs.
+    y : (m, s[-1]) array
+        Labels in [0, 1].
+    gradient_step : float
+        The step alpha, positive; the thesis calls it the learning rate. With too large a step the cost rises or jumps.
+    iterations : int
+        Steps to take, at most 100,000.
+    regularisation : float
+        lambda, at least 0.
+    objective : Objective
+        ``SQUARED_ERROR`` or ``CROSS_ENTROPY``.
+    record : bool
+        Whether to keep the network of every iteration.
+    progress : callable, optional
+        Called as ``progress(done, iterations)``.
+
+    Returns
+    -------
+    TrainingHistory
 
     Raises
     ------
-    ValueError : if shapes do not fit, an argument lies outside its range, or the weights grow out of all bounds.
+    ValueError
+        If shapes do not fit, an argument lies outside its range, or the weights grow beyond all bounds.
+
+    Examples
+    --------
+    >>> from robonav.networks import gradient_descent, random_network
+    >>> from robonav.networks.toy_datasets import disc
+    >>> x, y = disc(50, seed=0)
+    >>> history = gradient_descent(random_network((2, 4, 1), seed=0), x, y, gradient_step=1, iterations=20)
+    >>> bool(history.costs[-1] < history.costs[0])
+    True
     """
-    alpha = check_positive("gradient_step", gradient_step)
-    steps = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
-
-    def state(current: Network) -> Iterate:
-        return Iterate(
-            current,
-            objective.cost(current, x, y, regularisation=regularisation),
-            accuracy(current, x, y),
-        )
-
-    def descend() -> Iterator[Iterate]:
-        current = network
-        yield state(current)
-        for _ in range(steps):
-            slope = objective.gradient(current, x, y, regularisation=regularisation)
-            current = Network(
-                tuple(
-                    w - alpha * dw
-                    for w, dw in zip(current.weights, slope.weights, strict=True)
-                ),
-                tuple(
-                    b - alpha * db
-                    for b, db in zip(current.biases, slope.biases, strict=True)
-                ),
-            )
-            yield state(current)
-
-    return run_optimiser(descend(), steps, record=record, progress=progress)
+    inputs, labels = examples(network, x, y)
+    step = check_positive("gradient_step", gradient_step)
+    count = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
+    iterates = gradient_descent_iterates(
+        network, inputs, labels, gradient_step=step, iterations=count,
+        regularisation=regularisation, objective=objective,
+    )  # fmt: skip
+    return run_optimiser(iterates, count, record=record, progress=progress)
 
 
 def lbfgs(
@@ -98,22 +188,32 @@ def lbfgs(
     record: bool = False,
     progress: Progress | None = None,
 ) -> TrainingHistory:
-    """Minimise the cost of Eq. (3.22) by L-BFGS (Liu and Nocedal, 1989), from ``network`` on.
+    """Train a network by L-BFGS (Liu and Nocedal 1989) on the cross-entropy cost.
 
-    The thesis's fminunc is of the same quasi-Newton family. Ends early where no step lowers the cost any more.
-    Parameters, and what is raised, as in :func:`gradient_descent`.
+    The thesis's fminunc belongs to the same quasi-Newton family. Training ends early where no step lowers the cost.
+    Parameters and errors are those of :func:`gradient_descent`.
+
+    Returns
+    -------
+    TrainingHistory
+
+    Examples
+    --------
+    >>> from robonav.networks import lbfgs, random_network
+    >>> from robonav.networks.toy_datasets import disc
+    >>> x, y = disc(50, seed=0)
+    >>> lbfgs(random_network((2, 4, 1), seed=0), x, y, regularisation=0.01, iterations=20).iterations
+    20
     """
     inputs, labels = examples(network, x, y)
     decay = check_real("regularisation", regularisation, at_least=0)
-    steps = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
-    from .torch_lbfgs import (
-        lbfgs_iterates,  # brings torch, which planning can do without
-    )
+    count = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
+    from .torch_lbfgs import lbfgs_iterates  # loads torch, which planning does not need
 
     iterates = lbfgs_iterates(
-        network, inputs, labels, regularisation=decay, iterations=steps
+        network, inputs, labels, regularisation=decay, iterations=count
     )
-    return run_optimiser(iterates, steps, record=record, progress=progress)
+    return run_optimiser(iterates, count, record=record, progress=progress)
 
 
 def fit(
@@ -127,22 +227,42 @@ def fit(
     record: bool = False,
     progress: Progress | None = None,
 ) -> TrainingHistory:
-    """Train a new network on examples, as Algorithm 3 does (step 7): random weights, then L-BFGS on Eq. (3.22).
+    """Train a new network on examples: random weights, then L-BFGS on the cross-entropy cost.
 
     Parameters
     ----------
-    x : inputs (m, n).
-    y : labels (m, K) in [0, 1], such as :func:`one_hot` actions.
-    hidden : units of the hidden layer, or of several; () for none.
-    regularisation : lambda, at least 0.
-    iterations : of L-BFGS, at most; itself at most 100,000.
-    seed : of the initial weights.
-    record : keep the network of every iteration.
-    progress : called as ``progress(done, iterations)``.
+    x : (m, n) array
+        Inputs.
+    y : (m, K) array
+        Labels in [0, 1], such as :func:`one_hot` actions.
+    hidden : int or sequence of int
+        Units of the hidden layer, or of several; () for none.
+    regularisation : float
+        lambda, at least 0.
+    iterations : int
+        The most iterations of L-BFGS, at most 100,000.
+    seed : int or Generator
+        Of the initial weights.
+    record : bool
+        Whether to keep the network of every iteration.
+    progress : callable, optional
+        Called as ``progress(done, iterations)``.
+
+    Returns
+    -------
+    TrainingHistory
 
     Raises
     ------
-    ValueError : if shapes do not fit, or an argument lies outside its range.
+    ValueError
+        If shapes do not fit, or an argument lies outside its range.
+
+    Examples
+    --------
+    >>> from robonav.networks import fit
+    >>> from robonav.networks.toy_datasets import disc
+    >>> fit(*disc(50, seed=0), hidden=3, iterations=5).network.sizes
+    (2, 3, 1)
     """
     inputs = check_array("x", x, shape=("m", "n"))
     labels = check_array("y", y, shape=("m", "K"))
@@ -151,11 +271,6 @@ def fit(
         check_integer("hidden", units, at_least=1)
     start = random_network((inputs.shape[1], *layers, labels.shape[1]), seed=seed)
     return lbfgs(
-        start,
-        inputs,
-        labels,
-        regularisation=regularisation,
-        iterations=iterations,
-        record=record,
-        progress=progress,
-    )
+        start, inputs, labels, regularisation=regularisation, iterations=iterations,
+        record=record, progress=progress,
+    )  # fmt: skip

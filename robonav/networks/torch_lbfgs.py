@@ -1,4 +1,4 @@
-"""L-BFGS on the cost of Eq. (3.22), by torch in double precision, its gradients by autograd."""
+"""L-BFGS on the cost of Eq. (3.22), by torch in double precision with gradients by autograd."""
 
 from __future__ import annotations
 
@@ -11,89 +11,127 @@ from torch.nn.functional import binary_cross_entropy_with_logits
 from .multilayer_perceptron import Array, Network, propagate
 from .training_history import Iterate, fraction_correct
 
-MEMORY = 10  # pairs of steps and gradient changes that stand for the curvature
-LINE_SEARCH = 25  # evaluations a line search may take
-FLAT = 1e-9  # largest entry of a gradient that counts as zero
+MEMORY = 10  # pairs of steps and gradient changes that approximate the curvature
+LINE_SEARCH = 25  # evaluations that a line search may take
+FLAT = 1e-9  # the largest entry of a gradient that counts as zero
 
 
 def lbfgs_iterates(
     network: Network, x: Array, y: Array, *, regularisation: float, iterations: int
 ) -> Iterator[Iterate]:
-    """The states that L-BFGS goes through, the first as it finds it; ends early where no step lowers the cost.
+    """Minimise the cross-entropy cost by L-BFGS (Liu and Nocedal 1989), one iterate after the other.
 
     Parameters
     ----------
-    network : where to start.
-    x : inputs (m, s[0]).
-    y : labels (m, s[-1]) in [0, 1].
-    regularisation : lambda.
-    iterations : steps at most.
+    network : Network
+        Where to start.
+    x : (m, s[0]) array
+        Inputs.
+    y : (m, s[-1]) array
+        Labels in [0, 1].
+    regularisation : float
+        lambda.
+    iterations : int
+        The most iterations to make.
+
+    Yields
+    ------
+    Iterate
+        The first is the network as it came. The iteration ends early where no step lowers the cost.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.networks.torch_lbfgs import lbfgs_iterates
+    >>> x, y = np.array([[0.0], [1.0]]), np.array([[0.0], [1.0]])
+    >>> start = random_network((1, 1), seed=0)
+    >>> costs = [iterate.cost for iterate in lbfgs_iterates(start, x, y, regularisation=0.1, iterations=5)]
+    >>> costs == sorted(costs, reverse=True)
+    True
     """
-    weights = [torch.tensor(weight, requires_grad=True) for weight in network.weights]
-    biases = [torch.tensor(bias, requires_grad=True) for bias in network.biases]
-    parameters = [*weights, *biases]
-    inputs, labels = torch.tensor(x), torch.tensor(y)
+    cost = CrossEntropy(network, x, y, regularisation)
     optimiser = torch.optim.LBFGS(
-        parameters,
+        cost.parameters,
         max_iter=1,
-        max_eval=1
-        + LINE_SEARCH,  # else one iteration leaves the line search a single evaluation, and it stalls
+        max_eval=1 + LINE_SEARCH,  # with fewer evaluations the line search stalls
         history_size=MEMORY,
         tolerance_grad=FLAT,
         tolerance_change=0,
         line_search_fn="strong_wolfe",
     )
-    z = torch.empty_like(labels)
-    value = torch.tensor(torch.nan)
-    evaluated = torch.full_like(_vector(parameters), torch.nan)
-
-    def cost() -> torch.Tensor:
-        """Eq. (3.22) here; each iteration first asks again where the last one ended, which is not computed twice."""
-        nonlocal z, value, evaluated
-        here = _vector(parameters)
-        if not torch.equal(here, evaluated):
-            _, z = propagate(weights, biases, inputs, torch.sigmoid)
-            error = binary_cross_entropy_with_logits(z, labels, reduction="sum")
-            decay = (
-                regularisation
-                / 2
-                * torch.stack([weight.square().sum() for weight in weights]).sum()
-            )
-            value, evaluated = (error + decay) / len(inputs), here
-            for parameter, slope in zip(
-                parameters, torch.autograd.grad(value, parameters), strict=True
-            ):
-                parameter.grad = slope
-        return value.detach()
-
-    def state() -> Iterate:
-        reached = Network(tuple(map(_numbers, weights)), tuple(map(_numbers, biases)))
-        return Iterate(reached, float(cost()), fraction_correct(z, labels))
-
-    with _one_thread():
-        yield state()
+    with one_thread():
+        yield cost.iterate()
         for _ in range(iterations):
-            before = _vector(parameters)
+            before = cost.position()
             optimiser.step(cost)
-            if torch.equal(_vector(parameters), before):
+            if torch.equal(cost.position(), before):
                 return
-            yield state()
+            yield cost.iterate()
+
+
+class CrossEntropy:
+    """The cross-entropy cost as a torch function without arguments, which also sets the gradients.
+
+    Each iteration of L-BFGS first asks for the cost where the last one ended. That cost is not computed again.
+
+    Parameters
+    ----------
+    network, x, y, regularisation
+        As in :func:`lbfgs_iterates`.
+    """
+
+    def __init__(
+        self, network: Network, x: Array, y: Array, regularisation: float
+    ) -> None:
+        self.weights = [torch.tensor(w, requires_grad=True) for w in network.weights]
+        self.biases = [torch.tensor(b, requires_grad=True) for b in network.biases]
+        self.parameters = [*self.weights, *self.biases]
+        self.inputs, self.labels = torch.tensor(x), torch.tensor(y)
+        self.regularisation = regularisation
+        self._logits = torch.empty_like(self.labels)
+        self._value = torch.tensor(torch.nan)
+        self._evaluated = torch.full_like(self.position(), torch.nan)
+
+    def position(self) -> torch.Tensor:
+        """Return all parameters as one vector."""
+        return torch.cat([parameter.detach().ravel() for parameter in self.parameters])
+
+    def __call__(self) -> torch.Tensor:
+        here = self.position()
+        if not torch.equal(here, self._evaluated):
+            self._value, self._evaluated = self._compute(), here
+            slopes = torch.autograd.grad(self._value, self.parameters)
+            for parameter, slope in zip(self.parameters, slopes, strict=True):
+                parameter.grad = slope
+        return self._value.detach()
+
+    def _compute(self) -> torch.Tensor:
+        _, z = propagate(self.weights, self.biases, self.inputs, torch.sigmoid)
+        self._logits = z
+        error = binary_cross_entropy_with_logits(z, self.labels, reduction="sum")
+        squares = torch.stack([weight.square().sum() for weight in self.weights]).sum()
+        return (error + self.regularisation / 2 * squares) / len(self.inputs)
+
+    def iterate(self) -> Iterate:
+        """Return the network as it is now, its cost and its accuracy."""
+        weights = tuple(weight.detach().numpy() for weight in self.weights)
+        biases = tuple(bias.detach().numpy() for bias in self.biases)
+        cost = float(self())
+        accuracy = fraction_correct(self._logits, self.labels)
+        return Iterate(Network(weights, biases), cost, accuracy)
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
-    """Small matrices: more threads are slower, and would add up the examples in another order on another machine."""
+def one_thread() -> Iterator[None]:
+    """Let torch use one thread.
+
+    The matrices are small, so that more threads would be slower. They would also add up the examples in another order
+    on another machine.
+    """
     threads = torch.get_num_threads()
     torch.set_num_threads(1)
     try:
         yield
     finally:
         torch.set_num_threads(threads)
-
-
-def _vector(parameters: list[torch.Tensor]) -> torch.Tensor:
-    return torch.cat([parameter.detach().ravel() for parameter in parameters])
-
-
-def _numbers(parameter: torch.Tensor) -> Array:
-    return parameter.detach().numpy()

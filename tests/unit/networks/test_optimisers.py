@@ -247,3 +247,12 @@ def test_wrong_arguments_elsewhere_get_a_sentence():
     with pytest.raises(ValueError, match=r"actions must lie in 0..4, got 0..5"):
         one_hot([0, 5], 5)
     np.testing.assert_array_equal(one_hot([3], 5), [[0, 0, 0, 1, 0]])
+
+
+def test_lbfgs_is_a_function_before_and_after_its_first_call():
+    """The module that holds the torch code must not take the function's name in the package."""
+    import robonav.networks as networks
+
+    x, y = examples(20, 3, 2)
+    for _ in range(2):
+        networks.lbfgs(random_network((3, 2), seed=0), x, y, iterations=1)
