@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
 
 from robonav.benchmark import (
     SETTINGS,
@@ -18,15 +20,19 @@ from .runner.experiment import Case, Experiment, Numbers, Plot
 WORLDS = {"quick": 20, "thesis": leaderboard.WORLDS}
 
 
-def evaluate_entry(case: Case, seed: int, scale: str) -> Numbers:
-    """A method in one set of worlds of a setting."""
+def evaluate_entry(
+    case: Case, seed: int, scale: str, *, sources: Mapping[str, str]
+) -> Numbers:
+    """A method in one set of worlds of a setting. ``sources`` has the full path of each method that is a file."""
+    name = str(case["method"])
     return evaluate_on_board(
-        str(case["method"]), str(case["setting"]), seed, WORLDS[scale]
+        sources.get(name, name), str(case["setting"]), seed, WORLDS[scale]
     )
 
 
 def board(names: Sequence[str]) -> Experiment:
     """The leaderboard of some methods: those that ship, or a reader's own files."""
+    sources = {name: str(Path(name).resolve()) for name in names if Path(name).suffix}
     return Experiment(
         name="leaderboard",
         title="Methods on the same worlds, which none that ships was trained or tuned on",
@@ -35,7 +41,7 @@ def board(names: Sequence[str]) -> Experiment:
             for name in names
             for setting in SETTINGS
         ],
-        run=evaluate_entry,
+        run=partial(evaluate_entry, sources=sources),
         seeds={"quick": 1, "thesis": leaderboard.SETS},
         settings={
             "version of the worlds": VERSION,

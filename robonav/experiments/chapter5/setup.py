@@ -179,7 +179,6 @@ def control_reward(name: str, seed: int, inputs: int) -> NDArray[np.float64]:
     return np.random.default_rng([seed, 5]).normal(size=shape)
 
 
-@lru_cache(maxsize=300)
 def trained(
     method: str,
     seed: int,
@@ -190,6 +189,13 @@ def trained(
     length: float = 1.0,
 ) -> Learned:
     """One run of a method or control. Runs are kept, since several tables test the same policies."""
+    return _trained(method, seed, settings, number, expert, length)
+
+
+@lru_cache(maxsize=300)
+def _trained(
+    method: str, seed: int, settings: Settings, number: int, expert: str, length: float
+) -> Learned:
     shown = demonstrations(seed, number, expert)
     return train_irl(method, shown, seed, settings, length=length)
 
