@@ -77,5 +77,5 @@ def sample_actions(
     >>> sample_actions(np.array([[0.2, 0.5, 0.3]] * 3), np.array([0.1, 0.6, 0.9])).tolist()
     [0, 1, 2]
     """
-    passed = probabilities.cumsum(axis=-1) <= np.expand_dims(uniforms, -1)
+    passed = probabilities.cumsum(axis=-1) <= np.asarray(uniforms)[..., None]
     return np.minimum(passed.sum(axis=-1), probabilities.shape[-1] - 1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import itertools
 from collections.abc import Callable
 from typing import Any, ParamSpec, TypeVar
 
@@ -91,13 +92,14 @@ def check_setting(function: str, name: str, value: Any) -> Any:
 
 def checked(function: Callable[P, T]) -> Callable[P, T]:
     """Decorate a function so that its arguments are checked, see ``CHECKS``, before it runs."""
-    signature = inspect.signature(function)
+    names = tuple(inspect.signature(function).parameters)
+    check = functools.partial(check_setting, function.__name__)
 
     @functools.wraps(function)
     def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
-        bound = signature.bind(*args, **kwargs)
-        for name, value in bound.arguments.items():
-            bound.arguments[name] = check_setting(function.__name__, name, value)
-        return function(*bound.args, **bound.kwargs)
+        given: Any = itertools.starmap(check, zip(names, args, strict=False))
+        extra: Any = args[len(names) :]  # too many: the function itself complains
+        named: Any = {name: check(name, value) for name, value in kwargs.items()}
+        return function(*given, *extra, **named)
 
     return wrapper

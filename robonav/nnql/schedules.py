@@ -43,7 +43,7 @@ def softmax_policy(q: ArrayLike, temperature: ArrayLike) -> Array:
     q = np.asarray(q, dtype=float)
     behind = q - q.max(axis=-1, keepdims=True)
     with np.errstate(over="ignore"):  # cold: exp(-inf) is 0
-        weights = np.exp(behind / np.expand_dims(temperature, -1))
+        weights = np.exp(behind / np.asarray(temperature)[..., None])
     return weights / weights.sum(axis=-1, keepdims=True)  # Eq. (4.7)
 
 

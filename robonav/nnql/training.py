@@ -103,7 +103,7 @@ class TrainingResult:
 
     @cached_property
     def policies(self) -> tuple[NetworkPolicy, ...]:
-        """The greedy policy of each seed, as Algorithm 9 follows it."""
+        """The greedy policy of each seed."""
         return tuple(
             NetworkPolicy(self.network[row], self.encoder)
             for row in range(len(self.seeds))

@@ -53,10 +53,10 @@ def q_targets(
     >>> q_targets(np.array([0.4, 0.6]), 1, 0.5, 1.0, learning_rate=0.5, discount=0.6)
     array([0.4 , 0.85])
     """
-    taken = np.arange(q.shape[-1]) == np.expand_dims(action, -1)
-    target = np.expand_dims(np.asarray(reward) + discount * np.asarray(next_value), -1)
-    alpha = np.expand_dims(learning_rate, -1)
-    return np.where(taken, q + alpha * (target - q), q)  # Eq. (4.9)
+    taken = np.arange(q.shape[-1]) == np.asarray(action)[..., None]
+    target = np.asarray(reward) + discount * np.asarray(next_value)
+    alpha = np.asarray(learning_rate)[..., None]
+    return np.where(taken, q + alpha * (target[..., None] - q), q)  # Eq. (4.9)
 
 
 def clip(q: Array) -> Array:
