@@ -1,48 +1,58 @@
-"""Chapter 5: neural inverse reinforcement learning, the three methods beside it, and what came beside them."""
+"""Chapter 5: neural inverse reinforcement learning, and the methods that it is compared with."""
 
 from .apprenticeship import (
     Apprenticeship,
+    apprenticeship,
+    from_all_states,
+    from_initial_state,
+    max_margin_guess,
     max_margin_method,
     nearest_mixture,
     project,
+    projection_guess,
     projection_method,
 )
 from .benchmark_mdps import TERRAIN_KINDS, TRUE_WEIGHTS, terrain
-from .boltzmann import boltzmann
 from .feature_expectations import (
+    action_values,
     discounted_feature_sums,
     empirical_expectations,
     feature_expectations,
     initial_expectations,
     mean_by_pair,
+    value_of_expectations,
 )
-from .features import all_action_features, state_action_features
-from .max_margin import Margin, maximum_margin, maximum_margin_subgradient
+from .features import action_block, all_action_features, state_action_features
+from .learning import METHODS, learn, learn_under_reward
+from .max_margin import (
+    Margin,
+    maximum_margin,
+    maximum_margin_subgradient,
+    project_to_unit_ball,
+)
 from .maximum_entropy import (
-    MaximumEntropy,
+    MaximumCausalEntropy,
     SoftSolution,
-    maximum_entropy,
+    maximum_causal_entropy,
     soft_maximum,
     soft_value_iteration,
 )
-from .methods import (
-    METHODS,
-    Learned,
-    from_all_states,
-    from_initial_state,
-    heuristic_estimate,
-    learn,
-    learn_under_reward,
-    lstd_estimate,
-)
 from .model_selection import accuracy, balanced_accuracy
-from .nirl import Found, History, nirl, train_under_reward
+from .nirl import nirl
+from .policy import (
+    boltzmann_policy,
+    exploring_policy,
+    greedy_actions,
+    neural_action_values,
+)
 from .policy_improvement import (
     NEUTRAL_TERMINAL_VALUES,
     SURVIVAL_BONUS,
     ZERO_TERMINAL_VALUES,
     ReplaySGD,
     SingleGradientStep,
+    policy_cost,
+    sarsa_descent,
     sarsa_targets,
     scale_to_unit_interval,
     transition_rewards,
@@ -50,16 +60,35 @@ from .policy_improvement import (
 from .refinement import Refined, map_uniform_prior, most_frequent
 from .relative_entropy import (
     RelativeEntropy,
+    dual,
     dual_gradient,
     hoeffding_slack,
-    importance,
+    importance_weights,
+    random_segments,
     relative_entropy,
+    relative_entropy_weights,
+    segment_features,
 )
-from .reward_free_mdp import RewardFreeMDP, Walks
-from .reward_update import LeastSquaresReward, SubgradientMaxMargin, balance, contrast
-from .scirl import Classification, heuristic_mu, lstd_mu, structured_classification
-from .tasks import Course, RobotTask, TabularTask
-from .transitions import ENCODER, Steps, expert_transitions
+from .reward_free_mdp import RewardFreeMDP, Trajectories
+from .reward_update import (
+    LeastSquaresReward,
+    SubgradientMaxMargin,
+    feature_gap,
+    inverse_frequency_weights,
+)
+from .scirl import (
+    Classification,
+    heuristic_estimate,
+    heuristic_mu,
+    large_margin_cost,
+    lstd_estimate,
+    lstd_mu,
+    scirl,
+    structured_classification,
+)
+from .tasks import RobotTask, TabularTask, Task
+from .trainer import History, IRLResult, Trainer, train_under_reward
+from .transitions import ENCODER, Transitions, expert_transitions
 
 __all__ = [
     "ENCODER",
@@ -71,13 +100,11 @@ __all__ = [
     "ZERO_TERMINAL_VALUES",
     "Apprenticeship",
     "Classification",
-    "Course",
-    "Found",
     "History",
-    "Learned",
+    "IRLResult",
     "LeastSquaresReward",
     "Margin",
-    "MaximumEntropy",
+    "MaximumCausalEntropy",
     "Refined",
     "RelativeEntropy",
     "ReplaySGD",
@@ -85,46 +112,65 @@ __all__ = [
     "RobotTask",
     "SingleGradientStep",
     "SoftSolution",
-    "Steps",
     "SubgradientMaxMargin",
     "TabularTask",
-    "Walks",
+    "Task",
+    "Trainer",
+    "Trajectories",
+    "Transitions",
     "accuracy",
+    "action_block",
+    "action_values",
     "all_action_features",
-    "balance",
+    "apprenticeship",
     "balanced_accuracy",
-    "boltzmann",
-    "contrast",
+    "boltzmann_policy",
     "discounted_feature_sums",
+    "dual",
     "dual_gradient",
     "empirical_expectations",
     "expert_transitions",
+    "exploring_policy",
     "feature_expectations",
+    "feature_gap",
     "from_all_states",
     "from_initial_state",
+    "greedy_actions",
     "heuristic_estimate",
     "heuristic_mu",
     "hoeffding_slack",
-    "importance",
+    "importance_weights",
     "initial_expectations",
+    "inverse_frequency_weights",
+    "large_margin_cost",
     "learn",
     "learn_under_reward",
     "lstd_estimate",
     "lstd_mu",
     "map_uniform_prior",
+    "max_margin_guess",
     "max_margin_method",
-    "maximum_entropy",
+    "maximum_causal_entropy",
     "maximum_margin",
     "maximum_margin_subgradient",
     "mean_by_pair",
     "most_frequent",
     "nearest_mixture",
+    "neural_action_values",
     "nirl",
+    "policy_cost",
     "project",
+    "project_to_unit_ball",
+    "projection_guess",
     "projection_method",
+    "random_segments",
     "relative_entropy",
+    "relative_entropy_weights",
+    "sarsa_descent",
     "sarsa_targets",
     "scale_to_unit_interval",
+    "scirl",
+    "segment_features",
     "soft_maximum",
     "soft_value_iteration",
     "state_action_features",
@@ -132,4 +178,5 @@ __all__ = [
     "terrain",
     "train_under_reward",
     "transition_rewards",
+    "value_of_expectations",
 ]

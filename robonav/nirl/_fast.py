@@ -1,6 +1,7 @@
-"""SARSA with a small network, compiled: one decision at a time, the target worked out as it is used (Eq. (5.16)).
+"""The compiled twin of :func:`robonav.nirl.sarsa_descent`.
 
-The passes through the network are those of :mod:`robonav.networks._fast`.
+The passes through the network are those of :mod:`robonav.networks._fast`. The first index of the weights is the unit
+that they come from, so that inner loops run along memory. Inputs that are 0, as most are, cost nothing.
 """
 
 from __future__ import annotations
@@ -18,38 +19,57 @@ compiled = compiler(network)
 
 @compiled
 def descend(
-    w1, b1, w2, b2, inputs, actions, rewards, after, ends, order, alpha, discount, rate
+    w1,
+    b1,
+    w2,
+    b2,
+    inputs,
+    actions,
+    rewards,
+    next_index,
+    terminal_values,
+    order,
+    learning_rate,
+    discount,
+    gradient_step,
 ):
-    """Gradient steps on the cost (5.15), without its decay, for the decisions ``order``; weights change in place.
+    """Make the steps of :func:`robonav.nirl.sarsa_descent`; the weights change in place.
 
     Parameters
     ----------
-    w1 (k, H), b1 (H,), w2 (H, A), b2 (A,) : the network.
-    inputs (M, k), actions (M,), rewards (M,) : decisions; rewards in units of the network's output.
-    after : (M,) the next decision of the same drive, or -1.
-    ends : (M,) what is left to be had where there is none, in the same units.
-    order : the decisions to step for, one after the other.
-    alpha, discount : of Eq. (5.16). The target is kept within [0, 1].
-    rate : sigma.
+    w1, b1, w2, b2 : (k, H), (H,), (H, A) and (A,) array
+        The network.
+    inputs, actions, rewards : (M, k), (M,) and (M,) array
+        Decisions; rewards in units of the network's output.
+    next_index : (M,) array of int
+        The next decision of the same episode, or -1.
+    terminal_values : (M,) array
+        The future value where there is no next decision, in the same units.
+    order : array of int
+        The decisions, one step for each.
+    learning_rate, discount, gradient_step : float
+        alpha, gamma and sigma. Targets are cut to [0, 1].
 
     Returns
     -------
-    The mean cost met on the way.
+    float
+        The mean cost of the outputs before their steps.
     """
     h, d = np.empty(len(b1)), np.empty(len(b1))
     cost = 0.0
     for i in order:
-        future = ends[i]
-        if after[i] >= 0:
-            hidden_layer(w1, b1, inputs[after[i]], h)
-            future = 1.0 / (1.0 + math.exp(-output_logit(w2, b2, h, actions[after[i]])))
+        future, n = terminal_values[i], next_index[i]
+        if n >= 0:
+            hidden_layer(w1, b1, inputs[n], h)
+            future = 1.0 / (1.0 + math.exp(-output_logit(w2, b2, h, actions[n])))
         x, a = inputs[i], actions[i]
         hidden_layer(w1, b1, x, h)
         z = output_logit(w2, b2, h, a)
         q = 1.0 / (1.0 + math.exp(-z))
-        target = min(max(q + alpha * (rewards[i] + discount * future - q), 0.0), 1.0)
+        error = rewards[i] + discount * future - q
+        target = min(max(q + learning_rate * error, 0.0), 1.0)
         cost += max(z, 0.0) - target * z + math.log1p(math.exp(-abs(z)))
-        step = rate * (q - target)
+        step = gradient_step * (q - target)
         for j in range(len(h)):
             d[j] = step * w2[j, a] * h[j] * (1.0 - h[j])
             w2[j, a] -= step * h[j]

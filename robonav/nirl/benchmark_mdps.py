@@ -1,4 +1,4 @@
-"""A small world whose reward is known: where a method's answer can be held against the truth."""
+"""A gridworld whose reward is known, to test what inverse methods find."""
 
 from __future__ import annotations
 
@@ -9,11 +9,8 @@ from robonav.mdp.gridworld import Cell, GridWorld
 
 from .reward_free_mdp import RewardFreeMDP
 
-GROUND = {
-    "m": Cell(),
-    "r": Cell(),
-    "T": Cell(reward=3.0, ends=True),
-}  # mud, road, target; a dot is grass
+CELLS = {"m": Cell(), "r": Cell(), "T": Cell(reward=3.0, ends=True)}
+"""Mud, road and target; a dot is grass."""
 TERRAIN = """
     . . m m . . .
     . r r r r r .
@@ -25,22 +22,35 @@ TERRAIN = """
 TERRAIN_KINDS = ("grass", "mud", "road", "target")
 _SYMBOLS = ".mrT"
 TRUE_WEIGHTS: NDArray[np.float64] = np.array([-0.3, -1.0, -0.05, 3.0])
-"""What a step onto each of the ``TERRAIN_KINDS`` is worth."""
+"""The reward of a step onto each of the ``TERRAIN_KINDS``."""
 
 
 def terrain(
     *, slip: float = 0.2, discount: float = 0.9
 ) -> tuple[GridWorld, RewardFreeMDP]:
-    """Four kinds of ground, a start and a target; the features of a step are the shares of ground it may end on.
+    """A gridworld of four kinds of ground; the features of a step are the probabilities of each kind it may end on.
 
     Parameters
     ----------
-    slip : how likely a step goes to one side or the other, see :class:`~robonav.mdp.GridWorld`.
-    discount : gamma.
+    slip : float
+        Probability of moving to one side or the other, see :class:`~robonav.mdp.GridWorld`.
+    discount : float
+        gamma.
+
+    Returns
+    -------
+    grid : GridWorld
+    mdp : RewardFreeMDP
+
+    Examples
+    --------
+    >>> from robonav.nirl import terrain
+    >>> grid, mdp = terrain()
+    >>> mdp.features.shape
+    (42, 4, 4)
     """
-    grid = GridWorld(TERRAIN, legend=GROUND, slip=slip)
+    grid = GridWorld(TERRAIN, legend=CELLS, slip=slip)
     symbols = np.array([grid.rows[row][column] for row, column in grid.cells])
     symbols[symbols == "S"] = "."
-    return grid, RewardFreeMDP.of_grid(
-        grid, (symbols[:, None] == np.array(list(_SYMBOLS))).astype(float), discount
-    )
+    kinds = (symbols[:, None] == np.array(list(_SYMBOLS))).astype(float)
+    return grid, RewardFreeMDP.of_grid(grid, kinds, discount)

@@ -1,117 +1,231 @@
-"""Feature expectations: what a policy meets, discounted; exact, and from trajectories (Eq. (5.3), (5.13))."""
+"""Feature expectations: the discounted features that a policy meets, from a model and from trajectories."""
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import lfilter
 
 from robonav.mdp import policies
-from robonav.validation import check_array, check_integer, check_real
+from robonav.mdp.evaluation import policy_evaluation
 
+from ._checks import checked
 from .reward_free_mdp import RewardFreeMDP
 
 Floats = NDArray[np.float64]
 
 
-def feature_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
-    """mu(s, a) = E[sum_t gamma^t f(s_t, a_t) | s, a], Eq. (5.3), (S, A, K), from the transition matrix.
+def action_values(mdp: RewardFreeMDP, policy: ArrayLike, weights: ArrayLike) -> Floats:
+    """Action values of a policy: the expected discounted sum of its rewards, Eq. (5.1).
 
-    Each feature is treated as a reward, and its action values are found from the Bellman equation
+    The sum's first term is the reward of the first action; the rest is the discounted value of the next state.
+
+    Parameters
+    ----------
+    mdp : RewardFreeMDP
+        S states, A actions, K features.
+    policy : (S,) array of int or (S, A) array
+        Actions or probabilities, followed after the first action.
+    weights : (K,) array
+        theta of the reward.
+
+    Returns
+    -------
+    (S, A) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import TRUE_WEIGHTS, action_values, terrain
+    >>> grid, mdp = terrain()
+    >>> action_values(mdp, [0] * mdp.n_states, TRUE_WEIGHTS).shape
+    (42, 4)
+    """
+    rewarded = mdp.with_reward(weights)
+    values = policy_evaluation(rewarded, policy)
+    return rewarded.action_values(values)  # Eq. (5.1)
+
+
+def feature_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
+    """Feature expectations mu(s, a) = E[sum_t gamma^t f(s_t, a_t) | s, a], exactly from a model, Eq. (5.3).
+
+    Each feature is taken for a reward, and its action values solve the Bellman equation
     mu(s, a) = f(s, a) + gamma sum_s' T(s, a, s') sum_a' pi(s', a') mu(s', a').
 
     Parameters
     ----------
-    mdp : S states, A actions, K features.
-    policy : (S,) actions or (S, A) probabilities, followed after the first action.
+    mdp : RewardFreeMDP
+        S states, A actions, K features.
+    policy : (S,) array of int or (S, A) array
+        Actions or probabilities, followed after the first action.
+
+    Returns
+    -------
+    (S, A, K) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import feature_expectations, terrain
+    >>> grid, mdp = terrain()
+    >>> feature_expectations(mdp, [0] * mdp.n_states).shape
+    (42, 4, 4)
     """
-    chances = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
-    chain = np.einsum("sa,ast->st", chances, mdp.transitions)
-    met = np.einsum("sa,sak->sk", chances, mdp.features)
-    from_state = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * chain, met)
-    return mdp.features + mdp.discount * np.einsum(
-        "ast,tk->sak", mdp.transitions, from_state
-    )
+    pi = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
+    chain = np.einsum("sa,ast->st", pi, mdp.transitions)
+    features = np.einsum("sa,sak->sk", pi, mdp.features)
+    of_states = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * chain, features)
+    ahead = np.einsum("ast,tk->sak", mdp.transitions, of_states)
+    return mdp.features + mdp.discount * ahead  # Eq. (5.3)
 
 
 def initial_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
-    """mu of a policy from the start, (K,): with reward theta . f the policy is worth theta . mu (Eq. (5.4))."""
-    chances = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
-    return np.einsum(
-        "s,sa,sak->k", mdp.starts, chances, feature_expectations(mdp, policy)
-    )
+    """Feature expectations mu of a policy from the initial state.
+
+    Parameters
+    ----------
+    mdp : RewardFreeMDP
+        S states, A actions, K features.
+    policy : (S,) array of int or (S, A) array
+        Actions or probabilities.
+
+    Returns
+    -------
+    (K,) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import initial_expectations, terrain
+    >>> grid, mdp = terrain()
+    >>> initial_expectations(mdp, [0] * mdp.n_states).sum().round(2)
+    np.float64(10.0)
+    """
+    pi = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
+    return np.einsum("s,sa,sak->k", mdp.starts, pi, feature_expectations(mdp, policy))
 
 
+def value_of_expectations(weights: ArrayLike, expectations: ArrayLike) -> Floats:
+    """Value theta . mu of policies: it depends on their feature expectations alone, Eq. (5.4).
+
+    Two policies with the same feature expectations therefore have the same value under every linear reward.
+
+    Parameters
+    ----------
+    weights : (K,) array
+        theta.
+    expectations : (..., K) array
+        mu.
+
+    Returns
+    -------
+    (...) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import value_of_expectations
+    >>> value_of_expectations([1.0, -2.0], [[3.0, 1.0], [5.0, 2.0]])
+    array([1., 1.])
+    """
+    return np.asarray(expectations) @ np.asarray(weights)  # Eq. (5.4)
+
+
+@checked
 def discounted_feature_sums(
     features: ArrayLike, trajectory: ArrayLike, discount: float
 ) -> Floats:
-    """From every step the discounted features of the rest of its trajectory, itself included: (M, K).
+    """From every step on, the discounted features of the rest of its trajectory, itself included.
 
-    A Monte Carlo estimate of mu(s_t, a_t), Eq. (5.3).
+    This is a Monte Carlo estimate of mu(s_t, a_t), see Eq. (5.3).
 
     Parameters
     ----------
-    features : f(s_t, a_t) of M steps, (M, K), trajectories laid end to end.
-    trajectory : (M,) which trajectory each step belongs to.
-    discount : gamma in [0, 1].
+    features : (M, K) array
+        f(s_t, a_t) of M steps, trajectories laid end to end.
+    trajectory : (M,) array of int
+        Which trajectory each step belongs to.
+    discount : float
+        gamma, from 0 to 1.
+
+    Returns
+    -------
+    (M, K) array
 
     Raises
     ------
-    ValueError : if shapes do not fit, or the steps of one trajectory do not stand together.
+    ValueError
+        If shapes do not fit, or the steps of one trajectory do not stand together.
+
+    Examples
+    --------
+    >>> from robonav.nirl import discounted_feature_sums
+    >>> discounted_feature_sums([[1.0], [1.0], [1.0]], [0, 0, 1], 0.5).ravel()
+    array([1.5, 1. , 1. ])
     """
-    f = check_array("features", features, shape=("M", "K"))
-    gamma = check_real("discount", discount, at_least=0, at_most=1)
-    parts = [
-        lfilter([1.0], [1.0, -gamma], f[start:stop][::-1], axis=0)[::-1]
-        for start, stop in spans(trajectory, len(f))
-    ]
-    return np.concatenate(parts) if parts else np.zeros_like(f)
+    sums = np.array(features, dtype=float)
+    owner = np.asarray(trajectory)
+    for t in range(len(sums) - 2, -1, -1):  # from the last step but one backwards
+        if owner[t] == owner[t + 1]:
+            sums[t] += discount * sums[t + 1]
+    return sums
 
 
+@checked
 def empirical_expectations(
     features: ArrayLike, trajectory: ArrayLike, discount: float
 ) -> Floats:
-    """The mean over trajectories of their discounted features, (K,): Eq. (5.13). Arguments as above.
-
-    Raises
-    ------
-    ValueError : if there is no trajectory.
-    """
-    to_go = discounted_feature_sums(features, trajectory, discount)
-    first = [start for start, _ in spans(trajectory, len(to_go))]
-    if not first:
-        raise ValueError("features must hold at least one trajectory, got none")
-    return to_go[first].mean(axis=0)
-
-
-def mean_by_pair(pair: ArrayLike, to_go: ArrayLike, pairs: int) -> Floats:
-    """Monte Carlo estimate of mu for each of P pairs of state and action, (P, K); NaN for one never met.
+    """Estimate of mu_E: the mean over trajectories of their discounted features, Eq. (5.13).
 
     Parameters
     ----------
-    pair : (M,) which pair each step was.
-    to_go : (M, K) what followed it, from :func:`discounted_feature_sums`.
-    pairs : P.
+    features : (M, K) array
+        f(s_t, a_t) of M steps, trajectories laid end to end.
+    trajectory : (M,) array of int
+        Which trajectory each step belongs to.
+    discount : float
+        gamma, from 0 to 1.
+
+    Returns
+    -------
+    (K,) array
+
+    Raises
+    ------
+    ValueError
+        If there is no trajectory.
+
+    Examples
+    --------
+    >>> from robonav.nirl import empirical_expectations
+    >>> empirical_expectations([[1.0], [1.0], [1.0]], [0, 0, 1], 0.5)
+    array([1.25])
     """
-    values = check_array("to_go", to_go, shape=("M", "K"))
-    which = check_array("pair", pair, shape=(len(values),), dtype=np.int64)
-    met = np.bincount(which, minlength=check_integer("pairs", pairs, at_least=1))
-    total = np.zeros((pairs, values.shape[1]))
-    np.add.at(total, which, values)
-    return np.divide(
-        total, met[:, None], out=np.full_like(total, np.nan), where=met[:, None] > 0
-    )
+    sums = discounted_feature_sums(features, trajectory, discount)
+    first = np.flatnonzero(np.diff(trajectory, prepend=np.asarray(trajectory)[0] - 1))
+    return sums[first].mean(axis=0)  # Eq. (5.13)
 
 
-def spans(trajectory: ArrayLike, steps: int) -> list[tuple[int, int]]:
-    """Where each trajectory begins and ends, (start, stop), in M steps laid end to end."""
-    owner = check_array("trajectory", trajectory, shape=(steps,), dtype=np.int64)
-    if steps == 0:
-        return []
-    borders = np.flatnonzero(np.diff(owner)) + 1
-    if len(borders) + 1 != len(np.unique(owner)):
-        raise ValueError("trajectory must keep the steps of one trajectory together")
-    edges = [0, *borders.tolist(), steps]
-    return list(pairwise(edges))
+@checked
+def mean_by_pair(pair: ArrayLike, feature_sums: ArrayLike, n_pairs: int) -> Floats:
+    """Monte Carlo estimate of mu for each of P pairs of state and action; NaN for a pair that never occurs.
+
+    Parameters
+    ----------
+    pair : (M,) array of int
+        Which pair each step is.
+    feature_sums : (M, K) array
+        From :func:`discounted_feature_sums`.
+    n_pairs : int
+        P.
+
+    Returns
+    -------
+    (P, K) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import mean_by_pair
+    >>> mean_by_pair([0, 0, 2], [[1.0], [3.0], [5.0]], 3).ravel()
+    array([ 2., nan,  5.])
+    """
+    sums = np.asarray(feature_sums, dtype=float)
+    times = np.bincount(np.asarray(pair), minlength=n_pairs)[:, None]
+    total = np.zeros((n_pairs, sums.shape[1]))
+    np.add.at(total, np.asarray(pair), sums)
+    return np.divide(total, times, out=np.full_like(total, np.nan), where=times > 0)

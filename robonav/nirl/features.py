@@ -1,45 +1,105 @@
-"""From state features to state-action features, one block an action: Eq. (5.5), (5.6)."""
+"""From features of a state to features of a state and an action, one block an action (section 5.4.2)."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array, check_integer
+from ._checks import checked
 
 Floats = NDArray[np.float64]
 
 
-def all_action_features(state_features: ArrayLike, actions: int) -> Floats:
-    """The features f(s, a) of every action: (M, A, A k), zero but for the block of ``a``, which holds phi(s).
-
-    Eq. (5.5), (5.6). With them the reward theta . f(s, a) is theta_a . phi(s): a linear function of the state for
-    each action.
+@checked
+def action_block(state_features: ArrayLike, actions: ArrayLike, action: int) -> Floats:
+    """Block of one action: phi(s) where this action was taken, 0 elsewhere, Eq. (5.6).
 
     Parameters
     ----------
-    state_features : phi(s) of M states, (M, k).
-    actions : A.
+    state_features : (M, k) array
+        phi(s) of M states.
+    actions : (M,) array of int
+        The action taken in each.
+    action : int
+        The action whose block is wanted.
+
+    Returns
+    -------
+    (M, k) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import action_block
+    >>> action_block([[0.7, 1.0], [0.2, 1.0]], [0, 1], 1)
+    array([[0. , 0. ],
+           [0.2, 1. ]])
     """
-    phi = check_array("state_features", state_features, shape=("M", "k"))
-    count = check_integer("actions", actions, at_least=1)
-    m, k = phi.shape
-    blocks = np.zeros((m, count, count, k))
-    own = np.arange(count)
-    blocks[:, own, own] = phi[:, None]
-    return blocks.reshape(m, count, count * k)
+    taken = np.equal(actions, action)[:, None]
+    return np.where(taken, state_features, 0.0)  # Eq. (5.6)
 
 
+@checked
 def state_action_features(
-    state_features: ArrayLike, chosen: ArrayLike, actions: int
+    state_features: ArrayLike, actions: ArrayLike, n_actions: int
 ) -> Floats:
-    """The features f(s_t, a_t) of one action a state: (M, A k), from phi(s_t) (M, k) and a_t (M,)."""
-    phi = check_array("state_features", state_features, shape=("M", "k"))
-    taken = check_array("chosen", chosen, shape=(len(phi),), dtype=np.int64)
-    if len(taken) and not 0 <= taken.min() <= taken.max() < actions:
-        raise ValueError(
-            f"chosen must hold actions from 0 to {actions - 1}, got {taken.min()} to {taken.max()}"
-        )
-    blocks = np.zeros((len(phi), actions, phi.shape[1]))
-    blocks[np.arange(len(phi)), taken] = phi
-    return blocks.reshape(len(phi), -1)
+    """Features f(s, a) of the actions taken: the blocks of all actions side by side, Eq. (5.5).
+
+    With them the reward theta . f(s, a) is theta_a . phi(s): a linear function of the state for each action.
+
+    Parameters
+    ----------
+    state_features : (M, k) array
+        phi(s) of M states.
+    actions : (M,) array of int
+        The action taken in each.
+    n_actions : int
+        A.
+
+    Returns
+    -------
+    (M, A k) array
+
+    Raises
+    ------
+    ValueError
+        If shapes do not fit or an action does not exist.
+
+    Examples
+    --------
+    >>> from robonav.nirl import state_action_features
+    >>> state_action_features([[0.7, 1.0]], [1], 2)
+    array([[0. , 0. , 0.7, 1. ]])
+    """
+    blocks = [action_block(state_features, actions, u) for u in range(n_actions)]
+    return np.concatenate(blocks, axis=1)  # Eq. (5.5)
+
+
+@checked
+def all_action_features(state_features: ArrayLike, n_actions: int) -> Floats:
+    """Features f(s, a) of every action in every state.
+
+    Parameters
+    ----------
+    state_features : (M, k) array
+        phi(s) of M states.
+    n_actions : int
+        A.
+
+    Returns
+    -------
+    (M, A, A k) array
+        Rows as :func:`state_action_features` gives them.
+
+    Examples
+    --------
+    >>> from robonav.nirl import all_action_features
+    >>> all_action_features([[0.7, 1.0]], 2)
+    array([[[0.7, 1. , 0. , 0. ],
+            [0. , 0. , 0.7, 1. ]]])
+    """
+    phi = np.asarray(state_features, dtype=float)
+    every = [
+        state_action_features(phi, np.full(len(phi), u), n_actions)
+        for u in range(n_actions)
+    ]
+    return np.stack(every, axis=1)

@@ -1,6 +1,6 @@
-"""Max-margin: the reward by which the expert is better than every policy found so far, by most.
+"""Maximum margin: the reward under which the expert beats every policy found so far by most.
 
-Two ways to the same weights: as a quadratic program, and by subgradient steps (Ratliff et al. 2006).
+Two ways to the same weights: a quadratic program, and subgradient steps (Ratliff et al. 2006).
 """
 
 from __future__ import annotations
@@ -11,96 +11,139 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import nnls
 
-from robonav.validation import check_array, check_integer
+from ._checks import checked
 
 Floats = NDArray[np.float64]
 
-TOUCHING = 1e-7  # of the largest contrast: a smaller margin is none
+NO_MARGIN = 1e-7  # of the largest gap: a smaller margin counts as 0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Margin:
-    """``weights`` (K,) in the unit ball, and by how much they set the expert apart: ``margin`` >= 0."""
+    """A reward and the margin by which it prefers the expert.
+
+    Attributes
+    ----------
+    weights : (K,) array
+        theta in the unit ball.
+    margin : float
+        At least 0.
+
+    Examples
+    --------
+    >>> from robonav.nirl import Margin, maximum_margin
+    >>> isinstance(maximum_margin([1.0], [[0.0]]), Margin)
+    True
+    """
 
     weights: Floats
     margin: float
 
 
-def contrasts(expert: ArrayLike, others: ArrayLike) -> Floats:
-    """mu_E - mu_j of n policies, (n, K), from mu_E (K,) and mu_j (n, K).
-
-    Raises
-    ------
-    ValueError : if shapes do not fit or there is no policy.
-    """
-    mu = check_array("expert", expert, shape=("K",))
-    found = check_array("others", others, shape=("n", len(mu)))
-    if len(found) == 0:
-        raise ValueError(
-            "others must hold the feature expectations of at least one policy, got none"
-        )
-    return mu - found
-
-
+@checked
 def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
-    """The weights theta, ||theta|| <= 1, that make the least of theta . (mu_E - mu_j) largest (Abbeel and Ng 2004).
+    """The weights theta, ||theta|| <= 1, with the largest margin min_j theta . (mu_E - mu_j) (Abbeel and Ng 2004).
 
-    A quadratic program. Written as min ||w||^2 with w . (mu_E - mu_j) >= 1, it is the least-distance problem of Lawson
-    and Hanson (1974, chapter 23), whose dual scipy's non-negative least squares solves exactly.
+    This is a quadratic program. Written as min ||w||^2 with w . (mu_E - mu_j) >= 1, it is the least-distance problem of
+    Lawson and Hanson (1974, chapter 23). Its dual is a least-squares problem with non-negative unknowns, which scipy
+    solves exactly; the solution's residual is proportional to (-theta, 1).
 
     Parameters
     ----------
-    expert : feature expectations mu_E of the expert, (K,).
-    others : of n policies, (n, K).
+    expert : (K,) array
+        Feature expectations mu_E of the expert.
+    others : (n, K) array
+        Those of n policies, at least one.
 
     Returns
     -------
-    Margin; with margin 0 and weights 0 where the expert is a mixture of the others, which no reward sets it above.
+    Margin
+        With margin 0 and weights 0 where the expert is a mixture of the others: no reward prefers it to all of them.
+
+    Examples
+    --------
+    >>> from robonav.nirl import maximum_margin
+    >>> maximum_margin([3.0, 4.0], [[0.0, 0.0]])
+    Margin(weights=array([0.6, 0.8]), margin=5.0)
     """
-    apart = contrasts(expert, others)
-    scale = np.linalg.norm(apart, axis=1).max()
+    gaps = np.asarray(expert) - np.asarray(others)
+    scale = np.linalg.norm(gaps, axis=1).max()
     if scale == 0:
-        return Margin(np.zeros(apart.shape[1]), 0.0)
-    stacked = np.vstack([apart.T / scale, np.ones(len(apart))])
-    wanted = np.zeros(len(stacked))
-    wanted[-1] = 1.0
-    shares, _ = nnls(stacked, wanted, maxiter=30 * len(apart) + 100)
-    residual = wanted - stacked @ shares
-    reach = np.linalg.norm(residual[:-1])
-    if reach <= TOUCHING * residual[-1] or residual[-1] <= TOUCHING**2:
-        return Margin(np.zeros(apart.shape[1]), 0.0)
-    weights = -residual[:-1] / reach
-    return Margin(weights, max(float((apart @ weights).min()), 0.0))
+        return Margin(np.zeros(gaps.shape[1]), 0.0)
+    matrix = np.vstack([gaps.T / scale, np.ones(len(gaps))])
+    target = np.zeros(len(matrix))
+    target[-1] = 1.0
+    multipliers, _ = nnls(matrix, target, maxiter=30 * len(gaps) + 100)
+    residual = target - matrix @ multipliers
+    length = np.linalg.norm(residual[:-1])
+    if length <= NO_MARGIN * residual[-1] or residual[-1] <= NO_MARGIN**2:
+        return Margin(np.zeros(gaps.shape[1]), 0.0)
+    weights = -residual[:-1] / length
+    return Margin(weights, max(float((gaps @ weights).min()), 0.0))
 
 
+@checked
 def maximum_margin_subgradient(
     expert: ArrayLike, others: ArrayLike, *, iterations: int = 10_000
 ) -> Margin:
-    """The same by projected subgradient ascent: step towards the closest rival's contrast, back into the unit ball.
+    """The same by projected subgradient ascent: step along the gap to the closest rival, project into the unit ball.
 
-    Slower and less exact than :func:`maximum_margin`; it needs nothing but the one worst policy at a time, which is what
-    makes it usable where the policies are found by learning.
+    It is slower and less exact than :func:`maximum_margin`. It needs one policy at a time, so it also works where the
+    policies are found by learning.
 
     Parameters
     ----------
-    iterations : steps; the k-th is 1 / sqrt(k) of the largest contrast's length.
+    expert : (K,) array
+        Feature expectations mu_E of the expert.
+    others : (n, K) array
+        Those of n policies, at least one.
+    iterations : int
+        Steps; the k-th has length 1 / sqrt(k) of the largest gap's.
+
+    Returns
+    -------
+    Margin
+        The best of all iterations.
+
+    Examples
+    --------
+    >>> from robonav.nirl import maximum_margin_subgradient
+    >>> maximum_margin_subgradient([3.0, 4.0], [[0.0, 0.0]], iterations=10)
+    Margin(weights=array([0.6, 0.8]), margin=5.0)
     """
-    apart = contrasts(expert, others)
-    scale = np.linalg.norm(apart, axis=1).max()
-    best = Margin(np.zeros(apart.shape[1]), 0.0)
+    gaps = np.asarray(expert) - np.asarray(others)
+    scale = np.linalg.norm(gaps, axis=1).max()
+    weights = np.zeros(gaps.shape[1])
+    best = Margin(weights, 0.0)
     if scale == 0:
         return best
-    weights = best.weights
-    for k in range(1, check_integer("iterations", iterations, at_least=1) + 1):
-        advantage = apart @ weights
-        worst = int(advantage.argmin())
-        if advantage[worst] > best.margin:
-            best = Margin(weights, float(advantage[worst]))
-        weights = project_to_unit_ball(weights + apart[worst] / (scale * np.sqrt(k)))
+    for k in range(1, iterations + 1):
+        advantages = gaps @ weights
+        rival = int(advantages.argmin())
+        if advantages[rival] > best.margin:
+            best = Margin(weights, float(advantages[rival]))
+        weights = project_to_unit_ball(weights + gaps[rival] / (scale * np.sqrt(k)))
     return best
 
 
 def project_to_unit_ball(weights: Floats) -> Floats:
-    """The nearest weights with ||theta|| <= 1."""
+    """The nearest weights with ||theta|| <= 1.
+
+    Parameters
+    ----------
+    weights : array
+        theta, of any shape.
+
+    Returns
+    -------
+    array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import project_to_unit_ball
+    >>> project_to_unit_ball(np.array([3.0, 4.0]))
+    array([0.6, 0.8])
+    """
     length = np.linalg.norm(weights)
     return weights / length if length > 1 else weights

@@ -1,34 +1,56 @@
-"""Which of all policies found to keep, by how well they predict the demonstrations (end of section 5.5.4)."""
+"""Which of the policies found to keep, by how well they predict the demonstrations (end of section 5.5.4)."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array
+from ._checks import checked
+from .reward_update import inverse_frequency_weights
 
-from .reward_update import balance
+Score = Callable[[NDArray[np.int64], NDArray[np.int64]], float]
+"""``score(predicted, actions)``: how well a policy predicts the demonstrated actions; the best policy is kept."""
 
 
-def accuracy(predicted: ArrayLike, shown: ArrayLike) -> float:
-    """The share of decisions (M,) that are predicted: the thesis's measure.
+@checked
+def accuracy(predicted: ArrayLike, actions: ArrayLike) -> float:
+    """The share of demonstrated decisions that are predicted: the thesis's measure.
 
-    Most of what is shown is to go forward, so that a policy which always does so scores well, and drives into things.
+    Most decisions are to go forward, so a policy that always goes forward scores well and collides.
+
+    Parameters
+    ----------
+    predicted, actions : (M,) array of int
+        A policy's actions and the expert's.
+
+    Examples
+    --------
+    >>> from robonav.nirl import accuracy
+    >>> accuracy([0, 0, 0, 0], [0, 0, 0, 1])
+    0.75
     """
-    return float((np.asarray(predicted) == _shown(shown)).mean())
+    return float((np.asarray(predicted) == np.asarray(actions)).mean())
 
 
-def balanced_accuracy(predicted: ArrayLike, shown: ArrayLike) -> float:
-    """The mean, over the actions that were shown, of the share of their decisions (M,) that are predicted.
+@checked
+def balanced_accuracy(predicted: ArrayLike, actions: ArrayLike) -> float:
+    """The mean over demonstrated actions of the share of their decisions that are predicted.
 
-    One action for everything scores no more than 1 / (number of actions shown).
+    A policy that always takes the same action scores 1 / (number of actions demonstrated).
+
+    Parameters
+    ----------
+    predicted, actions : (M,) array of int
+        A policy's actions and the expert's.
+
+    Examples
+    --------
+    >>> from robonav.nirl import balanced_accuracy
+    >>> balanced_accuracy([0, 0, 0, 0], [0, 0, 0, 1])
+    0.5
     """
-    own = _shown(shown)
-    return float(balance(own, int(own.max()) + 1) @ (np.asarray(predicted) == own))
-
-
-def _shown(shown: ArrayLike) -> np.ndarray:
-    own = check_array("shown", shown, shape=("M",), dtype=np.int64)
-    if len(own) == 0:
-        raise ValueError("shown must hold at least one decision, got none")
-    return own
+    own = np.asarray(actions)
+    weights = inverse_frequency_weights(own, int(own.max()) + 1)
+    return float(weights @ (np.asarray(predicted) == own))

@@ -1,4 +1,4 @@
-"""Neural policy iteration: a network that learns what its own actions are worth under a reward (section 5.5.3)."""
+"""Neural policy iteration: a network learns the values of its own actions under a reward (section 5.5.3)."""
 
 from __future__ import annotations
 
@@ -9,52 +9,92 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robonav.networks.backpropagation import cross_entropy_cost, cross_entropy_gradient
-from robonav.networks.multilayer_perceptron import Network
+from robonav.networks.backpropagation import cross_entropy_gradient
+from robonav.networks.multilayer_perceptron import Network, sigmoid
 from robonav.validation import check_integer, check_positive, check_real
 
-from .transitions import Floats, Steps, joined
+from .policy import neural_action_values
+from .transitions import Floats, Ints, Transitions, concatenate
 
 SURVIVAL_BONUS = (0.0, 1.0)
-"""A collision ends it all with the worst there is, any other end with the best: a reward for survival."""
+"""Terminal values: 0 after a collision, 1 after any other ending. They reward survival."""
 ZERO_TERMINAL_VALUES = (0.0, 0.0)
-"""Whatever ends a drive, nothing more is to be had. With rewards of at least 0 this too rewards survival."""
+"""Terminal values of 0 after every ending. With rewards of at least 0 they too reward survival."""
 NEUTRAL_TERMINAL_VALUES = (0.5, 0.5)
-"""Any end is worth what the mean reward for ever would be: how a drive ended teaches nothing."""
+"""Terminal values equal to the mean reward for ever. How an episode ended then makes no difference."""
 
 
 class Improved(NamedTuple):
-    """The network after an improvement, and the cost (5.15) met on the way."""
+    """The network after an improvement, and the mean cost during it."""
 
     network: Network
     cost: float
 
 
 class Improver(Protocol):
-    """Step 10 of Algorithm 10: a better network for a reward, from the drives made so far."""
+    """Steps 9 and 10 of NIRL: a better network for a reward, from the episodes made so far."""
 
     def __call__(
         self,
         network: Network,
-        drives: Sequence[Steps],
+        episodes: Sequence[Transitions],
         weights: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        """The next network and the cost on the way; ``fraction`` of the training is over."""
+        """The next network, when ``fraction`` (0 to 1) of the training is over."""
 
 
-def transition_rewards(weights: ArrayLike, steps: Steps) -> Floats:
-    """r(s_t, a_t) = theta . f(s_t, a_t), (M,), for weights (A, k + 1): Eq. (5.2) with the blocks of Eq. (5.5)."""
+def transition_rewards(weights: ArrayLike, transitions: Transitions) -> Floats:
+    """Rewards r(s_t, a_t) = theta . f(s_t, a_t) of transitions.
+
+    This is Eq. (5.2). By Eq. (5.5) only the block of the action taken counts, so theta_a . phi(s) suffices.
+
+    Parameters
+    ----------
+    weights : (A, k + 1) array
+        theta, one row an action.
+    transitions : Transitions
+        M decisions.
+
+    Returns
+    -------
+    (M,) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import Transitions, transition_rewards
+    >>> nothing = np.zeros(1, dtype=int)
+    >>> one = Transitions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> transition_rewards([[3.0, 1.0]], one)
+    array([7.])
+    """
     theta = np.asarray(weights, dtype=float)
-    return np.einsum("mk,mk->m", steps.features, theta[steps.actions])
+    return np.einsum("mk,mk->m", transitions.features, theta[transitions.actions])
 
 
 def scale_to_unit_interval(rewards: ArrayLike, *, percentile: float = 95.0) -> Floats:
-    """Rewards in [0, 1], with 1/2 where they were 0: divided by a percentile of their size, clipped, shifted.
+    """Rewards in [0, 1], 1/2 where they were 0: divided by a percentile of their size, clipped and shifted.
 
-    An increasing affine map but for the clipping, so that with NEUTRAL_TERMINAL_VALUES ends it changes no preference. All zeros become
-    all 1/2.
+    Apart from the clipping this is an increasing affine map, which changes no preference where terminal values are
+    neutral. If all rewards are zero, all become 1/2.
+
+    Parameters
+    ----------
+    rewards : (M,) array
+    percentile : float
+        Of the rewards' absolute values: this reward becomes 0 or 1.
+
+    Returns
+    -------
+    (M,) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import scale_to_unit_interval
+    >>> scale_to_unit_interval([-2.0, 0.0, 1.0], percentile=100)
+    array([0.  , 0.5 , 0.75])
     """
     r = np.asarray(rewards, dtype=float)
     scale = np.percentile(abs(r), percentile) if r.size else 0.0
@@ -64,139 +104,308 @@ def scale_to_unit_interval(rewards: ArrayLike, *, percentile: float = 95.0) -> F
 def sarsa_targets(
     q: ArrayLike,
     rewards: ArrayLike,
-    following: ArrayLike,
+    next_q: ArrayLike,
     *,
-    alpha: float,
+    learning_rate: float,
     discount: float,
 ) -> Floats:
-    """Q(s_t, a_t) + alpha [r + gamma Q(s_t+1, a_t+1) - Q(s_t, a_t)], Eq. (5.16), (M,).
+    """Targets of the network's outputs by SARSA, Eq. (5.16).
 
     Parameters
     ----------
-    q : values of the actions taken, (M,).
-    rewards : r_theta(s_t, a_t), (M,).
-    following : Q(s_t+1, a_t+1), (M,); what is left to be had where a drive ended.
+    q : (M,) array
+        Q(s_t, a_t), values of the actions taken.
+    rewards : (M,) array
+        r_theta(s_t, a_t).
+    next_q : (M,) array
+        Q(s_t+1, a_t+1), or the terminal value where an episode ended.
+    learning_rate : float
+        alpha.
+    discount : float
+        gamma.
+
+    Returns
+    -------
+    (M,) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import sarsa_targets
+    >>> sarsa_targets([0.5], [1.0], [0.4], learning_rate=0.8, discount=0.65).round(3)
+    array([1.108])
     """
-    values = np.asarray(q, dtype=float)
-    return values + alpha * (
-        np.asarray(rewards) + discount * np.asarray(following) - values
+    old, r, ahead = (np.asarray(part) for part in (q, rewards, next_q))
+    return old + learning_rate * (r + discount * ahead - old)  # Eq. (5.16)
+
+
+def policy_cost(
+    network: Network,
+    inputs: Floats,
+    targets: Floats,
+    *,
+    regularisation: float = 0.0,
+) -> float:
+    """Cost of the neural policy: cross-entropy of its outputs, plus weight decay, Eq. (5.15).
+
+    With z the weighted sum whose sigmoid is Q, -t log Q - (1 - t) log(1 - Q) is log(1 + exp(z)) - t z. This form never
+    takes the logarithm of zero.
+
+    Parameters
+    ----------
+    network : Network
+    inputs : (N, k) array
+    targets : (N, A) array
+        Between 0 and 1.
+    regularisation : float
+        lambda.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.nirl import policy_cost
+    >>> round(policy_cost(random_network((2, 3, 1), seed=0, spread=1e-9), np.zeros((1, 2)), np.ones((1, 1))), 3)
+    0.693
+    """
+    z = network.logits(inputs)
+    error = (np.logaddexp(0, z) - targets * z).sum()
+    decay = sum(float((weight**2).sum()) for weight in network.weights)
+    return float((error + regularisation / 2 * decay) / len(inputs))  # Eq. (5.15)
+
+
+def sarsa_descent(
+    network: Network,
+    transitions: Transitions,
+    rewards: Floats,
+    terminal_values: Floats,
+    order: Ints,
+    *,
+    learning_rate: float,
+    discount: float,
+    gradient_step: float,
+) -> Improved:
+    """Stochastic gradient descent on the cost, with a SARSA target for one transition at a time.
+
+    Each step computes its target with the weights of that moment, by Eq. (5.16) cut to [0, 1], and moves against the
+    gradient of the cross-entropy of one output.
+
+    Parameters
+    ----------
+    network : Network
+        One hidden layer.
+    transitions : Transitions
+        M decisions.
+    rewards : (M,) array
+        In units of the network's output.
+    terminal_values : (M,) array
+        What follows a decision that ends its episode.
+    order : array of int
+        The decisions, one step for each.
+    learning_rate, discount, gradient_step : float
+        alpha, gamma and sigma.
+
+    Returns
+    -------
+    Improved
+        The network, and the mean cost of the outputs before their steps.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.nirl import Transitions, sarsa_descent
+    >>> nothing = np.zeros(1, dtype=int)
+    >>> one = Transitions(np.ones((1, 2)), nothing, nothing, nothing, nothing, nothing)
+    >>> start = random_network((2, 3, 1), seed=0)
+    >>> order = np.zeros(500, dtype=int)
+    >>> rates = {"learning_rate": 0.8, "discount": 0.5, "gradient_step": 1.0}
+    >>> network, cost = sarsa_descent(start, one, np.array([0.5]), np.array([0.8]), order, **rates)
+    >>> network.forward(one.inputs).round(2)  # 0.5 + 0.5 * 0.8
+    array([[0.9]])
+    """
+    w1, w2 = (weight.copy() for weight in network.weights)
+    b1, b2 = (bias.copy() for bias in network.biases)
+    inputs, actions, following = (
+        transitions.inputs,
+        transitions.actions,
+        transitions.next_index,
     )
+    cost = 0.0
+    for i in order:
+        next_q = terminal_values[i]
+        if following[i] >= 0:
+            x, a = inputs[following[i]], actions[following[i]]
+            next_q = sigmoid(w2[a] @ sigmoid(w1 @ x + b1) + b2[a])
+        x, a = inputs[i], actions[i]
+        hidden = sigmoid(w1 @ x + b1)
+        z = w2[a] @ hidden + b2[a]
+        q = sigmoid(z)
+        rates = {"learning_rate": learning_rate, "discount": discount}
+        target = sarsa_targets(q, rewards[i], next_q, **rates).clip(0, 1)
+        cost += np.logaddexp(0, z) - target * z
+        delta = gradient_step * (q - target)
+        back = delta * w2[a] * hidden * (1 - hidden)
+        w2[a] -= delta * hidden
+        b2[a] -= delta
+        w1 -= np.outer(back, x)
+        b1 -= back
+    return Improved(Network((w1, w2), (b1, b2)), cost / max(len(order), 1))
 
 
 @dataclass(frozen=True)
 class ReplaySGD:
-    """Many small steps an iteration, each for one decision drawn from the last few iterations' drives.
+    """Many small gradient steps an iteration, each for one decision drawn from the episodes of the last iterations.
 
-    The network's output is y = (1 - gamma) Q, which lies in [0, 1] when rewards do: nothing is cut off, and the target
-    (5.16) becomes y + alpha [(1 - gamma) r + gamma y' - y].
+    The network's output is y = (1 - gamma) Q. It lies in [0, 1] when rewards do, so no value is cut off, and the target
+    of Eq. (5.16) becomes y + alpha [(1 - gamma) r + gamma y' - y].
 
     Attributes
     ----------
-    discount : gamma, in [0, 1).
-    alpha : of Eq. (5.16).
-    rate : sigma at the first and at the last iteration, falling by the same factor each.
-    samples : decisions drawn an iteration.
-    replay : iterations whose drives are remembered.
-    ends : what is left to be had after a collision and after any other end, in [0, 1]: see ``SURVIVAL_BONUS``, ``NEUTRAL_TERMINAL_VALUES``.
+    discount : float
+        gamma, at least 0 and below 1.
+    learning_rate : float
+        alpha, above 0 and at most 1.
+    gradient_step : tuple of float
+        sigma at the first and at the last iteration; it falls by the same factor each iteration.
+    n_samples : int
+        Decisions drawn an iteration.
+    replay : int
+        Iterations whose episodes are remembered.
+    terminal_values : tuple of float
+        After a collision and after any other ending, in [0, 1]: see ``SURVIVAL_BONUS``, ``NEUTRAL_TERMINAL_VALUES``.
+
+    Examples
+    --------
+    >>> from robonav.nirl import ReplaySGD
+    >>> ReplaySGD(discount=0.9, n_samples=300).replay
+    20
     """
 
     discount: float = 0.65
-    alpha: float = 0.8
-    rate: tuple[float, float] = (0.4, 0.1)
-    samples: int = 9600
+    learning_rate: float = 0.8
+    gradient_step: tuple[float, float] = (0.4, 0.1)
+    n_samples: int = 9600
     replay: int = 20
-    ends: tuple[float, float] = SURVIVAL_BONUS
+    terminal_values: tuple[float, float] = SURVIVAL_BONUS
 
     def __post_init__(self) -> None:
         check_real("discount", self.discount, at_least=0, below=1)
-        check_real("alpha", self.alpha, above=0, at_most=1)
-        for rate in self.rate:
-            check_positive("rate", rate)
-        check_integer("samples", self.samples, at_least=1)
+        check_real("learning_rate", self.learning_rate, above=0, at_most=1)
+        for step in self.gradient_step:
+            check_positive("gradient_step", step)
+        check_integer("n_samples", self.n_samples, at_least=1)
         check_integer("replay", self.replay, at_least=1)
-        for end in self.ends:
-            check_real("ends", end, at_least=0, at_most=1)
+        for value in self.terminal_values:
+            check_real("terminal_values", value, at_least=0, at_most=1)
 
     def __call__(
         self,
         network: Network,
-        drives: Sequence[Steps],
+        episodes: Sequence[Transitions],
         weights: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        """The network after ``samples`` steps; ``fraction`` (0 to 1) says how much of the training is over."""
-        from . import _fast
-
-        steps = joined(drives[-self.replay :])
-        if len(steps) == 0:
+        """The network after ``n_samples`` steps of :func:`sarsa_descent`, by its compiled twin."""
+        recent = concatenate(episodes[-self.replay :])
+        if len(recent) == 0:
             return Improved(network, np.nan)
-        rewards = (1 - self.discount) * scale_to_unit_interval(
-            transition_rewards(weights, steps)
+        rewards = scale_to_unit_interval(transition_rewards(weights, recent))
+        ends = np.where(recent.collided[recent.trajectory], *self.terminal_values)
+        order = rng.integers(len(recent), size=self.n_samples)
+        first, last = self.gradient_step
+        return compiled_sarsa_descent(
+            network,
+            recent,
+            (1 - self.discount) * rewards,
+            ends,
+            order,
+            learning_rate=self.learning_rate,
+            discount=self.discount,
+            gradient_step=first * (last / first) ** fraction,
         )
-        ends = np.where(steps.failed[steps.trajectory], *self.ends)
-        w1, w2 = (weight.T.copy(order="C") for weight in network.weights)
-        b1, b2 = (bias.copy() for bias in network.biases)
-        order = rng.integers(len(steps), size=self.samples)
-        start, end = self.rate
-        cost = _fast.descend(
-            w1, b1, w2, b2, steps.inputs, steps.actions, rewards, steps.after, ends, order,
-            self.alpha, self.discount, start * (end / start) ** fraction,
-        )  # fmt: skip
-        return Improved(Network((w1.T, w2.T), (b1, b2)), cost)
+
+
+def compiled_sarsa_descent(
+    network: Network,
+    transitions: Transitions,
+    rewards: Floats,
+    terminal_values: Floats,
+    order: Ints,
+    *,
+    learning_rate: float,
+    discount: float,
+    gradient_step: float,
+) -> Improved:
+    """The compiled twin of :func:`sarsa_descent`: the same steps, some hundred times as fast."""
+    from . import _fast
+
+    w1, w2 = (weight.T.copy(order="C") for weight in network.weights)
+    b1, b2 = (bias.copy() for bias in network.biases)
+    cost = _fast.descend(
+        w1, b1, w2, b2, transitions.inputs, transitions.actions, rewards,
+        transitions.next_index, terminal_values, order, learning_rate, discount, gradient_step,
+    )  # fmt: skip
+    return Improved(Network((w1.T, w2.T), (b1, b2)), cost)
 
 
 @dataclass(frozen=True)
 class SingleGradientStep:
-    """Algorithm 10 to the letter: one gradient step on the cost (5.15) an iteration, over its own drives alone.
+    """NIRL as the thesis writes it: one gradient step an iteration, on the decisions of this iteration alone.
 
-    Targets are (5.16) as it stands, cut off at 0 and 1; nothing follows the last decision of a drive.
-    Attributes as in :class:`ReplaySGD`; ``regularisation`` is lambda of Eq. (5.15).
+    Targets are those of Eq. (5.16), cut to [0, 1]. The last decision of an episode has no future value.
+
+    Attributes
+    ----------
+    discount, learning_rate, gradient_step : float
+        gamma, alpha and sigma.
+    regularisation : float
+        lambda of Eq. (5.15).
+
+    Examples
+    --------
+    >>> from robonav.nirl import SingleGradientStep
+    >>> SingleGradientStep().gradient_step
+    0.4
     """
 
     discount: float = 0.65
-    alpha: float = 0.8
-    rate: float = 0.4
+    learning_rate: float = 0.8
+    gradient_step: float = 0.4
     regularisation: float = 0.0
 
     def __call__(
         self,
         network: Network,
-        drives: Sequence[Steps],
+        episodes: Sequence[Transitions],
         weights: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        """The network after one step of ``rate`` against the gradient."""
-        steps = drives[-1]
-        if len(steps) == 0:
+        """The network after one step against the gradient."""
+        latest = episodes[-1]
+        if len(latest) == 0:
             return Improved(network, np.nan)
-        outputs, row = network.forward(steps.inputs), np.arange(len(steps))
-        q = outputs[row, steps.actions]
-        following = np.where(steps.after >= 0, q[steps.after], 0.0)
-        targets = outputs.copy()
-        targets[row, steps.actions] = sarsa_targets(
+        rows, actions = np.arange(len(latest)), latest.actions
+        targets = neural_action_values(network, latest.inputs)
+        q = targets[rows, actions]
+        targets[rows, actions] = sarsa_targets(
             q,
-            transition_rewards(weights, steps),
-            following,
-            alpha=self.alpha,
+            transition_rewards(weights, latest),
+            np.where(latest.next_index >= 0, q[latest.next_index], 0.0),
+            learning_rate=self.learning_rate,
             discount=self.discount,
         ).clip(0, 1)
-        decay = self.regularisation
-        slope = cross_entropy_gradient(
-            network, steps.inputs, targets, regularisation=decay
-        )
+        decay = {"regularisation": self.regularisation}
+        slope = cross_entropy_gradient(network, latest.inputs, targets, **decay)
         stepped = Network(
             tuple(
-                w - self.rate * dw
+                w - self.gradient_step * dw
                 for w, dw in zip(network.weights, slope.weights, strict=True)
             ),
             tuple(
-                b - self.rate * db
+                b - self.gradient_step * db
                 for b, db in zip(network.biases, slope.biases, strict=True)
             ),
         )
-        return Improved(
-            stepped,
-            cross_entropy_cost(network, steps.inputs, targets, regularisation=decay),
-        )
+        return Improved(stepped, policy_cost(network, latest.inputs, targets, **decay))

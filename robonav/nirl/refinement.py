@@ -1,4 +1,4 @@
-"""Mending demonstrations that contradict themselves: one action a state, by maximum a posteriori (Eq. (5.12))."""
+"""Refining demonstrations that contradict themselves: one action a state, by maximum a posteriori."""
 
 from __future__ import annotations
 
@@ -7,21 +7,31 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array, check_integer
+from ._checks import checked
 
 Ints = NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Refined:
-    """What a refinement made of M steps.
+    """The result of a refinement of M steps.
 
     Attributes
     ----------
-    actions : (M,) the action given to each step: the same for all steps in the same state.
-    changed : (M,) whether that is another action than was shown.
-    states : number of different states among the steps.
-    inconsistent : number of those in which more than one action was shown.
+    actions : (M,) array of int
+        The action given to each step: the same for all steps in the same state.
+    changed : (M,) array of bool
+        Whether that differs from the demonstrated action.
+    states : int
+        Number of different states among the steps.
+    inconsistent : int
+        Number of those in which more than one action was demonstrated.
+
+    Examples
+    --------
+    >>> from robonav.nirl import most_frequent
+    >>> most_frequent([7, 7, 7], [0, 0, 1], 2).changed
+    array([False, False,  True])
     """
 
     actions: Ints
@@ -30,66 +40,88 @@ class Refined:
     inconsistent: int
 
 
-def counts(states: ArrayLike, shown: ArrayLike, actions: int) -> tuple[Ints, Ints]:
-    """How often each action was shown in each different state: (D, A), and which of the D each step is in, (M,).
+@checked
+def most_frequent(states: ArrayLike, actions: ArrayLike, n_actions: int) -> Refined:
+    """Give every state its most probable action, argmax_a P(s | a) P(a), Eq. (5.12).
+
+    Both factors are counted from the demonstrations. P(s | a) P(a) = P(s, a) is then the share of the pair among all
+    steps, so the action is the most frequent one in the state; of equally frequent actions it is the first.
 
     Parameters
     ----------
-    states : (M, k) states as whole numbers, or (M,); equal rows are equal states.
-    shown : (M,) actions.
-    actions : A.
+    states : (M, k) or (M,) array
+        Equal rows are equal states.
+    actions : (M,) array of int
+        Demonstrated actions.
+    n_actions : int
+        A.
+
+    Returns
+    -------
+    Refined
 
     Raises
     ------
-    ValueError : if there is no step, shapes do not fit, or an action does not exist.
+    ValueError
+        If there is no step, shapes do not fit, or an action does not exist.
+
+    Examples
+    --------
+    >>> from robonav.nirl import most_frequent
+    >>> most_frequent([7, 7, 7, 1], [0, 0, 1, 1], 2).actions
+    array([0, 0, 0, 1])
     """
-    own = check_array("shown", shown, shape=("M",), dtype=np.int64)
-    if len(own) == 0:
-        raise ValueError(
-            "states must hold at least one step, got none: were all of them filtered out?"
-        )
-    if not 0 <= own.min() <= own.max() < check_integer("actions", actions, at_least=1):
-        raise ValueError(
-            f"shown must hold actions from 0 to {actions - 1}, got {own.min()} to {own.max()}"
-        )
+    counts, state_of_step = count_pairs(states, actions, n_actions)
+    joint = counts / counts.sum()  # P(s | a) P(a) = P(s, a)
+    best = joint.argmax(axis=1)  # Eq. (5.12)
+    return _refined(best[state_of_step], counts, actions)
+
+
+@checked
+def map_uniform_prior(states: ArrayLike, actions: ArrayLike, n_actions: int) -> Refined:
+    """Give every state the action under which it is likeliest, argmax_a P(s | a).
+
+    This is Eq. (5.12) with a uniform prior P(a). The thesis says that it too gives the most frequent action. It does
+    not: an action demonstrated once here and nowhere else beats one demonstrated ten times here and a thousand times
+    elsewhere.
+
+    Parameters
+    ----------
+    states, actions, n_actions
+        As in :func:`most_frequent`.
+
+    Returns
+    -------
+    Refined
+
+    Examples
+    --------
+    >>> from robonav.nirl import map_uniform_prior
+    >>> map_uniform_prior([7, 7, 7, 1, 1, 1], [0, 0, 1, 0, 0, 0], 2).actions
+    array([1, 1, 1, 0, 0, 0])
+    """
+    counts, state_of_step = count_pairs(states, actions, n_actions)
+    likelihood = counts / np.maximum(counts.sum(axis=0), 1)  # P(s | a)
+    best = likelihood.argmax(axis=1)
+    return _refined(best[state_of_step], counts, actions)
+
+
+def count_pairs(
+    states: ArrayLike, actions: ArrayLike, n_actions: int
+) -> tuple[Ints, Ints]:
+    """How often each action occurs in each of D different states, (D, A), and the state of each step, (M,)."""
     rows = np.asarray(states)
-    if len(rows) != len(own):
+    if len(rows) != np.size(actions):
         raise ValueError(
-            f"states must be as many as the actions shown, {len(own)}, got {len(rows)}"
+            f"states must be as many as the actions, {np.size(actions)}, got {len(rows)}"
         )
     _, which = np.unique(rows, axis=0, return_inverse=True)
-    which = which.reshape(len(own))
-    table = np.zeros((which.max() + 1, actions), dtype=np.int64)
-    np.add.at(table, (which, own), 1)
-    return table, which
+    which = which.reshape(len(rows))
+    counts = np.zeros((which.max() + 1, n_actions), dtype=np.int64)
+    np.add.at(counts, (which, np.asarray(actions)), 1)
+    return counts, which
 
 
-def most_frequent(states: ArrayLike, shown: ArrayLike, actions: int) -> Refined:
-    """Give every step the action shown most often in its state: argmax_a P(s | a) P(a), Eq. (5.12).
-
-    With the prior counted from the same demonstrations, P(s | a) P(a) = P(s, a) is the share of the pair among all
-    steps. Of equally frequent actions the first. Arguments as in :func:`counts`.
-    """
-    table, which = counts(states, shown, actions)
-    return _refined(table, which, table, shown)
-
-
-def map_uniform_prior(states: ArrayLike, shown: ArrayLike, actions: int) -> Refined:
-    """Give every step the action under which its state is likeliest: argmax_a P(s | a), Eq. (5.12), uniform prior.
-
-    The thesis says that this too is the action shown most often. It is not: an action that is rarely shown at all, once
-    in this state, wins over one that is shown here ten times and elsewhere a thousand times.
-    """
-    table, which = counts(states, shown, actions)
-    likelihood = table / np.maximum(table.sum(axis=0), 1)
-    return _refined(likelihood, which, table, shown)
-
-
-def _refined(score: NDArray, which: Ints, table: Ints, shown: ArrayLike) -> Refined:
-    actions = score.argmax(axis=1)[which]
-    return Refined(
-        actions,
-        actions != np.asarray(shown),
-        len(table),
-        int(((table > 0).sum(axis=1) > 1).sum()),
-    )
+def _refined(refined: Ints, counts: Ints, actions: ArrayLike) -> Refined:
+    inconsistent = int(((counts > 0).sum(axis=1) > 1).sum())
+    return Refined(refined, refined != np.asarray(actions), len(counts), inconsistent)

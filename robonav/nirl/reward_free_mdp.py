@@ -1,4 +1,4 @@
-"""The MDP whose reward is unknown, and walks through it: where inverse reinforcement learning starts (5.3.1)."""
+"""The MDP whose reward is unknown, with which inverse reinforcement learning starts (section 5.3.1)."""
 
 from __future__ import annotations
 
@@ -20,18 +20,32 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class RewardFreeMDP:
-    r"""A finite MDP without its reward, MDP\\R, and K features in which the reward is linear (Eq. (5.2)).
+    r"""A finite MDP without its reward, MDP\\R, and K features in which the reward is linear.
 
     Parameters
     ----------
-    transitions : (A, S, S), probabilities T(s, a, s') as in :class:`~robonav.mdp.FiniteMDP`.
-    features : (S, A, K), f(s, a).
-    discount : gamma in [0, 1).
-    starts : (S,) probabilities of the first state.
+    transitions : (A, S, S) array
+        Probabilities T(s, a, s'), as in :class:`~robonav.mdp.FiniteMDP`.
+    features : (S, A, K) array
+        f(s, a).
+    discount : float
+        gamma, at least 0 and below 1.
+    starts : (S,) array
+        Probabilities of the initial state.
 
     Raises
     ------
-    TypeError, ValueError : if shapes do not fit, a row is no distribution, or the discount is out of range.
+    TypeError, ValueError
+        If shapes do not fit, a row is no distribution, or the discount is out of range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import RewardFreeMDP
+    >>> stay, move = np.eye(2), np.array([[0.0, 1.0], [0.0, 1.0]])
+    >>> mdp = RewardFreeMDP(np.stack([stay, move]), np.ones((2, 2, 1)), 0.9, np.array([1.0, 0.0]))
+    >>> mdp.with_reward([2.0]).rewards.tolist()
+    [[2.0, 2.0], [2.0, 2.0]]
     """
 
     transitions: Floats
@@ -61,10 +75,10 @@ class RewardFreeMDP:
     def of_grid(
         cls, grid: GridWorld, cell_features: ArrayLike, discount: float
     ) -> RewardFreeMDP:
-        """A gridworld with features phi(s') of the cell that a step ends in, (S, K).
+        """A gridworld with features phi(s') (S, K) of the cell that a step ends in.
 
-        f(s, a) = sum_s' T(s, a, s') phi(s'): so a step that may slip is worth what it may lead to. A terminal cell
-        counts when it is reached and no more.
+        f(s, a) = sum_s' T(s, a, s') phi(s'): the expectation over the cells that a step may end in. A terminal cell
+        counts when it is reached, and not afterwards.
         """
         phi = check_array("cell_features", cell_features, shape=(grid.n_states, "K"))
         transitions = np.stack(
@@ -86,49 +100,83 @@ class RewardFreeMDP:
 
     @cached_property
     def terminal(self) -> NDArray[np.bool_]:
-        """Which states (S,) end an episode: absorbing under every action, without a feature."""
+        """Whether each state (S,) ends an episode: it is absorbing under every action and has no features."""
         staying = self.transitions.diagonal(axis1=1, axis2=2)
         return (staying > 1 - policies.SUM_TOLERANCE).all(axis=0) & (
             self.features == 0
         ).all(axis=(1, 2))
 
     def with_reward(self, weights: ArrayLike) -> FiniteMDP:
-        """The finite MDP whose reward is r(s, a) = theta . f(s, a), Eq. (5.2), for weights (K,)."""
-        theta = check_array("weights", weights, shape=(self.features.shape[2],))
-        return FiniteMDP(self.transitions, self.features @ theta, self.discount)
+        """The finite MDP whose reward is linear in the features, r(s, a) = theta . f(s, a), Eq. (5.2).
 
-    def walk(
+        Parameters
+        ----------
+        weights : (K,) array
+            theta.
+        """
+        theta = np.asarray(weights, dtype=float)
+        rewards = self.features @ theta  # Eq. (5.2)
+        return FiniteMDP(self.transitions, rewards, self.discount)
+
+    def rollout(
         self,
         policy: ArrayLike,
-        walks: int,
-        steps: int,
+        n_episodes: int,
+        n_steps: int,
         *,
         seed: int | np.random.Generator,
-    ) -> Walks:
-        """Follow a policy, (S,) actions or (S, A) probabilities, for ``steps`` steps, ``walks`` times over."""
+        first: ArrayLike | None = None,
+    ) -> Trajectories:
+        """Follow a policy for ``n_steps`` steps, ``n_episodes`` times.
+
+        Parameters
+        ----------
+        policy : (S,) array of int or (S, A) array
+            Actions or probabilities.
+        n_episodes, n_steps : int
+            N and T of :class:`Trajectories`.
+        seed : int or Generator
+            Of the random numbers.
+        first : (N,) array of int, optional
+            The first states; by default they are drawn from ``starts``.
+        """
         rng = check_generator("seed", seed)
-        n = check_integer("walks", walks, at_least=0)
-        chances = policies.probabilities(policy, self.n_states, self.n_actions)
+        n = check_integer("n_episodes", n_episodes, at_least=0)
+        probabilities = policies.probabilities(policy, self.n_states, self.n_actions)
         states = np.empty(
-            (n, check_integer("steps", steps, at_least=1)), dtype=np.int64
+            (n, check_integer("n_steps", n_steps, at_least=1)), dtype=np.int64
         )
         actions = np.empty_like(states)
-        here = rng.choice(self.n_states, n, p=self.starts)
-        for step in range(steps):
-            action = sample_actions(chances[here], rng.random(n))
-            states[:, step], actions[:, step] = here, action
-            here = sample_actions(self.transitions[action, here], rng.random(n))
-        return Walks(states, actions)
+        state = np.asarray(
+            rng.choice(self.n_states, n, p=self.starts) if first is None else first
+        )
+        for t in range(n_steps):
+            action = sample_actions(probabilities[state], rng.random(n))
+            states[:, t], actions[:, t] = state, action
+            state = sample_actions(self.transitions[action, state], rng.random(n))
+        return Trajectories(states, actions)
 
 
-@dataclass(frozen=True)
-class Walks:
-    """N walks of T steps each through a finite MDP: ``states`` and ``actions``, both (N, T)."""
+@dataclass(frozen=True, eq=False)
+class Trajectories:
+    """N trajectories of T steps each through a finite MDP.
+
+    Attributes
+    ----------
+    states, actions : (N, T) array of int
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import Trajectories
+    >>> Trajectories(np.zeros((2, 3), dtype=int), np.zeros((2, 3), dtype=int)).trajectory
+    array([0, 0, 0, 1, 1, 1])
+    """
 
     states: Ints
     actions: Ints
 
     @property
     def trajectory(self) -> Ints:
-        """(N T,) which walk each step belongs to, walks laid end to end."""
+        """(N T,) which trajectory each step belongs to, trajectories laid end to end."""
         return np.repeat(np.arange(len(self.states)), self.states.shape[1])

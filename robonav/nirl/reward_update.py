@@ -1,116 +1,217 @@
-"""From what the expert did to a reward: the step of Algorithm 10 that the thesis leaves open, in two readings."""
+"""From the expert's decisions to a reward: step 5 of NIRL, which the thesis leaves open, in two readings."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.validation import check_real
+from robonav.validation import check_integer, check_real
 
 from .feature_expectations import discounted_feature_sums
 from .features import state_action_features
 from .max_margin import project_to_unit_ball
-from .transitions import Floats, Steps
+from .transitions import Floats, Transitions
 
 
-def balance(actions: NDArray[np.int64], count: int, *, power: float = 1.0) -> Floats:
-    """Weights (M,), with sum 1, of decisions: the frequency of each one's action to the power ``-power``.
+class RewardUpdate(Protocol):
+    """Step 5 of NIRL: a reward from the expert's decisions and the latest policy."""
 
-    1 makes all actions that occur count alike, 0 all decisions.
-    """
-    frequency = np.bincount(actions, minlength=count) / max(len(actions), 1)
-    weights = frequency[actions] ** -check_real("power", power, at_least=0)
-    return weights / weights.sum()
+    def __call__(
+        self,
+        demonstrations: Transitions,
+        action_probabilities: Floats,
+        action_values: Floats,
+        weights: Floats,
+        iteration: int,
+    ) -> Floats:
+        """theta (A, k + 1) of any length.
+
+        Parameters
+        ----------
+        demonstrations : Transitions
+            M decisions of the expert.
+        action_probabilities : (M, A) array
+            pi(a | s_t) of the latest policy in the expert's states.
+        action_values : (M, A) array
+            Outputs of its network there.
+        weights : (A, k + 1) array
+            theta of the iteration before.
+        iteration : int
+            From 1.
+        """
 
 
-def contrast(shown: Steps, chances: Floats, weights: Floats) -> Floats:
-    """By how much the expert has more of each feature than a policy in the same states, (A, k + 1).
+def inverse_frequency_weights(
+    actions: NDArray[np.int64], n_actions: int, *, power: float = 1.0
+) -> Floats:
+    """Weights of decisions, with sum 1: the frequency of each decision's action to the power ``-power``.
 
-    sum_t w_t [f(s_t, a_t) - sum_a pi(a | s_t) f(s_t, a)] over the expert's states s_t. The two are compared where
-    the expert was, one decision at a time; what a decision leads to is the business of the policy iteration.
+    With power 1 all actions that occur have the same total weight. With power 0 all decisions have the same weight.
 
     Parameters
     ----------
-    shown : M decisions of the expert.
-    chances : pi(a | s_t), (M, A).
-    weights : w_t, (M,).
+    actions : (M,) array of int
+    n_actions : int
+        A.
+    power : float
+        At least 0.
+
+    Returns
+    -------
+    (M,) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import inverse_frequency_weights
+    >>> inverse_frequency_weights(np.array([0, 0, 0, 1]), 2).round(3)
+    array([0.167, 0.167, 0.167, 0.5  ])
     """
-    apart = np.eye(chances.shape[1])[shown.actions] - chances
-    return (weights[:, None] * apart).T @ shown.features
+    frequency = np.bincount(actions, minlength=n_actions) / max(len(actions), 1)
+    weights = frequency[actions] ** -power
+    return weights / weights.sum()
+
+
+def feature_gap(
+    demonstrations: Transitions, action_probabilities: Floats, step_weights: Floats
+) -> Floats:
+    """The expert's features minus a policy's in the same states: sum_t w_t [f(s_t, a_t) - sum_a pi(a | s_t) f(s_t, a)].
+
+    The expert and the policy are compared in the expert's states, one decision at a time. What a decision leads to is
+    left to the policy iteration.
+
+    Parameters
+    ----------
+    demonstrations : Transitions
+        M decisions of the expert.
+    action_probabilities : (M, A) array
+        pi(a | s_t).
+    step_weights : (M,) array
+        w_t.
+
+    Returns
+    -------
+    (A, k + 1) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import Transitions, feature_gap
+    >>> nothing = np.zeros(1, dtype=int)
+    >>> left = Transitions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> feature_gap(left, np.array([[0.5, 0.5]]), np.ones(1))
+    array([[ 1. ,  0.5],
+           [-1. , -0.5]])
+    """
+    taken = np.eye(action_probabilities.shape[1])[demonstrations.actions]
+    difference = taken - action_probabilities
+    return (step_weights[:, None] * difference).T @ demonstrations.features
 
 
 @dataclass(frozen=True)
 class SubgradientMaxMargin:
-    """Max-margin by subgradient steps: theta gathers the contrasts to one policy after the other.
+    """Maximum margin by subgradient steps: theta sums the feature gaps to one policy after the other.
 
-    The margin sum_t w_t [r(s_t, a_t) - sum_a pi(a | s_t) r(s_t, a)] is linear in theta, with :func:`contrast` as its
-    gradient. Each new policy is the rival that the next step is taken against, the i-th step 1 / sqrt(i) long
-    (Ratliff et al. 2006). How long theta is does not matter to what follows, so it is not shortened on the way.
+    The margin sum_t w_t [r(s_t, a_t) - sum_a pi(a | s_t) r(s_t, a)] is linear in theta, and :func:`feature_gap` is its
+    gradient. Each new policy is the rival of the next step; the i-th step has length 1 / sqrt(i) (Ratliff et al. 2006).
+    The length of theta does not matter later, so it is not limited here.
 
     Attributes
     ----------
-    power : how far rare actions are made up for, see :func:`balance`. More than half of what experts do is to go
-        forward; unbalanced, that is what there is to learn.
+    power : float
+        How far rare actions are made up for, see :func:`inverse_frequency_weights`. Without it, nearly all there is to
+        learn is to go forward.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import SubgradientMaxMargin, Transitions
+    >>> nothing = np.zeros(1, dtype=int)
+    >>> left = Transitions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> half = np.array([[0.5, 0.5]])
+    >>> SubgradientMaxMargin()(left, half, half, np.zeros((2, 2)), 1)
+    array([[ 1. ,  0.5],
+           [-1. , -0.5]])
     """
 
     power: float = 1.0
 
+    def __post_init__(self) -> None:
+        check_real("power", self.power, at_least=0)
+
     def __call__(
         self,
-        shown: Steps,
-        chances: Floats,
-        values: Floats,
-        before: Floats,
+        demonstrations: Transitions,
+        action_probabilities: Floats,
+        action_values: Floats,
+        weights: Floats,
         iteration: int,
     ) -> Floats:
-        """Theta (A, k + 1) after ``iteration`` (from 1); arguments as in ``RewardRule``."""
-        weights = balance(shown.actions, chances.shape[1], power=self.power)
-        return before + contrast(shown, chances, weights) / np.sqrt(iteration)
+        """theta (A, k + 1) after ``iteration`` (from 1); parameters as in ``RewardUpdate``."""
+        step_weights = inverse_frequency_weights(
+            demonstrations.actions, action_probabilities.shape[1], power=self.power
+        )
+        gap = feature_gap(demonstrations, action_probabilities, step_weights)
+        return weights + gap / np.sqrt(iteration)
 
 
 @dataclass(frozen=True)
 class LeastSquaresReward:
-    """Eq. (5.14) to the letter: the theta in the unit ball that minimises it.
+    """The thesis's objective taken literally: least squares between the expert's values and the network's.
 
-    J(theta) = mean_t (theta . mu_E(s_t, a_t) - Q(s_t, a_t))^2 + lambda ||theta||, with mu_E the discounted features of
-    the rest of the expert's drive, and Q what the learner's network says, which does not depend on theta. So the reward
-    is fitted to what the learner believes already. Projected gradient descent finds it.
+    J(theta) = mean_t (theta . mu_E(s_t, a_t) - Q(s_t, a_t))^2 + lambda ||theta||, minimised over the unit ball by
+    projected gradient descent. mu_E are the discounted features of the rest of the expert's episode. Q is the output of
+    the learner's network and does not depend on theta, so the reward is fitted to what the learner already believes.
 
     Attributes
     ----------
-    discount, ridge : gamma and lambda.
-    steps : of descent.
+    discount, regularisation : float
+        gamma and lambda.
+    iterations : int
+        Of the descent.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import LeastSquaresReward, Transitions
+    >>> nothing = np.zeros(1, dtype=int)
+    >>> left = Transitions(np.array([[0.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> half = np.array([[0.5, 0.5]])
+    >>> LeastSquaresReward(regularisation=0.0)(left, half, half, np.zeros((2, 2)), 1)
+    array([[0. , 0.5],
+           [0. , 0. ]])
     """
 
     discount: float = 0.65
-    ridge: float = 1e-3
-    steps: int = 200
+    regularisation: float = 1e-3
+    iterations: int = 200
+
+    def __post_init__(self) -> None:
+        check_real("discount", self.discount, at_least=0, at_most=1)
+        check_real("regularisation", self.regularisation, at_least=0)
+        check_integer("iterations", self.iterations, at_least=1)
 
     def __call__(
         self,
-        shown: Steps,
-        chances: Floats,
-        values: Floats,
-        before: Floats,
+        demonstrations: Transitions,
+        action_probabilities: Floats,
+        action_values: Floats,
+        weights: Floats,
         iteration: int,
     ) -> Floats:
-        """Theta (A, k + 1); arguments as in ``RewardRule``."""
-        actions = values.shape[1]
-        mu = discounted_feature_sums(
-            state_action_features(shown.features, shown.actions, actions),
-            shown.trajectory,
-            self.discount,
-        )
-        q = values[np.arange(len(shown)), shown.actions]
+        """theta (A, k + 1) that minimises the thesis's objective in the unit ball, Eq. (5.14)."""
+        actions, n_actions = demonstrations.actions, action_values.shape[1]
+        taken = state_action_features(demonstrations.features, actions, n_actions)
+        mu = discounted_feature_sums(taken, demonstrations.trajectory, self.discount)
+        q = action_values[np.arange(len(actions)), actions]
         theta = np.zeros(mu.shape[1])
-        rate = 0.5 / max(float(np.linalg.norm(mu.T @ mu / len(mu), 2)), 1e-12)
-        for _ in range(self.steps):
-            slope = 2 * mu.T @ (mu @ theta - q) / len(mu)
+        step = 0.5 / max(float(np.linalg.norm(mu.T @ mu / len(mu), 2)), 1e-12)
+        for _ in range(self.iterations):
+            slope = 2 * mu.T @ (mu @ theta - q) / len(mu)  # Eq. (5.14)
             length = np.linalg.norm(theta)
-            theta = project_to_unit_ball(
-                theta
-                - rate * (slope + (self.ridge / length * theta if length > 0 else 0.0))
-            )
-        return theta.reshape(actions, -1)
+            decay = self.regularisation / length * theta if length > 0 else 0.0
+            theta = project_to_unit_ball(theta - step * (slope + decay))
+        return theta.reshape(n_actions, -1)

@@ -1,171 +1,376 @@
-"""Structured classification for inverse reinforcement learning (Klein et al. 2012).
+"""SCIRL: structured classification for inverse reinforcement learning (Klein et al. 2012).
 
 A linear classifier that scores action a in state s by theta . mu_E(s, a), where mu_E are the expert's feature
-expectations, is a set of action values: those of the expert under the reward theta . f. If it puts the
-expert's actions first, the expert is optimal for that reward. No policy has to be found on the way.
+expectations, computes action values: those of the expert under the reward theta . f. If it puts the expert's actions
+first, the expert is optimal for that reward. No policy has to be found on the way.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array, check_integer, check_positive, check_real
+from ._checks import checked
+from .feature_expectations import discounted_feature_sums
+from .features import all_action_features, state_action_features
+from .policy_improvement import ReplaySGD
+from .reward_update import inverse_frequency_weights
+from .tasks import Task
+from .trainer import IRLResult, train_under_reward
+from .transitions import Transitions
 
 Floats = NDArray[np.float64]
 
+Estimate = Callable[[Transitions, int, float], Floats]
+"""``estimate(demonstrations, n_actions, discount) -> (M, A, A (k + 1))``: mu_E(s_t, a) of every action in the expert's
+states."""
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class Classification:
-    """``weights`` (K,), and the ``costs`` (iterations,) on the way to them."""
+    """The weights of a classifier, and the costs of its training.
+
+    Attributes
+    ----------
+    weights : (K,) array
+        theta.
+    costs : (iterations,) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import structured_classification
+    >>> structured_classification([[[1.0], [0.0]]], [0], iterations=10).costs.shape
+    (10,)
+    """
 
     weights: Floats
     costs: Floats
 
 
+@checked
 def lstd_mu(
     basis: ArrayLike,
     next_basis: ArrayLike,
     features: ArrayLike,
     discount: float,
     *,
-    ridge: float = 1e-6,
+    regularisation: float = 1e-6,
 ) -> Floats:
-    """LSTD-mu: coefficients (n, K) with mu(s, a) close to psi(s, a) . coefficients, from single steps of the expert.
+    """LSTD-mu: coefficients omega with mu(s, a) close to psi(s, a) . omega, from single steps of the expert.
 
-    Least-squares temporal differences (Bradtke and Barto 1996) with every feature in place of the reward:
-    solve sum_t psi_t (psi_t - gamma psi_t+1)^T omega = sum_t psi_t f_t^T.
+    Least-squares temporal differences (Bradtke and Barto 1996), with every feature in place of the reward.
 
     Parameters
     ----------
-    basis : psi(s_t, a_t) of M steps, (M, n).
-    next_basis : psi(s_t+1, a_t+1) of the step after each, zeros where the trajectory ends in a terminal state, (M, n).
-    features : f(s_t, a_t), (M, K).
-    discount : gamma in [0, 1].
-    ridge : added to the diagonal, per step; keeps what the steps do not determine at zero. Positive.
+    basis : (M, n) array
+        psi(s_t, a_t) of M steps.
+    next_basis : (M, n) array
+        psi(s_t+1, a_t+1) of the step after each; zeros where an episode ended in a terminal state.
+    features : (M, K) array
+        f(s_t, a_t).
+    discount : float
+        gamma, from 0 to 1.
+    regularisation : float
+        Added to the diagonal for every step, positive: coefficients that the steps do not determine stay at zero.
+
+    Returns
+    -------
+    (n, K) array
 
     Raises
     ------
-    ValueError : if there is no step or shapes do not fit.
+    ValueError
+        If there is no step or shapes do not fit.
+
+    Examples
+    --------
+    >>> from robonav.nirl import lstd_mu
+    >>> lstd_mu([[1.0]], [[1.0]], [[1.0]], 0.5).round(3)  # 1 + 0.5 + 0.25 + ...
+    array([[2.]])
     """
-    psi = check_array("basis", basis, shape=("M", "n"))
-    if len(psi) == 0:
-        raise ValueError("basis must hold at least one step, got none")
-    after = check_array("next_basis", next_basis, shape=psi.shape)
-    f = check_array("features", features, shape=(len(psi), "K"))
-    gamma = check_real("discount", discount, at_least=0, at_most=1)
-    equations = psi.T @ (psi - gamma * after) + check_positive("ridge", ridge) * len(
-        psi
-    ) * np.eye(psi.shape[1])
-    return np.linalg.solve(equations, psi.T @ f)
+    psi, next_psi, f = (np.asarray(part) for part in (basis, next_basis, features))
+    decay = regularisation * len(psi) * np.eye(psi.shape[1])
+    matrix = psi.T @ (psi - discount * next_psi) + decay
+    return np.linalg.solve(matrix, psi.T @ f)
 
 
+@checked
 def heuristic_mu(
-    expectations: ArrayLike, shown: ArrayLike, actions: int, discount: float
+    expectations: ArrayLike, actions: ArrayLike, n_actions: int, discount: float
 ) -> Floats:
-    """mu_E(s, a) of every action, (M, A, K), where only the expert's own is known (Klein et al. 2012, section 5).
+    """mu_E(s, a) of every action, where only that of the expert's action is known (Klein et al. 2012, section 5).
 
-    The paper's heuristic: with another action the expert loses a step and then goes on as before, so that
+    The heuristic assumes that another action costs the expert one step, after which it goes on as before:
     mu(s, a) = gamma mu(s, a_E).
 
     Parameters
     ----------
-    expectations : mu(s_t, a_t) of the expert's steps, (M, K), for instance by
-        :func:`~robonav.nirl.discounted_feature_sums`.
-    shown : the expert's actions a_t, (M,).
+    expectations : (M, K) array
+        mu(s_t, a_t) of the expert's steps, for instance by :func:`discounted_feature_sums`.
+    actions : (M,) array of int
+        The expert's actions a_t.
+    n_actions : int
+        A.
+    discount : float
+        gamma.
+
+    Returns
+    -------
+    (M, A, K) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import heuristic_mu
+    >>> heuristic_mu([[2.0]], [1], 2, 0.5).ravel()
+    array([1., 2.])
     """
-    mu = check_array("expectations", expectations, shape=("M", "K"))
-    own = _actions(shown, len(mu), actions)
-    every = np.repeat((discount * mu)[:, None], actions, axis=1)
-    every[np.arange(len(mu)), own] = mu
+    mu = np.asarray(expectations)
+    every = np.repeat((discount * mu)[:, None], n_actions, axis=1)
+    every[np.arange(len(mu)), np.asarray(actions)] = mu
     return every
 
 
-def cost(
-    theta: ArrayLike,
-    expectations: ArrayLike,
-    shown: ArrayLike,
+def large_margin_cost(
+    theta: Floats,
+    expectations: Floats,
+    actions: NDArray[np.int64],
+    step_weights: Floats,
     *,
-    ridge: float = 0.0,
-    step_weights: ArrayLike | None = None,
+    regularisation: float = 0.0,
 ) -> tuple[float, Floats]:
-    """The large-margin cost of a classifier that scores theta . mu(s, a), and a subgradient of it (K,).
+    """The large-margin cost of a classifier that scores theta . mu(s, a), and its subgradient.
 
-    The mean over steps of max_a [theta . mu(s, a) + 1(a != a_E)] - theta . mu(s, a_E), plus ridge ||theta||^2 / 2
-    (Taskar et al. 2005; Klein et al. 2012). With a* the action that comes out on top, mu(s, a*) - mu(s, a_E) is a
-    step's share of the subgradient. Arguments as in :func:`structured_classification`.
+    sum_t w_t {max_a [theta . mu(s, a) + 1(a != a_E)] - theta . mu(s, a_E)} + lambda ||theta||^2 / 2 (Taskar et al.
+    2005; Klein et al. 2012). With a* the maximising action, a step contributes mu(s, a*) - mu(s, a_E) to the
+    subgradient.
+
+    Parameters
+    ----------
+    theta : (K,) array
+    expectations : (M, A, K) array
+        mu_E(s_t, a).
+    actions : (M,) array of int
+        The expert's.
+    step_weights : (M,) array
+        w_t.
+    regularisation : float
+        lambda.
+
+    Returns
+    -------
+    cost : float
+    slope : (K,) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import large_margin_cost
+    >>> large_margin_cost(np.zeros(1), np.array([[[1.0], [0.0]]]), np.array([0]), np.ones(1))
+    (1.0, array([-1.]))
     """
-    score = check_array("theta", theta, shape=("K",))
-    mu = check_array("expectations", expectations, shape=("M", "A", len(score)))
-    own = _actions(shown, len(mu), mu.shape[1])
-    share = (
-        np.full(len(mu), 1 / len(mu))
-        if step_weights is None
-        else np.asarray(step_weights, dtype=float)
-    )
-    row = np.arange(len(mu))
-    scores = mu @ score + (np.arange(mu.shape[1]) != own[:, None])
+    n_steps, n_actions, _ = expectations.shape
+    row = np.arange(n_steps)
+    scores = expectations @ theta + (np.arange(n_actions) != actions[:, None])
     top = scores.argmax(axis=1)
-    value = share @ (scores[row, top] - scores[row, own]) + ridge / 2 * score @ score
-    return float(value), share @ (mu[row, top] - mu[row, own]) + ridge * score
+    cost = step_weights @ (scores[row, top] - scores[row, actions])
+    slope = step_weights @ (expectations[row, top] - expectations[row, actions])
+    return (
+        float(cost + regularisation / 2 * theta @ theta),
+        slope + regularisation * theta,
+    )
 
 
+@checked
 def structured_classification(
     expectations: ArrayLike,
-    shown: ArrayLike,
+    actions: ArrayLike,
     *,
     step_weights: ArrayLike | None = None,
-    ridge: float = 1e-6,
-    rate: float = 1.0,
+    regularisation: float = 1e-6,
+    gradient_step: float = 1.0,
     iterations: int = 1000,
 ) -> Classification:
     """The weights whose scores theta . mu_E(s, a) put the expert's actions first by a margin.
 
-    Subgradient descent, each weight with a step of its own: rate over the root of its squared subgradients so far
-    (Duchi et al. 2011). Features whose expectations hardly differ between actions would else hardly move. The weights
-    are averaged over the second half.
+    Subgradient descent with a step of its own for each weight: ``gradient_step`` over the root of its summed squared
+    subgradients (Duchi et al. 2011). Otherwise features whose expectations hardly differ between actions would hardly
+    move. The weights are averaged over the second half of the iterations.
 
     Parameters
     ----------
-    expectations : mu_E(s_t, a) of every action in every state shown, (M, A, K).
-    shown : the expert's actions, (M,).
-    step_weights : how much each step counts, (M,) with sum 1; alike if not given.
-    ridge : lambda, at least 0, for expectations whose largest contrast has length 1.
-    rate, iterations : of the descent.
+    expectations : (M, A, K) array
+        mu_E(s_t, a) of every action in every demonstrated state.
+    actions : (M,) array of int
+        The expert's.
+    step_weights : (M,) array, optional
+        Weight of each step, with sum 1; by default all are equal.
+    regularisation : float
+        lambda, for expectations scaled so that their largest difference between actions has length 1.
+    gradient_step, iterations : float, int
+        Of the descent; at least two iterations.
+
+    Returns
+    -------
+    Classification
 
     Raises
     ------
-    ValueError : if there is no step, shapes do not fit or an action does not exist.
+    ValueError
+        If there is no step, shapes do not fit or an action does not exist.
+
+    Examples
+    --------
+    >>> from robonav.nirl import structured_classification
+    >>> bool(structured_classification([[[1.0], [0.0]]], [0]).weights[0] > 0)
+    True
     """
-    mu = check_array("expectations", expectations, shape=("M", "A", "K"))
-    if len(mu) == 0:
-        raise ValueError("expectations must hold at least one step, got none")
-    own = _actions(shown, len(mu), mu.shape[1])
-    decay, first = check_real("ridge", ridge, at_least=0), check_positive("rate", rate)
-    apart = np.linalg.norm(mu - mu[np.arange(len(mu)), own][:, None], axis=2)
-    scale = max(apart.max(), np.finfo(float).tiny)
-    mu = mu / scale  # the same classifier with weights in units of 1 / scale
-    theta, squares, total = (
-        np.zeros(mu.shape[2]),
-        np.full(mu.shape[2], 1e-12),
-        np.zeros(mu.shape[2]),
+    mu, own = np.asarray(expectations), np.asarray(actions)
+    shares = (
+        np.full(len(mu), 1 / len(mu))
+        if step_weights is None
+        else np.asarray(step_weights)
     )
-    costs = np.empty(check_integer("iterations", iterations, at_least=2))
+    differences = np.linalg.norm(mu - mu[np.arange(len(mu)), own][:, None], axis=2)
+    scale = max(differences.max(), np.finfo(float).tiny)
+    mu = mu / scale  # the same classifier, with weights in units of 1 / scale
+    theta, total = np.zeros(mu.shape[2]), np.zeros(mu.shape[2])
+    squares, costs = np.full(mu.shape[2], 1e-12), np.empty(iterations)
     for k in range(iterations):
-        costs[k], slope = cost(theta, mu, own, ridge=decay, step_weights=step_weights)
+        costs[k], slope = large_margin_cost(
+            theta, mu, own, shares, regularisation=regularisation
+        )
         squares += slope**2
-        theta = theta - first * slope / np.sqrt(squares)
+        theta = theta - gradient_step * slope / np.sqrt(squares)
         if k >= iterations // 2:
             total += theta
-    return Classification(total / (iterations - iterations // 2) / scale, costs)
+    mean = total / (iterations - iterations // 2)
+    return Classification(mean / scale, costs)
 
 
-def _actions(shown: ArrayLike, steps: int, actions: int) -> NDArray[np.int64]:
-    own = check_array("shown", shown, shape=(steps,), dtype=np.int64)
-    if steps and not 0 <= own.min() <= own.max() < actions:
-        raise ValueError(
-            f"shown must hold actions from 0 to {actions - 1}, got {own.min()} to {own.max()}"
-        )
-    return own
+def lstd_estimate(
+    demonstrations: Transitions, n_actions: int, discount: float
+) -> Floats:
+    """mu_E of every action by :func:`lstd_mu`, with the state-action features as its basis.
+
+    The expectations after an action that was not demonstrated are estimated from similar states.
+
+    Parameters
+    ----------
+    demonstrations : Transitions
+        M decisions.
+    n_actions : int
+        A.
+    discount : float
+        gamma.
+
+    Returns
+    -------
+    (M, A, A (k + 1)) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import TabularTask, lstd_estimate, terrain
+    >>> task = TabularTask(terrain()[1], max_steps=3)
+    >>> lstd_estimate(task.demonstrate(np.zeros(42, dtype=int), 1, seed=0), 4, 0.5).shape
+    (3, 4, 172)
+    """
+    features, following = demonstrations.features, demonstrations.next_index
+    own = state_action_features(features, demonstrations.actions, n_actions)
+    next_own = np.where(following[:, None] >= 0, own[following], 0.0)
+    coefficients = lstd_mu(own, next_own, own, discount, regularisation=1e-3)
+    return all_action_features(features, n_actions) @ coefficients
+
+
+def heuristic_estimate(
+    demonstrations: Transitions, n_actions: int, discount: float
+) -> Floats:
+    """mu_E of every action by Monte Carlo for the expert's own, and by :func:`heuristic_mu` for all others.
+
+    Parameters
+    ----------
+    demonstrations : Transitions
+        M decisions.
+    n_actions : int
+        A.
+    discount : float
+        gamma.
+
+    Returns
+    -------
+    (M, A, A (k + 1)) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import TabularTask, heuristic_estimate, terrain
+    >>> task = TabularTask(terrain()[1], max_steps=3)
+    >>> heuristic_estimate(task.demonstrate(np.zeros(42, dtype=int), 1, seed=0), 4, 0.5).shape
+    (3, 4, 172)
+    """
+    actions = demonstrations.actions
+    own = state_action_features(demonstrations.features, actions, n_actions)
+    sums = discounted_feature_sums(own, demonstrations.trajectory, discount)
+    return heuristic_mu(sums, actions, n_actions, discount)
+
+
+@checked
+def scirl(
+    demonstrations: Transitions,
+    task: Task,
+    *,
+    estimate: Estimate = lstd_estimate,
+    regularisation: float = 1e-6,
+    power: float = 1.0,
+    improver: ReplaySGD = ReplaySGD(),  # noqa: B008 - frozen
+    seed: int | np.random.Generator = 0,
+    **training: Any,
+) -> IRLResult:
+    """SCIRL (Klein et al. 2012): a reward by classification, then neural policy iteration under it.
+
+    Parameters
+    ----------
+    demonstrations : Transitions
+        The expert's decisions.
+    task : Task
+        Where the learner practises, once it has the reward.
+    estimate : callable
+        Of mu_E: :func:`lstd_estimate` or :func:`heuristic_estimate`.
+    regularisation : float
+        lambda of the classifier.
+    power : float
+        How far rare actions are made up for, see :func:`inverse_frequency_weights`; 0 is the paper's cost.
+    improver : ReplaySGD
+        Improves the network; its discount is that of mu_E.
+    seed : int or Generator
+        Of all random numbers.
+    **training
+        Other arguments of :func:`train_under_reward`.
+
+    Returns
+    -------
+    IRLResult
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import TabularTask, scirl, terrain
+    >>> task = TabularTask(terrain()[1])
+    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+    >>> scirl(expert, task, iterations=2).policy.shape
+    (42,)
+    """
+    actions, n_actions = demonstrations.actions, task.n_actions
+    mu = estimate(demonstrations, n_actions, improver.discount)
+    shares = inverse_frequency_weights(actions, n_actions, power=power)
+    classifier = structured_classification(
+        mu, actions, step_weights=shares, regularisation=regularisation
+    )
+    theta = classifier.weights.reshape(n_actions, -1)
+    return train_under_reward(
+        demonstrations, task, theta, improver=improver, seed=seed, **training
+    )

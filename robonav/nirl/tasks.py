@@ -1,56 +1,91 @@
-"""Where a learner practises: the robot in new maps, or a finite MDP with known truth (step 4 of Algorithm 10)."""
+"""Where a learner practises (step 4 of Algorithm 10): the robot in new maps, or a finite MDP with known truth."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from robonav.lfd.demonstrations import LEARNED
-from robonav.networks.policy import sample_actions
-from robonav.robot import Encoder, Sensing, Simulator, Worlds, drive, random_worlds
+from robonav.networks.multilayer_perceptron import Network
+from robonav.networks.policy import NetworkPolicy, sample_actions
+from robonav.robot import Encoder, Sensing, Simulator, drive, random_worlds
 from robonav.robot._fast import ARRIVED, COLLIDED
 from robonav.validation import check_integer, check_positive
 
-from .reward_free_mdp import RewardFreeMDP
-from .transitions import ENCODER, Floats, Ints, Steps
-
-Chances = Callable[[Floats], Floats]
-"""``chances(inputs (N, k)) -> (N, A)``: how likely a policy is to take each action."""
+from .policy import ActionProbabilities
+from .reward_free_mdp import RewardFreeMDP, Trajectories
+from .transitions import ENCODER, Floats, Ints, Transitions
 
 
-class Course(Protocol):
-    """Anything a policy can practise on."""
+class Task(Protocol):
+    """Anything that a policy can practise on.
+
+    Examples
+    --------
+    >>> from robonav.nirl import RobotTask, Task
+    >>> task: Task = RobotTask()
+    >>> task.n_inputs, task.n_actions
+    (17, 5)
+    """
 
     @property
-    def inputs(self) -> int:
+    def n_inputs(self) -> int:
         """k, the number of a policy's inputs."""
 
     @property
-    def actions(self) -> int:
-        """A."""
+    def n_actions(self) -> int:
+        """A, the number of actions."""
 
-    def drive(self, chances: Chances, rng: np.random.Generator) -> Steps:
-        """A few drives with a policy, each from a new start."""
+    def rollout(
+        self, policy: ActionProbabilities, rng: np.random.Generator
+    ) -> Transitions:
+        """A few episodes with a policy, each from a new start."""
+
+    def rollout_from(
+        self,
+        demonstrations: Transitions,
+        index: Ints,
+        policy: ActionProbabilities,
+        n_decisions: int,
+        rng: np.random.Generator,
+    ) -> Transitions:
+        """Segments of ``n_decisions`` decisions at most, each begun where a demonstrated decision was made."""
+
+    def greedy_policy(self, network: Network) -> Any:
+        """The policy that always takes the action with the largest output of a network."""
 
 
 @dataclass(frozen=True)
 class RobotTask:
-    """The robot in new random maps; its reflexes act as ever, and only what the policy decided is kept.
+    """The robot in new random maps. Its reflex acts as usual; only the decisions of the policy are kept.
 
     Attributes
     ----------
-    trajectories : drives at a time, each in a map of its own.
-    obstacles, moving : of the maps.
-    speed : m/s.
-    max_steps : seconds after which a drive is called off.
-    encoder : phi.
+    n_episodes : int
+        Episodes of a rollout, each in a map of its own.
+    obstacles, moving : int
+        Of the maps.
+    speed : float
+        m/s.
+    max_steps : int
+        Seconds after which an episode ends.
+    encoder : Encoder
+        phi.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import RobotTask
+    >>> task = RobotTask(n_episodes=2, obstacles=5)
+    >>> uniform = lambda inputs: np.full((len(inputs), 5), 0.2)
+    >>> len(task.rollout(uniform, np.random.default_rng(0)).arrived)
+    2
     """
 
-    trajectories: int = 10
+    n_episodes: int = 10
     obstacles: int = 20
     moving: int = 0
     speed: float = 2.0
@@ -58,69 +93,88 @@ class RobotTask:
     encoder: Encoder = ENCODER
 
     def __post_init__(self) -> None:
-        check_integer("trajectories", self.trajectories, at_least=1)
+        check_integer("n_episodes", self.n_episodes, at_least=1)
         check_integer("max_steps", self.max_steps, at_least=1)
         check_positive("speed", self.speed)
 
     @property
-    def inputs(self) -> int:
+    def n_inputs(self) -> int:
         return self.encoder.size
 
     @property
-    def actions(self) -> int:
+    def n_actions(self) -> int:
         return LEARNED
 
-    def drive(self, chances: Chances, rng: np.random.Generator) -> Steps:
-        """``trajectories`` drives, each in a map that was never driven before."""
-        worlds = random_worlds(self.trajectories, self.obstacles, self.moving, seed=rng)
+    def greedy_policy(self, network: Network) -> NetworkPolicy:
+        """The network as a policy that :func:`robonav.robot.navigate` takes."""
+        return NetworkPolicy(network, self.encoder)
+
+    def rollout(
+        self, policy: ActionProbabilities, rng: np.random.Generator
+    ) -> Transitions:
+        """``n_episodes`` episodes, each in a new map."""
+        worlds = random_worlds(self.n_episodes, self.obstacles, self.moving, seed=rng)
         simulator = Simulator(worlds, self.speed, max_steps=self.max_steps)
-        return collect(simulator, chances, self.encoder, rng)
+        return collect(simulator, policy, self.encoder, rng)
+
+    def rollout_from(
+        self,
+        demonstrations: Transitions,
+        index: Ints,
+        policy: ActionProbabilities,
+        n_decisions: int,
+        rng: np.random.Generator,
+    ) -> Transitions:
+        """Segments begun at the poses of demonstrated decisions; obstacles stand where they start."""
+        states = demonstrations.states
+        if states is None:
+            raise ValueError("demonstrations must hold the robot's states, got none")
+        worlds = states.worlds[demonstrations.trajectory[index]]
+        simulator = Simulator(worlds, states.speed, max_steps=self.max_steps)
+        simulator.poses = np.ascontiguousarray(states.poses[index], dtype=float)
+        return collect(simulator, policy, self.encoder, rng, n_decisions=n_decisions)
 
 
 def collect(
     simulator: Simulator,
-    chances: Chances,
+    policy: ActionProbabilities,
     encoder: Encoder,
     rng: np.random.Generator,
     *,
-    decisions: int | None = None,
-) -> Steps:
-    """Run N episodes with a policy, of ``decisions`` decisions each at most, and keep what the policy decided."""
-    decided = np.zeros(len(simulator), dtype=np.int64)
+    n_decisions: int | None = None,
+) -> Transitions:
+    """Run the robots of a simulator with a policy, for ``n_decisions`` decisions each at most."""
+    made = np.zeros(len(simulator), dtype=np.int64)
     rows: list[tuple[Ints, Floats, Ints, Ints]] = []
 
     def choose(simulator: Simulator, sensing: Sensing, robots: Ints) -> Ints:
         inputs = encoder(sensing)
-        actions = sample_actions(chances(inputs), rng.random(len(inputs)))
+        actions = sample_actions(policy(inputs), rng.random(len(inputs)))
         rows.append((robots, inputs, actions, simulator.steps[robots]))
-        decided[robots] += 1
+        made[robots] += 1
         return actions
 
     for _ in drive(simulator, choose):
-        if decisions is not None:
-            simulator.stop(np.flatnonzero(decided >= decisions))
-    return _by_drive(rows, encoder.size, simulator.outcome)
+        if n_decisions is not None:
+            simulator.stop(np.flatnonzero(made >= n_decisions))
+    return _by_episode(rows, encoder.size, simulator.outcome)
 
 
-def _by_drive(
+def _by_episode(
     rows: list[tuple[Ints, Floats, Ints, Ints]], width: int, outcome: NDArray[np.int8]
-) -> Steps:
-    """Decisions by drive from decisions by time."""
-    nothing = (
-        np.empty(0, np.int64),
-        np.empty((0, width)),
-        np.empty(0, np.int64),
-        np.empty(0, np.int64),
-    )
-    owner, inputs, actions, when = (
-        np.concatenate(part) for part in zip(nothing, *rows, strict=True)
+) -> Transitions:
+    """Decisions sorted by episode, from decisions sorted by time."""
+    nothing = np.empty(0, np.int64)
+    empty = (nothing, np.empty((0, width)), nothing, nothing)
+    owner, inputs, actions, times = (
+        np.concatenate(column) for column in zip(empty, *rows, strict=True)
     )
     order = np.argsort(owner, kind="stable")
-    return Steps(
+    return Transitions(
         inputs[order],
         actions[order],
         owner[order],
-        when[order],
+        times[order],
         outcome == COLLIDED,
         outcome == ARRIVED,
     )
@@ -128,55 +182,82 @@ def _by_drive(
 
 @dataclass(frozen=True, eq=False)
 class TabularTask:
-    """A finite MDP as a course: one input a state. A drive ends in a terminal state, or after ``steps``.
+    """A finite MDP with one input a state. An episode ends in a terminal state, or after ``max_steps``.
 
     Attributes
     ----------
-    mdp : S states, A actions.
-    trajectories : drives at a time.
-    steps : of each at most.
+    mdp : RewardFreeMDP
+        S states, A actions.
+    n_episodes : int
+        Episodes of a rollout.
+    max_steps : int
+        Steps of each at most.
+
+    Examples
+    --------
+    >>> from robonav.nirl import TabularTask, terrain
+    >>> grid, mdp = terrain()
+    >>> task = TabularTask(mdp)
+    >>> task.n_inputs, task.n_actions
+    (42, 4)
     """
 
     mdp: RewardFreeMDP
-    trajectories: int = 10
-    steps: int = 40
+    n_episodes: int = 10
+    max_steps: int = 40
 
     @property
-    def inputs(self) -> int:
+    def n_inputs(self) -> int:
         return self.mdp.n_states
 
     @property
-    def actions(self) -> int:
+    def n_actions(self) -> int:
         return self.mdp.n_actions
 
-    def drive(self, chances: Chances, rng: np.random.Generator) -> Steps:
-        """``trajectories`` walks."""
-        return self.shown(
-            chances(np.eye(self.mdp.n_states)), self.trajectories, seed=rng
+    def greedy_policy(self, network: Network) -> NDArray[np.intp]:
+        """The best action (S,) of each state."""
+        return network.decide(np.eye(self.mdp.n_states))
+
+    def rollout(
+        self, policy: ActionProbabilities, rng: np.random.Generator
+    ) -> Transitions:
+        """``n_episodes`` episodes from the initial state."""
+        probabilities = policy(np.eye(self.mdp.n_states))
+        return self.demonstrate(probabilities, self.n_episodes, seed=rng)
+
+    def rollout_from(
+        self,
+        demonstrations: Transitions,
+        index: Ints,
+        policy: ActionProbabilities,
+        n_decisions: int,
+        rng: np.random.Generator,
+    ) -> Transitions:
+        """Segments begun in the states of demonstrated decisions."""
+        first = demonstrations.inputs[index].argmax(axis=1)
+        probabilities = policy(np.eye(self.mdp.n_states))
+        n = len(first)
+        return self._transitions(
+            self.mdp.rollout(probabilities, n, n_decisions, seed=rng, first=first)
         )
 
-    def shown(
-        self, policy: Floats, walks: int, *, seed: int | np.random.Generator
-    ) -> Steps:
-        """Walks by a known policy, (S,) actions or (S, A) probabilities: an expert's demonstrations, say."""
-        walked = self.mdp.walk(policy, walks, self.steps, seed=seed)
-        alive = ~self.mdp.terminal[walked.states]
-        trajectory = walked.trajectory[alive.ravel()]
-        when = np.broadcast_to(np.arange(self.steps), alive.shape)[alive]
-        inputs = np.eye(self.mdp.n_states)[walked.states[alive]]
-        over = ~alive[:, -1]
-        return Steps(
-            inputs,
-            walked.actions[alive],
-            trajectory,
-            when,
-            np.zeros(walks, dtype=bool),
-            over,
+    def demonstrate(
+        self, policy: ArrayLike, n_episodes: int, *, seed: int | np.random.Generator
+    ) -> Transitions:
+        """Episodes with a known policy, (S,) actions or (S, A) probabilities, for instance an expert's."""
+        return self._transitions(
+            self.mdp.rollout(policy, n_episodes, self.max_steps, seed=seed)
         )
 
-
-def start_at(worlds: Worlds, poses: Floats, speed: float, max_steps: int) -> Simulator:
-    """Robots put at ``poses`` (N, 3), one in each of N worlds whose obstacles stand where they start."""
-    simulator = Simulator(worlds, speed, max_steps=max_steps)
-    simulator.poses = np.ascontiguousarray(poses, dtype=float)
-    return simulator
+    def _transitions(self, trajectories: Trajectories) -> Transitions:
+        """The decisions of trajectories, up to the terminal states."""
+        alive = ~self.mdp.terminal[trajectories.states]
+        steps = np.broadcast_to(np.arange(alive.shape[1]), alive.shape)
+        return Transitions(
+            np.eye(self.mdp.n_states)[trajectories.states[alive]],
+            trajectories.actions[alive],
+            trajectories.trajectory[alive.ravel()],
+            steps[alive],
+            np.zeros(len(alive), dtype=bool),
+            ~alive[:, -1],
+        )

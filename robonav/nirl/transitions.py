@@ -1,16 +1,16 @@
-"""Decisions of a driver, laid end to end: what inverse reinforcement learning sees of experts and learners alike."""
+"""Decisions of an expert or a learner, laid end to end: the data of inverse reinforcement learning."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.lfd.demonstrations import LEARNED, Demonstrations
-from robonav.robot import NNQL_SENSORS, Encoder
+from robonav.robot import NNQL_SENSORS, Encoder, Worlds
 from robonav.validation import check_array
 
 Floats = NDArray[np.float64]
@@ -20,92 +20,152 @@ ENCODER = Encoder(NNQL_SENSORS, walls=True)
 """phi(s) of section 5.4.1: seven degrees of danger, the target's sector as sine and cosine, target seen, wall flags."""
 
 
-@dataclass(frozen=True, eq=False)
-class Steps:
-    """M decisions of N drives, one drive after the other. Steps that the robot's reflexes took are not among them.
+class RobotStates(NamedTuple):
+    """Where the robot was at each of M decisions, so that a simulator can start there.
 
     Attributes
     ----------
-    inputs : phi(s_t), (M, k).
-    actions : (M,) 0 to A - 1.
-    trajectory : (M,) the drive that each belongs to, ascending from 0 to N - 1; a drive may have no decisions.
-    when : (M,) seconds into its drive, those of reflexes counted.
-    failed : (N,) whether the drive ended in a collision.
-    arrived : (N,) whether it reached its target.
+    worlds : Worlds
+        One of each trajectory.
+    poses : (M, 3) array
+        x, y and heading.
+    speed : float
+        m/s.
+    """
+
+    worlds: Worlds
+    poses: Floats
+    speed: float
+
+
+@dataclass(frozen=True, eq=False)
+class Transitions:
+    """M decisions in N episodes, one episode after the other. Steps in which the robot's reflex acted are left out.
+
+    Attributes
+    ----------
+    inputs : (M, k) array
+        phi(s_t).
+    actions : (M,) array of int
+        0 to A - 1.
+    trajectory : (M,) array of int
+        The episode of each, ascending from 0 to N - 1. An episode may have no decisions.
+    times : (M,) array of int
+        Seconds since the episode began, those of reflexes counted.
+    collided : (N,) array of bool
+        Whether the episode ended in a collision.
+    arrived : (N,) array of bool
+        Whether it reached the target.
+    states : RobotStates, optional
+        Where a simulator can start again, if known.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate
+    >>> from robonav.nirl import expert_transitions
+    >>> from robonav.robot import random_worlds
+    >>> transitions = expert_transitions(demonstrate(random_worlds(2, obstacles=20, seed=3)))
+    >>> transitions.inputs.shape[1], bool(transitions.arrived.all())
+    (17, True)
     """
 
     inputs: Floats
     actions: Ints
     trajectory: Ints
-    when: Ints
-    failed: NDArray[np.bool_]
+    times: Ints
+    collided: NDArray[np.bool_]
     arrived: NDArray[np.bool_]
+    states: RobotStates | None = None
 
     def __len__(self) -> int:
         return len(self.actions)
 
     @property
     def features(self) -> Floats:
-        """phi(s_t) and a constant 1, (M, k + 1): the bias unit of section 5.4.2, for rewards to use as well."""
-        return with_constant(self.inputs)
+        """phi(s_t) and a constant 1, (M, k + 1): the bias unit of section 5.4.2, which rewards use as well."""
+        return add_constant(self.inputs)
 
     @property
-    def after(self) -> Ints:
-        """(M,) the next decision of the same drive, -1 where there is none."""
+    def next_index(self) -> Ints:
+        """(M,) the next decision of the same episode, -1 where there is none."""
         following = np.arange(1, len(self) + 1)
         last = np.append(self.trajectory[1:] != self.trajectory[:-1], True)[: len(self)]
         return np.where(last, -1, following)
 
-    def with_actions(self, actions: ArrayLike) -> Steps:
-        """The same states with other actions: refined ones."""
+    def with_actions(self, actions: ArrayLike) -> Transitions:
+        """The same states with other actions (M,), for instance refined ones."""
         return replace(
             self,
             actions=check_array("actions", actions, shape=(len(self),), dtype=np.int64),
         )
 
 
-def with_constant(inputs: Floats) -> Floats:
+def add_constant(inputs: Floats) -> Floats:
     """Inputs (M, k) and a column of ones."""
     return np.concatenate([inputs, np.ones((len(inputs), 1))], axis=1)
 
 
-def joined(parts: Sequence[Steps]) -> Steps:
-    """Several as one, their drives numbered through."""
-    drives = np.cumsum([0] + [len(part.failed) for part in parts])
-    columns: dict[str, Any] = {
-        field.name: np.concatenate([getattr(part, field.name) for part in parts])
-        for field in fields(Steps)
-    }
-    columns["trajectory"] = np.concatenate(
-        [part.trajectory + d for part, d in zip(parts, drives, strict=False)]
+def concatenate(parts: Sequence[Transitions]) -> Transitions:
+    """Several as one, their episodes numbered from the first to the last."""
+    offsets = np.cumsum([0] + [len(part.collided) for part in parts])
+    trajectories = [
+        part.trajectory + offset for part, offset in zip(parts, offsets, strict=False)
+    ]
+    return Transitions(
+        np.concatenate([part.inputs for part in parts]),
+        np.concatenate([part.actions for part in parts]),
+        np.concatenate(trajectories),
+        np.concatenate([part.times for part in parts]),
+        np.concatenate([part.collided for part in parts]),
+        np.concatenate([part.arrived for part in parts]),
     )
-    return Steps(**columns)
 
 
 def expert_transitions(
     demonstrations: Demonstrations, encoder: Encoder = ENCODER
-) -> Steps:
+) -> Transitions:
     """What an expert decided: the effective pairs of its demonstrations.
+
+    Parameters
+    ----------
+    demonstrations : Demonstrations
+        Of any expert.
+    encoder : Encoder
+        phi.
+
+    Returns
+    -------
+    Transitions
 
     Raises
     ------
-    ValueError : if there is none.
+    ValueError
+        If there is no effective pair.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate
+    >>> from robonav.nirl import expert_transitions
+    >>> from robonav.robot import random_worlds
+    >>> len(expert_transitions(demonstrate(random_worlds(1, obstacles=20, seed=3)))) > 0
+    True
     """
     first = np.searchsorted(
         demonstrations.trajectory, np.arange(len(demonstrations.worlds))
     )
-    when = np.arange(len(demonstrations)) - first[demonstrations.trajectory]
+    times = np.arange(len(demonstrations)) - first[demonstrations.trajectory]
     pairs = demonstrations.effective
     if len(pairs) == 0:
         raise ValueError(
             "demonstrations must hold an effective pair, a step with something in range and one of the five learned "
             f"actions, got none in {len(demonstrations)} steps"
         )
-    return Steps(
+    return Transitions(
         encoder(pairs.sensing),
         pairs.actions,
         pairs.trajectory,
-        when[~demonstrations.sensing.safe & (demonstrations.actions < LEARNED)],
+        times[~demonstrations.sensing.safe & (demonstrations.actions < LEARNED)],
         demonstrations.outcome == "collided",
         demonstrations.outcome == "arrived",
+        RobotStates(pairs.worlds, pairs.poses, pairs.speed),
     )

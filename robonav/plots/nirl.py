@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav import style
 from robonav.experiments import Results
 from robonav.lfd import Demonstrations
-from robonav.nirl.transitions import with_constant
+from robonav.nirl.transitions import add_constant
 from robonav.robot import COLLISION_DISTANCE, SENSOR_RANGE, Encoder, Worlds, sense
 from robonav.robot._fast import SECTOR
 from robonav.robot.drawing import draw_robot, draw_world
@@ -380,7 +380,7 @@ def draw_reward_map(
     sensing = sense(
         world[np.zeros(len(x), dtype=int)], np.column_stack([x, y, heading])
     )
-    reward = with_constant(encoder(sensing)) @ np.asarray(weights, dtype=float)[0]
+    reward = add_constant(encoder(sensing)) @ np.asarray(weights, dtype=float)[0]
     reward[sensing.safe | (sensing.ranges.min(axis=1) < COLLISION_DISTANCE)] = np.nan
     most = np.nanmax(abs(reward))
     image = axes.imshow(

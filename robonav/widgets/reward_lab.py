@@ -11,7 +11,7 @@ import traitlets
 from numpy.typing import ArrayLike
 
 from robonav.lfd.demonstrations import LEARNED
-from robonav.nirl import Steps
+from robonav.nirl import Transitions
 from robonav.robot import Encoder, Worlds
 from robonav.validation import check_array, check_positive, check_real
 
@@ -37,7 +37,7 @@ class RewardLab(anywidget.AnyWidget):
 def reward_lab(
     reward_weights: ArrayLike,
     encoder: Encoder,
-    shown: Steps,
+    shown: Transitions,
     worlds: Mapping[str, Worlds],
     others: Worlds,
     *,

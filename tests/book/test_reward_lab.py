@@ -12,7 +12,7 @@ from playwright.sync_api import Locator, expect
 
 from robonav.lfd import demonstrate
 from robonav.nirl import ENCODER, expert_transitions
-from robonav.nirl.transitions import with_constant
+from robonav.nirl.transitions import add_constant
 from robonav.robot import navigate, random_worlds
 from robonav.widgets.reward_lab import reward_lab
 
@@ -37,7 +37,7 @@ def driven(theta, worlds):
     """How a robot ends that takes what the reward likes best."""
 
     def policy(sensing, rng):
-        return (with_constant(ENCODER(sensing)) @ theta.T).argmax(axis=1)
+        return (add_constant(ENCODER(sensing)) @ theta.T).argmax(axis=1)
 
     return navigate(policy, worlds, max_steps=200)
 

@@ -51,6 +51,9 @@ READABLE = [
     "nnql.dqn",
     "lfd.dagger",
     "nirl.nirl",
+    "nirl.apprenticeship",
+    "nirl.relative_entropy",
+    "nirl.scirl",
 ]
 RESULTS = {
     "mdp.Solution": {"values", "policy", "iterations", "history"},
@@ -150,7 +153,7 @@ def without_example(package: str) -> list[str]:
     ]
 
 
-WAITING: set[str] = {"mdp", "robot", "networks", "lfd", "nnql", "nirl"}
+WAITING: set[str] = {"mdp", "robot", "networks", "lfd", "nnql"}
 
 
 @pytest.mark.parametrize("package", PUBLIC)

@@ -11,7 +11,7 @@ import numpy as np
 from robonav.networks import Network, NetworkPolicy
 from robonav.nirl import (
     ZERO_TERMINAL_VALUES,
-    Learned,
+    IRLResult,
     LeastSquaresReward,
     ReplaySGD,
     SingleGradientStep,
@@ -36,29 +36,29 @@ from .setup import (
 CHOOSING_SEED: int = CONDITIONS["choosing_seed"]
 EVERY = 5  # of a run's policies are tried where navigation in other worlds chooses
 
-_FAST = ReplaySGD(rate=(0.4, 0.4), ends=ZERO_TERMINAL_VALUES)
+_FAST = ReplaySGD(gradient_step=(0.4, 0.4), terminal_values=ZERO_TERMINAL_VALUES)
 CHANGES: dict[str, Mapping[str, Any]] = {
     "Algorithm 10 as written": {
-        "reward": LeastSquaresReward(),
-        "improve": SingleGradientStep(),
+        "reward_update": LeastSquaresReward(),
+        "improver": SingleGradientStep(),
         "score": accuracy,
         "target": "number",
     },
     "reward: expert against policy, in the expert's states": {
-        "reward": SubgradientMaxMargin(power=0.0)
+        "reward_update": SubgradientMaxMargin(power=0.0)
     },
     "rewards in [0, 1]; 300 steps, this iteration's episodes": {
-        "improve": replace(_FAST, samples=300, replay=1)
+        "improver": replace(_FAST, n_samples=300, replay=1)
     },
-    "9,600 steps, 20 iterations' episodes": {"improve": _FAST},
-    "rare actions count alike": {"reward": SubgradientMaxMargin()},
+    "9,600 steps, 20 iterations' episodes": {"improver": _FAST},
+    "rare actions count alike": {"reward_update": SubgradientMaxMargin()},
     "chosen by balanced accuracy": {"score": balanced_accuracy},
     "the target's sector as sine and cosine": {"target": "sine-cosine"},
     "any end but a collision is worth the most": {
-        "improve": ReplaySGD(rate=(0.4, 0.4))
+        "improver": ReplaySGD(gradient_step=(0.4, 0.4))
     },
-    "learning rate falls": {"improve": ReplaySGD()},
-    "discount 0.9": {"improve": ReplaySGD(discount=0.9)},
+    "learning rate falls": {"improver": ReplaySGD()},
+    "discount 0.9": {"improver": ReplaySGD(discount=0.9)},
 }
 """What each change sets, on top of all changes before it."""
 
@@ -77,13 +77,11 @@ def ablation(case: Case, seed: int, scale: str) -> Numbers:
     options = options_up_to(str(case["change"]))
     course = task(options.pop("target"))
     shown = demonstrations(seed)
-    learned = learn(
-        shown, "nirl", seed, course=course, iterations=ITERATIONS, **options
-    )
+    learned = learn(shown, "nirl", seed, task=course, iterations=ITERATIONS, **options)
     return SETUP.evaluate(learned.policy, SETUP.test_worlds(seed, scale))
 
 
-def policy_at(learned: Learned, k: int) -> NetworkPolicy:
+def policy_at(learned: IRLResult, k: int) -> NetworkPolicy:
     """The policy of a run after iteration k."""
     stack = learned.history.networks
     network = Network(
@@ -92,14 +90,14 @@ def policy_at(learned: Learned, k: int) -> NetworkPolicy:
     return replace(learned.policy, network=network)
 
 
-def best_by_navigation(learned: Learned, worlds: Worlds) -> int:
+def best_by_navigation(learned: IRLResult, worlds: Worlds) -> int:
     """The iteration whose policy has the greatest success in some worlds, of every fifth one."""
     tried = range(0, len(learned.history.accuracies), EVERY)
     success = [navigate(policy_at(learned, k), worlds).success.mean() for k in tried]
     return tried[int(np.argmax(success))]
 
 
-CHOICES: dict[str, Callable[[Learned, Worlds], int]] = {
+CHOICES: dict[str, Callable[[IRLResult, Worlds], int]] = {
     "accuracy": lambda learned, worlds: int(learned.history.accuracies.argmax()),
     "balanced accuracy": lambda learned, worlds: int(learned.history.balanced.argmax()),
     "the last": lambda learned, worlds: len(learned.history.accuracies) - 1,

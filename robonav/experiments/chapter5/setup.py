@@ -27,7 +27,7 @@ from robonav.networks import NetworkPolicy
 from robonav.nirl import (
     NEUTRAL_TERMINAL_VALUES,
     SURVIVAL_BONUS,
-    Learned,
+    IRLResult,
     ReplaySGD,
     RobotTask,
     SubgradientMaxMargin,
@@ -105,28 +105,28 @@ def policy_improvement(settings: Settings) -> ReplaySGD:
     """The policy improvement that all methods share."""
     return ReplaySGD(
         discount=settings["discount"],
-        rate=settings["gradient_step"],
-        samples=settings["samples"],
+        gradient_step=settings["gradient_step"],
+        n_samples=settings["samples"],
         replay=settings["replay"],
-        ends=TERMINAL_VALUES[settings.get("terminal_values", "bonus")],
+        terminal_values=TERMINAL_VALUES[settings.get("terminal_values", "bonus")],
     )
 
 
 def own_options(method: str, settings: Settings, iterations: int) -> dict[str, Any]:
     """The arguments that one method alone has."""
     if method == "nirl":
-        return {"reward": SubgradientMaxMargin(power=settings["power"])}
+        return {"reward_update": SubgradientMaxMargin(power=settings["power"])}
     if method == "apprenticeship":
         return {
             "expectations": EXPECTATIONS[settings["expectations"]],
-            "guesses": min(settings["rewards"], iterations),
+            "n_rewards": min(settings["rewards"], iterations),
         }
     if method == "relative_entropy":
         return {"horizon": settings["horizon"], "slack": settings["slack"]}
     return {
         "estimate": ESTIMATES[settings["estimate"]],
         "power": settings["power"],
-        "ridge": settings["regularisation"],
+        "regularisation": settings["regularisation"],
     }
 
 
@@ -138,7 +138,7 @@ def train_irl(
     *,
     length: float = 1.0,
     **changes: Any,
-) -> Learned:
+) -> IRLResult:
     """Train a method of inverse reinforcement learning, or a control under a reward that is not learned.
 
     Parameters
@@ -158,14 +158,14 @@ def train_irl(
     """
     iterations = round(ITERATIONS * length)
     common: dict[str, Any] = {
-        "course": task(settings["target"]),
-        "improve": policy_improvement(settings),
+        "task": task(settings["target"]),
+        "improver": policy_improvement(settings),
         "iterations": iterations,
-        "eta": settings["inverse_temperature"],
+        "inverse_temperature": settings["inverse_temperature"],
         "hidden": settings["hidden"],
     }
     if method in CONTROLS:
-        weights = control_reward(method, seed, common["course"].inputs)
+        weights = control_reward(method, seed, common["task"].n_inputs)
         return learn_under_reward(shown, weights, seed=seed, **common)
     own = own_options(method, settings, iterations)
     return learn(shown, method, seed, **own, **common, **changes)
@@ -187,7 +187,7 @@ def trained(
     expert: str = "computer",
     *,
     length: float = 1.0,
-) -> Learned:
+) -> IRLResult:
     """One run of a method or control. Runs are kept, since several tables test the same policies."""
     return _trained(method, seed, settings, number, expert, length)
 
@@ -195,7 +195,7 @@ def trained(
 @lru_cache(maxsize=300)
 def _trained(
     method: str, seed: int, settings: Settings, number: int, expert: str, length: float
-) -> Learned:
+) -> IRLResult:
     shown = demonstrations(seed, number, expert)
     return train_irl(method, shown, seed, settings, length=length)
 

@@ -16,7 +16,7 @@ from robonav.nirl import (
     map_uniform_prior,
     most_frequent,
 )
-from robonav.nirl.methods import Refinement
+from robonav.nirl.learning import Refinement
 from robonav.nnql import NavigationTask, train
 from robonav.robot import Policy, neighbour_slip, random_worlds, turn_to_clearer_side
 
@@ -61,11 +61,11 @@ def train_under_reward(
     learned = learn_under_reward(
         demonstrations(seed),
         reward_weights,
-        course=task(settings["target"], obstacles=obstacles, speed=speed),
+        task=task(settings["target"], obstacles=obstacles, speed=speed),
         seed=seed + 1,
-        improve=policy_improvement(settings),
+        improver=policy_improvement(settings),
         iterations=iterations,
-        eta=settings["inverse_temperature"],
+        inverse_temperature=settings["inverse_temperature"],
         hidden=settings["hidden"],
     )
     return policy_at(learned, iterations)

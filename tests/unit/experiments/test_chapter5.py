@@ -135,14 +135,14 @@ def test_learning_twice_in_a_process_is_learning_once():
 
 def test_steps_begin_with_the_algorithm_as_written_and_add_up():
     written = ablations.options_up_to("Algorithm 10 as written")
-    assert isinstance(written["reward"], LeastSquaresReward)
-    assert isinstance(written["improve"], SingleGradientStep)
+    assert isinstance(written["reward_update"], LeastSquaresReward)
+    assert isinstance(written["improver"], SingleGradientStep)
     assert written["score"] is accuracy
     half = ablations.options_up_to("chosen by balanced accuracy")
     assert half["score"] is balanced_accuracy
     assert half["target"] == "number"
-    assert half["improve"].ends == ZERO_TERMINAL_VALUES
-    assert ablations.options_up_to("discount 0.9")["improve"].discount == 0.9
+    assert half["improver"].terminal_values == ZERO_TERMINAL_VALUES
+    assert ablations.options_up_to("discount 0.9")["improver"].discount == 0.9
 
 
 def test_choices_choose_what_they_say():

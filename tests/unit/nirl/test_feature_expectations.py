@@ -47,7 +47,7 @@ def test_a_reward_over_blocks_is_linear_in_the_state_for_each_action(phi, chosen
 
 def test_an_action_out_of_range_gets_a_sentence():
     with pytest.raises(
-        ValueError, match="chosen must hold actions from 0 to 4, got 0 to 7"
+        ValueError, match="actions must lie between 0 and 4, got 0 to 7"
     ):
         state_action_features(np.ones((2, 3)), [0, 7], 5)
 
@@ -80,7 +80,7 @@ def test_equal_expectations_equal_values(terrain, weights):
 
 
 def test_sampled_expectations_approach_the_exact_ones(terrain):
-    walks = terrain.task.walk(terrain.expert, 4000, 80, seed=1)
+    walks = terrain.task.rollout(terrain.expert, 4000, 80, seed=1)
     features = terrain.task.features[walks.states, walks.actions].reshape(-1, 4)
     estimate = empirical_expectations(features, walks.trajectory, terrain.task.discount)
     parts = discounted_feature_sums(
@@ -117,7 +117,7 @@ def test_walks_follow_the_transitions():
     task = RewardFreeMDP(
         np.stack([stay, go]), np.zeros((4, 2, 1)), 0.5, np.array([0, 0, 1.0, 0])
     )
-    walks = task.walk(np.array([1, 1, 1, 0]), 2, 4, seed=0)
+    walks = task.rollout(np.array([1, 1, 1, 0]), 2, 4, seed=0)
     np.testing.assert_array_equal(walks.states, [[2, 3, 3, 3]] * 2)
     np.testing.assert_array_equal(walks.actions, [[1, 0, 0, 0]] * 2)
     np.testing.assert_array_equal(walks.trajectory, [0, 0, 0, 0, 1, 1, 1, 1])

@@ -149,7 +149,7 @@ def test_the_apprentice_of_demonstrations(terrain, method):
     """From 200 walks instead of the model."""
     from robonav.nirl import empirical_expectations
 
-    walks = terrain.task.walk(terrain.expert, 200, 60, seed=5)
+    walks = terrain.task.rollout(terrain.expert, 200, 60, seed=5)
     shown = terrain.task.features[walks.states, walks.actions].reshape(-1, 4)
     expert = empirical_expectations(shown, walks.trajectory, terrain.task.discount)
     learned = learn(terrain, method, expert, iterations=20)

@@ -12,10 +12,10 @@ from robonav.errors import ConvergenceWarning
 from robonav.mdp.dynamic_programming import value_iteration
 from robonav.mdp.models import FiniteMDP
 from robonav.nirl import (
-    boltzmann,
+    boltzmann_policy,
     empirical_expectations,
     initial_expectations,
-    maximum_entropy,
+    maximum_causal_entropy,
     soft_maximum,
     soft_value_iteration,
 )
@@ -48,7 +48,7 @@ def test_one_state_in_closed_form():
     assert soft.values[0] == pytest.approx(
         0.5 * np.log(np.exp(0.6) + np.exp(-1.4)) / 0.1
     )
-    np.testing.assert_allclose(soft.policy, boltzmann(soft.q, 2.0))
+    np.testing.assert_allclose(soft.policy, boltzmann_policy(soft.q, 2.0))
 
 
 def test_no_policy_collects_more_reward_and_entropy():
@@ -104,13 +104,15 @@ def test_it_matches_the_features_of_a_soft_expert(terrain):
     """
     task = terrain.task
     driver = soft_value_iteration(task.with_reward(terrain.truth)).policy
-    learned = maximum_entropy(task, initial_expectations(task, driver), ridge=0.0)
+    learned = maximum_causal_entropy(
+        task, initial_expectations(task, driver), regularisation=0.0
+    )
     assert learned.gaps[-1] < 1e-3
     pointless = np.array([1, 1, 1, 1 / (1 - task.discount)])
     gap = learned.weights - terrain.truth
     np.testing.assert_allclose(gap, gap[0] * pointless, atol=0.1)
     np.testing.assert_allclose(learned.policy, driver, atol=0.01)
-    assert (np.diff(learned.log_likelihoods) > -1e-6).all()
+    assert (np.diff(learned.dual_values) > -1e-6).all()
 
 
 @pytest.mark.parametrize("demonstrations", [None, 100])
@@ -119,17 +121,31 @@ def test_its_reward_makes_the_expert_again(terrain, demonstrations):
     if demonstrations is None:
         expert = initial_expectations(task, terrain.expert)
     else:
-        walks = task.walk(terrain.expert, demonstrations, 60, seed=2)
+        walks = task.rollout(terrain.expert, demonstrations, 60, seed=2)
         expert = empirical_expectations(
             task.features[walks.states, walks.actions].reshape(-1, 4),
             walks.trajectory,
             task.discount,
         )
-    learned = maximum_entropy(task, expert, ridge=1e-3)
+    learned = maximum_causal_entropy(task, expert, regularisation=1e-3)
     assert terrain.loss(terrain.best(learned.weights)) < 0.05
 
 
 def test_random_rewards(scattered):
     expert = initial_expectations(scattered.task, scattered.expert)
-    learned = maximum_entropy(scattered.task, expert, ridge=1e-4)
+    learned = maximum_causal_entropy(scattered.task, expert, regularisation=1e-4)
     assert scattered.loss(scattered.best(learned.weights)) < 0.05
+
+
+def test_an_optimisation_cut_short_warns(terrain):
+    expert = initial_expectations(terrain.task, terrain.expert)
+    with pytest.warns(ConvergenceWarning, match="ended after 1 iterations"):
+        found = maximum_causal_entropy(terrain.task, expert, iterations=1)
+    assert not found.converged
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -1.0, np.nan])
+def test_tolerance_must_be_positive(terrain, tolerance):
+    expert = initial_expectations(terrain.task, terrain.expert)
+    with pytest.raises(ValueError, match="tolerance must be"):
+        maximum_causal_entropy(terrain.task, expert, tolerance=tolerance)

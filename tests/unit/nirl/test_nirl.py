@@ -6,38 +6,46 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from robonav.networks.backpropagation import cross_entropy_cost
 from robonav.networks.multilayer_perceptron import Network, random_network
 from robonav.nirl import (
+    METHODS,
     NEUTRAL_TERMINAL_VALUES,
     ZERO_TERMINAL_VALUES,
     LeastSquaresReward,
     ReplaySGD,
     SingleGradientStep,
-    Steps,
     SubgradientMaxMargin,
     TabularTask,
+    Transitions,
     accuracy,
     all_action_features,
-    balance,
     balanced_accuracy,
-    contrast,
     discounted_feature_sums,
+    feature_gap,
+    greedy_actions,
+    inverse_frequency_weights,
+    maximum_margin,
+    neural_action_values,
     nirl,
+    policy_cost,
+    sarsa_descent,
     sarsa_targets,
     scale_to_unit_interval,
     train_under_reward,
     transition_rewards,
 )
 from robonav.nirl._fast import descend
+from robonav.nirl.policy_improvement import compiled_sarsa_descent
 
 RNG = np.random.default_rng(0)
 
 
 def made_up(decisions=12, inputs=3, actions=4, drives=3, seed=0):
-    """Steps with random contents."""
+    """Transitions with random contents."""
     rng = np.random.default_rng(seed)
     trajectory = np.sort(rng.integers(drives, size=decisions))
-    return Steps(
+    return Transitions(
         rng.normal(size=(decisions, inputs)),
         rng.integers(actions, size=decisions),
         trajectory,
@@ -59,7 +67,7 @@ def test_rewards_are_theta_times_the_blocks():
 def test_sarsa_by_hand():
     """0.5 + 0.8 (1 + 0.65 * 0.4 - 0.5)."""
     np.testing.assert_allclose(
-        sarsa_targets([0.5], [1.0], [0.4], alpha=0.8, discount=0.65), [1.108]
+        sarsa_targets([0.5], [1.0], [0.4], learning_rate=0.8, discount=0.65), [1.108]
     )
 
 
@@ -84,14 +92,14 @@ def test_no_reward_is_neither_good_nor_bad():
 
 
 def test_after_is_the_next_decision_of_the_same_drive():
-    steps = Steps(
+    steps = Transitions(
         np.zeros((4, 1)),
         np.zeros(4, int),
         np.array([0, 0, 2, 2]),
         np.arange(4),
         *np.zeros((2, 3), bool),
     )
-    assert steps.after.tolist() == [1, -1, 3, -1]
+    assert steps.next_index.tolist() == [1, -1, 3, -1]
 
 
 # -- the compiled descent ----------------------------------------------------------------------------------------------
@@ -153,7 +161,7 @@ def test_one_step_is_minus_rate_times_the_numerical_gradient(follows):
 def test_it_finds_the_values_of_a_chain():
     """Three decisions in a row with rewards 1, 0, 1 (in [0, 1]) and then the best for ever: y = (1 - gamma) Q."""
     inputs = np.eye(3)
-    steps = Steps(
+    steps = Transitions(
         inputs,
         np.zeros(3, int),
         np.zeros(3, int),
@@ -162,7 +170,9 @@ def test_it_finds_the_values_of_a_chain():
         np.array([True]),
     )
     theta = np.array([[1.0, -1.0, 1.0, 0.0]])
-    improve = ReplaySGD(discount=0.5, alpha=1.0, rate=(2.0, 2.0), samples=20_000)
+    improve = ReplaySGD(
+        discount=0.5, learning_rate=1.0, gradient_step=(2.0, 2.0), n_samples=20_000
+    )
     network = improve(
         random_network((3, 6, 1), seed=0), [steps], theta, 0.0, np.random.default_rng(0)
     ).network
@@ -178,7 +188,7 @@ def test_only_the_last_drives_are_remembered():
     old, new = made_up(seed=1), made_up(seed=2)
     start = random_network((3, 5, 4), seed=0)
     theta = RNG.normal(size=(4, 4))
-    improve = ReplaySGD(replay=1, samples=50)
+    improve = ReplaySGD(replay=1, n_samples=50)
     both = improve(start, [old, new], theta, 0.0, np.random.default_rng(0)).network
     alone = improve(start, [new], theta, 0.0, np.random.default_rng(0)).network
     np.testing.assert_array_equal(both.weights[0], alone.weights[0])
@@ -188,12 +198,16 @@ def test_the_step_to_the_letter_is_a_gradient_step():
     """With targets (5.16), cut to [0, 1], for the taken action, and no change asked of the others."""
     steps, theta = made_up(), RNG.normal(size=(4, 4))
     network = random_network((3, 5, 4), seed=1)
-    stepped, cost = SingleGradientStep(rate=0.1)(network, [steps], theta, 0.0, RNG)
-    again, lower = SingleGradientStep(rate=0.1)(stepped, [steps], theta, 0.0, RNG)
+    stepped, cost = SingleGradientStep(gradient_step=0.1)(
+        network, [steps], theta, 0.0, RNG
+    )
+    again, lower = SingleGradientStep(gradient_step=0.1)(
+        stepped, [steps], theta, 0.0, RNG
+    )
     assert lower < cost
     outputs = network.forward(steps.inputs)
     q = outputs[np.arange(12), steps.actions]
-    following = np.where(steps.after >= 0, np.append(q[1:], 0), 0)
+    following = np.where(steps.next_index >= 0, np.append(q[1:], 0), 0)
     target = np.clip(
         q + 0.8 * (transition_rewards(theta, steps) + 0.65 * following - q), 0, 1
     )
@@ -205,19 +219,65 @@ def test_the_step_to_the_letter_is_a_gradient_step():
     assert again is not stepped
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_readable_descent_equals_compiled_twin(seed):
+    rng = np.random.default_rng(seed)
+    transitions = made_up(decisions=30, seed=seed)
+    arguments = {
+        "network": random_network((3, 5, 4), seed=seed),
+        "transitions": transitions,
+        "rewards": 0.35 * rng.random(30),
+        "terminal_values": rng.random(30),
+        "order": rng.integers(30, size=400),
+        "learning_rate": 0.8,
+        "discount": 0.65,
+        "gradient_step": 0.4,
+    }
+    readable, compiled = (
+        f(**arguments) for f in (sarsa_descent, compiled_sarsa_descent)
+    )
+    assert readable.cost == pytest.approx(compiled.cost, rel=1e-12)
+    for one, other in zip(
+        readable.network.weights + readable.network.biases,
+        compiled.network.weights + compiled.network.biases,
+        strict=True,
+    ):
+        np.testing.assert_allclose(one, other, rtol=1e-10, atol=1e-13)
+
+
+def test_policy_cost_is_the_cross_entropy_of_chapter_3():
+    network, rng = random_network((3, 5, 4), seed=1), np.random.default_rng(0)
+    inputs, targets = rng.normal(size=(6, 3)), rng.random((6, 4))
+    assert policy_cost(
+        network, inputs, targets, regularisation=0.3
+    ) == cross_entropy_cost(network, inputs, targets, regularisation=0.3)
+
+
+def test_neural_action_values_are_the_outputs_of_the_network():
+    network, inputs = random_network((3, 5, 4), seed=1), RNG.normal(size=(6, 3))
+    np.testing.assert_array_equal(
+        neural_action_values(network, inputs), network.forward(inputs)
+    )
+    np.testing.assert_array_equal(
+        greedy_actions(network, inputs), network.decide(inputs)
+    )
+
+
 # -- rewards from demonstrations ---------------------------------------------------------------------------------------
 
 
 def test_contrast_is_the_gradient_of_the_margin():
     shown, theta = made_up(), RNG.normal(size=(4, 4))
-    chances = RNG.dirichlet(np.ones(4), 12)
-    weights = balance(shown.actions, 4)
+    action_probabilities = RNG.dirichlet(np.ones(4), 12)
+    weights = inverse_frequency_weights(shown.actions, 4)
 
     def margin(t):
         r = shown.features @ t.T
-        return weights @ (r[np.arange(12), shown.actions] - (chances * r).sum(axis=1))
+        return weights @ (
+            r[np.arange(12), shown.actions] - (action_probabilities * r).sum(axis=1)
+        )
 
-    slope = contrast(shown, chances, weights)
+    slope = feature_gap(shown, action_probabilities, weights)
     for index in np.ndindex(4, 4):
         step = np.zeros((4, 4))
         step[index] = 1e-5
@@ -229,7 +289,9 @@ def test_contrast_is_the_gradient_of_the_margin():
 def test_nothing_to_learn_from_an_expert_one_already_equals():
     shown = made_up()
     np.testing.assert_allclose(
-        contrast(shown, np.eye(4)[shown.actions], balance(shown.actions, 4)),
+        feature_gap(
+            shown, np.eye(4)[shown.actions], inverse_frequency_weights(shown.actions, 4)
+        ),
         0,
         atol=1e-15,
     )
@@ -237,16 +299,16 @@ def test_nothing_to_learn_from_an_expert_one_already_equals():
 
 def test_balance_makes_actions_count_alike():
     actions = np.array([0] * 8 + [2] * 2)
-    weights = balance(actions, 5)
+    weights = inverse_frequency_weights(actions, 5)
     assert weights[actions == 0].sum() == pytest.approx(weights[actions == 2].sum())
-    np.testing.assert_allclose(balance(actions, 5, power=0.0), 0.1)
+    np.testing.assert_allclose(inverse_frequency_weights(actions, 5, power=0.0), 0.1)
 
 
 def test_equation_514_finds_the_least_squares_fit():
     """Without a constraint that binds, it is what numpy's least squares finds: the learner's own values, explained."""
     shown = made_up(decisions=40)
     values = np.full((40, 4), 0.01) + 0.001 * RNG.random((40, 4))
-    theta = LeastSquaresReward(discount=0.65, ridge=0.0, steps=20_000)(
+    theta = LeastSquaresReward(discount=0.65, regularisation=0.0, iterations=20_000)(
         shown, values, values, np.zeros((4, 4)), 1
     )
     mu = discounted_feature_sums(
@@ -277,16 +339,16 @@ def test_plain_accuracy_likes_one_action_for_everything():
 
 
 def learn(case):
-    course = TabularTask(case.task, steps=30)
-    shown = course.shown(case.expert, 100, seed=1)
-    improve = ReplaySGD(discount=case.task.discount, samples=8000)
+    course = TabularTask(case.task, max_steps=30)
+    shown = course.demonstrate(case.expert, 100, seed=1)
+    improve = ReplaySGD(discount=case.task.discount, n_samples=8000)
     return nirl(
         shown,
         course,
         iterations=150,
         hidden=30,
-        improve=improve,
-        reward=SubgradientMaxMargin(power=0.5),
+        improver=improve,
+        reward_update=SubgradientMaxMargin(power=0.5),
         seed=0,
     )
 
@@ -315,15 +377,15 @@ def test_nirl_on_random_rewards(scattered):
 
 def test_without_a_reward_nothing_is_learned(terrain):
     """The control: all rewards alike and neutral ends leave every action alike, whatever is practised."""
-    course = TabularTask(terrain.task, steps=30)
-    shown = course.shown(terrain.expert, 20, seed=1)
+    course = TabularTask(terrain.task, max_steps=30)
+    shown = course.demonstrate(terrain.expert, 20, seed=1)
     nothing = np.zeros((4, terrain.task.n_states + 1))
     found = train_under_reward(
         shown,
         course,
         nothing,
         iterations=20,
-        improve=ReplaySGD(ends=NEUTRAL_TERMINAL_VALUES),
+        improver=ReplaySGD(terminal_values=NEUTRAL_TERMINAL_VALUES),
         seed=0,
     )
     latest = found.history.networks[-1]
@@ -336,31 +398,32 @@ def test_the_true_reward_makes_an_expert(terrain):
     task = terrain.task
     theta = np.zeros((4, task.n_states + 1))
     theta[:, :-1] = (task.features @ terrain.truth).T
-    course = TabularTask(task, steps=30)
-    shown = course.shown(terrain.expert, 20, seed=1)
-    improve = ReplaySGD(discount=task.discount, ends=(0.5, 0.5))
+    course = TabularTask(task, max_steps=30)
+    shown = course.demonstrate(terrain.expert, 20, seed=1)
+    improve = ReplaySGD(discount=task.discount, terminal_values=(0.5, 0.5))
     found = train_under_reward(
-        shown, course, theta, iterations=150, hidden=30, improve=improve, seed=0
+        shown, course, theta, iterations=150, hidden=30, improver=improve, seed=0
     )
     assert terrain.loss(greedy(terrain, found)) < 0.15
 
 
 def test_it_ends_when_the_margin_is_small(terrain):
     course = TabularTask(terrain.task)
-    shown = course.shown(terrain.expert, 5, seed=1)
+    shown = course.demonstrate(terrain.expert, 5, seed=1)
     found = nirl(shown, course, iterations=50, tolerance=1e9, seed=0)
-    assert len(found.history.margins) == 1
+    assert len(found.history.margins) == 0
+    assert found.chosen == 0
 
 
 def test_the_same_seed_gives_the_same_numbers(terrain):
     course = TabularTask(terrain.task)
-    shown = course.shown(terrain.expert, 5, seed=1)
+    shown = course.demonstrate(terrain.expert, 5, seed=1)
     one, same, other = (
         nirl(
             shown,
             course,
             iterations=3,
-            improve=ReplaySGD(ends=ZERO_TERMINAL_VALUES),
+            improver=ReplaySGD(terminal_values=ZERO_TERMINAL_VALUES),
             seed=s,
         ).history.networks.weights[0]
         for s in (0, 0, 1)
@@ -371,25 +434,48 @@ def test_the_same_seed_gives_the_same_numbers(terrain):
 
 def test_nothing_shown_gets_a_sentence(terrain):
     course = TabularTask(terrain.task)
-    shown = course.shown(terrain.expert, 5, seed=1)
+    shown = course.demonstrate(terrain.expert, 5, seed=1)
     with pytest.raises(
         ValueError,
-        match="shown must hold at least one decision of the expert, got none",
+        match="demonstrations must hold at least one decision of the expert, got none",
     ):
         nirl(made_up(decisions=0, drives=1), course, seed=0)
     with pytest.raises(
-        ValueError, match="shown must hold actions from 0 to 3, got 7 to 7"
+        ValueError, match="actions must lie between 0 and 3, got 7 to 7"
     ):
         nirl(shown.with_actions(np.full(len(shown), 7)), course, seed=0)
     with pytest.raises(
-        ValueError, match="shown must hold at least one decision, got none"
+        ValueError, match="actions must hold at least one decision, got none"
     ):
         balanced_accuracy([], [])
 
 
 @pytest.mark.parametrize(
-    "setting", [{"discount": 1.0}, {"alpha": 0.0}, {"samples": 0}, {"ends": (0.0, 2.0)}]
+    "setting",
+    [
+        {"discount": 1.0},
+        {"learning_rate": 0.0},
+        {"n_samples": 0},
+        {"terminal_values": (0.0, 2.0)},
+    ],
 )
 def test_settings_out_of_bounds_get_a_sentence(setting):
     with pytest.raises(ValueError, match=next(iter(setting))):
         ReplaySGD(**setting)
+
+
+@pytest.mark.parametrize("method", ["apprenticeship", "relative_entropy", "scirl"])
+def test_baselines_run_on_a_finite_mdp(terrain, method):
+    task = TabularTask(terrain.task)
+    expert = task.demonstrate(terrain.expert, 20, seed=1)
+    options = {"n_samples": 200} if method == "relative_entropy" else {}
+    found = METHODS[method](expert, task, iterations=14, seed=0, **options)
+    assert found.policy.shape == (terrain.task.n_states,)
+    assert found.reward_weights.shape == (4, terrain.task.n_states + 1)
+
+
+def test_results_can_be_compared():
+    """Comparing two results with == does not raise."""
+    one, other = (maximum_margin([1.0, 0.0], [[0.0, 0.0]]) for _ in range(2))
+    assert one == one
+    assert one != other

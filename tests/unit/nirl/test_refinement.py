@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from robonav.nirl import boltzmann, map_uniform_prior, most_frequent
+from robonav.nirl import boltzmann_policy, map_uniform_prior, most_frequent
 
 # State 7: action 0 ten times, action 1 twice. Action 0 is common elsewhere, action 1 is shown nowhere else.
 STATES = np.array([7] * 12 + [3] * 90)
@@ -54,29 +54,36 @@ def test_refined_demonstrations_are_consistent_and_stay_so(states, shown):
 
 def test_nothing_to_refine_gets_a_sentence():
     with pytest.raises(
-        ValueError, match="at least one step, got none: were all of them filtered out"
+        ValueError, match="actions must hold at least one step, got none"
     ):
         most_frequent(np.empty((0, 3), dtype=int), [], 5)
     with pytest.raises(
-        ValueError, match="shown must hold actions from 0 to 4, got 0 to 6"
+        ValueError, match="actions must lie between 0 and 4, got 0 to 6"
     ):
         most_frequent([1, 1], [0, 6], 5)
 
 
 def test_boltzmann_by_hand():
-    np.testing.assert_allclose(boltzmann([[0.0, np.log(2)]], 1.0), [[1 / 3, 2 / 3]])
-    np.testing.assert_allclose(boltzmann([[0.0, np.log(2)]], 2.0), [[1 / 5, 4 / 5]])
-    np.testing.assert_allclose(boltzmann([[0.3, 5.0, -9.0]], 0.0), [[1 / 3] * 3])
+    np.testing.assert_allclose(
+        boltzmann_policy([[0.0, np.log(2)]], 1.0), [[1 / 3, 2 / 3]]
+    )
+    np.testing.assert_allclose(
+        boltzmann_policy([[0.0, np.log(2)]], 2.0), [[1 / 5, 4 / 5]]
+    )
+    np.testing.assert_allclose(boltzmann_policy([[0.3, 5.0, -9.0]], 0.0), [[1 / 3] * 3])
 
 
 @settings(deadline=None)
 @given(arrays(float, (2, 5), elements=st.floats(-50, 50)), st.floats(0, 1000))
 def test_boltzmann_is_a_distribution_that_ranks_like_its_values(q, eta):
-    chances = boltzmann(q, eta)
-    np.testing.assert_allclose(chances.sum(axis=1), 1)
-    assert (chances.max(axis=1) == chances[range(2), q.argmax(axis=1)]).all()
+    action_probabilities = boltzmann_policy(q, eta)
+    np.testing.assert_allclose(action_probabilities.sum(axis=1), 1)
+    assert (
+        action_probabilities.max(axis=1)
+        == action_probabilities[range(2), q.argmax(axis=1)]
+    ).all()
 
 
 def test_eta_must_not_be_negative():
-    with pytest.raises(ValueError, match="eta must be at least 0"):
-        boltzmann([[1.0, 2.0]], -1.0)
+    with pytest.raises(ValueError, match="inverse_temperature must be at least 0"):
+        boltzmann_policy([[1.0, 2.0]], -1.0)

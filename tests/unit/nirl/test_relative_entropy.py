@@ -10,8 +10,13 @@ from hypothesis.extra.numpy import arrays
 from scipy.optimize import approx_fprime
 
 from robonav.mdp import policies
-from robonav.nirl import hoeffding_slack, relative_entropy
-from robonav.nirl.relative_entropy import dual, dual_gradient, importance
+from robonav.nirl import (
+    dual,
+    dual_gradient,
+    hoeffding_slack,
+    importance_weights,
+    relative_entropy_weights,
+)
 
 RNG = np.random.default_rng(0)
 SAMPLES = RNG.normal(size=(50, 3))
@@ -51,11 +56,11 @@ def test_importance_weights_undo_the_sampling():
     samples = actions.sum(axis=1, keepdims=True).astype(float)
     log_ratios = 3 * np.log(0.5) - np.log(biased[actions.astype(int)]).sum(axis=1)
     assert uniform.sum() == 1
-    assert importance([0.0], samples, log_ratios) @ samples == pytest.approx(
+    assert importance_weights([0.0], samples, log_ratios) @ samples == pytest.approx(
         [1.5], abs=0.03
     )
     # and exp(theta f) turns a fair coin into one that falls on 1 with e^theta / (1 + e^theta)
-    assert importance([1.0], samples, log_ratios) @ samples == pytest.approx(
+    assert importance_weights([1.0], samples, log_ratios) @ samples == pytest.approx(
         [3 / (1 + np.exp(-1))], abs=0.05
     )
 
@@ -101,14 +106,14 @@ def test_it_finds_the_tilt_of_all_trajectories():
     )
     tilted = world * np.exp(seen @ reward)
     drawn = rng.choice(len(walks), 100_000, p=world / ratio / (world / ratio).sum())
-    learned = relative_entropy(
+    learned = relative_entropy_weights(
         tilted @ seen / tilted.sum(), seen[drawn], np.log(ratio[drawn])
     )
     np.testing.assert_allclose(learned.weights, reward, atol=0.05)
 
 
 def test_the_maximum_has_no_gradient_left():
-    learned = relative_entropy(EXPERT, SAMPLES, RATIOS)
+    learned = relative_entropy_weights(EXPERT, SAMPLES, RATIOS)
     np.testing.assert_allclose(learned.gap, 0, atol=1e-4)
     np.testing.assert_allclose(
         dual_gradient(learned.weights, EXPERT, SAMPLES, RATIOS, np.zeros(3)),
@@ -120,7 +125,7 @@ def test_the_maximum_has_no_gradient_left():
 
 def test_slack_keeps_the_gap_within_bounds_and_weights_sparse():
     slack = np.array([0.3, 0.3, 0.3])
-    learned = relative_entropy(EXPERT, SAMPLES, np.zeros(50), slack=slack)
+    learned = relative_entropy_weights(EXPERT, SAMPLES, np.zeros(50), slack=slack)
     assert (abs(learned.gap) <= slack + 1e-4).all()
     silent = abs(learned.weights) < 1e-9
     assert silent.any()
@@ -131,7 +136,7 @@ def test_slack_keeps_the_gap_within_bounds_and_weights_sparse():
 
 
 def test_an_expert_that_no_sample_resembles_stays_finite():
-    learned = relative_entropy([10.0, 0, 0], SAMPLES, RATIOS)
+    learned = relative_entropy_weights([10.0, 0, 0], SAMPLES, RATIOS)
     assert np.isfinite(learned.weights).all()
 
 
@@ -139,7 +144,7 @@ def test_no_samples_get_a_sentence():
     with pytest.raises(
         ValueError, match="samples must hold at least one trajectory, got none"
     ):
-        relative_entropy([1.0], np.empty((0, 1)), [])
+        relative_entropy_weights([1.0], np.empty((0, 1)), [])
 
 
 def test_slack_shrinks_with_demonstrations():
@@ -158,12 +163,12 @@ def first_features(case, walks):
 
 def learn(case, policy, steps, slack):
     """From 500 walks of the expert and 20,000 of a sampling policy, equally long."""
-    expert = first_features(case, case.task.walk(case.expert, 500, steps, seed=9)).mean(
-        axis=0
-    )
-    walks = case.task.walk(policy, 20_000, steps, seed=1)
+    expert = first_features(
+        case, case.task.rollout(case.expert, 500, steps, seed=9)
+    ).mean(axis=0)
+    walks = case.task.rollout(policy, 20_000, steps, seed=1)
     log_ratios = -np.log(4 * policy[walks.states, walks.actions]).sum(axis=1)
-    return relative_entropy(
+    return relative_entropy_weights(
         expert, first_features(case, walks), log_ratios, slack=slack
     )
 

@@ -23,16 +23,18 @@ from robonav.nirl import (
     learn,
     learn_under_reward,
     lstd_estimate,
-    max_margin_method,
+    max_margin_guess,
     most_frequent,
+    random_segments,
+    segment_features,
     state_action_features,
 )
-from robonav.nirl.methods import prepared, random_segments, segments
+from robonav.nirl.learning import robot_transitions
 from robonav.nirl.tasks import collect
 from robonav.robot import Simulator, navigate, random_worlds
 
-SMALL = {"improve": ReplaySGD(samples=500), "iterations": 3}
-COURSE = RobotTask(trajectories=3, obstacles=10)
+SMALL = {"improver": ReplaySGD(n_samples=500), "iterations": 3}
+COURSE = RobotTask(n_episodes=3, obstacles=10)
 
 
 @pytest.fixture(scope="module")
@@ -57,13 +59,13 @@ def test_a_practice_drive_is_a_drive(action):
         ENCODER,
         np.random.default_rng(0),
     )
-    np.testing.assert_array_equal(steps.failed, driven.collision)
+    np.testing.assert_array_equal(steps.collided, driven.collision)
     np.testing.assert_array_equal(steps.arrived, driven.success)
     assert (steps.actions == action).all()
     assert (np.diff(steps.trajectory) >= 0).all()
     same = np.diff(steps.trajectory) == 0
-    assert (np.diff(steps.when)[same] > 0).all()
-    np.testing.assert_array_less(steps.when, driven.steps[steps.trajectory])
+    assert (np.diff(steps.times)[same] > 0).all()
+    np.testing.assert_array_less(steps.times, driven.steps[steps.trajectory])
 
 
 def test_experts_and_learners_are_seen_alike(demonstrations):
@@ -73,13 +75,15 @@ def test_experts_and_learners_are_seen_alike(demonstrations):
     np.testing.assert_array_equal(shown.actions, pairs.actions)
     np.testing.assert_array_equal(shown.inputs, ENCODER(pairs.sensing))
     first = np.searchsorted(demonstrations.trajectory, shown.trajectory)
-    np.testing.assert_array_equal(demonstrations.poses[first + shown.when], pairs.poses)
+    np.testing.assert_array_equal(
+        demonstrations.poses[first + shown.times], pairs.poses
+    )
     assert shown.arrived.all()
 
 
 def test_segments_stop_after_their_horizon(demonstrations):
     shown = expert_transitions(demonstrations)
-    found = segments(shown, LEARNED, 0.65, 3)
+    found = segment_features(shown, LEARNED, 0.65, 3)
     block = state_action_features(shown.features, shown.actions, LEARNED)
     for t in range(len(shown) - 3):
         inside = [
@@ -92,7 +96,7 @@ def test_segments_stop_after_their_horizon(demonstrations):
 
 def test_random_segments_begin_where_the_expert_decided(demonstrations):
     rng = np.random.default_rng(0)
-    steps = random_segments(demonstrations, RobotTask(), 50, 4, rng)
+    steps = random_segments(expert_transitions(demonstrations), RobotTask(), 50, 4, rng)
     assert (np.bincount(steps.trajectory) <= 4).all()
     begun = steps.inputs[np.flatnonzero(np.diff(steps.trajectory, prepend=-1))]
     known = {tuple(row) for row in expert_transitions(demonstrations).inputs.round(9)}
@@ -121,8 +125,8 @@ def test_two_kinds_of_expectations(demonstrations):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_every_method_learns_and_repeats(demonstrations, method):
-    settings = dict(SMALL, course=COURSE) | (
-        {"guesses": 3} if method == "apprenticeship" else {}
+    settings = dict(SMALL, task=COURSE) | (
+        {"n_rewards": 3} if method == "apprenticeship" else {}
     )
     one, same = (learn(demonstrations, method, seed=1, **settings) for _ in range(2))
     assert one.reward_weights.shape == (LEARNED, ENCODER.size + 1)
@@ -139,8 +143,8 @@ def test_every_method_learns_and_repeats(demonstrations, method):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_one_trajectory_is_enough(demonstrations, method):
-    settings = dict(SMALL, course=COURSE) | (
-        {"guesses": 3} if method == "apprenticeship" else {}
+    settings = dict(SMALL, task=COURSE) | (
+        {"n_rewards": 3} if method == "apprenticeship" else {}
     )
     learned = learn(
         demonstrations[demonstrations.trajectory == 0], method, seed=0, **settings
@@ -150,13 +154,11 @@ def test_one_trajectory_is_enough(demonstrations, method):
 
 def test_algorithm_10_to_the_letter_runs(demonstrations):
     to_the_letter = {
-        "reward": LeastSquaresReward(),
-        "improve": SingleGradientStep(),
+        "reward_update": LeastSquaresReward(),
+        "improver": SingleGradientStep(),
         "score": accuracy,
     }
-    learned = learn(
-        demonstrations, seed=0, course=COURSE, iterations=3, **to_the_letter
-    )
+    learned = learn(demonstrations, seed=0, task=COURSE, iterations=3, **to_the_letter)
     assert (
         learned.history.accuracies[learned.chosen] == learned.history.accuracies.max()
     )
@@ -166,7 +168,7 @@ def test_algorithm_10_to_the_letter_runs(demonstrations):
 @pytest.mark.parametrize("expectations", [from_initial_state, from_all_states])
 def test_an_apprentice_by_the_widest_margin(demonstrations, expectations):
     learned = learn(
-        demonstrations, "apprenticeship", seed=0, course=COURSE, search=max_margin_method, guesses=2,
+        demonstrations, "apprenticeship", seed=0, task=COURSE, guess=max_margin_guess, n_rewards=2,
         expectations=expectations, **(SMALL | {"iterations": 4}),
     )  # fmt: skip
     assert len(learned.history.costs) == 4
@@ -179,8 +181,8 @@ def test_an_apprentice_by_the_widest_margin(demonstrations, expectations):
 @pytest.mark.parametrize("method", METHODS)
 def test_an_action_never_shown(demonstrations, method):
     lefts = demonstrations[~np.isin(demonstrations.actions, [3, 4])]
-    settings = dict(SMALL, course=COURSE) | (
-        {"guesses": 3} if method == "apprenticeship" else {}
+    settings = dict(SMALL, task=COURSE) | (
+        {"n_rewards": 3} if method == "apprenticeship" else {}
     )
     learned = learn(lefts, method, seed=0, **settings)
     assert np.isfinite(learned.reward_weights).all()
@@ -223,7 +225,7 @@ def test_refinement_makes_demonstrations_consistent(demonstrations):
         actions=actions,
         poses=pairs.poses[thrice],
     )
-    refined = prepared(doubled, RobotTask(), most_frequent)
+    refined = robot_transitions(doubled, RobotTask(), most_frequent)
     states, counts = np.unique(refined.inputs, axis=0, return_counts=True)
     for state in states:
         assert len(set(refined.actions[(refined.inputs == state).all(axis=1)])) == 1
@@ -233,12 +235,12 @@ def test_refinement_makes_demonstrations_consistent(demonstrations):
 def test_a_reward_can_be_taken_elsewhere(demonstrations):
     theta = np.zeros((LEARNED, ENCODER.size + 1))
     learned = learn_under_reward(
-        demonstrations, theta, course=replace(COURSE, speed=1.0), seed=0, iterations=2
+        demonstrations, theta, task=replace(COURSE, speed=1.0), seed=0, iterations=2
     )
     assert (learned.reward_weights == 0).all()
-    neutral = ReplaySGD(ends=NEUTRAL_TERMINAL_VALUES, samples=2000)
+    neutral = ReplaySGD(terminal_values=NEUTRAL_TERMINAL_VALUES, n_samples=2000)
     idle = learn_under_reward(
-        demonstrations, theta, course=COURSE, seed=0, iterations=2, improve=neutral
+        demonstrations, theta, task=COURSE, seed=0, iterations=2, improver=neutral
     )
     outputs = idle.history.networks[-1].forward(
         expert_transitions(demonstrations).inputs

@@ -11,15 +11,16 @@ from robonav.nirl import (
     discounted_feature_sums,
     feature_expectations,
     heuristic_mu,
+    large_margin_cost,
     lstd_mu,
     mean_by_pair,
     structured_classification,
 )
-from robonav.nirl.scirl import cost
 
 RNG = np.random.default_rng(0)
 MU = RNG.normal(size=(40, 3, 4))
 SHOWN = RNG.integers(0, 3, 40)
+EQUAL = np.full(40, 1 / 40)
 
 
 @settings(deadline=None)
@@ -27,10 +28,10 @@ SHOWN = RNG.integers(0, 3, 40)
 @pytest.mark.slow
 def test_the_subgradient_is_that_of_the_cost(theta, ridge):
     def at(weights):
-        return cost(weights, MU, SHOWN, ridge=ridge)[0]
+        return large_margin_cost(weights, MU, SHOWN, EQUAL, regularisation=ridge)[0]
 
     numerical = approx_fprime(theta, at, 1e-7)
-    analytic = cost(theta, MU, SHOWN, ridge=ridge)[1]
+    analytic = large_margin_cost(theta, MU, SHOWN, EQUAL, regularisation=ridge)[1]
     if not np.allclose(
         analytic, numerical, atol=1e-4
     ):  # at a kink it need only support the cost from below
@@ -66,7 +67,7 @@ def test_only_the_shown_action_is_known():
 
 def steps_of(case, walks, steps, policy, seed):
     """Walks as single steps: states, actions, and what followed each but the last."""
-    drawn = case.task.walk(policy, walks, steps, seed=seed)
+    drawn = case.task.rollout(policy, walks, steps, seed=seed)
     return (
         drawn.states[:, :-1].ravel(),
         drawn.actions[:, :-1].ravel(),
@@ -84,7 +85,7 @@ def lstd(case, walks, policy, seed):
     )
     omega = lstd_mu(
         pairs[states, actions], pairs[after, drawn.actions[:, 1:].ravel()], task.features[states, actions],
-        task.discount, ridge=1e-9,
+        task.discount, regularisation=1e-9,
     )  # fmt: skip
     return omega.reshape(task.n_states, task.n_actions, -1)
 
@@ -113,7 +114,7 @@ def test_scirl_with_exact_expectations(terrain):
 def test_scirl_with_lstd_mu(terrain):
     """Expectations of all actions learned from a slipping expert's steps; labels are what it meant to do."""
     mu = lstd(terrain, 500, noisy(terrain), 3)
-    states = np.unique(terrain.task.walk(noisy(terrain), 500, 40, seed=3).states)
+    states = np.unique(terrain.task.rollout(noisy(terrain), 500, 40, seed=3).states)
     states = states[~terrain.grid.terminal[states]]
     learned = structured_classification(mu[states], terrain.expert[states])
     assert terrain.loss(terrain.best(learned.weights)) < 0.05
@@ -121,7 +122,7 @@ def test_scirl_with_lstd_mu(terrain):
 
 def test_scirl_with_monte_carlo(terrain):
     """The same with what followed each pair of state and action, averaged."""
-    task, drawn = terrain.task, terrain.task.walk(noisy(terrain), 3000, 40, seed=3)
+    task, drawn = terrain.task, terrain.task.rollout(noisy(terrain), 3000, 40, seed=3)
     features = task.features[drawn.states, drawn.actions].reshape(-1, 4)
     pairs = (drawn.states * 4 + drawn.actions).ravel()
     mu = mean_by_pair(
@@ -140,12 +141,15 @@ def test_scirl_with_the_heuristic(scattered):
 
     Any reward that is good everywhere separates it: the ridge chooses among those.
     """
-    task, drawn = scattered.task, scattered.task.walk(scattered.expert, 40, 30, seed=4)
+    task, drawn = (
+        scattered.task,
+        scattered.task.rollout(scattered.expert, 40, 30, seed=4),
+    )
     features = task.features[drawn.states, drawn.actions].reshape(drawn.states.size, -1)
     shown = drawn.actions.ravel()
     to_go = discounted_feature_sums(features, drawn.trajectory, task.discount)
     learned = structured_classification(
-        heuristic_mu(to_go, shown, 4, task.discount), shown, ridge=1e-2
+        heuristic_mu(to_go, shown, 4, task.discount), shown, regularisation=1e-2
     )
     assert scattered.loss(scattered.best(learned.weights)) < 0.05
 
@@ -162,7 +166,7 @@ def test_no_steps_get_a_sentence():
     with pytest.raises(ValueError, match="at least one step, got none"):
         lstd_mu(np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2)), 0.9)
     with pytest.raises(
-        ValueError, match="shown must hold actions from 0 to 2, got 0 to 5"
+        ValueError, match="actions must lie between 0 and 2, got 0 to 5"
     ):
         structured_classification(np.ones((2, 3, 2)), [0, 5])
 

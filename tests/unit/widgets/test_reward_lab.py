@@ -13,7 +13,7 @@ from robonav.nirl import (
     scale_to_unit_interval,
     transition_rewards,
 )
-from robonav.nirl.transitions import with_constant
+from robonav.nirl.transitions import add_constant
 from robonav.robot import Reflex, Simulator, navigate, random_worlds
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 from robonav.widgets.reward_lab import reward_lab
@@ -82,7 +82,7 @@ def test_a_robot_that_looks_no_further_drives_as_in_python(page, shown, theta):
     worlds = random_worlds(60, 20, seed=7)
 
     def policy(sensing, rng):
-        return (with_constant(ENCODER(sensing)) @ theta.T).argmax(axis=1)
+        return (add_constant(ENCODER(sensing)) @ theta.T).argmax(axis=1)
 
     expected = navigate(policy, worlds, SPEED, 200, record_paths=True)
     body = """return data.worlds.map((world) => page.drive(data.plan, world))
@@ -107,7 +107,7 @@ def test_a_robot_that_looks_no_further_drives_as_in_python(page, shown, theta):
 def worths(theta, scale, simulator, depth):
     """The same by brute force: a copy of the simulator for each action."""
     sensing = simulator.sense()
-    rewards = (with_constant(ENCODER(sensing)) @ theta.T)[0]
+    rewards = (add_constant(ENCODER(sensing)) @ theta.T)[0]
     units = scale_to_unit_interval(np.append(rewards, [scale] * 1000))[:5]
     found = []
     for action in range(5):

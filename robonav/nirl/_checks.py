@@ -1,0 +1,195 @@
+"""The checks of this package's arguments, kept apart from the functions whose pages show their code."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable
+from typing import Any, ParamSpec, TypeVar
+
+import numpy as np
+
+from robonav.validation import check_array, check_integer, check_positive, check_real
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def unit_interval(name: str, value: Any) -> float:
+    """A number from 0 to 1."""
+    return check_real(name, value, at_least=0, at_most=1)
+
+
+def not_negative(name: str, value: Any) -> float:
+    """A number of at least 0."""
+    return check_real(name, value, at_least=0)
+
+
+def count(name: str, value: Any) -> int:
+    """A whole number of at least 1."""
+    return check_integer(name, value, at_least=1)
+
+
+def slack_of_features(name: str, value: Any) -> Any:
+    """Numbers of at least 0."""
+    slack = check_array(name, value)
+    if (slack < 0).any():
+        raise ValueError(f"{name} must be at least 0, got {slack.min():g}")
+    return slack
+
+
+NUMBERS: dict[str, Callable[[str, Any], Any]] = {
+    "bound": check_positive,
+    "discount": unit_interval,
+    "gradient_step": check_positive,
+    "hidden": count,
+    "horizon": count,
+    "inverse_temperature": not_negative,
+    "iterations": count,
+    "max_iterations": count,
+    "n_actions": count,
+    "n_demonstrations": count,
+    "n_pairs": count,
+    "n_rewards": count,
+    "n_samples": count,
+    "power": not_negative,
+    "regularisation": not_negative,
+    "slack": slack_of_features,
+    "temperature": check_positive,
+    "tolerance": lambda name, value: value,  # each function says what it may be
+    "lstd_mu.regularisation": check_positive,
+    "maximum_causal_entropy.tolerance": check_positive,
+    "projection_method.tolerance": not_negative,
+    "max_margin_method.tolerance": not_negative,
+    "soft_value_iteration.tolerance": check_positive,
+}
+"""What each number must be, by the argument's name, or by function and argument where they differ."""
+
+SHAPES: dict[str, dict[str, str]] = {
+    "action_block": {"state_features": "M k", "actions": "M:int"},
+    "state_action_features": {"state_features": "M k", "actions": "M:int"},
+    "all_action_features": {"state_features": "M k"},
+    "boltzmann_policy": {"action_values": ""},
+    "discounted_feature_sums": {"features": "M K", "trajectory": "M:int"},
+    "empirical_expectations": {"features": "M K", "trajectory": "M:int"},
+    "mean_by_pair": {"feature_sums": "M K", "pair": "M:int"},
+    "maximum_margin": {"expert": "K", "others": "n K"},
+    "maximum_margin_subgradient": {"expert": "K", "others": "n K"},
+    "nearest_mixture": {"expert": "K", "found": "n K"},
+    "projection_method": {"expert": "K"},
+    "max_margin_method": {"expert": "K"},
+    "importance_weights": {"weights": "K", "samples": "N K", "log_ratios": "N"},
+    "dual": {"weights": "K", "expert": "K", "samples": "N K", "log_ratios": "N"},
+    "dual_gradient": {
+        "weights": "K",
+        "expert": "K",
+        "samples": "N K",
+        "log_ratios": "N",
+    },
+    "hoeffding_slack": {"samples": "N K"},
+    "relative_entropy_weights": {"expert": "K", "samples": "N K", "log_ratios": "N"},
+    "lstd_mu": {"basis": "M n", "next_basis": "M n", "features": "M K"},
+    "heuristic_mu": {"expectations": "M K", "actions": "M:int"},
+    "structured_classification": {"expectations": "M A K", "actions": "M:int"},
+    "accuracy": {"predicted": "M:int", "actions": "M:int"},
+    "balanced_accuracy": {"predicted": "M:int", "actions": "M:int"},
+    "most_frequent": {"actions": "M:int"},
+    "map_uniform_prior": {"actions": "M:int"},
+    "maximum_causal_entropy": {"expert": "K"},
+}
+"""Dimensions of arrays, by function and argument: equal letters are equal lengths, ``:int`` means whole numbers."""
+
+NOT_EMPTY = {
+    "balanced_accuracy": ("actions", "at least one decision"),
+    "accuracy": ("actions", "at least one decision"),
+    "empirical_expectations": ("features", "at least one trajectory"),
+    "importance_weights": ("samples", "at least one trajectory"),
+    "dual": ("samples", "at least one trajectory"),
+    "dual_gradient": ("samples", "at least one trajectory"),
+    "relative_entropy_weights": ("samples", "at least one trajectory"),
+    "lstd_mu": ("basis", "at least one step"),
+    "structured_classification": ("expectations", "at least one step"),
+    "most_frequent": ("actions", "at least one step"),
+    "map_uniform_prior": ("actions", "at least one step"),
+    "maximum_margin": (
+        "others",
+        "the feature expectations of at least one policy",
+    ),
+    "maximum_margin_subgradient": (
+        "others",
+        "the feature expectations of at least one policy",
+    ),
+}
+"""Arrays that must hold something, and what."""
+
+
+def check_arguments(function: str, arguments: dict[str, Any]) -> None:
+    """Check the arguments of a function in place; TypeError or ValueError in one sentence."""
+    sizes: dict[str, int] = {}
+    for name, spec in SHAPES.get(function, {}).items():
+        letters, _, kind = spec.partition(":")
+        shape = [sizes.get(letter, letter) for letter in letters.split()]
+        array = check_array(
+            name,
+            arguments[name],
+            shape=shape or None,
+            dtype=np.int64 if kind else float,
+        )
+        sizes.update(zip(letters.split(), array.shape, strict=bool(shape)))
+        arguments[name] = array
+    for name, value in arguments.items():
+        check = NUMBERS.get(f"{function}.{name}") or NUMBERS.get(name)
+        if check is not None and value is not None:
+            arguments[name] = check(name, value)
+    if function in NOT_EMPTY:
+        name, what = NOT_EMPTY[function]
+        if len(arguments[name]) == 0:
+            raise ValueError(f"{name} must hold {what}, got none")
+    actions = arguments.get("actions")
+    limit = arguments.get("n_actions", sizes.get("A"))
+    if limit is not None and isinstance(actions, np.ndarray):
+        check_actions(actions, limit)
+    if "trajectory" in arguments:
+        check_trajectory(arguments["trajectory"])
+
+
+def check_actions(actions: np.ndarray, n_actions: int) -> None:
+    """Actions of which each exists."""
+    if len(actions) and not 0 <= actions.min() <= actions.max() < n_actions:
+        raise ValueError(
+            f"actions must lie between 0 and {n_actions - 1}, got {actions.min()} to {actions.max()}"
+        )
+
+
+def check_trajectory(trajectory: np.ndarray) -> None:
+    """Steps of which those of one trajectory stand together."""
+    changes = np.count_nonzero(np.diff(trajectory))
+    if len(trajectory) and changes + 1 != len(np.unique(trajectory)):
+        raise ValueError("trajectory must keep the steps of one trajectory together")
+
+
+def check_demonstrations(demonstrations: Any, n_actions: int) -> None:
+    """Demonstrations with at least one decision, and with actions that the task knows."""
+    if len(demonstrations) == 0:
+        raise ValueError(
+            "demonstrations must hold at least one decision of the expert, got none"
+        )
+    check_actions(demonstrations.actions, n_actions)
+
+
+def checked(function: Callable[P, T]) -> Callable[P, T]:
+    """Decorate a function so that its arguments are checked, by the tables of this file, before it runs."""
+    signature = inspect.signature(function)
+
+    @functools.wraps(function)
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
+        bound = signature.bind(*args, **kwargs)
+        bound.apply_defaults()
+        check_arguments(function.__name__, bound.arguments)
+        if "task" in bound.arguments and "demonstrations" in bound.arguments:
+            check_demonstrations(
+                bound.arguments["demonstrations"], bound.arguments["task"].n_actions
+            )
+        return function(*bound.args, **bound.kwargs)
+
+    return wrapper
