@@ -32,7 +32,7 @@ ACTION_COLOURS = (style.BLUE, style.GREEN, style.SKY, style.ORANGE, style.VERMIL
 
 
 def draw_rewards(axes: Axes) -> None:
-    """The reward of a step by the least range before and after it, where the episode goes on (Table 4.1)."""
+    """Draw the reward of a step by the least range before and after it, where the episode continues (Table 4.1)."""
     distance = (np.arange(400) + 0.5) / 400 * (SENSOR_RANGE + 1)
     before, after = np.meshgrid(distance, distance)
     row = reward_row(
@@ -68,16 +68,16 @@ def draw_rewards(axes: Axes) -> None:
 
 
 def _seen(nearest: ArrayLike) -> Sensing:
-    """Robots whose least range is given; beyond the sensors' range, nothing."""
+    """Sensing of robots with given least ranges; beyond the sensors' range they sense nothing."""
     ranges = np.minimum(np.ravel(nearest), SENSOR_RANGE)[:, None] + np.zeros(9)
     n = len(ranges)
     return Sensing(ranges, np.zeros((n, 9), bool), np.ones(n, int), np.zeros(n, bool))
 
 
-def draw_boltzmann(
+def draw_softmax_policy(
     axes: Axes, q: ArrayLike, *, coldest: float = 0.01, hottest: float = 10.0
 ) -> None:
-    """How likely each action is at temperatures from cold to hot, for Q-values (5,)."""
+    """Draw how likely each action is at low to high temperatures, for Q-values (5,)."""
     temperatures = np.geomspace(coldest, hottest, 200)
     shares = softmax_policy(np.tile(np.asarray(q, dtype=float), (200, 1)), temperatures)
     for name, value, share, colour in zip(
@@ -88,8 +88,10 @@ def draw_boltzmann(
     axes.legend()
 
 
-def animate_boltzmann(q: ArrayLike, temperatures: Sequence[float]) -> FuncAnimation:
-    """Bars of the actions' probabilities while the temperature falls."""
+def animate_softmax_policy(
+    q: ArrayLike, temperatures: Sequence[float]
+) -> FuncAnimation:
+    """Animate bars of the actions' probabilities while the temperature falls."""
     from matplotlib.animation import FuncAnimation
 
     figure, axes = plt.subplots(figsize=(5, 2.6))
@@ -108,11 +110,14 @@ def animate_boltzmann(q: ArrayLike, temperatures: Sequence[float]) -> FuncAnimat
 def draw_learning(
     axes: Axes, counts: Mapping[str, ArrayLike], *, size: int = 30
 ) -> None:
-    """Successful episodes in every ``size``: mean over seeds, and a standard deviation around it (Fig. 4.4, 4.6).
+    """Draw successful episodes in every ``size``: mean over seeds, and a standard deviation around it (Fig. 4.4, 4.6).
 
     Parameters
     ----------
-    counts : (S, blocks) by method.
+    counts : mapping of str to (S, blocks) array
+        Counts by method.
+    size : int
+        Episodes in a block.
     """
     for name, given in counts.items():
         runs = np.atleast_2d(np.asarray(given, dtype=float))
@@ -132,11 +137,13 @@ def draw_learning(
 def draw_weight_changes(
     axes: Axes, changes: Mapping[str, ArrayLike], *, colour: str = style.BLUE
 ) -> None:
-    """What the weights of one layer changed by in each episode, summed in one way or another (Fig. 4.3).
+    """Draw how much the weights of one layer changed in each episode, for one or more kinds of sum (Fig. 4.3).
 
     Parameters
     ----------
-    changes : (E,) of one seed, or (S, E), by way of summing; of several seeds their mean and standard deviation.
+    changes : mapping of str to (E,) or (S, E) array
+        Sums of one seed, or of several seeds, by kind of sum. Of several seeds the function draws the mean and a
+        standard deviation.
     """
     for (name, values), shade in zip(changes.items(), (1.0, 0.45), strict=False):
         runs = np.atleast_2d(np.asarray(values, dtype=float))
@@ -166,7 +173,7 @@ def animate_learning(
     *,
     colour: str = style.ROBOT,
 ) -> FuncAnimation:
-    """One world, driven again and again: a path (steps + 1, 3) and a title a frame."""
+    """Animate several episodes in one world: each frame shows a path (steps + 1, 3) and a title."""
     from matplotlib.animation import FuncAnimation
 
     figure, axes = plt.subplots(figsize=(4.4, 4.6))
@@ -186,12 +193,14 @@ def draw_rates(
     *,
     thesis: Mapping[str, float] | None = None,
 ) -> None:
-    """Success of every seed as a dot, their mean as a line, the thesis's mean as a diamond; all in per cent.
+    """Draw the success of every seed as a dot, their mean as a line, and the thesis's mean as a diamond, in per cent.
 
     Parameters
     ----------
-    rates : (S,) by name of a method or of anything else.
-    thesis : its mean, by the same names, where it has one.
+    rates : mapping of str to (S,) array
+        Success rates by name, such as that of a method.
+    thesis : mapping of str to float, optional
+        The thesis's means by the same names, where it has them.
     """
     for row, (name, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
@@ -217,7 +226,7 @@ def draw_rates(
 
 
 def draw_trials(axes: Axes, means: Mapping[str, ArrayLike]) -> None:
-    """Mean success of every trial (trials,) by method, sorted; the first trial, with the thesis's settings, a cross."""
+    """Draw the mean success of every trial (trials,) by method, sorted; a cross marks the thesis's settings."""
     for place, (name, values) in enumerate(means.items()):
         rates = np.asarray(values, dtype=float)
         order = np.argsort(rates)
@@ -236,7 +245,7 @@ def draw_trials(axes: Axes, means: Mapping[str, ArrayLike]) -> None:
 
 
 def draw_endings(axes: Axes, endings: Mapping[str, tuple[float, float, float]]) -> None:
-    """How drives end, one bar a label: arrived, out of steps and collided, in per cent."""
+    """Draw how episodes end, one bar a label: arrived, out of steps and collided, in per cent."""
     left = np.zeros(len(endings))
     rates = np.array(list(endings.values())).reshape(-1, 3)
     kinds = (
@@ -268,7 +277,7 @@ def draw_endings(axes: Axes, endings: Mapping[str, tuple[float, float, float]]) 
 
 
 def plot_learning(results: Results) -> Figure:
-    """Fig. 4.4 or 4.6 from its results."""
+    """Plot Fig. 4.4 or 4.6 from its results."""
     figure, axes = plt.subplots(figsize=(7, 3.8))
     cases = results.experiment.cases
     draw_learning(
@@ -282,7 +291,7 @@ def plot_learning(results: Results) -> Figure:
 
 
 def plot_weight_changes(results: Results) -> Figure:
-    """Fig. 4.3 from its results, a panel a layer."""
+    """Plot Fig. 4.3 from its results, one panel a layer."""
     figure, panels = plt.subplots(1, 2, figsize=(9, 3))
     for panel, layer in zip(panels, ("first layer", "second layer"), strict=True):
         ways = {
@@ -295,7 +304,7 @@ def plot_weight_changes(results: Results) -> Figure:
 
 
 def plot_rates(results: Results) -> Figure:
-    """Table 4.3 from its results."""
+    """Plot Table 4.3 from its results."""
     cases = results.experiment.cases
     rates = {
         str(case["robot"]): results.values("success", k) for k, case in enumerate(cases)
@@ -311,7 +320,7 @@ def plot_rates(results: Results) -> Figure:
 
 
 def plot_speeds(results: Results) -> Figure:
-    """Table 4.2 from its results: the mean over seeds, and a band from the worst to the best."""
+    """Plot Table 4.2 from its results: the mean over seeds, and a band from the worst to the best."""
     figure, axes = plt.subplots(figsize=(7, 3.6))
     cases = results.experiment.cases
     for name in dict.fromkeys(str(case["robot"]) for case in cases):
@@ -334,7 +343,7 @@ def plot_speeds(results: Results) -> Figure:
 
 
 def plot_trials(results: Results) -> Figure:
-    """The trials of all methods from their results."""
+    """Plot the trials of all methods from their results."""
     means: dict[str, list[float]] = {}
     for k, case in enumerate(results.experiment.cases):
         means.setdefault(str(case["method"]), []).append(
@@ -346,7 +355,7 @@ def plot_trials(results: Results) -> Figure:
 
 
 def plot_endings(results: Results, what: str) -> Figure:
-    """How drives end for all choices of one thing, from the results of ``nnql-circles``."""
+    """Plot how episodes end for all choices of one thing, from the results of ``nnql-circles``."""
     ends = {}
     for k, case in enumerate(results.experiment.cases):
         if case["what"] == what:
@@ -361,7 +370,7 @@ def plot_endings(results: Results, what: str) -> Figure:
 
 
 def plot_variations(results: Results) -> Figure:
-    """Mean success of every choice of ``nnql-circles``, with its interval."""
+    """Plot the mean success of every choice of ``nnql-circles``, with its interval."""
     figure, axes = plt.subplots(figsize=(7, 6.5))
     cases = results.experiment.cases
     for k in range(len(cases)):

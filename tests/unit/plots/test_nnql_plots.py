@@ -33,7 +33,7 @@ def test_rewards_by_distance_before_and_after(axes):
 
 
 def test_boltzmann_curves_start_greedy_and_end_even(axes):
-    draw.draw_boltzmann(axes, [0.9, 0.8, 0.5, 0.3, 0.1], coldest=1e-4, hottest=1e4)
+    draw.draw_softmax_policy(axes, [0.9, 0.8, 0.5, 0.3, 0.1], coldest=1e-4, hottest=1e4)
     ends = np.array([line.get_ydata()[[0, -1]] for line in axes.lines])
     np.testing.assert_allclose(ends[:, 0], [1, 0, 0, 0, 0], atol=1e-9)
     np.testing.assert_allclose(ends[:, 1], 0.2, atol=1e-4)
@@ -203,7 +203,7 @@ def test_animations_have_a_frame_for_each():
     world = random_worlds(1, 3, seed=1)
     paths = [np.zeros((2, 3)) + 10, np.zeros((4, 3)) + 20]
     for film, frames in (
-        (draw.animate_boltzmann(np.arange(5) / 5, [0.9, 0.5, 0.1]), 3),
+        (draw.animate_softmax_policy(np.arange(5) / 5, [0.9, 0.5, 0.1]), 3),
         (draw.animate_learning(world, paths, ["one", "two"]), 2),
     ):
         assert len(list(film.new_saved_frame_seq())) == frames
