@@ -14,8 +14,13 @@ import math
 import numpy as np
 
 from robonav.compilation import compiler
-from robonav.robot import _fast as simulator
-from robonav.robot._fast import ARRIVAL_DISTANCE, SENSOR_RANGE, swept_clearance
+from robonav.robot._fast import (
+    ARRIVAL_DISTANCE,
+    SENSOR_RANGE,
+    constants,
+    geometry,
+    swept_clearance,
+)
 
 HEADINGS = 12  # a heading changes by multiples of 30 degrees
 TWELFTHS = np.array([0, 1, 2, -1, -2])  # what F, L30, L60, R30, R60 add to it
@@ -24,7 +29,7 @@ CLOSE_ENOUGH = (
 )  # the simulator rounds to a micrometre; what we call arrived, it does too
 NONE = -1
 
-compiled = compiler(simulator)
+compiled = compiler(constants, geometry)
 
 
 @compiled

@@ -437,7 +437,7 @@ def draw_worlds(
     _fast.in_threads(
         _fast.draw_worlds, n, keys, obstacles, moving, float(moving_speeds[0]), float(moving_speeds[1]), float(size),
         np.array(starts, dtype=float), np.array(targets, dtype=float), ATTEMPTS, kinds, shapes, centres, speeds,
-        headings, chosen, found, worth=8,
+        headings, chosen, found, least=8,
     )  # fmt: skip
     if not found.all():
         raise ValueError(

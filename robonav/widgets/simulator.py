@@ -13,7 +13,7 @@ from robonav.robot._fast import CIRCLE
 from .shared import packed_network
 
 CHOOSING = 5
-"""For what the page draws random numbers when a policy leaves its action to chance; see ``uniform`` in _fast.py."""
+"""Purpose of the random numbers by which the page samples actions, see ``robonav.robot._fast.uniform``."""
 
 
 def page_world(world: Worlds) -> dict[str, Any]:

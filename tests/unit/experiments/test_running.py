@@ -311,7 +311,7 @@ def test_a_run_depends_on_the_code_that_it_imports():
             for name in ("figure-3.8", "table-4.3")
         )
     }
-    assert {"lfd/astar.py", "robot/_fast.py"} <= known["figure-3.8"]
+    assert {"lfd/astar.py", "robot/_fast/geometry.py"} <= known["figure-3.8"]
     assert "experiments/chapter3/settings.toml" in known["figure-3.8"]
     assert not any(path.startswith("nirl/") for path in known["table-4.3"])
     assert "nnql/nnql.py" in known["table-4.3"]

@@ -1,0 +1,153 @@
+"""Motion: one second of robots and moving obstacles, and how it ends."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from robonav.compilation import compiler
+
+from . import constants, geometry, random_numbers
+from .constants import (
+    ARRIVAL_DISTANCE,
+    ARRIVED,
+    BACKWARD,
+    COLLIDED,
+    COLLISION_DISTANCE,
+    NOTHING,
+    OUT_OF_STEPS,
+    RUNNING,
+    TO_TARGET,
+    TURN_PROBABILITY,
+    TURNS,
+)
+from .geometry import micrometres, reach_of, swept_clearance
+from .random_numbers import DRIFTING, SLIPPING, uniform
+
+compiled = compiler(constants, geometry, random_numbers)
+
+
+@compiled
+def _wrap(angle):
+    """The same angle in (-pi, pi]."""
+    if angle > math.pi:
+        return angle - 2.0 * math.pi
+    if angle <= -math.pi:
+        return angle + 2.0 * math.pi
+    return angle
+
+
+@compiled
+def _drift(kinds, shapes, speeds, key, step, size, centres, headings):
+    """Moving obstacles go one second on, turn at random, bounce off the borders."""
+    for m in range(len(kinds)):
+        if kinds[m] == NOTHING or speeds[m] == 0.0:
+            continue
+        heading = headings[m]
+        if uniform(key, DRIFTING, step, m, 0) < TURN_PROBABILITY:
+            heading = math.pi * (2.0 * uniform(key, DRIFTING, step, m, 1) - 1.0)
+        x = centres[m, 0] + speeds[m] * math.cos(heading)
+        y = centres[m, 1] + speeds[m] * math.sin(heading)
+        reach = reach_of(kinds[m], shapes[m, 0], shapes[m, 1])
+        if x < reach or x > size - reach:
+            x = 2.0 * reach - x if x < reach else 2.0 * (size - reach) - x
+            heading = _wrap(math.pi - heading)
+        if y < reach or y > size - reach:
+            y = 2.0 * reach - y if y < reach else 2.0 * (size - reach) - y
+            heading = -heading
+        centres[m, 0], centres[m, 1], headings[m] = x, y, heading
+
+
+@compiled
+def _slipped(action, slip, key, step):
+    """The action that comes of ``action`` when row ``action`` of ``slip`` says how likely each is."""
+    draw = uniform(key, SLIPPING, step, 0, 0)
+    total = 0.0
+    for other in range(slip.shape[1]):
+        total += slip[action, other]
+        if draw < total:
+            return other
+    return action
+
+
+@compiled
+def drift(start, stop, kinds, shapes, speeds, keys, steps, size, centres, headings):
+    """Moving obstacles of worlds ``start`` to ``stop`` alone, one second on."""
+    for i in range(start, stop):
+        _drift(
+            kinds[i],
+            shapes[i],
+            speeds[i],
+            keys[i],
+            steps[i],
+            size,
+            centres[i],
+            headings[i],
+        )
+
+
+@compiled
+def step(
+    start, stop, robots, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, actions, poses, centres,
+    headings, steps, outcome,
+):  # fmt: skip
+    """One second for ``robots[start]`` to ``robots[stop - 1]``: turn, go; did it collide, arrive, run out of steps?
+
+    A collision anywhere along the way counts. ``slip`` is (6, 6), or (0, 0) for none; where a robot slips, ``actions``
+    (K,) gets what it did instead. Robots whose outcome is no longer RUNNING stand still.
+    """
+    before = np.empty_like(centres[0])
+    for j in range(start, stop):
+        i = robots[j]
+        if outcome[i] != RUNNING:
+            continue
+        x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
+        action = actions[j]
+        if action == TO_TARGET:
+            heading = math.atan2(targets[i, 1] - y, targets[i, 0] - x)
+            action = 0
+        if slip.shape[0] > 0:
+            slipped = _slipped(action, slip, keys[i], steps[i])
+            if slipped != action:
+                action = actions[j] = slipped
+        heading = _wrap(heading + TURNS[action])
+        length = -speed if action == BACKWARD else speed
+        x1, y1 = x + length * math.cos(heading), y + length * math.sin(heading)
+        for m in range(
+            len(before)
+        ):  # a slice assignment would compile the text of its error, for three seconds
+            before[m, 0], before[m, 1] = centres[i, m, 0], centres[i, m, 1]
+        _drift(
+            kinds[i],
+            shapes[i],
+            speeds[i],
+            keys[i],
+            steps[i],
+            size,
+            centres[i],
+            headings[i],
+        )
+        clearance = swept_clearance(
+            kinds[i],
+            shapes[i],
+            before,
+            centres[i],
+            size,
+            x,
+            y,
+            x1,
+            y1,
+            COLLISION_DISTANCE + 1e-3,
+        )
+        poses[i, 0], poses[i, 1], poses[i, 2] = x1, y1, heading
+        steps[i] += 1
+        if micrometres(clearance) < COLLISION_DISTANCE:
+            outcome[i] = COLLIDED
+        elif (
+            micrometres(math.hypot(targets[i, 0] - x1, targets[i, 1] - y1))
+            <= ARRIVAL_DISTANCE
+        ):
+            outcome[i] = ARRIVED
+        elif steps[i] >= max_steps:
+            outcome[i] = OUT_OF_STEPS
