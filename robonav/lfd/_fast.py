@@ -1,7 +1,8 @@
-"""The planners' compiled core: the two searches of section 3.5, over robot actions and over a grid.
+"""The compiled twins of :mod:`robonav.lfd.astar`: the two searches of section 3.5.
 
-The searches judge a step by the simulator's own kernel, which stands in another file. numba's cache would not see an
-edit there; :func:`compiled` therefore adds that file's digest to the key under which a kernel is kept.
+They return the same paths as the readable functions and expand the same nodes in the same order. Nodes are whole
+numbers here, and tables take the place of sets and dictionaries.
+
 
 Shapes: M obstacle slots. Metres, radians counter-clockwise. Kernels are serial and release the GIL.
 """
@@ -23,7 +24,9 @@ from robonav.robot._fast import (
 )
 
 HEADINGS = 12  # a heading changes by multiples of 30 degrees
-TWELFTHS = np.array([0, 1, 2, -1, -2])  # what F, L30, L60, R30, R60 add to it
+ACTION_TURNS = np.array(
+    [0, 1, 2, -1, -2]
+)  # what F, L30, L60, R30, R60 add, in steps of 30 degrees
 CLOSE_ENOUGH = (
     ARRIVAL_DISTANCE - 2e-6
 )  # the simulator rounds to a micrometre; what we call arrived, it does too
@@ -48,40 +51,57 @@ def search_actions(
     record,
     visited,
 ):
-    """Modified A* (Algorithm 4) in one world: nodes are poses, their neighbours what the five actions lead to.
+    """Search in one world as :func:`robonav.lfd.astar.modified_astar` does, its compiled twin.
 
-    Positions are continuous. Two poses of one heading in one ``cell`` count as the same node, of which the one with
-    the lower G stays; without that no pose would ever be met twice.
+    Node ``(column * cells + row) * HEADINGS + heading`` stands for the poses of one heading in one cell. The clearance
+    of a cell is computed once, when it is first needed, and where it is large no step into the cell is checked.
 
     Parameters
     ----------
-    pose : (3,) where to start. target : (2,).
-    speed : length of a step. margin : clearance that each step keeps, at least.
-    caution : how much is added to G a metre, at an obstacle; it fades, with the square of the distance, out to sensor
-        range. Taken at the middle of the cell in which the step ends.
-    cell : side of the cells, in metres.
-    limit : nodes to expand at most.
-    visited : (limit, 3) gets the poses expanded, in their order, if ``record``.
+    kinds, shapes, centres, size
+        The obstacles (M of them) and the side of the map.
+    pose : (3,) array
+        x, y and heading to start from.
+    target : (2,) array
+        Where to go.
+    speed, margin, caution, cell : float
+        See :func:`robonav.lfd.plan`.
+    limit : int
+        The most nodes to expand.
+    record : bool
+        Whether to keep the poses expanded.
+    visited : (limit, 3) array
+        Gets the poses expanded, in their order, if ``record``.
 
     Returns
     -------
-    found : whether a path was found.
-    poses (K + 1, 3), actions (K,) : the path; the start alone if there is none.
-    expanded : number of nodes expanded.
+    found : bool
+        Whether there is a path.
+    poses : (K + 1, 3) array
+        The path; the start alone if there is none.
+    actions : (K,) array of int
+        The actions of the path.
+    expanded : int
+        Number of nodes expanded.
     """
     cells = math.ceil(size / cell)
-    places = np.empty((cells * cells * HEADINGS, 2))
-    costs = np.full(len(places), math.inf)  # G
-    parents = np.empty(len(places), dtype=np.int32)
-    closed = np.zeros(len(places), dtype=np.bool_)
-    ways = np.empty((HEADINGS, 2))
+    positions = np.empty((cells * cells * HEADINGS, 2))
+    costs = np.full(len(positions), math.inf)  # G
+    parents = np.empty(len(positions), dtype=np.int32)
+    closed = np.zeros(len(positions), dtype=np.bool_)
+    displacements = np.empty((HEADINGS, 2))  # of one step, for each heading
     for h in range(HEADINGS):
         heading = pose[2] + math.radians(30.0 * h)
-        ways[h, 0], ways[h, 1] = speed * math.cos(heading), speed * math.sin(heading)
+        displacements[h, 0], displacements[h, 1] = (
+            speed * math.cos(heading),
+            speed * math.sin(heading),
+        )
     far_enough = (
         margin + speed + cell
     )  # clearance of a square, beyond which no step that ends there is too near
-    berth = SENSOR_RANGE if caution > 0.0 else far_enough  # no more of it need be known
+    most = (
+        SENSOR_RANGE if caution > 0.0 else far_enough
+    )  # a larger clearance makes no difference
     clear = np.full(
         cells * cells, -1.0
     )  # at the middle of each square, worked out when first needed
@@ -90,7 +110,7 @@ def search_actions(
         min(int(pose[0] / cell), cells - 1) * cells
         + min(int(pose[1] / cell), cells - 1)
     ) * HEADINGS
-    places[start, 0], places[start, 1], costs[start], parents[start] = (
+    positions[start, 0], positions[start, 1], costs[start], parents[start] = (
         pose[0],
         pose[1],
         0.0,
@@ -106,20 +126,20 @@ def search_actions(
         if closed[node]:
             continue
         closed[node] = True
-        x, y, h = places[node, 0], places[node, 1], node % HEADINGS
+        x, y, h = positions[node, 0], positions[node, 1], node % HEADINGS
         if record:
             visited[expanded, 0], visited[expanded, 1], visited[expanded, 2] = (
                 x,
                 y,
-                _wrap(pose[2], h),
+                wrapped_heading(pose[2], h),
             )
         expanded += 1
         if math.hypot(target[0] - x, target[1] - y) <= CLOSE_ENOUGH:
             reached = node
             break
-        for twelfths in TWELFTHS:
-            turned = (h + twelfths) % HEADINGS
-            x1, y1 = x + ways[turned, 0], y + ways[turned, 1]
+        for turns in ACTION_TURNS:
+            turned = (h + turns) % HEADINGS
+            x1, y1 = x + displacements[turned, 0], y + displacements[turned, 1]
             if not (0.0 < x1 < size and 0.0 < y1 < size):
                 continue
             square = int(x1 / cell) * cells + int(y1 / cell)
@@ -129,11 +149,11 @@ def search_actions(
             if clear[square] < 0.0:
                 cx, cy = (int(x1 / cell) + 0.5) * cell, (int(y1 / cell) + 0.5) * cell
                 clear[square] = swept_clearance(
-                    kinds, shapes, centres, centres, size, cx, cy, cx, cy, berth
+                    kinds, shapes, centres, centres, size, cx, cy, cx, cy, most
                 )
             tentative = costs[node] + speed
             if caution > 0.0:
-                tentative += speed * caution * (1.0 - clear[square] / berth) ** 2
+                tentative += speed * caution * (1.0 - clear[square] / most) ** 2
             if costs[neighbour] <= tentative:
                 continue
             sure = clear[square] >= far_enough
@@ -145,27 +165,25 @@ def search_actions(
                 < margin
             ):
                 continue
-            places[neighbour, 0], places[neighbour, 1] = x1, y1
+            positions[neighbour, 0], positions[neighbour, 1] = x1, y1
             costs[neighbour], parents[neighbour] = tentative, node
             rest = math.hypot(target[0] - x1, target[1] - y1)
             heapq.heappush(queue, (tentative + rest, rest, neighbour))
-    poses, actions = _walked(
-        places, parents, start if reached == NONE else reached, pose[2]
+    poses, actions = _path(
+        positions, parents, start if reached == NONE else reached, pose[2]
     )
     return reached != NONE, poses, actions, expanded
 
 
 @compiled
-def _wrap(heading, twelfths):
-    """A heading turned left by so many times 30 degrees, in (-pi, pi]."""
-    return math.pi - (math.pi - heading - math.radians(30.0 * twelfths)) % (
-        2.0 * math.pi
-    )
+def wrapped_heading(heading, turns):
+    """Turn a heading left by a number of 30-degree turns; the result lies in (-pi, pi]."""
+    return math.pi - (math.pi - heading - math.radians(30.0 * turns)) % (2.0 * math.pi)
 
 
 @compiled
-def _walked(places, parents, last, heading):
-    """The way back from node ``last`` to the start, turned round: poses (K + 1, 3) and actions (K,)."""
+def _path(positions, parents, last, heading):
+    """Follow the parents from node ``last`` back to the start; return poses (K + 1, 3) and actions (K,) in order."""
     count, node = 0, last
     while parents[node] != NONE:
         count, node = count + 1, parents[node]
@@ -173,13 +191,13 @@ def _walked(places, parents, last, heading):
     node = last
     for k in range(count, -1, -1):
         poses[k, 0], poses[k, 1], poses[k, 2] = (
-            places[node, 0],
-            places[node, 1],
-            _wrap(heading, node % HEADINGS),
+            positions[node, 0],
+            positions[node, 1],
+            wrapped_heading(heading, node % HEADINGS),
         )
         before = parents[node]
-        for action in range(len(TWELFTHS)):
-            if k > 0 and (before + TWELFTHS[action] - node) % HEADINGS == 0:
+        for action in range(len(ACTION_TURNS)):
+            if k > 0 and (before + ACTION_TURNS[action] - node) % HEADINGS == 0:
                 actions[k - 1] = action
         node = before
     return poses, actions
@@ -189,20 +207,31 @@ def _walked(places, parents, last, heading):
 def search_grid(
     kinds, shapes, centres, size, start, target, margin, cell, record, visited
 ):
-    """Conventional A* in one world: nodes are the corners of a grid, their neighbours the eight around each.
+    """Search in one world as :func:`robonav.lfd.astar.grid_astar` does, its compiled twin.
+
+    Node ``column * rows + row`` stands for a point of the grid.
 
     Parameters
     ----------
-    start, target : (2,). The grid is laid so that ``start`` is one of its nodes.
-    margin : clearance that each step keeps, at least.
-    cell : side of the grid's cells, in metres.
-    visited : (nodes, 2) gets the points expanded, in their order, if ``record``.
+    kinds, shapes, centres, size
+        The obstacles (M of them) and the side of the map.
+    start, target : (2,) arrays
+        Where to start and where to go.
+    margin, cell : float
+        See :func:`robonav.lfd.plan_on_grid`.
+    record : bool
+        Whether to keep the points expanded.
+    visited : (nodes, 2) array
+        Gets the points expanded, in their order, if ``record``.
 
     Returns
     -------
-    found : whether a path was found.
-    points (K + 1, 2) : the path; the start alone if there is none.
-    expanded : number of nodes expanded.
+    found : bool
+        Whether there is a path.
+    points : (K + 1, 2) array
+        The path; the start alone if there is none.
+    expanded : int
+        Number of nodes expanded.
     """
     west, south = start[0] % cell, start[1] % cell
     columns, rows = int((size - west) / cell) + 1, int((size - south) / cell) + 1

@@ -14,6 +14,7 @@ from shapely import LineString, Point, box
 from shapely.affinity import rotate
 
 from robonav.lfd import plan, plan_on_grid
+from robonav.lfd.astar import grid_astar, modified_astar
 from robonav.robot import ARRIVAL_DISTANCE, Simulator, make_world, random_worlds
 
 TURNS = np.radians([0, 30, 60, -30, -60])
@@ -277,3 +278,52 @@ def test_one_world_at_a_time(planner):
         planner(random_worlds(2, 2, seed=1))
     with pytest.raises(TypeError, match="world must be Worlds, got str"):
         planner("x")
+
+
+@pytest.mark.parametrize(
+    ("speed", "margin", "caution", "cell"),
+    [(2.0, 2.0, 0.0, 1.0), (2.0, 3.0, 2.0, 2.0), (1.5, 1.0, 0.5, 0.7)],
+)
+def test_readable_and_compiled_modified_astar(speed, margin, caution, cell):
+    for world in random_worlds(4, 15, seed=9):
+        settings = {"speed": speed, "margin": margin, "caution": caution, "cell": cell}
+        made = plan(world, **settings)
+        found, path, expanded = modified_astar(
+            world, world.start_poses[0], limit=200_000, **settings
+        )
+        assert (found, expanded) == (made.found, made.expanded)
+        turns, points, actions = zip(*path, strict=True)
+        assert np.array_equal(points, made.points)
+        assert np.array_equal(actions[1:], made.actions)
+        turned = (
+            made.headings - world.start_poses[0, 2] - np.radians(30) * np.array(turns)
+        )
+        assert np.allclose(np.cos(turned), 1)
+
+
+def test_readable_and_compiled_astar_on_a_grid():
+    for world in random_worlds(4, 15, seed=9):
+        made = plan_on_grid(world)
+        found, path, expanded = grid_astar(world, world.starts[0], margin=2.0, cell=1.0)
+        assert (found, expanded) == (made.found, made.expanded)
+        assert np.array_equal(path, made.points)
+
+
+def test_readable_searches_without_a_path():
+    world = make_world(rectangles=[(50, 50, 6, 96, 0)])
+    pose = world.start_poses[0]
+    found, path, expanded = modified_astar(
+        world, pose, speed=2.0, margin=2.0, caution=0.0, cell=1.0, limit=300
+    )
+    assert (found, len(path), expanded) == (False, 1, 300)
+    assert expanded == plan(world, limit=300).expanded
+    assert len(grid_astar(world, pose[:2], margin=2.0, cell=1.0)[1]) == 1
+
+
+def test_steps_shorter_than_a_metre():
+    """Poses of one heading in one cell are one node, so that a step which stays in its cell would lead nowhere."""
+    assert plan(random_worlds(1, 0, seed=1), speed=0.5).found
+    with pytest.raises(ValueError, match=r"cell must be at most speed, 0\.5 m"):
+        plan(random_worlds(1, 0, seed=1), speed=0.5, cell=1.0)
+    small = make_world(start=(5, 5), target=(15, 15), size=20)
+    assert plan(small, speed=0.1).found
