@@ -1,7 +1,7 @@
 """Chapter 3: learning from demonstration."""
 
 from .astar import GridPlan, Plan, plan, plan_on_grid
-from .behaviour_cloning import labelled_states, learn_policy
+from .behaviour_cloning import behaviour_cloning, labelled_states, learn_policy
 from .computer_expert import ComputerExpert, demonstrate
 from .dagger import DaggerResult, collect_with_expert_labels, dagger
 from .dataset_summary import DatasetSummary, summarise_dataset
@@ -26,6 +26,7 @@ __all__ = [
     "NeighbourPolicy",
     "PathFollower",
     "Plan",
+    "behaviour_cloning",
     "collect_with_expert_labels",
     "concatenate",
     "dagger",

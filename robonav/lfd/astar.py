@@ -146,7 +146,6 @@ def modified_astar(
     G, closed_set = {start: 0.0}, set[Node]()  # 1
     rest = distance(point[start], world.targets[0])
     open_set = [(rest, rest, start)]  # 2
-    current, found = start, False
     while open_set and len(closed_set) < limit:  # 3
         F, H, current = heapq.heappop(open_set)  # 4
         if current in closed_set:
@@ -171,8 +170,7 @@ def modified_astar(
                 F = G[neighbour] + H  # Eq. (3.31)
                 heapq.heappush(open_set, (F, H, neighbour))  # 23
     nodes = path_to(current if found else start, parent)  # 28 to 35
-    path = [(node[2], point[node], action[node]) for node in nodes]
-    return found, path, len(closed_set)
+    return found, [(n[2], point[n], action[n]) for n in nodes], len(closed_set)
 
 
 def grid_astar(

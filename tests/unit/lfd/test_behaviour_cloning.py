@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from robonav.lfd import (
+    behaviour_cloning,
     dagger,
     demonstrate,
     demonstrate_by_hand,
@@ -137,3 +138,10 @@ def test_wrong_types_at_the_other_doors(tmp_path):
     ):
         save_demonstrations(tmp_path / "d.npz", "x")
     assert not list(tmp_path.iterdir())
+
+
+def test_behaviour_cloning_and_learn_policy():
+    shown = demonstrate(random_worlds(3, 10, seed=4))
+    one = behaviour_cloning(shown, iterations=20, seed=5).network
+    other = learn_policy(shown, iterations=20, seed=5).network
+    assert all(map(np.array_equal, one.weights, other.weights))
