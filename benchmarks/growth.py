@@ -32,7 +32,7 @@ Point = dict[str, float]
 
 
 def measured(work: Callable[[], Any]) -> Point:
-    """Least seconds of some rounds, and the most memory in MiB that numpy held meanwhile."""
+    """The least seconds of some rounds, and the peak memory of numpy in MiB."""
     seconds = []
     for _ in range(ROUNDS):
         began = time.perf_counter()
@@ -46,7 +46,7 @@ def measured(work: Callable[[], Any]) -> Point:
 
 
 def drives(worlds: int, obstacles: int) -> Callable[[], Any]:
-    """So many robots go straight on through their worlds."""
+    """A number of robots go straight on through their worlds."""
     drawn = random_worlds(worlds, obstacles, seed=0)
     return lambda: navigate(straight, drawn)
 
@@ -58,7 +58,7 @@ def planning(side: int) -> Callable[[], Any]:
 
 
 def growth() -> dict[str, list[Point]]:
-    """What grows, as a list of points: the size, and what it takes."""
+    """Sizes, with seconds and memory of each."""
     work: dict[str, dict[int, Callable[[], Any]]] = {
         "obstacles, 4096 worlds": {n: drives(4096, n) for n in OBSTACLES},
         "worlds, 20 obstacles": {n: drives(n, 20) for n in WORLDS},
@@ -74,7 +74,7 @@ def growth() -> dict[str, list[Point]]:
 
 
 def slope(points: list[Point]) -> float:
-    """The power that seconds grow with, over the upper half of the sizes: 1 is in proportion."""
+    """The exponent of the growth of seconds over the upper half of the sizes; 1 means in proportion."""
     upper = [point for point in points if point["size"] > 0][-3:]
     size, seconds = (
         np.log([point[key] for point in upper]) for key in ("size", "seconds")

@@ -88,7 +88,7 @@ Seconds (blue) and memory (orange) against size. A line of slope one is in propo
 
 
 def printed(script: str, options: tuple[str, ...]) -> str:
-    """What a script prints on its output."""
+    """The standard output of a script."""
     command = [sys.executable, str(HERE / script), *options]
     return subprocess.run(
         command, stdout=subprocess.PIPE, text=True, check=True
@@ -96,7 +96,7 @@ def printed(script: str, options: tuple[str, ...]) -> str:
 
 
 def draw_growth(points: dict[str, list[dict[str, float]]]) -> None:
-    """One panel for each thing that grows."""
+    """One panel for each quantity."""
     with mpl.rc_context(style.STYLE | {"svg.hashsalt": "growth"}):
         figure, panels = plt.subplots(2, 2, figsize=(8, 6), layout="constrained")
         for axes, (what, found) in zip(panels.flat, points.items(), strict=True):

@@ -105,8 +105,10 @@ def training_episode(case: Case, seed: int, scale: str) -> Numbers:
 def demonstration_by_hand(case: Case, seed: int, scale: str) -> Numbers:
     """Figs. 5.3 and 5.6: a demonstration through key points."""
     world = world_of(case)
-    shown = demonstrate_by_hand(world, sketch(world, seed=seed))
-    return path_of(shown.poses) | {"effective pairs": float(len(shown.effective))}
+    trajectories = demonstrate_by_hand(world, sketch(world, seed=seed))
+    return path_of(trajectories.poses) | {
+        "effective pairs": float(len(trajectories.effective))
+    }
 
 
 def slipping_demonstration(case: Case, seed: int, scale: str) -> Numbers:

@@ -129,9 +129,9 @@ def expert_demonstrations(expert: str, seed: int) -> Demonstrations:
 
 def compare_experts(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 3.6: what 25 demonstrations hold, and the success of the policy learned from them."""
-    shown = expert_demonstrations(str(case["expert"]), seed)
-    held = summarise_dataset(shown)
-    policy = learn_policy(shown, seed=seed)
+    trajectories = expert_demonstrations(str(case["expert"]), seed)
+    held = summarise_dataset(trajectories)
+    policy = learn_policy(trajectories, seed=seed)
     rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
     return {
         "arrived": 100 * held.arrived / held.drives,
@@ -211,12 +211,12 @@ def compare_encodings(case: Case, seed: int, scale: str) -> Numbers:
 def expert_margin(case: Case, seed: int, scale: str) -> Numbers:
     """An expert that keeps a distance, and the policy learned from it."""
     obstacles = int(case["obstacles"])
-    shown = demonstrate(
+    trajectories = demonstrate(
         random_worlds(DEMONSTRATIONS, obstacles, seed=DEMONSTRATION_SEED + seed),
         margin=float(case["margin"]),
         caution=float(case["caution"]),
     )
-    policy = learn_policy(shown, seed=seed)
+    policy = learn_policy(trajectories, seed=seed)
     return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale, obstacles))
 
 

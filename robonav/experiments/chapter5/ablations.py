@@ -75,9 +75,11 @@ def options_up_to(change: str) -> dict[str, Any]:
 def ablation(case: Case, seed: int, scale: str) -> Numbers:
     """One run after a number of changes."""
     options = options_up_to(str(case["change"]))
-    course = task(options.pop("target"))
-    shown = demonstrations(seed)
-    learned = learn(shown, "nirl", seed, task=course, iterations=ITERATIONS, **options)
+    where = task(options.pop("target"))
+    trajectories = demonstrations(seed)
+    learned = learn(
+        trajectories, "nirl", seed, task=where, iterations=ITERATIONS, **options
+    )
     return SETUP.evaluate(learned.policy, SETUP.test_worlds(seed, scale))
 
 

@@ -132,7 +132,7 @@ def own_options(method: str, settings: Settings, iterations: int) -> dict[str, A
 
 def train_irl(
     method: str,
-    shown: Demonstrations,
+    trajectories: Demonstrations,
     seed: int,
     settings: Settings,
     *,
@@ -145,7 +145,7 @@ def train_irl(
     ----------
     method : str
         A method of :func:`robonav.nirl.learn`, or one of :data:`CONTROLS`.
-    shown : Demonstrations
+    trajectories : Demonstrations
         What the expert demonstrated.
     seed : int
         The seed of weights and training.
@@ -166,9 +166,9 @@ def train_irl(
     }
     if method in CONTROLS:
         weights = control_reward(method, seed, common["task"].n_inputs)
-        return learn_under_reward(shown, weights, seed=seed, **common)
+        return learn_under_reward(trajectories, weights, seed=seed, **common)
     own = own_options(method, settings, iterations)
-    return learn(shown, method, seed, **own, **common, **changes)
+    return learn(trajectories, method, seed, **own, **common, **changes)
 
 
 def control_reward(name: str, seed: int, inputs: int) -> NDArray[np.float64]:
@@ -196,8 +196,8 @@ def trained(
 def _trained(
     method: str, seed: int, settings: Settings, number: int, expert: str, length: float
 ) -> IRLResult:
-    shown = demonstrations(seed, number, expert)
-    return train_irl(method, shown, seed, settings, length=length)
+    trajectories = demonstrations(seed, number, expert)
+    return train_irl(method, trajectories, seed, settings, length=length)
 
 
 @lru_cache(maxsize=300)

@@ -155,7 +155,7 @@ def slipping_demonstrations(seed: int) -> Demonstrations:
 
 def refine(case: Case, seed: int, scale: str) -> Numbers:
     """One run of NIRL from contradictory demonstrations, refined by Eq. (5.12) in one of two ways, or not."""
-    shown = (
+    trajectories = (
         slipping_demonstrations(seed)
         if case["expert"] == "slipping"
         else demonstrations(seed, expert=str(case["expert"]))
@@ -163,10 +163,10 @@ def refine(case: Case, seed: int, scale: str) -> Numbers:
     refinement = REFINEMENTS[str(case["actions"])]
     changed = 0.0
     if refinement is not None:
-        steps = expert_transitions(shown, encoder(tuned("nirl")["target"]))
+        steps = expert_transitions(trajectories, encoder(tuned("nirl")["target"]))
         refined = refinement(steps.inputs.round(6), steps.actions, LEARNED)
         changed = 100 * refined.changed.mean()
-    learned = train_irl("nirl", shown, seed, tuned("nirl"), refine=refinement)
+    learned = train_irl("nirl", trajectories, seed, tuned("nirl"), refine=refinement)
     rates = SETUP.evaluate(learned.policy, SETUP.test_worlds(seed, scale))
     return rates | {"actions changed": changed}
 
