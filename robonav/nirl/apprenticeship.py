@@ -318,7 +318,7 @@ def from_initial_state(
     Parameters
     ----------
     transitions : Transitions
-        At least one decision.
+        M decisions; if there is none, the expectations are zero.
     n_actions : int
         A.
     discount : float
@@ -338,6 +338,8 @@ def from_initial_state(
     np.float64(3.0)
     """
     taken = state_action_features(transitions.features, transitions.actions, n_actions)
+    if not len(taken):
+        return np.zeros(taken.shape[1])
     return empirical_expectations(taken, transitions.trajectory, discount)
 
 
@@ -351,7 +353,7 @@ def from_all_states(
     Parameters
     ----------
     transitions : Transitions
-        At least one decision.
+        M decisions; if there is none, the expectations are zero.
     n_actions : int
         A.
     discount : float
@@ -372,7 +374,7 @@ def from_all_states(
     """
     taken = state_action_features(transitions.features, transitions.actions, n_actions)
     sums = discounted_feature_sums(taken, transitions.trajectory, discount)
-    return sums.mean(axis=0)
+    return sums.mean(axis=0) if len(sums) else np.zeros(sums.shape[1])
 
 
 @checked
@@ -431,17 +433,14 @@ def apprenticeship(
     trainer.rollout()
     found: list[Floats] = []
     for _ in range(n_rewards):
-        latest = trainer.episodes[-1]  # a policy that decided nothing collects nothing
-        found.append(
-            expectations(latest, task.n_actions, improver.discount)
-            if len(latest)
-            else np.zeros_like(expert)
-        )
+        latest = trainer.episodes[-1]
+        mu = expectations(latest, task.n_actions, improver.discount)
+        found.append(mu)
         weights, distance = guess(expert, found)
         if distance <= 0:
             break  # the expert is a mixture of the policies found
+        theta = weights.reshape(task.n_actions, -1)
         for _ in range(iterations_per_reward):
-            theta = weights.reshape(task.n_actions, -1)
             trainer.improve(theta, fraction=min(done / max(total - 1, 1), 1.0))
             trainer.rollout()
             done += 1
