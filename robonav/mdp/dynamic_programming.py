@@ -193,7 +193,9 @@ def modified_policy_iteration(
     max_iterations: int = 100_000,
     record: bool = False,
 ) -> Solution:
-    """Modified policy iteration, between Algorithms 1 and 2.
+    """Modified policy iteration: improve once, evaluate by a few sweeps, repeat.
+
+    It lies between Algorithm 1 (policy iteration) and Algorithm 2 (value iteration).
 
     Each iteration improves the policy once and evaluates it by ``sweeps`` sweeps (0: value iteration; many: policy
     iteration). Stops when the changes of the improvement differ by at most ``tolerance * (1 - discount) / discount``

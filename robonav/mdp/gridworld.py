@@ -236,6 +236,11 @@ class GridWorld:
         return self._of_symbols(what, dtype)[tuple(self.cells.T)]
 
 
+def as_action(action: int) -> int:
+    """The action as a whole number from 0 to 3, checked."""
+    return check_integer("action", action, at_least=0, at_most=3)
+
+
 class GridEnvironment(gym.Env[Any, Any]):
     """A gridworld to walk through; its transitions are published in ``P``, as those of Gymnasium's toy texts are.
 
@@ -275,9 +280,16 @@ class GridEnvironment(gym.Env[Any, Any]):
         return self.state, {}
 
     def step(self, action: int) -> tuple[int, float, bool, bool, dict[str, Any]]:
-        """One move: state reached and reward, drawn from P(. | s, a) (Eq. (2.1)), and whether it ended the episode."""
-        taken = check_integer("action", action, at_least=0, at_most=3)
-        probability, self.state, reward, ended = self._drawn(self.P[self.state][taken])
+        """One step, Eq. (2.1): draw the next state and the reward from P(. | s, a).
+
+        Returns
+        -------
+        state, reward, terminated, truncated, info : int, float, bool, bool, dict
+            As in Gymnasium; ``truncated`` is always False, and ``info["probability"]`` is that of the outcome.
+        """
+        taken = as_action(action)
+        outcome = self._draw(self.P[self.state][taken])  # Eq. (2.1)
+        probability, self.state, reward, ended = outcome
         return self.state, reward, ended, False, {"probability": probability}
 
     def render(self) -> str | None:
@@ -289,7 +301,7 @@ class GridEnvironment(gym.Env[Any, Any]):
         rows[here[0]][here[1]] = "R"
         return "\n".join(" ".join(row) for row in rows) + "\n"
 
-    def _drawn(self, outcomes: list[Outcome]) -> Outcome:
+    def _draw(self, outcomes: list[Outcome]) -> Outcome:
         """One of the outcomes, by its probability."""
         left = self.np_random.random()
         for outcome in outcomes:

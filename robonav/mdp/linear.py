@@ -22,7 +22,7 @@ DIVERGED = 1e100  # far above any reward, far below what overflows
 
 
 def with_bias(features: Features) -> Features:
-    """Put f_0 = 1 before the features, so that the constant of Eq. (4.3) is a weight like the others.
+    """Put f_0 = 1 before the features, so that the constant is a weight like the others.
 
     Examples
     --------
@@ -174,7 +174,9 @@ def linear_q_learning(
     record: bool = False,
     progress: Progress | None = None,
 ) -> LinearControlResult:
-    """Q-learning with linear function approximation: Algorithm 7 with the largest next value in ``delta``.
+    """Q-learning with linear function approximation.
+
+    It is Algorithm 7 with the largest next value in ``delta`` instead of that of the next action.
 
     Unlike for :func:`linear_sarsa`, nothing promises that the weights converge: learning about one policy from the
     steps of another, with shared features, can diverge (Baird 1995).

@@ -212,7 +212,9 @@ class RangeSensor:
 
 @dataclass(frozen=True, eq=False)
 class Localiser:
-    """The belief of a robot about its pose, kept by Bayes' rule (Eq. (2.18)).
+    """The belief of a robot about its pose, kept by Bayes' rule.
+
+    The filter of :class:`~robonav.mdp.POMDP` (its ``update``), for observations that are real numbers.
 
     Attributes
     ----------

@@ -97,7 +97,7 @@ def uniform(states: int, actions: int) -> NDArray[np.float64]:
 def greedy_actions(
     action_values: ArrayLike, *, tolerance: float = 1e-9
 ) -> NDArray[np.bool_]:
-    """Which actions are greedy: (S, A) bools, true within ``tolerance`` of the best of each state (Eq. (2.16))."""
+    """Which actions are greedy: (S, A) bools, true within ``tolerance`` of the best of each state."""
     q = check_array("action_values", action_values, shape=("S", "A"))
     return q >= q.max(axis=1, keepdims=True) - check_real(
         "tolerance", tolerance, at_least=0

@@ -98,7 +98,7 @@ def entropy(belief: ArrayLike) -> float:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class POMDP:
-    """A finite MDP whose state is hidden: <S, A, T, O, Z, R>. A belief about it is an array (S,), Eq. (2.17).
+    """A finite MDP whose state is hidden: <S, A, T, O, Z, R>. A belief about it is an array (S,).
 
     Parameters
     ----------
@@ -155,10 +155,10 @@ class POMDP:
         return np.asarray(b @ self.mdp.transitions[a])
 
     def update(self, belief: ArrayLike, action: int, observation: int) -> Floats:
-        """Belief after an action and an observation, Eq. (2.18); Eq. (2.19) calls this function tau.
+        """Belief after an action and an observation, Eq. (2.18).
 
-        The thesis writes the sum of Eq. (2.18) over s', the state *before*. Here s is summed over: b'(s') is
-        proportional to Z(o, s', a) times the sum over s of b(s) T(s, a, s').
+        Eq. (2.19) names this function tau. The thesis writes the sum of Eq. (2.18) over s', the state *before*. Here s
+        is summed over: b'(s') is proportional to Z(o, s', a) times the sum over s of b(s) T(s, a, s').
 
         Parameters
         ----------
