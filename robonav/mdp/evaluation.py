@@ -102,7 +102,8 @@ def iterative_policy_evaluation(
     """Values of a policy by repeated sweeps, Eq. (2.24).
 
     These are steps 5 to 7 of Algorithm 1. They stop when a sweep changes no value by more than
-    ``tolerance * (1 - discount) / discount``. Every value is then within ``tolerance`` of the policy's. Without discount there is no such bound, and ``tolerance`` itself is used.
+    ``tolerance * (1 - discount) / discount``. Every value is then within ``tolerance`` of the policy's. Without
+    discount there is no such bound, and ``tolerance`` itself is used.
 
     Parameters
     ----------

@@ -56,6 +56,13 @@ class OneHot:
         return for_each_action(np.eye(1, self.n_states, place)[0], self.n_actions)
 
 
+def same_shape(
+    name: str, value: ArrayLike, shape: tuple[int, ...]
+) -> NDArray[np.float64]:
+    """The value as an array of this shape, checked."""
+    return check_array(name, value, shape=shape)
+
+
 @dataclass(frozen=True)
 class Tiles:
     """Tile coding: several grids over the state, each shifted a little; one feature for each tile and action.
@@ -116,10 +123,8 @@ class Tiles:
     def active(self, state: ArrayLike) -> NDArray[np.int64]:
         """Number of the tile that holds the state in each tiling: (tilings,)."""
         low, high = np.asarray(self.low), np.asarray(self.high)
-        given = check_array("state", state, shape=low.shape)
-        place = (
-            (np.clip(given, low, high) - low) / (high - low) * self.tiles
-        )  # in tiles
+        inside = np.clip(same_shape("state", state, low.shape), low, high)
+        place = (inside - low) / (high - low) * self.tiles  # in tiles
         cells = np.minimum((place + self.shifts).astype(int), self.tiles)
         return np.ravel_multi_index((np.arange(self.tilings), *cells.T), self.shape)
 

@@ -22,6 +22,7 @@ from robonav.validation import (
     check_real,
 )
 
+from .arguments import validated_with
 from .policies import SUM_TOLERANCE, as_distributions
 
 Floats = NDArray[np.float64]
@@ -187,14 +188,15 @@ class RangeSensor:
         check_positive("reach", self.reach)
         check_real("outliers", self.outliers, at_least=0, at_most=1)
 
+    @validated_with(predicted=check_array, measured=check_array)
     def log_likelihood(self, predicted: ArrayLike, measured: ArrayLike) -> Floats:
         """Logarithm (...) of the density of the readings ``measured`` (n,) where ``predicted`` (..., n) is expected.
 
         A reading short of ``reach`` has a normal density about the prediction; ``reach`` itself, which stands for all
         that lies beyond, has the whole tail as its probability. The n sensors err independently.
         """
-        seen = check_array("measured", measured)
-        error = (seen - check_array("predicted", predicted)) / self.deviation
+        seen = np.asarray(measured)
+        error = (seen - np.asarray(predicted)) / self.deviation
         beyond = seen >= self.reach
         hit = np.where(
             beyond,
@@ -202,12 +204,9 @@ class RangeSensor:
             np.exp(-(error**2) / 2) / (np.sqrt(2 * np.pi) * self.deviation),
         )
         stray = np.where(beyond, 0.5, 0.5 / self.reach)
-        with np.errstate(
-            divide="ignore"
-        ):  # impossible readings have logarithm minus infinity
-            return np.log((1 - self.outliers) * hit + self.outliers * stray).sum(
-                axis=-1
-            )
+        density = (1 - self.outliers) * hit + self.outliers * stray
+        with np.errstate(divide="ignore"):  # the logarithm of 0 is minus infinity
+            return np.log(density).sum(axis=-1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -257,12 +256,7 @@ class Localiser:
 
     def predict(self, belief: ArrayLike, action: int) -> Floats:
         """The belief (S,) after a move: all that a robot with no sensing has."""
-        move = self.transitions[
-            check_integer(
-                "action", action, at_least=0, at_most=len(self.transitions) - 1
-            )
-        ]
-        return self._belief(belief) @ move
+        return self.as_belief(belief) @ self.transitions[self.as_action(action)]
 
     def correct(self, belief: ArrayLike, ranges: ArrayLike) -> Floats:
         """The belief (S,) after readings (n,).
@@ -271,16 +265,16 @@ class Localiser:
         ------
         ValueError : if the readings are impossible in every pose held possible (only with no outliers).
         """
-        before = self._belief(belief)
-        seen = check_array("ranges", ranges, shape=self.predicted.shape[1:])
+        before = self.as_belief(belief)
         possible = np.flatnonzero(before)
-        log = np.log(before[possible]) + self.sensor.log_likelihood(
-            self.predicted[possible], seen
-        )
+        predicted = self.predicted[possible]
+        evidence = self.sensor.log_likelihood(predicted, self.as_ranges(ranges))
+        log = np.log(before[possible]) + evidence
         total = logsumexp(log)
         if not np.isfinite(total):
             raise ValueError(
-                "the ranges have probability zero in every pose that the belief holds possible"
+                "the ranges have probability zero in every pose that "
+                "the belief holds possible"
             )
         corrected = np.zeros_like(before)
         corrected[possible] = np.exp(log - total)
@@ -290,6 +284,16 @@ class Localiser:
         """The belief (S,) after a move and the readings (n,) that follow it."""
         return self.correct(self.predict(belief, action), ranges)
 
-    def _belief(self, belief: ArrayLike) -> Floats:
+    def as_belief(self, belief: ArrayLike) -> Floats:
+        """The belief as an array (S,), checked."""
         check_array("belief", belief, shape=(len(self.predicted),))
         return as_distributions("belief", belief, len(self.predicted))
+
+    def as_action(self, action: int) -> int:
+        """The action as an index, checked."""
+        last = len(self.transitions) - 1
+        return check_integer("action", action, at_least=0, at_most=last)
+
+    def as_ranges(self, ranges: ArrayLike) -> Floats:
+        """The readings as an array (n,), checked."""
+        return check_array("ranges", ranges, shape=self.predicted.shape[1:])
