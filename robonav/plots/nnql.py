@@ -18,7 +18,7 @@ from robonav.nnql.reward import COZY_DISTANCE, REWARDS, reward_row
 from robonav.robot import SENSOR_RANGE, Action, Sensing, Worlds
 from robonav.robot._fast import RUNNING
 
-from .robot import draw_drives
+from .robot import draw_paths
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -180,7 +180,7 @@ def animate_learning(
 
     def draw(frame: int) -> list:
         axes.clear()
-        draw_drives(axes, world, [paths[frame]], colour=colour)
+        draw_paths(axes, world, [paths[frame]], colour=colour)
         axes.set(title=titles[frame], xlabel="", ylabel="")
         return []
 

@@ -1,4 +1,4 @@
-"""The robot, its worlds and its drives: Fig. 2.6, Fig. 2.7, paths over maps, animations."""
+"""The robot, its worlds and its paths: Fig. 2.6, Fig. 2.7, paths over maps, animations."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def draw_sectors(axes: Axes) -> None:
-    """The robot from above with its nine sectors, numbered (Fig. 2.6); heading to the right."""
+    """Draw the robot from above with its nine sectors, numbered (Fig. 2.6); it heads to the right."""
     draw_sensors(axes, (0.0, 0.0, 0.0), [SENSOR_RANGE] * 9, numbered=True)
     draw_robot(axes, (0.0, 0.0, 0.0))
     axes.set(
@@ -35,9 +35,18 @@ def draw_sectors(axes: Axes) -> None:
 def draw_sensing(
     axes: Axes, worlds: Worlds, pose: ArrayLike, *, around: float | None = None
 ) -> None:
-    """What a robot at ``pose`` perceives in the first world, with the distances of Fig. 2.7.
+    """Draw what a robot at ``pose`` senses in the first world, with the distances of Fig. 2.7.
 
-    ``around`` shows so many metres about the robot instead of the whole map.
+    Parameters
+    ----------
+    axes : Axes
+        To draw on.
+    worlds : Worlds
+        The first of them is drawn.
+    pose : (3,) array
+        x and y in metres and heading in radians.
+    around : float, optional
+        Show this many metres around the robot instead of the whole map.
     """
     x, y, _ = placed = np.asarray(pose, dtype=float)
     ranges = sense(worlds[0], [placed]).ranges[0]
@@ -59,7 +68,7 @@ def draw_sensing(
         axes.set(xlim=(x - around, x + around), ylim=(y - around, y + around))
 
 
-def draw_drives(
+def draw_paths(
     axes: Axes,
     worlds: Worlds,
     paths: Sequence[ArrayLike],
@@ -67,7 +76,7 @@ def draw_drives(
     colour: str = style.ROBOT,
     labels: Sequence[str] = (),
 ) -> None:
-    """Paths (steps + 1, 3) over the first world's map, each from its start, a dot a step."""
+    """Draw paths (steps + 1, 3) over the first world's map, each from its start, with a dot for each step."""
     draw_world(axes, worlds)
     for k, path in enumerate(paths):
         x, y = np.asarray(path)[:, :2].T
@@ -86,11 +95,11 @@ def draw_maps(
     figure: Figure, worlds: Worlds, paths: Sequence[ArrayLike] = (), titles: Sequence[str] = (), *, columns: int = 4,
     colour: str = style.ROBOT,
 ) -> None:  # fmt: skip
-    """A grid of maps, one a world, with the path driven in each."""
+    """Draw a grid of maps, one for each world, with the robot's path in each."""
     rows = -(-len(worlds) // columns)
     for i, world in enumerate(worlds):
         axes = figure.add_subplot(rows, columns, i + 1)
-        draw_drives(axes, world, [paths[i]] if len(paths) else [], colour=colour)
+        draw_paths(axes, world, [paths[i]] if len(paths) else [], colour=colour)
         axes.set(
             xticks=[],
             yticks=[],
@@ -100,7 +109,7 @@ def draw_maps(
         )
 
 
-def animate_drive(
+def animate_episode(
     world: Worlds,
     path: NDArray[np.float64],
     *,
@@ -108,13 +117,24 @@ def animate_drive(
     colour: str = style.ROBOT,
     size: float = 4.6,
 ) -> FuncAnimation:
-    """A robot on its way through the first world, with what its sensors read, obstacles moving if they do.
+    """Animate a robot on its way through the first world, with its sensors and the moving obstacles.
 
     Parameters
     ----------
-    path : poses (steps + 1, 3), as ``navigate(..., record_paths=True)`` keeps them.
-    every : show each so many-th step; the last is always shown.
-    size : of the square picture, in inches.
+    world : Worlds
+        The first of them is drawn.
+    path : (steps + 1, 3) array
+        Poses, as ``navigate(..., record_paths=True)`` returns them.
+    every : int
+        Show one step in so many; the last step is always shown.
+    colour : str
+        Of the robot and its path.
+    size : float
+        Side of the square picture in inches.
+
+    Returns
+    -------
+    FuncAnimation
     """
     from matplotlib import pyplot as plt
     from matplotlib.animation import FuncAnimation
@@ -138,7 +158,7 @@ def animate_drive(
 
 
 def draw_outcomes(axes: Axes, rates: dict[str, tuple[float, float, float]]) -> None:
-    """Success rates in per cent with their intervals: label to (rate, low, high), all in 0..1."""
+    """Draw success rates with their intervals: each label has (rate, low, high), all in 0..1."""
     for row, (label, (rate, low, high)) in enumerate(rates.items()):
         colour = style.METHODS.get(label, style.BLUE)
         axes.barh(row, 100 * rate, color=colour, height=0.6)
@@ -154,7 +174,7 @@ def draw_outcomes(axes: Axes, rates: dict[str, tuple[float, float, float]]) -> N
         yticks=range(len(rates)),
         yticklabels=list(rates),
         xlim=(0, 112),
-        xlabel="drives that arrive (%)",
+        xlabel="episodes that arrive (%)",
     )
     axes.set_xticks(range(0, 101, 20))
     axes.invert_yaxis()

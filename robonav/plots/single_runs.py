@@ -10,7 +10,7 @@ from robonav import style
 from robonav.experiments import Results
 from robonav.experiments.single_runs import world_of
 
-from .robot import draw_drives
+from .robot import draw_paths
 
 COLUMNS = 4
 
@@ -29,7 +29,7 @@ def plot_paths(results: Results) -> Figure:
             visited = [results.values(f"visited {letter}", place)[0] for letter in "xy"]
             axes.plot(*visited, ".", color=style.SKY, markersize=1.5, zorder=0)
         path = np.column_stack([results.values(letter, place)[0] for letter in "xy"])
-        draw_drives(axes, world_of(case), [path])
+        draw_paths(axes, world_of(case), [path])
         axes.set(
             xticks=[],
             yticks=[],
