@@ -1,7 +1,9 @@
 """robonav: robot learning for autonomous navigation, the package behind the book.
 
-One subpackage a chapter: ``mdp`` (2), ``robot`` (2.5), ``lfd`` (3), ``nnql`` (4), ``nirl`` (5).
-Importing this package registers the Gymnasium environments and nothing else: the rest loads where it is first used.
+Each chapter has its subpackage: ``mdp`` (chapter 2), ``robot`` (section 2.5), ``lfd`` (3, imitation learning),
+``nnql`` (4,
+reinforcement learning) and ``nirl`` (5, inverse reinforcement learning); ``networks`` serves the last three.
+Importing this package only registers the Gymnasium environments. Subpackages load when they are first used.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Files written whole or not at all."""
+"""Write files completely or not at all."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ PARTIAL = ".partial-"
 
 
 def remove_partial_files(folder: str | Path) -> None:
-    """Remove the temporary files that writers below ``folder`` left when they were killed; none may be writing."""
+    """Remove temporary files that killed writers left below ``folder``. No writer may be active."""
     for path in Path(folder).rglob(f".*{PARTIAL}*"):
         path.unlink(missing_ok=True)
 
 
 @contextmanager
 def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
-    """Open ``path`` for binary writing; it appears, complete, only when the block ends without an error.
+    """Open ``path`` for binary writing. The file appears, complete, when the block ends without an error.
 
-    The bytes go to a temporary file in the same folder, which is renamed at the end, so a reader, or a run
-    that is cut short, never sees half a file.
+    The bytes go to a temporary file in the same folder, which is renamed at the end. A reader therefore never sees half
+    a file, even if the writer is killed.
     """
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)

@@ -1,9 +1,9 @@
-"""Warnings and errors of the package that are none of Python's own."""
+"""Warnings and errors of the package."""
 
 
 class ConvergenceWarning(UserWarning):
-    """An iteration ran out of its budget; the message says how far it still was."""
+    """An iteration stopped before it converged. The message says how far it was from convergence."""
 
 
 class WorkerLost(RuntimeError):
-    """Runs of an experiment killed the processes that did them, again and again."""
+    """Runs of an experiment repeatedly killed their worker processes."""

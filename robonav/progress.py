@@ -1,4 +1,4 @@
-"""Progress of long work: one optional callback, shown as a bar by the command line and by notebooks."""
+"""Progress of long computations: one optional callback, which can draw a progress bar."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Progress(Protocol):
 
 @contextmanager
 def bar(description: str) -> Iterator[Progress]:
-    """A tqdm bar as a progress callback: ``with bar("training") as progress: train(progress=progress)``."""
+    """Show a tqdm bar as a progress callback: ``with bar("training") as progress: train(progress=progress)``."""
     from tqdm.auto import tqdm
 
     with tqdm(desc=description) as shown:

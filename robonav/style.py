@@ -1,6 +1,6 @@
-"""One look: the palette shared by matplotlib and JavaScript, and the matplotlib style.
+"""The palette that matplotlib and JavaScript share, and the matplotlib style.
 
-Colours are Okabe and Ito's (2008), told apart by colour-blind readers and legible on light and dark pages.
+The colours are those of Okabe and Ito (2008): colour-blind readers can tell them apart on light and dark pages.
 A method has the same colour on every page.
 """
 
@@ -32,7 +32,7 @@ METHODS: dict[str, str] = {
     "cloning": BLUE,
 }
 
-# Figures are transparent and their ink is a mid grey, so that one file serves the light and the dark theme.
+# Figures are transparent and their lines are mid grey, so that one file is legible on light and dark pages.
 INK = "#808080"
 STYLE: Any = {
     "figure.facecolor": "none",

@@ -1,6 +1,6 @@
-"""What a function expects of its arguments, said in one clear sentence when it does not come.
+"""Checks of arguments. A failed check raises an error with one clear sentence.
 
-Every check names the argument, what was expected and what came, and returns the value ready to use.
+The sentence names the argument, the expectation and the value. A check that passes returns the value, ready to use.
 """
 
 from __future__ import annotations
@@ -23,7 +23,16 @@ def check_real(
     at_most: float = math.inf,
     below: float = math.inf,
 ) -> float:
-    """A finite real number within the bounds; TypeError or ValueError otherwise."""
+    """Return ``value`` as a float if it is a finite number within the bounds.
+
+    Examples
+    --------
+    >>> check_real("discount", 0.9, at_least=0, at_most=1)
+    0.9
+    >>> check_real("discount", 1.5, at_least=0, at_most=1)
+    Traceback (most recent call last):
+    ValueError: discount must be at least 0 and at most 1, got 1.5
+    """
     if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a number, got {value!r}")
     try:
@@ -47,14 +56,20 @@ def check_real(
 
 
 def check_positive(name: str, value: Any) -> float:
-    """A finite real number above zero."""
+    """Return ``value`` as a float if it is finite and greater than 0."""
     return check_real(name, value, above=0)
 
 
 def check_integer(
     name: str, value: Any, *, at_least: int | None = None, at_most: int | None = None
 ) -> int:
-    """A whole number within the bounds; TypeError or ValueError otherwise."""
+    """Return ``value`` as an int if it is a whole number within the bounds.
+
+    Examples
+    --------
+    >>> check_integer("episodes", 300, at_least=1)
+    300
+    """
     if isinstance(value, bool | np.bool_) or not isinstance(value, Integral):
         raise TypeError(f"{name} must be a whole number, got {value!r}")
     number = int(value)
@@ -72,9 +87,15 @@ def check_array(
     shape: Sequence[int | str] | None = None,
     dtype: DTypeLike = float,
 ) -> NDArray[Any]:
-    """An array of finite numbers of the given shape; a letter in ``shape`` stands for any length.
+    """Return ``value`` as an array of finite numbers with this shape. A letter in ``shape`` stands for any length.
 
-    No value is changed on the way to ``dtype``: 1.7 is no whole number, 300 no 8-bit one.
+    A conversion to ``dtype`` that would change a value is an error: 1.7 is not a whole number, and 300 is not an
+    8-bit one.
+
+    Examples
+    --------
+    >>> check_array("values", [1, 2, 3], shape=("S",))
+    array([1., 2., 3.])
     """
     try:
         given = np.asarray(value)
@@ -109,14 +130,14 @@ def check_array(
 
 
 def check_instance(name: str, value: Any, kind: type) -> Any:
-    """A value of this kind; TypeError otherwise."""
+    """Return ``value`` if it is an instance of ``kind``."""
     if not isinstance(value, kind):
         raise TypeError(f"{name} must be {kind.__name__}, got {type(value).__name__}")
     return value
 
 
 def check_one_of(name: str, value: Any, choices: Iterable[Any]) -> Any:
-    """One of a few choices."""
+    """Return ``value`` if it is one of the choices."""
     known = list(choices)
     if value not in known:
         raise ValueError(
@@ -126,7 +147,7 @@ def check_one_of(name: str, value: Any, choices: Iterable[Any]) -> Any:
 
 
 def check_generator(name: str, value: Any) -> np.random.Generator:
-    """A numpy Generator, or one made from a whole number of at least 0."""
+    """Return ``value`` if it is a numpy Generator, or a new Generator with ``value`` as its seed."""
     if isinstance(value, np.random.Generator):
         return value
     return np.random.default_rng(check_integer(name, value, at_least=0))

@@ -1,1 +1,1 @@
-"""The autograder: the pytest plugin, the sandbox, the class runner."""
+"""The autograder: the pytest plugin, the sandbox, and the class runner."""

@@ -1,8 +1,8 @@
-"""What students and instructors get, made from the one source of each exercise, ``solutions/chN/name.py``.
+"""Build what students and instructors get from the one source of each exercise, ``solutions/chN/name.py``.
 
-Students get the file with its solution cut out, a notebook of each chapter, and a zip with the tests to check
-themselves by; nbgrader gets a notebook that still holds the solutions. Everything is written from the source and never
-edited: ``outdated`` says what differs.
+Students get the file without its solution, a notebook per chapter, and a zip file with the tests. nbgrader gets a
+notebook that still contains the solutions. These files are generated and never edited; ``outdated`` lists those that
+differ from their source.
 """
 
 from __future__ import annotations
@@ -37,11 +37,12 @@ LONG_AGO = (
 
 
 def stub(source: str, name: str) -> str:
-    """The source with its solution cut out.
+    """Return the source without its solution.
 
     Raises
     ------
-    ValueError : if the source of ``name`` has no solution between ``### BEGIN SOLUTION`` and ``### END SOLUTION``.
+    ValueError
+        If the source of ``name`` has no solution between ``### BEGIN SOLUTION`` and ``### END SOLUTION``.
     """
     cut, found = SOLUTION.subn(rf"\1{STUB.format(name=name)}\n", source)
     if not found or "### " in cut:
@@ -52,18 +53,18 @@ def stub(source: str, name: str) -> str:
 
 
 def question(source: str) -> str:
-    """What the exercise asks, in MyST Markdown: the source's docstring."""
+    """Return the question in MyST Markdown: the source's docstring."""
     return ast.get_docstring(ast.parse(source)) or ""
 
 
 def code(source: str) -> str:
-    """The source without its docstring."""
+    """Return the source without its docstring."""
     first = ast.parse(source).body[0]
     return "".join(source.splitlines(keepends=True)[first.end_lineno :]).strip() + "\n"
 
 
 def built(course: Course) -> dict[str, str]:
-    """Every generated file's text by its path from the course's root."""
+    """Return the text of every generated file by its path from the course's root."""
     files = {"exercises/README.md": _readme(course)}
     for chapter, exercises in course.chapters():
         sources = {
@@ -84,7 +85,7 @@ def built(course: Course) -> dict[str, str]:
 
 
 def outdated(course: Course) -> list[str]:
-    """Generated files that are missing, differ from their source, or have none any more."""
+    """Return the generated files that are missing, out of date, or without a source."""
     files = built(course)
     present = {path.relative_to(course.root).as_posix() for path in _generated(course)}
     differ = [
@@ -96,7 +97,7 @@ def outdated(course: Course) -> list[str]:
 
 
 def build(course: Course) -> list[str]:
-    """Write what is outdated, remove what has no source any more; the names of both."""
+    """Write the files that are out of date, remove those without a source, and return the names of both."""
     files = built(course)
     changed = outdated(course)
     for name in changed:
@@ -109,7 +110,7 @@ def build(course: Course) -> list[str]:
 
 
 def students_zip(course: Course, path: Path) -> None:
-    """A zip for a learning platform: stubs, notebooks, and tests with the answers to the public cases alone."""
+    """Write a zip file for students: stubs, notebooks, and tests with the answers to the public cases only."""
     tests = [course.tests / name for name in ("manifest.toml", "pytest.ini")] + sorted(
         course.tests.glob("test_*.py")
     )
@@ -201,7 +202,7 @@ def _readme(course: Course) -> str:
 
 
 def _notebook(chapter: str, sources: Mapping[Exercise, str]) -> str:
-    """A chapter's exercises as one notebook, with the cell metadata that nbgrader reads."""
+    """Return a chapter's exercises as one notebook, with the cell metadata that nbgrader reads."""
     number = chapter.removeprefix("ch")
     cells = [
         _markdown(

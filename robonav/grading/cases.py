@@ -1,7 +1,8 @@
-"""The parts of an exercise: one test function each, its own random numbers, and what becomes of its outcome.
+"""The parts of an exercise, the random cases that each part draws, and the result of running one.
 
-A part is a function ``test_...(answer, rng)`` in ``tests/exercises/test_chN.py``, marked with its exercise and points;
-the first line of its docstring tells the student what it asks for.
+A part is a test function ``test_...(answer, rng)`` in ``tests/exercises/test_chN.py``, marked with its exercise and
+points;
+the first line of its docstring tells the student what the part asks for.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 from .course import Course, Exercise, trusted
 from .grade import FAULT, Part, Unaccepted, printable
 
-PUBLIC = b"2015"  # what the cases are drawn from where no secret is given
+PUBLIC = b"2015"  # the seed of the cases when no secret is given
 
 SECRET = "ROBONAV_SECRET"
 
@@ -24,7 +25,7 @@ Test = Callable[..., None]
 
 
 def secret_from(path: str | Path | None) -> bytes:
-    """What the cases for marks are drawn from: a file's content, or the environment's, or nothing."""
+    """Return the secret seed of the cases: the content of a file, or of ROBONAV_SECRET, or nothing."""
     if path is None:
         return os.environ.get(SECRET, "").encode()
     try:
@@ -37,7 +38,7 @@ def secret_from(path: str | Path | None) -> bytes:
 
 
 def parts_of(course: Course, exercise: Exercise) -> Iterator[tuple[Test, int]]:
-    """Each part's test and points, in order."""
+    """Yield each part's test and points, in order."""
     for test in vars(trusted(course.tests / f"test_{exercise.chapter}.py")).values():
         for mark in getattr(test, "pytestmark", []):
             if mark.name == "part" and mark.args[0] == exercise.id:
@@ -45,14 +46,14 @@ def parts_of(course: Course, exercise: Exercise) -> Iterator[tuple[Test, int]]:
 
 
 def generator(seed: bytes, name: str) -> np.random.Generator:
-    """The random numbers of the part of this name."""
+    """Return the random generator of the part with this name."""
     return np.random.default_rng(
         int.from_bytes(hashlib.sha256(seed + b"/" + name.encode()).digest()[:16], "big")
     )
 
 
 def outcome(test: Test, points: int, error: BaseException | None) -> Part:
-    """A part's state and feedback from what its test raised; whatever is no judgement is the grader's own fault."""
+    """Return a part's state and feedback from what its test raised. Any unexpected error is a fault of the grader."""
     name = (test.__doc__ or test.__name__).strip().partition("\n")[0]
     match error:
         case None:

@@ -1,4 +1,4 @@
-"""Check a function where it is, in a notebook: the same tests and the same words as the grader's, but no sandbox."""
+"""Check a function inside a notebook, with the grader's tests and feedback but without a sandbox."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from .session import Answer, Calls
 
 
 def check(key: str, function: Callable[..., Any]) -> float:
-    """Check ``function`` as the answer to an exercise, by id or name; say how each part went.
+    """Check ``function`` as the answer to the exercise with this id or name, and print how each part went.
 
     Returns
     -------
-    The points earned, which nbgrader takes as the score of a cell that ends with this call.
+    float
+        The points earned. nbgrader takes them as the score of a cell that ends with this call.
     """
     course = Course.around(Path.cwd())
     result = graded(
@@ -37,7 +38,7 @@ def graded(
     *,
     seed: bytes = PUBLIC,
 ) -> dict[str, Any]:
-    """The exercise's entry in a grade, on the cases of this seed."""
+    """Return the exercise's entry in a grade, on the cases of this seed."""
     parts = []
     for test, points in parts_of(course, exercise):
         name, error = test.__name__, None
@@ -50,7 +51,7 @@ def graded(
 
 
 class InProcessCalls:
-    """In place of a sandbox: the function is called here, its arguments and its answer copied as frames would be."""
+    """Calls without a sandbox: the function runs in this process, on copies made as frames make them."""
 
     secret = False
 

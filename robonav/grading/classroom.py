@@ -1,8 +1,10 @@
-"""A class graded: many submissions, several at once, each written down whole before the next counts as done.
+"""Grade a class: many submissions, several at a time.
 
-``OUT/students/NAME/`` holds a student's grade, feedback page, Gradescope's ``results.json`` and JUnit XML; ``OUT``
-itself the gradebook and an overview. A run that was cut is run again: grades that are there stay, except those of a
-changed submission, of changed tests, or where the grader failed.
+``OUT/students/NAME/`` holds a student's grade, feedback page, Gradescope's ``results.json`` and JUnit XML. ``OUT``
+itself
+holds the gradebook and an overview. Each student's files are written before the student counts as graded, so that an
+interrupted run can be started again. It keeps the grades that exist, unless the submission or the tests changed or the
+grader failed.
 """
 
 from __future__ import annotations
@@ -33,14 +35,14 @@ from .submission import Refused, Submission
 
 @dataclass(frozen=True)
 class GradingConfig:
-    """How submissions are marked; the same for a whole class."""
+    """How submissions are graded: the same for a whole class."""
 
     course: Course
     tier: str
     secret: bytes = b""
 
     def key(self) -> str:
-        """A fingerprint of all that a grade depends on besides the submission."""
+        """Hash of everything that a grade depends on besides the submission."""
         digest = hashlib.sha256(
             hashlib.sha256(self.secret).digest() + self.tier.encode()
         )
@@ -58,7 +60,7 @@ class GradingConfig:
 def grade_submission(
     config: GradingConfig, loaded: Submission | Refused, ids: Collection[str] = ()
 ) -> dict[str, Any]:
-    """The grade of one submission, or of these exercises of it: the same as by ``pytest tests/exercises``."""
+    """Grade one submission, or only the exercises ``ids``, as ``pytest tests/exercises`` does."""
     course = config.course
     exercises = [
         exercise
@@ -78,18 +80,19 @@ def grade_submission(
             ],
             config.tier,
         )
-    except Exception:  # whatever it is, it is not the student's doing
+    except Exception:  # the student is not to blame for an error in the grader
         return fault_grade(exercises, config.tier)
     finally:
         session.close()
 
 
 def students(folder: Path) -> dict[str, Path]:
-    """Each student's submission by name: the folders, zips and notebooks in ``folder``.
+    """Return each student's submission by name: the folders, zip files and notebooks in ``folder``.
 
     Raises
     ------
-    ValueError : if there is none, two have the same name, or a name cannot be written.
+    ValueError
+        If there is none, two have the same name, or a name cannot be written.
     """
     if not folder.is_dir():
         raise ValueError(f"the class must be a folder of submissions, got {folder}")
@@ -100,7 +103,7 @@ def students(folder: Path) -> dict[str, Path]:
         name = path.name if path.is_dir() else path.stem
         if not name.isprintable():
             raise ValueError(
-                f"{name!r} is no name for a student: rename that submission"
+                f"{name!r} cannot be a student's name: rename that submission"
             )
         if name in found:
             raise ValueError(
@@ -113,7 +116,10 @@ def students(folder: Path) -> dict[str, Path]:
 
 
 def passed_over(folder: Path) -> list[str]:
-    """What lies in ``folder`` and is no submission; an ``anna.rar`` among it was meant as one."""
+    """Return the names in ``folder`` that are not submissions.
+
+    A file such as ``anna.rar`` may have been meant as one.
+    """
     return sorted(
         path.name
         for path in folder.iterdir()
@@ -141,11 +147,22 @@ def grade_class(
 
     Parameters
     ----------
-    again : students to grade again, graded or not.
-    ids : exercises to grade again, for ``again`` or else for all; their other exercises keep their grades.
-    jobs : how many at once; -1 for one a processor.
-    scheduler : address of a Dask scheduler to send the work to, whose workers see this course at the same path.
-    progress : called as ``progress(done, total)``.
+    config : GradingConfig
+        The course, the sandbox tier and the secret.
+    folder : Path
+        The class: one folder, zip file or notebook per student.
+    out : Path
+        Where the reports go.
+    again : collection of str
+        Students to grade again, even if they have a grade.
+    ids : collection of str
+        Exercises to grade again, for the students in ``again`` or else for all. Other exercises keep their grades.
+    jobs : int
+        Submissions graded at the same time; -1 for one per processor.
+    scheduler : str, optional
+        Address of a Dask scheduler. Its workers must see this course at the same path.
+    progress : Progress, optional
+        Called as ``progress(done, total)``.
     """
     submissions = students(folder)
     for name in set(again) - set(submissions):
@@ -178,7 +195,10 @@ Task = tuple[dict[str, str], Path, dict[str, Any] | None, Collection[str]]
 def _marked(
     config: GradingConfig, tasks: Sequence[Task], jobs: int, scheduler: str | None
 ) -> Iterator[dict[str, Any]]:
-    """The records of all tasks, as they are done; of the submissions only those in work are held."""
+    """Yield each task's record when it is done.
+
+    Submissions are read again here, so that only those in work are in memory.
+    """
     calls = (
         (config, {**entry, "submission": _digest(loaded)}, loaded, old, ids)
         for entry, path, old, ids in tasks
@@ -216,7 +236,7 @@ def _record(
     old: dict[str, Any] | None,
     ids: Collection[str],
 ) -> dict[str, Any]:
-    """A student's grade with what it was graded from; exercises that were not asked for keep their old entries."""
+    """Grade one student. Exercises outside ``ids`` keep their old entries."""
     new = grade_submission(config, loaded, ids)
     if old is not None and ids:
         fresh = {graded["id"]: graded for graded in new["exercises"]}
@@ -231,7 +251,7 @@ def _digest(loaded: Submission | Refused) -> str:
 
 
 def _written(out: Path, entry: dict[str, str]) -> dict[str, Any] | None:
-    """The grade that is there, if it is of this submission by this config and whole."""
+    """Return the grade on disk if it is complete and belongs to this submission and configuration."""
     try:
         record = json.loads(
             (out / "students" / entry["student"] / "grade.json").read_bytes()

@@ -1,4 +1,4 @@
-"""How a student's answer differs from the expected one, in a sentence; and how a call is shown in feedback."""
+"""Describe how a student's answer differs from the expected one, and how feedback shows a call."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ SCALED = 1e-6  # and for cancellation, against the largest number expected
 
 
 def difference(got: Any, expected: Any) -> str | None:
-    """What is wrong with ``got``, or None if it is right.
+    """Describe what is wrong with ``got``, or return None if it is right.
 
     Numbers agree within a relative 1e-5 (or 1e-6 of the largest one expected); whole numbers and truth values exactly.
-    NaN agrees with itself, so that mistakes can be told; no right answer holds it.
-    Lists serve as arrays and any dtype serves that holds the values; shapes must be the expected ones.
+    NaN agrees with itself, so that known mistakes can be recognised; no right answer contains it.
+    Lists count as arrays, and any dtype that holds the values is accepted; shapes must match.
     """
     match expected:
         case None | str():
@@ -45,12 +45,12 @@ def difference(got: Any, expected: Any) -> str | None:
 
 
 def without_answer(problem: str) -> str:
-    """What is wrong, without what came: an answer could say what it was asked."""
+    """Remove the answer itself from a problem, because an answer could repeat what was asked."""
     return problem.partition(", got ")[0]
 
 
 def as_numbers(value: Any) -> np.ndarray | None:
-    """An array of numbers or truth values from what a student may give for one, or None."""
+    """Convert a student's answer to an array of numbers or truth values; None if that is impossible."""
     if not _holds_numbers(value):
         return None
     try:
@@ -61,7 +61,7 @@ def as_numbers(value: Any) -> np.ndarray | None:
 
 
 def _holds_numbers(value: Any) -> bool:
-    """Whether nothing else is in it: numpy makes an array of strings as wide as the longest, as large as you like."""
+    """Whether a value holds only numbers. From strings numpy would make an array of any size."""
     if isinstance(value, list | tuple):
         return all(map(_holds_numbers, value))
     return isinstance(value, bool | int | float | np.generic | np.ndarray)
@@ -99,7 +99,7 @@ def _unlike(expected: Any, got: Any) -> str:
 
 
 def kind(value: Any) -> str:
-    """A value in a few words, without its numbers."""
+    """Describe a value in a few words, without its numbers."""
     match value:
         case None:
             return "None"
@@ -124,7 +124,7 @@ def kind(value: Any) -> str:
 
 
 def call(name: str, arguments: tuple[Any, ...], *, numbers: bool) -> str:
-    """``name(...)`` as feedback shows it: with its small arguments, or with their shapes alone."""
+    """Format ``name(...)`` for feedback: with small arguments in full, or with shapes only."""
     return (
         f"{name}({', '.join(_argument(argument, numbers) for argument in arguments)})"
     )

@@ -1,4 +1,4 @@
-"""The course: where its folders are, and the manifest that fixes each exercise's id, points and place."""
+"""The course: its folders, and the manifest with each exercise's id, points and place."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ class Exercise:
 
 @dataclass(frozen=True)
 class Course:
-    """The folders of a checkout, or of what students got, which has no ``solutions``."""
+    """The folders of a checkout. The students' copy has no ``solutions``."""
 
     root: Path
 
     @classmethod
     def around(cls, *starts: Path) -> Course:
-        """The course that one of these folders, or the checkout of this package, lies in."""
+        """Return the course that contains one of these folders, or else the checkout of this package."""
         for start in (*starts, Path(__file__).parent):
             for folder in (start.resolve(), *start.resolve().parents):
                 if (folder / "tests/exercises/manifest.toml").is_file():
@@ -90,7 +90,7 @@ class Course:
         return found
 
     def chapters(self) -> Iterator[tuple[str, list[Exercise]]]:
-        """Each chapter with its exercises."""
+        """Yield each chapter with its exercises."""
         for chapter in sorted(
             {exercise.chapter for exercise in self.exercises.values()}
         ):
@@ -104,7 +104,7 @@ class Course:
             )
 
     def named(self, key: str) -> Exercise:
-        """The exercise with this id or name."""
+        """Return the exercise with this id or name."""
         for exercise in self.exercises.values():
             if key in (exercise.id, exercise.name):
                 return exercise
@@ -113,7 +113,7 @@ class Course:
 
 @cache
 def trusted(path: Path) -> types.ModuleType:
-    """One of the course's own files as a module: a solution, or a chapter's tests."""
+    """Import one of the course's own files: a solution, or a chapter's tests."""
     spec = importlib.util.spec_from_file_location(
         f"robonav_course_{path.parent.name}_{path.stem}", path
     )

@@ -1,4 +1,4 @@
-"""Frames: the only thing that crosses between the grader and a student's code.
+"""Frames: the only data that pass between the grader and a student's code.
 
 A frame is a prefix with two sizes, a JSON header, and the raw bytes of its arrays one after another. Numbers,
 strings, ``None``, lists, tuples, dicts with strings as keys, and plain arrays cross; nothing that could run code when
@@ -39,15 +39,16 @@ UNUSUAL = {"nan": math.nan, "inf": math.inf, "-inf": -math.inf}
 
 
 class FrameError(ValueError):
-    """Bytes that are no frame, or a value that no frame carries; the message says which."""
+    """Raised for bytes that are not a frame, or for a value that a frame cannot hold."""
 
 
 def encode(value: Any) -> bytes:
-    """A value as one frame.
+    """Encode a value as one frame.
 
     Raises
     ------
-    FrameError : if the value holds anything else than the kinds above, is nested too deep, or is too large.
+    FrameError
+        If the value holds anything else than the kinds above, is nested too deep, or is too large.
     """
     arrays: list[np.ndarray] = []
     tree = _to_tree(value, arrays, MOST_DEPTH)
@@ -62,11 +63,12 @@ def encode(value: Any) -> bytes:
 
 
 def decode(frame: bytes) -> Any:
-    """The value of one whole frame; the inverse of ``encode``, except that numpy's scalars come back as Python's.
+    """Decode one whole frame. This inverts ``encode``, except that numpy scalars become Python numbers.
 
     Raises
     ------
-    FrameError : if the bytes are not exactly one well-formed frame.
+    FrameError
+        If the bytes are not exactly one well-formed frame.
     """
     if len(frame) < PREFIX.size:
         raise FrameError("the frame ends within its prefix")
@@ -91,12 +93,12 @@ def write(stream: BinaryIO, value: Any) -> None:
 
 
 def read(stream: BinaryIO) -> Any:
-    """Receive one frame; EOFError where the stream has ended before it."""
+    """Receive one frame. Raises EOFError if the stream ends first."""
     return receive(lambda size: _exactly(stream, size))
 
 
 def receive(exactly: Callable[[int], bytes]) -> Any:
-    """Receive one frame by a function that gives so many bytes; no more are asked for than a frame may have."""
+    """Receive one frame with a function that returns a given number of bytes, never more than a frame may have."""
     prefix = exactly(PREFIX.size)
     return decode(prefix + exactly(sum(_check_sizes(*PREFIX.unpack(prefix)))))
 
@@ -118,7 +120,7 @@ def _check_sizes(header: int, arrays: int) -> tuple[int, int]:
 
 
 def _to_tree(value: Any, arrays: list[np.ndarray], depth: int) -> Any:
-    """The value in JSON's own kinds; what JSON lacks becomes an object with one key that names the kind."""
+    """Convert a value to JSON types. A type that JSON lacks becomes an object whose one key names the type."""
     if depth == 0:
         raise FrameError(f"nested more than {MOST_DEPTH} deep")
     if isinstance(value, np.generic):
@@ -207,7 +209,7 @@ def _to_arrays(described: list[Any], body: memoryview) -> list[np.ndarray]:
 
 
 def _from_tree(tree: Any, arrays: Iterator[tuple[int, np.ndarray]], depth: int) -> Any:
-    """The value; its arrays stand in their order and once each, so that it is no larger than what came."""
+    """Rebuild the value. Each array is used once and in order, so the value is no larger than the frame."""
     if depth == 0:
         raise FrameError(f"nested more than {MOST_DEPTH} deep")
     match tree:

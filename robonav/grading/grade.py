@@ -1,4 +1,4 @@
-"""Points, states and feedback: from the parts of an exercise to the grade of a submission."""
+"""Combine the parts of an exercise, and the exercises of a submission, into points, states and feedback."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ MOST_FEEDBACK = 4_000
 
 
 class Unaccepted(Exception):
-    """An answer that earns no points for a part: its state, and what the student is told."""
+    """Raised when an answer earns no points for a part. Holds the state and the feedback for the student."""
 
     def __init__(self, state: State, feedback: str) -> None:
         super().__init__(feedback)
@@ -43,7 +43,7 @@ class Unaccepted(Exception):
 
 @dataclass(frozen=True)
 class Part:
-    """How one part of an exercise went; ``points`` of it count if its state is correct."""
+    """The result of one part of an exercise. Its points count if the state is correct."""
 
     name: str
     points: int
@@ -52,7 +52,7 @@ class Part:
 
 
 def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
-    """The entry of one exercise in a grade; its points are None where the grader failed in any part."""
+    """Return an exercise's entry in a grade. Its points are None if the grader failed in any part."""
     missing = exercise.points - sum(part.points for part in parts)
     if missing > 0:
         parts = [
@@ -73,7 +73,7 @@ def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
 
 
 def grade(exercises: Sequence[Mapping[str, Any]], tier: str) -> dict[str, Any]:
-    """The grade of a submission; exercises to be graded again count as no points yet."""
+    """Return the grade of a submission. Exercises that must be graded again count as 0 until then."""
     return {
         "points": sum(entry["points"] or 0 for entry in exercises),
         "max_points": sum(entry["max_points"] for entry in exercises),
@@ -83,12 +83,12 @@ def grade(exercises: Sequence[Mapping[str, Any]], tier: str) -> dict[str, Any]:
 
 
 def fault_grade(exercises: Iterable[Exercise], tier: str) -> dict[str, Any]:
-    """The grade where the grader itself did not get as far as a grade."""
+    """Return the grade of a submission for which the grader itself failed."""
     return grade([exercise_grade(exercise, []) for exercise in exercises], tier)
 
 
 def printable(text: str) -> str:
-    """Text that every file and terminal takes: a student's error messages may hold anything."""
+    """Replace what files and terminals cannot show: a student's error messages may contain anything."""
     kept = "".join(
         c if c == "\n" or c.isprintable() else "\N{REPLACEMENT CHARACTER}"
         for c in text[:MOST_FEEDBACK]
@@ -101,7 +101,7 @@ def _any(parts: Sequence[Part], state: State) -> bool:
 
 
 def _state(parts: Sequence[Part]) -> State:
-    """The grader's fault above all, then all or some points; else the state of the first part."""
+    """A fault of the grader comes first, then correct or partial; otherwise the state of the first part."""
     if _any(parts, "grader-fault"):
         return "grader-fault"
     if all(part.state == "correct" for part in parts):
@@ -110,7 +110,7 @@ def _state(parts: Sequence[Part]) -> State:
 
 
 def _line(part: Part) -> str:
-    """A part's points and name, and below what went wrong."""
+    """Format a part's points and name, with what went wrong below."""
     earned = part.points if part.state == "correct" else 0
     mark = "✓" if earned else "✗"
     details = (

@@ -1,7 +1,7 @@
-"""What a worker gives up before it runs a student's code: resources, system calls, files, its user.
+"""Restrictions that a worker puts on itself before it runs a student's code: resources, system calls, files, user.
 
-Each step is taken by the worker itself and cannot be undone by it. Linux on x86-64 and AArch64 has all of them;
-elsewhere a function does what the system offers. Standard library only: the file also runs in the sandbox.
+The worker cannot undo any of them. Linux on x86-64 and AArch64 offers all of them; on other systems each function does
+what the system allows. This file uses the standard library only, because it also runs in the sandbox.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def limit(amounts: Mapping[str, int]) -> None:
 
 
 def filter_program(machine: str) -> bytes:
-    """The seccomp filter as classic BPF: refuse what is ``REFUSED`` and new processes, allow threads and the rest."""
+    """Return the seccomp filter as classic BPF: it refuses ``REFUSED`` and new processes, and allows the rest."""
     column, architecture = MACHINES[machine]
 
     def step(code: int, value: int, then: int = 0, otherwise: int = 0) -> bytes:
@@ -135,7 +135,7 @@ def filter_program(machine: str) -> bytes:
 
 
 def filter_calls() -> bool:
-    """Refuse system calls from here on; whether this machine could."""
+    """Install the system call filter. Return whether this machine supports it."""
     if platform.system() != "Linux" or platform.machine() not in MACHINES:
         return False
     program = filter_program(platform.machine())
@@ -146,7 +146,7 @@ def filter_calls() -> bool:
 
 
 def restrict_files(readable: Iterable[str], writable: Iterable[str]) -> bool:
-    """Let this process see these folders and files and no others (Landlock); whether this kernel could."""
+    """Hide all other folders and files from this process (Landlock). Return whether this kernel supports it."""
     call = ctypes.CDLL(None, use_errno=True).syscall
     rules = call(LANDLOCK_CREATE, struct.pack("=Q", ALL_OF_IT), ctypes.c_size_t(8), 0)
     if rules < 0:
@@ -166,7 +166,7 @@ def restrict_files(readable: Iterable[str], writable: Iterable[str]) -> bool:
 
 
 def become(user: int) -> None:
-    """Change to a user and group that own nothing; root only."""
+    """Change to a user and group that own nothing. Only root can do this."""
     os.setgroups([])
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)

@@ -1,6 +1,7 @@
-"""The definitions of a notebook, taken by their syntax tree; nothing else of it runs.
+"""Read the definitions of a notebook from its syntax tree. Nothing else of it runs.
 
-Standard library only: notebooks are read in the sandbox, since reading a hostile one could take the reader with it.
+This file uses the standard library only: notebooks are read in the sandbox, because a hostile one could crash its
+reader.
 """
 
 from __future__ import annotations
@@ -19,14 +20,16 @@ PYTHON_CELLS = (
 
 
 def definitions(notebook: bytes) -> ast.Module:
-    """Functions, lambdas with a name, classes, imports and named constants of all code cells, in order, as one module.
+    """Return the functions, named lambdas, classes, imports and constants of all code cells as one module.
 
-    A cell that Python cannot parse is left out, as are magics (``%matplotlib inline``) and shell lines. An import that
-    fails is passed over: a plotting library is missed only by the cells that plot.
+    Cells that Python cannot parse, magics (``%matplotlib inline``) and shell lines are left out. An import that fails
+    is
+    ignored, because only the cells that plot need a plotting library.
 
     Raises
     ------
-    ValueError : if the bytes are no notebook.
+    ValueError
+        If the bytes are no notebook.
     """
     kept = [
         node
@@ -40,7 +43,7 @@ def definitions(notebook: bytes) -> ast.Module:
 
 
 def names(node: ast.stmt) -> str | None:
-    """The name that a definition gives."""
+    """Return the name that a definition binds."""
     match node:
         case (
             ast.FunctionDef(name=name)
@@ -52,7 +55,7 @@ def names(node: ast.stmt) -> str | None:
 
 
 def broken(notebook: bytes, name: str) -> SyntaxError | None:
-    """Why Python cannot parse the cell that was to define the function ``name``, if that is so."""
+    """Return why Python cannot parse the cell that should define ``name``, or None."""
     for source in _sources(notebook):
         if re.search(
             rf"^def {re.escape(name)}\b", source, re.MULTILINE
@@ -71,7 +74,7 @@ def _sources(notebook: bytes) -> list[str]:
         cells = json.loads(notebook)["cells"]
         return [_source(cell) for cell in cells if cell["cell_type"] == "code"]
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise ValueError("this is no notebook of format 4") from None
+        raise ValueError("this is not a notebook of format 4") from None
 
 
 def _source(cell: dict[str, Any]) -> str:
@@ -89,7 +92,7 @@ def _parsed(source: str) -> list[ast.stmt]:
 
 
 def _without_magics(source: str) -> str:
-    """The source with its magics blanked, so that line numbers stay."""
+    """Blank the magics of a cell, so that line numbers do not change."""
     if source.lstrip().startswith("%%") and source.split()[0] not in PYTHON_CELLS:
         return ""
     return "\n".join(

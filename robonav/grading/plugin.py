@@ -1,8 +1,12 @@
 """The pytest plugin: ``pytest tests/exercises --submission DIR`` grades one submission.
 
-A test is one part of an exercise, ``@pytest.mark.part("2.1", points=2)``, with the fixtures ``answer`` (the student's
-function, in the sandbox) and ``rng``; its docstring says what it asks for. Only trusted code runs in this process, in a
-clean environment: started in any other, the command starts itself again in one.
+The plugin is opt-in: ``tests/exercises/pytest.ini`` loads it with ``-p robonav.grading.plugin``. A test is one part
+of an
+exercise, ``@pytest.mark.part("2.1", points=2)``. Its fixtures are ``answer`` (the student's function, in the sandbox)
+and
+``rng``, and its docstring tells the student what it asks for. Only trusted code runs in this process, and only in a
+clean
+environment: in any other environment the command starts itself again in a clean one.
 """
 
 from __future__ import annotations
@@ -32,33 +36,35 @@ CLEAN = "ROBONAV_GRADER_IS_CLEAN"
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("robonav", "grading a submission to the book's exercises")
     group.addoption(
-        "--submission", metavar="PATH", help="the folder, zip or notebook to grade"
+        "--submission", metavar="PATH", help="the folder, zip file or notebook to grade"
     )
     group.addoption(
-        "--grade-json", metavar="FILE", help="write points, states and feedback there"
+        "--grade-json",
+        metavar="FILE",
+        help="write points, states and feedback to this file",
     )
     group.addoption(
         "--secret",
         metavar="FILE",
-        help="draw the cases from its content; or set ROBONAV_SECRET",
+        help="a file whose content seeds the cases; ROBONAV_SECRET does the same",
     )
     group.addoption(
         "--tier",
         choices=["official", "restricted", "practice"],
-        help="the sandbox; the best by default",
+        help="the sandbox tier; the default is the strictest that works",
     )
     group.addoption(
         "--exercise",
         metavar="ID",
         action="append",
         default=[],
-        help="grade this one only; may be repeated",
+        help="grade only this exercise; may be repeated",
     )
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_load_initial_conftests(early_config: pytest.Config) -> Generator[None]:
-    """Before anything else is read that lies about: start again in a clean environment, unless this is one."""
+    """Restart in a clean environment before pytest reads any configuration or conftest of others."""
     known = early_config.known_args_namespace
     if known.submission and CLEAN not in os.environ:
         from .course import Course
@@ -78,20 +84,20 @@ def pytest_load_initial_conftests(early_config: pytest.Config) -> Generator[None
 
 
 def command(tests: Path, arguments: Sequence[str]) -> list[str]:
-    """Pytest in the course's own configuration, reading neither configuration nor plugins of anybody else's."""
+    """Return a pytest command that reads only the course's own configuration and plugins."""
     isolated = [sys.executable, "-I", "-m", "pytest", "-c", str(tests / "pytest.ini")]
     return [*isolated, "--rootdir", str(tests), "--confcutdir", str(tests), *arguments]
 
 
 def environment() -> dict[str, str]:
-    """The few variables that the grader keeps."""
+    """Return the few environment variables that the grader keeps."""
     kept = {name: os.environ[name] for name in KEPT if name in os.environ}
     return {**kept, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", CLEAN: "1"}
 
 
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line(
-        "markers", "part(exercise, points): a part of an exercise and what it is worth"
+        "markers", "part(exercise, points): a part of an exercise and its points"
     )
     if config.getoption("submission"):
         from .run import Run

@@ -1,8 +1,8 @@
-"""The right answer to a case, and which known mistake a wrong one is.
+"""The right answer to a case, and the known mistake behind a wrong one.
 
 The grader computes both from ``solutions/``: ``ch2/backup.py`` holds the solution, and ``wrong/ch2/backup.py`` one
-function for each known mistake, whose docstring is the hint. Students have no ``solutions/``; their copy of the tests
-holds the answers recorded on the public cases instead, so that the same checks run at home.
+function for each known mistake, whose docstring is the hint. Students have no ``solutions/``. Their copy of the tests
+holds recorded answers to the public cases instead, so that the same checks run at home.
 """
 
 from __future__ import annotations
@@ -33,23 +33,23 @@ class Case:
     arguments: tuple[Any, ...] = ()
 
     def key(self) -> bytes:
-        """The same for the same exercise and arguments."""
+        """Hash of the exercise and the arguments."""
         return hashlib.sha256(
             self.exercise.id.encode() + frames.encode(self.arguments)
         ).digest()
 
 
 class Reference(Protocol):
-    """What a grader asks."""
+    """Source of right answers and hints."""
 
     def expected(self, case: Case) -> Any: ...
 
     def hints(self, case: Case, got: Any) -> list[str]:
-        """The hints for the known mistakes that answer just this."""
+        """Return the hints of the known mistakes that give this answer."""
 
 
 class Solutions:
-    """Answers computed by the solutions, once for each case: a class is asked the same ones over and over."""
+    """Answers computed by the solutions and cached, because a whole class gets the same cases."""
 
     def __init__(self, course: Course) -> None:
         self.course = course
@@ -66,7 +66,7 @@ class Solutions:
         return _hints(self.mistakes(case), got)
 
     def mistakes(self, case: Case) -> list[tuple[str, Any]]:
-        """Each known mistake's hint and its answer to the case, where it differs from the right one."""
+        """Return the hint and the answer of each known mistake whose answer to the case is wrong."""
         key = case.key()
         if key not in self._wrong:
             self._wrong[key] = list(self._mistakes(case))
@@ -85,7 +85,7 @@ class Solutions:
 
 
 class Recorder:
-    """Answers by the solutions, written down for ``Recorded``."""
+    """Answers of the solutions, recorded for ``Recorded``."""
 
     def __init__(self, course: Course) -> None:
         self._solutions = Solutions(course)
@@ -104,7 +104,7 @@ class Recorder:
         return self._solutions.hints(case, got)
 
     def write(self, folder: Path) -> None:
-        """One file of frames for each exercise."""
+        """Write one file of frames per exercise."""
         for name, parts in self._cases.items():
             with atomic_write(folder / f"{name}.frame") as file:
                 file.write(frames.encode(parts))
@@ -146,17 +146,17 @@ def _hints(mistakes: Iterable[Sequence[Any]], got: Any) -> list[str]:
 
 @functools.cache
 def reference(course: Course) -> Reference:
-    """Answers by the solutions where they are, by record elsewhere."""
+    """Return answers from the solutions if they exist, and from the record otherwise."""
     return Solutions(course) if course.solutions.is_dir() else Recorded(course.recorded)
 
 
 def solution(course: Course, exercise: Exercise) -> Callable[..., Any]:
-    """The solution's function."""
+    """Return the solution's function."""
     return getattr(trusted(course.solutions / exercise.file), exercise.name)
 
 
 def mistakes(course: Course, exercise: Exercise) -> dict[str, Callable[..., Any]]:
-    """The known wrong answers by name."""
+    """Return the known wrong answers by name."""
     module = trusted(course.solutions / "wrong" / exercise.file)
     functions = inspect.getmembers(module, inspect.isfunction)
     return {name: function for name, function in functions if not name.startswith("_")}

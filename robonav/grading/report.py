@@ -1,4 +1,4 @@
-"""Grades written for those who read them: students, instructors, and the platforms in between."""
+"""Write grades for students, instructors and learning platforms."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ COLOURS = dict(
 
 
 def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
-    """All files of one student; the grade itself last, so that where it is, the others are."""
+    """Write all files of one student. grade.json comes last, so its presence means that the rest is complete."""
     _write(
         folder / "feedback.html", _page("feedback.html", record=record, course=course)
     )
@@ -37,7 +37,7 @@ def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
 def write_class(
     out: Path, names: Sequence[str], passed_over: Sequence[str], course: Course
 ) -> None:
-    """The gradebook and the overview of the students named, from their grades; and what was no submission."""
+    """Write the gradebook and the overview of these students, with the names that were not submissions."""
     rows, counts, earned, totals = (
         [],
         {id: Counter[str]() for id in course.exercises},
@@ -79,7 +79,7 @@ def write_class(
 
 
 def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
-    """``results.json`` as Gradescope reads it; points that are to be graded again are said to be."""
+    """Return ``results.json`` as Gradescope reads it. It names the exercises that must be graded again."""
     tests = [
         {
             "number": entry["id"],
@@ -105,7 +105,7 @@ def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
 
 
 def junit(record: dict[str, Any], course: Course) -> str:
-    """JUnit XML: one case an exercise, a failure for lost points, an error for a fault of the grader."""
+    """Return JUnit XML: one case per exercise, a failure for lost points, an error for a fault of the grader."""
     cases = record["exercises"]
     suite = ElementTree.Element(
         "testsuite",
@@ -134,7 +134,7 @@ def junit(record: dict[str, Any], course: Course) -> str:
 
 
 def gradebook(rows: Sequence[Sequence[Any]], course: Course) -> str:
-    """One line a student; no cell can be taken for a formula."""
+    """Return the gradebook as CSV, one line per student. No cell can be taken for a formula."""
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(
@@ -145,7 +145,7 @@ def gradebook(rows: Sequence[Sequence[Any]], course: Course) -> str:
 
 
 def _cell(value: Any) -> Any:
-    """Text that begins like a formula is marked as text, as spreadsheets have it."""
+    """Prefix text that begins like a formula with an apostrophe, which spreadsheets read as text."""
     return (
         f"'{value}"
         if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r"))

@@ -1,4 +1,4 @@
-"""One grading run within pytest: fixtures for the parts, states from their outcomes, the grade at the end."""
+"""One grading run inside pytest: fixtures for the parts, states from their outcomes, and the grade at the end."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .session import Answer, Session
 
 
 class Run:
-    """Registered as a plugin when a submission is given."""
+    """The plugin that is registered when a submission is given."""
 
     def __init__(self, config: pytest.Config) -> None:
         if config.getoption("grade_json"):
@@ -67,7 +67,7 @@ class Run:
 
     @pytest.fixture
     def rng(self, request: pytest.FixtureRequest) -> np.random.Generator:
-        """Random numbers of this part's own, from the secret or the public seed."""
+        """The random generator of this part, from the secret or the public seed."""
         return generator(self.seed, request.node.name)
 
     def _exercise(self, item: pytest.Item) -> tuple[Exercise, int]:
@@ -80,7 +80,7 @@ class Run:
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        """Keep the exercises that were asked for, and let ``-k`` find them by name and id."""
+        """Keep the requested exercises, and let ``-k`` find them by name and id."""
         for item in items:
             exercise, _ = self._exercise(item)
             item.extra_keyword_matches.update({exercise.id, exercise.name})
@@ -118,7 +118,7 @@ class Run:
                 )
 
     def grade(self) -> dict[str, Any]:
-        """The grade of all exercises that were to be graded."""
+        """Return the grade of all requested exercises."""
         exercises = self.course.exercises
         graded = [
             exercise_grade(exercises[id], parts) for id, parts in self.parts.items()

@@ -6,7 +6,8 @@ restricted Linux as root where namespaces are refused   another user, Landlock, 
 practice   anywhere                                     a process and a deadline; no mark is given from it
 ========== ============================================ ==========================================================
 
-In all three the worker limits its resources, and on Linux refuses itself new processes and sockets (``hardening``).
+In all three tiers the worker limits its resources. On Linux it also forbids itself new processes and sockets
+(``hardening``).
 """
 
 from __future__ import annotations
@@ -66,7 +67,7 @@ PYTHON = os.path.realpath(
 
 @dataclass(frozen=True)
 class Limits:
-    """What a submission may use: seconds of wall clock, bytes of memory and of one written file, open files."""
+    """What a submission may use: seconds of wall clock, bytes of memory and of one written file, and open files."""
 
     call_seconds: float = 5.0
     exercise_seconds: float = 30.0
@@ -75,7 +76,7 @@ class Limits:
     files: int = 64
 
     def resources(self) -> dict[str, int]:
-        """The same as the system's resource limits; the processor time is that of one exercise."""
+        """Return the limits as the system's resource limits. The processor time is that of one exercise."""
         seconds = int(self.exercise_seconds) + 1
         return {
             "AS": self.memory,
@@ -87,19 +88,19 @@ class Limits:
 
 
 class SandboxFault(RuntimeError):
-    """The sandbox itself did not work: no fault of the submission."""
+    """Raised when the sandbox itself fails. The submission is not to blame."""
 
 
 class TimedOut(Exception):
-    """No answer came within the deadline; the sandbox is gone."""
+    """Raised when no answer came before the deadline. The sandbox has been killed."""
 
 
 class Garbled(Exception):
-    """What came from the sandbox is no frame; the message says why."""
+    """Raised when the sandbox sent something other than a frame."""
 
 
 class Worker:
-    """A worker in its sandbox; it is asked one thing at a time."""
+    """A worker in its sandbox. It handles one request at a time."""
 
     def __init__(
         self, process: subprocess.Popen[bytes], end: Callable[[], None], *, forks: bool
@@ -114,14 +115,18 @@ class Worker:
             os.set_blocking(self._replies.fileno(), False)
 
     def ask(self, request: Any, seconds: float) -> Any:
-        """The worker's next frame after this request.
+        """Send a request and return the worker's next frame.
 
         Raises
         ------
-        TimedOut : if it did not come whole within ``seconds``; the sandbox has then been killed.
-        EOFError : if the worker hung up.
-        Garbled : if what came is no frame.
-        FrameError : if the request cannot be one.
+        TimedOut
+            If it did not come whole within ``seconds``; the sandbox has then been killed.
+        EOFError
+            If the worker hung up.
+        Garbled
+            If what came is no frame.
+        FrameError
+            If the request cannot be one.
         """
         frame = frames.encode(request)
         try:
@@ -139,7 +144,7 @@ class Worker:
             raise EOFError("the worker hung up") from None
 
     def _exchange(self, frame: bytes, seconds: float) -> Any:
-        """Send and receive against one deadline, however slowly bytes drip."""
+        """Send and receive with one deadline for all bytes, however slowly they arrive."""
         deadline = time.monotonic() + seconds
         requests, replies = self._requests.fileno(), self._replies.fileno()
 
@@ -165,7 +170,7 @@ class Worker:
         return frames.receive(exactly)
 
     def _exchange_watched(self, frame: bytes, seconds: float) -> Any:
-        """The same where a pipe cannot be waited for: a watchdog kills the worker, and the stream ends."""
+        """Do the same on systems that cannot wait for a pipe: a timer kills the worker, which ends the stream."""
         struck = threading.Event()
 
         def strike() -> None:
@@ -187,7 +192,7 @@ class Worker:
             watchdog.cancel()
 
     def end(self) -> None:
-        """Hang up: the worker ends by itself, and is killed if it does not at once."""
+        """Close the requests. The worker then ends by itself, or is killed after half a second."""
         with suppress(OSError):
             self._requests.close()
         with suppress(subprocess.TimeoutExpired):
@@ -195,7 +200,7 @@ class Worker:
         self.kill()
 
     def kill(self) -> None:
-        """End everything in the sandbox, at once; harmless where it has ended."""
+        """Kill everything in the sandbox at once. Does nothing if it has ended."""
         self._end()
         self._process.wait()
         for stream in (self._requests, self._replies):
@@ -206,11 +211,12 @@ class Worker:
 def start(
     tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str | None = None
 ) -> Worker:
-    """A worker in a sandbox of this tier that holds these files and has run none of them yet.
+    """Start a worker in a sandbox of this tier. It holds the files and has run none of them yet.
 
     Raises
     ------
-    SandboxFault : if it does not start.
+    SandboxFault
+        If it does not start.
     """
     try:
         worker = {
@@ -303,14 +309,14 @@ def _spawn(
 
 
 def _python(python: str, stage: str, code: str) -> list[str]:
-    """A command that runs ``code`` with the staged files and numpy in reach, and no site-packages."""
+    """Return a command that runs ``code`` with the staged files and numpy, but without site-packages."""
     path = [stage, *{os.path.dirname(folder) for folder in _numpy()}]
     return [python, "-I", "-S", "-B", "-c", f"import sys; sys.path += {path!r}\n"
             f"from robonav.grading import supervisor, worker\n{code}"]  # fmt: skip
 
 
 def _bubblewrap(python: str, writable: int) -> list[str]:
-    """The sandbox's own file system: libraries, interpreter, numpy and worker, all read-only, and a small HOME."""
+    """Return the bubblewrap command: libraries, interpreter, numpy and worker are read-only, and HOME is small."""
     command = [
         "bwrap",
         "--unshare-all",
@@ -360,7 +366,7 @@ def _bubblewrap_can(option: str) -> bool:
 
 @functools.cache
 def _interpreter(python: str) -> list[str]:
-    """The interpreter, its standard library and its shared library."""
+    """Return the paths of the interpreter, its standard library and its shared library."""
     code = "import os, sys; print(sys.base_prefix, os.path.dirname(os.__file__), sep='\\n')"
     answer = subprocess.run(
         [python, "-I", "-S", "-c", code], capture_output=True, text=True, check=True
@@ -377,7 +383,7 @@ def _numpy() -> list[str]:
 
 @functools.cache
 def _package_folders(python: str) -> list[str]:
-    """Folders of installed packages that lie within what the sandbox shows; robonav itself may be in one of them."""
+    """Return the folders of installed packages that the sandbox must cover. One of them may contain robonav."""
     shown = {
         Path(path)
         for path in (*LOADER, *_interpreter(python))
@@ -411,5 +417,5 @@ def _staged() -> tempfile.TemporaryDirectory[str]:
 
 
 def _stage() -> str:
-    """A folder with copies of the files that the sandbox needs and nothing else of this package."""
+    """Return a folder with copies of only those files of this package that the sandbox needs."""
     return _staged().name

@@ -1,4 +1,4 @@
-"""Which tier of sandbox this machine has: each is tried with a submission that tries what it must not."""
+"""Find the sandbox tiers that work on this machine, by running a submission that attempts forbidden actions."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def canary(path):
 
 @functools.cache
 def fault(tier: str, python: str | None = None) -> str | None:
-    """Why the tier cannot be relied on here, or None if it can."""
+    """Return why the tier cannot be trusted on this machine, or None if it can."""
     try:
         worker = sandbox.start(tier, {"canary.py": CANARY}, Limits(), python=python)
     except sandbox.SandboxFault as error:
@@ -66,7 +66,7 @@ def fault(tier: str, python: str | None = None) -> str | None:
 
 
 def best() -> str:
-    """The strictest tier that works here."""
+    """Return the strictest tier that works on this machine."""
     for tier in TIERS:
         if fault(tier) is None:
             return tier

@@ -1,4 +1,4 @@
-"""What a test holds in place of the student's function: calls go to the sandbox, every judgement is made here."""
+"""A student's function as the tests see it: calls run in the sandbox, and answers are judged here."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Calls(Protocol):
 
 
 class Session:
-    """One submission in one sandbox, which is started when first needed and again after it had to be killed."""
+    """One submission in one sandbox. The sandbox starts when it is needed, and restarts after it was killed."""
 
     def __init__(
         self,
@@ -49,17 +49,19 @@ class Session:
         self._serving: Exercise | None = None
         self._failed: dict[
             str, Unaccepted
-        ] = {}  # by exercise: a file that hangs when it is read does so once
+        ] = {}  # by exercise: a file that hangs when it is loaded is loaded only once
         self._left: dict[str, float] = {}  # seconds by exercise
         self._asked = 0
 
     def call(self, exercise: Exercise, arguments: Sequence[Any]) -> Any:
-        """What the student's function answers, as plain values.
+        """Return what the student's function answers, as plain values.
 
         Raises
         ------
-        Unaccepted : if it answers with an error, too late, or not at all.
-        SandboxFault : if the sandbox itself fails.
+        Unaccepted
+            If it answers with an error, too late, or not at all.
+        SandboxFault
+            If the sandbox itself fails.
         """
         if self._refused:
             raise Unaccepted("error", f"The submission was refused: {self._refused}.")
@@ -75,7 +77,7 @@ class Session:
         self._worker = self._serving = None
 
     def _serve(self, exercise: Exercise) -> None:
-        """Have the student's function ready, in a process that has run no other exercise."""
+        """Load the student's function into a process that has run no other exercise."""
         if self._serving == exercise:
             return
         self._dismiss()
@@ -84,7 +86,7 @@ class Session:
             self._load(exercise)
         except Unaccepted as failure:
             spoiled = used and self._worker is None and failure.state == "error"
-            if spoiled:  # by the exercise before, it may be: this one has a right to a sandbox of its own
+            if spoiled:  # perhaps by the previous exercise: this one gets a new sandbox
                 self._load(exercise)
                 return
             self._failed[exercise.id] = failure
@@ -101,7 +103,7 @@ class Session:
         )
 
     def _dismiss(self) -> None:
-        """End the child of the exercise before; the sandbox with it, unless all goes as it should."""
+        """End the previous exercise's child process. If that fails, end the whole sandbox."""
         if self._worker is None or self._serving is None:
             return
         self._serving = None
@@ -144,7 +146,9 @@ class Session:
             ) from None
         finally:
             self._left[exercise.id] = left - (time.monotonic() - start)
-        match reply:  # of each thing its type first: an array where a number should be is neither equal nor unequal
+        match (
+            reply
+        ):  # match types first: comparing an array with == gives no truth value
             case {"id": int(number), "value": value, **rest} if (
                 number == self._asked and not rest
             ):
@@ -161,7 +165,7 @@ class Session:
         raise Unaccepted("error", "What came back is no answer to what was asked.")
 
     def _raised(self, kind: str, message: str, where: Any) -> Unaccepted:
-        """A student's error."""
+        """Describe an error that the student's code raised."""
         match where:
             case [str(file), int(line)] if file in self._files:
                 place = f" ({file}, line {line})."
@@ -205,7 +209,7 @@ class Session:
         )
 
     def _told(self, said: str, more: str) -> str:
-        """With secret cases without what the student's code can choose, be it a number: that could carry a case."""
+        """Omit ``more`` when the cases are secret: the student's code chose it and could leak a case through it."""
         return f"{said}; try robonav check at home." if self.secret else f"{said}{more}"
 
 
@@ -214,7 +218,8 @@ class Answer:
 
     Attributes
     ----------
-    expected : the reference's answer to the last call.
+    expected : object
+        The reference's answer to the last call.
     """
 
     def __init__(
@@ -227,14 +232,14 @@ class Answer:
         self.expected: Any = None
 
     def agrees(self, *arguments: Any) -> Any:
-        """Call the function and compare its answer with the reference's; the answer, for further checks."""
+        """Call the function, compare its answer with the reference's, and return it for further checks."""
         self._call(arguments)
         if problem := compare.difference(self._got, self.expected):
             raise self._wrong(problem)
         return self._got
 
     def array(self, *arguments: Any, shape: tuple[int, ...]) -> np.ndarray:
-        """Call the function; its answer as an array of finite floats of this shape."""
+        """Call the function and return its answer as an array of finite floats of this shape."""
         self._call(arguments)
         array = compare.as_numbers(self._got)
         if array is None or array.shape != shape:
@@ -246,7 +251,7 @@ class Answer:
         return array.astype(float)
 
     def check(self, holds: bool, otherwise: str) -> None:
-        """A property of the last answer; ``otherwise`` says what is wrong where it does not hold."""
+        """Require a property of the last answer. ``otherwise`` tells the student what is wrong if it does not hold."""
         if not holds:
             raise self._wrong(otherwise)
 

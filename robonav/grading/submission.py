@@ -1,7 +1,8 @@
-"""A submission as the grader takes it: the bytes of its Python files and notebooks, which only the worker looks into.
+"""Read a submission: the bytes of its Python files and notebooks. Only the worker looks into them.
 
-A folder, a zip, a notebook or a Python file. Links are refused, as are paths that leave the submission; everything else
-that is no ``.py`` or ``.ipynb`` is left where it is.
+A submission is a folder, a zip file, a notebook or a Python file. Links and paths that leave the submission are
+refused.
+Files other than ``.py`` and ``.ipynb`` are ignored.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ class Submission:
 
     @property
     def digest(self) -> str:
-        """A fingerprint of all names and contents."""
+        """Hash of all names and contents."""
         digest = hashlib.sha256()
         for name, content in sorted(self.files.items()):
             digest.update(f"{len(name)} {name} {len(content)} ".encode() + content)
@@ -46,12 +47,14 @@ class Submission:
 
 
 def read(path: str | Path) -> Submission:
-    """The submission at ``path``.
+    """Read the submission at ``path``.
 
     Raises
     ------
-    ValueError : if nothing is there that could be one.
-    Refused : if it holds a link, a path that leaves it, or too much.
+    ValueError
+        If nothing is there that could be one.
+    Refused
+        If it holds a link, a path that leaves it, or too much.
     """
     path = Path(path)
     if path.is_symlink():
@@ -80,12 +83,12 @@ def read(path: str | Path) -> Submission:
 
 
 def is_zip(path: Path) -> bool:
-    """Whether it is called one."""
+    """Whether the name ends in .zip."""
     return path.suffix.lower() == ".zip"
 
 
 def load_submission(path: str | Path) -> Submission | Refused:
-    """The submission at ``path``, or why it is refused."""
+    """Return the submission at ``path``, or the reason why it is refused."""
     try:
         return read(path)
     except Refused as refused:
@@ -93,7 +96,7 @@ def load_submission(path: str | Path) -> Submission | Refused:
 
 
 def _only_zip(folder: Path) -> Path | None:
-    """The zip that is all a folder holds, as learning platforms hand it over."""
+    """Return the zip file if a folder holds nothing else, as in exports of learning platforms."""
     try:
         entries = [
             entry for entry in folder.iterdir() if not entry.name.startswith(".")

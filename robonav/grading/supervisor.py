@@ -1,7 +1,7 @@
-"""The restricted tier's guard: stays root, runs the worker as a user that owns nothing, and ends all that user has.
+"""The supervisor of the restricted tier: it stays root, runs the worker as another user, and kills all its processes.
 
-Started by ``sandbox`` on Linux as root where namespaces are refused. It ends when the worker ends or when the grader's
-end of the lifeline closes, so that nothing outlives a grader that was killed.
+``sandbox`` starts it on Linux as root where namespaces are refused. It ends when the worker ends or when the grader's
+end of the lifeline closes, so that nothing survives a grader that was killed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from . import hardening, worker
 
 
 def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) -> None:
-    """Run the worker as ``user`` with only ``readable`` and ``folder`` in sight; return when all is over."""
+    """Run the worker as ``user``, which sees only ``readable`` and ``folder``. Return when it has ended."""
     if (child := os.fork()) == 0:
         try:
             os.close(lifeline)
@@ -33,7 +33,7 @@ def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) ->
 
 
 def _end_all_of(user: int) -> None:
-    """Kill every process of the user at once, the killer among them: none can fork its way out of one system call."""
+    """Kill every process of the user with one system call, which no process can escape by forking."""
     if (killer := os.fork()) == 0:
         os.setresuid(user, user, user)
         with suppress(ProcessLookupError):

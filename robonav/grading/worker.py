@@ -1,10 +1,9 @@
-"""The worker: runs a student's code in the sandbox and answers the grader's calls, one frame for one.
+"""The worker runs a student's code in the sandbox. It answers each of the grader's requests with one frame.
 
 The grader sends the submission's files once, and the worker says ``ready``. Then, for each exercise, the grader asks
-to ``load`` a function, to ``call`` it any number of times, and to ``end``. Each exercise finds the files anew in a
-folder of its own and, where the system can fork, runs in a child of its own: one that dies or spoils what it can reach
-leaves the next untouched, and numpy is imported once. Nothing here is worth stealing: a child knows the arguments of
-its calls and no answer.
+to ``load`` a function, to ``call`` it any number of times, and to ``end``. Each exercise gets a fresh copy of the files
+in its own folder and, where the system can fork, its own child process. A child that crashes or damages its folder does
+not affect the next one, and numpy is imported only once. A child knows the arguments of its calls but no right answer.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ MOST_TEXT = 2_000  # characters of an error message
 
 
 class Gate(importlib.abc.MetaPathFinder):
-    """Refuses, in a clear sentence, modules that the graded code cannot have."""
+    """Refuses modules that graded code may not import, with a clear message."""
 
     def __init__(self, own: set[str]) -> None:
         self.allowed = ALLOWED | own
@@ -38,18 +37,18 @@ class Gate(importlib.abc.MetaPathFinder):
         top = name.partition(".")[0]
         if top == "robonav":
             raise ModuleNotFoundError(
-                "robonav is out of reach here: the exercise asks for your own answer",
+                "robonav cannot be imported here: the exercise asks for your own answer",
                 name=name,
             )
         if top not in self.allowed:
             raise ModuleNotFoundError(
-                f"{top} is out of reach here: use Python's standard library and numpy",
+                f"{top} cannot be imported here: use Python's standard library and numpy",
                 name=name,
             )
 
 
 def main() -> None:
-    """Serve the grader on the standard streams until it hangs up."""
+    """Serve the grader on the standard streams until they close."""
     requests, replies = _take_streams()
     opening = frames.read(requests)
     files = {name: content.tobytes() for name, content in opening["files"].items()}
@@ -77,7 +76,7 @@ def main() -> None:
 
 
 def _take_streams() -> tuple[BinaryIO, BinaryIO]:
-    """The standard streams for frames alone; what a student's code prints goes nowhere."""
+    """Reserve the standard streams for frames. What a student's code prints is discarded."""
     requests, replies = (
         os.fdopen(os.dup(0), "rb", buffering=0),
         os.fdopen(os.dup(1), "wb"),
@@ -97,7 +96,7 @@ def _empty(home: Path) -> None:
 
 
 def _unpacked(home: Path, files: Mapping[str, bytes]) -> Path:
-    """The files in a new folder; its name cannot be guessed, and so not be taken before."""
+    """Write the files to a new folder. Its name cannot be guessed, so nobody can create it first."""
     folder = home / os.urandom(8).hex()
     folder.mkdir()
     for name, content in files.items():
@@ -107,7 +106,7 @@ def _unpacked(home: Path, files: Mapping[str, bytes]) -> Path:
 
 
 def _tried(do: Callable[..., Any], *arguments: Any, **options: Any) -> None:
-    """Do it if it can be done (a zip may hold both "a" and "a/b"); without space nothing can."""
+    """Call ``do`` and ignore errors (a zip may hold both "a" and "a/b"), except that of a full disk."""
     try:
         do(*arguments, **options)
     except OSError as error:
@@ -124,7 +123,7 @@ def _close_the_gate(own: set[str]) -> None:
 def _serve_in_child(
     requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]
 ) -> int:
-    """Serve one exercise; how its process ended."""
+    """Serve one exercise in a child process and return its exit code."""
     if (child := os.fork()) == 0:
         status = 1
         try:
@@ -164,7 +163,7 @@ def _answer(request: dict[str, Any], functions: dict[str, Any]) -> dict[str, Any
 
 
 def _load(folder: Path, chapter: str, name: str) -> Any:
-    """The function ``name`` of ``chapter/name.py``, of ``name.py`` elsewhere, or else of a notebook that has it."""
+    """Load the function ``name`` from ``chapter/name.py``, else from another ``name.py``, else from a notebook."""
     files = [path for path in sorted(folder.rglob("*.py")) if path.stem == name]
     files.sort(key=lambda path: (path.parent.name != chapter, len(path.parts)))
     for path in files:
@@ -202,7 +201,7 @@ def _run(name: str, path: Path, source: Any) -> types.ModuleType:
 
 
 def _described(error: BaseException) -> dict[str, Any]:
-    """The kind of an error, its message, and the last line of the student's own on the way to it."""
+    """Describe an error: its type, its message, and the last line of the student's code in its traceback."""
     try:
         message = str(error)[:MOST_TEXT].encode("utf-8", "replace").decode()
     except BaseException:

@@ -284,7 +284,7 @@ def test_a_name_that_no_report_can_hold_is_one_clear_line(tmp_path, name):
         (tmp_path / name).write_text("")
     except OSError:
         pytest.skip("no such names here")
-    with pytest.raises(ValueError, match=r"is no name for a student: rename"):
+    with pytest.raises(ValueError, match=r"cannot be a student's name: rename"):
         students(tmp_path)
 
 

@@ -119,5 +119,5 @@ def test_lists_of_lines_are_a_source_too():
     ],
 )
 def test_what_is_no_notebook_is_named(content):
-    with pytest.raises(ValueError, match="no notebook"):
+    with pytest.raises(ValueError, match="not a notebook"):
         definitions(content)
