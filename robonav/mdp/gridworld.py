@@ -1,4 +1,4 @@
-"""Gridworlds drawn as text: walls, slipping, rewards, ends; as a model and as an environment that agree."""
+"""Gridworlds drawn as text, with walls, slipping, rewards and terminal cells: as a model and as an environment."""
 
 from __future__ import annotations
 
@@ -35,15 +35,26 @@ Outcome = tuple[float, int, float, bool]
 
 @dataclass(frozen=True)
 class Cell:
-    """What a symbol of the map stands for.
+    """Meaning of a symbol of the map.
 
-    Attributes
+    Parameters
     ----------
-    reward : collected by each step that ends in such a cell, besides the reward of a step.
-    ends : whether arriving there ends the episode.
-    wall : whether nobody can be there.
-    starts : whether episodes start there.
-    slip : probability of slipping when leaving such a cell; the grid's own if not given.
+    reward : float
+        Reward of each step that ends in such a cell, in addition to the grid's ``step_reward``.
+    ends : bool
+        Whether reaching such a cell ends the episode.
+    wall : bool
+        Whether such a cell cannot be entered.
+    starts : bool
+        Whether episodes start there.
+    slip : float, optional
+        Probability of slipping on leaving such a cell; the grid's own by default.
+
+    Examples
+    --------
+    >>> from robonav.mdp import Cell, GridWorld
+    >>> GridWorld("S . $", legend={"$": Cell(reward=5, ends=True)}).cell_rewards
+    array([0., 0., 5.])
     """
 
     reward: float = 0.0
@@ -67,22 +78,34 @@ LEGEND: Mapping[str, Cell] = MappingProxyType(
 
 @dataclass(frozen=True, eq=False)
 class GridWorld:
-    """A grid of cells between which one moves up, right, down and left (actions 0 to 3).
+    """A grid of cells in which the robot moves up, right, down and left (actions 0 to 3).
+
+    A step into a wall or off the grid leaves the robot where it is. States are numbered row by row, without the walls.
 
     Parameters
     ----------
-    text : one line a row, one symbol a cell; blanks between symbols are ignored. ``.`` free, ``#`` wall, ``S`` start,
+    text : str
+        One line a row, one symbol a cell; blanks between symbols are ignored. ``.`` free, ``#`` wall, ``S`` start,
         ``G`` goal (reward 1, ends), ``X`` pit (reward -1, ends), ``~`` ice (slips with probability 2/3).
-    legend : further symbols, or other meanings of these.
-    slip : probability that a step goes off to the left or to the right of where it should, half each.
-    step_reward : reward of every step.
-
-    A step into a wall or off the grid stays where it is. States are numbered along the rows, walls left out.
+    legend : mapping of str to Cell
+        Further symbols, or other meanings of these.
+    slip : float
+        Probability that a step goes to the left or to the right of its direction, half each.
+    step_reward : float
+        Reward of every step.
 
     Raises
     ------
-    TypeError, ValueError : if the text is none, rows differ in length, a symbol has no meaning, no cell is free, or a
-        probability is none.
+    TypeError, ValueError
+        If the text is not a string, rows differ in length, a symbol has no meaning, no cell is free, or a probability
+        is out of range.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, value_iteration
+    >>> grid = GridWorld("S . . G")
+    >>> value_iteration(grid.mdp(discount=0.5)).values
+    array([0.25, 0.5 , 1.  , 0.  ])
     """
 
     text: str
@@ -153,7 +176,7 @@ class GridWorld:
 
     @cached_property
     def start(self) -> NDArray[np.float64]:
-        """Where episodes start, (S,) probabilities: alike in all start cells, or in all that end nothing."""
+        """Probability (S,) of starting in each state: uniform over the start cells, or over all not terminal."""
         starts = self._of_states(lambda cell: cell.starts, bool)
         candidates = starts if starts.any() else ~self.terminal
         return candidates / candidates.sum()
@@ -186,7 +209,7 @@ class GridWorld:
         return reached, chances
 
     def mdp(self, discount: float) -> FiniteMDP:
-        """The model of the grid, sparse; a step out of a terminal state leads back to it and earns nothing."""
+        """Sparse model of the grid; a step out of a terminal state leads back to it, with reward 0."""
         reached, chances = self.outcomes
         rewards = (chances * self.cell_rewards[reached]).sum(axis=2)
         rewards[self.terminal] = 0
@@ -242,16 +265,29 @@ def as_action(action: int) -> int:
 
 
 class GridEnvironment(gym.Env[Any, Any]):
-    """A gridworld to walk through; its transitions are published in ``P``, as those of Gymnasium's toy texts are.
+    """A gridworld as a Gymnasium environment, whose transitions are published in ``P`` as Gymnasium's toy texts do.
 
-    Observations are state numbers, actions 0 to 3 (up, right, down, left). An episode ends in a terminal cell; add
+    Observations are state numbers; actions are 0 to 3 (up, right, down, left). An episode ends in a terminal cell; add
     ``gymnasium.wrappers.TimeLimit`` for a limit of steps.
+
+    Parameters
+    ----------
+    grid : GridWorld
+    render_mode : {"ansi"}, optional
 
     Attributes
     ----------
-    grid : the gridworld.
-    P : ``P[s][a]`` is a list of (probability, next state, reward, whether the episode ends).
-    initial_state_distrib : (S,), where episodes start.
+    P : dict
+        ``P[s][a]`` is a list of (probability, next state, reward, terminated).
+    initial_state_distrib : (S,) array
+        Probability of starting in each state.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridEnvironment, GridWorld
+    >>> env = GridEnvironment(GridWorld("S G"))
+    >>> env.reset(seed=0)[0], env.step(1)[:3]
+    (0, (1, 1.0, True))
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["ansi"], "render_fps": 4}  # type: ignore[misc]
@@ -272,7 +308,7 @@ class GridEnvironment(gym.Env[Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[int, dict[str, Any]]:
-        """A new episode, from a cell drawn among the start cells."""
+        """Start a new episode in a cell drawn from the start cells."""
         super().reset(seed=seed)
         self.state = int(
             self.np_random.choice(self.grid.n_states, p=self.initial_state_distrib)
@@ -302,7 +338,7 @@ class GridEnvironment(gym.Env[Any, Any]):
         return "\n".join(" ".join(row) for row in rows) + "\n"
 
     def _draw(self, outcomes: list[Outcome]) -> Outcome:
-        """One of the outcomes, by its probability."""
+        """One of the outcomes, drawn with its probability."""
         left = self.np_random.random()
         for outcome in outcomes:
             left -= outcome[0]
@@ -331,7 +367,23 @@ class GridEnvironment(gym.Env[Any, Any]):
 
 
 def four_by_three(*, slip: float = 0.2, step_reward: float = -0.04) -> GridWorld:
-    """The 4x3 world of Russell and Norvig: an exit worth 1, one worth -1 beneath it, and a wall between."""
+    """The 4x3 world of Russell and Norvig: an exit with reward 1, one with -1 below it, and a wall in the middle.
+
+    Parameters
+    ----------
+    slip, step_reward : float
+        As for :class:`GridWorld`.
+
+    Returns
+    -------
+    GridWorld
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three
+    >>> four_by_three().shape
+    (3, 4)
+    """
     exits = {"+": Cell(reward=1.0, ends=True), "-": Cell(reward=-1.0, ends=True)}
     return GridWorld(
         """

@@ -1,4 +1,4 @@
-"""Where am I? A robot with a map, nine noisy ranges, or none, and a belief about its pose (sections 2.2.2, 2.5.1).
+"""Localisation: a robot with a map, noisy ranges or none, and a belief about its pose (sections 2.2.2, 2.5.1).
 
 The same Bayes filter as :class:`~robonav.mdp.POMDP`, for poses on a grid and observations that are real numbers. How a
 robot senses is not known here: the ranges that the map predicts come in as an array.
@@ -34,11 +34,21 @@ class PoseGrid:
 
     Pose number ``(row * columns + column) * headings + h`` is the centre of a cell, heading ``h * 2 pi / headings``.
 
-    Attributes
+    Parameters
     ----------
-    free : (rows, columns) bools, where the robot can be; row 0 lies at y = 0, column 0 at x = 0.
-    cell : side of a cell in metres.
-    headings : how many directions are told apart; with 12, turns of 30 and 60 degrees lead from one to another.
+    free : (rows, columns) array of bools
+        Where the robot can be; row 0 lies at y = 0, column 0 at x = 0.
+    cell : float
+        Side of a cell in metres.
+    headings : int
+        Number of directions; with 12, turns of 30 and 60 degrees lead from one to another.
+
+    Examples
+    --------
+    >>> from robonav.mdp import PoseGrid
+    >>> PoseGrid([[True, True]], headings=4).poses[:2].round(2)
+    array([[0.5 , 0.5 , 0.  ],
+           [0.5 , 0.5 , 1.57]])
     """
 
     free: NDArray[np.bool_]
@@ -132,8 +142,23 @@ def pose_transitions(
 
     Parameters
     ----------
-    moves : (A, 2) turn in radians, counter-clockwise, and distance in metres (negative: backward).
-    slip : (A, A) probabilities that one move (row) turns into another (prediction uncertainty, 2.5.1), or none.
+    grid : PoseGrid
+    moves : (A, 2) array
+        Turn in radians, counter-clockwise, and distance in metres (negative: backward).
+    slip : (A, A) array, optional
+        Probability that one move (row) becomes another (prediction uncertainty, section 2.5.1).
+
+    Returns
+    -------
+    tuple of A sparse (S, S) matrices
+
+    Examples
+    --------
+    >>> from robonav.mdp import PoseGrid, pose_transitions
+    >>> grid = PoseGrid([[True, True]], headings=1)
+    >>> pose_transitions(grid, [(0.0, 1.0)])[0].toarray()
+    array([[0., 1.],
+           [0., 1.]])
     """
     steps = check_array("moves", moves, shape=("A", 2))
     meant = [_move(grid, turn, distance) for turn, distance in steps]
@@ -168,15 +193,25 @@ def _move(grid: PoseGrid, turn: float, distance: float) -> sp.csr_array:
 
 @dataclass(frozen=True)
 class RangeSensor:
-    """How far what a sensor reads is from what the map says.
+    """Errors of a range sensor, relative to the ranges that the map predicts.
 
-    Attributes
+    Parameters
     ----------
-    deviation : standard deviation in metres of a reading about the range predicted at the centre of a cell. To the
-        sensor's own noise add what half a cell and half a heading step can make: about half a cell.
-    reach : reading in metres of a sensor that sees nothing.
-    outliers : share of readings that have nothing to do with the map: half of them see nothing, half are even. Too
-        small a share makes beliefs too sure: near a corner half a heading step can change a reading by metres.
+    deviation : float
+        Standard deviation in metres of a reading around the range predicted at the centre of a cell. Add to the
+        sensor's own noise the effect of half a cell and half a heading step: about half a cell.
+    reach : float
+        Reading in metres of a sensor that detects nothing.
+    outliers : float
+        Share of readings that are independent of the map: half of them detect nothing, half are uniform. Too small a
+        share makes beliefs overconfident: near a corner, half a heading step can change a reading by metres.
+
+    Examples
+    --------
+    >>> from robonav.mdp import RangeSensor
+    >>> sensor = RangeSensor(deviation=0.5)
+    >>> bool(sensor.log_likelihood([3.0], [3.1]) > sensor.log_likelihood([3.0], [5.0]))
+    True
     """
 
     deviation: float = 0.7
@@ -215,16 +250,28 @@ class Localiser:
 
     The filter of :class:`~robonav.mdp.POMDP` (its ``update``), for observations that are real numbers.
 
-    Attributes
+    Parameters
     ----------
-    transitions : A sparse matrices (S, S), such as :func:`pose_transitions` makes.
-    predicted : (S, n) what the n sensors would read at each pose without noise.
-    sensor : how they err.
+    transitions : tuple of A sparse (S, S) matrices
+        Such as :func:`pose_transitions` makes.
+    predicted : (S, n) array
+        What the n sensors would read at each pose without noise.
+    sensor : RangeSensor
+        Their errors.
 
     Raises
     ------
-    TypeError, ValueError : if the transitions are not (S, S) with rows that sum to one, or the rest does not fit them;
-        by the methods, if a belief is no distribution over S poses, an action does not exist, or readings are not n.
+    TypeError, ValueError
+        If the transitions are not (S, S) with rows that sum to one, or the rest does not fit them. The methods raise
+        it if a belief is not a distribution over S poses, an action does not exist, or there are not n readings.
+
+    Examples
+    --------
+    >>> from robonav.mdp import Localiser, PoseGrid, pose_transitions
+    >>> grid = PoseGrid([[True, True]], headings=1)
+    >>> localiser = Localiser(pose_transitions(grid, [(0.0, 1.0)]), [[5.0], [2.0]])
+    >>> localiser.correct(grid.uniform(), [2.0]).round(2)
+    array([0.01, 0.99])
     """
 
     transitions: tuple[sp.csr_array, ...]

@@ -235,7 +235,24 @@ def reachable(steps: sp.csr_array, starts: NDArray[np.intp]) -> NDArray[np.bool_
 
 
 def expected_rewards(transitions: Any, rewards: ArrayLike) -> NDArray[np.float64]:
-    """Rewards r(s, a), (S, A), of rewards R(s', a, s) that depend on the state reached, given as (A, S, S')."""
+    """Expected rewards r(s, a) of rewards that depend on the state reached.
+
+    Parameters
+    ----------
+    transitions : (A, S, S) array or sequence of A sparse (S, S) matrices
+    rewards : (A, S, S') array
+
+    Returns
+    -------
+    (S, A) array
+
+    Examples
+    --------
+    >>> from robonav.mdp import expected_rewards
+    >>> expected_rewards([[[0.5, 0.5], [0, 1]]], [[[0, 4], [0, 0]]])
+    array([[2.],
+           [0.]])
+    """
     checked = _checked_transitions(transitions)
     states = checked[0].shape[0]
     reached = check_array("rewards", rewards, shape=(len(checked), states, states))

@@ -90,14 +90,30 @@ def as_distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.flo
 
 
 def uniform(states: int, actions: int) -> NDArray[np.float64]:
-    """The policy (S, A) that takes every action alike."""
+    """The policy (S, A) that takes all actions with equal probability."""
     return np.full((states, actions), 1 / actions)
 
 
 def greedy_actions(
     action_values: ArrayLike, *, tolerance: float = 1e-9
 ) -> NDArray[np.bool_]:
-    """Which actions are greedy: (S, A) bools, true within ``tolerance`` of the best of each state."""
+    """Which actions are greedy: those within ``tolerance`` of the best of each state.
+
+    Parameters
+    ----------
+    action_values : (S, A) array
+    tolerance : float
+
+    Returns
+    -------
+    (S, A) array of bools
+
+    Examples
+    --------
+    >>> from robonav.mdp import greedy_actions
+    >>> greedy_actions([[1.0, 2.0, 2.0]])
+    array([[False,  True,  True]])
+    """
     q = check_array("action_values", action_values, shape=("S", "A"))
     return q >= q.max(axis=1, keepdims=True) - check_real(
         "tolerance", tolerance, at_least=0
@@ -107,7 +123,24 @@ def greedy_actions(
 def greedy_mixture(
     action_values: ArrayLike, *, tolerance: float = 1e-9
 ) -> NDArray[np.float64]:
-    """The stochastic policy (S, A) that chooses evenly among the greedy actions."""
+    """The stochastic policy that chooses uniformly among the greedy actions.
+
+    Parameters
+    ----------
+    action_values : (S, A) array
+    tolerance : float
+        Actions within it of the best are greedy.
+
+    Returns
+    -------
+    (S, A) array of probabilities
+
+    Examples
+    --------
+    >>> from robonav.mdp import greedy_mixture
+    >>> greedy_mixture([[1.0, 2.0, 2.0]])
+    array([[0. , 0.5, 0.5]])
+    """
     best = greedy_actions(action_values, tolerance=tolerance)
     return best / best.sum(axis=1, keepdims=True)
 
