@@ -113,10 +113,11 @@ class Sensing:
 
 @dataclass(frozen=True)
 class Reflex:
-    """What the robot does before any policy is asked (Algorithms 8 and 9).
+    """What the robot does before any policy is asked.
 
     In a safe state, with nothing in sensor range, it turns to its target and goes forward. Where all five sectors
-    ahead read less than one step plus the collision distance, it steps back. Elsewhere the policy decides.
+    ahead read less than one step plus the collision distance, it steps back. Elsewhere the policy decides. Algorithms 8
+    and 9 both use it.
 
     Examples
     --------

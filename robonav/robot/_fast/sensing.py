@@ -200,7 +200,7 @@ def sense(
 
 @compiled
 def reflexes(start, stop, ranges, speed, commands):
-    """What the robot does by itself (Algorithms 8 and 9): safe, to the target; blocked ahead, back; else -1, ask."""
+    """Compute the actions of the reflex: to the target if safe, back if blocked ahead, else -1 for the policy."""
     for i in range(start, stop):
         least = SENSOR_RANGE
         for k in range(SENSORS):
