@@ -31,9 +31,9 @@ def q_learning(
     record: bool = False,
     progress: Progress | None = None,
 ) -> ControlResult:
-    """One-step Q-learning, Algorithm 5, Eq. (2.29).
+    """One-step Q-learning, Algorithm 5, Eqs. (2.29) and (4.1).
 
-    Learns the values of the best policy while it follows another. Eq. (4.1) of the thesis is the same update.
+    Learns the values of the best policy while it follows another. The thesis gives the same update in both equations.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def q_learning(
             error = reward + discount * future - q[state][action]
             q[state][action] += (
                 training.step_size(state, action) * error
-            )  # 7  Eq. (2.29)
+            )  # 7  Eqs. (2.29) and (4.1)
             state = next_state  # 8
     return training.result()
 
@@ -110,10 +110,10 @@ def sarsa(
     record: bool = False,
     progress: Progress | None = None,
 ) -> ControlResult:
-    """On-policy SARSA, Algorithm 6, Eq. (2.30).
+    """On-policy SARSA, Algorithm 6, Eqs. (2.30) and (4.2).
 
     Learns the values of the policy that it follows, exploration included. They tend to the optimal values only if
-    ``epsilon`` falls to zero as well (Singh et al. 2000). Eq. (4.2) of the thesis is the same update.
+    ``epsilon`` falls to zero as well (Singh et al. 2000). The thesis gives the same update in both equations.
 
     Parameters
     ----------
@@ -172,7 +172,7 @@ def sarsa(
             error = reward + discount * future - q[state][action]
             q[state][action] += (
                 training.step_size(state, action) * error
-            )  # 8  Eq. (2.30)
+            )  # 8  Eqs. (2.30) and (4.2)
             state, action = next_state, next_action  # 9
     return training.result()
 

@@ -8,6 +8,10 @@ import citations
 import pytest
 
 
+def test_equation_and_algorithm_definitions() -> None:
+    assert citations.faults() == []
+
+
 def test_symbols_are_equations_with_a_sentence() -> None:
     assert set(citations.symbols()) <= set(citations.EQUATIONS)
     assert all(sentence.endswith(".") for sentence in citations.symbols().values())
