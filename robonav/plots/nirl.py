@@ -38,7 +38,7 @@ def draw_key_points(
     path: ArrayLike,
     driven: ArrayLike | None = None,
 ) -> None:
-    """Key points (K, 2) that a person gave, the smooth path (P, 2) through them, and what was driven (Fig. 5.3)."""
+    """Draw a person's key points (K, 2), the smooth path (P, 2) through them, and the robot's path (Fig. 5.3)."""
     draw_world(axes, world)
     axes.plot(
         *np.asarray(path)[:, :2].T, color=style.SKY, linewidth=1.6, label="smooth path"
@@ -59,7 +59,7 @@ def draw_key_points(
 
 
 def draw_slips(axes: Axes, shown: Demonstrations, meant: ArrayLike) -> None:
-    """The first drive of a slipping expert, steps that came out otherwise than meant (K,) marked (Fig. 5.5)."""
+    """Draw the first episode of a slipping expert and mark the steps that differ from the action meant (Fig. 5.5)."""
     own = shown.trajectory == 0
     slipped = (np.asarray(meant) != shown.actions)[own]
     draw_world(axes, shown.worlds[0])
@@ -82,7 +82,7 @@ def draw_slips(axes: Axes, shown: Demonstrations, meant: ArrayLike) -> None:
 def draw_margin(
     axes: Axes, expert: ArrayLike, others: ArrayLike, weights: ArrayLike
 ) -> None:
-    """Feature expectations of an expert (2,) and of others (n, 2), and the margin that a reward (2,) leaves between."""
+    """Draw the feature expectations of an expert (2,) and of others (n, 2), and the margin of a reward (2,)."""
     mu, rivals, theta = (
         np.asarray(part, dtype=float) for part in (expert, others, weights)
     )
@@ -161,8 +161,8 @@ def draw_counts(
     axes.set(xlabel="demonstrations", ylim=(0, None))
 
 
-def draw_course(axes: Axes, series: Mapping[str, ArrayLike], label: str) -> None:
-    """A number an iteration (runs, n) by name: mean and range over runs."""
+def draw_iterations(axes: Axes, series: Mapping[str, ArrayLike], label: str) -> None:
+    """Draw series (runs, n) by name against the iteration: mean and range over runs."""
     colours = (style.VERMILION, style.BLUE, style.GREEN, style.ORANGE)
     for (name, given), colour in zip(series.items(), colours, strict=False):
         runs = np.atleast_2d(np.asarray(given, dtype=float))
@@ -198,7 +198,7 @@ def draw_densities(
 
 
 def draw_steps(axes: Axes, rates: Mapping[str, ArrayLike]) -> None:
-    """Success of every run (S,) by step, from the top down, dots and their mean."""
+    """Draw the success of every run (S,) as dots, with their mean, one row a step from the top down."""
     for row, (_, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
         axes.plot(
@@ -291,7 +291,7 @@ def draw_black_boxes(axes: Axes) -> None:
 
 
 def names_of(encoder: Encoder) -> list[str]:
-    """What each input of a reward is, the constant last."""
+    """Names of a reward's inputs, the constant last."""
     sensors = [f"S{sensor}" for sensor in encoder.sensors]
     sector = {
         "number": ["sector"],
@@ -305,7 +305,7 @@ def names_of(encoder: Encoder) -> list[str]:
 
 
 def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
-    """A reward's weights (5, k + 1): one row an action, one column an input; blue is liked, red feared."""
+    """Draw a reward's weights (5, k + 1): one row an action, one column an input; blue positive, red negative."""
     theta = np.asarray(weights, dtype=float)
     most = abs(theta).max() or 1.0
     image = axes.imshow(theta, cmap=GOOD_AND_BAD, vmin=-most, vmax=most, aspect="auto")
@@ -321,7 +321,7 @@ def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
 
 
 def draw_likes(figure: Figure, weights: ArrayLike, encoder: Encoder) -> None:
-    """One robot an action: how each sector's danger counts when that is what it does; blue is liked, red feared."""
+    """Draw one robot for each action, its sectors coloured by the weight of danger: blue positive, red negative."""
     theta = np.asarray(weights, dtype=float)[:, : len(encoder.sensors)]
     most = abs(theta).max() or 1.0
     half = np.degrees(SECTOR) / 2
@@ -370,7 +370,7 @@ def draw_reward_map(
     *,
     spacing: float = 1.0,
 ) -> None:
-    """Where in a world the reward of going on is high (blue) and low (red), for a robot that faces the target.
+    """Draw where in a world the reward of going forward is high (blue) or low (red), for a robot that faces the target.
 
     Blank where nothing is in range, since nothing is decided there, and within a metre of an obstacle.
     """
@@ -432,7 +432,7 @@ def plot_counts(results: Results) -> Figure:
     return figure
 
 
-def plot_course(results: Results, metric: str, label: str) -> Figure:
+def plot_iterations(results: Results, metric: str, label: str) -> Figure:
     """Fig. 5.7 or 5.8 from its results."""
     figure, axes = plt.subplots(figsize=(7, 3))
     cases = results.experiment.cases
@@ -440,7 +440,7 @@ def plot_course(results: Results, metric: str, label: str) -> Figure:
         f"discount {case['discount']}": results.values(metric, k)
         for k, case in enumerate(cases)
     }
-    draw_course(axes, series, label)
+    draw_iterations(axes, series, label)
     return figure
 
 
@@ -453,7 +453,7 @@ def plot_changes(results: Results) -> Figure:
             f"discount {case['discount']}": results.values(layer, k)
             for k, case in enumerate(cases)
         }
-        draw_course(axes, series, "sum of absolute changes")
+        draw_iterations(axes, series, "sum of absolute changes")
         axes.set(title=layer, ylim=(0, None))
     return figure
 

@@ -186,7 +186,7 @@ FIGURE_5_7 = Experiment(
     seeds={"quick": 2, "thesis": 10},
     thesis={"margin at the end": [3.0, None]},
     settings=_ABOUT,
-    plot=Plot("nirl.plot_course", metric="margin", label="margin"),
+    plot=Plot("nirl.plot_iterations", metric="margin", label="margin"),
 )
 FIGURE_5_8 = Experiment(
     name="figure-5.8",
@@ -196,7 +196,7 @@ FIGURE_5_8 = Experiment(
     seeds={"quick": 2, "thesis": 10},
     thesis={"cost at the end": [3.23, None]},
     settings=_ABOUT,
-    plot=Plot("nirl.plot_course", metric="cost", label="cost"),
+    plot=Plot("nirl.plot_iterations", metric="cost", label="cost"),
 )
 FIGURE_5_11 = Experiment(
     name="figure-5.11",

@@ -125,7 +125,7 @@ def test_the_choice_rings_the_best_of_each_score(axes):
 
 
 def test_a_course_is_the_mean_of_its_runs(axes):
-    draw.draw_course(
+    draw.draw_iterations(
         axes, {"0.65": [[1.0, 3, 5], [3.0, 3, 3]], "0.9": [[0.0, 0, 0]]}, "margin"
     )
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), [2, 3, 4])
@@ -137,7 +137,7 @@ def test_results_find_their_panels():
     counts = draw.plot_counts(made_up(FIGURE_5_4, ("samples", "states")))
     own = [line for line in counts.axes[0].lines if line.get_label() == "human"]
     np.testing.assert_array_equal(own[0].get_ydata(), 100 * np.arange(6, 12) + 10)
-    course = draw.plot_course(
+    course = draw.plot_iterations(
         made_up(FIGURE_5_7, ("margin",), steps=4), "margin", "margin"
     )
     np.testing.assert_array_equal(
