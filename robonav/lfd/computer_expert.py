@@ -19,41 +19,73 @@ from .demonstrations import Actions, Demonstrations, record
 MARGIN, CAUTION = (
     3.0,
     2.0,
-)  # what is learned depends on nothing as much as on the distance that the expert keeps
-SHRINK = 0.5  # metres that the margin gives way by, where it leaves no path
+)  # what is learned depends most on the distance that the expert keeps
+SHRINK = 0.5  # metres by which the margin is reduced where it leaves no path
 LIMIT = 50_000  # nodes to expand: many times what a path takes
 
 _NOBODY = np.empty((0, 3))
 
 
-@dataclass
+@dataclass(eq=False)
 class FollowedPlan:
-    """A plan that a robot is following: its poses and actions, and how far it is."""
+    """A plan that a robot is following.
+
+    Attributes
+    ----------
+    poses : (K + 1, 3) array
+        The poses of the plan.
+    actions : (K,) array of int
+        Its actions.
+    done : int
+        How many of the actions the robot has taken.
+    target : (2,) array
+        The target that the plan leads to.
+    centres : (M, 2) array
+        Where the obstacles were when the plan was made.
+    """
 
     poses: NDArray[np.float64]
     actions: Actions
+    target: NDArray[np.float64]
+    centres: NDArray[np.float64]
     done: int = 0
 
-    def follows(self, pose: NDArray[np.float64]) -> bool:
-        """Whether the robot is where the plan has it next, with something left to do."""
-        return self.done < len(self.actions) and bool(
-            np.abs(self.poses[self.done] - pose).max() < 1e-6
+    def holds_for(self, simulator: Simulator, robot: int) -> bool:
+        """Return whether the robot is where the plan has it next, in the world that the plan was made for."""
+        return bool(
+            self.done < len(self.actions)
+            and np.abs(self.poses[self.done] - simulator.poses[robot]).max() < 1e-6
+            and np.array_equal(self.target, simulator.worlds.targets[robot])
+            and np.array_equal(self.centres, simulator.centres[robot])
+            and not simulator.worlds.speeds[robot].any()
         )
 
 
 class ComputerExpert:
-    """Plans with modified A* from where the robot is, follows the plan, and plans anew where the robot has left it.
+    """Plans with modified A* from where the robot is, and plans again where the robot has left its plan.
+
+    One expert can serve several simulators: it follows a plan only in the world that it was made for.
 
     Parameters
     ----------
-    margin : distance in metres that plans keep from obstacles and borders; where that leaves no path it gives way by
-        half a metre at a time.
-    caution : how much they shun what is in sensor range, see :func:`plan`.
+    margin : float
+        Distance in metres that plans keep from obstacles and borders. Where that leaves no path, the margin is reduced
+        by half a metre at a time.
+    caution : float
+        How strongly plans avoid what is in sensor range, see :func:`plan`.
 
     Notes
     -----
     Poses of one heading less than a step apart count as one node. Finer cells give shorter plans with more and smaller
     turns, which are harder to learn from.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd import ComputerExpert
+    >>> from robonav.robot import Simulator, random_worlds
+    >>> ComputerExpert()(Simulator(random_worlds(2, obstacles=0, seed=1)), np.array([0, 1]))
+    array([0, 0])
     """
 
     def __init__(self, margin: float = MARGIN, caution: float = CAUTION) -> None:
@@ -64,35 +96,32 @@ class ComputerExpert:
         self._plans: dict[int, FollowedPlan] = {}
 
     def __call__(self, simulator: Simulator, asked: Actions) -> Actions:
-        """The next actions (n,) of the robots ``asked`` (n,)."""
+        """Return the next actions (n,) of the robots ``asked`` (n,)."""
         return np.array(
             [self._next(simulator, int(robot)) for robot in asked], dtype=np.int64
         )
 
     def _next(self, simulator: Simulator, robot: int) -> int:
-        way = self._plans.get(robot)
-        if (
-            way is None
-            or not way.follows(simulator.poses[robot])
-            or simulator.worlds.speeds[robot].any()
-        ):
-            way = self._plans[robot] = self.plan_from(simulator, robot)
-        way.done += 1
-        return int(way.actions[way.done - 1])
+        followed = self._plans.get(robot)
+        if followed is None or not followed.holds_for(simulator, robot):
+            followed = self._plans[robot] = self.plan_from(simulator, robot)
+        followed.done += 1
+        return int(followed.actions[followed.done - 1])
 
     def plan_from(self, simulator: Simulator, robot: int) -> FollowedPlan:
-        """A way for one robot from where it is, as wide as there is one; a single step straight on if there is none."""
-        world = simulator.worlds
-        for margin in np.append(
-            np.arange(self.margin, COLLISION_DISTANCE, -SHRINK), COLLISION_DISTANCE
-        ):
+        """Plan for one robot from where it is, with the largest margin that leaves a path, or go straight on."""
+        world, pose = simulator.worlds, simulator.poses[robot].copy()
+        target, centres = world.targets[robot].copy(), simulator.centres[robot].copy()
+        obstacles = world.kinds[robot], world.shapes[robot], centres, world.size
+        speed = simulator.speed
+        margins = np.arange(self.margin, COLLISION_DISTANCE, -SHRINK)
+        for margin in np.append(margins, COLLISION_DISTANCE):
             found, poses, actions, _ = _fast.search_actions(
-                world.kinds[robot], world.shapes[robot], simulator.centres[robot], world.size, simulator.poses[robot],
-                world.targets[robot], simulator.speed, margin, self.caution, simulator.speed, LIMIT, False, _NOBODY,
+                *obstacles, pose, target, speed, margin, self.caution, speed, LIMIT, False, _NOBODY,
             )  # fmt: skip
             if found:
-                return FollowedPlan(poses, actions)
-        return FollowedPlan(simulator.poses[robot][None], np.zeros(1, dtype=np.int64))
+                return FollowedPlan(poses, actions, target, centres)
+        return FollowedPlan(pose[None], np.zeros(1, dtype=np.int64), target, centres)
 
 
 def demonstrate(
@@ -104,27 +133,46 @@ def demonstrate(
     slip: ArrayLike | None = None,
     progress: Progress | None = None,
 ) -> Demonstrations:
-    """Demonstrations by the computer expert, one in each of D worlds.
+    """Record demonstrations by the computer expert, one in each of D worlds.
 
-    The expert keeps the robot's own convention: in a safe state it turns to the target and goes, blocked it steps
-    back, else it does the first action of a plan from here.
+    The expert keeps the robot's reflexes: in a safe state the robot turns to the target and goes, and a blocked robot
+    steps back. Everywhere else it takes the first action of a plan from where it is.
 
     Parameters
     ----------
-    worlds : batch of D.
-    speed : m/s.
-    margin, caution : how far plans keep from obstacles and borders, see :class:`ComputerExpert`.
-    slip : (6, 6) probabilities that action a (row) turns into another: a slipping expert, Fig. 5.5.
+    worlds : Worlds
+        Batch of D.
+    speed : float
+        Metres a second.
+    margin, caution : float
+        How far plans keep from obstacles and borders, see :class:`ComputerExpert`.
+    slip : (6, 6) array, optional
+        Probabilities that action a (row) turns into another: a slipping expert, Fig. 5.5.
+    progress : callable, optional
+        Called as ``progress(worlds done, D)``.
+
+    Returns
+    -------
+    Demonstrations
 
     Raises
     ------
-    TypeError : if ``worlds`` are no worlds, or an argument is no number.
-    ValueError : if an argument is out of bounds, or the expert failed in a world where there is no way to the target.
+    TypeError
+        If ``worlds`` is not Worlds, or an argument is not a number.
+    ValueError
+        If an argument is out of bounds, or the expert failed in a world that has no path to the target.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate
+    >>> from robonav.robot import random_worlds
+    >>> demonstrate(random_worlds(2, obstacles=10, seed=1)).outcome.tolist()
+    ['arrived', 'arrived']
     """
     check_real(
         "margin", margin, at_most=check_instance("worlds", worlds, Worlds).size / 2
     )
-    shown = record(
+    recorded = record(
         ComputerExpert(margin, caution),
         worlds,
         speed=speed,
@@ -132,10 +180,10 @@ def demonstrate(
         progress=progress,
     )
     for lost in np.flatnonzero(
-        (shown.outcome != "arrived") & ~worlds.speeds.any(axis=1)
+        (recorded.outcome != "arrived") & ~worlds.speeds.any(axis=1)
     ):
         if not plan(worlds[lost], speed=speed, margin=COLLISION_DISTANCE).found:
             raise ValueError(
                 f"worlds[{lost}] must have a way from start to target at {speed:g} m/s, and has none"
             )
-    return shown
+    return recorded

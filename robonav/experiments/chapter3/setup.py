@@ -143,6 +143,8 @@ def dagger_result(
     return dagger(
         demonstrations(seed, obstacles),
         worlds,
-        seed=seed,
+        seed=np.full(
+            (rounds + 1, 2), seed
+        ),  # the committed results have one seed for all
         encoder=Encoder(target=target),
     )

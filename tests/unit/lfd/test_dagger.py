@@ -13,8 +13,17 @@ from robonav.lfd import (
     learn_neighbours,
     learn_policy,
 )
+from robonav.lfd.dagger import round_seeds
 from robonav.networks import NetworkPolicy
-from robonav.robot import REFLEX, Encoder, navigate, random_worlds, straight
+from robonav.robot import (
+    REFLEX,
+    Encoder,
+    Simulator,
+    make_world,
+    navigate,
+    random_worlds,
+    straight,
+)
 
 
 @pytest.fixture(scope="module")
@@ -89,17 +98,18 @@ def test_a_round_of_dagger_beats_cloning_little(shown):
 def test_each_round_adds_advice_on_its_own_worlds_to_everything_before(shown):
     begin = demonstrate(random_worlds(3, 20, seed=79), speed=1.5)
     rounds = [random_worlds(3, 20, seed=80), random_worlds(2, 20, seed=81)]
-    made = dagger(begin, rounds, seed=2, iterations=20, temperature=0.3)
+    seeds = [[2, 3], [4, 5], [6, 7]]
+    made = dagger(begin, rounds, seed=seeds, iterations=20, temperature=0.3)
     assert [policy.temperature for policy in made.policies] == [0.3] * 3
     gathered = begin
     for number, worlds in enumerate(rounds):
         met = collect_with_expert_labels(
-            made.policies[number], worlds, speed=1.5, seed=2
+            made.policies[number], worlds, speed=1.5, seed=seeds[number + 1][1]
         )
         gathered = concatenate([gathered, met])
         assert np.array_equal(made.demonstrations[number + 1].poses, gathered.poses)
         assert np.array_equal(made.demonstrations[number + 1].actions, gathered.actions)
-        learned = learn_policy(gathered, seed=2, iterations=20)
+        learned = learn_policy(gathered, seed=seeds[number + 1][0], iterations=20)
         assert np.array_equal(
             made.policies[number + 1].network.weights[0], learned.network.weights[0]
         )
@@ -112,7 +122,7 @@ def test_dagger_asks_the_expert_it_is_given(shown):
     made = dagger(
         shown,
         [random_worlds(3, 20, seed=82)],
-        expert=lambda: always_left,
+        expert=always_left,
         iterations=20,
     )
     added = made.demonstrations[1].select_trajectories(
@@ -137,6 +147,30 @@ def test_a_drive_that_is_stopped_early_gives_no_more_advice(shown):
     assert made.demonstrations[1].lengths[len(shown.worlds) :].max() <= 7
 
 
+def test_seeds_of_the_rounds_of_dagger():
+    """Every round draws its weights and its episodes from seeds of their own."""
+    seeds = np.array(round_seeds(3, 4))
+    assert len(np.unique(seeds)) == seeds.size == 10
+    assert round_seeds(3, 4) == seeds.tolist() != round_seeds(4, 4)
+    with pytest.raises(ValueError, match="seed must have shape"):
+        round_seeds([1, 2], 4)
+
+
+def test_expert_that_serves_two_worlds():
+    """A plan made in one world is not followed in another that starts in the same pose."""
+    empty = make_world(start=(10, 10), target=(40, 10), size=50)
+    blocked = make_world(
+        circles=[(20, 10, 4)], start=(10, 10), target=(40, 10), size=50
+    )
+    expert, robot = ComputerExpert(), np.array([0])
+    expert.plan_from(Simulator(empty), 0)
+    for world in (empty, blocked):
+        simulator = Simulator(world)
+        expert(simulator, robot)
+        fresh = ComputerExpert().plan_from(Simulator(world), 0)
+        assert np.array_equal(expert._plans[0].actions, fresh.actions)
+
+
 def test_dagger_is_reproducible(shown):
     rounds = [random_worlds(4, 10, seed=75)]
     one, same = (dagger(shown, rounds, seed=3, iterations=30) for _ in range(2))
@@ -146,7 +180,7 @@ def test_dagger_is_reproducible(shown):
 
 def test_round_zero_is_the_clone(shown):
     clone = learn_policy(shown, seed=4, iterations=30)
-    begun = dagger(shown, [], seed=4, iterations=30, temperature=0.0)
+    begun = dagger(shown, [], seed=[[4, 0]], iterations=30, temperature=0.0)
     assert np.array_equal(begun.policy.network.weights[1], clone.network.weights[1])
 
 
