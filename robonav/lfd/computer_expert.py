@@ -117,7 +117,8 @@ class ComputerExpert:
         margins = np.arange(self.margin, COLLISION_DISTANCE, -SHRINK)
         for margin in np.append(margins, COLLISION_DISTANCE):
             found, poses, actions, _ = _fast.search_actions(
-                *obstacles, pose, target, speed, margin, self.caution, speed, LIMIT, False, _NOBODY,
+                *obstacles, pose, target, speed, margin, self.caution, speed,
+                LIMIT, False, _NOBODY,
             )  # fmt: skip
             if found:
                 return FollowedPlan(poses, actions, target, centres)

@@ -47,15 +47,16 @@ def smooth_path(key_points: ArrayLike, *, spacing: float = SPACING) -> Floats:
         raise ValueError(
             f"key_points must be at least two, each apart from the one before it, got {len(points)}"
         )
+    return spline_through(points, check_positive("spacing", spacing))
+
+
+def spline_through(points: Floats, spacing: float) -> Floats:
+    """Return a cubic spline (P, 2) through points (K, 2), over the square root of their distances (Lee 1989)."""
+    gaps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     knots = np.concatenate([[0], np.cumsum(np.sqrt(gaps))])
     spline = CubicSpline(knots, points, bc_type="natural")
     pieces = [
-        np.linspace(
-            start,
-            stop,
-            max(2, round(gap / check_positive("spacing", spacing))),
-            endpoint=False,
-        )
+        np.linspace(start, stop, max(2, round(gap / spacing)), endpoint=False)
         for start, stop, gap in zip(knots[:-1], knots[1:], gaps, strict=True)
     ]
     return spline(np.concatenate([*pieces, knots[-1:]]))

@@ -41,15 +41,14 @@ class NeighbourPolicy:
 
     def __call__(self, sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
         """Actions (N,); the generator is not used."""
-        _, nearest = self._tree.query(self.encoder(sensing), k=range(1, self.k + 1))  # type: ignore[attr-defined]
+        _, nearest = self._tree.query(  # type: ignore[attr-defined]
+            self.encoder(sensing), k=range(1, self.k + 1)
+        )
         near = self.actions[nearest]
         votes = np.zeros((len(near), LEARNED))
-        for rank in range(
-            self.k
-        ):  # a nearer one weighs a little more, too little to outvote another
-            votes[np.arange(len(near)), near[:, rank]] += (
-                1 + (self.k - rank) / (LEARNED * self.k) ** 2
-            )
+        for rank in range(self.k):  # a nearer state weighs more, yet never outvotes two
+            weight = 1 + (self.k - rank) / (LEARNED * self.k) ** 2
+            votes[np.arange(len(near)), near[:, rank]] += weight
         return votes.argmax(axis=1)
 
 
