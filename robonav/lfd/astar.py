@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 import math
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -322,8 +323,8 @@ def plan(
     pose : (3,) array, optional
         x, y and heading to start from; by default the world's start, facing the target.
     cell : float, optional
-        Side in metres of the cells that tell nodes apart, at most ``speed``: a step must leave its cell. By default
-        1 m, or ``speed`` if that is less.
+        Side in metres of the cells that tell nodes apart. A step that stays in its cell leads nowhere, so that cells
+        larger than ``speed`` can hide a path. By default 1 m, or ``speed`` if that is less.
     limit : int
         Nodes to expand before giving up.
     record : bool
@@ -333,6 +334,11 @@ def plan(
     -------
     Plan
         If there is no path, or none was found within ``limit``, ``found`` is False.
+
+    Warns
+    -----
+    UserWarning
+        If no path was found and ``cell`` is larger than ``speed``.
 
     Raises
     ------
@@ -353,10 +359,6 @@ def plan(
     start = world.start_poses[0] if pose is None else _in_map("pose", pose, 3, world)
     speed = check_positive("speed", speed)
     margin, cell = _lengths(world, margin, min(1.0, speed) if cell is None else cell)
-    if cell > speed:
-        raise ValueError(
-            f"cell must be at most speed, {speed:g} m, so that a step leaves its cell, got {cell:g}"
-        )
     caution = check_real("caution", caution, at_least=0)
     limit = min(
         check_integer("limit", limit, at_least=1), _fast.HEADINGS * _nodes(world, cell)
@@ -365,6 +367,12 @@ def plan(
     found, poses, actions, expanded = _fast.search_actions(
         *_map(world), start, world.targets[0], speed, margin, caution, cell, limit, record, visited,
     )  # fmt: skip
+    if not found and cell > speed:
+        warnings.warn(
+            f"plan found no path with cells of {cell:g} m and steps of {speed:g} m: a step that stays in its cell "
+            "leads nowhere, so that cell should be at most speed",
+            stacklevel=2,
+        )
     points, headings, length = poses[:, :2], poses[:, 2], speed * len(actions)
     seen = visited[:expanded] if record else None
     return Plan(found, points, headings, actions, length, expanded, seen)

@@ -109,7 +109,7 @@ def behaviour_cloning(
     >>> from robonav.robot import random_worlds
     >>> shown = demonstrate(random_worlds(2, obstacles=10, seed=1))
     >>> behaviour_cloning(shown, iterations=20).network.sizes
-    (20, 8, 5)
+    (12, 8, 5)
     """
     encoder = encoder or Encoder()
     sizes = (encoder.size, hidden, LEARNED)

@@ -85,7 +85,7 @@ class ComputerExpert:
     >>> from robonav.lfd import ComputerExpert
     >>> from robonav.robot import Simulator, random_worlds
     >>> ComputerExpert()(Simulator(random_worlds(2, obstacles=0, seed=1)), np.array([0, 1]))
-    array([0, 0])
+    array([1, 1])
     """
 
     def __init__(self, margin: float = MARGIN, caution: float = CAUTION) -> None:
