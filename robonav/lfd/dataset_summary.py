@@ -1,4 +1,4 @@
-"""What a set of demonstrations holds, in a few numbers."""
+"""A summary of a set of demonstrations."""
 
 from __future__ import annotations
 
@@ -15,18 +15,30 @@ from .demonstrations import LEARNED, Demonstrations
 
 @dataclass(frozen=True, eq=False)
 class DatasetSummary:
-    """A set of demonstrations in a few numbers; as text, a few lines.
+    """A set of demonstrations in a few numbers; ``str`` gives a few lines of text.
 
     Attributes
     ----------
-    drives, arrived : how many drives, and how many of them reached the target.
-    steps, effective : how many steps, and how many of them are learned from.
-    states : how many different states of 11 numbers, Eq. (3.17), these are.
-    actions : (5,) how often they hold each of F, L30, L60, R30, R60.
-    closest : the least that any sensor read, in metres.
+    trajectories, arrived : int
+        Number of trajectories, and how many of them reached the target.
+    steps, effective : int
+        Number of steps, and how many of them are learned from.
+    states : int
+        How many different states of 11 numbers, which uses Eq. (3.17), these are.
+    actions : (5,) array of int
+        How often they hold each of F, L30, L60, R30, R60.
+    closest : float
+        The smallest range that any sensor measured, in metres.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate, summarise_dataset
+    >>> from robonav.robot import random_worlds
+    >>> summarise_dataset(demonstrate(random_worlds(2, obstacles=10, seed=1))).arrived
+    2
     """
 
-    drives: int
+    trajectories: int
     arrived: int
     steps: int
     effective: int
@@ -40,7 +52,7 @@ class DatasetSummary:
             for action, count in enumerate(self.actions)
         )
         return (
-            f"{self.drives} drives, {self.arrived} arrived\n"
+            f"{self.trajectories} trajectories, {self.arrived} arrived\n"
             f"{self.steps} steps, {self.effective} to learn from, in {self.states} different states\n"
             f"{shares}\n"
             f"nothing nearer than {self.closest:.1f} m"
@@ -48,15 +60,31 @@ class DatasetSummary:
 
 
 def summarise_dataset(demonstrations: Demonstrations) -> DatasetSummary:
-    """Sum up a set of demonstrations.
+    """Summarise a set of demonstrations.
+
+    Parameters
+    ----------
+    demonstrations : Demonstrations
+
+    Returns
+    -------
+    DatasetSummary
 
     Raises
     ------
-    TypeError : if these are no demonstrations.
+    TypeError
+        If these are not Demonstrations.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate, summarise_dataset
+    >>> from robonav.robot import random_worlds
+    >>> str(summarise_dataset(demonstrate(random_worlds(2, obstacles=10, seed=1)))).splitlines()[0]
+    '2 trajectories, 2 arrived'
     """
     pairs = check_instance("demonstrations", demonstrations, Demonstrations).effective
     return DatasetSummary(
-        drives=len(demonstrations.worlds),
+        trajectories=len(demonstrations.worlds),
         arrived=int((demonstrations.outcome == "arrived").sum()),
         steps=len(demonstrations),
         effective=len(pairs),

@@ -32,23 +32,39 @@ MAX_STEPS = 500
 
 @dataclass(frozen=True, eq=False)
 class Demonstrations:
-    """K steps of D drives, one drive after the other; ``demonstrations[mask]`` picks steps.
+    """K steps of D trajectories, one trajectory after the other; ``demonstrations[mask]`` selects steps.
 
-    Everything is kept raw, so that each chapter encodes it its own way.
+    All sensing is kept raw, so that each chapter can encode it in its own way.
 
     Attributes
     ----------
-    worlds : batch of D.
-    trajectory : (K,) the drive that each step belongs to, ascending.
-    sensing : K rows, as perceived before each action.
-    actions : (K,) what was executed; ``Action.TO_TARGET`` and ``Action.B`` where the robot's reflex acted.
-    poses : (K, 3) x, y, heading before each action.
-    speed : in m/s.
-    outcome : (D,) how each drive ended: "arrived", "collided" or "out of steps".
+    worlds : Worlds
+        Batch of D.
+    trajectory : (K,) array of int
+        The trajectory that each step belongs to, ascending.
+    sensing : Sensing
+        K rows, as perceived before each action.
+    actions : (K,) array of int
+        The actions executed; ``Action.TO_TARGET`` and ``Action.B`` where the robot's reflex acted.
+    poses : (K, 3) array
+        x, y and heading before each action.
+    speed : float
+        Metres a second.
+    outcome : (D,) array of str
+        How each trajectory ended: "arrived", "collided" or "out of steps".
 
     Raises
     ------
-    ValueError : if shapes do not fit, or numbers lie outside their range.
+    ValueError
+        If shapes do not fit, or numbers lie outside their range.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate
+    >>> from robonav.robot import random_worlds
+    >>> shown = demonstrate(random_worlds(3, obstacles=10, seed=1))
+    >>> len(shown) == shown.lengths.sum(), len(shown.select_trajectories([0, 2]).worlds)
+    (np.True_, 2)
     """
 
     worlds: Worlds
@@ -94,7 +110,7 @@ class Demonstrations:
         return len(self.actions)
 
     def __getitem__(self, index: slice | NDArray[Any]) -> Demonstrations:
-        """Some of the steps, in their order; the worlds and outcomes stay."""
+        """Select some of the steps, in their order; the worlds and outcomes stay."""
         steps = {
             name: getattr(self, name)[index]
             for name in ("trajectory", "sensing", "actions", "poses")
@@ -103,16 +119,16 @@ class Demonstrations:
 
     @property
     def effective(self) -> Demonstrations:
-        """The pairs to learn from: steps with something in range and one of the five learned actions."""
+        """The effective pairs to learn from: steps with something in range and one of the five learned actions."""
         return self[~self.sensing.safe & (self.actions < LEARNED)]
 
     @property
     def lengths(self) -> Actions:
-        """Steps (D,) of each drive."""
+        """Number of steps (D,) of each trajectory."""
         return np.bincount(self.trajectory, minlength=len(self.worlds))
 
     def select_trajectories(self, index: ArrayLike) -> Demonstrations:
-        """Whole drives alone, picked by indices or a mask and counted anew from 0."""
+        """Select whole trajectories by indices or a mask; they are numbered from 0 again."""
         chosen = np.arange(len(self.worlds))[np.asarray(index)]
         none = np.empty(0, np.int64)
         rows = np.concatenate(
@@ -130,7 +146,7 @@ class Demonstrations:
 
 
 Expert = Callable[[Simulator, Actions], Actions]
-"""``expert(simulator, asked) -> actions (n,)``: what the robots ``asked`` (n,) of a simulator should do now."""
+"""``expert(simulator, asked)`` returns the actions (n,) that the robots ``asked`` (n,) should take now."""
 
 
 def record(
@@ -144,21 +160,42 @@ def record(
     max_steps: int = MAX_STEPS,
     progress: Progress | None = None,
 ) -> Demonstrations:
-    """Let an expert drive one robot through each of D worlds, and keep what the robot sensed and did.
+    """Let an expert drive one robot through each of D worlds, and record what the robot sensed and did.
 
     Parameters
     ----------
-    expert : asked where the reflex does not decide.
-    worlds : batch of D.
-    speed : m/s, positive.
-    slip : (6, 6) probabilities that action a (row) turns into another; what is kept is what was executed.
-    reflex : what the robot does before the expert is asked; None leaves every step to the expert.
-    labeller : another expert, who is asked the same and not obeyed; what it says is kept as the action.
-    max_steps : seconds after which a drive is out of steps.
+    expert : callable
+        Chooses the action where the reflex does not decide.
+    worlds : Worlds
+        Batch of D.
+    speed : float
+        Metres a second, positive.
+    slip : (6, 6) array, optional
+        Probabilities that action a (row) turns into another. The action executed is the one recorded.
+    reflex : callable, optional
+        What the robot does before the expert is asked. None leaves every step to the expert.
+    labeller : callable, optional
+        Another expert, who does not drive. It is asked about the same states, and its actions are recorded instead.
+    max_steps : int
+        Seconds after which an episode is out of steps.
+    progress : callable, optional
+        Called as ``progress(worlds done, D)``.
+
+    Returns
+    -------
+    Demonstrations
 
     Raises
     ------
-    ValueError : if an argument is out of bounds.
+    ValueError
+        If an argument is out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.lfd import ComputerExpert, record
+    >>> from robonav.robot import random_worlds
+    >>> record(ComputerExpert(), random_worlds(2, obstacles=10, seed=1)).outcome.tolist()
+    ['arrived', 'arrived']
     """
     check_integer("max_steps", max_steps, at_least=1)
     simulator = Simulator(worlds, speed, slip=slip, max_steps=max_steps)
@@ -180,11 +217,28 @@ def record(
 
 
 def concatenate(sets: Sequence[Demonstrations]) -> Demonstrations:
-    """Several sets of demonstrations as one, their drives counted on.
+    """Concatenate sets of demonstrations; the trajectories are numbered on.
+
+    Parameters
+    ----------
+    sets : sequence of Demonstrations
+
+    Returns
+    -------
+    Demonstrations
 
     Raises
     ------
-    ValueError : if there is no set, or speeds or map sizes differ.
+    ValueError
+        If there is no set, or speeds or map sizes differ.
+
+    Examples
+    --------
+    >>> from robonav.lfd import concatenate, demonstrate
+    >>> from robonav.robot import random_worlds
+    >>> shown = demonstrate(random_worlds(2, obstacles=10, seed=1))
+    >>> len(concatenate([shown, shown]).worlds)
+    4
     """
     if not sets or len({each.speed for each in sets}) > 1:
         raise ValueError(

@@ -1,4 +1,4 @@
-"""The simplest learner from demonstration: do as was done in the most similar states (k nearest neighbours)."""
+"""k nearest neighbours: take the action that the expert took in the most similar states."""
 
 from __future__ import annotations
 
@@ -17,17 +17,32 @@ from .demonstrations import LEARNED, Demonstrations
 
 @dataclass(frozen=True, eq=False)
 class NeighbourPolicy:
-    """Takes the action that most of the k nearest recorded states have; among equals, that of the nearer state.
+    """The policy that takes the action of most of the k nearest recorded states; of equals, that of the nearer state.
 
     Attributes
     ----------
-    states : (m, n) encoded; ``actions`` (m,) what was done in each.
-    encoder : how what is sensed is encoded; distances are Euclidean between encodings.
-    k : how many neighbours have a say.
+    states : (m, n) array
+        Recorded states, encoded. Distances between encodings are Euclidean.
+    actions : (m,) array of int
+        The action taken in each.
+    encoder : Encoder
+        How sensing is encoded.
+    k : int
+        Number of neighbours that vote.
 
     Raises
     ------
-    ValueError : if there are fewer than k states.
+    ValueError
+        If there are fewer than k states.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd import NeighbourPolicy
+    >>> from robonav.robot import Encoder
+    >>> encoder = Encoder()
+    >>> NeighbourPolicy(np.zeros((3, encoder.size)), np.array([0, 1, 1]), encoder, k=3).k
+    3
     """
 
     states: NDArray[np.float64]
@@ -40,7 +55,7 @@ class NeighbourPolicy:
         object.__setattr__(self, "_tree", cKDTree(self.states))
 
     def __call__(self, sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
-        """Actions (N,); the generator is not used."""
+        """Return actions (N,); the generator is not used."""
         _, nearest = self._tree.query(  # type: ignore[attr-defined]
             self.encoder(sensing), k=range(1, self.k + 1)
         )
@@ -55,17 +70,32 @@ class NeighbourPolicy:
 def learn_neighbours(
     demonstrations: Demonstrations, k: int = 5, *, encoder: Encoder | None = None
 ) -> NeighbourPolicy:
-    """Keep the effective pairs of demonstrations, and look there for what to do.
+    """Learn a policy by k nearest neighbours: keep the effective pairs of demonstrations.
 
     Parameters
     ----------
-    demonstrations : of any expert.
-    k : how many neighbours have a say.
-    encoder : how sensing is encoded.
+    demonstrations : Demonstrations
+        Of any expert.
+    k : int
+        Number of neighbours that vote.
+    encoder : Encoder, optional
+        How sensing is encoded.
+
+    Returns
+    -------
+    NeighbourPolicy
 
     Raises
     ------
-    ValueError : if there are fewer than k effective pairs.
+    ValueError
+        If there are fewer than k effective pairs.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate, learn_neighbours
+    >>> from robonav.robot import random_worlds
+    >>> learn_neighbours(demonstrate(random_worlds(2, obstacles=10, seed=1)), k=3).k
+    3
     """
     encoder = encoder or Encoder()
     states, labels = labelled_states(demonstrations, encoder)

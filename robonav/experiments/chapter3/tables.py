@@ -134,10 +134,10 @@ def compare_experts(case: Case, seed: int, scale: str) -> Numbers:
     policy = learn_policy(trajectories, seed=seed)
     rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
     return {
-        "arrived": 100 * held.arrived / held.drives,
-        "steps an episode": held.steps / held.drives,
-        "effective pairs an episode": held.effective / held.drives,
-        "distinct states an episode": held.states / held.drives,
+        "arrived": 100 * held.arrived / held.trajectories,
+        "steps an episode": held.steps / held.trajectories,
+        "effective pairs an episode": held.effective / held.trajectories,
+        "distinct states an episode": held.states / held.trajectories,
         "straight on": 100 * held.actions[0] / held.effective,
         "least range": held.closest,
         "success": rates["success"],

@@ -11,7 +11,7 @@ def test_an_overview_counts():
     shown = demonstrate(random_worlds(6, 12, seed=21))
     held = summarise_dataset(shown)
     x, y = labelled_states(shown, Encoder(target="number"))
-    assert (held.drives, held.arrived, held.steps, held.effective) == (
+    assert (held.trajectories, held.arrived, held.steps, held.effective) == (
         6,
         6,
         len(shown),
@@ -23,14 +23,20 @@ def test_an_overview_counts():
     assert held.closest == shown.sensing.ranges.min() < 10
     text = str(held)
     assert text.startswith(
-        f"6 drives, 6 arrived\n{len(shown)} steps, {len(x)} to learn from, in {held.states} "
+        f"6 trajectories, 6 arrived\n{len(shown)} steps, {len(x)} to learn from, in {held.states} "
     )
     assert f"F {held.actions[0] / len(x):.0%}, L30" in text
 
 
 def test_nothing_shown_nothing_held():
     held = summarise_dataset(demonstrate(random_worlds(0, 5, seed=1)))
-    assert (held.drives, held.steps, held.effective, held.states, held.closest) == (
+    assert (
+        held.trajectories,
+        held.steps,
+        held.effective,
+        held.states,
+        held.closest,
+    ) == (
         0,
         0,
         0,
