@@ -65,6 +65,13 @@ class TrainingResult:
         Stack (S, E + 1) of the networks after 0, 1, ... E episodes, if recorded.
     paths : tuple or None
         For each seed, for each episode, poses (steps + 1, 3), if recorded.
+
+    Examples
+    --------
+    >>> from robonav.nnql import train
+    >>> result = train("nnql", seeds=2, episodes=3)
+    >>> result.outcomes.shape, len(result.policies), len(result[1].seeds)
+    ((2, 3), 2, 1)
     """
 
     method: str

@@ -55,6 +55,14 @@ class Transition:
         What they perceived afterwards.
     outcome : (K,) int array
         How their episodes stand afterwards: codes into ``OUTCOMES``, 0 for those that go on.
+
+    Examples
+    --------
+    >>> from robonav.robot import Simulator, drive, follow_policy, random_worlds, straight
+    >>> simulator = Simulator(random_worlds(3, obstacles=10, seed=2))
+    >>> second = next(drive(simulator, follow_policy(straight, rng=0)))
+    >>> second.robots.tolist(), second.poses.shape, len(second.next_sensing)
+    ([0, 1, 2], (3, 3), 3)
     """
 
     robots: NDArray[np.int64]
@@ -165,6 +173,13 @@ class Navigation:
         How many seconds each episode took.
     paths : tuple of (steps + 1, 3) arrays, optional
         x, y and heading of each robot over time, if recorded; else None.
+
+    Examples
+    --------
+    >>> from robonav.robot import navigate, random_worlds, straight
+    >>> result = navigate(straight, random_worlds(3, obstacles=0, seed=0))
+    >>> result.outcome.tolist(), result.success.mean().item()
+    (['arrived', 'arrived', 'arrived'], 1.0)
     """
 
     outcome: NDArray[np.str_]

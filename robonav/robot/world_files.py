@@ -63,7 +63,13 @@ def load_worlds(path: str | Path) -> Worlds:
 
     Examples
     --------
-    See :func:`save_worlds`.
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from robonav.robot import load_worlds, random_worlds, save_worlds
+    >>> with TemporaryDirectory() as folder:
+    ...     save_worlds(Path(folder) / "worlds.npz", random_worlds(3, seed=0))
+    ...     len(load_worlds(Path(folder) / "worlds.npz"))
+    3
     """
     try:
         arrays = archive.read_archive(path)

@@ -153,7 +153,7 @@ def without_example(package: str) -> list[str]:
     ]
 
 
-WAITING: set[str] = {"mdp", "robot", "networks", "lfd", "nnql"}
+WAITING: set[str] = {"networks", "lfd"}
 
 
 @pytest.mark.parametrize("package", PUBLIC)
