@@ -186,7 +186,7 @@ def test_methods_are_those_a_class_defines_and_documents() -> None:
     assert [name for name, _ in reference.methods(Robot)] == ["go", "place", "new"]
 
 
-@pytest.mark.parametrize("chapter", ["mdp", "robot", "lfd", "nnql", "nirl"])
+@pytest.mark.parametrize("chapter", ["mdp", "robot", "networks", "lfd", "nnql", "nirl"])
 def test_everything_public_is_documented(chapter: str) -> None:
     module = importlib.import_module(f"robonav.{chapter}")
     public = [getattr(module, name) for name in module.__all__]
