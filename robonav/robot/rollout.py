@@ -111,15 +111,14 @@ def drive(
     >>> seconds[0].robots.tolist(), seconds[-1].robots.tolist()
     ([0, 1, 2], [0])
     """
-    reflex = reflex or undecided
+    reflex, choose = reflex or undecided, valid_actions(choose)
     robots = np.flatnonzero(simulator.outcome == RUNNING)
     sensing = simulator.sense(robots)
     while len(robots):
         actions = reflex(sensing, simulator.speed)
         asked = actions < 0
         if asked.any():
-            chosen = choose(simulator, sensing[asked], robots[asked])
-            actions[asked] = check_actions(chosen, (int(asked.sum()),))
+            actions[asked] = choose(simulator, sensing[asked], robots[asked])
         poses = simulator.poses[robots]
         executed = simulator.step(actions, robots)
         outcome, after = simulator.outcome[robots], simulator.sense(robots)
@@ -132,6 +131,17 @@ def drive(
             sensing = simulator.sense(robots)
         else:
             sensing = after[~left] if left.any() else after
+
+
+def valid_actions(choose: Chooser) -> Chooser:
+    """Return the same chooser, but one whose answer must be whole numbers 0 to 5, one a robot."""
+
+    def checked(
+        simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
+    ) -> NDArray[np.int64]:
+        return check_actions(choose(simulator, sensing, robots), (len(robots),))
+
+    return checked
 
 
 def undecided(sensing: Sensing, speed: float) -> NDArray[np.int64]:
