@@ -228,7 +228,8 @@ def test_learners_and_their_walks_are_pythons(visit, site):
             tuple(map(float, place.split())) for place in re.split("[ML]", walk)[1:]
         ]
         assert places == [
-            (64 * (c + 0.5), 64 * (r + 0.5)) for r, c in cliff.cells[learned.walks[49]]
+            (64 * (c + 0.5), 64 * (r + 0.5))
+            for r, c in cliff.cells[learned.visited_states[49]]
         ]
 
 

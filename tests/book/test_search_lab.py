@@ -43,6 +43,7 @@ def painted(lab: Locator, which: int) -> int:
 @pytest.mark.parametrize(
     ("name", "margin", "cell"), [("ten", 2, 1), ("thirty", 4, 2), ("thirty", 1, 4)]
 )
+@pytest.mark.filterwarnings("ignore:plan found no path")
 def test_every_setting_shows_its_own_searches(lab, name, margin, cell):
     lab.get_by_label("map", exact=True).select_option(name)
     lab.get_by_label("margin kept").select_option(f"{margin} m")
