@@ -11,6 +11,8 @@ from robonav.experiments import RESULTS, experiment, names, read_results, reprod
 from robonav.experiments.runner.results import FORMAT
 from robonav.experiments.runner.run import run_unit
 
+pytestmark = pytest.mark.slow
+
 CHANCE = (
     1e-5  # that a number of another machine falls outside: two thousand are looked at
 )

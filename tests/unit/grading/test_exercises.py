@@ -11,6 +11,8 @@ from robonav.grading.check import InProcessCalls, graded
 from robonav.grading.course import Course, trusted
 from robonav.grading.reference import Solutions, mistakes, solution
 
+pytestmark = pytest.mark.slow
+
 COURSE = Course.around(Path(__file__).parent)
 SOLUTIONS = Solutions(
     COURSE
