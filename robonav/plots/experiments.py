@@ -57,35 +57,6 @@ def draw_bars(results: Results, metric: str, label: str) -> Figure:
     return figure
 
 
-def draw_bands(results: Results, metric: str, x_label: str, y_label: str) -> Figure:
-    """A curve a case: the mean over seeds of a metric with a number a step, and a band from the worst to the best."""
-    figure, axes = plt.subplots(figsize=(7, 4))
-    colours = [
-        style.BLUE,
-        style.VERMILION,
-        style.GREEN,
-        style.ORANGE,
-        style.PURPLE,
-        style.SKY,
-    ]
-    for case, name in enumerate(case_labels(results)):
-        runs = results.values(metric, case)
-        steps = np.arange(1, runs.shape[1] + 1)
-        colour = colours[case % len(colours)]
-        axes.plot(steps, runs.mean(axis=0), color=colour, label=name)
-        axes.fill_between(
-            steps,
-            runs.min(axis=0),
-            runs.max(axis=0),
-            color=colour,
-            alpha=0.15,
-            linewidth=0,
-        )
-    axes.set(xlabel=x_label, ylabel=y_label)
-    axes.legend()
-    return figure
-
-
 def draw_board(results: Results, metric: str) -> Figure:
     """A cell for each method and setting of the leaderboard, the darker the higher its percentage."""
     cases = results.experiment.cases
