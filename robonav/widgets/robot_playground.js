@@ -2,107 +2,10 @@
 
 const ME = "you, with the arrow keys";
 const PACES = [1, 2, 3, 5, 8, 12, 20, 40]; // steps a second
-const KEYS = { ArrowUp: 0, ArrowLeft: 1, ArrowRight: 3, ArrowDown: 5 };
-const HARD_LEFT = 2;
-const HARD_RIGHT = 4;
-
-const copy = (world) => ({ ...world, start: [...world.start], target: [...world.target], obstacles: world.obstacles.map((o) => ({ ...o })) });
-const between = (a, b, t) => a + (b - a) * t;
-const metres = (value) => Number(value.toFixed(1));
-
-/** What a policy of the list does in a drive: its action and, for a network, what it computed on the way. */
-function driver(policy) {
-  if (policy.rule) return ({ sensing }) => ({ action: RULES[policy.rule](sensing) });
-  const network = networks(policy.network)();
-  return ({ sensing, world, step }) => consult({ ...policy, network }, sensing, gumbel(world.key, step));
-}
 
 /** What a network's inputs are called: sensors, the target's sector V, whether it is seen I, wall flags. */
 export const inputsOf = ({ sensors, walls, target }) =>
   [...sensors.map(String), ...TARGETS[target](1).map(() => "V"), "I", ...(walls ? sensors.map((sensor) => `wall ${sensor}`) : [])];
-
-// ---- The drive: state and steps, no drawing -------------------------------------------------------------------------
-
-/** A drive that can be stepped, reset and edited. */
-export function makeDrive(first, speed) {
-  const drive = { base: copy(first), speed };
-  drive.reset = () => {
-    Object.assign(drive, { world: copy(drive.base), pose: startPose(drive.base), step: 0, outcome: "running", steps: [] });
-    drive.before = { pose: drive.pose, obstacles: drive.world.obstacles };
-    drive.path = [drive.pose];
-    drive.sensing = sense(drive.world, drive.pose);
-  };
-  /** One step; `chosen` is the policy's action, which the reflexes may overrule. */
-  drive.go = (chosen, reflexes = true) => {
-    if (drive.outcome !== "running") return;
-    const own = reflexes ? reflex(drive.sensing, drive.speed) : -1;
-    const action = own < 0 ? chosen : own;
-    drive.steps.push({ pose: drive.pose, sensing: drive.sensing, action });
-    drive.before = { pose: drive.pose, obstacles: drive.world.obstacles };
-    const { world, pose, outcome } = advance(drive.world, drive.pose, drive.step, action, drive.speed);
-    Object.assign(drive, { world, pose, outcome, step: drive.step + 1 });
-    drive.path.push(pose);
-    drive.sensing = sense(world, pose);
-  };
-  /** Change the world now and for the next start. */
-  drive.edit = (change) => {
-    change(drive.base);
-    if (drive.step === 0) drive.reset();
-    else {
-      change(drive.world);
-      drive.before = { pose: drive.pose, obstacles: drive.world.obstacles };
-      drive.sensing = sense(drive.world, drive.pose);
-    }
-  };
-  drive.reset();
-  return drive;
-}
-
-// ---- The map --------------------------------------------------------------------------------------------------------
-
-function map({ drive, selected, grabbed, moved }) {
-  const board = mapCanvas({ tabindex: 0, role: "application" });
-  const { canvas, place } = board;
-
-  const thingAt = ([x, y]) => {
-    const { world, pose } = drive();
-    if (Math.hypot(x - pose.x, y - pose.y) < 4) return "robot";
-    if (Math.hypot(x - world.target[0], y - world.target[1]) < 4) return "target";
-    const distances = world.obstacles.map((o) => Math.hypot(x - o.x, y - o.y) - Math.max(o.a, o.b, 2));
-    const nearest = distances.indexOf(Math.min(...distances));
-    return nearest >= 0 && distances[nearest] <= 0 ? nearest : null;
-  };
-  let dragging = null;
-  canvas.addEventListener("pointerdown", (event) => {
-    dragging = thingAt(place(event));
-    if (dragging === null) return;
-    grabbed(dragging);
-    canvas.setPointerCapture(event.pointerId);
-    event.preventDefault();
-  });
-  canvas.addEventListener("pointermove", (event) => dragging !== null && moved(dragging, place(event)));
-  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (dragging = null));
-  holdFinger(canvas, (touch) => thingAt(place(touch)) !== null);
-
-  /** The moment at part t of the way from the last step's beginning to now. */
-  const draw = (t) => {
-    const { world, pose, before, path, sensing, outcome } = drive();
-    const obstacles = world.obstacles.map((o, m) => {
-      const old = before.obstacles[m] ?? o;
-      return { ...o, x: between(old.x, o.x, t), y: between(old.y, o.y, t) };
-    });
-    const turn = Math.atan2(Math.sin(pose.heading - before.pose.heading), Math.cos(pose.heading - before.pose.heading));
-    const now = { x: between(before.pose.x, pose.x, t), y: between(before.pose.y, pose.y, t), heading: before.pose.heading + turn * Math.min(1, 3 * t) };
-    board.begin(world.size);
-    obstacles.forEach((o, m) => board.obstacle(o, { marked: selected() === m }));
-    board.start(world.start);
-    board.target(world.target, selected() === "target");
-    board.sectors(now, t >= 1 ? sensing.ranges : sense({ ...world, obstacles }, now).ranges);
-    board.line([...path.slice(0, -1), now].map(({ x, y }) => [x, y]), outcome === "collided" ? PALETTE.VERMILION : PALETTE.BLUE);
-    board.robot(now);
-  };
-  return { canvas, draw };
-}
 
 // ---- What stands beside it ------------------------------------------------------------------------------------------
 
@@ -191,7 +94,7 @@ function render({ model, el }) {
     inspect.show();
     paint();
   };
-  const board = map({
+  const board = episodeMap({
     drive: () => drive, selected: () => selected, grabbed: choose,
     moved: (name, point) => {
       const [px, py] = point.map((value) => clamp(value, 0, drive.world.size));

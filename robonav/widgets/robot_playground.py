@@ -20,7 +20,7 @@ RULES = ("straight", "freer-side")
 class RobotPlayground(anywidget.AnyWidget):
     """A map to edit, in which a policy or the reader steers the robot; the episode can be downloaded."""
 
-    _esm = front_end("simulator", "maps", "files", "robot_playground")
+    _esm = front_end("simulator", "maps", "episode", "files", "robot_playground")
     _css = style_sheet("maps", "robot_playground")
     data = traitlets.Dict().tag(sync=True)
 

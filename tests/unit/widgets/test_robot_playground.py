@@ -20,7 +20,7 @@ FILE = "const bytes = page.demonstrationFile(drive); return btoa(String.fromChar
 @pytest.fixture
 def page(node):
     """The playground's whole front end under Node."""
-    return partial(node, ("simulator", "maps", "files", "robot_playground"))
+    return partial(node, ("simulator", "maps", "episode", "files", "robot_playground"))
 
 
 @pytest.mark.parametrize(("obstacles", "moving"), [(12, 0), (6, 6), (0, 0)])
