@@ -46,7 +46,7 @@ def site() -> Path:
 
 
 @pytest.fixture(scope="session")
-def context(site: Path) -> Iterator[BrowserContext]:
+def context() -> Iterator[BrowserContext]:
     """One desktop browser for all tests of a run."""
     if executable() is None:
         pytest.skip("Chromium is not installed")

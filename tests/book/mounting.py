@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from pathlib import Path
 from typing import Any
 
 import anywidget
@@ -24,6 +25,9 @@ MOUNT = """async ([module, style, data, asked]) => {
 }"""
 
 
+BLANK = Path(__file__).parent / "blank.html"
+
+
 def mounted(
     visit: Visit, address: str, widget: Any, *, kernel: bool = False
 ) -> Locator:
@@ -40,4 +44,15 @@ def mounted(
 
         visit.page.expose_function("askPython", ask)
     visit.page.evaluate(MOUNT, [widget._esm, widget._css, widget.data, kernel])
+    return visit.page.locator("#mounted")
+
+
+def mounted_alone(visit: Visit, widget: Any, *, theme: str = "light") -> Locator:
+    """The widget on an empty page from disk, in the theme's colours; no built book is needed."""
+    assert isinstance(widget, anywidget.AnyWidget)
+    visit.open(BLANK.as_uri())
+    visit.page.evaluate(
+        "(theme) => { document.documentElement.dataset.theme = theme; }", theme
+    )
+    visit.page.evaluate(MOUNT, [widget._esm, widget._css, widget.data, False])
     return visit.page.locator("#mounted")

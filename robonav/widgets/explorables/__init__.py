@@ -1,0 +1,6 @@
+"""Small widgets for one idea each, in the flow of a chapter; one JavaScript file each, of the same name."""
+
+from . import chapter2
+from .registry import EXPLORABLES, explorable
+
+__all__ = ["EXPLORABLES", "chapter2", "explorable"]

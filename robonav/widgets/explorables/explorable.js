@@ -1,0 +1,146 @@
+// Shared by all explorables: a frame with a question on top, controls, pictures, live text and a Reset button.
+
+/**
+ * @typedef {Record<string, any>} State what the controls say, by name, and what `start` adds
+ * @typedef {{element: Element, value?: any, show?: (value: any, state: State) => void}} Control
+ * @typedef {(hand: {put: (value: any) => void, act: (change: (state: State) => void) => void}) => Control} MakeControl
+ */
+
+// ---- Controls -------------------------------------------------------------------------------------------------------
+
+/** A slider over numbers. @returns {MakeControl} */
+export const range = ({ label, from, to, step = 1, value, text = String }) => ({ put }) => {
+  const number = (k) => Number((from + k * step).toFixed(10));
+  const stepOf = (at) => Math.round((at - from) / step);
+  const { element, move } = slider({
+    label, count: stepOf(to) + 1, value: stepOf(value), text: (k) => text(number(k)), change: (k) => put(number(k)),
+  });
+  return { element, value, show: (at) => move(stepOf(at)) };
+};
+
+/** A group of radio buttons that looks like one button in parts; `options` are values, or pairs of a value and its text. */
+export const segments = ({ label, options, value = null }) => ({ put }) => {
+  const name = `s${Math.random().toString(36).slice(2)}`; // radio buttons of one name exclude each other in the whole page
+  const pairs = options.map((option) => (Array.isArray(option) ? option : [option, String(option)]));
+  const inputs = pairs.map(([own]) => h("input", { type: "radio", name, change: () => put(own) }));
+  const element = h(
+    "fieldset", { class: "segments" }, h("legend", {}, label),
+    h("div", {}, ...pairs.map(([, text], k) => h("label", {}, inputs[k], text))),
+  );
+  return { element, value, show: (at) => inputs.forEach((input, k) => (input.checked = pairs[k][0] === at)) };
+};
+
+/** A field for a number; what is outside its limits is brought to the nearest of them. */
+export const field = ({ label, from, to, step = 1, value }) => ({ put }) => {
+  const input = h("input", { type: "number", min: from, max: to, step, "aria-label": label });
+  input.addEventListener("change", () => {
+    const number = Number(input.value);
+    put(Number.isFinite(number) && input.value !== "" ? Math.min(to, Math.max(from, number)) : value);
+  });
+  return { element: h("label", {}, h("span", {}, label), input), value, show: (at) => (input.value = String(at)) };
+};
+
+/** A button that changes the state. */
+export const press = ({ label, act: change, off = () => false }) => ({ act }) => {
+  const element = h("button", { type: "button", click: () => act(change) }, label);
+  return { element, show: (_, state) => (element.disabled = off(state)) };
+};
+
+// ---- The frame ------------------------------------------------------------------------------------------------------
+
+/**
+ * A widget from its controls, the rest of its state, and a function that draws.
+ * @param {object} parts
+ * @param {(given: any) => Record<string, MakeControl>} parts.controls by the name under which the state holds their value
+ * @param {(given: any) => State} [parts.start] what else the state holds at first
+ * @param {(tools: {given: any, stage: Element, act: (change: (state: State) => void) => void}) => (state: State) => string} parts.draw
+ *   fills the stage; returns a function that shows a state there and says in words what can be seen
+ */
+export const explorable = ({ controls, start = () => ({}), draw }) => ({
+  render({ model, el }) {
+    const { title, question, guesses, given } = model.get("data");
+    const stage = h("div", { class: "stage" });
+    const said = h("p", { class: "status grow", role: "status" });
+    const act = (change) => {
+      change(state);
+      show();
+    };
+    const made = Object.entries(controls(given)).map(([name, make]) => [
+      name, make({ put: (value) => act((now) => (now[name] = value)), act }),
+    ]);
+    const first = () => ({ ...Object.fromEntries(made.map(([name, { value }]) => [name, value])), ...start(given) });
+    let state = first();
+    const picture = draw({ given, stage, act });
+    const show = () => {
+      made.forEach(([name, control]) => control.show?.(state[name], state));
+      said.textContent = picture(state);
+    };
+    const reset = h("button", { type: "button", click: () => { state = first(); show(); } }, "Reset");
+    const told = h("span", { class: "told", role: "status" });
+    const guess = segments({ label: "Your guess, before you try", options: guesses })({
+      put: () => (told.textContent = "Now try it. The answer is folded below."),
+    });
+    el.classList.add("robonav", "explorable");
+    set(el, { role: "group", "aria-label": title });
+    el.replaceChildren(
+      h("p", { class: "title" }, title),
+      h("p", { class: "question" }, question),
+      ...(guesses.length ? [h("div", { class: "row guess" }, guess.element, told)] : []),
+      h("div", { class: "row" }, ...made.map(([, { element }]) => element), reset),
+      h("div", { class: "row" }, stage, said),
+    );
+    show();
+  },
+});
+
+// ---- Pictures -------------------------------------------------------------------------------------------------------
+
+/** A number with a minus sign that is one, and no sign for a zero. */
+export function number(value, digits = 2) {
+  const size = Math.abs(value).toFixed(digits);
+  return value < 0 && Number(size) > 0 ? `−${size}` : size;
+}
+
+/** A whole number as an exponent. */
+export const exponent = (power) => [...String(power)].map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[digit] ?? "⁻").join("");
+
+/** Round numbers between two limits, about `count` of them. */
+export function ticks(low, high, count = 5) {
+  const rough = (high - low) / count;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((times) => times * power).find((size) => size >= rough * 0.99);
+  const first = Math.ceil(low / step - 1e-9);
+  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, k) => Number(((first + k) * step).toPrecision(12)));
+}
+
+/** Axes with room for lines, bars and dots: `X` and `Y` turn numbers into places, `put` replaces what is drawn. */
+export function plot({ x: [x0, x1], y: [y0, y1], xLabel, yLabel, width = 400, height = 250, xTicks = ticks(x0, x1), yTicks = ticks(y0, y1) }) {
+  const [left, right, top, bottom] = [50, width - 10, 12, height - 42];
+  const X = (value) => left + ((right - left) * (value - x0)) / (x1 - x0);
+  const Y = (value) => bottom - ((bottom - top) * (value - y0)) / (y1 - y0);
+  const text = (attributes, words) => svg("text", { "font-size": 13, class: "quiet", ...attributes }, words);
+  const layer = svg("g", {});
+  const element = svg(
+    "svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img" },
+    svg("path", { d: `M${left} ${top}V${bottom}H${right}`, fill: "none", stroke: PALETTE.INK }),
+    ...xTicks.map((at) => text({ x: X(at), y: bottom + 17, "text-anchor": "middle" }, number(at, places(xTicks)))),
+    ...yTicks.map((at) => text({ x: left - 6, y: Y(at) + 4, "text-anchor": "end" }, number(at, places(yTicks)))),
+    text({ x: (left + right) / 2, y: height - 6, "text-anchor": "middle" }, xLabel),
+    text({ transform: `translate(12 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, yLabel),
+    layer,
+  );
+  const put = (label, ...shapes) => {
+    set(element, { "aria-label": label });
+    layer.replaceChildren(...shapes);
+  };
+  const line = (points, attributes) =>
+    svg("polyline", { points: points.map(([a, b]) => `${X(a).toFixed(1)},${Y(b).toFixed(1)}`).join(" "), fill: "none", "stroke-width": 2.5, ...attributes });
+  return { element, X, Y, put, line };
+}
+
+/** How many digits behind the point the finest of some numbers needs. */
+const places = (values) => Math.max(0, ...values.map((value) => (String(value).split(".")[1] ?? "").length));
+
+/** What the colours mean: pairs of a colour and a text. */
+export const legend = (...marks) =>
+  h("div", { class: "legend", "aria-hidden": "true" }, ...marks.map(([colour, text]) => h("span", { style: `--mark: ${colour}` }, text)));

@@ -1,0 +1,102 @@
+"""Explorables: small widgets for one idea each, with a question to answer before anything is moved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import anywidget
+import traitlets
+
+from ..shared import front_end, style_sheet
+
+
+@dataclass(frozen=True)
+class Question:
+    """What an explorable asks, and where its numbers and its JavaScript come from.
+
+    Attributes
+    ----------
+    title : the idea in a few words.
+    question : to be answered before a control is moved.
+    guesses : answers to choose from; none for a question whose answer is a number.
+    files : JavaScript files of :mod:`robonav.widgets` that it uses besides its own.
+    given : computes what the page needs, with the package's functions.
+    """
+
+    title: str
+    question: str
+    guesses: Sequence[str]
+    files: Sequence[str]
+    given: Callable[..., dict[str, Any]]
+
+    @property
+    def name(self) -> str:
+        """The name of the function that computes its numbers, and of its JavaScript file."""
+        return self.given.__name__
+
+    @property
+    def front_end(self) -> Sequence[str]:
+        """All its JavaScript files, in order."""
+        return (*self.files, "explorables/explorable", f"explorables/{self.name}")
+
+
+EXPLORABLES: dict[str, Question] = {}
+"""All explorables by name."""
+
+
+def asks(
+    title: str, question: str, *, guesses: Sequence[str] = (), files: Sequence[str] = ()
+) -> Callable[[Callable[..., dict[str, Any]]], Callable[..., dict[str, Any]]]:
+    """Register the function below as the numbers of an explorable; see :class:`Question`."""
+
+    def register(given: Callable[..., dict[str, Any]]) -> Callable[..., dict[str, Any]]:
+        asked = Question(title, question, guesses, files, given)
+        EXPLORABLES[asked.name] = asked
+        return given
+
+    return register
+
+
+class Explorable(anywidget.AnyWidget):
+    """A question, a few controls, a picture and what it says in words."""
+
+    data = traitlets.Dict().tag(sync=True)
+
+    def __init__(self, asked: Question, given: dict[str, Any]) -> None:
+        self._esm = front_end(*asked.front_end)
+        self._css = style_sheet("explorables/explorable")
+        super().__init__(
+            data={
+                "title": asked.title,
+                "question": asked.question,
+                "guesses": list(asked.guesses),
+                "given": given,
+            }
+        )
+
+
+def explorable(name: str, **settings: Any) -> Explorable:
+    """The explorable of a name.
+
+    Parameters
+    ----------
+    name : a key of ``EXPLORABLES``.
+    settings : what the function of that name takes, to change its numbers.
+
+    Raises
+    ------
+    ValueError : if there is no such explorable.
+
+    Examples
+    --------
+    >>> explorable("discounted_return", soon=4.0, late=10.0).data["title"]
+    'How far ahead does a discount look?'
+    """
+    if name not in EXPLORABLES:
+        raise ValueError(
+            f"name must be one of {', '.join(sorted(EXPLORABLES))}, got {name!r}"
+        )
+    asked = EXPLORABLES[name]
+    return Explorable(asked, asked.given(**settings))

@@ -1,0 +1,159 @@
+"""Every explorable, from disk, with no network: by keyboard and by touch, its looks and its accessibility."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from browser import DESKTOP, PHONE, ROOT, Visit, tap
+from mounting import mounted_alone
+from playwright.sync_api import Locator
+from test_accessibility import AXE, RUN
+
+from robonav.widgets.explorables import EXPLORABLES, explorable
+
+PICTURES = ROOT / "_build" / "widgets"
+SHOWN = """(widget) => [
+  ...[...widget.querySelectorAll(".status, .sum, td")].map((text) => text.textContent),
+  ...[...widget.querySelectorAll("svg:not(button svg)")].map((picture) => picture.outerHTML),
+  ...[...widget.querySelectorAll("canvas")].map((picture) => picture.toDataURL()),
+].join()"""
+CHANGED = f"([widget, before]) => ({SHOWN})(widget) !== before"
+
+
+@contextmanager
+def something_changes(widget: Locator, control: str) -> Iterator[None]:
+    """Fails if pictures and text are the same afterwards."""
+    before = widget.evaluate(SHOWN)
+    yield
+    try:
+        arguments = [widget.element_handle(), before]
+        widget.page.wait_for_function(CHANGED, arg=arguments, timeout=3_000)
+    except Exception as error:
+        raise AssertionError(f"{control} changes nothing") from error
+
+
+def reset(widget: Locator) -> None:
+    widget.get_by_role("button", name="Reset", exact=True).click()
+
+
+def buttons(widget: Locator) -> list[Locator]:
+    """Its buttons that can be pressed now, without Reset."""
+    return [
+        button
+        for button in widget.locator("button").all()
+        if button.inner_text() != "Reset" and button.is_enabled()
+    ]
+
+
+@pytest.mark.parametrize("name", EXPLORABLES)
+def test_by_keyboard_on_a_desktop(visit: Visit, name: str) -> None:
+    visit.page.set_viewport_size(DESKTOP)
+    widget = mounted_alone(visit, explorable(name))
+    for slider in widget.locator("input[type=range]").all():
+        for key in ("End", "Home"):
+            with something_changes(widget, f"{key} of {slider}"):
+                slider.press(key)
+    with something_changes(widget, "Reset"):
+        if not widget.locator("input[type=range]").count():
+            change_by_keyboard(widget)
+        reset(widget)
+    for group in widget.locator("fieldset.segments:not(.guess *)").all():
+        with something_changes(widget, f"arrows on {group}"):
+            (
+                group.locator("input:checked").or_(group.locator("input").first)
+            ).first.press("ArrowRight")
+    for number in widget.locator("input[type=number]").all():
+        with something_changes(widget, f"number {number}"):
+            number.press("ArrowDown")
+            number.press("Tab")
+    reset(widget)
+    change_by_keyboard(widget)
+    for button in buttons(widget):
+        reset(widget)
+        if button.is_enabled():
+            with something_changes(widget, f"button {button.inner_text()}"):
+                button.press("Enter")
+    assert visit.errors == visit.external == []
+
+
+def change_by_keyboard(widget: Locator) -> None:
+    """Each picture that listens to keys hears those it names, and some key changes something."""
+    for picture in widget.locator("[data-keys]").all():
+        for key in (picture.get_attribute("data-keys") or "").split():
+            with something_changes(
+                widget, f"{key} on {picture.get_attribute('aria-label')}"
+            ):
+                picture.press(key)
+
+
+def touch(control: Locator, share: float = 0.5) -> None:
+    """Tap a control, at a share of its width."""
+    control.scroll_into_view_if_needed()
+    box = control.bounding_box()
+    assert box is not None
+    tap(control.page, box["x"] + share * box["width"], box["y"] + box["height"] / 2)
+
+
+@pytest.mark.parametrize("name", EXPLORABLES)
+def test_by_touch_on_a_phone(visit: Visit, name: str) -> None:
+    visit.page.set_viewport_size(PHONE)
+    widget = mounted_alone(visit, explorable(name))
+    for slider in widget.locator("input[type=range]").all():
+        for share in (0.93, 0.07):
+            with something_changes(widget, f"touching {slider}"):
+                touch(slider, share)
+    for group in widget.locator("fieldset.segments:not(.guess *)").all():
+        with something_changes(widget, f"touching {group}"):
+            touch(group.locator("label:not(:has(:checked))").last)
+    for button in buttons(widget):
+        reset(widget)
+        if button.is_enabled():
+            with something_changes(widget, f"touching {button.inner_text()}"):
+                touch(button)
+    for part in widget.locator("[data-touch]").all():
+        reset(widget)
+        with something_changes(widget, f"touching {part}"):
+            touch(part)
+    guess = widget.locator(".guess")
+    if guess.count():
+        touch(guess.locator("label").first)
+        assert "try it" in guess.locator(".told").inner_text()
+    width = visit.page.evaluate("document.documentElement.scrollWidth")
+    assert width <= PHONE["width"]
+    assert visit.errors == visit.external == []
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("name", EXPLORABLES)
+def test_looks_and_accessibility(visit: Visit, name: str, theme: str) -> None:
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    for size in (DESKTOP, PHONE):
+        visit.page.set_viewport_size(size)
+        widget = mounted_alone(visit, explorable(name), theme=theme)
+        widget.screenshot(path=PICTURES / f"{name}-{theme}-{size['width']}.png")
+        visit.page.evaluate(AXE.read_text("utf-8"))
+        assert visit.page.evaluate(RUN) == []
+        assert small_words(widget) == []
+
+
+def small_words(widget: Locator) -> list[str]:
+    """Words in pictures that are smaller than ten pixels on this screen."""
+    return widget.locator("svg text").evaluate_all(
+        "(texts) => texts.filter((text) => text.textContent && parseFloat(getComputedStyle(text).fontSize)"
+        " * Math.hypot(text.getScreenCTM().a, text.getScreenCTM().b) < 10).map((text) => text.textContent)"
+    )
+
+
+@pytest.mark.parametrize("name", EXPLORABLES)
+def test_is_small_and_on_a_page(name: str) -> None:
+    widget = explorable(name)
+    assert len(widget._esm) + len(str(widget.data)) < 100_000
+    used = [
+        path
+        for path in sorted(Path(ROOT / "book").glob("*.md"))
+        if f'explorable("{name}"' in path.read_text("utf-8")
+    ]
+    assert len(used) == 1
