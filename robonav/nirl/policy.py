@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.networks.multilayer_perceptron import Network, sigmoid
+from robonav.nnql.schedules import softmax_policy
 
 from ._checks import checked
 
@@ -53,8 +54,10 @@ def neural_action_values(network: Network, inputs: Floats) -> Floats:
 def boltzmann_policy(action_values: ArrayLike, inverse_temperature: float) -> Floats:
     """Probability of each action, in proportion to exp(eta Q(s, a)), Eq. (5.10).
 
-    At eta = 0 all actions are equally likely. The larger eta is, the likelier is the best one. The thesis writes the
-    sum over the action values of the state taken; it runs over the actions. Chapter 4's temperature is 1 / eta.
+    At eta = 0 all actions are equally likely. The larger eta is, the more probable is the best action. This is the
+    softmax policy of chapter 4, Eq. (4.7), at the temperature 1 / eta; at eta = 0 this temperature would be infinite,
+    so eta multiplies the values instead. The thesis writes the sum in the denominator over states. It must run over the
+    actions.
 
     Parameters
     ----------
@@ -73,9 +76,8 @@ def boltzmann_policy(action_values: ArrayLike, inverse_temperature: float) -> Fl
     >>> boltzmann_policy([0.2, 0.2, 0.9], 5.0).round(3)
     array([0.028, 0.028, 0.943])
     """
-    z = inverse_temperature * np.asarray(action_values)
-    weights = np.exp(z - z.max(axis=-1, keepdims=True))  # no exponential above 1
-    return weights / weights.sum(axis=-1, keepdims=True)  # Eq. (5.10)
+    scaled = inverse_temperature * np.asarray(action_values)
+    return softmax_policy(scaled, temperature=1.0)  # Eq. (5.10)
 
 
 def greedy_actions(network: Network, inputs: Floats) -> NDArray[np.intp]:

@@ -1,7 +1,7 @@
 """Chapter 4: neural-network Q-learning, its rivals, and the navigation task on which they are compared."""
 
-from .dqn import double_dqn_loss, dqn
-from .nfq import fit_q_values, nfq
+from .dqn import double_dqn_targets, dqn, select_action, values_taken
+from .nfq import collect_episode, nfq, nfq_targets, rprop_fit
 from .nnql import navigate_greedily, nnql, online
 from .replay_buffer import ReplayBuffer
 from .reward import (
@@ -13,7 +13,7 @@ from .reward import (
     state_property,
 )
 from .schedules import geometric_schedule, greedy_policy, softmax_policy
-from .task import STARTS, TARGETS, NavigationTask, q_network
+from .task import STARTS, TARGETS, NavigationTask, q_network, reflex_acted
 from .training import METHODS, TrainingResult, train, weight_changes
 from .updates import (
     clip,
@@ -35,27 +35,32 @@ __all__ = [
     "ReplayBuffer",
     "TrainingResult",
     "clip",
+    "collect_episode",
     "cross_entropy",
     "descend",
-    "double_dqn_loss",
+    "double_dqn_targets",
     "dqn",
-    "fit_q_values",
     "geometric_schedule",
     "greedy_policy",
     "navigate_greedily",
     "network_error",
     "nfq",
+    "nfq_targets",
     "nnql",
     "online",
     "property_at",
     "q_network",
     "q_targets",
+    "reflex_acted",
     "reward",
     "reward_row",
+    "rprop_fit",
+    "select_action",
     "shift",
     "softmax_policy",
     "state_property",
     "stochastic_gradient_descent",
     "train",
+    "values_taken",
     "weight_changes",
 ]

@@ -1,9 +1,22 @@
-"""The deep Q-network (Mnih et al. 2015) with the double estimator (van Hasselt et al. 2016)."""
+"""Deep Q-learning in its variant "double DQN" (van Hasselt et al. 2016), with a softmax policy that explores.
+
+DQN (Mnih et al. 2015) trains a network Q on transitions drawn at random from a replay buffer, and takes the targets
+from a target network: a copy of Q that stands still between its updates. Three things differ here.
+
+- Double estimator: Q chooses the next action, and the target network gives its value. In DQN the target network does
+  both. The maximum then prefers actions whose values are too large by error, and the targets are too large.
+- Softmax policy, Eq. (4.7), in place of epsilon-greedy. All methods of chapter 4 explore in this way, so that a
+  comparison of them compares how they learn.
+- The buffer keeps every transition. A training of 300 episodes makes about ten thousand, and each is a few numbers.
+"""
 
 from __future__ import annotations
 
 import gymnasium
+import numpy as np
 import torch
+from numpy.typing import NDArray
+from torch.nn.functional import huber_loss
 
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.policy import sample_actions
@@ -12,7 +25,7 @@ from robonav.networks.torch_module import as_module, as_network
 from ._settings import Schedule, checked
 from .replay_buffer import ReplayBuffer, Transitions
 from .schedules import geometric_schedule, softmax_policy
-from .task import EXPLORING, REPLAYING, make_rng
+from .task import EXPLORING, REPLAYING, make_rng, reflex_acted
 
 
 @checked
@@ -28,10 +41,10 @@ def dqn(
     target_update_interval: int = 1000,
     seed: int,
 ) -> Network:
-    """Deep Q-learning (DQN): after each step, one update on a batch drawn from all transitions made so far.
+    """Double DQN (van Hasselt et al. 2016) with softmax exploration.
 
-    Three things set it apart from online Q-learning: replay, a target network that stands still between its updates,
-    and the double estimator. The outputs are linear, so that Q-values need no rescaling, and the loss is Huber's.
+    After each step the network makes one update on a batch drawn from all transitions so far. Its outputs are linear,
+    so that Q-values need no rescaling into [0, 1].
 
     Parameters
     ----------
@@ -71,48 +84,88 @@ def dqn(
     >>> dqn(env, q_network(env, seed=0), episodes=1, seed=0).sizes
     (16, 8, 5)
     """
-    q_module, target_module = as_module(network), as_module(network)
-    adam = torch.optim.Adam(q_module.parameters(), lr=gradient_step)
+    q_net, target_net = as_module(network), as_module(network)
+    optimiser = torch.optim.Adam(q_net.parameters(), lr=gradient_step)
     buffer, updates = ReplayBuffer(), 0
     for episode in range(episodes):
         t = geometric_schedule(temperature, episode / max(episodes - 1, 1))
-        rng, replay_rng = (make_rng(seed, p, episode) for p in (EXPLORING, REPLAYING))
-        state, _ = env.reset(seed=None if episode else seed)
-        done = False
+        rng = make_rng(seed, EXPLORING, episode)
+        replay_rng = make_rng(seed, REPLAYING, episode)
+        state, done = env.reset(seed=None if episode else seed)[0], False
         while not done:
-            q = q_module(torch.as_tensor(state, dtype=torch.float64)).detach()
-            action = sample_actions(softmax_policy(q, t), rng.random())
-            reached, reward, terminated, truncated, info = env.step(action)
-            state, before, done = reached, state, terminated or truncated
-            if info.get("reflex", -1) >= 0:  # in a safe state the reflex acts
-                continue
-            buffer.append(before, action, reward, reached, terminated)
-            if len(buffer) >= batch_size:
-                batch = buffer.sample(batch_size, replay_rng)
-                adam.zero_grad()
-                double_dqn_loss(q_module, target_module, batch, discount).backward()
-                adam.step()
-                updates += 1
-                if updates % target_update_interval == 0:
-                    target_module.load_state_dict(q_module.state_dict())
-    return as_network(q_module)
+            action = select_action(q_net, state, t, rng)
+            next_state, reward, terminated, truncated, info = env.step(action)
+            if not reflex_acted(info):
+                buffer.append(state, action, reward, next_state, terminated)
+                if len(buffer) >= batch_size:
+                    batch = buffer.sample(batch_size, replay_rng)
+                    targets = double_dqn_targets(q_net, target_net, batch, discount)
+                    loss = huber_loss(values_taken(q_net, batch), targets)
+                    optimiser.zero_grad()
+                    loss.backward()
+                    optimiser.step()
+                    updates += 1
+                    if updates % target_update_interval == 0:
+                        target_net.load_state_dict(q_net.state_dict())
+            state, done = next_state, terminated or truncated
+    return as_network(q_net)
 
 
-def double_dqn_loss(
-    q_module: torch.nn.Module,
-    target_module: torch.nn.Module,
-    batch: Transitions,
-    discount: float,
-) -> torch.Tensor:
-    """Huber's loss between the values of the actions taken and their targets, by the double estimator.
-
-    The network chooses the next action, and the target network gives its value. One network that does both takes the
-    maximum of its own errors, and overestimates.
+def select_action(
+    q_net: torch.nn.Module,
+    state: NDArray[np.float64],
+    temperature: float | NDArray[np.float64],
+    rng: np.random.Generator,
+) -> NDArray[np.int64]:
+    """Draw an action from the softmax policy over the network's Q-values.
 
     Parameters
     ----------
-    q_module, target_module : torch.nn.Module
-        The network that learns, and its older copy.
+    q_net : torch.nn.Module
+        The network that learns.
+    state : (n,) array
+        Its inputs.
+    temperature : float
+        T of the softmax policy.
+    rng : Generator
+        Of the random number that the draw takes.
+
+    Returns
+    -------
+    () array of int
+        The action.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.networks.torch_module import as_module
+    >>> from robonav.nnql import select_action
+    >>> q_net = as_module(random_network((4, 8, 2), seed=0))
+    >>> int(select_action(q_net, np.eye(4)[0], 0.5, np.random.default_rng(0))) in (0, 1)
+    True
+    """
+    with torch.no_grad():
+        q = q_net(torch.as_tensor(state, dtype=torch.float64)).numpy()
+    return sample_actions(softmax_policy(q, temperature), rng.random())
+
+
+def double_dqn_targets(
+    q_net: torch.nn.Module,
+    target_net: torch.nn.Module,
+    batch: Transitions,
+    discount: float,
+) -> torch.Tensor:
+    """Targets by the double estimator: r + gamma Q_target(s', argmax_a Q(s', a)), or r where the episode ended.
+
+    DQN has ``target_net(batch.next_states).max(dim=1).values`` in place of the first two lines.
+
+    Parameters
+    ----------
+    q_net : torch.nn.Module
+        The network that learns. It chooses the next action.
+    target_net : torch.nn.Module
+        Its older copy. It gives the value of that action.
     batch : Transitions
         m transitions.
     discount : float
@@ -120,8 +173,8 @@ def double_dqn_loss(
 
     Returns
     -------
-    torch.Tensor
-        The mean loss.
+    (m,) tensor
+        The targets, without a gradient.
 
     Examples
     --------
@@ -129,16 +182,44 @@ def double_dqn_loss(
     >>> from robonav.networks import random_network
     >>> from robonav.networks.torch_module import as_module
     >>> from robonav.nnql import ReplayBuffer
-    >>> from robonav.nnql.dqn import double_dqn_loss
-    >>> buffer, module = ReplayBuffer(), as_module(random_network((4, 8, 2), seed=0))
+    >>> from robonav.nnql import double_dqn_targets
+    >>> buffer, q_net = ReplayBuffer(), as_module(random_network((4, 8, 2), seed=0))
     >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
-    >>> double_dqn_loss(module, module, buffer.all(), 0.9).item() > 0
+    >>> double_dqn_targets(q_net, q_net, buffer.all(), 0.9)
+    tensor([0.7000], dtype=torch.float64)
+    """
+    with torch.no_grad():
+        best = q_net(batch.next_states).argmax(dim=1, keepdim=True)
+        next_values = target_net(batch.next_states).gather(1, best)[:, 0]
+        return batch.rewards + discount * ~batch.terminal * next_values
+
+
+def values_taken(q_net: torch.nn.Module, batch: Transitions) -> torch.Tensor:
+    """Q-values of the actions taken: of each row of outputs the one that ``batch.actions`` names.
+
+    Parameters
+    ----------
+    q_net : torch.nn.Module
+        The network that learns.
+    batch : Transitions
+        m transitions.
+
+    Returns
+    -------
+    (m,) tensor
+        Q(s, a).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.networks.torch_module import as_module
+    >>> from robonav.nnql import ReplayBuffer
+    >>> from robonav.nnql import values_taken
+    >>> buffer, network = ReplayBuffer(), random_network((4, 8, 2), seed=0)
+    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
+    >>> q = values_taken(as_module(network), buffer.all()).item()
+    >>> bool(np.isclose(q, network.logits(np.eye(4)[0])[1]))
     True
     """
-    states, actions, rewards, next_states, terminal = batch
-    with torch.no_grad():
-        best = q_module(next_states).argmax(dim=1, keepdim=True)
-        future = target_module(next_states).gather(1, best)[:, 0]
-        targets = rewards + discount * ~terminal * future
-    values = q_module(states).gather(1, actions[:, None])[:, 0]
-    return torch.nn.functional.huber_loss(values, targets)
+    return q_net(batch.states).gather(1, batch.actions[:, None])[:, 0]

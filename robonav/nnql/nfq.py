@@ -1,19 +1,30 @@
-"""Neural fitted Q iteration (Riedmiller 2005): collect transitions, then fit the network to all of them."""
+"""Neural fitted Q iteration (Riedmiller 2005): collect transitions, then fit the network to all of them.
+
+The method alternates between two phases. The robot first collects transitions in a few episodes. Then fitted Q
+iteration repeats two steps: compute a target for every transition so far, and fit the network to these targets by
+supervised learning on the whole batch.
+
+Two things differ from Riedmiller's paper. His network has state and action as inputs and one output; ours has one
+output an action, as in Fig. 4.1, and only the output of the action taken is fitted. His Q-values are costs, so that he
+takes their minimum; ours are rewards, and we take the maximum.
+"""
 
 from __future__ import annotations
 
 import gymnasium
 import numpy as np
 import torch
+from numpy.typing import NDArray
+from torch.nn.functional import binary_cross_entropy_with_logits
 
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.policy import sample_actions
 from robonav.networks.torch_module import as_module, as_network
 
 from ._settings import Schedule, checked
-from .replay_buffer import ReplayBuffer
+from .replay_buffer import ReplayBuffer, Transitions
 from .schedules import geometric_schedule, softmax_policy
-from .task import EXPLORING, make_rng
+from .task import EXPLORING, make_rng, reflex_acted
 
 
 @checked
@@ -30,11 +41,7 @@ def nfq(
     tolerance: float = 1e-5,
     seed: int,
 ) -> Network:
-    """Neural fitted Q iteration: after every few episodes, fit the network to all transitions made so far.
-
-    Each fit computes the targets ``r + gamma max Q`` anew several times, clips them into [0, 1], and fits the values
-    of the actions taken. Riedmiller's network has state and action as inputs and one output. Ours has one output an
-    action, as in Fig. 4.1.
+    """Neural fitted Q iteration: after every few episodes, fit the network to all transitions so far.
 
     Parameters
     ----------
@@ -49,11 +56,13 @@ def nfq(
     temperature : Schedule
         T of the softmax policy, Eq. (4.7).
     episodes_per_fit : int
-        Episodes between two fits.
+        Episodes that are collected before the network is fitted again.
     sweeps : int
-        How often a fit computes its targets anew.
-    epochs, tolerance : int, float
-        Rprop goes over all transitions at most so often, and stops when the mean cost changes by less.
+        Sweeps of fitted Q iteration: how many times targets are computed and fitted.
+    epochs : int
+        Epochs of Rprop in a sweep, at most.
+    tolerance : float
+        A sweep ends early when an epoch changes the cost by less than this.
     seed : int
         Seed of the environment and of the exploration.
 
@@ -79,40 +88,123 @@ def nfq(
         t = geometric_schedule(temperature, episode / max(episodes - 1, 1))
         rng = make_rng(seed, EXPLORING, episode)
         state, _ = env.reset(seed=None if episode else seed)
-        done = False
-        while not done:
-            policy = softmax_policy(network.forward(state), t)
-            action = sample_actions(policy, rng.random())
-            reached, reward, terminated, truncated, info = env.step(action)
-            if info.get("reflex", -1) < 0:  # in a safe state the reflex acts
-                buffer.append(state, action, reward, reached, terminated)
-            state, done = reached, terminated or truncated
-        if (episode + 1) % episodes_per_fit == 0 and len(buffer):
+        collect_episode(env, state, network, t, buffer, rng)
+        if (episode + 1) % episodes_per_fit == 0 and len(buffer) > 0:
+            transitions = buffer.all()
             for _ in range(sweeps):
-                network = fit_q_values(network, buffer, discount, epochs, tolerance)
+                targets = nfq_targets(network, transitions, discount)
+                network = rprop_fit(network, transitions, targets, epochs, tolerance)
     return network
 
 
-def fit_q_values(
+def collect_episode(
+    env: gymnasium.Env,
+    state: NDArray[np.float64],
     network: Network,
+    temperature: float | NDArray[np.float64],
     buffer: ReplayBuffer,
-    discount: float,
-    epochs: int,
-    tolerance: float,
-) -> Network:
-    """One sweep of fitted Q iteration: targets for all transitions, then a fit by Rprop on the whole batch.
+    rng: np.random.Generator,
+) -> None:
+    """Follow the softmax policy over the network's Q-values to the end of an episode, and store its transitions.
 
-    Rprop (Riedmiller and Braun 1993) looks at the signs of the gradient alone: a weight's step grows while its sign
-    stays, and shrinks when it turns. It therefore needs no learning rate.
+    Parameters
+    ----------
+    env : gymnasium.Env
+        The environment, just reset.
+    state : (n,) array
+        The state that it was reset to.
+    network : Network
+        Its outputs are the Q-values.
+    temperature : float
+        T of the softmax policy, Eq. (4.7).
+    buffer : ReplayBuffer
+        Where the transitions go.
+    rng : Generator
+        Of the exploration.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nnql import NavigationTask, ReplayBuffer, q_network
+    >>> from robonav.nnql import collect_episode
+    >>> env, buffer = NavigationTask().environment(), ReplayBuffer()
+    >>> state, _ = env.reset(seed=0)
+    >>> collect_episode(env, state, q_network(env, seed=0), 0.9, buffer, np.random.default_rng(0))
+    >>> len(buffer) > 0
+    True
+    """
+    done = False
+    while not done:
+        probabilities = softmax_policy(network.forward(state), temperature)
+        action = sample_actions(probabilities, rng.random())
+        next_state, reward, terminated, truncated, info = env.step(action)
+        if not reflex_acted(info):
+            buffer.append(state, action, reward, next_state, terminated)
+        state, done = next_state, terminated or truncated
+
+
+def nfq_targets(
+    network: Network, transitions: Transitions, discount: float
+) -> torch.Tensor:
+    """Targets of all transitions: r + gamma max_a Q(s', a), or r where the episode ended, clipped into [0, 1].
+
+    A Q-value is the sigmoid of a logit. The sigmoid is increasing, so the sigmoid of the largest logit is the largest
+    Q-value. Targets outside [0, 1] are clipped, because no output of a sigmoid reaches them.
 
     Parameters
     ----------
     network : Network
-        The network that makes the targets and that the fit starts from.
-    buffer : ReplayBuffer
-        The transitions.
+        The network of the last sweep.
+    transitions : Transitions
+        M transitions.
     discount : float
         The thesis's gamma.
+
+    Returns
+    -------
+    (M,) tensor
+        The targets.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.nnql import ReplayBuffer, nfq_targets
+    >>> buffer = ReplayBuffer()
+    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
+    >>> nfq_targets(random_network((4, 8, 2), seed=0), buffer.all(), 0.9)
+    tensor([0.7000], dtype=torch.float64)
+    """
+    with torch.no_grad():
+        logits = as_module(network)(transitions.next_states)
+        next_values = torch.sigmoid(logits.max(dim=1).values)
+        targets = transitions.rewards + discount * ~transitions.terminal * next_values
+        return targets.clamp(0, 1)
+
+
+def rprop_fit(
+    network: Network,
+    transitions: Transitions,
+    targets: torch.Tensor,
+    epochs: int,
+    tolerance: float,
+) -> Network:
+    """Fit the Q-values of the actions taken to their targets, by Rprop on the whole batch.
+
+    The cost is the mean cross-entropy of targets and Q-values, as in Eq. (4.11). torch's
+    ``binary_cross_entropy_with_logits`` applies the sigmoid itself, because it can then avoid the logarithm of 0.
+
+    Rprop (Riedmiller and Braun 1993) uses the signs of the derivatives alone: a weight's step grows while its
+    derivative keeps its sign, and shrinks when the sign changes. It needs no learning rate.
+
+    Parameters
+    ----------
+    network : Network
+        The network that the fit starts from.
+    transitions : Transitions
+        M transitions.
+    targets : (M,) tensor
+        Q-values to fit, see :func:`nfq_targets`.
     epochs, tolerance : int, float
         See :func:`nfq`.
 
@@ -124,28 +216,25 @@ def fit_q_values(
     Examples
     --------
     >>> import numpy as np
+    >>> import torch
     >>> from robonav.networks import random_network
-    >>> from robonav.nnql import ReplayBuffer
-    >>> from robonav.nnql.nfq import fit_q_values
+    >>> from robonav.nnql import ReplayBuffer, rprop_fit
     >>> buffer, state = ReplayBuffer(), np.eye(4)[0]
     >>> buffer.append(state, 1, 0.7, np.eye(4)[1], True)
-    >>> fitted = fit_q_values(random_network((4, 8, 2), seed=0), buffer, 0.9, 300, 0.0)
-    >>> fitted.forward(state)[1].round(2)
+    >>> network, target = random_network((4, 8, 2), seed=0), torch.tensor([0.7], dtype=torch.float64)
+    >>> rprop_fit(network, buffer.all(), target, 300, 0.0).forward(state)[1].round(2)
     np.float64(0.7)
     """
-    states, actions, rewards, next_states, terminal = buffer.all()
     module = as_module(network)
-    with torch.no_grad():
-        future = torch.sigmoid(module(next_states).max(dim=1).values)
-        targets = (rewards + discount * ~terminal * future).clamp(0, 1)
-    optimiser = torch.optim.Rprop(module.parameters(), lr=0.01)
+    rprop = torch.optim.Rprop(module.parameters(), lr=0.01)  # the first step's size
     previous = np.inf
     for _ in range(epochs):
-        taken = module(states).gather(1, actions[:, None])[:, 0]
-        cost = torch.nn.functional.binary_cross_entropy_with_logits(taken, targets)
-        optimiser.zero_grad()
+        logits = module(transitions.states)
+        taken = logits.gather(1, transitions.actions[:, None])[:, 0]
+        cost = binary_cross_entropy_with_logits(taken, targets)
+        rprop.zero_grad()
         cost.backward()
-        optimiser.step()
+        rprop.step()
         if abs(previous - cost.item()) < tolerance:
             break
         previous = cost.item()

@@ -11,7 +11,7 @@ from robonav.networks.policy import sample_actions
 
 from ._settings import Schedule, checked
 from .schedules import geometric_schedule, softmax_policy
-from .task import EXPLORING, make_rng
+from .task import EXPLORING, make_rng, reflex_acted
 from .updates import RESCALE, q_targets, stochastic_gradient_descent
 
 
@@ -89,16 +89,18 @@ def nnql(
         while not done:  # 8
             q = network.forward(state)  # 9
             action = sample_actions(softmax_policy(q, t), rng.random())  # 10
-            reached, reward, terminated, truncated, info = env.step(action)  # 11, 12
-            if info.get("reflex", -1) < 0:  # in a safe state the reflex acts
-                future = 0.0 if terminated else network.forward(reached).max()
-                q = q_targets(q, action, float(reward), future, alpha, discount)  # 13
+            next_state, reward, terminated, truncated, info = env.step(action)  # 11, 12
+            if not reflex_acted(info):
+                next_value = 0.0 if terminated else network.forward(next_state).max()
+                q = q_targets(
+                    q, action, float(reward), next_value, alpha, discount
+                )  # 13
                 inputs.append(state)  # 15
                 targets.append(RESCALE[rescale](q))  # 14, 15
                 network = stochastic_gradient_descent(
                     network, inputs, targets, sigma, passes, tolerance
                 )  # 16  Eqs. (4.11) and (4.12)
-            state, done = reached, terminated or truncated  # 17 to 20
+            state, done = next_state, terminated or truncated  # 17 to 20
     return network
 
 
@@ -170,14 +172,14 @@ def online(
         while not done:
             q = network.forward(state)
             action = sample_actions(softmax_policy(q, t), rng.random())
-            reached, reward, terminated, truncated, info = env.step(action)
-            if info.get("reflex", -1) < 0:  # in a safe state the reflex acts
-                future = 0.0 if terminated else network.forward(reached).max()
-                q = q_targets(q, action, float(reward), future, alpha, discount)
+            next_state, reward, terminated, truncated, info = env.step(action)
+            if not reflex_acted(info):
+                next_value = 0.0 if terminated else network.forward(next_state).max()
+                q = q_targets(q, action, float(reward), next_value, alpha, discount)
                 network = stochastic_gradient_descent(
                     network, [state], [RESCALE[rescale](q)], sigma, passes, tolerance
                 )  # the latest pair alone
-            state, done = reached, terminated or truncated
+            state, done = next_state, terminated or truncated
     return network
 
 

@@ -46,6 +46,30 @@ def make_rng(seed: int, purpose: int, *more: int) -> np.random.Generator:
     return np.random.default_rng([seed, purpose, *more])
 
 
+def reflex_acted(info: dict[str, Any]) -> bool:
+    """Whether the robot's reflex chose the last action of an environment, and not the policy.
+
+    In a safe state the reflex turns the robot to its target, whatever action the policy chose (section 4.4). A learner
+    skips such a step: its reward and its next state do not follow from the policy's action. Environments without a
+    reflex have no such steps.
+
+    Parameters
+    ----------
+    info : dict
+        What ``env.step`` returned last.
+
+    Examples
+    --------
+    >>> from robonav.nnql import NavigationTask
+    >>> from robonav.nnql.task import reflex_acted
+    >>> env = NavigationTask().environment()
+    >>> _ = env.reset(seed=0)
+    >>> reflex_acted(env.step(0)[4])  # nothing in sensor range
+    True
+    """
+    return bool(info.get("reflex", -1) >= 0)
+
+
 @dataclass(frozen=True, eq=False)
 class NavigationTask:
     """The task of section 4.5: worlds, speed, sensing and reward.
