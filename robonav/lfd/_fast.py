@@ -265,7 +265,8 @@ def search_grid(
                 tentative = costs[node] + cell * math.sqrt(right * right + up * up)
                 if closed[neighbour] or costs[neighbour] <= tentative:
                     continue
-                x1, y1 = x + right * cell, y + up * cell
+                x1 = west + (column + right) * cell
+                y1 = south + (row + up) * cell
                 if (
                     swept_clearance(
                         kinds, shapes, centres, centres, size, x, y, x1, y1, margin

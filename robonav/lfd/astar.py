@@ -1,4 +1,14 @@
-"""Planning on a known map: modified A* over the robot's actions, and A* on a grid to compare (section 3.5)."""
+"""A* path planning on a known map: on a grid, and over the robot's own actions.
+
+The file is to be read from top to bottom:
+
+1. :class:`Node` is what the search knows about a place that it has reached.
+2. :func:`grid_astar` is textbook A* on a grid.
+3. :func:`modified_astar` is the thesis's Algorithm 4 (section 3.5): the same search over the poses that the robot's
+   actions lead to, instead of the points of a grid.
+4. :func:`plan_on_grid` and :func:`plan` are what the rest of the package calls. They check their arguments and run
+   compiled twins of 2 and 3, which return the same paths.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +16,7 @@ import heapq
 import math
 import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,33 +32,281 @@ from robonav.validation import (
 )
 
 from . import _fast
+from ._fast import ACTION_TURNS, CLOSE_ENOUGH, HEADINGS
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float]
-Node = tuple[int, ...]
-FINEST = 2e-3  # the smallest cell, as a fraction of the map's side: the table of nodes grows with its square
+Index = tuple[int, ...]
+
+EIGHT_DIRECTIONS = [
+    (right, up) for right in (-1, 0, 1) for up in (-1, 0, 1) if (right, up) != (0, 0)
+]
+SMALLEST_CELL = 2e-3  # times the map's side; halving the cells makes four times as many
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """A place that A* has reached, with the cheapest path to it found so far.
+
+    Attributes
+    ----------
+    index : tuple of int
+        Identifies the node: (column, row) on a grid, (column, row, turns) in modified A*.
+    point : (float, float)
+        x and y in metres.
+    G : float
+        Cost of the path from the start to this node.
+    H : float
+        Straight distance from here to the target, the estimate of the cost that remains. No path is shorter.
+    parent : Node, optional
+        The node before this one on the path. The start has none.
+    action : int
+        The action that leads from the parent to this node; -1 at the start and on a grid.
+
+    Examples
+    --------
+    >>> from robonav.lfd.astar import Node
+    >>> Node(index=(0, 0), point=(0.0, 0.0), G=2.0, H=3.0).F
+    5.0
+    """
+
+    index: Index
+    point: Point
+    G: float
+    H: float
+    parent: Node | None = field(default=None, repr=False)
+    action: int = -1
+
+    @property
+    def F(self) -> float:
+        """Estimated cost of a path to the target through this node, Eq. (3.31)."""
+        return self.G + self.H  # Eq. (3.31)
+
+    @property
+    def priority(self) -> tuple[float, float, Index]:
+        """Sort key in the open list: least F first; of equal F, least H first."""
+        return self.F, self.H, self.index
+
+
+def grid_astar(
+    world: Worlds, start: Floats, *, margin: float, cell: float
+) -> tuple[bool, list[Node], int]:
+    """A* on a grid whose points have eight neighbours each (Hart, Nilsson and Raphael 1968).
+
+    The open list is a heap. A heap cannot lower the F of an entry, so a node that is reached again at a lower cost is
+    pushed once more. Its older entry is skipped when it comes up, because the node is in the closed set by then.
+
+    Parameters
+    ----------
+    world : Worlds
+        Batch of one.
+    start : (2,) array
+        x and y of the start. The grid is laid through this point.
+    margin : float
+        Distance in metres that every step keeps from obstacles and borders.
+    cell : float
+        Distance in metres between neighbouring points of the grid.
+
+    Returns
+    -------
+    found : bool
+        Whether there is a path.
+    path : list of Node
+        The path, from the start; the start alone if there is none.
+    expanded : int
+        Number of nodes expanded.
+
+    Examples
+    --------
+    >>> from robonav.lfd.astar import grid_astar
+    >>> from robonav.robot import random_worlds
+    >>> world = random_worlds(1, obstacles=0, seed=1)
+    >>> found, path, expanded = grid_astar(world, world.starts[0], margin=2.0, cell=1.0)
+    >>> found, path[0].index, round(float(path[-1].G), 1)
+    (True, (10, 10), 110.3)
+    """
+    target, origin = world.targets[0], start % cell
+    first: Index = (int(start[0] / cell), int(start[1] / cell))
+    point = grid_point(origin, first, cell)
+    nodes = {first: Node(first, point, G=0.0, H=distance(point, target))}
+    open_list, closed_set = [nodes[first].priority], set[Index]()
+    while open_list:
+        *_, index = heapq.heappop(open_list)  # the node with the least F
+        if index in closed_set:
+            continue  # an older entry
+        closed_set.add(index)
+        current = nodes[index]
+        if current.H <= CLOSE_ENOUGH:
+            return True, path_to(current), len(closed_set)
+        for right, up in EIGHT_DIRECTIONS:
+            neighbour = (index[0] + right, index[1] + up)
+            point = grid_point(origin, neighbour, cell)
+            if step_clearance(world, current.point, point, margin) < margin:
+                continue  # the step would come too near to an obstacle or leave the map
+            if neighbour in closed_set:
+                continue
+            G = current.G + cell * math.sqrt(right * right + up * up)  # the tentative G
+            if neighbour not in nodes or G < nodes[neighbour].G:
+                H = distance(point, target)
+                nodes[neighbour] = Node(neighbour, point, G, H, current)
+                heapq.heappush(open_list, nodes[neighbour].priority)
+    return False, [nodes[first]], len(closed_set)
+
+
+def grid_point(origin: Floats, index: Index, cell: float) -> Point:
+    """Return x and y of a point of the grid, whose point (0, 0) is ``origin``."""
+    return origin[0] + index[0] * cell, origin[1] + index[1] * cell
+
+
+def modified_astar(
+    world: Worlds,
+    pose: Floats,
+    *,
+    speed: float,
+    margin: float,
+    caution: float,
+    cell: float,
+    limit: int,
+) -> tuple[bool, list[Node], int]:
+    """Modified A*, Algorithm 4: A* whose neighbours are the poses that the robot's five actions lead to.
+
+    It differs from :func:`grid_astar` in four things:
+
+    - A node is a pose. Its index is ``(column, row, turns)``: the cell that holds its point, and its heading as the
+      number of 30-degree turns from the first one. Points are not rounded to cells; two poses of one heading in one
+      cell count as one node, for no two paths lead to exactly the same pose.
+    - The neighbours of a node are where the five actions take the robot.
+    - A node remembers the action that led to it, so that the path is a list of actions.
+    - Steps near obstacles can be made to cost more (``caution``), and ``limit`` ends a search that takes too long. The
+      thesis has neither.
+
+    The numbers are the steps of Algorithm 4. Those missing only end a block.
+
+    Parameters
+    ----------
+    world : Worlds
+        Batch of one.
+    pose : (3,) array
+        x, y and heading at the start.
+    speed, margin, caution, cell, limit
+        As in :func:`plan`.
+
+    Returns
+    -------
+    found : bool
+        Whether a path was found.
+    path : list of Node
+        The path, from the start; the start alone if none was found.
+    expanded : int
+        Number of nodes expanded.
+
+    Examples
+    --------
+    >>> from robonav.lfd.astar import modified_astar
+    >>> from robonav.robot import random_worlds
+    >>> world = random_worlds(1, obstacles=0, seed=1)
+    >>> found, path, expanded = modified_astar(
+    ...     world, world.start_poses[0], speed=2.0, margin=2.0, caution=0.0, cell=1.0, limit=1000)
+    >>> found, len(path), path[-1].G
+    (True, 57, 112.0)
+    """
+    target, point = world.targets[0], (pose[0], pose[1])
+    closed_set = set[Index]()  # 1
+    first: Index = (*cell_of(world, pose, cell), 0)
+    nodes = {first: Node(first, point, G=0.0, H=distance(point, target))}
+    open_list = [nodes[first].priority]  # 2
+    while open_list and len(closed_set) < limit:  # 3 and 27
+        *_, index = heapq.heappop(open_list)  # 4
+        if index in closed_set:
+            continue  # an older entry
+        closed_set.add(index)  # 5
+        current = nodes[index]
+        if current.H <= CLOSE_ENOUGH:  # 6
+            return True, path_to(current), len(closed_set)  # 7, then 28 to 35
+        safe_steps = [
+            (action, turns, point)
+            for action, turns, point in five_steps(current, pose[2], speed)  # 9
+            if step_clearance(world, current.point, point, margin) >= margin  # 10 to 14
+        ]
+        for action, turns, point in safe_steps:  # 15
+            neighbour = (*cell_of(world, point, cell), turns)
+            if neighbour in closed_set:  # 16
+                continue  # 17
+            G = current.G + speed  # 19: the tentative G
+            G += speed * caution * nearness(world, point, cell)  # not in the thesis
+            if neighbour not in nodes or G < nodes[neighbour].G:  # 20
+                H = distance(point, target)
+                nodes[neighbour] = Node(neighbour, point, G, H, current, action)  # 21
+                heapq.heappush(open_list, nodes[neighbour].priority)  # 22 and 23
+    return False, [nodes[first]], len(closed_set)
+
+
+def five_steps(
+    current: Node, start_heading: float, speed: float
+) -> Iterator[tuple[int, int, Point]]:
+    """Yield what each of the five actions leads to: the action, the turns (0 to 11) and the point afterwards."""
+    for action, turn in enumerate(ACTION_TURNS.tolist()):
+        turns = (current.index[2] + turn) % HEADINGS
+        heading = start_heading + math.radians(30.0 * turns)
+        x = current.point[0] + speed * math.cos(heading)
+        y = current.point[1] + speed * math.sin(heading)
+        yield action, turns, (x, y)
+
+
+def cell_of(world: Worlds, point: Point | Floats, cell: float) -> Index:
+    """Return column and row of the cell that holds a point."""
+    last = math.ceil(world.size / cell) - 1
+    return min(int(point[0] / cell), last), min(int(point[1] / cell), last)
+
+
+def step_clearance(world: Worlds, start: Point, end: Point, most: float) -> float:
+    """Return the distance that a step keeps from obstacles and borders, at most ``most``; 0 if it leaves the map."""
+    centres = world.centres[0]
+    obstacles = world.kinds[0], world.shapes[0], centres, centres, world.size
+    return swept_clearance(*obstacles, *start, *end, most)
+
+
+def nearness(world: Worlds, point: Point, cell: float) -> float:
+    """Return 1 at an obstacle, falling to 0 at sensor range, for the middle of the cell that holds a point."""
+    column, row = cell_of(world, point, cell)
+    middle = ((column + 0.5) * cell, (row + 0.5) * cell)
+    clear = step_clearance(world, middle, middle, SENSOR_RANGE)
+    return (1.0 - clear / SENSOR_RANGE) ** 2
+
+
+def distance(point: Point, target: Floats) -> float:
+    """Return the straight distance from a point to the target, the heuristic H."""
+    return float(np.hypot(target[0] - point[0], target[1] - point[1]))
+
+
+def path_to(node: Node) -> list[Node]:
+    """Return the path to a node, found by following the parents back to the start."""
+    path = [node]
+    while path[-1].parent is not None:
+        path.append(path[-1].parent)
+    return path[::-1]
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The path that modified A* found in one world.
+    """The path that :func:`plan` found in one world.
 
     Attributes
     ----------
     found : bool
-        Whether there is a path. If not, the path is the start alone.
+        Whether a path was found. If not, ``points`` and ``headings`` hold the start alone.
     points : (K + 1, 2) array
-        Positions in metres, the start first.
+        x and y in metres along the path, the start first.
     headings : (K + 1,) array
-        Radians.
+        Headings in radians at these points.
     actions : (K,) array of int
         F, L30, L60, R30 or R60: action k leads from pose k to pose k + 1.
     length : float
-        Metres.
+        Length of the path in metres.
     expanded : int
         Number of nodes expanded.
     visited : (expanded, 3) array, optional
-        The poses expanded, in their order, if recorded (Fig. 3.4b).
+        The poses expanded, in order of expansion, if they were recorded (Fig. 3.4b).
 
     Examples
     --------
@@ -69,20 +327,20 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class GridPlan:
-    """The path that A* on a grid found in one world: points, without actions that a robot could take.
+    """The path that :func:`plan_on_grid` found in one world: points of a grid, without actions for a robot.
 
     Attributes
     ----------
     found : bool
-        Whether there is a path. If not, the path is the start alone.
+        Whether there is a path. If not, ``points`` holds the start alone.
     points : (K + 1, 2) array
-        Corners of the path in metres, the start first.
+        x and y in metres along the path, the start first.
     length : float
-        Metres.
+        Length of the path in metres.
     expanded : int
         Number of nodes expanded.
     visited : (expanded, 2) array, optional
-        The points expanded, in their order, if recorded.
+        The points expanded, in order of expansion, if they were recorded.
 
     Examples
     --------
@@ -99,198 +357,6 @@ class GridPlan:
     visited: Floats | None = None
 
 
-def modified_astar(
-    world: Worlds,
-    pose: Floats,
-    *,
-    speed: float,
-    margin: float,
-    caution: float,
-    cell: float,
-    limit: int,
-) -> tuple[bool, list[tuple[int, Point, int]], int]:
-    """Modified A*, Algorithm 4 and Eq. (3.31).
-
-    A node is ``(column, row, turns)``: a cell, and the number of 30-degree turns from the first heading. F orders the
-    open set; of nodes with one F, the nearest to the target comes first. :func:`plan` runs a compiled twin.
-
-    Parameters
-    ----------
-    world : Worlds
-        Batch of one.
-    pose : (3,) array
-        x, y and heading to start from.
-    speed, margin, caution, cell, limit
-        As in :func:`plan`.
-
-    Returns
-    -------
-    found : bool
-        Whether there is a path.
-    path : list of (turns, (x, y), action)
-        The path from the start; the action is the one that led here, -1 at the start.
-    expanded : int
-        Number of nodes expanded.
-
-    Examples
-    --------
-    >>> from robonav.lfd.astar import modified_astar
-    >>> from robonav.robot import random_worlds
-    >>> world = random_worlds(1, obstacles=0, seed=1)
-    >>> found, path, expanded = modified_astar(
-    ...     world, world.start_poses[0], speed=2.0, margin=2.0, caution=0.0, cell=1.0, limit=1000)
-    >>> found, len(path)
-    (True, 57)
-    """
-    start = (*cell_of(world, pose, cell), 0)
-    point, parent, action = {start: (pose[0], pose[1])}, {start: start}, {start: -1}
-    G, closed_set = {start: 0.0}, set[Node]()  # 1
-    rest = distance(point[start], world.targets[0])
-    open_set = [(rest, rest, start)]  # 2
-    while open_set and len(closed_set) < limit:  # 3
-        F, H, current = heapq.heappop(open_set)  # 4
-        if current in closed_set:
-            continue  # an entry that a cheaper one has overtaken
-        closed_set.add(current)  # 5
-        if found := H <= _fast.CLOSE_ENOUGH:  # 6
-            break  # 7
-        here, turns = point[current], current[2]
-        for taken, turned, there in five_steps(pose[2], turns, here, speed):  # 9, 15
-            if step_clearance(world, here, there, margin) < margin:  # 10
-                continue  # 11
-            neighbour = (*cell_of(world, there, cell), turned)
-            if neighbour in closed_set:  # 16
-                continue  # 17
-            tentative = G[current] + speed  # 19
-            if caution > 0:  # not in the thesis: steps near obstacles cost more
-                tentative += speed * caution * nearness(world, there, cell)
-            if neighbour not in G or tentative < G[neighbour]:  # 20
-                G[neighbour], point[neighbour] = tentative, there  # 21
-                parent[neighbour], action[neighbour] = current, taken
-                H = distance(there, world.targets[0])
-                F = G[neighbour] + H  # Eq. (3.31)
-                heapq.heappush(open_set, (F, H, neighbour))  # 23
-    nodes = path_to(current if found else start, parent)  # 28 to 35
-    return found, [(n[2], point[n], action[n]) for n in nodes], len(closed_set)
-
-
-def grid_astar(
-    world: Worlds, start: Floats, *, margin: float, cell: float
-) -> tuple[bool, list[Point], int]:
-    """Conventional A* on a grid, whose points have eight neighbours each.
-
-    A node is ``(column, row)``. :func:`plan_on_grid` runs a compiled twin.
-
-    Parameters
-    ----------
-    world : Worlds
-        Batch of one.
-    start : (2,) array
-        Where to start. The grid is laid through it.
-    margin, cell : float
-        As in :func:`plan_on_grid`.
-
-    Returns
-    -------
-    found : bool
-        Whether there is a path.
-    path : list of (x, y)
-        The path; the start alone if there is none.
-    expanded : int
-        Number of nodes expanded.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.lfd.astar import grid_astar
-    >>> from robonav.robot import random_worlds
-    >>> world = random_worlds(1, obstacles=0, seed=1)
-    >>> grid_astar(world, world.starts[0], margin=2.0, cell=1.0)[0]
-    True
-    """
-    west, south = start[0] % cell, start[1] % cell
-    columns, rows = (int((world.size - edge) / cell) + 1 for edge in (west, south))
-    first: Node = (int(start[0] / cell), int(start[1] / cell))
-    G, parent, closed_set = {first: 0.0}, {first: first}, set[Node]()
-    rest = distance((start[0], start[1]), world.targets[0])
-    open_set = [(rest, rest, first)]
-    current, found = first, False
-    while open_set:
-        *_, current = heapq.heappop(open_set)
-        if current in closed_set:
-            continue  # an entry that a cheaper one has overtaken
-        closed_set.add(current)
-        here = (west + current[0] * cell, south + current[1] * cell)
-        if found := distance(here, world.targets[0]) <= _fast.CLOSE_ENOUGH:
-            break
-        for right, up in EIGHT_NEIGHBOURS:
-            neighbour = (current[0] + right, current[1] + up)
-            if not (0 <= neighbour[0] < columns and 0 <= neighbour[1] < rows):
-                continue
-            there = (here[0] + right * cell, here[1] + up * cell)
-            tentative = G[current] + cell * math.sqrt(right * right + up * up)
-            if neighbour in closed_set or G.get(neighbour, math.inf) <= tentative:
-                continue
-            if step_clearance(world, here, there, margin) >= margin:
-                G[neighbour], parent[neighbour] = tentative, current
-                H = distance(there, world.targets[0])
-                heapq.heappush(open_set, (G[neighbour] + H, H, neighbour))
-    nodes = path_to(current if found else first, parent)
-    path = [(west + node[0] * cell, south + node[1] * cell) for node in nodes]
-    return found, path, len(closed_set)
-
-
-EIGHT_NEIGHBOURS = [
-    (right, up) for right in (-1, 0, 1) for up in (-1, 0, 1) if (right, up) != (0, 0)
-]
-
-
-def five_steps(
-    heading: float, turns: int, here: Point, speed: float
-) -> Iterator[tuple[int, int, Point]]:
-    """Yield what the five actions lead to: the action, the number of turns (0 to 11) and the position."""
-    for action, turn in enumerate(_fast.ACTION_TURNS.tolist()):
-        turned = (turns + turn) % _fast.HEADINGS
-        angle = heading + math.radians(30.0 * turned)
-        x = here[0] + speed * math.cos(angle)
-        y = here[1] + speed * math.sin(angle)
-        yield action, turned, (x, y)
-
-
-def cell_of(world: Worlds, place: Point | Floats, cell: float) -> Node:
-    """Return column and row of the cell that holds a place."""
-    last = math.ceil(world.size / cell) - 1
-    return min(int(place[0] / cell), last), min(int(place[1] / cell), last)
-
-
-def step_clearance(world: Worlds, here: Point, there: Point, enough: float) -> float:
-    """Return the distance that a step keeps from obstacles and borders, or ``enough`` where it keeps more."""
-    centres = world.centres[0]
-    obstacles = world.kinds[0], world.shapes[0], centres, centres, world.size
-    return swept_clearance(*obstacles, *here, *there, enough)
-
-
-def nearness(world: Worlds, there: Point, cell: float) -> float:
-    """Return 1 at an obstacle and 0 out of sensor range, for the middle of the cell that holds a place."""
-    column, row = cell_of(world, there, cell)
-    middle = ((column + 0.5) * cell, (row + 0.5) * cell)
-    clear = step_clearance(world, middle, middle, SENSOR_RANGE)
-    return (1.0 - clear / SENSOR_RANGE) ** 2
-
-
-def distance(here: Point, target: Floats) -> float:
-    """Return the straight distance from a place to the target, the heuristic H."""
-    return float(np.hypot(target[0] - here[0], target[1] - here[1]))
-
-
-def path_to(node: Node, parent: dict[Node, Node]) -> list[Node]:
-    """Follow the parents of a node back to the start, which is its own parent, and return the path from there."""
-    path = [node]
-    while parent[path[-1]] != path[-1]:
-        path.append(parent[path[-1]])
-    return path[::-1]
-
-
 def plan(
     world: Worlds,
     *,
@@ -302,38 +368,40 @@ def plan(
     limit: int = 200_000,
     record: bool = False,
 ) -> Plan:
-    """Plan over the robot's own actions, without a grid: a compiled twin of :func:`modified_astar`.
+    """Plan a path of robot actions by modified A*; this runs the compiled twin of :func:`modified_astar`.
 
-    A node is a pose that the five actions lead to. G is the distance travelled and H the straight distance to the
-    target. Positions are continuous, so that two paths never meet in exactly one pose; poses of one heading in one
-    cell therefore count as the same node. The path minimises its length plus the distance left to the target where
-    ``cell`` is so small that different poses never share one. With larger cells it may be longer.
+    A node is a pose that the five actions lead to. G is the distance travelled, and H is the straight distance to the
+    target. Points are continuous, so two paths never lead to exactly the same pose. Poses of one heading in one cell
+    therefore count as one node. If ``cell`` is so small that different poses never share a cell, the path found
+    minimises its length plus the distance from its end to the target. With larger cells it may be longer than that.
 
     Parameters
     ----------
     world : Worlds
-        Batch of one. Its obstacles are taken as they stand at the start.
+        Batch of one. Moving obstacles are taken to stand where they start.
     speed : float
-        Length of a step in metres; the robot turns, then goes for one second.
+        Length of a step in metres: the robot turns, then goes straight on for one second.
     margin : float
         Distance in metres that every step keeps from obstacles and borders, at most half the map's side.
     caution : float
-        How much more a metre costs in G near an obstacle or border: 1 + caution times its length right at it, falling
-        with the square of the distance to 1 at sensor range. The thesis has 0.
+        Extra cost of steps near obstacles and borders. A step costs its length times ``1 + caution * (1 - d / 10)**2``,
+        where d is the clearance in metres at the middle of the cell that the step ends in, at most 10 (the range of
+        the sensors). The thesis has 0.
     pose : (3,) array, optional
-        x, y and heading to start from; by default the world's start, facing the target.
+        x, y and heading at the start. By default the world's start, facing the target.
     cell : float, optional
-        Side in metres of the cells that tell nodes apart. A step that stays in its cell leads nowhere, so that cells
-        larger than ``speed`` can hide a path. By default 1 m, or ``speed`` if that is less.
+        Side in metres of the cells that tell nodes apart. A step that ends in the cell it began in, with its heading
+        unchanged, leads to a node that is closed already. Cells larger than ``speed`` can therefore hide a path. By
+        default 1 m, or ``speed`` if that is less.
     limit : int
-        Nodes to expand before giving up.
+        The most nodes to expand.
     record : bool
         Whether to keep the poses expanded.
 
     Returns
     -------
     Plan
-        If there is no path, or none was found within ``limit``, ``found`` is False.
+        ``found`` is False if there is no path, or if none was found within ``limit`` nodes.
 
     Warns
     -----
@@ -345,7 +413,7 @@ def plan(
     TypeError
         If ``world`` is not Worlds, or an argument is not a number.
     ValueError
-        If ``world`` is not one world, ``pose`` is outside of it, or an argument is out of bounds.
+        If ``world`` is not a batch of one, if ``pose`` lies outside its map, or if an argument is out of bounds.
 
     Examples
     --------
@@ -369,8 +437,8 @@ def plan(
     )  # fmt: skip
     if not found and cell > speed:
         warnings.warn(
-            f"plan found no path with cells of {cell:g} m and steps of {speed:g} m: a step that stays in its cell "
-            "leads nowhere, so that cell should be at most speed",
+            f"plan found no path with cells of {cell:g} m and steps of {speed:g} m: a step that ends in the cell it "
+            "began in leads to no new node, so cell should be at most speed",
             stacklevel=2,
         )
     points, headings, length = poses[:, :2], poses[:, 2], speed * len(actions)
@@ -386,7 +454,9 @@ def plan_on_grid(
     cell: float = 1.0,
     record: bool = False,
 ) -> GridPlan:
-    """Plan on a grid whose points have eight neighbours each (Fig. 3.5): a compiled twin of :func:`grid_astar`.
+    """Plan a path on a grid by A* (Fig. 3.5); this runs the compiled twin of :func:`grid_astar`.
+
+    Each point of the grid has eight neighbours.
 
     Parameters
     ----------
@@ -395,16 +465,16 @@ def plan_on_grid(
     margin : float
         As in :func:`plan`.
     start : (2,) array, optional
-        Where to start; by default the world's start. The grid is laid through it.
+        x and y of the start, through which the grid is laid. By default the world's start.
     cell : float
-        Distance of neighbouring grid points in metres.
+        Distance in metres between neighbouring points of the grid.
     record : bool
         Whether to keep the points expanded.
 
     Returns
     -------
     GridPlan
-        A shortest path on the grid; ``found`` is False if there is none.
+        A shortest path on the grid. ``found`` is False if there is none.
 
     Raises
     ------
@@ -431,13 +501,13 @@ def plan_on_grid(
 
 
 def _one_world(world: Worlds) -> None:
-    """Refuse anything but a batch of one."""
+    """Raise an error if ``world`` is not a batch of one."""
     if len(check_instance("world", world, Worlds)) != 1:
         raise ValueError(f"world must be one world, got a batch of {len(world)}")
 
 
 def _in_map(name: str, place: ArrayLike, numbers: int, world: Worlds) -> Floats:
-    """A place (2,) or pose (3,) whose x and y lie in the map."""
+    """Return a point (2,) or pose (3,) as an array, checked to lie in the map."""
     given = check_array(name, place, shape=(numbers,))
     if (given[:2] < 0).any() or (given[:2] > world.size).any():
         raise ValueError(
@@ -447,18 +517,20 @@ def _in_map(name: str, place: ArrayLike, numbers: int, world: Worlds) -> Floats:
 
 
 def _lengths(world: Worlds, margin: float, cell: float) -> tuple[float, float]:
-    """Margin and side of the cells, within what the map's size allows."""
+    """Return the margin and the cells' side, checked against the map's size."""
     return (
         check_real("margin", margin, above=0, at_most=world.size / 2),
-        check_real("cell", cell, at_least=FINEST * world.size, at_most=world.size),
+        check_real(
+            "cell", cell, at_least=SMALLEST_CELL * world.size, at_most=world.size
+        ),
     )
 
 
 def _map(world: Worlds) -> tuple[NDArray[np.int8], Floats, Floats, float]:
-    """Obstacles and size of the one world to plan in."""
+    """Return the obstacles and the size of the world to plan in."""
     return world.kinds[0], world.shapes[0], world.centres[0], world.size
 
 
 def _nodes(world: Worlds, cell: float) -> int:
-    """The most positions that cells of this side tell apart."""
+    """Return the largest number of cells, or of points of a grid, that the map can hold."""
     return (int(world.size / cell) + 1) ** 2

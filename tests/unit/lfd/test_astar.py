@@ -292,21 +292,21 @@ def test_readable_and_compiled_modified_astar(speed, margin, caution, cell):
             world, world.start_poses[0], limit=200_000, **settings
         )
         assert (found, expanded) == (made.found, made.expanded)
-        turns, points, actions = zip(*path, strict=True)
-        assert np.array_equal(points, made.points)
-        assert np.array_equal(actions[1:], made.actions)
-        turned = (
-            made.headings - world.start_poses[0, 2] - np.radians(30) * np.array(turns)
-        )
+        assert np.array_equal([node.point for node in path], made.points)
+        assert [node.action for node in path] == [-1, *made.actions]
+        turns = np.array([node.index[2] for node in path])
+        turned = made.headings - world.start_poses[0, 2] - np.radians(30) * turns
         assert np.allclose(np.cos(turned), 1)
 
 
-def test_readable_and_compiled_astar_on_a_grid():
+@pytest.mark.parametrize("cell", [1.0, 0.7])
+def test_readable_and_compiled_astar_on_a_grid(cell):
     for world in random_worlds(4, 15, seed=9):
-        made = plan_on_grid(world)
-        found, path, expanded = grid_astar(world, world.starts[0], margin=2.0, cell=1.0)
+        made = plan_on_grid(world, cell=cell)
+        start = world.starts[0]
+        found, path, expanded = grid_astar(world, start, margin=2.0, cell=cell)
         assert (found, expanded) == (made.found, made.expanded)
-        assert np.array_equal(path, made.points)
+        assert np.array_equal([node.point for node in path], made.points)
 
 
 def test_readable_searches_without_a_path():
