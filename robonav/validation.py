@@ -1,17 +1,29 @@
 """Checks of arguments. A failed check raises an error with one clear sentence.
 
 The sentence names the argument, the expectation and the value. A check that passes returns the value, ready to use.
+The decorators that :func:`checks` makes keep the checks out of the bodies of the functions.
 """
 
 from __future__ import annotations
 
+import functools
+import inspect
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from numbers import Integral, Real
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+Rule = Callable[[str, Any], Any]
+"""The check of one argument: takes its name and its value, and returns the value to use."""
+
+Rules = Mapping[str, Rule]
+"""Rules by the name of the argument, or by "function.argument" where one function needs another rule."""
 
 
 def check_real(
@@ -151,3 +163,75 @@ def check_generator(name: str, value: Any) -> np.random.Generator:
     if isinstance(value, np.random.Generator):
         return value
     return np.random.default_rng(check_integer(name, value, at_least=0))
+
+
+def check_argument(rules: Rules, function: str, name: str, value: Any) -> Any:
+    """Return the value of one argument of a function after the check that its rule makes, if it has a rule.
+
+    Examples
+    --------
+    >>> check_argument({"episodes": check_integer}, "q_learning", "episodes", 1.5)
+    Traceback (most recent call last):
+    TypeError: episodes must be a whole number, got 1.5
+    """
+    rule = rules.get(f"{function}.{name}") or rules.get(name)
+    return value if rule is None else rule(name, value)
+
+
+def checks(
+    rules: Rules, together: Callable[[str, dict[str, Any]], None] | None = None
+) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Return a decorator that checks the arguments of a function before the function runs.
+
+    An argument without a rule is not checked, and neither is an optional argument that is left at None.
+
+    Parameters
+    ----------
+    rules : mapping of str to callable
+        The rule of each argument, by the argument's name, or by "function.argument".
+    together : callable, optional
+        A function of the name of the function and all its arguments, a dictionary. It checks those that depend on
+        each other, and may replace their values. It runs after the rules.
+
+    Returns
+    -------
+    callable
+        The decorator.
+
+    Examples
+    --------
+    >>> @checks({"discount": lambda name, value: check_real(name, value, at_most=1)})
+    ... def effective_horizon(discount):
+    ...     return 1 / (1 - discount)
+    >>> effective_horizon(0.5)
+    2.0
+    >>> effective_horizon(1.5)
+    Traceback (most recent call last):
+    ValueError: discount must be at most 1, got 1.5
+    """
+
+    def decorate(function: Callable[P, R]) -> Callable[P, R]:
+        signature = inspect.signature(function)
+        optional = {
+            name
+            for name, parameter in signature.parameters.items()
+            if parameter.default is None
+        }
+
+        @functools.wraps(function)
+        def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+            bound = signature.bind(*args, **kwargs)
+            bound.apply_defaults()
+            arguments = bound.arguments
+            for name, value in arguments.items():
+                if value is not None or name not in optional:
+                    arguments[name] = check_argument(
+                        rules, function.__name__, name, value
+                    )
+            if together is not None:
+                together(function.__name__, arguments)
+            return function(*bound.args, **bound.kwargs)
+
+        return checked
+
+    return decorate

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _fast
-from .arguments import validated
+from ._arguments import checked
 from .evaluation import History, evaluation_residual, warn_not_converged
 from .models import FiniteMDP
 from .solutions import (
@@ -19,7 +19,7 @@ from .solutions import (
 )
 
 
-@validated
+@checked
 def value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -46,7 +46,7 @@ def value_iteration(
     return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
 
 
-@validated
+@checked
 def modified_policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,

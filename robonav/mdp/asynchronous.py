@@ -12,7 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import validated
+from ._arguments import checked
 from .evaluation import History, warn_not_converged
 from .models import FiniteMDP
 from .solutions import Solution, first_values, greedy_policy, solution_of
@@ -20,7 +20,7 @@ from .solutions import Solution, first_values, greedy_policy, solution_of
 Floats = NDArray[np.float64]
 
 
-@validated
+@checked
 def in_place_value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -90,7 +90,7 @@ def in_place_sweep(mdp: FiniteMDP, values: Floats) -> float:
     return largest
 
 
-@validated
+@checked
 def prioritized_sweeping(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.errors import ConvergenceWarning
 from robonav.validation import check_array
 
-from .arguments import validated
+from ._arguments import checked
 from .dynamic_programming import value_iteration
 from .policies import as_distributions
 from .pomdp import POMDP, SAME, BeliefMDP
@@ -60,7 +60,7 @@ class AlphaVectors:
         return int(self.actions[(self.vectors @ b).argmax()])
 
 
-@validated
+@checked
 def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
     """QMDP: act as if the state were known after the next step (Littman, Cassandra and Kaelbling 1995).
 
@@ -90,7 +90,7 @@ def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
     return AlphaVectors(q.T.copy(), np.arange(pomdp.mdp.n_actions))
 
 
-@validated
+@checked
 def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
     """Up to ``count`` beliefs that can be reached from ``start``, as far apart as possible.
 
@@ -142,7 +142,7 @@ def all_successors(pomdp: POMDP, belief: Floats) -> Floats:
     return np.concatenate([beliefs.successors(belief, a)[0] for a in actions])
 
 
-@validated
+@checked
 def point_based_value_iteration(
     pomdp: POMDP,
     beliefs: ArrayLike,

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import check_integer
 
-from .arguments import validated
+from ._arguments import checked
 from .models import FiniteMDP
 from .pomdp import POMDP
 
@@ -45,7 +45,7 @@ class BeliefTrajectory:
     beliefs: Floats
 
 
-@validated
+@checked
 def belief_rollout(
     pomdp: POMDP,
     choose: Callable[[Floats], int],

@@ -13,7 +13,7 @@ from typing import ParamSpec
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arguments import validated
+from ._arguments import checked
 from .evaluation import History, evaluation_residual, warn_not_converged
 from .models import FiniteMDP
 from .rounding import gains_and_rounding, warn_if_hidden
@@ -46,7 +46,7 @@ def runs_compiled(planner: Callable[P, Solution]) -> Callable[P, Solution]:
 
 
 @runs_compiled
-@validated
+@checked
 def value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -108,7 +108,7 @@ def value_iteration(
     return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
 
 
-@validated
+@checked
 def policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-9,
@@ -183,7 +183,7 @@ def policy_iteration(
 
 
 @runs_compiled
-@validated
+@checked
 def modified_policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,

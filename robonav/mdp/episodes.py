@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.progress import Progress
 
 from . import policies
-from .arguments import validated
+from ._arguments import checked
 from .discrete_spaces import discretise_spaces, space_sizes
 
 BLOCK = 4096  # random numbers drawn at a time: one by one they would cost more than the environment's step
@@ -28,7 +28,7 @@ def uniform_stream(rng: np.random.Generator) -> Iterator[float]:
         yield from rng.random(BLOCK).tolist()
 
 
-@validated
+@checked
 def discounted_return(rewards: ArrayLike, discount: float) -> NDArray[np.float64]:
     """Return from each step on, Eq. (2.3): ``G[t] = r[t] + discount * G[t + 1]``.
 
@@ -57,7 +57,7 @@ def discounted_return(rewards: ArrayLike, discount: float) -> NDArray[np.float64
     return returns
 
 
-@validated
+@checked
 def mean_return(trajectories: Iterable[Trajectory], discount: float) -> float:
     """Mean return of trajectories, an estimate of the value of their first state, Eq. (2.4).
 
@@ -221,7 +221,7 @@ def policy_sampler(
     )
 
 
-@validated
+@checked
 def rollouts(
     env: gym.Env[Any, Any],
     policy: ArrayLike,

@@ -14,7 +14,7 @@ from robonav.errors import ConvergenceWarning
 from robonav.validation import check_array
 
 from . import undiscounted
-from .arguments import validated
+from ._arguments import checked
 from .linear_solver import solve
 from .models import FiniteMDP
 from .policies import as_distributions
@@ -51,7 +51,7 @@ class EvaluationResult:
     history: Floats | None = None
 
 
-@validated
+@checked
 def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
     """Values of a policy, the solution of Bellman's equation, Eq. (2.5).
 
@@ -89,7 +89,7 @@ def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
     return solve(identity - mdp.discount * transitions, rewards, guess)  # Eq. (2.5)
 
 
-@validated
+@checked
 def iterative_policy_evaluation(
     mdp: FiniteMDP,
     policy: ArrayLike,
@@ -152,7 +152,7 @@ def iterative_policy_evaluation(
     return EvaluationResult(values, iteration, float(residual), history.rows)
 
 
-@validated
+@checked
 def expected_return(mdp: FiniteMDP, policy: ArrayLike, start: ArrayLike) -> float:
     """Expected discounted return of a policy from random start states, Eq. (2.28).
 

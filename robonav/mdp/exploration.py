@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array, check_integer, check_positive, check_real
+from robonav.validation import check_integer, check_positive, check_real
 
-from .arguments import validated_with
+from ._arguments import checked
 from .episodes import uniform_stream
 
 Schedule = Callable[[int], float]
@@ -105,7 +105,7 @@ def _rate(name: str, value: Any) -> float:
     return check_real(name, value, at_least=0, at_most=1)
 
 
-@validated_with(q=check_array, epsilon=_rate)
+@checked
 def epsilon_greedy(q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
     """Epsilon-greedy policy: with probability ``epsilon`` a random action, otherwise one of the best.
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import validated
+from ._arguments import checked
 from .evaluation import starting_values
 from .models import FiniteMDP
 
@@ -37,7 +37,7 @@ class FiniteHorizonSolution:
     policy: NDArray[np.intp]
 
 
-@validated
+@checked
 def backward_induction(
     mdp: FiniteMDP, horizon: int, *, final_values: ArrayLike | None = None
 ) -> FiniteHorizonSolution:
@@ -74,7 +74,7 @@ def backward_induction(
     return FiniteHorizonSolution(values, policy)
 
 
-@validated
+@checked
 def finite_horizon_evaluation(
     mdp: FiniteMDP,
     policy: ArrayLike,

@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.errors import ConvergenceWarning
-from robonav.validation import check_array, check_integer
+from robonav.validation import check_array
 
-from .arguments import validated, validated_with
+from ._arguments import checked
 from .evaluation import policy_evaluation
 from .models import FiniteMDP
 from .policies import as_deterministic_policy
@@ -23,11 +22,6 @@ from .undiscounted import clamp_undiscounted
 
 Floats = NDArray[np.float64]
 Actions = NDArray[np.intp]
-
-
-def _sweeps(name: str, value: Any) -> float:
-    """A number of sweeps from 1 to infinity."""
-    return value if value == math.inf else check_integer(name, value, at_least=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +54,7 @@ class GPIHistory:
     greedy_gap: Floats
 
 
-@validated_with(sweeps=_sweeps)
+@checked
 def generalized_policy_iteration(
     mdp: FiniteMDP,
     *,
@@ -187,7 +181,7 @@ def history_of(mdp: FiniteMDP, rows: list[tuple[Floats, Actions, bool]]) -> GPIH
     return GPIHistory(values, policies, improves[1:], evaluation_gap, greedy_gap)
 
 
-@validated
+@checked
 def suboptimality(
     mdp: FiniteMDP, history: ArrayLike, policies: ArrayLike, *, best: ArrayLike
 ) -> tuple[Floats, Floats]:

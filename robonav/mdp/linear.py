@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from robonav.progress import Progress
 
-from .arguments import validated
+from ._arguments import checked
 from .discrete_spaces import count, discretise_actions
 from .episodes import EpisodeRunner
 from .exploration import EpsilonGreedy, Schedule, schedule
@@ -76,7 +76,7 @@ class LinearControlResult:
         return features @ self.weights  # Eq. (4.3)
 
 
-@validated
+@checked
 def linear_sarsa(
     env: gym.Env[Any, Any],
     episodes: int,
@@ -160,7 +160,7 @@ def linear_sarsa(
     return training.result()
 
 
-@validated
+@checked
 def linear_q_learning(
     env: gym.Env[Any, Any],
     episodes: int,

@@ -22,7 +22,7 @@ from robonav.validation import (
     check_real,
 )
 
-from .arguments import validated_with
+from ._arguments import checked
 from .policies import SUM_TOLERANCE, as_distributions
 
 Floats = NDArray[np.float64]
@@ -223,7 +223,7 @@ class RangeSensor:
         check_positive("reach", self.reach)
         check_real("outliers", self.outliers, at_least=0, at_most=1)
 
-    @validated_with(predicted=check_array, measured=check_array)
+    @checked
     def log_likelihood(self, predicted: ArrayLike, measured: ArrayLike) -> Floats:
         """Logarithm (...) of the density of the readings ``measured`` (n,) where ``predicted`` (..., n) is expected.
 

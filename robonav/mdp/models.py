@@ -15,7 +15,7 @@ from scipy.sparse import csgraph
 from robonav.validation import check_array, check_real
 
 from . import policies
-from .arguments import require_type, validated
+from ._arguments import checked, require_type
 
 Arrays = tuple[
     NDArray[Any], NDArray[Any], NDArray[np.float64], NDArray[np.float64], float
@@ -200,7 +200,7 @@ class FiniteMDP:
         average = sp.csr_array((pi.ravel(), np.arange(pi.size), starts))
         return average @ self.rows, (pi * self.rewards).sum(axis=1)  # Eq. (2.6)
 
-    @validated
+    @checked
     def residual_for(self, tolerance: float) -> float:
         """Change of a sweep below which the greedy policy loses at most ``tolerance`` in every state.
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from robonav.progress import Progress
 
-from .arguments import validated
+from ._arguments import checked
 from .discrete_spaces import discretise_spaces, space_sizes
 from .episodes import EpisodeRunner, discounted_return, policy_sampler
 from .exploration import Schedule, harmonic_decay
@@ -29,7 +29,7 @@ def counted_visits(passed: Sequence[Hashable], visit: Visit) -> Iterator[int]:
             yield step
 
 
-@validated
+@checked
 def monte_carlo_prediction(
     env: gym.Env[Any, Any],
     policy: ArrayLike,
@@ -97,7 +97,7 @@ def monte_carlo_prediction(
     return PredictionResult(values, visits, runner.history)
 
 
-@validated
+@checked
 def monte_carlo_control(
     env: gym.Env[Any, Any],
     episodes: int,

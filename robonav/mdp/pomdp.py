@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import check_array, check_instance, check_integer
 
-from .arguments import require_type, validated_with
+from ._arguments import checked, require_type
 from .models import FiniteMDP
 from .policies import SUM_TOLERANCE, as_distributions
 
@@ -29,11 +29,6 @@ def as_evidence(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, Floats
                 f"{name} must hold no negative numbers, got {numbers.min():.10g}"
             )
     return before, explained
-
-
-def _belief(name: str, value: Any) -> Floats:
-    """A distribution (S,)."""
-    return as_distributions(name, value, len(check_array(name, value, shape=("S",))))
 
 
 def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
@@ -73,7 +68,7 @@ def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
     return joint / probability, probability
 
 
-@validated_with(belief=_belief)
+@checked
 def entropy(belief: ArrayLike) -> float:
     """Entropy of a belief in bits: 0 if one state is certain, log2 S if all are equally likely.
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from robonav.validation import check_real
 
-from .arguments import validated
+from ._arguments import checked
 from .models import FiniteMDP
 from .pomdp import POMDP
 
@@ -143,7 +143,7 @@ def fork(*, sign_cost: float = 1.0, discount: float = 0.9) -> POMDP:
     )
 
 
-@validated
+@checked
 def without_sensing(mdp: FiniteMDP) -> POMDP:
     """A robot without sensing (section 2.5.1): it observes the same in every state.
 

@@ -10,14 +10,14 @@ from numpy.typing import ArrayLike
 
 from robonav.progress import Progress
 
-from .arguments import validated
+from ._arguments import checked
 from .discrete_spaces import discretise_spaces, space_sizes
 from .episodes import EpisodeRunner, policy_sampler
 from .exploration import Schedule, schedule
 from .tabular import ControlResult, PredictionResult, TabularTraining
 
 
-@validated
+@checked
 def q_learning(
     env: gym.Env[Any, Any],
     episodes: int,
@@ -96,7 +96,7 @@ def q_learning(
     return training.result()
 
 
-@validated
+@checked
 def sarsa(
     env: gym.Env[Any, Any],
     episodes: int,
@@ -177,7 +177,7 @@ def sarsa(
     return training.result()
 
 
-@validated
+@checked
 def expected_sarsa(
     env: gym.Env[Any, Any],
     episodes: int,
@@ -255,7 +255,7 @@ def expected_sarsa(
     return training.result()
 
 
-@validated
+@checked
 def td_prediction(
     env: gym.Env[Any, Any],
     policy: ArrayLike,

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from functools import partial
 from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_real
-
-from .arguments import validated, validated_with
+from ._arguments import checked
 from .evaluation import policy_evaluation
 from .models import FiniteMDP
 from .policies import optimal_values_of
@@ -19,7 +16,7 @@ from .undiscounted import clamp_undiscounted
 Floats = NDArray[np.float64]
 
 
-@validated
+@checked
 def bellman_policy_operator(
     mdp: FiniteMDP, policy: ArrayLike, values: ArrayLike
 ) -> Floats:
@@ -48,7 +45,7 @@ def bellman_policy_operator(
     return rewards + mdp.discount * (transitions @ values)  # Eq. (2.14)
 
 
-@validated
+@checked
 def bellman_optimality_operator(mdp: FiniteMDP, values: ArrayLike) -> Floats:
     """Right-hand side of Bellman's optimality equation, Eq. (2.13); the optimal values are its fixed point.
 
@@ -74,7 +71,7 @@ def bellman_optimality_operator(mdp: FiniteMDP, values: ArrayLike) -> Floats:
     return mdp.action_values(values).max(axis=1)  # Eq. (2.13)
 
 
-@validated
+@checked
 def bellman_action_value_operator(mdp: FiniteMDP, action_values: ArrayLike) -> Floats:
     """Right-hand side of Bellman's optimality equation for action values, Eq. (2.12).
 
@@ -101,7 +98,7 @@ def bellman_action_value_operator(mdp: FiniteMDP, action_values: ArrayLike) -> F
     return mdp.action_values(best_next)  # Eq. (2.12)
 
 
-@validated
+@checked
 def policy_action_values(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
     """Action values of a policy, Eq. (2.7): the return of taking ``a`` once and then following the policy.
 
@@ -125,7 +122,7 @@ def policy_action_values(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
     return mdp.action_values(policy_evaluation(mdp, policy))  # Eq. (2.7)
 
 
-@validated
+@checked
 def advantage(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
     """Advantage of each action over a policy, Eq. (2.8): A = Q - V.
 
@@ -150,7 +147,7 @@ def advantage(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
     return mdp.action_values(values) - values[:, None]  # Eq. (2.8)
 
 
-@validated
+@checked
 def best_values_of_any_policy(mdp: FiniteMDP) -> Floats:
     """Largest value of each state under any deterministic policy, Eq. (2.9), by trying all A^S of them.
 
@@ -178,7 +175,7 @@ def best_values_of_any_policy(mdp: FiniteMDP) -> Floats:
     return np.max(values, axis=0)  # Eq. (2.9)
 
 
-@validated_with(tolerance=partial(check_real, at_least=0))
+@checked
 def is_optimal(mdp: FiniteMDP, policy: ArrayLike, *, tolerance: float = 1e-9) -> bool:
     """Whether a policy takes a best action under its own action values in every state, Eq. (2.16).
 

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import wraps
-from typing import Any, TypeVar, cast
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robonav.validation import check_array, check_real
+from robonav.validation import check_array, check_real, checks
 
 from .multilayer_perceptron import Array, Network, sigmoid_slope
-
-Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def examples(network: Network, x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
@@ -53,18 +51,17 @@ def examples(network: Network, x: ArrayLike, y: ArrayLike) -> tuple[Array, Array
     return inputs, labels
 
 
-def checks_examples(function: Function) -> Function:
-    """Decorate a function of (network, x, y) so that it gets checked arrays."""
+def check_examples(function: str, arguments: dict[str, Any]) -> None:
+    """Check the training examples ``x`` and ``y`` of a function for its network."""
+    arguments["x"], arguments["y"] = examples(
+        arguments["network"], arguments["x"], arguments["y"]
+    )
 
-    @wraps(function)
-    def checked(
-        network: Network, x: ArrayLike, y: ArrayLike, *, regularisation: float = 0.0
-    ) -> Any:
-        inputs, labels = examples(network, x, y)
-        decay = check_real("regularisation", regularisation, at_least=0)
-        return function(network, inputs, labels, regularisation=decay)
 
-    return cast(Function, checked)
+checked = checks(
+    {"regularisation": partial(check_real, at_least=0)}, together=check_examples
+)
+"""Decorate a function of (network, x, y, regularisation) so that its arguments are checked before it runs."""
 
 
 def backpropagate_by_units(network: Network, x: ArrayLike, y: ArrayLike) -> Network:
@@ -204,7 +201,7 @@ def squared_weights(network: Network) -> float:
     return float(sum((weight**2).sum() for weight in network.weights))
 
 
-@checks_examples
+@checked
 def squared_error_cost(
     network: Network, x: Array, y: Array, *, regularisation: float = 0.0
 ) -> float:
@@ -241,7 +238,7 @@ def squared_error_cost(
     return float(error + regularisation / 2 * squared_weights(network))  # Eq. (3.7)
 
 
-@checks_examples
+@checked
 def squared_error_gradient(
     network: Network, x: Array, y: Array, *, regularisation: float = 0.0
 ) -> Network:
@@ -267,7 +264,7 @@ def squared_error_gradient(
     return mean_gradient(network, total, len(x), decay=regularisation)
 
 
-@checks_examples
+@checked
 def cross_entropy_cost(
     network: Network, x: Array, y: Array, *, regularisation: float = 0.0
 ) -> float:
@@ -289,7 +286,7 @@ def cross_entropy_cost(
     return float((error + decay) / len(x))  # Eq. (3.22)
 
 
-@checks_examples
+@checked
 def cross_entropy_gradient(
     network: Network, x: Array, y: Array, *, regularisation: float = 0.0
 ) -> Network:

@@ -16,7 +16,7 @@ from scipy.optimize import nnls
 
 from robonav.progress import Progress
 
-from ._checks import checked
+from ._arguments import checked
 from .feature_expectations import discounted_feature_sums, empirical_expectations
 from .features import state_action_features
 from .max_margin import maximum_margin

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.mdp import policies
 from robonav.mdp.evaluation import policy_evaluation
 
-from ._checks import checked
+from ._arguments import checked
 from .reward_free_mdp import RewardFreeMDP
 
 Floats = NDArray[np.float64]

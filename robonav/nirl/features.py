@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._checks import checked
+from ._arguments import checked
 
 Floats = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import nnls
 
-from ._checks import checked
+from ._arguments import checked
 
 Floats = NDArray[np.float64]
 

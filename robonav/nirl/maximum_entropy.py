@@ -18,7 +18,7 @@ from scipy.special import logsumexp, softmax
 from robonav.errors import ConvergenceWarning
 from robonav.mdp.models import FiniteMDP
 
-from ._checks import checked
+from ._arguments import checked
 from .feature_expectations import initial_expectations
 from .reward_free_mdp import RewardFreeMDP
 

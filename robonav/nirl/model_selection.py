@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._checks import checked
+from ._arguments import checked
 from .reward_update import inverse_frequency_weights
 
 Score = Callable[[NDArray[np.int64], NDArray[np.int64]], float]

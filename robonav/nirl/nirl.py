@@ -8,7 +8,7 @@ import numpy as np
 
 from robonav.progress import Progress
 
-from ._checks import checked
+from ._arguments import checked
 from .model_selection import Score, balanced_accuracy
 from .policy_improvement import Improver, ReplaySGD
 from .reward_update import RewardUpdate, SubgradientMaxMargin

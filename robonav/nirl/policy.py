@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.networks.multilayer_perceptron import Network, sigmoid
 from robonav.nnql.schedules import softmax_policy
 
-from ._checks import checked
+from ._arguments import checked
 
 Floats = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
 from scipy.special import logsumexp, softmax
 
-from ._checks import checked
+from ._arguments import checked
 from .feature_expectations import discounted_feature_sums
 from .features import state_action_features
 from .policy_improvement import ReplaySGD

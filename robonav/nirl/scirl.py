@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._checks import checked
+from ._arguments import checked
 from .feature_expectations import discounted_feature_sums
 from .features import all_action_features, state_action_features
 from .policy_improvement import ReplaySGD

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from robonav.networks.multilayer_perceptron import Network, random_network, stacked
 from robonav.progress import Progress
 
-from ._checks import checked
+from ._arguments import checked
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, accuracy, balanced_accuracy
 from .policy import (

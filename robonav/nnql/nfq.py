@@ -21,7 +21,7 @@ from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.policy import sample_actions
 from robonav.networks.torch_module import as_module, as_network
 
-from ._settings import Schedule, checked
+from ._arguments import Schedule, checked
 from .replay_buffer import ReplayBuffer, Transitions
 from .schedules import geometric_schedule, softmax_policy
 from .task import EXPLORING, make_rng, reflex_acted

@@ -9,7 +9,7 @@ import gymnasium
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.policy import sample_actions
 
-from ._settings import Schedule, checked
+from ._arguments import Schedule, checked
 from .schedules import geometric_schedule, softmax_policy
 from .task import EXPLORING, make_rng, reflex_acted
 from .updates import RESCALE, q_targets, stochastic_gradient_descent

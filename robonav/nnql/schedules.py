@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._settings import Schedule, checked
+from ._arguments import Schedule, checked
 
 Array = NDArray[np.float64]
 

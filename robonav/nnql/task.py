@@ -23,7 +23,7 @@ from robonav.robot import (
 from robonav.robot.environments import NavigationEnv, Reward, as_sensing
 from robonav.validation import check_integer, check_positive
 
-from ._settings import checked
+from ._arguments import checked
 from .reward import reward
 
 STARTS = ((10.0, 10.0), (90.0, 10.0))

@@ -16,13 +16,13 @@ from robonav.networks.multilayer_perceptron import Network, random_network, stac
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import OUTCOMES, Encoder
-from robonav.validation import check_integer, check_one_of
+from robonav.validation import check_argument, check_integer, check_one_of
 
+from ._arguments import RULES
 from ._fast.agents import make_agent
 from ._fast.checkpoints import load_checkpoint, save_checkpoint
 from ._fast.networks import BatchedNetworks, unpacked
 from ._fast.trainer import EpisodeStatistics, Trainer
-from ._settings import check_setting
 from .dqn import dqn
 from .nfq import nfq
 from .nnql import nnql, online
@@ -237,7 +237,10 @@ def method_settings(method: str, given: dict[str, Any]) -> dict[str, Any]:
                 f"{method} takes the settings {', '.join(defaults)}, got {name}"
             )
     merged = defaults | given
-    return {name: check_setting(method, name, value) for name, value in merged.items()}
+    return {
+        name: check_argument(RULES, method, name, value)
+        for name, value in merged.items()
+    }
 
 
 def check_seeds(seeds: int | Sequence[int]) -> tuple[int, ...]:

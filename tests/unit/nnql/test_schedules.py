@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from robonav.networks.policy import sample_actions
 from robonav.nnql import geometric_schedule, greedy_policy, softmax_policy
-from robonav.nnql._settings import check_schedule
+from robonav.nnql._arguments import check_schedule
 
 values = arrays(float, (4, 5), elements=st.floats(-1e6, 1e6))
 

@@ -1,28 +1,23 @@
-"""The checks of this chapter's arguments, by their name; they stand here so that the algorithms can be read."""
+"""The rules that the arguments of chapter 4's functions keep, and the decorator that checks them."""
 
 from __future__ import annotations
 
-import functools
-import inspect
-import itertools
-from collections.abc import Callable
-from typing import Any, ParamSpec, TypeVar
+from typing import Any
 
 import gymnasium
 import numpy as np
 
 from robonav.networks.multilayer_perceptron import Network
 from robonav.validation import (
+    Rule,
     check_array,
     check_instance,
     check_integer,
     check_one_of,
     check_positive,
     check_real,
+    checks,
 )
-
-P = ParamSpec("P")
-T = TypeVar("T")
 
 Schedule = float | tuple[float, float]
 """A number, or a pair: its value in the first episode and in the last."""
@@ -59,7 +54,7 @@ def _fraction(name: str, value: Any) -> float:
     return check_real(name, value, at_least=0, at_most=1)
 
 
-CHECKS: dict[str, Callable[[str, Any], Any]] = {
+RULES: dict[str, Rule] = {
     "env": lambda name, value: check_instance(name, value, gymnasium.Env),
     "network": lambda name, value: check_instance(name, value, Network),
     "q": check_array,
@@ -81,25 +76,8 @@ CHECKS: dict[str, Callable[[str, Any], Any]] = {
     "dqn.gradient_step": check_positive,
     "softmax_policy.temperature": _temperatures,
 }
-"""What an argument must be: by its name, or by the function's name and its own."""
+"""The rule of each argument: by the name of the argument, or by "function.argument"."""
 
 
-def check_setting(function: str, name: str, value: Any) -> Any:
-    """One argument of a function of this chapter, checked; TypeError or ValueError if it is out of bounds."""
-    check = CHECKS.get(f"{function}.{name}") or CHECKS.get(name)
-    return check(name, value) if check else value
-
-
-def checked(function: Callable[P, T]) -> Callable[P, T]:
-    """Decorate a function so that its arguments are checked, see ``CHECKS``, before it runs."""
-    names = tuple(inspect.signature(function).parameters)
-    check = functools.partial(check_setting, function.__name__)
-
-    @functools.wraps(function)
-    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
-        given: Any = itertools.starmap(check, zip(names, args, strict=False))
-        extra: Any = args[len(names) :]  # too many: the function itself complains
-        named: Any = {name: check(name, value) for name, value in kwargs.items()}
-        return function(*given, *extra, **named)
-
-    return wrapper
+checked = checks(RULES)
+"""Decorate a function so that its arguments are checked by these rules before it runs."""

@@ -1,18 +1,19 @@
-"""The checks of this package's arguments, kept apart from the functions whose pages show their code."""
+"""The rules that the arguments of chapter 5's functions keep, and the decorator that checks them."""
 
 from __future__ import annotations
 
-import functools
-import inspect
-from collections.abc import Callable
-from typing import Any, ParamSpec, TypeVar
+from typing import Any
 
 import numpy as np
 
-from robonav.validation import check_array, check_integer, check_positive, check_real
-
-P = ParamSpec("P")
-T = TypeVar("T")
+from robonav.validation import (
+    Rule,
+    check_array,
+    check_integer,
+    check_positive,
+    check_real,
+    checks,
+)
 
 
 def unit_interval(name: str, value: Any) -> float:
@@ -38,7 +39,7 @@ def slack_of_features(name: str, value: Any) -> Any:
     return slack
 
 
-NUMBERS: dict[str, Callable[[str, Any], Any]] = {
+RULES: dict[str, Rule] = {
     "bound": check_positive,
     "discount": unit_interval,
     "gradient_step": check_positive,
@@ -56,14 +57,13 @@ NUMBERS: dict[str, Callable[[str, Any], Any]] = {
     "regularisation": not_negative,
     "slack": slack_of_features,
     "temperature": check_positive,
-    "tolerance": lambda name, value: value,  # each function says what it may be
     "lstd_mu.regularisation": check_positive,
     "maximum_causal_entropy.tolerance": check_positive,
     "projection_method.tolerance": not_negative,
     "max_margin_method.tolerance": not_negative,
     "soft_value_iteration.tolerance": check_positive,
 }
-"""What each number must be, by the argument's name, or by function and argument where they differ."""
+"""The rule of each number: by the name of the argument, or by "function.argument"."""
 
 SHAPES: dict[str, dict[str, str]] = {
     "action_block": {"state_features": "M k", "actions": "M:int"},
@@ -123,8 +123,8 @@ NOT_EMPTY = {
 """Arrays that must hold something, and what."""
 
 
-def check_arguments(function: str, arguments: dict[str, Any]) -> None:
-    """Check the arguments of a function in place; TypeError or ValueError in one sentence."""
+def check_together(function: str, arguments: dict[str, Any]) -> None:
+    """Check the shapes of the arrays, and the actions against their number."""
     sizes: dict[str, int] = {}
     for name, spec in SHAPES.get(function, {}).items():
         letters, _, kind = spec.partition(":")
@@ -137,10 +137,6 @@ def check_arguments(function: str, arguments: dict[str, Any]) -> None:
         )
         sizes.update(zip(letters.split(), array.shape, strict=bool(shape)))
         arguments[name] = array
-    for name, value in arguments.items():
-        check = NUMBERS.get(f"{function}.{name}") or NUMBERS.get(name)
-        if check is not None and value is not None:
-            arguments[name] = check(name, value)
     if function in NOT_EMPTY:
         name, what = NOT_EMPTY[function]
         if len(arguments[name]) == 0:
@@ -151,6 +147,8 @@ def check_arguments(function: str, arguments: dict[str, Any]) -> None:
         check_actions(actions, limit)
     if "trajectory" in arguments:
         check_trajectory(arguments["trajectory"])
+    if "task" in arguments and "demonstrations" in arguments:
+        check_demonstrations(arguments["demonstrations"], arguments["task"].n_actions)
 
 
 def check_actions(actions: np.ndarray, n_actions: int) -> None:
@@ -177,19 +175,5 @@ def check_demonstrations(demonstrations: Any, n_actions: int) -> None:
     check_actions(demonstrations.actions, n_actions)
 
 
-def checked(function: Callable[P, T]) -> Callable[P, T]:
-    """Decorate a function so that its arguments are checked, by the tables of this file, before it runs."""
-    signature = inspect.signature(function)
-
-    @functools.wraps(function)
-    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
-        bound = signature.bind(*args, **kwargs)
-        bound.apply_defaults()
-        check_arguments(function.__name__, bound.arguments)
-        if "task" in bound.arguments and "demonstrations" in bound.arguments:
-            check_demonstrations(
-                bound.arguments["demonstrations"], bound.arguments["task"].n_actions
-            )
-        return function(*bound.args, **bound.kwargs)
-
-    return wrapper
+checked = checks(RULES, check_together)
+"""Decorate a function so that its arguments are checked by these rules before it runs."""

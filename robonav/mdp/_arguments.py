@@ -1,0 +1,88 @@
+"""The rules that the arguments of chapter 2's functions keep, and the decorator that checks them."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import Any
+
+from numpy.typing import NDArray
+
+from robonav.validation import (
+    Rule,
+    check_array,
+    check_generator,
+    check_instance,
+    check_integer,
+    check_one_of,
+    check_positive,
+    check_real,
+    checks,
+)
+
+from .policies import as_distributions
+
+count = partial(check_integer, at_least=1)
+not_negative = partial(check_integer, at_least=0)
+unit_interval = partial(check_real, at_least=0, at_most=1)
+
+
+def check_sweeps(name: str, value: Any) -> float:
+    """A number of sweeps from 1 to infinity."""
+    return value if value == math.inf else count(name, value)
+
+
+def check_belief(name: str, value: Any) -> NDArray[Any]:
+    """A distribution (S,)."""
+    return as_distributions(name, value, len(check_array(name, value, shape=("S",))))
+
+
+RULES: dict[str, Rule] = {
+    "tolerance": check_positive,
+    "episodes": count,
+    "max_steps": count,
+    "max_iterations": count,
+    "max_backups": count,
+    "max_rounds": count,
+    "count": count,
+    "sweeps": not_negative,
+    "horizon": not_negative,
+    "steps": not_negative,
+    "discount": unit_interval,
+    "initial": check_real,
+    "seed": check_generator,
+    "rewards": partial(check_array, shape=("T",)),
+    "visit": partial(check_one_of, choices=("first", "every")),
+    "entropy.belief": check_belief,
+    "epsilon_greedy.q": check_array,
+    "epsilon_greedy.epsilon": unit_interval,
+    "generalized_policy_iteration.sweeps": check_sweeps,
+    "is_optimal.tolerance": partial(check_real, at_least=0),
+    "log_likelihood.predicted": check_array,
+    "log_likelihood.measured": check_array,
+}
+"""The rule of each argument: by the name of the argument, or by "function.argument"."""
+
+MODEL_ARRAYS = {
+    "values": ("n_states",),
+    "action_values": ("n_states", "n_actions"),
+}
+"""Arrays of numbers whose shape follows from the argument ``mdp``."""
+
+
+def require_type(name: str, kind: type) -> None:
+    """Add the rule that every argument of this name has this type."""
+    RULES[name] = partial(check_instance, kind=kind)
+
+
+def check_shapes(function: str, arguments: dict[str, Any]) -> None:
+    """Check the arrays whose shape follows from the model."""
+    if "mdp" in arguments:
+        for name in MODEL_ARRAYS.keys() & arguments.keys():
+            shape = [getattr(arguments["mdp"], size) for size in MODEL_ARRAYS[name]]
+            if arguments[name] is not None:
+                arguments[name] = check_array(name, arguments[name], shape=shape)
+
+
+checked = checks(RULES, check_shapes)
+"""Decorate a function so that its arguments are checked by these rules before it runs."""
