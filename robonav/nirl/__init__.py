@@ -33,7 +33,9 @@ from .max_margin import (
 from .maximum_entropy import (
     MaximumCausalEntropy,
     SoftSolution,
+    causal_entropy_dual,
     maximum_causal_entropy,
+    occupancy_measure,
     soft_maximum,
     soft_value_iteration,
 )
@@ -125,6 +127,7 @@ __all__ = [
     "apprenticeship",
     "balanced_accuracy",
     "boltzmann_policy",
+    "causal_entropy_dual",
     "discounted_feature_sums",
     "dual",
     "dual_gradient",
@@ -158,6 +161,7 @@ __all__ = [
     "nearest_mixture",
     "neural_action_values",
     "nirl",
+    "occupancy_measure",
     "policy_cost",
     "project",
     "project_to_unit_ball",

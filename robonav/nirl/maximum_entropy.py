@@ -1,7 +1,13 @@
 """Maximum causal entropy inverse reinforcement learning (Ziebart et al. 2010; 2008 for deterministic worlds).
 
-Of all behaviours with the expert's feature expectations, take the one whose actions, each given the past, have the
-largest entropy. It is a Boltzmann policy over action values whose backup has a soft maximum in place of Bellman's.
+Of all policies with the expert's feature expectations, take the one with the largest causal entropy. It is a Boltzmann
+policy over action values whose backup has a soft maximum in place of Bellman's maximum. The file has the parts of the
+method in order:
+
+1. the backward pass: :func:`soft_value_iteration` computes the soft values and the policy of a reward;
+2. the forward pass: :func:`occupancy_measure` computes how often this policy takes each action in each state;
+3. the dual function and its gradient, the expert's feature expectations minus those of the policy;
+4. the optimisation of the weights by L-BFGS.
 """
 
 from __future__ import annotations
@@ -16,10 +22,10 @@ from scipy.optimize import minimize
 from scipy.special import logsumexp, softmax
 
 from robonav.errors import ConvergenceWarning
+from robonav.mdp import policies
 from robonav.mdp.models import FiniteMDP
 
 from ._arguments import checked
-from .feature_expectations import initial_expectations
 from .reward_free_mdp import RewardFreeMDP
 
 Floats = NDArray[np.float64]
@@ -32,7 +38,9 @@ class SoftSolution:
     Attributes
     ----------
     values : (S,) array
+        V, the soft maximum of each row of ``q``.
     q : (S, A) array
+        Action values Q.
     policy : (S, A) array
         The Boltzmann policy over ``q``.
 
@@ -49,6 +57,160 @@ class SoftSolution:
     policy: Floats
 
 
+@checked
+def soft_maximum(q: ArrayLike, temperature: float) -> Floats:
+    """The soft maximum T log sum_a exp(q / T) over the last axis; it tends to the maximum as T falls to 0.
+
+    Parameters
+    ----------
+    q : (..., A) array
+        Action values.
+    temperature : float
+        T, positive.
+
+    Returns
+    -------
+    (...) array
+
+    Examples
+    --------
+    >>> from robonav.nirl import soft_maximum
+    >>> soft_maximum([0.0, 1.0], 0.1).round(4)
+    np.float64(1.0)
+    """
+    q = np.asarray(q, dtype=float)
+    return np.asarray(temperature * logsumexp(q / temperature, axis=-1))
+
+
+@checked
+def soft_value_iteration(
+    mdp: FiniteMDP,
+    *,
+    temperature: float = 1.0,
+    tolerance: float = 1e-10,
+    max_iterations: int = 100_000,
+) -> SoftSolution:
+    """The backward pass: repeat the soft backup V(s) = T log sum_a exp(Q(s, a) / T) until the values settle.
+
+    The result maximises the discounted reward plus T times the discounted entropy. A terminal state continues to
+    collect entropy, since its A actions all have the same effect.
+
+    Parameters
+    ----------
+    mdp : FiniteMDP
+        S states, A actions and a discount below 1.
+    temperature : float
+        T, positive; as it falls to 0 this becomes value iteration.
+    tolerance : float
+        Largest error of a value.
+    max_iterations : int
+        Number of sweeps after which to give up.
+
+    Returns
+    -------
+    SoftSolution
+
+    Warns
+    -----
+    ConvergenceWarning
+        If ``max_iterations`` sweeps were not enough.
+
+    Examples
+    --------
+    >>> from robonav.nirl import TRUE_WEIGHTS, soft_value_iteration, terrain
+    >>> grid, mdp = terrain()
+    >>> soft_value_iteration(mdp.with_reward(TRUE_WEIGHTS)).values.max().round(2)
+    np.float64(15.39)
+    """
+    values = np.zeros(mdp.n_states)
+    for _ in range(max_iterations):
+        before = values
+        q = mdp.action_values(before)  # r(s, a) + gamma sum_s' T(s, a, s') V(s')
+        values = soft_maximum(q, temperature)
+        change = abs(values - before).max()
+        if mdp.discount * change <= tolerance * (1 - mdp.discount):
+            break
+    else:
+        _warn_not_settled(max_iterations, change)
+    q = mdp.action_values(values)
+    return SoftSolution(values, q, policy=softmax(q / temperature, axis=1))
+
+
+def occupancy_measure(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
+    """The forward pass: how often a policy takes each action in each state, each time discounted by its step.
+
+    The discounted number of visits d solves d(s') = p_0(s') + gamma sum_s,a d(s) pi(a | s) T(s, a, s'): a visit is a
+    start, or it follows a visit to another state. Ziebart repeats this equation; here a linear solver solves it.
+
+    Parameters
+    ----------
+    mdp : RewardFreeMDP
+        S states, A actions.
+    policy : (S,) array of int or (S, A) array
+        Actions or probabilities.
+
+    Returns
+    -------
+    (S, A) array
+        d(s) pi(a | s), with sum 1 / (1 - discount).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import occupancy_measure, terrain
+    >>> grid, mdp = terrain()  # with discount 0.9
+    >>> occupancy_measure(mdp, np.zeros(42, dtype=int)).sum().round(6)
+    np.float64(10.0)
+    """
+    pi = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
+    chain = np.einsum("sa,ast->st", pi, mdp.transitions)  # from s to s' under pi
+    visits = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * chain.T, mdp.starts)
+    return visits[:, None] * pi
+
+
+def causal_entropy_dual(
+    weights: Floats, mdp: RewardFreeMDP, expert: Floats, regularisation: float = 0.0
+) -> tuple[float, Floats]:
+    """The penalised dual theta . mu_E - E[V_theta(s_0)] - lambda ||theta||^2 / 2, and its gradient.
+
+    Without the penalty it is the log-likelihood of the demonstrations, up to a constant. It is concave. Its gradient is
+    the expert's feature expectations minus those of the soft policy, minus lambda theta.
+
+    Parameters
+    ----------
+    weights : (K,) array
+        theta.
+    mdp : RewardFreeMDP
+        S states, A actions, K features.
+    expert : (K,) array
+        Feature expectations mu_E of the expert from the initial state.
+    regularisation : float
+        lambda, at least 0.
+
+    Returns
+    -------
+    value : float
+    gradient : (K,) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import causal_entropy_dual, initial_expectations, terrain
+    >>> grid, mdp = terrain()
+    >>> uniform = np.full((42, 4), 0.25)  # the soft policy under the reward 0
+    >>> value, gradient = causal_entropy_dual(np.zeros(4), mdp, initial_expectations(mdp, uniform))
+    >>> abs(gradient).max() < 1e-9
+    np.True_
+    """
+    soft = soft_value_iteration(mdp.with_reward(weights))  # backward pass
+    occupancy = occupancy_measure(mdp, soft.policy)  # forward pass
+    expected = np.einsum("sa,sak->k", occupancy, mdp.features)
+    penalty = regularisation / 2 * weights @ weights
+    value = weights @ expert - mdp.starts @ soft.values - penalty
+    gradient = expert - expected - regularisation * weights
+    return float(value), gradient
+
+
 @dataclass(frozen=True, eq=False)
 class MaximumCausalEntropy:
     """A reward, its soft policy, and the trace of the optimisation.
@@ -60,8 +222,7 @@ class MaximumCausalEntropy:
     policy : (S, A) array
         Soft-optimal for this reward.
     dual_values : (iterations,) array
-        The penalised dual, which is maximised. Without its penalty it is the log-likelihood of the demonstrations, up
-        to a constant.
+        The penalised dual, which is maximised, after each iteration.
     gaps : (iterations,) array
         Distance between the expert's feature expectations and the policy's.
     converged : bool
@@ -85,92 +246,6 @@ class MaximumCausalEntropy:
 
 
 @checked
-def soft_maximum(q: ArrayLike, temperature: float) -> Floats:
-    """The soft maximum T log sum_a exp(q / T) over the last axis; it tends to the maximum as T falls.
-
-    Parameters
-    ----------
-    q : (..., A) array
-    temperature : float
-        T, positive.
-
-    Returns
-    -------
-    (...) array
-
-    Examples
-    --------
-    >>> from robonav.nirl import soft_maximum
-    >>> soft_maximum([0.0, 1.0], 0.1).round(4)
-    np.float64(1.0)
-    """
-    return np.asarray(
-        temperature * logsumexp(np.asarray(q, dtype=float) / temperature, axis=-1)
-    )
-
-
-@checked
-def soft_value_iteration(
-    mdp: FiniteMDP,
-    *,
-    temperature: float = 1.0,
-    tolerance: float = 1e-10,
-    start: ArrayLike | None = None,
-    max_iterations: int = 100_000,
-) -> SoftSolution:
-    """Soft value iteration: the backup V(s) = T log sum_a exp(Q(s, a) / T), repeated to its fixed point.
-
-    The result maximises discounted reward plus T times discounted entropy. A terminal state goes on collecting entropy,
-    since its A actions all do the same.
-
-    Parameters
-    ----------
-    mdp : FiniteMDP
-        S states, A actions and a discount below 1.
-    temperature : float
-        T, positive; as it falls to 0 this becomes value iteration.
-    tolerance : float
-        Largest error of a value.
-    start : (S,) array, optional
-        Values to start from; by default zeros.
-    max_iterations : int
-        Sweeps at most.
-
-    Returns
-    -------
-    SoftSolution
-
-    Warns
-    -----
-    ConvergenceWarning
-        If ``max_iterations`` sweeps did not suffice.
-
-    Examples
-    --------
-    >>> from robonav.nirl import TRUE_WEIGHTS, soft_value_iteration, terrain
-    >>> grid, mdp = terrain()
-    >>> soft_value_iteration(mdp.with_reward(TRUE_WEIGHTS)).values.max().round(2)
-    np.float64(15.39)
-    """
-    values = np.zeros(mdp.n_states) if start is None else np.asarray(start, dtype=float)
-    for _ in range(max_iterations):
-        old = values
-        values = soft_maximum(mdp.action_values(old), temperature)
-        change = abs(values - old).max()
-        if mdp.discount * change <= tolerance * (1 - mdp.discount):
-            break
-    else:
-        warnings.warn(
-            f"soft_value_iteration gave up after {max_iterations} sweeps: the last one still changed a value by "
-            f"{change:.3g}",
-            ConvergenceWarning,
-            stacklevel=3,
-        )
-    q = mdp.action_values(values)
-    return SoftSolution(values, q, softmax(q / temperature, axis=1))
-
-
-@checked
 def maximum_causal_entropy(
     mdp: RewardFreeMDP,
     expert: ArrayLike,
@@ -179,10 +254,10 @@ def maximum_causal_entropy(
     tolerance: float = 1e-6,
     iterations: int = 200,
 ) -> MaximumCausalEntropy:
-    """Maximum causal entropy IRL (Ziebart et al. 2010): the reward under which the demonstrations are likeliest.
+    """Maximum causal entropy IRL (Ziebart et al. 2010): the reward under which the demonstrations are most likely.
 
-    Maximises the penalised dual theta . mu_E - E[V_theta(s_0)] - lambda ||theta||^2 / 2, which is concave. Its gradient
-    is the expert's feature expectations minus those of the soft policy, minus lambda theta. L-BFGS makes the steps.
+    Maximises :func:`causal_entropy_dual` over the weights. L-BFGS makes the steps; since scipy minimises, it gets the
+    dual and its gradient with the opposite sign.
 
     Parameters
     ----------
@@ -191,11 +266,11 @@ def maximum_causal_entropy(
     expert : (K,) array
         Feature expectations mu_E of the expert from the initial state.
     regularisation : float
-        lambda, at least 0: keeps the weights finite where the expert never errs.
+        lambda, at least 0. It keeps the weights finite if the expert never errs.
     tolerance : float
         Largest entry of the gradient at which to stop, positive.
     iterations : int
-        Of L-BFGS at most.
+        Iterations of L-BFGS at most.
 
     Returns
     -------
@@ -217,31 +292,38 @@ def maximum_causal_entropy(
     3
     """
     mu = np.asarray(expert)
-    values, latest = np.zeros(mdp.n_states), (0.0, 0.0)
-    trace: list[tuple[float, float]] = []
 
     def negative_dual(theta: Floats) -> tuple[float, Floats]:
-        nonlocal values, latest
-        soft = soft_value_iteration(mdp.with_reward(theta), start=values)
-        values = soft.values  # where the next iteration starts
-        gap = mu - initial_expectations(mdp, soft.policy)
-        penalty = regularisation / 2 * theta @ theta
-        dual = float(theta @ mu - mdp.starts @ soft.values - penalty)
-        latest = (dual, float(np.linalg.norm(gap)))
-        return -dual, regularisation * theta - gap
+        value, gradient = causal_entropy_dual(theta, mdp, mu, regularisation)
+        return -value, -gradient
 
+    path: list[Floats] = []  # the weights after each iteration
     found: Any = minimize(
         negative_dual,
         np.zeros(len(mu)),
         jac=True,
         method="L-BFGS-B",
-        callback=lambda _: trace.append(latest),
+        callback=path.append,
         options={"maxiter": iterations, "gtol": tolerance, "ftol": 0.0},
     )
-    converged = _has_converged(found, tolerance)
-    policy = soft_value_iteration(mdp.with_reward(found.x), start=values).policy
-    dual_values, gaps = np.array(trace, dtype=float).reshape(-1, 2).T
-    return MaximumCausalEntropy(found.x, policy, dual_values, gaps, converged)
+    trace = [causal_entropy_dual(theta, mdp, mu) for theta in path]
+    penalties = [regularisation / 2 * theta @ theta for theta in path]
+    return MaximumCausalEntropy(
+        weights=found.x,
+        policy=soft_value_iteration(mdp.with_reward(found.x)).policy,
+        dual_values=np.array([value for value, _ in trace]) - penalties,
+        gaps=np.array([np.linalg.norm(gap) for _, gap in trace]),
+        converged=_has_converged(found, tolerance),
+    )
+
+
+def _warn_not_settled(sweeps: int, change: float) -> None:
+    """ConvergenceWarning at the line that called :func:`soft_value_iteration`."""
+    warnings.warn(
+        f"soft_value_iteration gave up after {sweeps} sweeps: the last one still changed a value by {change:.3g}",
+        ConvergenceWarning,
+        stacklevel=4,
+    )
 
 
 def _has_converged(found: Any, tolerance: float) -> bool:

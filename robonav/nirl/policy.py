@@ -56,8 +56,8 @@ def boltzmann_policy(action_values: ArrayLike, inverse_temperature: float) -> Fl
 
     At eta = 0 all actions are equally likely. The larger eta is, the more probable is the best action. This is the
     softmax policy of chapter 4, Eq. (4.7), at the temperature 1 / eta; at eta = 0 this temperature would be infinite,
-    so eta multiplies the values instead. The thesis writes the sum in the denominator over states. It must run over the
-    actions.
+    so eta multiplies the values instead. The sum in the denominator runs over the actions; the thesis names the action
+    values of the state as its index.
 
     Parameters
     ----------

@@ -13,9 +13,11 @@ from robonav.mdp.dynamic_programming import value_iteration
 from robonav.mdp.models import FiniteMDP
 from robonav.nirl import (
     boltzmann_policy,
+    causal_entropy_dual,
     empirical_expectations,
     initial_expectations,
     maximum_causal_entropy,
+    occupancy_measure,
     soft_maximum,
     soft_value_iteration,
 )
@@ -80,6 +82,46 @@ def test_a_budget_too_small_warns(scattered):
         soft_value_iteration(
             scattered.task.with_reward(scattered.truth), max_iterations=3
         )
+
+
+def test_forward_pass_repeats_the_flow_of_visits(scattered):
+    """Ziebart's forward pass, step by step: the probability of each state, summed with its discount."""
+    task = scattered.task
+    policy = np.random.default_rng(4).dirichlet(np.ones(task.n_actions), task.n_states)
+    probability, visits = task.starts, np.zeros(task.n_states)
+    for t in range(2000):
+        visits += task.discount**t * probability
+        flow = probability[:, None] * policy
+        probability = np.einsum("sa,ast->t", flow, task.transitions)
+    np.testing.assert_allclose(
+        occupancy_measure(task, policy), visits[:, None] * policy, atol=1e-9
+    )
+
+
+def test_forward_pass_gives_the_feature_expectations(scattered):
+    task = scattered.task
+    occupancy = occupancy_measure(task, scattered.expert)
+    np.testing.assert_allclose(
+        np.einsum("sa,sak->k", occupancy, task.features),
+        initial_expectations(task, scattered.expert),
+    )
+    assert occupancy.sum() == pytest.approx(1 / (1 - task.discount))
+
+
+@pytest.mark.parametrize("regularisation", [0.0, 0.3])
+def test_gradient_of_the_dual(terrain, regularisation):
+    rng = np.random.default_rng(7)
+    expert = initial_expectations(terrain.task, terrain.expert)
+    error = check_grad(
+        lambda theta: causal_entropy_dual(theta, terrain.task, expert, regularisation)[
+            0
+        ],
+        lambda theta: causal_entropy_dual(theta, terrain.task, expert, regularisation)[
+            1
+        ],
+        rng.normal(size=4),
+    )
+    assert error < 1e-4
 
 
 def test_gradient_of_the_log_likelihood_is_the_gap(terrain):
