@@ -20,7 +20,11 @@ MOUNT = """async ([module, style, data, asked]) => {
   const hear = (answers) => answers.forEach((answer) => window.hear(answer));
   const ask = (message) => window.askPython(message).then(hear);
   if (asked) setInterval(() => ask({}), 100);  // what Python says unasked
-  const model = { get: () => data, on: (_, listener) => { window.hear = listener; }, send: asked ? ask : silent };
+  const model = {
+    get: (name) => (name === "_esm" ? module : data),
+    on: (_, listener) => { window.hear = listener; },
+    send: asked ? ask : silent,
+  };
   page.default.render({ model, el: place });
 }"""
 

@@ -104,3 +104,9 @@ export function drawWorld(key, { obstacles: still, moving = 0, starts = [[10, 10
   }
   throw new Error(`${still + moving} obstacles leave no way to the target; take fewer.`);
 }
+
+/** The first so many worlds of a seed, as `robonav.robot.random_worlds`. Needs random.js. @returns {World[]} */
+export function randomWorlds(count, { seed, ...settings }) {
+  const [low, high] = seedWords(seed, 2);
+  return worldKeys(count, BigInt(low) | (BigInt(high) << 32n)).map((key) => drawWorld(key, settings));
+}

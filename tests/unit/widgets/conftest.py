@@ -23,7 +23,7 @@ def node(tmp_path):
         (tmp_path / "run.mjs").write_text(
             'import * as page from "./widget.mjs"; import { readFileSync } from "node:fs";\n'
             'const data = JSON.parse(readFileSync(new URL("data.json", import.meta.url)));\n'
-            f"const result = (() => {{ {body} }})();\nconsole.log(JSON.stringify(result));",
+            f"const result = await (() => {{ {body} }})();\nconsole.log(JSON.stringify(result));",
             "utf-8",
         )
         done = subprocess.run(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from robonav.nnql.task import STARTS, TARGETS
-from robonav.robot import draw_worlds, world_keys
+from robonav.robot import draw_worlds, random_worlds, world_keys
 from robonav.widgets.simulator import page_world
 
 DRAW = "return data.keys.map((key) => page.drawWorld(key, data.settings));"
@@ -45,3 +45,15 @@ def test_too_many_obstacles_are_one_sentence(node):
     body = 'try { page.drawWorld([1, 2], data); } catch (error) { return error.message; } return "drawn";'
     message = node(FILES, body, {"obstacles": 900})
     assert message == "900 obstacles leave no way to the target; take fewer."
+
+
+@pytest.mark.parametrize("seed", [0, 7, 2**40 + 3])
+def test_a_seed_gives_the_worlds_of_python(node, seed):
+    files = ("simulator", "learning/random", "learning/worlds")
+    body = "return page.randomWorlds(20, data);"
+    drawn = node(files, body, {"obstacles": 10, "seed": seed})
+    for ours, world in zip(drawn, random_worlds(20, 10, seed=seed), strict=True):
+        theirs = page_world(world)
+        assert ours["key"] == theirs["key"]
+        for mine, its in zip(ours["obstacles"], theirs["obstacles"], strict=True):
+            assert mine == pytest.approx(its, abs=1e-12)

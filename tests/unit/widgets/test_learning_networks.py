@@ -1,0 +1,160 @@
+"""Learning in the page: cost, gradient, descent and L-BFGS as in Python's readable functions."""
+
+import numpy as np
+import pytest
+
+from robonav.lfd import demonstrate, labelled_states
+from robonav.networks import (
+    CROSS_ENTROPY,
+    SQUARED_ERROR,
+    Network,
+    fit,
+    gradient_descent,
+    lbfgs,
+    one_hot,
+    random_network,
+)
+from robonav.nnql import stochastic_gradient_descent
+from robonav.robot import random_worlds
+
+OBJECTIVES = {"squared-error": SQUARED_ERROR, "cross-entropy": CROSS_ENTROPY}
+SEEDS = range(20)
+SIZES = [(4, 6, 3), (3, 1), (5, 4, 3, 2), (12, 8, 5)]
+FILES = ("learning/random", "learning/network", "learning/lbfgs")
+
+
+def flat(network: Network) -> np.ndarray:
+    return np.concatenate(
+        [part.ravel() for part in (*network.weights, *network.biases)]
+    )
+
+
+def tasks():
+    """Examples for each seed, with networks of several shapes."""
+    for seed in SEEDS:
+        rng = np.random.default_rng([seed, 1])
+        sizes = SIZES[seed % len(SIZES)]
+        x = rng.uniform(-1, 1, (30, sizes[0]))
+        y = one_hot(rng.integers(0, sizes[-1], 30), sizes[-1])
+        if sizes[-1] == 1:
+            y = rng.integers(0, 2, (30, 1)).astype(float)
+        yield {"seed": seed, "sizes": sizes, "x": x.tolist(), "y": y.tolist()}
+
+
+@pytest.fixture(scope="module")
+def examples():
+    return list(tasks())
+
+
+def test_first_weights_are_pythons(node, examples):
+    body = "return data.map(({ seed, sizes }) => [...page.randomNetwork(sizes, page.defaultRng(seed)).parameters]);"
+    for task, got in zip(examples, node(FILES, body, examples), strict=True):
+        assert got == flat(random_network(task["sizes"], seed=task["seed"])).tolist()
+
+
+@pytest.mark.parametrize("kind", OBJECTIVES)
+def test_costs_and_gradients_are_pythons(node, examples, kind):
+    body = """return data.tasks.map(({ seed, sizes, x, y }) => {
+      const network = page.randomNetwork(sizes, page.defaultRng(seed));
+      const cost = page.costFunction(data.kind, sizes, page.examplesOf(x, y), 0.3);
+      const gradient = new Float64Array(network.parameters.length);
+      return [cost.evaluate(network.parameters, gradient), [...gradient], cost.agreement()];
+    });"""
+    got = node(FILES, body, {"tasks": examples, "kind": kind})
+    for task, (cost, gradient, agreement) in zip(examples, got, strict=True):
+        network = random_network(task["sizes"], seed=task["seed"])
+        objective, x, y = OBJECTIVES[kind], task["x"], np.array(task["y"])
+        assert cost == pytest.approx(
+            objective.cost(network, x, y, regularisation=0.3), abs=1e-9
+        )
+        expected = flat(objective.gradient(network, x, y, regularisation=0.3))
+        np.testing.assert_allclose(gradient, expected, rtol=0, atol=1e-9)
+        z = network.logits(x)
+        right = (z > 0) == (y > 0.5) if y.shape[1] == 1 else z.argmax(1) == y.argmax(1)
+        assert agreement == pytest.approx(right.mean())
+
+
+@pytest.mark.parametrize("kind", OBJECTIVES)
+@pytest.mark.parametrize("updates", [1, 10, 100])
+def test_gradient_descent_gives_pythons_weights(node, examples, kind, updates):
+    body = """return data.tasks.map(({ seed, sizes, x, y }) => {
+      const { parameters } = page.randomNetwork(sizes, page.defaultRng(seed));
+      const cost = page.costFunction(data.kind, sizes, page.examplesOf(x, y), 0.01);
+      const costs = [...page.gradientDescent(cost, parameters, { gradientStep: 0.5, iterations: data.updates })];
+      return [[...parameters], costs.map(({ cost }) => cost)];
+    });"""
+    got = node(FILES, body, {"tasks": examples, "kind": kind, "updates": updates})
+    for task, (parameters, costs) in zip(examples, got, strict=True):
+        history = gradient_descent(
+            random_network(task["sizes"], seed=task["seed"]), task["x"], task["y"],
+            gradient_step=0.5, iterations=updates, regularisation=0.01,
+            objective=OBJECTIVES[kind],
+        )  # fmt: skip
+        np.testing.assert_allclose(parameters, flat(history.network), rtol=0, atol=1e-9)
+        np.testing.assert_allclose(costs, history.costs, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("pairs", "passes"), [(1, 1), (10, 1), (20, 5)])
+def test_stochastic_gradient_descent_gives_pythons_weights(
+    node, examples, pairs, passes
+):
+    body = """return data.tasks.map(({ seed, sizes, x, y }) => {
+      const network = page.randomNetwork(sizes, page.defaultRng(seed));
+      const [inputs, targets] = [x, y].map((rows) => rows.slice(0, data.pairs).map((row) => Float64Array.from(row)));
+      page.stochasticGradientDescent(network)(inputs, targets, 0.3, data.passes, 1e-3);
+      return [...network.parameters];
+    });"""
+    got = node(FILES, body, {"tasks": examples, "pairs": pairs, "passes": passes})
+    for task, parameters in zip(examples, got, strict=True):
+        trained = stochastic_gradient_descent(
+            random_network(task["sizes"], seed=task["seed"]),
+            np.array(task["x"])[:pairs], np.array(task["y"])[:pairs], 0.3, passes, 1e-3,
+        )  # fmt: skip
+        np.testing.assert_allclose(parameters, flat(trained), rtol=0, atol=1e-9)
+
+
+LBFGS = """return data.tasks.map(({ seed, sizes, x, y }) => {
+  const { parameters } = page.randomNetwork(sizes, page.defaultRng(seed));
+  const cost = page.costFunction("cross-entropy", sizes, page.examplesOf(x, y), data.regularisation);
+  return [...page.lbfgs(cost, parameters, data.iterations)].map((iterate) => [iterate.cost, iterate.agreement]);
+});"""
+
+
+def test_lbfgs_goes_pythons_way(node, examples):
+    given = {"tasks": examples, "regularisation": 0.1, "iterations": 10}
+    for task, iterates in zip(examples, node(FILES, LBFGS, given), strict=True):
+        history = lbfgs(
+            random_network(task["sizes"], seed=task["seed"]), task["x"], task["y"],
+            regularisation=0.1, iterations=10,
+        )  # fmt: skip
+        costs, accuracies = np.transpose(iterates)
+        np.testing.assert_allclose(costs, history.costs, rtol=0, atol=1e-7)
+        np.testing.assert_allclose(accuracies, history.accuracies)
+
+
+def test_lbfgs_ends_where_pythons_does(node, examples):
+    given = {"tasks": examples, "regularisation": 1.0, "iterations": 300}
+    for task, iterates in zip(examples, node(FILES, LBFGS, given), strict=True):
+        history = lbfgs(
+            random_network(task["sizes"], seed=task["seed"]), task["x"], task["y"],
+            regularisation=1.0, iterations=300,
+        )  # fmt: skip
+        assert iterates[-1][0] == pytest.approx(history.costs[-1], abs=1e-6), task[
+            "seed"
+        ]
+
+
+def test_demonstrations_are_learned_as_in_python(node):
+    """Rounding grows with the iterations: the two go one way at first, and end at one minimum."""
+    x, y = labelled_states(demonstrate(random_worlds(25, obstacles=10, seed=7)))
+    tasks = [
+        {"seed": seed, "sizes": (12, 8, 5), "x": x.tolist(), "y": y.tolist()}
+        for seed in range(2)
+    ]
+    given = {"tasks": tasks, "regularisation": 1.0, "iterations": 1500}
+    for seed, iterates in enumerate(node(FILES, LBFGS, given)):
+        costs = fit(x, y, seed=seed, iterations=1500).costs
+        got = np.array(iterates)[:, 0]
+        np.testing.assert_allclose(got[:50], costs[:50], rtol=0, atol=1e-8)
+        assert got[300] == pytest.approx(costs[300], abs=1e-4)
+        assert got[-1] == pytest.approx(costs[-1], abs=1e-6)
