@@ -115,9 +115,7 @@ def slipping_demonstration(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 5.5: an expert whose turns sometimes come out 30 degrees off."""
     slip = neighbour_slip(float(case["slip"]))
     executed = record(ComputerExpert(), world_of(case), slip=slip)
-    intended = record(
-        ComputerExpert(), world_of(case), slip=slip, labeller=ComputerExpert()
-    )
+    intended = record(ComputerExpert(), world_of(case), slip=slip, intended=True)
     return path_of(executed.poses) | {
         "slipped": float((executed.actions != intended.actions).sum())
     }

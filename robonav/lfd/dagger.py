@@ -1,17 +1,26 @@
-"""Dataset aggregation: ask the expert about the states that the learner gets into (Ross, Gordon and Bagnell 2011)."""
+"""Dataset aggregation (DAgger): train on the states that the learner itself visits (Ross, Gordon and Bagnell 2011).
+
+A cloned policy is trained on the states that the expert visits. Once it makes a mistake, it meets states that the
+training examples do not cover, and makes more mistakes there. DAgger repeats three things:
+
+1. Roll out the learner, and label each state that it visits with the action that the expert would take there.
+2. Aggregate: add these pairs to all those gathered before.
+3. Train a new policy on the aggregate.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
-from robonav.robot import Encoder, Policy, Simulator, Worlds
-from robonav.validation import check_array, check_generator, check_integer
+from robonav.robot import Encoder, Policy, Sensing, Simulator, Worlds, drive
+from robonav.validation import check_array, check_generator, check_integer, check_real
 
 from .behaviour_cloning import learn_policy
 from .computer_expert import ComputerExpert
@@ -20,8 +29,9 @@ from .demonstrations import (
     Actions,
     Demonstrations,
     Expert,
+    Step,
+    by_trajectory,
     concatenate,
-    record,
 )
 
 TEMPERATURE = 0.4
@@ -29,21 +39,22 @@ TEMPERATURE = 0.4
 
 @dataclass(frozen=True, eq=False)
 class DaggerResult:
-    """The rounds of DAgger; round 0 has the first demonstrations alone.
+    """The policies and datasets of all rounds of DAgger. Round 0 is behaviour cloning of the first demonstrations.
 
     Attributes
     ----------
     policies : tuple of NetworkPolicy
-        One a round; the last is the result.
+        The policy trained in each round. The last one is the result.
     demonstrations : tuple of Demonstrations
-        What each of the policies was trained on: everything gathered so far.
+        The aggregate that each of these policies was trained on.
 
     Examples
     --------
     >>> from robonav.lfd import dagger, demonstrate
     >>> from robonav.robot import random_worlds
-    >>> shown = demonstrate(random_worlds(2, obstacles=10, seed=1))
-    >>> len(dagger(shown, [random_worlds(2, obstacles=10, seed=2)], iterations=10).policies)
+    >>> demonstrations = demonstrate(random_worlds(2, obstacles=10, seed=1))
+    >>> result = dagger(demonstrations, [random_worlds(2, obstacles=10, seed=2)], iterations=10)
+    >>> len(result.policies)
     2
     """
 
@@ -56,65 +67,12 @@ class DaggerResult:
         return self.policies[-1]
 
 
-def collect_with_expert_labels(
-    policy: Policy,
-    worlds: Worlds,
-    *,
-    expert: Expert | None = None,
-    speed: float = 2.0,
-    seed: int = 0,
-    max_steps: int = MAX_STEPS,
-) -> Demonstrations:
-    """Let a policy drive through D worlds, and record what an expert would have done instead.
-
-    The states are the policy's, the ``actions`` are the expert's. Where a reflex decides, neither of them is asked.
-
-    Parameters
-    ----------
-    policy : callable
-        Drives the robots.
-    worlds : Worlds
-        Batch of D.
-    expert : callable, optional
-        Gives the labels; by default the computer expert, which plans anew in each state.
-    speed : float
-        Metres a second.
-    seed : int
-        Of the generator handed to the policy.
-    max_steps : int
-        Seconds after which an episode is stopped.
-
-    Returns
-    -------
-    Demonstrations
-
-    Examples
-    --------
-    >>> from robonav.lfd import collect_with_expert_labels
-    >>> from robonav.robot import random_worlds, straight
-    >>> labelled = collect_with_expert_labels(straight, random_worlds(2, obstacles=10, seed=1))
-    >>> len(labelled.outcome)
-    2
-    """
-    rng = check_generator("seed", seed)
-
-    def learner(simulator: Simulator, asked: Actions) -> Actions:
-        return np.asarray(policy(simulator.sense()[asked], rng), dtype=np.int64)
-
-    return record(
-        learner,
-        worlds,
-        speed=speed,
-        labeller=expert or ComputerExpert(),
-        max_steps=max_steps,
-    )
-
-
 def dagger(
     demonstrations: Demonstrations,
     rounds: Sequence[Worlds],
     *,
     expert: Expert | None = None,
+    beta_decay: float = 0.0,
     hidden: int = 8,
     regularisation: float = 1.0,
     iterations: int = 300,
@@ -124,30 +82,34 @@ def dagger(
     max_steps: int = MAX_STEPS,
     progress: Progress | None = None,
 ) -> DaggerResult:
-    """Dataset aggregation (Ross, Gordon and Bagnell 2011): let the learner drive and the expert label its states.
+    """Dataset aggregation, DAgger (Ross, Gordon and Bagnell 2011).
 
-    Each round the policy drives, the expert labels the states that it meets, and a new policy is trained on
-    everything gathered so far.
+    In round i the robot is steered by a mixture: with probability beta_i it takes the expert's action, else the
+    learner's. By default beta is 1 in round 0, whose episodes are the demonstrations, and 0 in all later rounds. Ross
+    et al. call this the parameter-free version and report that it often performs best: the later rounds then visit
+    the states that the learner will meet when it is on its own.
 
     Parameters
     ----------
     demonstrations : Demonstrations
-        To begin with.
+        The expert's own episodes, the data of round 0.
     rounds : sequence of Worlds
-        The worlds to drive in, one batch a round.
+        One batch of worlds for each later round.
     expert : callable, optional
-        Gives the labels; by default the computer expert.
+        Labels the states visited; by default the computer expert.
+    beta_decay : float
+        p in the schedule ``beta_i = p**i`` of :func:`beta_schedule`.
     hidden, regularisation, iterations, encoder
         As in :func:`learn_policy`.
     seed : int or (rounds + 1, 2) array of int
-        Each round gets one seed for its initial weights and one for its episodes, both drawn from this seed; or these
-        seeds themselves, a row a round. Round 0 has no episodes.
+        From a whole number, :func:`round_seeds` derives for each round a seed of the initial weights and a seed of the
+        episodes. An array gives these seeds themselves: row i holds the two of round i.
     temperature : float
-        Of the policies, see :class:`NetworkPolicy`. The states that a learner meets ask for more varied answers than
-        an expert's own, and at temperature 0 more of the policies drive in circles.
+        Temperature of the policies, see :class:`NetworkPolicy`. At 0 a policy without memory can go round in circles;
+        actions drawn at random lead out of them.
     max_steps : int
-        Seconds after which an episode of a round is stopped. A robot that drives in circles has the expert label the
-        same few places again and again, and the next policy then leans towards them.
+        Seconds after which an episode is stopped. Without a limit, a robot that goes round in circles would fill the
+        dataset with copies of a few states.
     progress : callable, optional
         Called as ``progress(round, rounds)``.
 
@@ -157,45 +119,188 @@ def dagger(
 
     Raises
     ------
-    ValueError
-        As :func:`learn_policy`; or if ``seed`` has another shape.
+    TypeError, ValueError
+        As :func:`learn_policy`; or if ``seed`` has another shape, or ``beta_decay`` is not in [0, 1].
 
     Examples
     --------
     >>> from robonav.lfd import dagger, demonstrate
     >>> from robonav.robot import random_worlds
-    >>> shown = demonstrate(random_worlds(2, obstacles=10, seed=1))
-    >>> result = dagger(shown, [random_worlds(2, obstacles=10, seed=2)], iterations=10)
+    >>> demonstrations = demonstrate(random_worlds(2, obstacles=10, seed=1))
+    >>> result = dagger(demonstrations, [random_worlds(2, obstacles=10, seed=2)], iterations=10)
     >>> len(result.demonstrations[1]) > len(result.demonstrations[0])
     True
     """
-    seeds = round_seeds(seed, len(rounds))
 
-    def trained(gathered: Demonstrations, seed: int) -> NetworkPolicy:
+    def train(dataset: Demonstrations, weights_seed: int) -> NetworkPolicy:
         policy = learn_policy(
-            gathered, hidden, regularisation, iterations, seed, encoder=encoder
+            dataset, hidden, regularisation, iterations, weights_seed, encoder=encoder
         )
         return replace(policy, temperature=temperature)
 
-    gathered, policies = [demonstrations], [trained(demonstrations, seeds[0][0])]
-    for number, worlds in enumerate(rounds, start=1):
-        weights_seed, episodes_seed = seeds[number]
-        labelled = collect_with_expert_labels(
-            policies[-1], worlds, expert=expert, speed=demonstrations.speed,
-            seed=episodes_seed, max_steps=max_steps,
-        )  # fmt: skip
-        gathered.append(concatenate([gathered[-1], labelled]))
-        policies.append(trained(gathered[-1], weights_seed))
+    expert = expert or ComputerExpert()
+    betas = beta_schedule(beta_decay, len(rounds))
+    seeds = round_seeds(seed, len(rounds))
+    datasets = [demonstrations]  # round 0: the expert alone chose the actions
+    policies = [train(demonstrations, seeds[0].weights)]
+    for i, worlds in enumerate(rounds, start=1):
+        simulator = Simulator(worlds, demonstrations.speed, max_steps=max_steps)
+        rng = np.random.default_rng(seeds[i].episodes)
+        visited = labelled_rollout(simulator, policies[-1], expert, betas[i], rng)
+        datasets.append(concatenate([datasets[-1], visited]))  # aggregate
+        policies.append(train(datasets[-1], seeds[i].weights))
         if progress is not None:
-            progress(number, len(rounds))
-    return DaggerResult(tuple(policies), tuple(gathered))
+            progress(i, len(rounds))
+    return DaggerResult(tuple(policies), tuple(datasets))
 
 
-def round_seeds(seed: int | ArrayLike, rounds: int) -> list[list[int]]:
-    """Return a seed of the weights and one of the episodes for each round, the demonstrations' round 0 first."""
+def labelled_rollout(
+    simulator: Simulator,
+    policy: Policy,
+    expert: Expert,
+    beta: float,
+    rng: np.random.Generator,
+) -> Demonstrations:
+    """Roll out the mixture of expert and learner, and label each state visited with the expert's action.
+
+    Where a reflex decides, neither of the two is asked, and the reflex's action is recorded.
+
+    Parameters
+    ----------
+    simulator : Simulator
+        One robot in each of D worlds, at the start.
+    policy : callable
+        The learner.
+    expert : callable
+        Labels the states.
+    beta : float
+        Probability that a robot takes the expert's action.
+    rng : Generator
+        For the learner's random numbers.
+
+    Returns
+    -------
+    Demonstrations
+        The states visited by the mixture, with the expert's actions.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd import ComputerExpert
+    >>> from robonav.lfd.dagger import labelled_rollout
+    >>> from robonav.robot import Simulator, random_worlds, straight
+    >>> simulator = Simulator(random_worlds(2, obstacles=10, seed=1), max_steps=100)
+    >>> visited = labelled_rollout(
+    ...     simulator, straight, ComputerExpert(), beta=0.0, rng=np.random.default_rng(0))
+    >>> bool((visited.effective.actions != 0).any())  # straight always goes on, the expert does not
+    True
+    """
+    coin = rng.spawn(1)[0]  # a generator of its own leaves the learner's draws alone
+    labels = np.zeros(len(simulator), dtype=np.int64)
+
+    def mixture(simulator: Simulator, sensing: Sensing, robots: Actions) -> Actions:
+        labels[robots] = expert(simulator, robots)
+        expert_acts = coin.random(len(robots)) < beta
+        return np.where(expert_acts, labels[robots], policy(sensing, rng))
+
+    steps: list[Step] = []
+    for step in drive(simulator, mixture):
+        recorded = np.where(step.asked, labels[step.robots], step.actions)
+        steps.append((step.robots, step.sensing, recorded, step.poses))
+    return by_trajectory(simulator, steps)
+
+
+def collect_with_expert_labels(
+    policy: Policy,
+    worlds: Worlds,
+    *,
+    expert: Expert | None = None,
+    beta: float = 0.0,
+    speed: float = 2.0,
+    seed: int | np.random.Generator = 0,
+    max_steps: int = MAX_STEPS,
+) -> Demonstrations:
+    """Roll out a policy in D worlds and label the states it visits with an expert's actions.
+
+    Checks its arguments and calls :func:`labelled_rollout`, the first of DAgger's three steps.
+
+    Parameters
+    ----------
+    policy : callable
+        The learner.
+    worlds : Worlds
+        Batch of D.
+    expert : callable, optional
+        Labels the states; by default the computer expert, which plans from wherever the robot is.
+    beta : float
+        Probability that a robot takes the expert's action instead of the policy's.
+    speed : float
+        Of the robots, in m/s.
+    seed : int or Generator
+        For the policy's random numbers.
+    max_steps : int
+        Seconds after which an episode is stopped.
+
+    Returns
+    -------
+    Demonstrations
+        The states visited, with the expert's actions. Where a reflex decides, the reflex's action is recorded.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is of the wrong type or out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.lfd import collect_with_expert_labels
+    >>> from robonav.robot import random_worlds, straight
+    >>> labelled = collect_with_expert_labels(straight, random_worlds(2, obstacles=10, seed=1))
+    >>> len(labelled.outcome)
+    2
+    """
+    simulator = Simulator(worlds, speed, max_steps=max_steps)
+    beta = check_real("beta", beta, at_least=0, at_most=1)
+    rng = check_generator("seed", seed)
+    return labelled_rollout(simulator, policy, expert or ComputerExpert(), beta, rng)
+
+
+def beta_schedule(decay: float, rounds: int) -> list[float]:
+    """Return beta_i = decay**i for round 0 and the rounds after it.
+
+    Ross et al. count rounds from 1 and write p**(i - 1). ``decay=0`` gives their parameter-free version 1, 0, 0, ...
+
+    Examples
+    --------
+    >>> from robonav.lfd.dagger import beta_schedule
+    >>> beta_schedule(0.0, 3), beta_schedule(0.5, 3)
+    ([1.0, 0.0, 0.0, 0.0], [1.0, 0.5, 0.25, 0.125])
+    """
+    decay = check_real("beta_decay", decay, at_least=0, at_most=1)
+    return [decay**i for i in range(rounds + 1)]
+
+
+class RoundSeeds(NamedTuple):
+    """The seeds of one round of DAgger: for the network's initial weights, and for the learner's episodes."""
+
+    weights: int
+    episodes: int
+
+
+def round_seeds(seed: int | ArrayLike, rounds: int) -> list[RoundSeeds]:
+    """Return the seeds of round 0, which has no episodes, and of the rounds after it.
+
+    All are derived from one whole number, or are given as an array of shape (rounds + 1, 2).
+
+    Examples
+    --------
+    >>> from robonav.lfd.dagger import round_seeds
+    >>> round_seeds([[3, 0], [4, 5]], rounds=1)
+    [RoundSeeds(weights=3, episodes=0), RoundSeeds(weights=4, episodes=5)]
+    """
     if np.ndim(seed) == 0:
         sequence = np.random.SeedSequence(check_integer("seed", seed, at_least=0))
-        pairs: NDArray = sequence.generate_state(2 * (rounds + 1)).reshape(-1, 2)
-        return pairs.tolist()
-    given = check_array("seed", seed, shape=(rounds + 1, 2), dtype=np.int64)
-    return given.tolist()
+        pairs = sequence.generate_state(2 * (rounds + 1)).reshape(-1, 2)
+    else:
+        pairs = check_array("seed", seed, shape=(rounds + 1, 2), dtype=np.int64)
+    return [RoundSeeds(weights, episodes) for weights, episodes in pairs.tolist()]

@@ -1,4 +1,4 @@
-"""Demonstrations: what an expert's robot sensed, and what it did (section 3.4.1)."""
+"""Demonstrations: the states that an expert's robot sensed and the actions that it took (section 3.4.1)."""
 
 from __future__ import annotations
 
@@ -26,45 +26,50 @@ from robonav.validation import check_array, check_integer, check_one_of, check_p
 Floats = NDArray[np.float64]
 Actions = NDArray[np.int64]
 
-LEARNED = 5  # actions: F, L30, L60, R30, R60
+Step = tuple[Actions, Sensing, Actions, Floats]
+"""One second of K robots: their indices (K,), what they sensed, their actions (K,), their poses (K, 3) before it."""
+
+LEARNED = 5  # number of actions that a policy learns: F, L30, L60, R30, R60
 MAX_STEPS = 500
 
 
 @dataclass(frozen=True, eq=False)
 class Demonstrations:
-    """K steps of D trajectories, one trajectory after the other; ``demonstrations[mask]`` selects steps.
+    """K steps of D trajectories, one trajectory after the other.
 
-    All sensing is kept raw, so that each chapter can encode it in its own way.
+    ``demonstrations[mask]`` selects steps. Sensing is kept raw, so that each chapter can encode it in its own way.
 
     Attributes
     ----------
     worlds : Worlds
         Batch of D.
     trajectory : (K,) array of int
-        The trajectory that each step belongs to, ascending.
+        The number of the trajectory that each step belongs to, ascending.
     sensing : Sensing
-        K rows, as perceived before each action.
+        K rows: what the robot sensed before each action.
     actions : (K,) array of int
-        The actions executed; ``Action.TO_TARGET`` and ``Action.B`` where the robot's reflex acted.
+        The actions taken; ``Action.TO_TARGET`` and ``Action.B`` where the robot's reflex acted.
     poses : (K, 3) array
         x, y and heading before each action.
     speed : float
-        Metres a second.
+        Of the robots, in m/s.
     outcome : (D,) array of str
         How each trajectory ended: "arrived", "collided" or "out of steps".
 
     Raises
     ------
     ValueError
-        If shapes do not fit, or numbers lie outside their range.
+        If shapes do not fit, or if numbers lie outside their range.
 
     Examples
     --------
     >>> from robonav.lfd import demonstrate
     >>> from robonav.robot import random_worlds
-    >>> shown = demonstrate(random_worlds(3, obstacles=10, seed=1))
-    >>> len(shown) == shown.lengths.sum(), len(shown.select_trajectories([0, 2]).worlds)
-    (np.True_, 2)
+    >>> demonstrations = demonstrate(random_worlds(3, obstacles=10, seed=1))
+    >>> demonstrations.lengths.sum() == len(demonstrations)
+    np.True_
+    >>> len(demonstrations.select_trajectories([0, 2]).worlds)
+    2
     """
 
     worlds: Worlds
@@ -76,12 +81,12 @@ class Demonstrations:
     outcome: NDArray[np.str_]
 
     def __post_init__(self) -> None:
-        drives, steps = len(self.worlds), len(self.sensing)
+        trajectories, steps = len(self.worlds), len(self.sensing)
         wanted: dict[str, tuple[tuple[int, ...], Any]] = {
             "trajectory": ((steps,), np.int64),
             "actions": ((steps,), np.int64),
             "poses": ((steps, 3), np.float64),
-            "outcome": ((drives,), np.str_),
+            "outcome": ((trajectories,), np.str_),
         }
         for name, (shape, dtype) in wanted.items():
             checked = check_array(
@@ -93,10 +98,10 @@ class Demonstrations:
         )
         if steps and (np.diff(self.trajectory) < 0).any():
             raise ValueError(
-                "demonstrations: trajectory must ascend, one drive after the other"
+                "demonstrations: trajectory must ascend, one trajectory after the other"
             )
         for name, values, most in (
-            ("trajectory", self.trajectory, drives - 1),
+            ("trajectory", self.trajectory, trajectories - 1),
             ("actions", self.actions, max(Action)),
         ):
             if steps and not 0 <= values.min() <= values.max() <= most:
@@ -110,7 +115,7 @@ class Demonstrations:
         return len(self.actions)
 
     def __getitem__(self, index: slice | NDArray[Any]) -> Demonstrations:
-        """Select some of the steps, in their order; the worlds and outcomes stay."""
+        """Select some of the steps, in their order. All worlds and outcomes are kept."""
         steps = {
             name: getattr(self, name)[index]
             for name in ("trajectory", "sensing", "actions", "poses")
@@ -119,7 +124,7 @@ class Demonstrations:
 
     @property
     def effective(self) -> Demonstrations:
-        """The effective pairs to learn from: steps with something in range and one of the five learned actions."""
+        """The effective pairs: the steps in which something was in range and the action was one of the five learned."""
         return self[~self.sensing.safe & (self.actions < LEARNED)]
 
     @property
@@ -128,11 +133,11 @@ class Demonstrations:
         return np.bincount(self.trajectory, minlength=len(self.worlds))
 
     def select_trajectories(self, index: ArrayLike) -> Demonstrations:
-        """Select whole trajectories by indices or a mask; they are numbered from 0 again."""
+        """Select whole trajectories by indices or by a mask, and number them from 0."""
         chosen = np.arange(len(self.worlds))[np.asarray(index)]
         none = np.empty(0, np.int64)
         rows = np.concatenate(
-            [none, *(np.flatnonzero(self.trajectory == drive) for drive in chosen)]
+            [none, *(np.flatnonzero(self.trajectory == number) for number in chosen)]
         )
         return replace(
             self,
@@ -155,29 +160,30 @@ def record(
     *,
     speed: float = 2.0,
     slip: ArrayLike | None = None,
+    intended: bool = False,
     reflex: Reflex | None = REFLEX,
-    labeller: Expert | None = None,
     max_steps: int = MAX_STEPS,
     progress: Progress | None = None,
 ) -> Demonstrations:
-    """Let an expert drive one robot through each of D worlds, and record what the robot sensed and did.
+    """Record demonstrations by any expert: one episode in each of D worlds.
 
     Parameters
     ----------
     expert : callable
-        Chooses the action where the reflex does not decide.
+        Chooses the actions where the reflex does not decide.
     worlds : Worlds
         Batch of D.
     speed : float
-        Metres a second, positive.
+        Of the robots, in m/s; positive.
     slip : (6, 6) array, optional
-        Probabilities that action a (row) turns into another. The action executed is the one recorded.
+        Probabilities that action a (row) turns into another one.
+    intended : bool
+        Whether to record the actions that the expert chose. By default the actions that the robot executed are
+        recorded, which differ where it slipped.
     reflex : callable, optional
         What the robot does before the expert is asked. None leaves every step to the expert.
-    labeller : callable, optional
-        Another expert, who does not drive. It is asked about the same states, and its actions are recorded instead.
     max_steps : int
-        Seconds after which an episode is out of steps.
+        Seconds after which an episode ends as "out of steps".
     progress : callable, optional
         Called as ``progress(worlds done, D)``.
 
@@ -187,8 +193,8 @@ def record(
 
     Raises
     ------
-    ValueError
-        If an argument is out of bounds.
+    TypeError, ValueError
+        If an argument is of the wrong type or out of bounds.
 
     Examples
     --------
@@ -199,29 +205,27 @@ def record(
     """
     check_integer("max_steps", max_steps, at_least=1)
     simulator = Simulator(worlds, speed, slip=slip, max_steps=max_steps)
-    advice = np.zeros(len(worlds), dtype=np.int64)
 
     def choose(simulator: Simulator, sensing: Sensing, robots: Actions) -> Actions:
-        if labeller is not None:
-            advice[robots] = labeller(simulator, robots)
         return expert(simulator, robots)
 
-    rows: list[tuple[Actions, Sensing, Actions, Floats]] = []
-    for second in drive(simulator, choose, reflex=reflex):
-        done = second.executed if labeller is None else advice[second.robots]
-        actions = np.where(second.asked, done, second.actions)
-        rows.append((second.robots, second.sensing, actions, second.poses))
+    steps: list[Step] = []
+    for step in drive(simulator, choose, reflex=reflex):
+        executed = np.where(step.asked, step.executed, step.actions)  # reflexes stay
+        actions = step.actions if intended else executed
+        steps.append((step.robots, step.sensing, actions, step.poses))
         if progress is not None:
-            progress(len(worlds) - len(second.robots), len(worlds))
-    return _by_drive(worlds, rows, speed, OUTCOMES[simulator.outcome])
+            progress(len(worlds) - len(step.robots), len(worlds))
+    return by_trajectory(simulator, steps)
 
 
 def concatenate(sets: Sequence[Demonstrations]) -> Demonstrations:
-    """Concatenate sets of demonstrations; the trajectories are numbered on.
+    """Concatenate sets of demonstrations into one, and number their trajectories consecutively.
 
     Parameters
     ----------
     sets : sequence of Demonstrations
+        At least one, all of one speed and one map size.
 
     Returns
     -------
@@ -230,14 +234,14 @@ def concatenate(sets: Sequence[Demonstrations]) -> Demonstrations:
     Raises
     ------
     ValueError
-        If there is no set, or speeds or map sizes differ.
+        If there is no set, or if speeds or map sizes differ.
 
     Examples
     --------
     >>> from robonav.lfd import concatenate, demonstrate
     >>> from robonav.robot import random_worlds
-    >>> shown = demonstrate(random_worlds(2, obstacles=10, seed=1))
-    >>> len(concatenate([shown, shown]).worlds)
+    >>> demonstrations = demonstrate(random_worlds(2, obstacles=10, seed=1))
+    >>> len(concatenate([demonstrations, demonstrations]).worlds)
     4
     """
     if not sets or len({each.speed for each in sets}) > 1:
@@ -250,7 +254,7 @@ def concatenate(sets: Sequence[Demonstrations]) -> Demonstrations:
         trajectory=np.concatenate(
             [each.trajectory + n for each, n in zip(sets, before[:-1], strict=True)]
         ),
-        sensing=_sensings([each.sensing for each in sets]),
+        sensing=_stacked([each.sensing for each in sets]),
         actions=np.concatenate([each.actions for each in sets]),
         poses=np.concatenate([each.poses for each in sets]),
         speed=sets[0].speed,
@@ -259,49 +263,61 @@ def concatenate(sets: Sequence[Demonstrations]) -> Demonstrations:
 
 
 def actions_from_poses(before: Floats, after: Floats) -> Actions:
-    """The actions (N,) that led from poses ``before`` to ``after`` (N, 3): by the turn, or B where it went back."""
+    """Return the actions (N,) that led from poses ``before`` to poses ``after``.
+
+    A step backwards is B. Otherwise the change of heading, rounded to a multiple of 30 degrees, tells the action.
+
+    Parameters
+    ----------
+    before, after : (N, 3) array
+        x, y and heading before and after each action.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd.demonstrations import actions_from_poses
+    >>> from robonav.robot import Action
+    >>> before, after = np.array([[10, 10, 0]]), np.array([[11.7, 11, np.pi / 6]])
+    >>> Action(actions_from_poses(before, after)[0]).name
+    'L30'
+    """
     turned = np.rint((after[:, 2] - before[:, 2]) / np.radians(30)).astype(int) % 12
     actions = np.select(
         [turned == 1, turned == 2, turned == 11, turned == 10],
         [Action.L30, Action.L60, Action.R30, Action.R60],
     )
-    way = np.column_stack([np.cos(after[:, 2]), np.sin(after[:, 2])])
-    backward = ((after[:, :2] - before[:, :2]) * way).sum(axis=1) < 0
-    return np.where(backward, Action.B, actions)
+    forward = np.column_stack([np.cos(after[:, 2]), np.sin(after[:, 2])])
+    went_back = ((after[:, :2] - before[:, :2]) * forward).sum(axis=1) < 0
+    return np.where(went_back, Action.B, actions)
 
 
-def _sensings(parts: Sequence[Sensing]) -> Sensing:
-    """Rows of several as one."""
-    return Sensing(
-        *(
-            np.concatenate([getattr(part, field.name) for part in parts])
-            for field in fields(Sensing)
-        )
-    )
-
-
-def _by_drive(
-    worlds: Worlds,
-    rows: list[tuple[Actions, Sensing, Actions, Floats]],
-    speed: float,
-    outcome: NDArray[np.str_],
-) -> Demonstrations:
-    """Steps by drive from steps by time."""
+def by_trajectory(simulator: Simulator, steps: list[Step]) -> Demonstrations:
+    """Return recorded steps as demonstrations: sorted by robot, and for each robot by time."""
     nothing = (
         np.empty(0, np.int64),
         Sensing.empty(0),
         np.empty(0, np.int64),
         np.empty((0, 3)),
     )
-    owners, sensed, actions, poses = zip(nothing, *rows, strict=True)
-    drives = np.concatenate(owners)
-    order = np.argsort(drives, kind="stable")
+    robots, sensing, actions, poses = zip(nothing, *steps, strict=True)
+    trajectory = np.concatenate(robots)
+    order = np.argsort(trajectory, kind="stable")
     return Demonstrations(
-        worlds=worlds,
-        trajectory=drives[order],
-        sensing=_sensings(sensed)[order],
+        worlds=simulator.worlds,
+        trajectory=trajectory[order],
+        sensing=_stacked(sensing)[order],
         actions=np.concatenate(actions)[order],
         poses=np.concatenate(poses)[order],
-        speed=speed,
-        outcome=outcome,
+        speed=simulator.speed,
+        outcome=OUTCOMES[simulator.outcome],
+    )
+
+
+def _stacked(parts: Sequence[Sensing]) -> Sensing:
+    """Return the rows of several as one."""
+    return Sensing(
+        *(
+            np.concatenate([getattr(part, field.name) for part in parts])
+            for field in fields(Sensing)
+        )
     )

@@ -36,11 +36,11 @@ def gone_straight():
     return collect_with_expert_labels(straight, random_worlds(6, 20, seed=71))
 
 
-def test_the_policy_drives_and_the_expert_advises(gone_straight):
-    drives = navigate(straight, gone_straight.worlds, record_paths=True)
-    assert gone_straight.outcome.tolist() == drives.outcome.tolist()
+def test_the_policy_acts_and_the_expert_labels(gone_straight):
+    rollout = navigate(straight, gone_straight.worlds, record_paths=True)
+    assert gone_straight.outcome.tolist() == rollout.outcome.tolist()
     assert np.array_equal(
-        gone_straight.poses, np.concatenate([path[:-1] for path in drives.paths])
+        gone_straight.poses, np.concatenate([path[:-1] for path in rollout.paths])
     )
     assert (gone_straight.effective.actions != 0).any()
 
@@ -131,7 +131,7 @@ def test_dagger_asks_the_expert_it_is_given(shown):
     assert set(added.effective.actions) == {2}
 
 
-def test_a_drive_that_is_stopped_early_gives_no_more_advice(shown):
+def test_an_episode_that_is_stopped_early_gives_no_more_labels(shown):
     worlds = random_worlds(3, 20, seed=83)
     whole, cut = (
         collect_with_expert_labels(straight, worlds),
@@ -140,18 +140,47 @@ def test_a_drive_that_is_stopped_early_gives_no_more_advice(shown):
     assert (cut.lengths <= 7).all()
     assert set(cut.outcome[whole.lengths > 7]) == {"out of steps"}
     first = np.concatenate(
-        [np.flatnonzero(whole.trajectory == drive)[:7] for drive in range(3)]
+        [np.flatnonzero(whole.trajectory == number)[:7] for number in range(3)]
     )
     assert np.array_equal(cut.actions, whole.actions[first])
     made = dagger(shown, [worlds], iterations=10, max_steps=7)
     assert made.demonstrations[1].lengths[len(shown.worlds) :].max() <= 7
 
 
+def test_mixture_of_expert_and_learner():
+    """With beta = 1 the expert acts alone, with 0 the learner, between them both; the labels are the expert's."""
+    worlds = random_worlds(20, 20, seed=84)
+    alone = demonstrate(worlds)
+    by_expert = collect_with_expert_labels(straight, worlds, beta=1.0)
+    assert np.array_equal(by_expert.poses, alone.poses)
+    assert np.array_equal(by_expert.actions, alone.actions)
+    arrived = [
+        (
+            collect_with_expert_labels(straight, worlds, beta=b).outcome == "arrived"
+        ).sum()
+        for b in (0.0, 0.5, 1.0)
+    ]
+    assert arrived[0] < arrived[1] <= arrived[2] == 20
+    with pytest.raises(ValueError, match="beta must be at least 0 and at most 1"):
+        collect_with_expert_labels(straight, worlds, beta=1.5)
+
+
+def test_beta_schedule_of_dagger(shown):
+    worlds = [random_worlds(3, 20, seed=85)] * 2
+    made = dagger(shown, worlds, beta_decay=1.0, iterations=10)
+    expert = demonstrate(worlds[0])
+    gathered = concatenate([shown, expert, expert])
+    assert np.array_equal(made.demonstrations[2].poses, gathered.poses)
+    assert np.array_equal(made.demonstrations[2].actions, gathered.actions)
+    with pytest.raises(ValueError, match="beta_decay must be at least 0"):
+        dagger(shown, worlds, beta_decay=-0.5)
+
+
 def test_seeds_of_the_rounds_of_dagger():
     """Every round draws its weights and its episodes from seeds of their own."""
     seeds = np.array(round_seeds(3, 4))
     assert len(np.unique(seeds)) == seeds.size == 10
-    assert round_seeds(3, 4) == seeds.tolist() != round_seeds(4, 4)
+    assert round_seeds(3, 4) == list(map(tuple, seeds.tolist())) != round_seeds(4, 4)
     with pytest.raises(ValueError, match="seed must have shape"):
         round_seeds([1, 2], 4)
 

@@ -106,6 +106,17 @@ def test_a_slipping_expert_shows_what_was_executed():
     assert np.array_equal(shown.actions[commands >= 0], commands[commands >= 0])
 
 
+def test_intended_actions_are_recorded_on_request():
+    worlds, slip = random_worlds(6, 20, seed=2), neighbour_slip(0.3)
+    executed = record(ComputerExpert(), worlds, slip=slip)
+    intended = record(ComputerExpert(), worlds, slip=slip, intended=True)
+    assert np.array_equal(executed.poses, intended.poses)
+    chosen = REFLEX(executed.sensing, executed.speed) < 0
+    slipped = executed.actions != intended.actions
+    assert not slipped[~chosen].any()
+    assert 0.2 < slipped[chosen].mean() < 0.4
+
+
 @pytest.mark.parametrize("action", list(Action)[:6])
 @pytest.mark.parametrize("heading", [-3.0, 0.0, 1.0, 3.1])
 def test_executed_actions_are_read_off_the_poses(action, heading):
