@@ -56,6 +56,6 @@ def __dir__() -> list[str]:
 gymnasium.register(
     "robonav/Navigation-v0",
     entry_point="robonav.robot.environments:NavigationEnv",
-    vector_entry_point="robonav.robot.environments:NavigationVectorEnv",
+    vector_entry_point="robonav.robot.vector_environment:NavigationVectorEnv",
     max_episode_steps=500,
 )

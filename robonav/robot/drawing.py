@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 from robonav import style
 
 from . import _fast
-from .simulator import Simulator
 from .worlds import Worlds
 
 ROBOT_LENGTH = 4.0  # metres; the robot is a point, its picture is not
@@ -121,20 +120,29 @@ def draw_sensors(
     return wedges
 
 
-def draw_moment(axes: Axes, simulator: Simulator, i: int) -> None:
-    """Robot i of a simulator now: its world, sensors and pose."""
-    draw_world(axes, simulator.worlds[i], simulator.centres[i])
-    draw_sensors(axes, simulator.poses[i], simulator.sense().ranges[i])
-    draw_robot(axes, simulator.poses[i])
+def draw_moment(
+    axes: Axes, worlds: Worlds, centres: ArrayLike, pose: ArrayLike, ranges: ArrayLike
+) -> None:
+    """A robot now: the first world, its obstacles at ``centres`` (M, 2), the robot and its nine ranges."""
+    draw_world(axes, worlds, centres)
+    draw_sensors(axes, pose, np.asarray(ranges))
+    draw_robot(axes, pose)
 
 
-def picture(simulator: Simulator, i: int, *, pixels: int = 480) -> NDArray[np.uint8]:
-    """Robot i of a simulator now, as an image (pixels, pixels, 3)."""
+def picture(
+    worlds: Worlds,
+    centres: ArrayLike,
+    pose: ArrayLike,
+    ranges: ArrayLike,
+    *,
+    pixels: int = 480,
+) -> NDArray[np.uint8]:
+    """What :func:`draw_moment` draws, as an image (pixels, pixels, 3)."""
     figure = Figure(
         figsize=(4.8, 4.8), dpi=pixels / 4.8, facecolor="white", layout="constrained"
     )
     canvas = FigureCanvasAgg(figure)
-    draw_moment(figure.add_subplot(), simulator, i)
+    draw_moment(figure.add_subplot(), worlds, centres, pose, ranges)
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
@@ -149,10 +157,12 @@ class Window:
         plt.ion()
         self._figure, self._axes = plt.subplots(figsize=(6, 6))
 
-    def show(self, simulator: Simulator, i: int) -> None:
-        """Draw robot i now."""
+    def show(
+        self, worlds: Worlds, centres: ArrayLike, pose: ArrayLike, ranges: ArrayLike
+    ) -> None:
+        """Show what :func:`draw_moment` draws."""
         self._axes.clear()
-        draw_moment(self._axes, simulator, i)
+        draw_moment(self._axes, worlds, centres, pose, ranges)
         self._figure.canvas.draw_idle()
         self._figure.canvas.flush_events()
 

@@ -1,341 +1,51 @@
-"""``robonav/Navigation-v0``: the robot as a Gymnasium environment, and its vector twin (section 2.5)."""
+"""``robonav/Navigation-v0``: the robot as a Gymnasium environment (section 2.5)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Sequence
 from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
-from gymnasium.utils import seeding
-from gymnasium.vector import AutoresetMode
-from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_instance, check_integer, check_one_of
+from robonav.validation import check_one_of
 
-from ._fast import ARRIVED, COLLIDED, OUT_OF_STEPS, RUNNING, SENSOR_RANGE, SENSORS
-from .rollout import REFLEX, ReflexRule
-from .simulator import NEVER, OUTCOMES, Sensing, Simulator, check_actions
-from .worlds import (
-    MOVING_SPEEDS,
-    SIZE,
-    START,
-    TARGET,
-    Worlds,
-    check_drawing,
-    draw_worlds,
+from ._fast import (
+    ARRIVAL_DISTANCE,
+    ARRIVED,
+    COLLIDED,
+    COLLISION_DISTANCE,
+    NO_REFLEX,
+    OUT_OF_STEPS,
+    RUNNING,
+    SENSOR_RANGE,
+    SENSORS,
+    TURNS,
+    drift_world,
+    micrometres,
+    sense_robot,
+    slipped,
+    swept_clearance,
+    wrap,
 )
+from .environment_settings import (
+    NavigationSettings,
+    Reward,
+    arrival_or_collision,
+    worlds_in,
+)
+from .rollout import REFLEX, ReflexRule
+from .simulator import NEVER, OUTCOMES, Action, Sensing, check_action
+from .worlds import MOVING_SPEEDS, START, TARGET, Worlds
 
-MAX_STEPS = 500
-_OUTCOME_NAMES = OUTCOMES.astype(object)
+Array = NDArray[np.float64]
+Observation = dict[str, Any]
+Info = dict[str, Any]
 
-Reward = Callable[[Sensing, Sensing, NDArray[np.int8]], ArrayLike]
-"""``reward(before, after, outcome) -> (N,)``: from what N robots sensed before and after a step, and the outcomes."""
-
-
-def arrival_or_collision(
-    before: Sensing, after: Sensing, outcome: NDArray[np.int8]
-) -> NDArray[np.float64]:
-    """Return the reward 1 for an arrival, -1 for a collision, else 0.
-
-    Parameters
-    ----------
-    before, after : Sensing
-        What N robots sensed before and after the step; not used.
-    outcome : (N,) int array
-        How their episodes stand after the step: codes into ``OUTCOMES``.
-
-    Returns
-    -------
-    (N,) array
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.robot import Sensing
-    >>> from robonav.robot.environments import arrival_or_collision
-    >>> nothing = Sensing.empty(3)
-    >>> arrival_or_collision(nothing, nothing, np.array([0, 1, 2]))
-    array([ 0.,  1., -1.])
-    """
-    return (outcome == ARRIVED).astype(float) - (outcome == COLLIDED)
-
-
-def observation_space() -> gymnasium.spaces.Dict:
-    """Return the space of one robot's observations: the fields of :class:`Sensing`."""
-    return gymnasium.spaces.Dict(
-        {
-            "ranges": gymnasium.spaces.Box(0.0, SENSOR_RANGE, (SENSORS,), np.float64),
-            "walls": gymnasium.spaces.MultiBinary(SENSORS),
-            "target_region": gymnasium.spaces.Discrete(SENSORS, start=1),
-            "target_seen": gymnasium.spaces.Discrete(2),
-        }
-    )
-
-
-def as_sensing(observation: dict[str, Any]) -> Sensing:
-    """Turn an environment's observation into the batch that encoders and policies take.
-
-    Parameters
-    ----------
-    observation : dict
-        Of one robot, or of N from the vector environment.
-
-    Returns
-    -------
-    Sensing
-        One row, or N.
-
-    Examples
-    --------
-    >>> from robonav.robot.environments import NavigationEnv, as_sensing
-    >>> observation, _ = NavigationEnv().reset(seed=0)
-    >>> as_sensing(observation).ranges.shape
-    (1, 9)
-    """
-    return Sensing(
-        np.atleast_2d(observation["ranges"]),
-        np.atleast_2d(observation["walls"]).astype(bool),
-        np.atleast_1d(observation["target_region"]),
-        np.atleast_1d(observation["target_seen"]).astype(bool),
-    )
-
-
-class NavigationVectorEnv(gymnasium.vector.VectorEnv):
-    """N robots in N worlds, stepped in one compiled call: the vector twin of :class:`NavigationEnv`.
-
-    Actions, observations, rewards, the start and the end of an episode are those of :class:`NavigationEnv`, with a
-    leading dimension N. ``gymnasium.make_vec("robonav/Navigation-v0", num_envs=N,
-    vectorization_mode="vector_entry_point")`` makes one.
-
-    A robot whose episode has ended starts a new one in the next step, in a new world. That step ignores its action and
-    gives reward 0 (``AutoresetMode.NEXT_STEP``).
-
-    Parameters
-    ----------
-    num_envs : int
-        N.
-    obstacles, moving, starts, targets, moving_speeds, worlds, speed, slip, noise, reward, reflex
-        See :class:`NavigationEnv`.
-    max_episode_steps : int
-        An episode is truncated after this many seconds; its outcome is "out of steps".
-    render_mode : {"rgb_array"}, optional
-        What :meth:`render` returns.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.robot.environments import NavigationVectorEnv
-    >>> env = NavigationVectorEnv(3, obstacles=10)
-    >>> observation, info = env.reset(seed=0)
-    >>> observation["ranges"].shape
-    (3, 9)
-    >>> _, reward, terminated, truncated, info = env.step(np.zeros(3, dtype=int))
-    >>> info["outcome"].tolist()
-    ['running', 'running', 'running']
-    """
-
-    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
-        "render_modes": ["rgb_array"],
-        "render_fps": 10,
-        "autoreset_mode": AutoresetMode.NEXT_STEP,
-    }
-
-    def __init__(
-        self,
-        num_envs: int = 1,
-        *,
-        obstacles: int = 10,
-        moving: int = 0,
-        starts: Sequence[tuple[float, float]] = (START,),
-        targets: Sequence[tuple[float, float]] = (TARGET,),
-        moving_speeds: tuple[float, float] = MOVING_SPEEDS,
-        worlds: Worlds | None = None,
-        speed: float = 2.0,
-        slip: ArrayLike | None = None,
-        noise: float = 0.0,
-        reward: Reward = arrival_or_collision,
-        reflex: ReflexRule | None = REFLEX,
-        max_episode_steps: int = MAX_STEPS,
-        render_mode: str | None = None,
-    ) -> None:
-        self.num_envs = check_integer("num_envs", num_envs, at_least=1)
-        check_integer("max_episode_steps", max_episode_steps, at_least=1, at_most=NEVER)
-        if worlds is not None and len(check_instance("worlds", worlds, Worlds)) == 0:
-            raise ValueError("worlds must hold at least one world, got none")
-        check_drawing(obstacles, moving, starts, targets, moving_speeds, SIZE)
-        if reflex is not None and not callable(reflex):
-            raise TypeError(
-                f"reflex must be callable as reflex(sensing, speed), or None, got {reflex!r}"
-            )
-        if not callable(reward):
-            raise TypeError(
-                f"reward must be callable as reward(before, after, outcome), got {type(reward).__name__}"
-            )
-        self.render_mode = check_one_of(
-            "render_mode", render_mode, [None, *self.metadata["render_modes"]]
-        )
-        self.worlds = worlds
-        self.reward, self.reflex = reward, reflex
-        self._drawn = (obstacles, moving, tuple(starts), tuple(targets), moving_speeds)
-        self._generators = [np.random.default_rng()] * self.num_envs
-        self.single_observation_space = observation_space()
-        self.single_action_space = gymnasium.spaces.Discrete(6)
-        self.observation_space = batch_space(
-            self.single_observation_space, self.num_envs
-        )
-        self.action_space = batch_space(self.single_action_space, self.num_envs)
-        self._robot: dict[str, Any] = {
-            "speed": speed,
-            "slip": slip,
-            "noise": noise,
-            "max_steps": max_episode_steps,
-        }
-        self.simulator = Simulator(
-            self._next_worlds(np.arange(0)), **self._robot
-        )  # no robots before the first reset
-        self.sensing = self.simulator.sense()
-
-    def reset(
-        self,
-        *,
-        seed: int | Sequence[int | None] | None = None,
-        options: dict[str, Any] | None = None,
-    ) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Begin a new episode for every robot; robot i gets the seed ``seed + i``, as Gymnasium does.
-
-        ``options={"worlds": worlds}`` puts the robots into N given worlds.
-        """
-        self.seed(seed)
-        for option in check_instance("options", options or {}, dict):
-            check_one_of("options", option, ["worlds"])
-        given = (options or {}).get("worlds")
-        if (
-            given is not None
-            and len(check_instance("options['worlds']", given, Worlds)) != self.num_envs
-        ):
-            raise ValueError(
-                f"options['worlds'] must hold {self.num_envs} worlds, got {len(given)}"
-            )
-        start = self._next_worlds(np.arange(self.num_envs)) if given is None else given
-        slots = max(start.slots, self.simulator.worlds.slots)
-        self.simulator = Simulator(start.with_slots(slots), **self._robot)
-        self.sensing = self.simulator.sense()
-        self._ended = np.zeros(self.num_envs, dtype=np.bool_)
-        return self._observation(), self._info(np.full(self.num_envs, -1))
-
-    def seed(self, seed: int | Sequence[int | None] | None) -> None:
-        """Give every robot its random generator: from seed + i, or from its own seed, or else from fresh entropy."""
-        seeds: list[int | None]
-        if isinstance(seed, Sequence):
-            seeds = [
-                None if own is None else check_integer("seed", own, at_least=0)
-                for own in seed
-            ]
-        elif seed is None:
-            seeds = [None] * self.num_envs
-        else:
-            first = check_integer("seed", seed, at_least=0)
-            seeds = [first + i for i in range(self.num_envs)]
-        if len(seeds) != self.num_envs:
-            raise ValueError(
-                f"seed must be a number or one for each of {self.num_envs} robots, got {len(seeds)}"
-            )
-        for i, own in enumerate(seeds):
-            if own is not None or self._np_random is None:
-                self._generators[i], _ = seeding.np_random(own)
-        self._np_random, self._np_random_seed = self._generators[0], seeds[0]
-
-    def step(
-        self, actions: ArrayLike
-    ) -> tuple[
-        dict[str, Any],
-        NDArray[np.float64],
-        NDArray[np.bool_],
-        NDArray[np.bool_],
-        dict[str, Any],
-    ]:
-        """Simulate one second; the class says what happens after the end of an episode."""
-        reward, terminated, truncated, reflexes = self.advance(actions)
-        return self._observation(), reward, terminated, truncated, self._info(reflexes)
-
-    def advance(
-        self, actions: ArrayLike
-    ) -> tuple[
-        NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], NDArray[np.int64]
-    ]:
-        """Step, and return rewards, terminated, truncated and the actions of the reflexes, each (N,)."""
-        if len(self.simulator) == 0:
-            raise ValueError("step: call reset first")
-        commands = check_actions(actions, (self.num_envs,))
-        simulator, before, fresh = self.simulator, self.sensing, self._ended
-        some_fresh = fresh.any()
-        reflexes = (
-            np.full(self.num_envs, -1)
-            if self.reflex is None
-            else self.reflex(before, simulator.speed)
-        )
-        if some_fresh:
-            reflexes[fresh] = -1
-        simulator.step(np.where(reflexes < 0, commands, reflexes))
-        if some_fresh:
-            index = np.flatnonzero(fresh)
-            simulator.restart(index, self._next_worlds(index))
-        self.sensing = simulator.sense()
-        reward = np.array(
-            self.reward(before, self.sensing, simulator.outcome), dtype=float
-        )
-        if reward.shape != (self.num_envs,):
-            raise ValueError(
-                f"reward must give an array of shape ({self.num_envs},), got {reward.shape}"
-            )
-        reward[fresh] = 0.0
-        self._ended = simulator.outcome != RUNNING
-        terminated = self._ended & (simulator.outcome != OUT_OF_STEPS)
-        return reward, terminated, simulator.steps >= simulator.max_steps, reflexes
-
-    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
-        """Draw every world as an image (H, W, 3), if ``render_mode`` is "rgb_array"."""
-        if self.render_mode is None:
-            return None
-        if len(self.simulator) == 0:
-            raise ValueError("render: call reset first")
-        from .drawing import picture
-
-        return tuple(picture(self.simulator, i) for i in range(self.num_envs))
-
-    def _next_worlds(self, robots: NDArray[np.int64]) -> Worlds:
-        """Draw the next world of each of these robots from its own generator."""
-        if self.worlds is not None:
-            return self.worlds[
-                [int(self._generators[i].integers(len(self.worlds))) for i in robots]
-            ]
-        raw = np.array(
-            [self._generators[i].bit_generator.random_raw() for i in robots],
-            dtype="<u8",
-        )
-        return draw_worlds(
-            raw.view("<u4").reshape(-1, 2).astype(np.uint32), *self._drawn
-        )
-
-    def _observation(self) -> dict[str, Any]:
-        read = self.sensing
-        return {
-            "ranges": read.ranges.copy(),  # a copy, which the caller may change
-            "walls": read.walls.astype(np.int8),
-            "target_region": read.target_region.copy(),
-            "target_seen": read.target_seen.astype(np.int64),
-        }
-
-    def _info(self, reflexes: NDArray[np.int64]) -> dict[str, Any]:
-        everyone = np.ones(self.num_envs, dtype=np.bool_)
-        values = {
-            "outcome": _OUTCOME_NAMES[self.simulator.outcome],
-            "reflex": reflexes,
-            "pose": self.simulator.poses.copy(),
-        }
-        return values | {f"_{name}": everyone for name in values}
+TURN_OF_ACTION = TURNS.tolist()  # radians, to the left
+NAME_OF_OUTCOME = OUTCOMES.tolist()
 
 
 class NavigationEnv(gymnasium.Env):
@@ -344,8 +54,8 @@ class NavigationEnv(gymnasium.Env):
     ## Description
 
     The robot crosses a square map of 100 m with circular and rectangular obstacles. It senses distances in nine
-    sectors of 40 degrees and the direction of its target, never the map. One step lasts one second. This is the batch
-    of one of :class:`NavigationVectorEnv`, with the same numbers bit for bit.
+    sectors of 40 degrees and the direction of its target, never the map. One step lasts one second.
+    :class:`NavigationVectorEnv` steps many such robots at once and gives the same numbers, bit for bit.
 
     ## Action space
 
@@ -472,86 +182,159 @@ class NavigationEnv(gymnasium.Env):
         max_episode_steps: int | None = None,
         render_mode: str | None = None,
     ) -> None:
+        self.settings = NavigationSettings(
+            obstacles, moving, starts, targets, moving_speeds, worlds, speed, slip, noise, reward, reflex,
+            NEVER if max_episode_steps is None else max_episode_steps,
+        )  # fmt: skip
         self.render_mode = check_one_of(
             "render_mode", render_mode, [None, *self.metadata["render_modes"]]
         )
-        self.batch = NavigationVectorEnv(
-            1,
-            obstacles=obstacles,
-            moving=moving,
-            starts=starts,
-            targets=targets,
-            moving_speeds=moving_speeds,
-            worlds=worlds,
-            speed=speed,
-            slip=slip,
-            noise=noise,
-            reward=reward,
-            reflex=reflex,
-            max_episode_steps=NEVER if max_episode_steps is None else max_episode_steps,
-        )
-        self.observation_space = self.batch.single_observation_space
-        self.action_space = self.batch.single_action_space
+        self.observation_space = observation_space()
+        self.action_space = gymnasium.spaces.Discrete(6)
+        self.outcome: int | None = None  # no episode before the first reset
         self._window: Any = None
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dict[str, Any], dict[str, Any]]:
+    ) -> tuple[Observation, Info]:
         """Begin an episode, in a new world unless ``options["worlds"]`` gives one."""
         super().reset(seed=seed)
-        self.batch.seed(seed)
-        self._np_random = self.batch.np_random
-        self.batch.reset(options=options)
+        world = worlds_in(options, 1) or self.settings.next_worlds([self.np_random])
+
+        # The map: its size and obstacles, of which some may move.
+        self.world, self.size = world, world.size
+        self.kinds, self.shapes = world.kinds[0], world.shapes[0]
+        self.centres, self.headings = world.centres[0].copy(), world.headings[0].copy()
+        self.speeds = world.speeds[0]
+        self.key = world.keys[0]  # random numbers of the episode are a hash of it
+
+        # The robot stands at the start and faces its target.
+        self.pose = tuple(world.start_poses[0].tolist())  # x, y and heading
+        self.target = tuple(world.targets[0].tolist())
+        self.steps, self.outcome = 0, RUNNING
+        self.sensing = self._sense()
         if self.render_mode == "human":
             self.render()
-        return self._observation(), self._info(-1)
+        return self._observation(), self._info(NO_REFLEX)
 
-    def step(
-        self, action: int
-    ) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
-        """Simulate one second; raise ValueError or TypeError for an action that is not 0 to 5."""
-        if len(self.batch.simulator) and self.batch.simulator.outcome[0] != RUNNING:
+    def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
+        """Simulate one second."""
+        command, reflex = self._command(action)  # the reflex may replace the action
+        before, centres_before = self.sensing, self.centres.copy()
+
+        # The robot turns, and then goes straight on for one second.
+        x, y, heading = self.pose
+        if reflex == Action.TO_TARGET:
+            heading = math.atan2(self.target[1] - y, self.target[0] - x)
+        heading = wrap(heading + TURN_OF_ACTION[command])
+        speed = self.settings.speed
+        distance = -speed if command == Action.B else speed
+        new_x = x + distance * math.cos(heading)
+        new_y = y + distance * math.sin(heading)
+        self.pose = (new_x, new_y, heading)
+        self._move_obstacles()
+        self.steps += 1
+
+        # A collision anywhere along the way counts, not only where the robot stops.
+        clearance = self._clearance(centres_before, x, y, new_x, new_y)
+        to_target = math.hypot(self.target[0] - new_x, self.target[1] - new_y)
+        if clearance < COLLISION_DISTANCE:
+            self.outcome = COLLIDED
+        elif micrometres(to_target) <= ARRIVAL_DISTANCE:
+            self.outcome = ARRIVED
+        elif self.steps >= self.settings.max_episode_steps:
+            self.outcome = OUT_OF_STEPS
+
+        self.sensing = self._sense()
+        reward = self._reward(before, self.sensing)
+        terminated = self.outcome in (ARRIVED, COLLIDED)
+        truncated = self.steps >= self.settings.max_episode_steps
+        if self.render_mode == "human":
+            self.render()
+        return self._observation(), reward, terminated, truncated, self._info(reflex)
+
+    def _command(self, action: int) -> tuple[int, int]:
+        """Return what the robot does, 0 to 5, and the action of its reflex or NO_REFLEX."""
+        if self.outcome is None:
+            raise ValueError("step: call reset first")
+        if self.outcome != RUNNING:
             raise ValueError("step: the episode has ended; call reset first")
-        reward, terminated, truncated, reflexes = self.batch.advance(
-            check_actions(action, ())[None]
-        )
-        if self.render_mode == "human":
-            self.render()
-        return (
-            self._observation(),
-            float(reward[0]),
-            bool(terminated[0]),
-            bool(truncated[0]),
-            self._info(reflexes[0]),
-        )
+        command, reflex = check_action(action), NO_REFLEX
+        settings = self.settings
+        if settings.reflex is not None:
+            reflex = int(settings.reflex(self.sensing, settings.speed)[0])
+        if reflex == Action.TO_TARGET:
+            command = Action.F  # once it faces the target
+        elif reflex != NO_REFLEX:
+            command = reflex
+        if settings.slip is not None:  # an uncertain action turns into another
+            command = slipped(command, settings.slip, self.key, self.steps)
+        return command, reflex
 
-    def _observation(self) -> dict[str, Any]:
-        read = self.batch.sensing
+    def _move_obstacles(self) -> None:
+        """Moving obstacles go on for one second; now and then one takes a new heading."""
+        drift_world(
+            self.kinds, self.shapes, self.speeds, self.key, self.steps,
+            self.size, self.centres, self.headings,
+        )  # fmt: skip
+
+    def _clearance(
+        self, centres_before: Array, x: float, y: float, new_x: float, new_y: float
+    ) -> float:
+        """Least distance to an obstacle or border in this second, exact where it is below 1 m."""
+        clearance = swept_clearance(
+            self.kinds, self.shapes, centres_before, self.centres, self.size,
+            x, y, new_x, new_y, COLLISION_DISTANCE + 1e-3,
+        )  # fmt: skip
+        return micrometres(clearance)
+
+    def _sense(self) -> Sensing:
+        """What the robot senses now, as a batch of one."""
+        sensing = Sensing.empty(1)
+        sensing.target_region[0], sensing.target_seen[0] = sense_robot(
+            self.kinds, self.shapes, self.centres, self.size, *self.pose, *self.target,
+            self.key, self.steps, self.settings.noise, sensing.ranges[0], sensing.walls[0],
+        )  # fmt: skip
+        return sensing
+
+    def _reward(self, before: Sensing, after: Sensing) -> float:
+        outcome = np.array([self.outcome], dtype=np.int8)
+        reward = np.asarray(self.settings.reward(before, after, outcome), dtype=float)
+        if reward.shape != (1,):
+            raise ValueError(
+                f"reward must give an array of shape (1,), got {reward.shape}"
+            )
+        return float(reward[0])
+
+    def _observation(self) -> Observation:
+        sensing = self.sensing
         return {
-            "ranges": read.ranges[0].copy(),  # a copy, which the caller may change
-            "walls": read.walls[0].astype(np.int8),
-            "target_region": read.target_region[0],
-            "target_seen": np.int64(read.target_seen[0]),
+            "ranges": sensing.ranges[0].copy(),  # a copy, which the caller may change
+            "walls": sensing.walls[0].astype(np.int8),
+            "target_region": sensing.target_region[0],
+            "target_seen": np.int64(sensing.target_seen[0]),
         }
 
-    def _info(self, reflex: int) -> dict[str, Any]:
-        simulator = self.batch.simulator
+    def _info(self, reflex: int) -> Info:
         return {
-            "outcome": _OUTCOME_NAMES[simulator.outcome[0]],
-            "reflex": int(reflex),
-            "pose": simulator.poses[0].copy(),
+            "outcome": NAME_OF_OUTCOME[self.outcome],
+            "reflex": reflex,
+            "pose": np.array(self.pose),
         }
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return an image (H, W, 3), or show it in a window."""
         if self.render_mode is None:
             return None
+        if self.outcome is None:
+            raise ValueError("render: call reset first")
         from .drawing import Window, picture
 
+        moment = (self.world, self.centres, self.pose, self.sensing.ranges[0])
         if self.render_mode == "rgb_array":
-            return picture(self.batch.simulator, 0)
+            return picture(*moment)
         self._window = self._window or Window()
-        self._window.show(self.batch.simulator, 0)
+        self._window.show(*moment)
         return None
 
     def close(self) -> None:
@@ -559,3 +342,43 @@ class NavigationEnv(gymnasium.Env):
         if self._window is not None:
             self._window.close()
             self._window = None
+
+
+def observation_space() -> gymnasium.spaces.Dict:
+    """Return the space of one robot's observations: the fields of :class:`Sensing`."""
+    return gymnasium.spaces.Dict(
+        {
+            "ranges": gymnasium.spaces.Box(0.0, SENSOR_RANGE, (SENSORS,), np.float64),
+            "walls": gymnasium.spaces.MultiBinary(SENSORS),
+            "target_region": gymnasium.spaces.Discrete(SENSORS, start=1),
+            "target_seen": gymnasium.spaces.Discrete(2),
+        }
+    )
+
+
+def as_sensing(observation: dict[str, Any]) -> Sensing:
+    """Turn an environment's observation into the batch that encoders and policies take.
+
+    Parameters
+    ----------
+    observation : dict
+        Of one robot, or of N from the vector environment.
+
+    Returns
+    -------
+    Sensing
+        One row, or N.
+
+    Examples
+    --------
+    >>> from robonav.robot.environments import NavigationEnv, as_sensing
+    >>> observation, _ = NavigationEnv().reset(seed=0)
+    >>> as_sensing(observation).ranges.shape
+    (1, 9)
+    """
+    return Sensing(
+        np.atleast_2d(observation["ranges"]),
+        np.atleast_2d(observation["walls"]).astype(bool),
+        np.atleast_1d(observation["target_region"]),
+        np.atleast_1d(observation["target_seen"]).astype(bool),
+    )

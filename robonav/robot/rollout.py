@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.progress import Progress
 from robonav.validation import check_generator
 
-from ._fast import RUNNING
+from ._fast import NO_REFLEX, RUNNING
 from .simulator import OUTCOMES, Reflex, Sensing, Simulator, check_actions
 from .worlds import Worlds
 
@@ -116,7 +116,7 @@ def drive(
     sensing = simulator.sense(robots)
     while len(robots):
         actions = reflex(sensing, simulator.speed)
-        asked = actions < 0
+        asked = actions == NO_REFLEX
         if asked.any():
             actions[asked] = choose(simulator, sensing[asked], robots[asked])
         poses = simulator.poses[robots]
@@ -146,7 +146,7 @@ def valid_actions(choose: Chooser) -> Chooser:
 
 def undecided(sensing: Sensing, speed: float) -> NDArray[np.int64]:
     """The reflex of a robot that has none: -1 (N,), the policy decides everywhere."""
-    return np.full(len(sensing), -1)
+    return np.full(len(sensing), NO_REFLEX)
 
 
 def follow_policy(policy: Policy, rng: np.random.Generator | int) -> Chooser:

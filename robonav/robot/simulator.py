@@ -128,7 +128,7 @@ class Reflex:
     """
 
     def __call__(self, sensing: Sensing, speed: float) -> NDArray[np.int64]:
-        """Return ``Action.TO_TARGET``, ``Action.B``, or -1 where the policy decides, (N,)."""
+        """Return ``Action.TO_TARGET``, ``Action.B``, or -1 (``NO_REFLEX``) where the policy decides, (N,)."""
         commands = np.empty(len(sensing), dtype=np.int64)
         _fast.in_threads(_fast.reflexes, len(sensing), sensing.ranges, speed, commands)
         return commands
@@ -154,6 +154,13 @@ def check_actions(actions: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.int6
             f"action must be one of F, L30, L60, R30, R60, B (0 to 5), got {wrong}"
         )
     return given.astype(np.int64)
+
+
+def check_action(action: Any) -> int:
+    """Return one action as a whole number 0 to 5; raise TypeError or ValueError for anything else."""
+    if type(action) is int and 0 <= action <= _fast.BACKWARD:  # the usual case, quickly
+        return action
+    return int(check_actions(action, ()))
 
 
 def check_slip(slip: ArrayLike | None) -> NDArray[np.float64]:

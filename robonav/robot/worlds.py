@@ -309,9 +309,19 @@ def world_keys(n: int, seed: int) -> NDArray[np.uint32]:
         z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
         z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
         z = z ^ (z >> np.uint64(31))
-    return np.column_stack([z & np.uint64(0xFFFFFFFF), z >> np.uint64(32)]).astype(
-        np.uint32
-    )
+    return _keys_from(z)
+
+
+def random_keys(generators: Sequence[np.random.Generator]) -> NDArray[np.uint32]:
+    """Draw the key of one world from each of N random generators, (N, 2)."""
+    raw = [rng.bit_generator.random_raw() for rng in generators]  # 64 random bits each
+    return _keys_from(np.array(raw, dtype=np.uint64))
+
+
+def _keys_from(numbers: NDArray[np.uint64]) -> NDArray[np.uint32]:
+    """Cut each of N numbers of 64 bits into the two numbers of 32 bits of a key, the lower half first."""
+    halves = [numbers & np.uint64(0xFFFFFFFF), numbers >> np.uint64(32)]
+    return np.column_stack(halves).astype(np.uint32)
 
 
 def random_worlds(

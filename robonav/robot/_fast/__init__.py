@@ -15,6 +15,7 @@ from .constants import (
     CIRCLE,
     COLLIDED,
     COLLISION_DISTANCE,
+    NO_REFLEX,
     NOTHING,
     OUT_OF_STEPS,
     RECTANGLE,
@@ -27,10 +28,10 @@ from .constants import (
     TURNS,
 )
 from .drawing import draw_worlds, reachable
-from .geometry import swept_clearance
-from .motion import drift, step
+from .geometry import micrometres, swept_clearance
+from .motion import drift, drift_world, slipped, step, wrap
 from .random_numbers import DRIFTING, MAX_OBSTACLES, uniform
-from .sensing import reflexes, sense
+from .sensing import reflexes, sense, sense_robot
 from .threads import in_threads
 
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "DRIFTING",
     "MAX_OBSTACLES",
     "NOTHING",
+    "NO_REFLEX",
     "OUT_OF_STEPS",
     "RECTANGLE",
     "RUNNING",
@@ -54,11 +56,16 @@ __all__ = [
     "TURNS",
     "draw_worlds",
     "drift",
+    "drift_world",
     "in_threads",
+    "micrometres",
     "reachable",
     "reflexes",
     "sense",
+    "sense_robot",
+    "slipped",
     "step",
     "swept_clearance",
     "uniform",
+    "wrap",
 ]

@@ -14,6 +14,7 @@ SENSOR_RANGE = 10.0  # d_bou
 COLLISION_DISTANCE = 1.0  # d_col: degree of danger 7
 ARRIVAL_DISTANCE = 3.0  # d_win
 BACKWARD, TO_TARGET = 5, 6
+NO_REFLEX = -1  # what the reflex answers where the policy decides
 TURNS = np.radians(
     [0.0, 30.0, 60.0, -30.0, -60.0, 0.0, 0.0]
 )  # F, L30, L60, R30, R60, B, to the target

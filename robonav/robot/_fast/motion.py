@@ -29,7 +29,7 @@ compiled = compiler(constants, geometry, random_numbers)
 
 
 @compiled
-def _wrap(angle):
+def wrap(angle):
     """The same angle in (-pi, pi]."""
     if angle > math.pi:
         return angle - 2.0 * math.pi
@@ -39,7 +39,7 @@ def _wrap(angle):
 
 
 @compiled
-def _drift(kinds, shapes, speeds, key, step, size, centres, headings):
+def drift_world(kinds, shapes, speeds, key, step, size, centres, headings):
     """Moving obstacles go one second on, turn at random, bounce off the borders."""
     for m in range(len(kinds)):
         if kinds[m] == NOTHING or speeds[m] == 0.0:
@@ -52,7 +52,7 @@ def _drift(kinds, shapes, speeds, key, step, size, centres, headings):
         reach = reach_of(kinds[m], shapes[m, 0], shapes[m, 1])
         if x < reach or x > size - reach:
             x = 2.0 * reach - x if x < reach else 2.0 * (size - reach) - x
-            heading = _wrap(math.pi - heading)
+            heading = wrap(math.pi - heading)
         if y < reach or y > size - reach:
             y = 2.0 * reach - y if y < reach else 2.0 * (size - reach) - y
             heading = -heading
@@ -60,7 +60,7 @@ def _drift(kinds, shapes, speeds, key, step, size, centres, headings):
 
 
 @compiled
-def _slipped(action, slip, key, step):
+def slipped(action, slip, key, step):
     """The action that comes of ``action`` when row ``action`` of ``slip`` says how likely each is."""
     draw = uniform(key, SLIPPING, step, 0, 0)
     total = 0.0
@@ -75,7 +75,7 @@ def _slipped(action, slip, key, step):
 def drift(start, stop, kinds, shapes, speeds, keys, steps, size, centres, headings):
     """Moving obstacles of worlds ``start`` to ``stop`` alone, one second on."""
     for i in range(start, stop):
-        _drift(
+        drift_world(
             kinds[i],
             shapes[i],
             speeds[i],
@@ -108,17 +108,17 @@ def step(
             heading = math.atan2(targets[i, 1] - y, targets[i, 0] - x)
             action = 0
         if slip.shape[0] > 0:
-            slipped = _slipped(action, slip, keys[i], steps[i])
-            if slipped != action:
-                action = actions[j] = slipped
-        heading = _wrap(heading + TURNS[action])
+            other = slipped(action, slip, keys[i], steps[i])
+            if other != action:
+                action = actions[j] = other
+        heading = wrap(heading + TURNS[action])
         length = -speed if action == BACKWARD else speed
         x1, y1 = x + length * math.cos(heading), y + length * math.sin(heading)
         for m in range(
             len(before)
         ):  # a slice assignment would compile the text of its error, for three seconds
             before[m, 0], before[m, 1] = centres[i, m, 0], centres[i, m, 1]
-        _drift(
+        drift_world(
             kinds[i],
             shapes[i],
             speeds[i],

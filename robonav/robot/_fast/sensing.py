@@ -13,6 +13,7 @@ from .constants import (
     BACKWARD,
     CIRCLE,
     COLLISION_DISTANCE,
+    NO_REFLEX,
     NOTHING,
     SECTOR,
     SENSOR_RANGE,
@@ -152,28 +153,51 @@ def _sense_borders(size, x, y, heading, rays, ranges, walls):
 
 
 @compiled
+def _read_out(key, step, noise, ranges, walls):
+    """Round the ranges of a robot to micrometres, and let noise disturb those that see something."""
+    for k in range(SENSORS):
+        distance = micrometres(ranges[k])
+        if noise > 0.0 and distance < SENSOR_RANGE:
+            error = noise * normal(key, SENSING, step, k)
+            distance = micrometres(min(max(distance + error, 0.0), SENSOR_RANGE))
+        ranges[k] = distance
+        walls[k] = walls[k] and distance < SENSOR_RANGE
+
+
+@compiled
+def _target_region(dx, dy, heading):
+    """Number 1 to 9 of the sector that holds a target (dx, dy) away from the robot."""
+    bearing = math.atan2(dy, dx) - heading
+    return 1 + math.floor(micrometres(bearing) / SECTOR + 0.5) % SENSORS
+
+
+@compiled
+def sense_robot(
+    kinds, shapes, centres, size, x, y, heading, target_x, target_y, key, step, noise, ranges, walls,
+):  # fmt: skip
+    """What one robot reads: fill in its ranges and walls (9,), return its target's region and whether it is seen.
+
+    ``noise`` is the standard deviation, in metres, of an error on every range that sees something.
+    """
+    rays = _sector_rays()
+    ranges[:] = SENSOR_RANGE
+    walls[:] = False
+    _sense_obstacles(kinds, shapes, centres, x, y, heading, rays, ranges)
+    _sense_borders(size, x, y, heading, rays, ranges, walls)
+    _read_out(key, step, noise, ranges, walls)
+    dx, dy = target_x - x, target_y - y
+    seen = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
+    return _target_region(dx, dy, heading), seen
+
+
+@compiled
 def sense(
-    start,
-    stop,
-    robots,
-    kinds,
-    shapes,
-    centres,
-    size,
-    poses,
-    targets,
-    keys,
-    steps,
-    noise,
-    ranges,
-    walls,
-    region,
+    start, stop, robots, kinds, shapes, centres, size, poses, targets, keys, steps, noise, ranges, walls, region,
     seen,
-):
+):  # fmt: skip
     """What ``robots[start]`` to ``robots[stop - 1]`` read: ranges and walls (K, 9), target region and seen (K,).
 
-    ``robots`` (K,) are rows of the N worlds. ``noise`` is the standard deviation, in metres, of an error on every
-    range that sees something.
+    ``robots`` (K,) are rows of the N worlds. Each reads what :func:`sense_robot` says; the rays are made only once.
     """
     rays = _sector_rays()
     for j in range(start, stop):
@@ -185,22 +209,15 @@ def sense(
             kinds[i], shapes[i], centres[i], x, y, heading, rays, ranges[j]
         )
         _sense_borders(size, x, y, heading, rays, ranges[j], walls[j])
-        for k in range(SENSORS):
-            distance = micrometres(ranges[j, k])
-            if noise > 0.0 and distance < SENSOR_RANGE:
-                error = noise * normal(keys[i], SENSING, steps[i], k)
-                distance = micrometres(min(max(distance + error, 0.0), SENSOR_RANGE))
-            ranges[j, k] = distance
-            walls[j, k] = walls[j, k] and distance < SENSOR_RANGE
-        tx, ty = targets[i, 0] - x, targets[i, 1] - y
-        bearing = math.atan2(ty, tx) - heading
-        region[j] = 1 + math.floor(micrometres(bearing) / SECTOR + 0.5) % SENSORS
-        seen[j] = micrometres(math.hypot(tx, ty)) <= SENSOR_RANGE
+        _read_out(keys[i], steps[i], noise, ranges[j], walls[j])
+        dx, dy = targets[i, 0] - x, targets[i, 1] - y
+        seen[j] = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
+        region[j] = _target_region(dx, dy, heading)
 
 
 @compiled
 def reflexes(start, stop, ranges, speed, commands):
-    """Compute the actions of the reflex: to the target if safe, back if blocked ahead, else -1 for the policy."""
+    """Compute the actions of the reflex: to the target if safe, back if blocked ahead, else the policy decides."""
     for i in range(start, stop):
         least = SENSOR_RANGE
         for k in range(SENSORS):
@@ -209,5 +226,5 @@ def reflexes(start, stop, ranges, speed, commands):
         for k in (0, 1, 2, 7, 8):
             blocked = blocked and ranges[i, k] < speed + COLLISION_DISTANCE
         commands[i] = (
-            TO_TARGET if least >= SENSOR_RANGE else BACKWARD if blocked else -1
+            TO_TARGET if least >= SENSOR_RANGE else BACKWARD if blocked else NO_REFLEX
         )

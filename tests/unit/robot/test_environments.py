@@ -12,8 +12,9 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 import robonav
-from robonav.robot import Action, make_world, random_worlds
-from robonav.robot.environments import NavigationEnv, NavigationVectorEnv, as_sensing
+from robonav.robot import Action, make_world, neighbour_slip, random_worlds
+from robonav.robot.environments import NavigationEnv, as_sensing
+from robonav.robot.vector_environment import NavigationVectorEnv
 
 NAME = "robonav/Navigation-v0"
 
@@ -58,7 +59,11 @@ def equal(one, other):
 
 @pytest.mark.parametrize(
     "settings",
-    [{"obstacles": 15, "moving": 3}, {"obstacles": 25, "reflex": None, "noise": 0.3}],
+    [
+        {"obstacles": 15, "moving": 3},
+        {"obstacles": 25, "reflex": None, "noise": 0.3},
+        {"obstacles": 10, "moving": 6, "slip": neighbour_slip(0.3), "speed": 3.3},
+    ],
 )
 @pytest.mark.parametrize("limit", ["of the environment", "of the wrapper"])
 def test_vector_environment_equals_gymnasiums_over_the_single_one(settings, limit):
@@ -219,7 +224,7 @@ def test_given_worlds_are_the_worlds_driven():
     env = NavigationEnv(worlds=worlds, obstacles=0)
     for _ in range(5):
         env.reset()
-        assert env.batch.simulator.worlds.digest() in [w.digest() for w in worlds]
+        assert env.world.digest() in [w.digest() for w in worlds]
     env = NavigationVectorEnv(2, obstacles=4, max_episode_steps=1)
     env.reset(
         options={"worlds": random_worlds(2, 9, seed=3)}
@@ -262,6 +267,8 @@ def test_unknown_actions_are_refused_with_a_sentence(action, error):
 def test_stepping_out_of_turn_is_refused():
     with pytest.raises(ValueError, match="call reset first"):
         NavigationVectorEnv(2).step([0, 0])
+    with pytest.raises(ValueError, match="call reset first"):
+        NavigationEnv().step(0)
     env = NavigationEnv(max_episode_steps=1)
     env.reset(seed=0)
     env.step(0)
@@ -364,3 +371,11 @@ def test_bad_rewards_options_and_seeds_are_refused_with_a_sentence():
     assert env.np_random_seed == 7
     with pytest.raises(ValueError, match="render: call reset first"):
         NavigationVectorEnv(2, render_mode="rgb_array").render()
+    with pytest.raises(ValueError, match="render: call reset first"):
+        NavigationEnv(render_mode="rgb_array").render()
+    env = NavigationEnv(reward=lambda before, after, outcome: 0.0)
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match=r"reward must give an array of shape \(1,\)"):
+        env.step(0)
+    with pytest.raises(ValueError, match=r"options\['worlds'\] must hold 1 worlds"):
+        env.reset(options={"worlds": random_worlds(2, seed=0)})
