@@ -3,14 +3,13 @@
 from .apprenticeship import (
     Apprenticeship,
     apprenticeship,
+    apprenticeship_learning,
     from_all_states,
     from_initial_state,
     max_margin_guess,
-    max_margin_method,
     nearest_mixture,
     project,
     projection_guess,
-    projection_method,
 )
 from .benchmark_mdps import TERRAIN_KINDS, TRUE_WEIGHTS, terrain
 from .feature_expectations import (
@@ -125,6 +124,7 @@ __all__ = [
     "action_values",
     "all_action_features",
     "apprenticeship",
+    "apprenticeship_learning",
     "balanced_accuracy",
     "boltzmann_policy",
     "causal_entropy_dual",
@@ -152,7 +152,6 @@ __all__ = [
     "lstd_mu",
     "map_uniform_prior",
     "max_margin_guess",
-    "max_margin_method",
     "maximum_causal_entropy",
     "maximum_margin",
     "maximum_margin_subgradient",
@@ -166,7 +165,6 @@ __all__ = [
     "project",
     "project_to_unit_ball",
     "projection_guess",
-    "projection_method",
     "random_segments",
     "relative_entropy",
     "relative_entropy_weights",

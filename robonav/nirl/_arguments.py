@@ -59,8 +59,7 @@ RULES: dict[str, Rule] = {
     "temperature": check_positive,
     "lstd_mu.regularisation": check_positive,
     "maximum_causal_entropy.tolerance": check_positive,
-    "projection_method.tolerance": not_negative,
-    "max_margin_method.tolerance": not_negative,
+    "apprenticeship_learning.tolerance": not_negative,
     "soft_value_iteration.tolerance": check_positive,
 }
 """The rule of each number: by the name of the argument, or by "function.argument"."""
@@ -76,8 +75,7 @@ SHAPES: dict[str, dict[str, str]] = {
     "maximum_margin": {"expert": "K", "others": "n K"},
     "maximum_margin_subgradient": {"expert": "K", "others": "n K"},
     "nearest_mixture": {"expert": "K", "found": "n K"},
-    "projection_method": {"expert": "K"},
-    "max_margin_method": {"expert": "K"},
+    "apprenticeship_learning": {"expert": "K"},
     "importance_weights": {"weights": "K", "samples": "N K", "log_ratios": "N"},
     "dual": {"weights": "K", "expert": "K", "samples": "N K", "log_ratios": "N"},
     "dual_gradient": {

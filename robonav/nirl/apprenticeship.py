@@ -1,7 +1,12 @@
 """Apprenticeship learning via inverse reinforcement learning (Abbeel and Ng 2004).
 
-Each iteration guesses a reward under which the expert does better than the policies found so far, finds a good policy
-for it, and adds this policy to them. The expert's feature expectations come ever closer to a mixture of theirs.
+The algorithm alternates between a reward and a policy. It guesses a reward under which the expert does better than all
+policies found so far, finds the best policy for this reward, and adds this policy to the list. The feature expectations
+of the expert come ever closer to those of a mixture of the policies.
+
+:func:`apprenticeship_learning` is the algorithm. It has two ways to guess a reward: :func:`max_margin_guess` solves a
+quadratic program, and :func:`projection_guess` needs none. :func:`apprenticeship` runs it for the robot, where there is
+no model and a neural network learns each policy.
 """
 
 from __future__ import annotations
@@ -14,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import nnls
 
+from robonav.networks.multilayer_perceptron import Network
 from robonav.progress import Progress
 
 from ._arguments import checked
@@ -32,37 +38,37 @@ Solver = Callable[[Floats], tuple[Any, ArrayLike]]
 """``solve(weights) -> (policy, mu)``: the best policy for the reward theta . f, and its feature expectations (K,)."""
 
 RewardGuess = Callable[[Floats, Sequence[Floats]], tuple[Floats, float]]
-"""``guess(expert, found) -> (weights, distance)``: a reward under which the expert beats the policies found so far, and
-how far the expert is from what they reach."""
+"""``guess(expert, found) -> (weights, distance)``: a reward under which the expert does better than the policies found
+so far, and the distance of the expert's feature expectations from those of the nearest mixture of these policies."""
 
 PolicyExpectations = Callable[[Transitions, int, float], Floats]
-"""``expectations(transitions, n_actions, discount) -> (A (k + 1),)``: feature expectations of whoever decided."""
+"""``expectations(transitions, n_actions, discount) -> (A (k + 1),)``: estimated feature expectations."""
 
 
 @dataclass(frozen=True, eq=False)
 class Apprenticeship:
-    """The policies found in n iterations, and the first one.
+    """The result of :func:`apprenticeship_learning` after n iterations.
 
     Attributes
     ----------
     policies : tuple
-        n + 1 of them; the first is the one started from.
+        n + 1 policies, the initial one first.
     expectations : (n + 1, K) array
         Their feature expectations.
     weights : (n, K) array
-        The reward that each policy after the first is best for.
+        The reward for which each policy after the first is the best one.
     distances : (n + 1,) array
-        Distance of the expert, in feature expectations, from what the first 1, 2, ... policies reach.
+        Distance of the expert's feature expectations from those of the nearest mixture of the first 1, 2, ... policies.
     expert : (K,) array
         The expert's feature expectations.
 
     Examples
     --------
     >>> import numpy as np
-    >>> from robonav.nirl import projection_method
-    >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    >>> from robonav.nirl import apprenticeship_learning
+    >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])  # feature expectations of three policies
     >>> solve = lambda weights: ((k := int((corners @ weights).argmax())), corners[k])
-    >>> found = projection_method([0.5, 0.5], solve, (0, corners[0]), iterations=3)
+    >>> found = apprenticeship_learning([0.5, 0.5], solve, (0, corners[0]), iterations=3)
     >>> found.mixture.round(2)[:3]
     array([0. , 0.5, 0.5])
     """
@@ -80,16 +86,16 @@ class Apprenticeship:
 
     @property
     def mixture(self) -> Floats:
-        """(n + 1,) probabilities of the policies with which their mixture comes nearest to the expert."""
+        """Probabilities (n + 1,) of the policies in the mixture nearest to the expert, see :func:`nearest_mixture`."""
         return nearest_mixture(self.expert, self.expectations)
 
 
 def project(mean: Floats, found: Floats, expert: Floats) -> Floats:
     """The point nearest to the expert on the segment from ``mean`` to ``found`` (Abbeel and Ng 2004, section 3.1).
 
-    The segment ends at ``found``, so that the point remains a mixture of policies. If ``found`` belongs to the best
-    policy for the reward ``expert - mean``, the nearest point of the whole line lies on it anyway; a learned policy may
-    be worse.
+    The paper projects onto the whole line through the two points. If ``found`` belongs to the best policy for the
+    reward ``expert - mean``, this projection lies on the segment. A learned policy may be worse. The limits of the
+    segment then keep the point a mixture of policies.
 
     Parameters
     ----------
@@ -107,14 +113,17 @@ def project(mean: Floats, found: Floats, expert: Floats) -> Floats:
     >>> project(np.array([0.0, 0.0]), np.array([2.0, 0.0]), np.array([1.0, 1.0]))
     array([1., 0.])
     """
-    along = found - mean
-    length2 = along @ along
-    share = 0.0 if length2 == 0 else along @ (expert - mean) / length2
-    return mean + float(np.clip(share, 0, 1)) * along
+    step = found - mean
+    length2 = step @ step
+    share = 0.0 if length2 == 0 else step @ (expert - mean) / length2
+    return mean + float(np.clip(share, 0, 1)) * step
 
 
 def projection_guess(expert: Floats, found: Sequence[Floats]) -> tuple[Floats, float]:
-    """The reward of the projection method: the vector to the expert from its projection onto the policies found.
+    """The reward of the projection method: the vector from a mixture of the policies found to the expert.
+
+    The mixture begins with the first policy. For each further policy it moves to the point nearest to the expert on the
+    segment to this policy.
 
     Parameters
     ----------
@@ -144,7 +153,7 @@ def projection_guess(expert: Floats, found: Sequence[Floats]) -> tuple[Floats, f
 
 
 def max_margin_guess(expert: Floats, found: Sequence[Floats]) -> tuple[Floats, float]:
-    """The reward of the max-margin method, by :func:`maximum_margin`, and the margin.
+    """The reward of the max-margin method: the one by which the expert leads the policies found by the largest margin.
 
     Parameters
     ----------
@@ -153,6 +162,12 @@ def max_margin_guess(expert: Floats, found: Sequence[Floats]) -> tuple[Floats, f
     found : sequence of (K,) arrays
         Those of the policies found so far.
 
+    Returns
+    -------
+    weights : (K,) array
+    distance : float
+        The margin, see :func:`maximum_margin`.
+
     Examples
     --------
     >>> import numpy as np
@@ -160,15 +175,91 @@ def max_margin_guess(expert: Floats, found: Sequence[Floats]) -> tuple[Floats, f
     >>> max_margin_guess(np.array([3.0, 4.0]), [np.zeros(2)])
     (array([0.6, 0.8]), 5.0)
     """
-    widest = maximum_margin(expert, np.stack(found))
-    return widest.weights, widest.margin
+    solution = maximum_margin(expert, np.stack(found))
+    return solution.weights, solution.margin
+
+
+@checked
+def apprenticeship_learning(
+    expert: ArrayLike,
+    solve: Solver,
+    first: tuple[Any, ArrayLike],
+    *,
+    guess: RewardGuess = projection_guess,
+    tolerance: float = 1e-3,
+    iterations: int = 50,
+    progress: Progress | None = None,
+) -> Apprenticeship:
+    """Apprenticeship learning (Abbeel and Ng 2004, section 3); the numbers are the steps of the paper.
+
+    If the distance falls to ``tolerance``, some mixture of the policies has nearly the expert's feature expectations.
+    Under every linear reward with weights of length 1 at most, its value then differs from the expert's by at most
+    ``tolerance``.
+
+    Parameters
+    ----------
+    expert : (K,) array
+        Feature expectations mu_E of the expert.
+    solve : callable
+        ``solve(weights)`` returns the best policy for the reward theta . f, and its feature expectations (K,).
+    first : tuple
+        A policy to start from, and its feature expectations (K,).
+    guess : callable
+        :func:`projection_guess`, the projection method, or :func:`max_margin_guess`, the max-margin method.
+    tolerance : float
+        epsilon: the algorithm ends when the expert is no farther than this from a mixture of the policies found.
+    iterations : int
+        Policies to find at most.
+    progress : callable, optional
+        Called as ``progress(done, iterations)``.
+
+    Returns
+    -------
+    Apprenticeship
+
+    Examples
+    --------
+    >>> from robonav.mdp import policy_iteration
+    >>> from robonav.nirl import TRUE_WEIGHTS, apprenticeship_learning, initial_expectations, terrain
+    >>> grid, mdp = terrain()
+    >>> def solve(weights):
+    ...     policy = policy_iteration(mdp.with_reward(weights)).policy
+    ...     return policy, initial_expectations(mdp, policy)
+    >>> expert = solve(TRUE_WEIGHTS)[1]
+    >>> found = apprenticeship_learning(expert, solve, solve(-TRUE_WEIGHTS))
+    >>> found.distances[-1] < 0.1 * found.distances[0]
+    np.True_
+    """
+    mu_expert = np.asarray(expert)
+    policies, found = [first[0]], [np.asarray(first[1], dtype=float)]  # 1
+    rewards: list[Floats] = []
+    distances: list[float] = []
+    for iteration in range(iterations + 1):
+        theta, distance = guess(mu_expert, found)  # 2
+        distances.append(distance)
+        if distance <= tolerance or iteration == iterations:  # 3
+            break
+        policy, mu = solve(theta)  # 4 and 5
+        rewards.append(theta)
+        policies.append(policy)
+        found.append(np.asarray(mu, dtype=float))  # 6
+        if progress is not None:
+            progress(iteration + 1, iterations)
+    return Apprenticeship(
+        policies=tuple(policies),
+        expectations=np.stack(found),
+        weights=np.array(rewards).reshape(len(rewards), len(mu_expert)),
+        distances=np.array(distances),
+        expert=mu_expert,
+    )
 
 
 @checked
 def nearest_mixture(expert: ArrayLike, found: ArrayLike) -> Floats:
     """The mixture of policies whose feature expectations are nearest to the expert's.
 
-    It is a non-negative least-squares problem; one heavily weighted equation makes the probabilities sum to 1.
+    The probabilities solve a least-squares problem with non-negative unknowns. That they sum to 1 is one more equation
+    of this problem, with a weight so large that it holds almost exactly.
 
     Parameters
     ----------
@@ -190,130 +281,20 @@ def nearest_mixture(expert: ArrayLike, found: ArrayLike) -> Floats:
     """
     gaps = np.asarray(found) - np.asarray(expert)
     scale = max(abs(gaps).max(), np.finfo(float).tiny)
-    heavy = 1e5
-    matrix = np.vstack([gaps.T / scale, np.full(len(gaps), heavy)])
+    large = 1e5
+    matrix = np.vstack([gaps.T / scale, np.full(len(gaps), large)])
     target = np.zeros(len(matrix))
-    target[-1] = heavy
+    target[-1] = large
     shares, _ = nnls(matrix, target, maxiter=30 * len(gaps) + 100)
     return shares / shares.sum()
-
-
-@checked
-def projection_method(
-    expert: ArrayLike,
-    solve: Solver,
-    first: tuple[Any, ArrayLike],
-    *,
-    tolerance: float = 1e-3,
-    iterations: int = 50,
-    progress: Progress | None = None,
-) -> Apprenticeship:
-    """Apprenticeship learning by the projection method (Abbeel and Ng 2004, section 3.1): no quadratic program.
-
-    Parameters
-    ----------
-    expert : (K,) array
-        Feature expectations mu_E.
-    solve : callable
-        ``solve(weights)`` returns the best policy for the reward theta . f, and its feature expectations (K,).
-    first : tuple
-        A policy to start from, and its feature expectations (K,).
-    tolerance : float
-        epsilon: ends when the expert is no farther than this from the projection.
-    iterations : int
-        Policies to find at most.
-    progress : callable, optional
-        Called as ``progress(done, iterations)``.
-
-    Returns
-    -------
-    Apprenticeship
-
-    Examples
-    --------
-    >>> from robonav.mdp import policy_iteration
-    >>> from robonav.nirl import TRUE_WEIGHTS, initial_expectations, projection_method, terrain
-    >>> grid, mdp = terrain()
-    >>> def solve(weights):
-    ...     policy = policy_iteration(mdp.with_reward(weights)).policy
-    ...     return policy, initial_expectations(mdp, policy)
-    >>> expert = solve(TRUE_WEIGHTS)[1]
-    >>> found = projection_method(expert, solve, solve(-TRUE_WEIGHTS))
-    >>> found.distances[-1] < 0.1 * found.distances[0]
-    np.True_
-    """
-    return _apprentice(expert, solve, first, projection_guess, tolerance, iterations, progress)  # fmt: skip
-
-
-@checked
-def max_margin_method(
-    expert: ArrayLike,
-    solve: Solver,
-    first: tuple[Any, ArrayLike],
-    *,
-    tolerance: float = 1e-3,
-    iterations: int = 50,
-    progress: Progress | None = None,
-) -> Apprenticeship:
-    """Apprenticeship learning by the max-margin method (Abbeel and Ng 2004, section 3).
-
-    Parameters
-    ----------
-    expert, solve, first, tolerance, iterations, progress
-        As in :func:`projection_method`.
-
-    Returns
-    -------
-    Apprenticeship
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.nirl import max_margin_method
-    >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    >>> solve = lambda weights: ((k := int((corners @ weights).argmax())), corners[k])
-    >>> max_margin_method([0.5, 0.5], solve, (0, corners[0])).policies
-    (0, 1, 2)
-    """
-    return _apprentice(expert, solve, first, max_margin_guess, tolerance, iterations, progress)  # fmt: skip
-
-
-def _apprentice(
-    expert: Any,
-    solve: Solver,
-    first: tuple[Any, ArrayLike],
-    guess: RewardGuess,
-    tolerance: float,
-    iterations: int,
-    progress: Progress | None,
-) -> Apprenticeship:
-    """Guess a reward, find the best policy for it, and repeat until the expert is near a mixture of the policies."""
-    policies, found = [first[0]], [np.asarray(first[1], dtype=float)]
-    weights: list[Floats] = []
-    distances: list[float] = []
-    while True:
-        theta, distance = guess(expert, found)
-        distances.append(distance)
-        if distance <= tolerance or len(weights) == iterations:
-            break
-        policy, mu = solve(theta)
-        weights.append(theta)
-        policies.append(policy)
-        found.append(np.asarray(mu, dtype=float))
-        if progress is not None:
-            progress(len(weights), iterations)
-    rewards = np.array(weights).reshape(len(weights), len(expert))
-    return Apprenticeship(
-        tuple(policies), np.stack(found), rewards, np.array(distances), expert
-    )
 
 
 def from_initial_state(
     transitions: Transitions, n_actions: int, discount: float
 ) -> Floats:
-    """Feature expectations discounted from the first decision of each episode on.
+    """Feature expectations discounted from the first decision of each episode.
 
-    This is Eq. (5.13). With the thesis's discount, what happens a dozen decisions later hardly counts.
+    This is Eq. (5.13). With the thesis's discount of 0.65, decisions after the first dozen hardly count.
 
     Parameters
     ----------
@@ -346,9 +327,9 @@ def from_initial_state(
 def from_all_states(
     transitions: Transitions, n_actions: int, discount: float
 ) -> Floats:
-    """Feature expectations discounted from every decision, and averaged over all of them.
+    """Feature expectations discounted from every decision, and averaged over all decisions.
 
-    Every part of an episode then has the same weight.
+    All parts of an episode then count alike.
 
     Parameters
     ----------
@@ -393,20 +374,23 @@ def apprenticeship(
     seed: int | np.random.Generator = 0,
     progress: Progress | None = None,
 ) -> IRLResult:
-    """Apprenticeship learning (Abbeel and Ng 2004) with a neural policy: a policy is learned for each reward.
+    """Apprenticeship learning (Abbeel and Ng 2004) without a model: a neural network learns the policy of each reward.
+
+    Steps 1 to 6 are those of :func:`apprenticeship_learning`. Feature expectations are estimated from episodes.
 
     Parameters
     ----------
     demonstrations : Transitions
         The expert's decisions.
     task : Task
-        Where the learner practises.
+        The task in which the network learns.
     guess : callable
         :func:`projection_guess` or :func:`max_margin_guess`.
     expectations : callable
         :func:`from_all_states`, or :func:`from_initial_state`, which takes the equation literally.
     n_rewards : int
-        Rewards tried. They share the ``iterations``; the network goes on learning from one reward to the next.
+        Rewards to guess at most. The ``iterations`` are divided equally among them, and the network keeps its weights
+        from one reward to the next.
     iterations, hidden, inverse_temperature, score, seed, progress
         As in :func:`nirl`.
     improver : ReplaySGD
@@ -427,23 +411,24 @@ def apprenticeship(
     """
     rng = np.random.default_rng(seed)
     trainer = Trainer(demonstrations, task, hidden, inverse_temperature, improver, rng)
-    iterations_per_reward = max(iterations // n_rewards, 1)
-    total, done = n_rewards * iterations_per_reward, 0
-    expert = expectations(demonstrations, task.n_actions, improver.discount)
-    trainer.rollout()
-    found: list[Floats] = []
-    for _ in range(n_rewards):
-        latest = trainer.episodes[-1]
-        mu = expectations(latest, task.n_actions, improver.discount)
-        found.append(mu)
-        weights, distance = guess(expert, found)
-        if distance <= 0:
-            break  # the expert is a mixture of the policies found
+    per_reward = max(iterations // n_rewards, 1)
+    total = n_rewards * per_reward
+
+    def mu(decisions: Transitions) -> Floats:
+        return expectations(decisions, task.n_actions, improver.discount)
+
+    def solve(weights: Floats) -> tuple[Network, Floats]:
         theta = weights.reshape(task.n_actions, -1)
-        for _ in range(iterations_per_reward):
-            trainer.improve(theta, fraction=min(done / max(total - 1, 1), 1.0))
-            trainer.rollout()
-            done += 1
+        for _ in range(per_reward):
+            done = len(trainer.episodes)
+            trainer.improve(theta, fraction=(done - 1) / max(total - 1, 1))
+            episodes = trainer.rollout()
             if progress is not None:
                 progress(done, total)
+        return trainer.network, mu(episodes)
+
+    first = trainer.network, mu(trainer.rollout())
+    apprenticeship_learning(
+        mu(demonstrations), solve, first, guess=guess, tolerance=0, iterations=n_rewards
+    )
     return trainer.result(score)

@@ -148,7 +148,7 @@ class Trainer:
     >>> task = TabularTask(terrain()[1])
     >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
     >>> trainer = Trainer(expert, task, 5, 25.0, ReplaySGD(n_samples=10), np.random.default_rng(0))
-    >>> trainer.rollout()
+    >>> episodes = trainer.rollout()
     >>> trainer.improve(np.zeros((4, 43)), fraction=0.0)
     >>> len(trainer.result(accuracy).history.costs)
     1
@@ -185,10 +185,11 @@ class Trainer:
         )
         self._networks.append(network)
 
-    def rollout(self) -> None:
+    def rollout(self) -> Transitions:
         """A few more episodes with the latest network, actions drawn from its exploring policy."""
         policy = exploring_policy(self.network, self.inverse_temperature)
         self.episodes.append(self.task.rollout(policy, self.rng))
+        return self.episodes[-1]
 
     def margin(self, theta: Floats) -> float:
         """By how much the reward theta, of length 1 at most, prefers the expert's decisions to the network's."""

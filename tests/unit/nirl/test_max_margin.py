@@ -8,13 +8,14 @@ from hypothesis.extra.numpy import arrays
 from scipy.optimize import linprog
 
 from robonav.nirl import (
+    apprenticeship_learning,
     initial_expectations,
-    max_margin_method,
+    max_margin_guess,
     maximum_margin,
     maximum_margin_subgradient,
     nearest_mixture,
     project,
-    projection_method,
+    projection_guess,
 )
 
 POINTS = st.integers(1, 6).flatmap(
@@ -96,8 +97,8 @@ def test_the_nearest_mixture_of_a_square():
     np.testing.assert_allclose(outside, [0, 0.5, 0.5, 0], atol=1e-6)
 
 
-@pytest.fixture(params=[projection_method, max_margin_method])
-def method(request):
+@pytest.fixture(params=[projection_guess, max_margin_guess])
+def guess(request):
     return request.param
 
 
@@ -109,19 +110,18 @@ def solver(case):
     return solve
 
 
-def learn(case, method, expert, **options):
+def learn(case, guess, expert, **options):
     solve = solver(case)
     first = np.zeros(case.task.n_states, dtype=int)
-    return method(
-        expert, solve, (first, initial_expectations(case.task, first)), **options
-    )
+    start = first, initial_expectations(case.task, first)
+    return apprenticeship_learning(expert, solve, start, guess=guess, **options)
 
 
-def test_the_apprentice_matches_the_expert(terrain, method):
+def test_the_apprentice_matches_the_expert(terrain, guess):
     """With the expert's exact expectations: distances fall, and the mixture is worth what the expert is."""
     learned = learn(
         terrain,
-        method,
+        guess,
         initial_expectations(terrain.task, terrain.expert),
         iterations=30,
     )
@@ -135,24 +135,24 @@ def test_the_apprentice_matches_the_expert(terrain, method):
     assert len(learned.policies) == len(learned.weights) + 1 == len(learned.distances)
 
 
-def test_the_apprentice_of_random_rewards(scattered, method):
+def test_the_apprentice_of_random_rewards(scattered, guess):
     learned = learn(
         scattered,
-        method,
+        guess,
         initial_expectations(scattered.task, scattered.expert),
         iterations=40,
     )
     assert scattered.loss(learned.policies[learned.closest]) < 0.05
 
 
-def test_the_apprentice_of_demonstrations(terrain, method):
+def test_the_apprentice_of_demonstrations(terrain, guess):
     """From 200 walks instead of the model."""
     from robonav.nirl import empirical_expectations
 
     walks = terrain.task.rollout(terrain.expert, 200, 60, seed=5)
     shown = terrain.task.features[walks.states, walks.actions].reshape(-1, 4)
     expert = empirical_expectations(shown, walks.trajectory, terrain.task.discount)
-    learned = learn(terrain, method, expert, iterations=20)
+    learned = learn(terrain, guess, expert, iterations=20)
     assert terrain.loss(learned.policies[learned.closest]) < 0.05
 
 
@@ -161,7 +161,7 @@ def test_both_ways_walk_the_same_first_step(terrain):
     expert = initial_expectations(terrain.task, terrain.expert)
     a, b = (
         learn(terrain, way, expert, iterations=1).weights[0]
-        for way in (projection_method, max_margin_method)
+        for way in (projection_guess, max_margin_guess)
     )
     np.testing.assert_allclose(a / np.linalg.norm(a), b / np.linalg.norm(b), atol=1e-6)
 
@@ -170,7 +170,7 @@ def test_a_projection_never_lies_beyond_the_best_policy(terrain):
     """So the bound in ``project`` changes nothing of the paper's method where rewards are solved exactly."""
     learned = learn(
         terrain,
-        projection_method,
+        projection_guess,
         initial_expectations(terrain.task, terrain.expert),
         iterations=20,
     )
@@ -184,10 +184,10 @@ def test_a_projection_never_lies_beyond_the_best_policy(terrain):
     assert np.linalg.norm(learned.expert - mean) == pytest.approx(learned.distances[-1])
 
 
-def test_an_expert_met_at_once_ends_it(terrain, method):
+def test_an_expert_met_at_once_ends_it(terrain, guess):
     first = initial_expectations(
         terrain.task, np.zeros(terrain.task.n_states, dtype=int)
     )
-    learned = learn(terrain, method, first)
+    learned = learn(terrain, guess, first)
     assert len(learned.policies) == 1
     assert learned.distances.tolist() == [0]
