@@ -1,36 +1,33 @@
-"""Compiled twins of the planners in ``dynamic_programming``: each sweep is one pass over the model (``_fast``)."""
+"""Compiled twins of the planners: each sweep is one pass over the model, in the kernels of ``_fast``.
+
+A twin is called as its algorithm in ``dynamic_programming`` or ``asynchronous`` is, and gives the same numbers.
+"""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import NDArray
 
 from . import _fast
-from ._arguments import checked
-from .evaluation import History, evaluation_residual, warn_not_converged
+from .evaluation import History, error_limit, evaluation_residual
 from .models import FiniteMDP
-from .solutions import (
-    Solution,
-    first_values,
-    greedy_policy,
-    shifted_to_middle,
-    solution_of,
-    values_below,
-)
+from .solutions import Solution, greedy_policy
+
+Floats = NDArray[np.float64]
 
 
-@checked
 def value_iteration(
     mdp: FiniteMDP,
-    tolerance: float = 1e-6,
+    tolerance: float,
     *,
-    start: ArrayLike | None = None,
-    max_iterations: int = 100_000,
-    record: bool = False,
+    start: Floats,
+    max_iterations: int,
+    record: bool,
 ) -> Solution:
     """Twin of ``dynamic_programming.value_iteration``: maximum and residual are found in the pass of the backup."""
-    values = first_values(mdp, start)
-    limit, history = mdp.residual_for(tolerance), History(record)
+    values, limit, history = start, mdp.residual_for(tolerance), History(record)
     updated, policy = np.empty_like(values), np.empty(mdp.n_states, dtype=np.intp)
     history.append(values)
     for iteration in range(1, max_iterations + 1):
@@ -40,29 +37,25 @@ def value_iteration(
         residual = max(-least, most)
         if residual <= limit:
             break
-    else:
-        warn_not_converged("value_iteration", iteration, residual, limit, stacklevel=5)
     policy = greedy_policy(mdp, values, tolerance)
-    return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
+    converged = residual <= limit
+    return Solution(values, policy, iteration, residual, converged, history.rows)
 
 
-@checked
 def modified_policy_iteration(
     mdp: FiniteMDP,
-    tolerance: float = 1e-6,
+    tolerance: float,
     *,
-    sweeps: int = 8,
-    start: ArrayLike | None = None,
-    max_iterations: int = 100_000,
-    record: bool = False,
+    sweeps: int,
+    start: Floats,
+    max_iterations: int,
+    record: bool,
 ) -> Solution:
     """Twin of ``dynamic_programming.modified_policy_iteration``: sweeps need no copy of the induced chain."""
-    values = values_below(mdp) if start is None else first_values(mdp, start)
-    history = History(record)
-    history.append(values)
-    limit = evaluation_residual(mdp, tolerance)
+    values, limit, history = start, evaluation_residual(mdp, tolerance), History(record)
     updated, policy = np.empty_like(values), np.empty(mdp.n_states, dtype=np.intp)
     for iteration in range(1, max_iterations + 1):
+        history.append(values)
         least, most = _fast.optimal_sweep(*mdp.arrays, values, updated, policy)
         values, updated = updated, values
         residual = most - least if mdp.discount < 1 else max(-least, most)
@@ -71,13 +64,58 @@ def modified_policy_iteration(
         for _ in range(sweeps):
             _fast.policy_sweep(*mdp.arrays, values, updated, policy)
             values, updated = updated, values
-        history.append(values)
-    else:
-        warn_not_converged(
-            "modified_policy_iteration", iteration, residual, limit, stacklevel=5
-        )
     policy = greedy_policy(mdp, values, tolerance)
-    if residual <= limit:
-        values = shifted_to_middle(mdp, values, least, most)
+    converged = residual <= limit
+    if converged and mdp.discount < 1:
+        missing = mdp.discount / (1 - mdp.discount) * (least + most) / 2
+        values = np.where(mdp.terminal, 0, values + missing)
+    history.append(values)
+    return Solution(values, policy, iteration, residual, converged, history.rows)
+
+
+def in_place_value_iteration(
+    mdp: FiniteMDP,
+    tolerance: float,
+    *,
+    start: Floats,
+    max_iterations: int,
+    record: bool,
+) -> Solution:
+    """Twin of ``asynchronous.in_place_value_iteration``."""
+    values, limit, history = start, mdp.residual_for(tolerance), History(record)
+    history.append(values)
+    for iteration in range(1, max_iterations + 1):
+        residual = _fast.in_place_sweep(*mdp.arrays, values)
         history.append(values)
-    return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
+        if residual <= limit:
+            break
+    policy = greedy_policy(mdp, values, tolerance)
+    converged = residual <= limit
+    return Solution(values, policy, iteration, residual, converged, history.rows)
+
+
+def prioritized_sweeping(
+    mdp: FiniteMDP, tolerance: float, *, start: Floats, max_backups: int
+) -> Solution:
+    """Twin of ``asynchronous.prioritized_sweeping``: the largest priority is on top of a heap."""
+    values, limit = start, error_limit(mdp, tolerance)
+    priority = abs(mdp.action_values(values).max(axis=1) - values)
+    likeliest = mdp.likeliest_predecessors()
+    backups, residual = _fast.prioritized_backups(
+        *mdp.arrays,
+        unsigned(likeliest.indptr),
+        unsigned(likeliest.indices),
+        likeliest.data,
+        values,
+        priority,
+        np.argsort(-priority),
+        limit,
+        max_backups,
+    )
+    policy = greedy_policy(mdp, values, tolerance)
+    return Solution(values, policy, backups, residual, residual <= limit)
+
+
+def unsigned(positions: NDArray[Any]) -> NDArray[Any]:
+    """Positions as ``_fast`` takes them."""
+    return positions.view(f"u{positions.itemsize}")

@@ -1,26 +1,21 @@
 """Asynchronous value iteration: one state at a time, in order or the most urgent first.
 
-Both methods back up single states, which Python does slowly. Their loops therefore run compiled (``_fast``);
-:func:`in_place_sweep` and :func:`prioritized_backups` are the same loops to be read, and a test holds both equal.
+The decorator ``planner`` is explained in ``dynamic_programming``. Python backs up single states slowly, so the compiled
+twins of these loops run (``_fast_planners``); a test holds both equal.
 """
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-import scipy.sparse as sp
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ._arguments import checked
-from .evaluation import History, warn_not_converged
+from .evaluation import error_limit
 from .models import FiniteMDP
-from .solutions import Solution, first_values, greedy_policy, solution_of
+from .planner import planner
+from .solutions import Solution, first_values, greedy_policy
 
-Floats = NDArray[np.float64]
 
-
-@checked
+@planner(start=first_values, limit=FiniteMDP.residual_for, compiled=True)
 def in_place_value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -64,33 +59,25 @@ def in_place_value_iteration(
     >>> in_place_value_iteration(mdp).iterations, value_iteration(mdp).iterations
     (2, 6)
     """
-    from . import _fast
-
-    values = first_values(mdp, start)
-    limit, history = mdp.residual_for(tolerance), History(record)
-    history.append(values)
+    epsilon = mdp.residual_for(tolerance)
+    values = np.array(start)
+    history = [values.copy()]
     for iteration in range(1, max_iterations + 1):
-        residual = _fast.in_place_sweep(*mdp.arrays, values)
-        history.append(values)
-        if residual <= limit:
+        residual = 0.0
+        for state in range(mdp.n_states):
+            expected_next_values = mdp.transitions_from(state) @ values  # (A,)
+            q = mdp.rewards[state] + mdp.discount * expected_next_values
+            residual = max(residual, abs(q.max() - values[state]))
+            values[state] = q.max()  # the states after this one use the new value
+        history.append(values.copy())
+        if residual <= epsilon:
             break
-    else:
-        warn_not_converged("in_place_value_iteration", iteration, residual, limit)
     policy = greedy_policy(mdp, values, tolerance)
-    return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
+    converged = residual <= epsilon
+    return Solution(values, policy, iteration, residual, converged, np.array(history))
 
 
-def in_place_sweep(mdp: FiniteMDP, values: Floats) -> float:
-    """Back up all states in order, in place, each with the values as they are by then; return the largest change."""
-    largest = 0.0
-    for state in range(mdp.n_states):
-        best = best_action_value(mdp, state, values)
-        largest = max(largest, abs(best - values[state]))
-        values[state] = best
-    return largest
-
-
-@checked
+@planner(start=first_values, limit=error_limit, compiled=True)
 def prioritized_sweeping(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -100,8 +87,10 @@ def prioritized_sweeping(
 ) -> Solution:
     """Prioritised sweeping: value iteration of one state at a time, the one with the largest possible error first.
 
-    Stops when no state's error may exceed ``tolerance * (1 - discount) / 2`` (``tolerance`` without discount). The
-    greedy policy then loses at most ``tolerance`` (Moore and Atkeson 1993, here with a known model).
+    The priority of a state is an upper bound on its Bellman error. When V(s') changes by d, the error of a predecessor
+    s grows by ``discount * max over a of T(s, a, s') * d`` at most. Stops when no priority exceeds
+    ``tolerance * (1 - discount) / 2`` (``tolerance`` without discount). The greedy policy then loses at most
+    ``tolerance`` (Moore and Atkeson 1993, here with a known model).
 
     Parameters
     ----------
@@ -131,74 +120,27 @@ def prioritized_sweeping(
     >>> prioritized_sweeping(GridWorld(". . . . G").mdp(discount=0.9)).iterations
     9
     """
-    from . import _fast
-
-    values = first_values(mdp, start)
-    priority = abs(mdp.action_values(values).max(axis=1) - values)
-    limit = tolerance * (1 if mdp.discount == 1 else (1 - mdp.discount) / 2)
-    backward = likeliest_predecessors(mdp)
-    starts, states = unsigned(backward.indptr, backward.indices)
-    backups, residual = _fast.prioritized_backups(
-        *mdp.arrays,
-        starts,
-        states,
-        backward.data,
-        values,
-        priority,
-        np.argsort(-priority),
-        limit,
-        max_backups,
-    )
-    if residual > limit:
-        warn_not_converged("prioritized_sweeping", backups, residual, limit)
-    policy = greedy_policy(mdp, values, tolerance)
-    return Solution(values, policy, backups, residual)
-
-
-def prioritized_backups(
-    mdp: FiniteMDP, values: Floats, limit: float, max_backups: int
-) -> tuple[int, float]:
-    """Back up the state with the largest priority, in place, until no priority exceeds ``limit``.
-
-    The priority of a state bounds its Bellman error from above: a change of V(s') by d raises the priority of each
-    predecessor s by at most discount * max over a of T(s, a, s') * d.
-
-    Returns
-    -------
-    backups : int
-        Number of backups done.
-    largest : float
-        Largest priority left.
-    """
-    backward = likeliest_predecessors(mdp)
-    priority = abs(mdp.action_values(values).max(axis=1) - values)
+    epsilon = error_limit(mdp, tolerance)
+    values = np.array(start)
+    likeliest = (
+        mdp.likeliest_predecessors()
+    )  # row s', column s: max over a of T(s, a, s')
+    q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
+    priority = abs(
+        q.max(axis=1) - values
+    )  # an upper bound on each state's Bellman error
     backups = 0
-    while priority.max() > limit and backups < max_backups:
+    while priority.max() > epsilon and backups < max_backups:
         state = int(priority.argmax())
-        change = abs(best_action_value(mdp, state, values) - values[state])
-        values[state] = best_action_value(mdp, state, values)
-        priority[state] = 0.0
-        before = slice(*backward.indptr[state : state + 2])
-        likeliest = backward.data[before]  # max over a of T(s, a, s')
-        priority[backward.indices[before]] += mdp.discount * likeliest * change
+        expected_next_values = mdp.transitions_from(state) @ values  # (A,)
+        best = (mdp.rewards[state] + mdp.discount * expected_next_values).max()
+        change = abs(best - values[state])
+        values[state], priority[state] = best, 0.0
+        row = slice(
+            *likeliest.indptr[state : state + 2]
+        )  # the predecessors of the state
+        predecessors, probabilities = likeliest.indices[row], likeliest.data[row]
+        priority[predecessors] += mdp.discount * probabilities * change
         backups += 1
-    return backups, float(priority.max())
-
-
-def best_action_value(mdp: FiniteMDP, state: int, values: Floats) -> float:
-    """Backup of one state: max over a of r(s, a) + discount * sum over s' of T(s, a, s') V(s')."""
-    own = slice(state * mdp.n_actions, (state + 1) * mdp.n_actions)
-    return (mdp.rewards[state] + mdp.discount * (mdp.rows[own] @ values)).max()
-
-
-def unsigned(*positions: NDArray[Any]) -> list[NDArray[Any]]:
-    """Arrays of positions as ``_fast`` takes them."""
-    return [part.view(f"u{part.itemsize}") for part in positions]
-
-
-def likeliest_predecessors(mdp: FiniteMDP) -> sp.csr_array:
-    """Largest probability of reaching s' from s by any action, (S, S): row s', column s."""
-    likeliest = mdp.rows[:: mdp.n_actions]
-    for action in range(1, mdp.n_actions):
-        likeliest = likeliest.maximum(mdp.rows[action :: mdp.n_actions])
-    return sp.csr_array(likeliest.T)
+    policy, residual = greedy_policy(mdp, values, tolerance), float(priority.max())
+    return Solution(values, policy, backups, residual, residual <= epsilon)

@@ -1,52 +1,36 @@
 """Planning with a known model: Algorithms 1 and 2 of the thesis, and modified policy iteration (section 2.3).
 
-Value iteration and modified policy iteration run as their compiled twins in ``_fast_planners``, which do the same sums
-in one pass over the model; a test holds both equal bit for bit.
+A model has S states and A actions. Values V(s) are arrays (S,), policies arrays (S,) of actions, and action values
+Q(s, a) arrays (S, A). So are the rewards r(s, a), and ``mdp.expected_next_values(values)``, the sums over s' of
+T(s, a, s') V(s').
+
+The decorator ``planner`` checks the arguments, fills in the default of ``start``, warns where a loop did not converge,
+and drops the history unless ``record`` is true. With ``compiled=True`` it runs a compiled twin of the function as
+written; a test holds both equal bit for bit.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import wraps
-from typing import ParamSpec
-
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import checked
-from .evaluation import History, evaluation_residual, warn_not_converged
+from .evaluation import evaluation_residual, least_gain, policy_evaluation
 from .models import FiniteMDP
+from .planner import planner
 from .rounding import gains_and_rounding, warn_if_hidden
 from .solutions import (
     Solution,
-    evaluated,
     first_policy,
     first_values,
+    first_values_below,
     greedy_policy,
-    shifted_to_middle,
-    solution_of,
-    spread,
-    values_below,
 )
 
-P = ParamSpec("P")
+Floats = NDArray[np.float64]
+Actions = NDArray[np.intp]
 
 
-def runs_compiled(planner: Callable[P, Solution]) -> Callable[P, Solution]:
-    """Run the compiled twin of the same name instead; ``planner.__wrapped__`` is the function as written."""
-
-    @wraps(planner)
-    def twin(*args: P.args, **kwargs: P.kwargs) -> Solution:
-        from . import _fast_planners
-
-        compiled: Callable[P, Solution] = getattr(_fast_planners, planner.__name__)
-        return compiled(*args, **kwargs)
-
-    return twin
-
-
-@runs_compiled
-@checked
+@planner(start=first_values, limit=FiniteMDP.residual_for, compiled=True)
 def value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -91,24 +75,60 @@ def value_iteration(
     >>> solution.iterations, solution.values.round(2)[:4]
     (29, array([0.69, 0.8 , 0.9 , 0.  ]))
     """
-    values = first_values(mdp, start)  # 1 and 2
-    limit, history = mdp.residual_for(tolerance), History(record)
-    history.append(values)
-    for iteration in range(1, max_iterations + 1):  # 3
-        before = values
-        q = mdp.action_values(before)  # r(s, a) + discount * sum over s' of T V(s')
+    epsilon = mdp.residual_for(tolerance)
+    values = np.asarray(start)  # 1 and 2
+    history = [values]
+    for iteration in range(1, max_iterations + 1):  # 3: repeat
+        previous = values
+        q = mdp.rewards + mdp.discount * mdp.expected_next_values(previous)
         values = q.max(axis=1)  # 4  Eq. (2.26)
         history.append(values)  # 5
-        residual = abs(values - before).max()
-        if residual <= limit:  # 6
+        residual = abs(values - previous).max()
+        if residual <= epsilon:  # 6
             break
-    else:
-        warn_not_converged("value_iteration", iteration, residual, limit)
     policy = greedy_policy(mdp, values, tolerance)  # 7  Eq. (2.25)
-    return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
+    converged = residual <= epsilon
+    return Solution(values, policy, iteration, residual, converged, np.array(history))
 
 
-@checked
+def improve(
+    mdp: FiniteMDP, policy: Actions, values: Floats, q: Floats, tolerance: float
+) -> tuple[Actions, float]:
+    """Greedy policy that changes an action only where another one is strictly better.
+
+    With a plain ``q.argmax(axis=1)``, policy iteration may never end: where two actions tie, rounding may prefer one in
+    one iteration and the other in the next. So the gain Q(s, a) - V(s) of a new action must exceed what rounding can
+    explain, and also the least gain that matters, ``tolerance * (1 - discount)``.
+
+    Parameters
+    ----------
+    mdp : FiniteMDP
+        S states, A actions.
+    policy : (S,) array of ints
+    values : (S,) array
+        The values of the policy.
+    q : (S, A) array
+        The action values of the policy, computed from ``values``.
+    tolerance : float
+        Largest loss of value accepted, in units of reward.
+
+    Returns
+    -------
+    improved : (S,) array of ints
+        The best action of each state where it is strictly better, the action of ``policy`` elsewhere.
+    gain : float
+        The largest gain of any action.
+    """
+    matters = least_gain(mdp, tolerance)
+    gains, rounding = gains_and_rounding(mdp, policy, values, q, matters)
+    best = gains.max(axis=1)
+    strictly_better = best > max(matters, rounding)
+    if not strictly_better.any():
+        warn_if_hidden(rounding, matters, mdp.discount)
+    return np.where(strictly_better, gains.argmax(axis=1), policy), float(best.max())
+
+
+@planner(start=first_policy, limit=least_gain)
 def policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-9,
@@ -159,31 +179,26 @@ def policy_iteration(
     >>> solution.iterations, solution.policy
     (3, array([1, 1, 1, 0, 0, 0, 0, 0, 3, 0, 3]))
     """
-    policy = first_policy(mdp, start)  # 1 and 2
+    policy = np.asarray(start)  # 1 and 2
     values = np.zeros(mdp.n_states)  # 3
-    smallest = tolerance * (1 - mdp.discount)
-    history, chosen = History(record), History(record)
-    for iteration in range(1, max_iterations + 1):  # 4
-        values = evaluated(mdp, policy, values)  # 5 to 7: solves Eq. (2.5)
+    history, policies = [], []
+    for iteration in range(1, max_iterations + 1):  # 4: repeat
+        # 5 to 8: the values of the policy, by solving V = r_pi + discount * T_pi V
+        values = policy_evaluation(mdp, policy, guess=values)
         history.append(values)
-        chosen.append(policy)
-        gains, rounding = gains_and_rounding(mdp, policy, values, smallest)  # Q - V
-        limit = max(smallest, rounding)
-        gain = gains.max(axis=1)
-        if gain.max() <= limit:  # 11
-            warn_if_hidden(rounding, smallest, mdp.discount)
+        policies.append(policy)
+        # 9: its greedy policy, Eq. (2.25)
+        q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
+        improved, gain = improve(mdp, policy, values, q, tolerance)
+        previous, policy = policy, improved  # 10
+        converged = np.array_equal(policy, previous)
+        if converged:  # 11
             break
-        if iteration == max_iterations:
-            warn_not_converged("policy_iteration", iteration, gain.max(), limit)
-            break
-        improved = gains.argmax(axis=1)  # 8 and 9  Eq. (2.25)
-        policy = np.where(gain > limit, improved, policy)
-    residual = float(gain.max())
-    return Solution(values, policy, iteration, residual, history.rows, chosen.rows)
+    rows, greedy = np.array(history), np.array(policies)
+    return Solution(values, policy, iteration, gain, converged, rows, greedy)
 
 
-@runs_compiled
-@checked
+@planner(start=first_values_below, limit=evaluation_residual, compiled=True)
 def modified_policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -235,25 +250,24 @@ def modified_policy_iteration(
     >>> solution.values.round(2)[:4]
     array([0.69, 0.8 , 0.9 , 0.  ])
     """
-    values = values_below(mdp) if start is None else first_values(mdp, start)
-    history = History(record)
-    history.append(values)
-    limit = evaluation_residual(mdp, tolerance)
+    epsilon = evaluation_residual(mdp, tolerance)
+    values = np.asarray(start)
+    history = []
     for iteration in range(1, max_iterations + 1):
-        q = mdp.action_values(values)
+        history.append(values)
+        q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
         change = q.max(axis=1) - values
-        values = q.max(axis=1)  # improve  Eqs. (2.25) and (2.26)
-        residual = spread(mdp, change)
-        if residual <= limit:
+        policy, values = q.argmax(axis=1), q.max(axis=1)  # improve  Eqs. (2.25), (2.26)
+        spread = change.max() - change.min() if mdp.discount < 1 else abs(change).max()
+        if spread <= epsilon:
             break
-        transitions, rewards = mdp.induced_chain(q.argmax(axis=1))
+        transitions, rewards = mdp.induced_chain(policy)  # T_pi (S, S) and r_pi (S,)
         for _ in range(sweeps):  # evaluate  Eq. (2.24)
             values = rewards + mdp.discount * (transitions @ values)
-        history.append(values)
-    else:
-        warn_not_converged("modified_policy_iteration", iteration, residual, limit)
     policy = greedy_policy(mdp, values, tolerance)
-    if residual <= limit:
-        values = shifted_to_middle(mdp, values, change.min(), change.max())
-        history.append(values)
-    return solution_of(mdp, values, policy, iteration, residual, history, tolerance)
+    converged = spread <= epsilon
+    if converged and mdp.discount < 1:  # the middle of the bounds on the optimal values
+        missing = mdp.discount / (1 - mdp.discount) * (change.min() + change.max()) / 2
+        values = np.where(mdp.terminal, 0, values + missing)
+    history.append(values)
+    return Solution(values, policy, iteration, spread, converged, np.array(history))

@@ -52,7 +52,9 @@ class EvaluationResult:
 
 
 @checked
-def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
+def policy_evaluation(
+    mdp: FiniteMDP, policy: ArrayLike, *, guess: ArrayLike | None = None
+) -> Floats:
     """Values of a policy, the solution of Bellman's equation, Eq. (2.5).
 
     Exact to rounding. Bellman's equation takes the first step out of the expected return, Eq. (2.4), which leaves one
@@ -63,6 +65,8 @@ def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
     mdp : FiniteMDP
         S states, A actions.
     policy : (S,) array of ints or (S, A) array of probabilities
+    guess : (S,) array, optional
+        Values near the solution, from which a large system is solved faster; zeros by default.
 
     Returns
     -------
@@ -82,11 +86,11 @@ def policy_evaluation(mdp: FiniteMDP, policy: ArrayLike) -> Floats:
     array([-0.47, -0.3 ,  0.13, -0.  ])
     """
     transitions, rewards = mdp.induced_chain(policy)
-    guess = np.zeros(mdp.n_states)
+    near = starting_values("guess", mdp, guess)
     if mdp.discount == 1:
-        return undiscounted.policy_values(transitions, rewards, guess=guess)
+        return undiscounted.policy_values(transitions, rewards, guess=near)
     identity = sp.eye_array(mdp.n_states, format="csr")
-    return solve(identity - mdp.discount * transitions, rewards, guess)  # Eq. (2.5)
+    return solve(identity - mdp.discount * transitions, rewards, near)  # Eq. (2.5)
 
 
 @checked
@@ -200,6 +204,16 @@ class History:
 def evaluation_residual(mdp: FiniteMDP, tolerance: float) -> float:
     """Change of a sweep below which all values are within ``tolerance`` of their limit."""
     return (1 if mdp.discount == 1 else 2) * mdp.residual_for(tolerance)
+
+
+def least_gain(mdp: FiniteMDP, tolerance: float) -> float:
+    """Gain of an action that, taken forever, adds up to ``tolerance``; without discount 0."""
+    return tolerance * (1 - mdp.discount)
+
+
+def error_limit(mdp: FiniteMDP, tolerance: float) -> float:
+    """Bellman error below which the greedy policy loses at most ``tolerance``; without discount ``tolerance``."""
+    return tolerance * (1 if mdp.discount == 1 else (1 - mdp.discount) / 2)
 
 
 def starting_values(name: str, mdp: FiniteMDP, given: ArrayLike | None) -> Floats:

@@ -147,6 +147,17 @@ class FiniteMDP:
         order = pairs.reshape(self.n_actions, self.n_states).T.ravel()
         return with_small_indices(self.by_action[order])
 
+    def transitions_from(self, state: int) -> sp.csr_array:
+        """Transitions T(s, a, s') from one state s, (A, S'): one row an action."""
+        return self.rows[state * self.n_actions : (state + 1) * self.n_actions]
+
+    def likeliest_predecessors(self) -> sp.csr_array:
+        """Largest probability of reaching s' from s by any action, (S', S): row s', column s."""
+        likeliest = self.rows[:: self.n_actions]
+        for action in range(1, self.n_actions):
+            likeliest = likeliest.maximum(self.rows[action :: self.n_actions])
+        return sp.csr_array(likeliest.T)
+
     @cached_property
     def arrays(self) -> Arrays:
         """Model as ``_fast`` takes it: starts, successors, probabilities, rewards, discount."""
@@ -159,7 +170,24 @@ class FiniteMDP:
         return starts, successors, self.rows.data, rewards, self.discount
 
     @takes_values
-    def action_values(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def expected_next_values(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Expected value of the next state: the sum over s' of T(s, a, s') V(s').
+
+        Parameters
+        ----------
+        values : (S,) array
+            Value of each state.
+
+        Returns
+        -------
+        (S, A) array
+        """
+        if self.is_sparse:
+            by_action = self.by_action @ values
+            return by_action.reshape(self.n_actions, self.n_states).T
+        return (self.transitions @ values).T
+
+    def action_values(self, values: ArrayLike) -> NDArray[np.float64]:
         """Action values one step ahead of ``values``, Eqs. (2.11) and (2.15).
 
         Parameters
@@ -171,14 +199,10 @@ class FiniteMDP:
         -------
         (S, A) array
         """
-        if self.is_sparse:  # mean over s' of V(s'), (A, S)
-            mean = (self.by_action @ values).reshape(self.n_actions, self.n_states)
-        else:
-            mean = self.transitions @ values  # Eq. (2.11)
-        return self.rewards + self.discount * mean.T  # Eq. (2.15)
+        expected_next_values = self.expected_next_values(values)  # Eq. (2.11)
+        return self.rewards + self.discount * expected_next_values  # Eq. (2.15)
 
-    @takes_values
-    def greedy(self, values: NDArray[np.float64]) -> NDArray[np.intp]:
+    def greedy(self, values: ArrayLike) -> NDArray[np.intp]:
         """Greedy policy (S,) with respect to ``values`` (S,), Eq. (2.25); of equal actions the first."""
         return self.action_values(values).argmax(axis=1)  # Eq. (2.25)
 

@@ -1,4 +1,4 @@
-"""Gains of an action that floating-point numbers can tell from rounding errors."""
+"""The gain of each action over a policy, and the rounding error that it may hold."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from .models import FiniteMDP
 from .undiscounted import clamp_undiscounted
 
 Floats = NDArray[np.float64]
+Actions = NDArray[np.intp]
 
 
 def gains_and_rounding(
-    mdp: FiniteMDP, policy: NDArray[np.intp], values: Floats, smallest: float
+    mdp: FiniteMDP, policy: Actions, values: Floats, q: Floats, matters: float
 ) -> tuple[Floats, float]:
-    """Advantages (S, A) of all actions over a policy with these ``values``, and the rounding error they may hold.
+    """Gain Q(s, a) - V(s) of each action (S, A), and the largest rounding error that a gain may hold.
 
-    If rounding may hide advantages above ``smallest`` and no larger ones are in sight, they are computed again from
-    differences of values: the part that all states share cancels in an advantage, and near discount 1 that is nearly
-    everything.
+    Near discount 1 all values are large, and nearly all of a value is a part that all states share. It cancels in a
+    gain, but its rounding error does not. So where rounding may hide a gain that matters, and no larger one is found,
+    the gains are computed again from differences between values.
     """
     state = np.arange(mdp.n_states)
-    q = mdp.action_values(values)
     own = q[state, policy]
     gains = clamp_undiscounted(mdp, q) - own[:, None]
     rounding = rounding_of_gains(mdp, values, own)
-    if mdp.discount == 1 or rounding <= smallest or gains.max() > rounding:
+    if mdp.discount == 1 or rounding <= matters or gains.max() > rounding:
         return gains, rounding
     differences, step = solve_differences(
         *mdp.induced_chain(policy), mdp.discount, values
@@ -53,12 +53,12 @@ def rounding_of_gains(mdp: FiniteMDP, values: Floats, own: Floats) -> float:
     return max(2 * mdp.discount * error, 2 * rounding)
 
 
-def warn_if_hidden(rounding: float, smallest: float, discount: float) -> None:
+def warn_if_hidden(rounding: float, matters: float, discount: float) -> None:
     """Warn if rounding may hide gains that are worth more than the accepted loss."""
-    if discount < 1 and rounding > smallest:
+    if discount < 1 and rounding > matters:
         warnings.warn(
             f"policy_iteration cannot tell gains below {rounding:.3g} from rounding: its policy may lose "
-            f"{rounding / (1 - discount):.3g}, where {smallest / (1 - discount):.3g} was asked for",
+            f"{rounding / (1 - discount):.3g}, where {matters / (1 - discount):.3g} was asked for",
             ConvergenceWarning,
-            stacklevel=4,
+            stacklevel=6,
         )

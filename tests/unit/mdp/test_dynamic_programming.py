@@ -1,8 +1,10 @@
 """The planners against closed forms, published utilities, a linear program, and each other."""
 
 import contextlib
+import inspect
 import itertools
 import math
+import warnings
 
 import gymnasium as gym
 import numpy as np
@@ -26,6 +28,7 @@ from robonav.mdp import (
     prioritized_sweeping,
     value_iteration,
 )
+from robonav.mdp.solutions import first_values_below
 
 PLANNERS = [
     value_iteration,
@@ -541,7 +544,14 @@ def test_promised_loss_with_terminal_states(planner, tolerance, discount):
         np.testing.assert_allclose(solution.values[:2], 0, atol=1e-9)
 
 
-@pytest.mark.parametrize("planner", [value_iteration, modified_policy_iteration])
+COMPILED = [
+    value_iteration,
+    modified_policy_iteration,
+    in_place_value_iteration,
+]
+
+
+@pytest.mark.parametrize("planner", COMPILED)
 @pytest.mark.parametrize("seed", range(6))
 def test_compiled_twins(planner, seed):
     """What runs and what the page shows give the same bits (on sparse models: dense products sum in BLAS's order)."""
@@ -549,10 +559,57 @@ def test_compiled_twins(planner, seed):
     sparse = FiniteMDP(
         [sp.csr_array(matrix) for matrix in ended.transitions], ended.rewards, 0.9
     )
+    algorithm = inspect.unwrap(planner)
     for mdp in (sparse, four_by_three().mdp(0.99), sampled(seed, sparse=True)):
-        compiled = planner(mdp, 1e-3, record=True)
-        readable = planner.__wrapped__(mdp, 1e-3, record=True)
-        for name in ("values", "policy", "iterations", "residual", "history"):
-            np.testing.assert_array_equal(
-                getattr(compiled, name), getattr(readable, name)
+        for options in ({}, {"max_iterations": 3}):
+            start = (
+                first_values_below(mdp, None)
+                if planner is modified_policy_iteration
+                else np.zeros(mdp.n_states)
             )
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", ConvergenceWarning)
+                compiled = planner(mdp, 1e-3, record=True, **options)
+            readable = algorithm(mdp, 1e-3, start=start, record=True, **options)
+            for name in (
+                "values",
+                "policy",
+                "iterations",
+                "residual",
+                "converged",
+                "history",
+            ):
+                np.testing.assert_array_equal(
+                    getattr(compiled, name), getattr(readable, name)
+                )
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_compiled_prioritized_sweeping(seed):
+    """Bit for bit where no two priorities are equal."""
+    rng = np.random.default_rng(seed)
+    transitions = rng.dirichlet(np.full(20, 0.1), size=(3, 20))
+    sparse = [sp.csr_array(np.where(t > 1e-3, t, 0)) for t in transitions]
+    sparse = [sp.csr_array(sp.diags_array(1 / t.sum(axis=1)) @ t) for t in sparse]
+    mdp = FiniteMDP(sparse, rng.normal(size=(20, 3)), 0.9)
+    algorithm = inspect.unwrap(prioritized_sweeping)
+    compiled = prioritized_sweeping(mdp)
+    readable = algorithm(mdp, start=np.zeros(20))
+    for name in ("values", "policy", "iterations", "residual", "converged"):
+        np.testing.assert_array_equal(getattr(compiled, name), getattr(readable, name))
+
+
+def test_prioritized_sweeping_as_written_where_priorities_tie():
+    mdp = four_by_three().mdp(0.95)
+    best = policy_iteration(mdp).values
+    readable = inspect.unwrap(prioritized_sweeping)(mdp, start=np.zeros(11))
+    np.testing.assert_allclose(readable.values, best, atol=1e-6)
+
+
+@each_planner
+def test_converged_says_whether_the_tolerance_was_met(planner):
+    mdp = tie_rich_grid(0.95)
+    limit = {"max_backups" if planner is prioritized_sweeping else "max_iterations": 1}
+    assert planner(mdp).converged is True
+    with pytest.warns(ConvergenceWarning):
+        assert planner(mdp, **limit).converged is False

@@ -1,0 +1,89 @@
+"""What surrounds every planner, so that the planner itself holds nothing but its algorithm.
+
+The decorator :func:`planner` turns an algorithm into the function that users call. It
+
+1. checks the arguments;
+2. fills in the default of ``start``;
+3. runs the compiled twin of the algorithm from ``_fast_planners`` where there is one, which gives the same numbers;
+4. warns if the algorithm did not converge;
+5. drops the history of the values unless ``record`` is true, and otherwise adds the greedy policy of each of its rows.
+
+``inspect.unwrap(planner)`` is the algorithm as written. It needs ``start``.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from dataclasses import replace
+from functools import wraps
+from typing import Any, ParamSpec
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._arguments import checked
+from .evaluation import warn_not_converged
+from .models import FiniteMDP
+from .solutions import Solution, greedy_policy
+
+P = ParamSpec("P")
+
+
+def planner(
+    *,
+    start: Callable[[FiniteMDP, ArrayLike | None], Any],
+    limit: Callable[[FiniteMDP, float], float],
+    compiled: bool = False,
+) -> Callable[[Callable[P, Solution]], Callable[P, Solution]]:
+    """Make a planner of an algorithm.
+
+    Parameters
+    ----------
+    start : callable
+        ``start(mdp, given)`` is what the algorithm starts from where the user gave ``given`` or None.
+    limit : callable
+        ``limit(mdp, tolerance)`` is the residual at which the algorithm stops, for the warning.
+    compiled : bool
+        Whether ``_fast_planners`` has a twin of the same name, which then runs instead.
+    """
+
+    def decorate(algorithm: Callable[P, Solution]) -> Callable[P, Solution]:
+        signature = inspect.signature(algorithm)
+        name = algorithm.__name__
+
+        @checked
+        @wraps(algorithm)
+        def plan(*args: P.args, **kwargs: P.kwargs) -> Solution:
+            call = signature.bind(*args, **kwargs)
+            call.apply_defaults()
+            mdp, tolerance = call.arguments["mdp"], call.arguments["tolerance"]
+            call.arguments["start"] = start(mdp, call.arguments["start"])
+            run = compiled_twin(name) if compiled else algorithm
+            solution = run(*call.args, **call.kwargs)
+            if not solution.converged:
+                wanted = limit(mdp, tolerance)
+                warn_not_converged(name, solution.iterations, solution.residual, wanted)
+            if not call.arguments.get("record"):
+                return replace(solution, history=None, policies=None)
+            return with_policies(mdp, solution, tolerance)
+
+        return plan
+
+    return decorate
+
+
+def compiled_twin(name: str) -> Callable[..., Solution]:
+    """The compiled planner of this name; numba is loaded only now."""
+    from . import _fast_planners
+
+    twin: Callable[..., Solution] = getattr(_fast_planners, name)
+    return twin
+
+
+def with_policies(mdp: FiniteMDP, solution: Solution, tolerance: float) -> Solution:
+    """The solution with the greedy policy of each row of its history, unless it has them already."""
+    if solution.history is None or solution.policies is not None:
+        return solution
+    before = [greedy_policy(mdp, row, tolerance) for row in solution.history[:-1]]
+    return replace(solution, policies=np.stack([*before, solution.policy]))
