@@ -1,0 +1,114 @@
+// The book's first screen: a robot crosses one map after another. Stop it, put obstacles in its way, or steer it yourself.
+
+const STEPS_A_SECOND = 8;
+const REST = 1200; // milliseconds between two maps
+
+function render({ model, el }) {
+  const { policy, about, links, keys, obstacles, speed } = model.get("data");
+  const decide = driver(policy);
+  const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+  let [map, t, last, frame, timer, tally] = [0, 1, 0, 0, 0, { arrived: 0, collided: 0 }];
+  let [running, mine] = [!still, false];
+  const world = () => drawWorld(keys[map % keys.length], { obstacles });
+  let drive = makeDrive(world(), speed);
+  const status = h("p", { class: "status", role: "status" });
+
+  const board = episodeMap({
+    drive: () => drive,
+    selected: () => null,
+    grabbed: () => {},
+    moved: (name, point) => {
+      if (name === "robot") return;
+      const [x, y] = point.map((value) => clamp(value, 0, drive.world.size));
+      drive.edit((w) => (name === "target" ? (w.target = [x, y]) : Object.assign(w.obstacles[name], { x, y })));
+      say();
+      board.draw(t);
+    },
+  });
+
+  function say() {
+    const record = `${tally.arrived} arrived, ${tally.collided} collided.`;
+    const now = { arrived: "Arrived.", collided: "Collided.", running: mine ? "You steer. Each key or button is one second." : running ? about : "Stopped." }[drive.outcome];
+    status.textContent = tally.arrived + tally.collided > 0 ? `${now} So far ${record}` : now;
+    board.canvas.setAttribute("aria-label", `Map with ${drive.world.obstacles.length} obstacles and a robot. ${status.textContent}`);
+    play.textContent = mine ? "Let the network steer" : running ? "Stop" : "Go on";
+    wheel.hidden = !mine;
+  }
+  function step(chosen) {
+    if (t < 1) t = 1;
+    drive.go(chosen);
+    t = 0;
+    if (drive.outcome !== "running" && drive.steps.length > 0) {
+      tally[drive.outcome] += 1;
+      clearTimeout(timer);
+      timer = setTimeout(next, REST);
+    }
+    say();
+    wake();
+  }
+  function next() {
+    map += 1;
+    drive = makeDrive(world(), speed);
+    t = 1;
+    say();
+    board.draw(t);
+    if (running && !mine) wake();
+  }
+  function tick(time) {
+    frame = 0;
+    t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * STEPS_A_SECOND);
+    last = time;
+    if (t >= 1 && running && !mine && drive.outcome === "running") step(decide(drive).action);
+    board.draw(t);
+    if (t < 1 || (running && !mine && drive.outcome === "running")) wake();
+  }
+  const wake = () => {
+    if (frame) return;
+    last = performance.now();
+    frame = requestAnimationFrame(tick);
+  };
+  const take = (action) => {
+    mine = true;
+    if (drive.outcome === "running") step(action);
+    else say();
+  };
+  const play = h("button", { type: "button", class: "main", click: () => {
+    running = mine || !running;
+    mine = false;
+    say();
+    if (running) wake();
+  } });
+  const steer = h("button", { type: "button", click: () => {
+    mine = true;
+    say();
+    board.canvas.focus();
+  } }, "Steer it yourself");
+  const another = h("button", { type: "button", click: () => { clearTimeout(timer); next(); } }, "Another map");
+  const wheel = h("div", { class: "wheel", role: "group", "aria-label": "Steer, one second at a time" },
+    ...[["↰ 60°", 2, "left 60°"], ["↖ 30°", 1, "left 30°"], ["↑", 0, "ahead"], ["↗ 30°", 3, "right 30°"], ["↱ 60°", 4, "right 60°"], ["↓", 5, "back"]].map(([sign, action, name]) =>
+      h("button", { type: "button", "aria-label": name, click: () => take(action) }, sign)));
+  board.canvas.addEventListener("keydown", (event) => {
+    if (!(event.key in KEYS)) return;
+    event.preventDefault();
+    take(event.shiftKey && event.key === "ArrowLeft" ? HARD_LEFT : event.shiftKey && event.key === "ArrowRight" ? HARD_RIGHT : KEYS[event.key]);
+  });
+
+  el.classList.add("robonav", "first-screen");
+  el.replaceChildren(
+    board.canvas,
+    h("div", { class: "beside" },
+      status,
+      h("div", { class: "row tools" }, play, steer, another),
+      wheel,
+      h("p", { class: "hint" }, "Drag an obstacle in front of the robot, or drag the target."),
+      h("p", {}, ...links.map(({ text, page }) => h("a", { class: "call", href: page }, text)))));
+  say();
+  board.draw(1);
+  if (running) wake();
+  return () => {
+    clearTimeout(timer);
+    cancelAnimationFrame(frame);
+  };
+}
+
+export default { render };

@@ -1,0 +1,80 @@
+"""The first screen of the book: a robot that drives, which the reader can stop, obstruct and steer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import anywidget
+import traitlets
+
+from robonav.networks.policy import NetworkPolicy
+from robonav.robot import world_keys
+from robonav.validation import check_integer, check_positive
+
+from .shared import front_end, style_sheet
+from .simulator import page_policy
+
+MAPS = 200
+
+
+class FirstScreen(anywidget.AnyWidget):
+    """A robot crosses one random map after another; the reader stops it, obstructs it or steers it."""
+
+    _esm = front_end("simulator", "maps", "episode", "learning/worlds", "first_screen")
+    _css = style_sheet("maps", "robot_playground", "first_screen")
+    data = traitlets.Dict().tag(sync=True)
+
+
+def first_screen(
+    policy: NetworkPolicy,
+    about: str,
+    links: Mapping[str, str],
+    *,
+    obstacles: int = 15,
+    speed: float = 2.0,
+    seed: int,
+) -> FirstScreen:
+    """Make the first screen.
+
+    Parameters
+    ----------
+    policy : NetworkPolicy
+        What steers the robot.
+    about : str
+        One sentence, read beside the map while the policy steers.
+    links : mapping of str to str
+        Where to go from here: a text and the page's address.
+    obstacles : int
+        Obstacles of each random map.
+    speed : float
+        Of the robot, in m/s.
+    seed : int
+        Of the maps; after 200 they begin again.
+
+    Returns
+    -------
+    FirstScreen
+
+    Raises
+    ------
+    ValueError
+        If ``obstacles`` is negative or ``speed`` is not positive.
+
+    Examples
+    --------
+    >>> from robonav.benchmark.policies import method
+    >>> from robonav.widgets.first_screen import first_screen
+    >>> screen = first_screen(method("dagger"), "A network steers.", {}, seed=1)
+    >>> len(screen.data["keys"])
+    200
+    """
+    return FirstScreen(
+        data={
+            "policy": page_policy(policy),
+            "about": about,
+            "links": [{"text": text, "page": page} for text, page in links.items()],
+            "keys": world_keys(MAPS, seed).tolist(),
+            "obstacles": check_integer("obstacles", obstacles, at_least=0),
+            "speed": check_positive("speed", speed),
+        }
+    )
