@@ -1,4 +1,4 @@
-"""Behaviour cloning: policy learning from multiple demonstrations (section 3.4)."""
+"""Behaviour cloning: learning a policy from demonstrations by supervised learning (section 3.4)."""
 
 from __future__ import annotations
 
@@ -14,77 +14,6 @@ from robonav.validation import check_instance, check_integer
 from .demonstrations import LEARNED, Demonstrations
 
 
-def stacked_pairs(
-    demonstrations: Demonstrations, encoder: Encoder
-) -> tuple[Array, Array]:
-    """Stack the effective pairs of all demonstrations, Eqs. (3.29) and (3.30).
-
-    Parameters
-    ----------
-    demonstrations : Demonstrations
-        Their steps lie one trajectory below the other already.
-    encoder : Encoder
-        Gives the components of a state.
-
-    Returns
-    -------
-    S : (m, n) array
-        States.
-    A : (m, 5) array
-        Action labels.
-    """
-    pairs = demonstrations.effective
-    X, Y = encoder(pairs.sensing), one_hot(pairs.actions, LEARNED)  # Eq. (3.30)
-    S, A = X, Y  # Eq. (3.29): the rows of demonstration 1, then those of 2, and so on
-    return S, A
-
-
-def labelled_states(
-    demonstrations: Demonstrations, encoder: Encoder | None = None
-) -> tuple[Array, Array]:
-    """Return the training examples in demonstrations: the effective pairs, encoded.
-
-    Parameters
-    ----------
-    demonstrations : Demonstrations
-        Of any expert.
-    encoder : Encoder, optional
-        How sensing becomes the network's inputs.
-
-    Returns
-    -------
-    x : (m, n) array
-        Inputs.
-    y : (m, 5) array
-        One-hot actions.
-
-    Raises
-    ------
-    TypeError
-        If these are not Demonstrations, or not an Encoder.
-    ValueError
-        If there is no effective pair.
-
-    Examples
-    --------
-    >>> from robonav.lfd import demonstrate, labelled_states
-    >>> from robonav.robot import random_worlds
-    >>> x, y = labelled_states(demonstrate(random_worlds(2, obstacles=10, seed=1)))
-    >>> len(x) == len(y), y.shape[1], bool((y.sum(axis=1) == 1).all())
-    (True, 5, True)
-    """
-    encoder = (
-        Encoder() if encoder is None else check_instance("encoder", encoder, Encoder)
-    )
-    check_instance("demonstrations", demonstrations, Demonstrations)
-    x, y = stacked_pairs(demonstrations, encoder)
-    if len(x) == 0:
-        raise ValueError(
-            "demonstrations must hold an effective pair: a step with something in range, got none"
-        )
-    return x, y
-
-
 def behaviour_cloning(
     demonstrations: Demonstrations,
     *,
@@ -97,7 +26,13 @@ def behaviour_cloning(
 ) -> NetworkPolicy:
     """Policy learning from multiple demonstrations, Algorithm 3.
 
-    Parameters and errors are those of :func:`learn_policy`.
+    This is behaviour cloning: a network is trained, by supervised learning, to answer each state in the demonstrations
+    with the expert's action. The numbers are the steps of Algorithm 3.
+
+    Parameters
+    ----------
+    demonstrations, hidden, regularisation, iterations, seed, encoder, progress
+        As in :func:`learn_policy`, which checks them and calls this function.
 
     Returns
     -------
@@ -107,20 +42,23 @@ def behaviour_cloning(
     --------
     >>> from robonav.lfd import behaviour_cloning, demonstrate
     >>> from robonav.robot import random_worlds
-    >>> shown = demonstrate(random_worlds(2, obstacles=10, seed=1))
-    >>> behaviour_cloning(shown, iterations=20).network.sizes
+    >>> demonstrations = demonstrate(random_worlds(2, obstacles=10, seed=1))
+    >>> behaviour_cloning(demonstrations, iterations=20).network.sizes
     (12, 8, 5)
     """
     encoder = encoder or Encoder()
-    sizes = (encoder.size, hidden, LEARNED)
-    network = random_network(sizes, seed=seed)  # 1
-    # 2 to 4: the demonstrations hold every step of every trajectory
-    x, y = labelled_states(demonstrations, encoder)  # 5 and 6
-    training = lbfgs(
-        network, x, y, regularisation=regularisation, iterations=iterations,
+    network = random_network((encoder.size, hidden, LEARNED), seed=seed)  # 1
+    # 2 to 4: the demonstrations hold the state-action pairs of all trajectories.
+    states, actions = labelled_states(demonstrations, encoder)  # 5 and 6
+    training = lbfgs(  # 7
+        network,
+        states,
+        actions,
+        regularisation=regularisation,
+        iterations=iterations,
         progress=progress,
-    )  # 7  # fmt: skip
-    return NetworkPolicy(training.network, encoder)  # 8
+    )
+    return NetworkPolicy(training.network, encoder)  # 8: to be put on a robot
 
 
 def learn_policy(
@@ -133,23 +71,24 @@ def learn_policy(
     encoder: Encoder | None = None,
     progress: Progress | None = None,
 ) -> NetworkPolicy:
-    """Learn a policy from demonstrations: check the arguments, then :func:`behaviour_cloning`.
+    """Learn a policy from demonstrations by :func:`behaviour_cloning`, after checks of the arguments.
 
     Parameters
     ----------
     demonstrations : Demonstrations
-        Of any expert.
+        By any expert.
     hidden : int
-        Units of the hidden layer.
+        Number of units in the hidden layer.
     regularisation : float
-        lambda of the cost, Eq. (3.22).
+        lambda in the cost, Eq. (3.22).
     iterations : int
-        Of L-BFGS, at most.
+        The most iterations of L-BFGS.
     seed : int or Generator
         Of the initial weights.
     encoder : Encoder, optional
-        How sensing becomes the network's inputs; by default all nine sensors, and sine and cosine of the target's
-        sector. ``Encoder(target="number")`` gives the thesis's 11 numbers.
+        Turns what the robot senses into the network's inputs. By default these are the nine sensors' degrees of
+        danger, sine and cosine of the target's sector, and whether the target is in range.
+        ``Encoder(target="number")`` gives the thesis's 11 numbers.
     progress : callable, optional
         Called as ``progress(done, iterations)``.
 
@@ -160,9 +99,9 @@ def learn_policy(
     Raises
     ------
     TypeError
-        If these are not Demonstrations, or an argument is of another type.
+        If an argument is of the wrong type.
     ValueError
-        If there is no effective pair, or an argument lies outside its range.
+        If there is no effective pair, or if an argument is out of bounds.
 
     Examples
     --------
@@ -184,3 +123,76 @@ def learn_policy(
         encoder=encoder,
         progress=progress,
     )
+
+
+def stacked_pairs(
+    demonstrations: Demonstrations, encoder: Encoder
+) -> tuple[Array, Array]:
+    """Stack the effective pairs of all demonstrations, Eqs. (3.29) and (3.30).
+
+    Parameters
+    ----------
+    demonstrations : Demonstrations
+        M trajectories, at least one.
+    encoder : Encoder
+        Turns what the robot senses into the components of a state.
+
+    Returns
+    -------
+    S : (m, n) array
+        States.
+    A : (m, 5) array
+        Actions, each a 1 among zeros.
+    """
+    X, Y = [], []
+    for number in range(len(demonstrations.worlds)):
+        pairs = demonstrations.select_trajectories([number]).effective
+        X.append(encoder(pairs.sensing))  # Eq. (3.30): a row for each pair
+        Y.append(one_hot(pairs.actions, LEARNED))
+    S, A = np.concatenate(X), np.concatenate(Y)  # Eq. (3.29)
+    return S, A
+
+
+def labelled_states(
+    demonstrations: Demonstrations, encoder: Encoder | None = None
+) -> tuple[Array, Array]:
+    """Return the training examples in demonstrations: the effective pairs, encoded.
+
+    Parameters
+    ----------
+    demonstrations : Demonstrations
+        By any expert.
+    encoder : Encoder, optional
+        Turns what the robot senses into the network's inputs.
+
+    Returns
+    -------
+    x : (m, n) array
+        Inputs.
+    y : (m, 5) array
+        Labels: the actions, each a 1 among zeros.
+
+    Raises
+    ------
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If there is no effective pair.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate, labelled_states
+    >>> from robonav.robot import random_worlds
+    >>> x, y = labelled_states(demonstrate(random_worlds(2, obstacles=10, seed=1)))
+    >>> len(x) == len(y), y.shape[1], bool((y.sum(axis=1) == 1).all())
+    (True, 5, True)
+    """
+    encoder = (
+        Encoder() if encoder is None else check_instance("encoder", encoder, Encoder)
+    )
+    check_instance("demonstrations", demonstrations, Demonstrations)
+    if len(demonstrations.effective) == 0:
+        raise ValueError(
+            "demonstrations must hold an effective pair: a step with something in range, got none"
+        )
+    return stacked_pairs(demonstrations, encoder)

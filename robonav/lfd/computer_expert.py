@@ -1,4 +1,4 @@
-"""The computer expert, who knows the map and plans in it (sections 3.5 and 5.5.5)."""
+"""The computer expert, which knows the map and plans a path in it (sections 3.5 and 5.5.5)."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from . import _fast
 from .astar import plan
 from .demonstrations import Actions, Demonstrations, record
 
-MARGIN, CAUTION = (
-    3.0,
-    2.0,
-)  # what is learned depends most on the distance that the expert keeps
-SHRINK = 0.5  # metres by which the margin is reduced where it leaves no path
+MARGIN = (
+    3.0  # metres that plans keep from obstacles: what is learned depends most on it
+)
+CAUTION = 2.0  # how much more a step costs near an obstacle, see `plan`
+MARGIN_STEP = 0.5  # metres by which the margin is reduced where it leaves no path
 LIMIT = 50_000  # nodes to expand: many times what a path takes
 
-_NOBODY = np.empty((0, 3))
+_NOT_RECORDED = np.empty((0, 3))
 
 
 @dataclass(eq=False)
@@ -35,13 +35,13 @@ class FollowedPlan:
     poses : (K + 1, 3) array
         The poses of the plan.
     actions : (K,) array of int
-        Its actions.
-    done : int
-        How many of the actions the robot has taken.
+        The actions of the plan.
     target : (2,) array
         The target that the plan leads to.
     centres : (M, 2) array
         Where the obstacles were when the plan was made.
+    done : int
+        How many of the actions the robot has taken.
     """
 
     poses: NDArray[np.float64]
@@ -51,7 +51,7 @@ class FollowedPlan:
     done: int = 0
 
     def holds_for(self, simulator: Simulator, robot: int) -> bool:
-        """Return whether the robot is where the plan has it next, in the world that the plan was made for."""
+        """Return whether the robot is at the next pose of the plan, in the world that the plan was made for."""
         return bool(
             self.done < len(self.actions)
             and np.abs(self.poses[self.done] - simulator.poses[robot]).max() < 1e-6
@@ -62,7 +62,7 @@ class FollowedPlan:
 
 
 class ComputerExpert:
-    """Plans with modified A* from where the robot is, and plans again where the robot has left its plan.
+    """An expert that plans with modified A* from where the robot is, and plans again once the robot has left its plan.
 
     One expert can serve several simulators: it follows a plan only in the world that it was made for.
 
@@ -72,11 +72,11 @@ class ComputerExpert:
         Distance in metres that plans keep from obstacles and borders. Where that leaves no path, the margin is reduced
         by half a metre at a time.
     caution : float
-        How strongly plans avoid what is in sensor range, see :func:`plan`.
+        How much more steps near obstacles cost, see :func:`plan`.
 
     Notes
     -----
-    Poses of one heading less than a step apart count as one node. Finer cells give shorter plans with more and smaller
+    The cells that tell poses apart are as large as a step. Smaller cells give shorter plans with more and smaller
     turns, which are harder to learn from.
 
     Examples
@@ -95,13 +95,15 @@ class ComputerExpert:
         self.caution = check_real("caution", caution, at_least=0)
         self._plans: dict[int, FollowedPlan] = {}
 
-    def __call__(self, simulator: Simulator, asked: Actions) -> Actions:
-        """Return the next actions (n,) of the robots ``asked`` (n,)."""
+    def __call__(self, simulator: Simulator, robots: Actions) -> Actions:
+        """Return the next actions (n,) of the robots with these indices (n,)."""
         return np.array(
-            [self._next(simulator, int(robot)) for robot in asked], dtype=np.int64
+            [self.next_action(simulator, int(robot)) for robot in robots],
+            dtype=np.int64,
         )
 
-    def _next(self, simulator: Simulator, robot: int) -> int:
+    def next_action(self, simulator: Simulator, robot: int) -> int:
+        """Return the next action of the plan that a robot follows; plan again if that plan no longer holds."""
         followed = self._plans.get(robot)
         if followed is None or not followed.holds_for(simulator, robot):
             followed = self._plans[robot] = self.plan_from(simulator, robot)
@@ -109,20 +111,21 @@ class ComputerExpert:
         return int(followed.actions[followed.done - 1])
 
     def plan_from(self, simulator: Simulator, robot: int) -> FollowedPlan:
-        """Plan for one robot from where it is, with the largest margin that leaves a path, or go straight on."""
+        """Plan from where a robot is, with the largest margin that leaves a path; if none does, go straight on."""
         world, pose = simulator.worlds, simulator.poses[robot].copy()
         target, centres = world.targets[robot].copy(), simulator.centres[robot].copy()
         obstacles = world.kinds[robot], world.shapes[robot], centres, world.size
-        speed = simulator.speed
-        margins = np.arange(self.margin, COLLISION_DISTANCE, -SHRINK)
+        speed = cell = simulator.speed
+        margins = np.arange(self.margin, COLLISION_DISTANCE, -MARGIN_STEP)
         for margin in np.append(margins, COLLISION_DISTANCE):
             found, poses, actions, _ = _fast.search_actions(
-                *obstacles, pose, target, speed, margin, self.caution, speed,
-                LIMIT, False, _NOBODY,
+                *obstacles, pose, target, speed, margin, self.caution, cell,
+                LIMIT, False, _NOT_RECORDED,
             )  # fmt: skip
             if found:
                 return FollowedPlan(poses, actions, target, centres)
-        return FollowedPlan(pose[None], np.zeros(1, dtype=np.int64), target, centres)
+        straight_on = np.zeros(1, dtype=np.int64)
+        return FollowedPlan(pose[None], straight_on, target, centres)
 
 
 def demonstrate(
@@ -136,19 +139,19 @@ def demonstrate(
 ) -> Demonstrations:
     """Record demonstrations by the computer expert, one in each of D worlds.
 
-    The expert keeps the robot's reflexes: in a safe state the robot turns to the target and goes, and a blocked robot
-    steps back. Everywhere else it takes the first action of a plan from where it is.
+    The robot keeps its reflexes: in a safe state it turns to the target and goes, and where it is blocked it steps
+    back. Everywhere else it takes the first action of a plan from where it is.
 
     Parameters
     ----------
     worlds : Worlds
         Batch of D.
     speed : float
-        Metres a second.
+        Of the robots, in m/s.
     margin, caution : float
         How far plans keep from obstacles and borders, see :class:`ComputerExpert`.
     slip : (6, 6) array, optional
-        Probabilities that action a (row) turns into another: a slipping expert, Fig. 5.5.
+        Probabilities that action a (row) turns into another one (Fig. 5.5). The actions executed are recorded.
     progress : callable, optional
         Called as ``progress(worlds done, D)``.
 
@@ -161,7 +164,7 @@ def demonstrate(
     TypeError
         If ``worlds`` is not Worlds, or an argument is not a number.
     ValueError
-        If an argument is out of bounds, or the expert failed in a world that has no path to the target.
+        If an argument is out of bounds, or if a world has no path to the target.
 
     Examples
     --------
@@ -180,11 +183,10 @@ def demonstrate(
         slip=slip,
         progress=progress,
     )
-    for lost in np.flatnonzero(
-        (recorded.outcome != "arrived") & ~worlds.speeds.any(axis=1)
-    ):
-        if not plan(worlds[lost], speed=speed, margin=COLLISION_DISTANCE).found:
+    failed = (recorded.outcome != "arrived") & ~worlds.speeds.any(axis=1)
+    for number in np.flatnonzero(failed):
+        if not plan(worlds[number], speed=speed, margin=COLLISION_DISTANCE).found:
             raise ValueError(
-                f"worlds[{lost}] must have a way from start to target at {speed:g} m/s, and has none"
+                f"worlds[{number}] must have a path from start to target at {speed:g} m/s, and has none"
             )
     return recorded

@@ -1,4 +1,4 @@
-"""A summary of a set of demonstrations."""
+"""Summary statistics of a set of demonstrations."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from .demonstrations import LEARNED, Demonstrations
 
 @dataclass(frozen=True, eq=False)
 class DatasetSummary:
-    """A set of demonstrations in a few numbers; ``str`` gives a few lines of text.
+    """Summary statistics of a set of demonstrations. ``str`` writes them as four lines of text.
 
     Attributes
     ----------
     trajectories, arrived : int
-        Number of trajectories, and how many of them reached the target.
+        Number of trajectories, and number of those that reached the target.
     steps, effective : int
-        Number of steps, and how many of them are learned from.
+        Number of steps, and number of effective pairs among them.
     states : int
-        How many different states of 11 numbers, which uses Eq. (3.17), these are.
+        Number of distinct states in the effective pairs, each written as the 11 numbers of Eq. (3.17).
     actions : (5,) array of int
-        How often they hold each of F, L30, L60, R30, R60.
+        Number of effective pairs with each of the actions F, L30, L60, R30, R60.
     closest : float
         The smallest range that any sensor measured, in metres.
 
@@ -53,9 +53,9 @@ class DatasetSummary:
         )
         return (
             f"{self.trajectories} trajectories, {self.arrived} arrived\n"
-            f"{self.steps} steps, {self.effective} to learn from, in {self.states} different states\n"
+            f"{self.steps} steps, {self.effective} effective pairs in {self.states} distinct states\n"
             f"{shares}\n"
-            f"nothing nearer than {self.closest:.1f} m"
+            f"smallest range {self.closest:.1f} m"
         )
 
 
@@ -65,6 +65,7 @@ def summarise_dataset(demonstrations: Demonstrations) -> DatasetSummary:
     Parameters
     ----------
     demonstrations : Demonstrations
+        By any expert.
 
     Returns
     -------
@@ -73,7 +74,7 @@ def summarise_dataset(demonstrations: Demonstrations) -> DatasetSummary:
     Raises
     ------
     TypeError
-        If these are not Demonstrations.
+        If ``demonstrations`` is not Demonstrations.
 
     Examples
     --------

@@ -1,17 +1,18 @@
-"""Demonstrations in files, so that recordings can be kept, sent, and brought from elsewhere.
+"""Demonstrations in files: to keep them, to send them, and to use recordings made by other programs.
 
-A file is a NumPy npz archive, which any language that can write a zip of arrays can make. It holds no Python objects.
+A file is a NumPy npz archive, that is, a zip file of arrays. Many programs other than Python can write one. It contains
+no Python objects, so reading a file never runs code from it. K is the number of steps, D the number of trajectories.
 
 =================  ===========  =====================================================================================
-array              shape        what
+array              shape        content
 =================  ===========  =====================================================================================
 format             ()           the text ``robonav demonstrations 1``
 speed              ()           m/s
-trajectory         (K,)         whole number: the drive that each step belongs to, from 0, ascending
+trajectory         (K,)         whole number: the trajectory that each step belongs to, from 0, ascending
 actions            (K,)         whole number: 0 F, 1 L30, 2 L60, 3 R30, 4 R60, 5 B, 6 turn to the target and go
 poses              (K, 3)       x, y in metres and heading in radians, before each action
-ranges             (K, 9)       metres, 10 where nothing is in range; column 0 looks ahead, counter-clockwise
-walls              (K, 9)       true or false: whether the nearest thing is the map's border
+ranges             (K, 9)       metres, 10 if nothing is in range; column 0 is ahead, then counter-clockwise
+walls              (K, 9)       true or false: whether the range is that of the map's border
 target_region      (K,)         whole number 1..9
 target_seen        (K,)         true or false
 outcome            (D,)         whole number: 1 arrived, 2 collided, 3 out of steps
@@ -47,7 +48,36 @@ _WORLDS = tuple(field.name for field in fields(Worlds))
 
 
 def save_demonstrations(path: str | Path, demonstrations: Demonstrations) -> None:
-    """Write demonstrations as npz, in the format of this module; whole or not at all."""
+    """Write demonstrations to an npz file in the format described above.
+
+    The file is written completely or not at all: an error leaves a file that was there before unchanged.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of the file, usually with the ending ``.npz``.
+    demonstrations : Demonstrations
+        By any expert.
+
+    Raises
+    ------
+    TypeError
+        If ``demonstrations`` is not Demonstrations.
+    OSError
+        If the file cannot be written.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from robonav.lfd import demonstrate, load_demonstrations, save_demonstrations
+    >>> from robonav.robot import random_worlds
+    >>> demonstrations = demonstrate(random_worlds(2, obstacles=10, seed=1))
+    >>> with TemporaryDirectory() as folder:
+    ...     save_demonstrations(Path(folder) / "mine.npz", demonstrations)
+    ...     len(load_demonstrations(Path(folder) / "mine.npz")) == len(demonstrations)
+    True
+    """
     check_instance("demonstrations", demonstrations, Demonstrations)
     arrays: dict[str, Any] = {name: getattr(demonstrations, name) for name in _STEPS}
     arrays |= {name: getattr(demonstrations.sensing, name) for name in _SENSED}
@@ -62,13 +92,36 @@ def save_demonstrations(path: str | Path, demonstrations: Demonstrations) -> Non
 
 
 def load_demonstrations(path: str | Path) -> Demonstrations:
-    """Read what :func:`save_demonstrations`, or anything else that keeps to the format, wrote.
+    """Read demonstrations from an npz file in the format described above.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of the file.
+
+    Returns
+    -------
+    Demonstrations
 
     Raises
     ------
-    FileNotFoundError : if there is no such file.
-    ValueError : if the file is damaged, of another kind or version, holds a pickled object, lacks an array, or holds
-        what no demonstration can be.
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If the file is damaged, has another format, contains a pickled object, lacks an array or has one too many, or
+        if an array holds values that demonstrations cannot have.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from robonav.lfd import demonstrate, load_demonstrations, save_demonstrations
+    >>> from robonav.robot import random_worlds
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "mine.npz"
+    ...     save_demonstrations(path, demonstrate(random_worlds(2, obstacles=10, seed=1)))
+    ...     load_demonstrations(path).outcome.tolist()
+    ['arrived', 'arrived']
     """
     name = Path(path).name
     try:
@@ -94,7 +147,7 @@ def load_demonstrations(path: str | Path) -> Demonstrations:
 
 
 def _demonstrations(arrays: Mapping[str, NDArray[Any]]) -> Demonstrations:
-    """Demonstrations from the arrays of a file, each checked."""
+    """Return demonstrations from the arrays of a file, after checks of each array."""
     steps = check_array("actions", arrays["actions"], shape=("K",)).shape[0]
     shapes = {
         "ranges": (steps, 9),

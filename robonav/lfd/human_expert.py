@@ -1,4 +1,10 @@
-"""The human expert: key points on a map, a smooth path through them, a robot that follows it (section 5.5.5)."""
+"""The human expert: key points on a map, a smooth path through them, and a robot that follows it (section 5.5.5).
+
+1. :func:`smooth_path` lays a cubic spline through key points that a person has marked.
+2. :class:`PathFollower` steers a robot along such a path.
+3. :func:`demonstrate_by_hand` records what the robot senses and does on its way.
+4. :func:`sketch` generates key points as a person might, for experiments that need hundreds of demonstrations.
+"""
 
 from __future__ import annotations
 
@@ -24,22 +30,42 @@ from .demonstrations import LEARNED, Actions, Demonstrations, record
 
 Floats = NDArray[np.float64]
 
-SPACING = 0.25  # metres between points of a path
-AHEAD = 1.5  # steps: how far ahead on its path a robot looks
-CLEAR = 2.0  # metres that a sketched path keeps: following it takes up to one of them
-STRAIGHT = 2.0  # metres that a way may bend before it gets a key point
-CARE = 0.9 ** np.arange(40)
+SPACING = 0.25  # metres between neighbouring points of a smooth path
+LOOKAHEAD = 1.5  # steps between the robot and the point of the path that it heads for
+SKETCH_CLEARANCE = 2.0  # metres that sketched paths keep: a follower strays by up to 1
+SKETCH_TOLERANCE = 2.0  # metres that a sketch may simplify the planned path by
+ATTEMPTS = 0.9 ** np.arange(40)  # factor of a sketch's errors in each attempt
 
 
 def smooth_path(key_points: ArrayLike, *, spacing: float = SPACING) -> Floats:
-    """A smooth path (P, 2) through key points (K, 2): a cubic spline, one point every ``spacing`` metres or so.
+    """Return a smooth path through key points: a cubic spline, see :func:`spline_through`.
 
-    The spline runs over the square root of the distances between key points, which keeps it from swinging out where
-    a short piece follows a long one (Lee 1989).
+    Parameters
+    ----------
+    key_points : (K, 2) array
+        x and y in metres, at least two points.
+    spacing : float
+        Approximate distance in metres between neighbouring points of the path.
+
+    Returns
+    -------
+    (P, 2) array
+        Points of the path, the key points among them.
 
     Raises
     ------
-    ValueError : if there are fewer than two key points, or the same twice in a row.
+    ValueError
+        If there are fewer than two key points, or if a key point equals the one before it.
+
+    Examples
+    --------
+    >>> from robonav.lfd import smooth_path
+    >>> smooth_path([(0, 0), (2, 0)], spacing=0.5)
+    array([[0. , 0. ],
+           [0.5, 0. ],
+           [1. , 0. ],
+           [1.5, 0. ],
+           [2. , 0. ]])
     """
     points = check_array("key_points", key_points, shape=("K", 2))
     gaps = np.linalg.norm(np.diff(points, axis=0), axis=1)
@@ -51,7 +77,11 @@ def smooth_path(key_points: ArrayLike, *, spacing: float = SPACING) -> Floats:
 
 
 def spline_through(points: Floats, spacing: float) -> Floats:
-    """Return a cubic spline (P, 2) through points (K, 2), over the square root of their distances (Lee 1989)."""
+    """Return a cubic spline (P, 2) through points (K, 2), with one point about every ``spacing`` metres.
+
+    The parameter of the spline grows by the square root of the distance from point to point. This centripetal
+    parametrisation (Lee 1989) keeps the curve from swinging out where a short piece follows a long one.
+    """
     gaps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     knots = np.concatenate([[0], np.cumsum(np.sqrt(gaps))])
     spline = CubicSpline(knots, points, bc_type="natural")
@@ -63,20 +93,52 @@ def spline_through(points: Floats, spacing: float) -> Floats:
 
 
 def path_clearance(world: Worlds, path: ArrayLike) -> Floats:
-    """Distance (P,) from each point of a path (P, 2) to the nearest obstacle or border; 0 outside the map.
+    """Return the distance from each point of a path to the nearest obstacle or border.
 
-    Where it is less than 1 m, a robot on the path would collide.
+    A robot collides where it is less than 1 m.
+
+    Parameters
+    ----------
+    world : Worlds
+        Batch of one.
+    path : (P, 2) array
+        x and y in metres.
+
+    Returns
+    -------
+    (P,) array
+        Distances in metres; 0 inside an obstacle and outside the map.
+
+    Examples
+    --------
+    >>> from robonav.lfd import path_clearance
+    >>> from robonav.robot import make_world
+    >>> path_clearance(make_world(circles=[(50, 50, 5)]), [(50, 60), (50, 53)])
+    array([5., 0.])
     """
     points = check_array("path", path, shape=("P", 2))
     return clearance(world[np.zeros(len(points), dtype=int)], points)
 
 
 class PathFollower:
-    """Follows one path a robot, by the action that brings it nearest to a point some way ahead on it.
+    """An expert that follows one path a robot: it heads for a point of the path a step and a half ahead.
+
+    This is pure pursuit (Coulter 1992) with five actions: the robot takes the action that brings it nearest to that
+    point.
 
     Parameters
     ----------
-    paths : (P, 2) each, one a robot.
+    paths : sequence of (P, 2) arrays
+        One path for each robot, in metres.
+
+    Examples
+    --------
+    >>> from robonav.lfd import PathFollower, record, smooth_path
+    >>> from robonav.robot import make_world
+    >>> world = make_world(circles=[(50, 50, 5)])
+    >>> path = smooth_path([world.starts[0], (40, 65), world.targets[0]])
+    >>> record(PathFollower([path]), world).outcome.tolist()
+    ['arrived']
     """
 
     def __init__(self, paths: Sequence[ArrayLike]) -> None:
@@ -84,35 +146,31 @@ class PathFollower:
             check_array(f"paths[{k}]", path, shape=("P", 2))
             for k, path in enumerate(paths)
         ]
-        self._reached = [0] * len(self.paths)
+        self._passed = [0] * len(self.paths)
 
-    def __call__(self, simulator: Simulator, asked: Actions) -> Actions:
-        """The next actions (n,) of the robots ``asked`` (n,)."""
-        aims = np.array(
+    def __call__(self, simulator: Simulator, robots: Actions) -> Actions:
+        """Return the next actions (n,) of the robots with these indices (n,)."""
+        goals = np.array(
             [
-                self._aim(robot, simulator.poses[robot], simulator.speed)
-                for robot in asked
+                self.lookahead_point(robot, simulator.poses[robot], simulator.speed)
+                for robot in robots
             ]
         )
-        poses = simulator.poses[asked]
+        poses = simulator.poses[robots]
         headings = poses[:, 2, None] + TURNS[:LEARNED]
-        ends = poses[:, None, :2] + simulator.speed * np.stack(
-            [np.cos(headings), np.sin(headings)], axis=-1
-        )
-        return np.linalg.norm(ends - aims[:, None], axis=2).argmin(axis=1)
+        steps = np.stack([np.cos(headings), np.sin(headings)], axis=-1)
+        ends = poses[:, None, :2] + simulator.speed * steps  # (n, 5, 2): of each action
+        return np.linalg.norm(ends - goals[:, None], axis=2).argmin(axis=1)
 
-    def _aim(self, robot: int, pose: Floats, speed: float) -> Floats:
-        """The point of the path to make for: ahead of the nearest of those not yet passed."""
-        path = self.paths[robot][self._reached[robot] :]
-        way = np.concatenate(
-            [[0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))]
-        )
-        off = np.linalg.norm(path - pose[:2], axis=1)
-        nearest = int(off.argmin())
-        self._reached[robot] += nearest
-        return path[
-            min(int(np.searchsorted(way, way[nearest] + AHEAD * speed)), len(way) - 1)
-        ]
+    def lookahead_point(self, robot: int, pose: Floats, speed: float) -> Floats:
+        """Return the point of a robot's path that lies a step and a half beyond the point nearest to the robot."""
+        path = self.paths[robot][self._passed[robot] :]  # the robot never turns back
+        lengths = np.linalg.norm(np.diff(path, axis=0), axis=1)
+        along = np.concatenate([[0], np.cumsum(lengths)])  # metres from the first point
+        nearest = int(np.linalg.norm(path - pose[:2], axis=1).argmin())
+        self._passed[robot] += nearest
+        ahead = int(np.searchsorted(along, along[nearest] + LOOKAHEAD * speed))
+        return path[min(ahead, len(path) - 1)]
 
 
 def demonstrate_by_hand(
@@ -123,22 +181,44 @@ def demonstrate_by_hand(
     slip: ArrayLike | None = None,
     progress: Progress | None = None,
 ) -> Demonstrations:
-    """Demonstrations by a human: the robot follows a smooth path through key points, one drive in each of D worlds.
+    """Record demonstrations by a human expert: in each of D worlds the robot follows a path through key points.
 
-    The robot keeps its reflexes. Where nothing is in range it makes for the target and leaves the path, to which it
-    finds back where something is.
+    The robot keeps its reflexes: where nothing is in range it goes straight to the target and leaves the path. It
+    returns to the path where something is in range.
 
     Parameters
     ----------
-    worlds : batch of D.
-    key_points : (K, 2) each, one a world, in metres; the path starts at the world's start and ends at its target, which
-        are not among them.
-    speed, slip : as in :func:`demonstrate`.
+    worlds : Worlds
+        Batch of D.
+    key_points : sequence of (K, 2) arrays
+        The key points in each world, in metres. The path begins at the world's start and ends at its target, which are
+        not among the key points.
+    speed : float
+        Of the robots, in m/s.
+    slip : (6, 6) array, optional
+        As in :func:`demonstrate`.
+    progress : callable, optional
+        Called as ``progress(worlds done, D)``.
+
+    Returns
+    -------
+    Demonstrations
 
     Raises
     ------
-    ValueError : if key points are not one set a world, or their path comes nearer than 1 m to an obstacle or border;
-        the message says where.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If the number of sets of key points is not D, or if a path comes nearer than 1 m to an obstacle or border. The
+        message says where.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate_by_hand
+    >>> from robonav.robot import make_world
+    >>> world = make_world(circles=[(50, 50, 5)])
+    >>> demonstrate_by_hand(world, [[(40, 65)]]).outcome.tolist()
+    ['arrived']
     """
     check_instance("worlds", worlds, Worlds)
     if len(check_instance("key_points", key_points, Sequence)) != len(worlds):
@@ -150,9 +230,9 @@ def demonstrate_by_hand(
         for world, points in zip(worlds, key_points, strict=True)
     ]
     for number, (world, path) in enumerate(zip(worlds, paths, strict=True)):
-        crossing = path_clearance(world, path) < COLLISION_DISTANCE
-        if crossing.any():
-            x, y = path[crossing.argmax()]
+        too_near = path_clearance(world, path) < COLLISION_DISTANCE
+        if too_near.any():
+            x, y = path[too_near.argmax()]
             raise ValueError(
                 f"key_points[{number}] must lead clear of obstacles: near ({x:.1f}, {y:.1f}) their path comes nearer "
                 f"than {COLLISION_DISTANCE:g} m to one"
@@ -163,60 +243,74 @@ def demonstrate_by_hand(
 
 
 def between_ends(world: Worlds, key_points: ArrayLike) -> Floats:
-    """Start, key points (K, 2), target of one world: (K + 2, 2)."""
+    """Return the start, the key points (K, 2) and the target of one world as (K + 2, 2)."""
     points = check_array("key_points", key_points, shape=("K", 2))
     return np.concatenate([world.starts, points, world.targets])
 
 
-def sketch(worlds: Worlds, *, seed: int, shake: float = 1.0) -> list[Floats]:
-    """Key points as a person might give them, one set (K, 2) for each of D worlds: few, and none too exact.
+def sketch(worlds: Worlds, *, seed: int, noise: float = 1.0) -> list[Floats]:
+    """Generate key points as a person might give them: few, and inaccurate.
 
-    Stands in for a hand where hundreds of drives are wanted. It looks for a good way, marks where that bends, and its
-    hand shakes; where the smooth path then comes nearer than 2 m to something it tries again, more and more
-    carefully. World i depends on (seed, i) alone.
+    They are the corners of a simplified plan of the computer expert, with random errors. If the smooth path through
+    them comes nearer than 2 m to an obstacle or border, they are drawn again with smaller errors, from a less
+    simplified plan.
 
     Parameters
     ----------
-    shake : standard deviation in metres of the error of each key point, at first.
+    worlds : Worlds
+        Batch of D.
+    seed : int
+        Of the errors. The key points in world i depend on (seed, i) alone.
+    noise : float
+        Standard deviation in metres of the errors in x and y, in the first attempt.
+
+    Returns
+    -------
+    list of (K, 2) arrays
+        The key points in each world.
 
     Raises
     ------
-    ValueError : if an argument is out of bounds.
+    TypeError, ValueError
+        If an argument is of the wrong type or out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate_by_hand, sketch
+    >>> from robonav.robot import random_worlds
+    >>> worlds = random_worlds(2, obstacles=10, seed=1)
+    >>> demonstrate_by_hand(worlds, sketch(worlds, seed=5)).outcome.tolist()
+    ['arrived', 'arrived']
     """
     check_instance("worlds", worlds, Worlds)
     check_integer("seed", seed, at_least=0)
-    check_real("shake", shake, at_least=0)
+    check_real("noise", noise, at_least=0)
     return [
-        _sketch(world, np.random.default_rng([seed, i]), shake)
+        _sketch(world, np.random.default_rng([seed, i]), noise)
         for i, world in enumerate(worlds)
     ]
 
 
-def _sketch(world: Worlds, rng: np.random.Generator, shake: float) -> Floats:
-    """Key points (K, 2) in one world."""
-    way = ComputerExpert().plan_from(Simulator(world), 0).poses[:, :2]
-    for care in CARE:
-        bends = _bends(way, STRAIGHT * care)[1:-1]
-        points = bends + rng.normal(scale=shake * care, size=bends.shape)
-        if (
-            path_clearance(
-                world, smooth_path(between_ends(world, points), spacing=1.0)
-            ).min()
-            >= CLEAR
-        ):
+def _sketch(world: Worlds, rng: np.random.Generator, noise: float) -> Floats:
+    """Return key points (K, 2) in one world."""
+    planned = ComputerExpert().plan_from(Simulator(world), 0).poses[:, :2]
+    for factor in ATTEMPTS:
+        corners = simplified(planned, SKETCH_TOLERANCE * factor)[1:-1]
+        points = corners + rng.normal(scale=noise * factor, size=corners.shape)
+        path = smooth_path(between_ends(world, points), spacing=1.0)
+        if path_clearance(world, path).min() >= SKETCH_CLEARANCE:
             break
     return points
 
 
-def _bends(way: Floats, straight: float) -> Floats:
-    """The corners of a polygon that stays within ``straight`` metres of a way (P, 2) (Douglas and Peucker 1973)."""
-    along = way[-1] - way[0]
+def simplified(path: Floats, tolerance: float) -> Floats:
+    """Return the corners of a polyline within ``tolerance`` metres of a path (P, 2) (Douglas and Peucker 1973)."""
+    chord = path[-1] - path[0]
     off = np.abs(
-        along[0] * (way[:, 1] - way[0, 1]) - along[1] * (way[:, 0] - way[0, 0])
-    ) / np.hypot(*along)
+        chord[0] * (path[:, 1] - path[0, 1]) - chord[1] * (path[:, 0] - path[0, 0])
+    ) / np.hypot(*chord)
     farthest = int(off.argmax())
-    if off[farthest] <= straight:
-        return way[[0, -1]]
-    return np.concatenate(
-        [_bends(way[: farthest + 1], straight)[:-1], _bends(way[farthest:], straight)]
-    )
+    if off[farthest] <= tolerance:
+        return path[[0, -1]]
+    before = simplified(path[: farthest + 1], tolerance)
+    return np.concatenate([before[:-1], simplified(path[farthest:], tolerance)])

@@ -1,8 +1,8 @@
-"""k nearest neighbours: take the action that the expert took in the most similar states."""
+"""k nearest neighbours: a policy that takes the action that the expert took in the most similar states."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,16 +17,19 @@ from .demonstrations import LEARNED, Demonstrations
 
 @dataclass(frozen=True, eq=False)
 class NeighbourPolicy:
-    """The policy that takes the action of most of the k nearest recorded states; of equals, that of the nearer state.
+    """A policy by vote of the k recorded states nearest to the robot's state.
+
+    It takes the action that most of these states have. Of actions with equally many votes it takes the one of the
+    nearest state.
 
     Attributes
     ----------
     states : (m, n) array
-        Recorded states, encoded. Distances between encodings are Euclidean.
+        Recorded states, encoded. Distances between them are Euclidean.
     actions : (m,) array of int
-        The action taken in each.
+        The action that the expert took in each.
     encoder : Encoder
-        How sensing is encoded.
+        Turns what the robot senses into a state.
     k : int
         Number of neighbours that vote.
 
@@ -49,37 +52,38 @@ class NeighbourPolicy:
     actions: NDArray[np.int64]
     encoder: Encoder
     k: int = 5
+    _tree: cKDTree = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         check_integer("k", self.k, at_least=1, at_most=len(self.states))
         object.__setattr__(self, "_tree", cKDTree(self.states))
 
     def __call__(self, sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
-        """Return actions (N,); the generator is not used."""
-        _, nearest = self._tree.query(  # type: ignore[attr-defined]
-            self.encoder(sensing), k=range(1, self.k + 1)
-        )
-        near = self.actions[nearest]
-        votes = np.zeros((len(near), LEARNED))
-        for rank in range(self.k):  # a nearer state weighs more, yet never outvotes two
+        """Return actions (N,). No random numbers are drawn."""
+        states = self.encoder(sensing)
+        _, nearest = self._tree.query(states, k=range(1, self.k + 1))
+        votes = np.zeros((len(states), LEARNED))
+        for rank in range(self.k):  # the nearest neighbour has rank 0
+            actions = self.actions[nearest[:, rank]]
+            # A nearer neighbour's vote counts a little more, which only decides ties.
             weight = 1 + (self.k - rank) / (LEARNED * self.k) ** 2
-            votes[np.arange(len(near)), near[:, rank]] += weight
+            votes[np.arange(len(states)), actions] += weight
         return votes.argmax(axis=1)
 
 
 def learn_neighbours(
     demonstrations: Demonstrations, k: int = 5, *, encoder: Encoder | None = None
 ) -> NeighbourPolicy:
-    """Learn a policy by k nearest neighbours: keep the effective pairs of demonstrations.
+    """Learn a policy by k nearest neighbours, which keeps the effective pairs in demonstrations as they are.
 
     Parameters
     ----------
     demonstrations : Demonstrations
-        Of any expert.
+        By any expert.
     k : int
         Number of neighbours that vote.
     encoder : Encoder, optional
-        How sensing is encoded.
+        Turns what the robot senses into a state.
 
     Returns
     -------
@@ -87,6 +91,8 @@ def learn_neighbours(
 
     Raises
     ------
+    TypeError
+        If an argument is of the wrong type.
     ValueError
         If there are fewer than k effective pairs.
 

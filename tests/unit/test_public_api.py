@@ -49,6 +49,7 @@ READABLE = [
     "nnql.online",
     "nnql.nfq",
     "nnql.dqn",
+    "lfd.behaviour_cloning",
     "lfd.dagger",
     "nirl.nirl",
     "nirl.apprenticeship",
@@ -153,7 +154,7 @@ def without_example(package: str) -> list[str]:
     ]
 
 
-WAITING: set[str] = {"networks", "lfd"}
+WAITING: set[str] = {"networks"}
 
 
 @pytest.mark.parametrize("package", PUBLIC)

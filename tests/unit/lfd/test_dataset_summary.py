@@ -23,7 +23,7 @@ def test_an_overview_counts():
     assert held.closest == shown.sensing.ranges.min() < 10
     text = str(held)
     assert text.startswith(
-        f"6 trajectories, 6 arrived\n{len(shown)} steps, {len(x)} to learn from, in {held.states} "
+        f"6 trajectories, 6 arrived\n{len(shown)} steps, {len(x)} effective pairs in {held.states} "
     )
     assert f"F {held.actions[0] / len(x):.0%}, L30" in text
 

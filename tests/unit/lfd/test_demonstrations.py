@@ -213,7 +213,7 @@ def test_a_world_without_a_way_is_named():
     walled = make_world(rectangles=[(50, 50, 6, 96, 0)])
     with pytest.raises(
         ValueError,
-        match=r"worlds\[1\] must have a way from start to target at 2 m/s, and has none",
+        match=r"worlds\[1\] must have a path from start to target at 2 m/s, and has none",
     ):
         demonstrate(concatenate([make_world(), walled]))
 

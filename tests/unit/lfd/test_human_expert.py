@@ -88,10 +88,10 @@ def test_hand_driven_demonstrations():
     )
 
 
-def test_sketches_shake_less_and_less_until_they_keep_clear():
-    """A hand that shakes by six metres: at first it would often draw through something."""
+def test_errors_of_sketches_shrink_until_the_path_is_clear():
+    """With errors of six metres, most first attempts lead through something."""
     worlds = random_worlds(12, 20, seed=3)
-    for world, points in zip(worlds, sketch(worlds, seed=5, shake=6.0), strict=True):
+    for world, points in zip(worlds, sketch(worlds, seed=5, noise=6.0), strict=True):
         path = smooth_path([world.starts[0], *points, world.targets[0]])
         assert path_clearance(world, path).min() > 1.5
 
