@@ -140,6 +140,36 @@ export function weightsFromFile(buffer) {
   return { network: { sizes, weights, biases }, encoder: about.encoder, temperature: about.temperature ?? 0 };
 }
 
+/**
+ * The bytes of a safetensors file that robonav.networks.load_weights reads.
+ * @param {{network: Network, encoder: Encoder, method: string, temperature?: number}} policy
+ * @param {Record<string, any>} made what else made it, as JSON knows it
+ */
+export function weightsFile({ network, encoder, method, temperature = 0 }, made = {}) {
+  const { sizes, weights, biases } = network;
+  const tensors = [
+    ...weights.map((values, l) => [`weights.${l + 1}`, [sizes[l + 1], sizes[l]], values]),
+    ...biases.map((values, l) => [`biases.${l + 1}`, [sizes[l + 1]], values]),
+  ];
+  const about = { format: "robonav weights 1", method, encoder, made: { page: true, ...made }, temperature, version: "in the page" };
+  let at = 0;
+  const header = { __metadata__: { robonav: JSON.stringify(about) } };
+  for (const [name, shape, values] of tensors) header[name] = { dtype: "F64", shape, data_offsets: [at, (at += 8 * values.length)] };
+  const text = new TextEncoder().encode(JSON.stringify(header));
+  const padded = Math.ceil(text.length / 8) * 8;
+  const view = new DataView(new ArrayBuffer(8 + padded + at));
+  view.setBigUint64(0, BigInt(padded), true);
+  const bytes = new Uint8Array(view.buffer);
+  bytes.fill(32, 8, 8 + padded);
+  bytes.set(text, 8);
+  let place = 8 + padded;
+  for (const [, , values] of tensors) for (const value of values) {
+    view.setFloat64(place, value, true);
+    place += 8;
+  }
+  return bytes;
+}
+
 /** Hands bytes to the reader as a file. */
 export function saveFile(name, bytes) {
   const link = h("a", { href: URL.createObjectURL(new Blob([bytes])), download: name });

@@ -119,6 +119,12 @@ export class RandomNumbers {
     return this.#low;
   }
 
+  /** The next 64 bits, as a bigint; Python's `integers(2**63)` is half of it. */
+  raw() {
+    this.#next64();
+    return (BigInt(this.#high) << 32n) | BigInt(this.#low);
+  }
+
   /** A number in [0, 1). */
   random() {
     this.#next64();

@@ -105,8 +105,11 @@ export function drawWorld(key, { obstacles: still, moving = 0, starts = [[10, 10
   throw new Error(`${still + moving} obstacles leave no way to the target; take fewer.`);
 }
 
-/** The first so many worlds of a seed, as `robonav.robot.random_worlds`. Needs random.js. @returns {World[]} */
-export function randomWorlds(count, { seed, ...settings }) {
+/** Keys of the first n worlds of a seed, as `robonav.robot.world_keys`. Needs random.js. @param {number | bigint} seed */
+export function worldKeysOf(n, seed) {
   const [low, high] = seedWords(seed, 2);
-  return worldKeys(count, BigInt(low) | (BigInt(high) << 32n)).map((key) => drawWorld(key, settings));
+  return worldKeys(n, BigInt(low) | (BigInt(high) << 32n));
 }
+
+/** The first so many worlds of a seed, as `robonav.robot.random_worlds`. @returns {World[]} */
+export const randomWorlds = (count, { seed, ...settings }) => worldKeysOf(count, seed).map((key) => drawWorld(key, settings));

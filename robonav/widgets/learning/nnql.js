@@ -1,0 +1,226 @@
+// Neural-network Q-learning in the page: Algorithm 8 and its online form, as robonav/nnql/nnql.py has them.
+//
+// With the same seed these functions draw the same numbers as Python's and compute the same Q-values, up to rounding:
+// exponentials differ in their last bit from machine to machine. Learning magnifies such a difference, until a robot
+// chooses another action; from there on the two trainings differ, and only their success over many seeds agrees.
+
+/**
+ * @typedef {[number, number]} Schedule a quantity's value in the first episode and in the last
+ * @typedef {object} LearningSettings
+ * @property {"nnql" | "online"} method
+ * @property {number} obstacles
+ * @property {number} moving
+ * @property {number} speed in m/s
+ * @property {number} maxSteps
+ * @property {number[]} rewards one for each row of Table 4.1
+ * @property {boolean} mustMoveAway whether evading is rewarded only if the nearest thing is farther away than before
+ * @property {"number" | "signed" | "one-hot" | "sine-cosine" | "raw"} inputs how the target's sector is encoded; raw: the numbers of Eq. (4.5) as they are
+ * @property {number} hidden
+ * @property {number} episodes
+ * @property {Schedule} learningRate alpha
+ * @property {number} discount gamma
+ * @property {Schedule} gradientStep sigma
+ * @property {Schedule} temperature T
+ * @property {"shift" | "clip"} rescale
+ * @property {number} passes
+ * @property {number} tolerance
+ * @property {number} seed
+ */
+
+const LEARNED_ACTIONS = 5;
+const [INITIAL, EXPLORING, WORLDS] = [0, 1, 2]; // what a seed's random numbers are for, as in robonav/nnql/task.py
+export const NNQL_ENDS = { starts: [[10, 10], [90, 10]], targets: [[90, 90], [10, 90]] };
+
+// ---- Reward: Table 4.1 ----------------------------------------------------------------------------------------------
+
+const COZY_DISTANCE = 5; // metres
+const [SAFE, COZY, DANGEROUS] = [0, 1, 2];
+const EVADING = [6, 9]; // rows that reward staying away
+
+const nearestOf = ({ ranges }) => Math.min(...ranges);
+
+/** The property of a state in which the robot goes on, Eq. (4.6). */
+export const propertyAt = (nearest) => (nearest < COZY_DISTANCE ? DANGEROUS : nearest < ROBOT.range ? COZY : SAFE);
+
+/** Which row of Table 4.1 holds for a step. @param {Sensing} before @param {Sensing} after @param {string} outcome */
+export function rewardRow(before, after, outcome) {
+  if (outcome === "arrived") return 0;
+  if (outcome === "collided") return 1;
+  const [distanceBefore, distanceAfter] = [nearestOf(before), nearestOf(after)];
+  const [was, now] = [propertyAt(distanceBefore), propertyAt(distanceAfter)];
+  const nearer = clamp(Math.floor(distanceBefore - distanceAfter), 0, 3); // whole metres
+  if (now === SAFE) return 2;
+  if (was === SAFE) return 3;
+  if (was === DANGEROUS && now === COZY) return 4;
+  if (was === COZY && now === DANGEROUS) return 5;
+  return was === COZY ? 6 + Math.min(nearer, 2) : 9 + nearer;
+}
+
+/** The reward of a step. @param {LearningSettings} settings */
+export function rewardOf({ rewards, mustMoveAway }, before, after, outcome) {
+  const row = rewardRow(before, after, outcome);
+  return mustMoveAway && EVADING.includes(row) && nearestOf(after) <= nearestOf(before) ? 0 : rewards[row];
+}
+
+// ---- The steps of Algorithm 8 ---------------------------------------------------------------------------------------
+
+/** A quantity that is multiplied by the same factor each episode. @param {Schedule} schedule */
+export const geometricSchedule = ([start, end], fraction) => start * (end / start) ** fraction;
+
+/** The probabilities of the actions, Eq. (4.7). */
+export function softmaxPolicy(q, temperature) {
+  const best = Math.max(...q);
+  const weights = Array.from(q, (value) => Math.exp((value - best) / temperature));
+  const sum = weights.reduce((total, weight) => total + weight, 0);
+  return weights.map((weight) => weight / sum);
+}
+
+/** The action that a uniform random number draws. */
+export function sampleAction(probabilities, drawn) {
+  let [sum, action] = [0, 0];
+  for (const probability of probabilities) {
+    sum += probability;
+    if (sum <= drawn) action += 1;
+  }
+  return Math.min(action, probabilities.length - 1);
+}
+
+/** Q-values after one update of the action taken, Eq. (4.9). */
+export function qTargets(q, action, reward, nextValue, learningRate, discount) {
+  const targets = Float64Array.from(q);
+  targets[action] += learningRate * (reward + discount * nextValue - targets[action]);
+  return targets;
+}
+
+/** Two readings of the thesis's "rescale". */
+export const RESCALE = {
+  clip: (q) => q.map((value) => clamp(value, 0, 1)),
+  shift: (q) => {
+    const [low, high] = [Math.min(...q, 0), Math.max(...q, 1)];
+    return q.map((value) => (value - low) / (high - low));
+  },
+};
+
+const NNQL_SENSORS = [1, 2, 3, 4, 7, 8, 9];
+
+/** What the network reads, as an encoder. @param {LearningSettings} settings */
+export const encoderOf = ({ inputs }) => ({ sensors: NNQL_SENSORS, walls: true, target: inputs === "raw" ? "number" : inputs, raw: inputs === "raw" });
+
+/** The network's inputs; raw: the numbers of Eq. (4.5) as they are, up to 7 and 9. @param {Encoder & {raw?: boolean}} encoder */
+export function inputsFor(encoder, sensing) {
+  const inputs = Float64Array.from(encode(encoder, sensing));
+  if (!encoder.raw) return inputs;
+  const dangers = encoder.sensors.length;
+  return inputs.map((value, j) => Math.round(j < dangers ? 7 * value : j === dangers ? 9 * value : value));
+}
+
+/** The network that training starts from, drawn as robonav.nnql.q_network draws it. @param {LearningSettings} settings */
+export function firstNetwork({ inputs, hidden, seed }) {
+  const read = 2 * NNQL_SENSORS.length + 1 + (inputs === "raw" ? 1 : TARGETS[inputs](1).length);
+  return randomNetwork([read, hidden, LEARNED_ACTIONS], defaultRng([seed, INITIAL]));
+}
+
+/** A function that gives the worlds of a training by episode, as robonav.nnql.NavigationTask.worlds. @param {LearningSettings} settings */
+export function trainingWorlds({ seed, episodes, obstacles, moving }) {
+  const own = defaultRng([seed, WORLDS]).raw() >> 1n; // as integers(2**63)
+  const keys = worldKeysOf(episodes, own);
+  return (episode) => drawWorld(keys[episode], { obstacles, moving, ...NNQL_ENDS });
+}
+
+// ---- Algorithm 8 ----------------------------------------------------------------------------------------------------
+
+/** By how much the weights of each layer changed, biases included: summed, and summed without their signs (Fig. 4.3). */
+export function weightChanges(before, after) {
+  return after.weights.map((_, l) => {
+    let [signed, absolute] = [0, 0];
+    for (const part of ["weights", "biases"]) {
+      after[part][l].forEach((value, i) => {
+        signed += value - before[part][l][i];
+        absolute += Math.abs(value - before[part][l][i]);
+      });
+    }
+    return { signed, absolute };
+  });
+}
+
+/**
+ * Neural-network Q-learning (NNQL), Algorithm 8, or with the latest pair alone its online form.
+ *
+ * Yields after each episode what happened in it. With `watch`, that function is called after each update of the network.
+ * @param {LearningSettings} settings
+ * @param {{watch?: (update: {q: Float64Array, network: Network}) => void}} options
+ */
+export function* neuralQLearning(settings, { watch = () => {} } = {}) {
+  const { episodes, discount, speed, maxSteps, passes, tolerance, seed } = settings;
+  const encoder = encoderOf(settings);
+  const network = firstNetwork(settings);
+  const [worldOf, learn, rescale] = [trainingWorlds(settings), stochasticGradientDescent(network), RESCALE[settings.rescale]];
+  for (let episode = 0; episode < episodes; episode += 1) { // 2
+    const fraction = episode / Math.max(episodes - 1, 1);
+    const [alpha, sigma, temperature] = ["learningRate", "gradientStep", "temperature"].map((name) => geometricSchedule(settings[name], fraction));
+    const rng = defaultRng([seed, EXPLORING, episode]);
+    const first = worldOf(episode); // 3
+    let [world, pose, step, outcome] = [first, startPose(first), 0, "running"]; // 4
+    let sensing = sense(world, pose); // 5
+    let state = inputsFor(encoder, sensing);
+    let [inputs, targets] = [[], []]; // 6
+    const [before, path] = [flattened(network), [[pose.x, pose.y]]];
+    let [total, decisions] = [0, 0];
+    while (outcome === "running" && step < maxSteps) { // 8
+      const q = propagate(network, state).activations.at(-1); // 9
+      let action = sampleAction(softmaxPolicy(q, temperature), rng.random()); // 10
+      const own = reflex(sensing, speed);
+      if (own >= 0) action = own;
+      ({ world, pose, outcome } = advance(world, pose, step, action, speed)); // 11
+      const reached = sense(world, pose);
+      const next = inputsFor(encoder, reached);
+      if (own < 0) { // in a safe state the reflex acts
+        const reward = rewardOf(settings, sensing, reached, outcome); // 12
+        const future = outcome === "running" ? Math.max(...propagate(network, next).activations.at(-1)) : 0;
+        const target = qTargets(q, action, reward, future, alpha, discount); // 13
+        if (settings.method === "online") [inputs, targets] = [[], []]; // the latest pair alone
+        inputs.push(state); // 15
+        targets.push(rescale(target)); // 14, 15
+        learn(inputs, targets, sigma, passes, tolerance); // 16
+        [total, decisions] = [total + reward, decisions + 1];
+        watch({ q, network });
+      }
+      [sensing, state, step] = [reached, next, step + 1];
+      path.push([pose.x, pose.y]);
+    } // 17 to 20
+    yield { episode, world: first, path, outcome: outcome === "running" ? "out of steps" : outcome, decisions, total, changes: weightChanges(before, network), network };
+  }
+}
+
+// ---- Driving with what was learned ----------------------------------------------------------------------------------
+
+/**
+ * One episode of a policy in a world, Algorithm 9.
+ * @param {{rule?: string, network?: Network, encoder?: Encoder, temperature?: number}} policy
+ */
+export function driveWith(policy, first, { speed, maxSteps }) {
+  let [world, pose, outcome] = [first, startPose(first), "running"];
+  const poses = [pose];
+  for (let step = 0; step < maxSteps && outcome === "running"; step += 1) {
+    const sensing = sense(world, pose);
+    let action = reflex(sensing, speed);
+    if (action < 0 && policy.rule) action = RULES[policy.rule](sensing);
+    else if (action < 0) {
+      const { z } = propagate(policy.network, inputsFor(policy.encoder, sensing));
+      const noise = gumbel(world.key, step);
+      action = largest(policy.temperature > 0 ? z.map((sum, a) => sum + policy.temperature * noise(a)) : z);
+    }
+    ({ world, pose, outcome } = advance(world, pose, step, action, speed));
+    poses.push(pose);
+  }
+  return { poses, outcome: outcome === "running" ? "out of steps" : outcome };
+}
+
+/** Wilson's 95 % interval of a rate, in [0, 1] (Wilson 1927). */
+export function wilsonInterval(successes, n) {
+  const z = 1.959963984540054;
+  const [rate, spread] = [successes / n, (z * z) / n];
+  const middle = (rate + spread / 2) / (1 + spread);
+  const half = (z / (1 + spread)) * Math.sqrt((rate * (1 - rate)) / n + spread / (4 * n));
+  return [Math.max(0, middle - half), Math.min(1, middle + half)];
+}

@@ -1,0 +1,434 @@
+// Q-learning lab: the reader sets reward, exploration and learning, and a robot learns from nothing, in the page.
+
+const BLOCK = 30; // episodes in which successes are counted, as in Fig. 4.4
+const OUTCOME_COLOURS = { arrived: PALETTE.BLUE, collided: PALETTE.VERMILION, "out of steps": PALETTE.PURPLE };
+const ENDINGS = { arrived: "arrived", collided: "collided", "out of steps": "never ended" };
+
+// ---- What can be set ------------------------------------------------------------------------------------------------
+
+/**
+ * @typedef {object} Field a number that the reader sets
+ * @property {string} key its name in the settings
+ * @property {number} [part] its place, if the setting is a list of numbers
+ * @property {string} label
+ * @property {number} least
+ * @property {number} most
+ * @property {number} step
+ * @property {boolean} [positive] whether it must be greater than `least`
+ */
+const pair = (key, label, limits) => ["start", "end"].map((end, part) => ({ key, part, label: `${label}, ${end}`, ...limits }));
+
+/** @type {Record<string, Field[]>} */
+export const NUMBERS = {
+  exploration: pair("temperature", "temperature", { least: 0, positive: true, most: 100, step: 0.01 }),
+  learning: [
+    { key: "discount", label: "discount", least: 0, most: 1, step: 0.05 },
+    ...pair("learningRate", "learning rate", { least: 0, positive: true, most: 1, step: 0.05 }),
+    ...pair("gradientStep", "step of gradient descent", { least: 0, positive: true, most: 10, step: 0.05 }),
+    { key: "passes", label: "passes through the pairs", least: 1, most: 20, step: 1 },
+    { key: "hidden", label: "hidden units", least: 1, most: 32, step: 1 },
+  ],
+  robot: [
+    { key: "obstacles", label: "obstacles that stand still", least: 0, most: 40, step: 1 },
+    { key: "moving", label: "obstacles that move", least: 0, most: 30, step: 1 },
+    { key: "speed", label: "speed of the robot (m/s)", least: 0.5, most: 4, step: 0.5 },
+    { key: "episodes", label: "episodes", least: 1, most: 2000, step: 10 },
+    { key: "seed", label: "seed of the random numbers", least: 0, most: 999999999, step: 1 },
+  ],
+};
+const WHOLE = ["passes", "hidden", "obstacles", "moving", "episodes", "seed"];
+const rewardField = (part, label) => ({ key: "rewards", part, label: `reward for ${label}`, least: -10, most: 10, step: 0.1 });
+
+/** @type {Record<string, {key: string, label: string, options: [any, string][]}>} */
+const CHOICES = {
+  evading: { key: "mustMoveAway", label: "staying away is rewarded", options: [[false, "if nothing comes a metre nearer"], [true, "only if everything gets farther away"]] },
+  method: { key: "method", label: "method", options: [["nnql", "NNQL: all pairs of the episode"], ["online", "online: the latest pair alone"]] },
+  rescale: { key: "rescale", label: "Q comes into [0, 1]", options: [["shift", "shifted and divided"], ["clip", "clipped"]] },
+  inputs: { key: "inputs", label: "target's sector", options: [["number", "a number, 1 to 9"], ["signed", "right to left, -1 to 1"], ["one-hot", "nine inputs, one of them 1"], ["sine-cosine", "sine and cosine"], ["raw", "a number; no input is scaled"]] },
+};
+
+const read = (settings, { key, part }) => (part === undefined ? settings[key] : settings[key][part]);
+const written = (settings, { key, part }, value) => ({
+  ...settings, [key]: part === undefined ? value : settings[key].map((old, i) => (i === part ? value : old)),
+});
+
+/** What is wrong with a number, in one sentence, or nothing. @param {Field} field @param {number} value */
+export function complaint({ key, label, least, most, positive }, value) {
+  const name = label[0].toUpperCase() + label.slice(1);
+  if (!Number.isFinite(value)) return `${name} must be a number.`;
+  if (WHOLE.includes(key) && !Number.isInteger(value)) return `${name} must be a whole number, got ${value}.`;
+  if (value < least || value > most || (positive && value === least)) {
+    return `${name} must be ${positive ? `greater than ${least} and at most ${most}` : `from ${least} to ${most}`}, got ${value}.`;
+  }
+  return "";
+}
+
+/** The form: all settings, in groups that open and close. */
+function settingsForm({ table, open, first, change }) {
+  let settings = first;
+  const [fields, lists] = [[], []];
+  const numberInput = (field, attributes = {}) => {
+    const input = h("input", { type: "number", step: field.step, min: field.least, max: field.most, "aria-label": field.label, ...attributes });
+    fields.push({ field, input });
+    input.addEventListener("change", () => {
+      const wrong = complaint(field, input.valueAsNumber);
+      input.toggleAttribute("data-wrong", wrong !== "");
+      input.setAttribute("aria-invalid", String(wrong !== ""));
+      if (wrong === "") settings = written(settings, field, input.valueAsNumber);
+      change(wrong);
+    });
+    return input;
+  };
+  const labelled = (field) => h("label", {}, h("span", {}, field.label), numberInput(field));
+  const list = (name) => {
+    const { key, label, options } = CHOICES[name];
+    const one = choice({ label, options: options.map(([, text]) => text), change: (index) => {
+      settings = { ...settings, [key]: options[index][0] };
+      change("");
+    } });
+    lists.push(() => one.move(options.findIndex(([value]) => value === settings[key])));
+    return one.element;
+  };
+  const row = (...children) => h("div", { class: "row" }, ...children);
+  const group = (name, title, ...children) => h("details", { open: open.includes(name) }, h("summary", {}, title), ...children);
+  const rewards = h("div", { class: "rewards" }, ...table.map(({ before, after, condition }, part) =>
+    h("label", {}, h("span", {}, `${before} → ${after}`, h("small", {}, condition)), numberInput(rewardField(part, `${before} to ${after}${condition ? `, ${condition}` : ""}`)))));
+  const element = h("div", { class: "settings" },
+    group("reward", "Reward: Table 4.1", rewards, row(list("evading"))),
+    group("exploration", "Exploration", row(...NUMBERS.exploration.map(labelled))),
+    group("learning", "Learning", row(list("method"), list("rescale"), list("inputs"), ...NUMBERS.learning.map(labelled))),
+    group("robot", "Robot and maps", row(...NUMBERS.robot.map(labelled))));
+  /** Puts other settings into the form. */
+  const put = (other) => {
+    settings = other;
+    for (const { field, input } of fields) {
+      input.value = String(read(settings, field));
+      input.removeAttribute("data-wrong");
+      input.setAttribute("aria-invalid", "false");
+    }
+    lists.forEach((fill) => fill());
+  };
+  /** What is wrong with the form, in one sentence, or nothing; the first wrong field gets the focus. */
+  const wrong = () => {
+    const found = fields.find(({ field, input }) => complaint(field, input.valueAsNumber) !== "");
+    if (!found) return "";
+    const group_ = found.input.closest("details");
+    if (group_) group_.open = true;
+    found.input.focus();
+    return complaint(found.field, found.input.valueAsNumber);
+  };
+  put(first);
+  return { element, put, wrong, settings: () => settings };
+}
+
+// ---- What is computed, in the worker --------------------------------------------------------------------------------
+
+/** The policies that are tried in new maps, by name. */
+function contestants(network, settings, { book, temperature }) {
+  const mine = { network, encoder: encoderOf(settings) };
+  return {
+    "your robot": mine,
+    [`your robot at T = ${temperature}`]: { ...mine, temperature },
+    "the book's NNQL": { ...book, network: networks(book.network)() },
+    "straight on": { rule: "straight" },
+  };
+}
+
+/**
+ * Learn, and then drive new maps: a job for the worker. Its steps say what happened in each episode, and in each map.
+ * @param {{settings: LearningSettings, trial: {seed: number, maps: number, book: object, temperature: number}}} job
+ */
+export function* learnAndDrive({ settings, trial }) {
+  const total = settings.episodes + trial.maps;
+  let [network, arrived] = [null, 0];
+  for (const { network: learning, episode, world, path, outcome, changes } of neuralQLearning(settings)) {
+    [network, arrived] = [learning, arrived + (outcome === "arrived" ? 1 : 0)];
+    const ends = (episode + 1) % BLOCK === 0;
+    const [first, second] = changes.map(({ absolute }) => absolute);
+    yield { done: episode + 1, total, live: { at: episode + 1, successes: ends ? arrived : null, first, second, episode: { world, path, outcome } } };
+    if (ends) arrived = 0;
+  }
+  const policies = Object.entries(contestants(network, settings, trial));
+  const keys = worldKeysOf(trial.maps, trial.seed);
+  const { speed, maxSteps, obstacles, moving } = settings;
+  for (let i = 0; i < trial.maps; i += 1) {
+    const world = drawWorld(keys[i], { obstacles, moving, ...NNQL_ENDS });
+    const drives = policies.map(([, policy]) => driveWith(policy, world, { speed, maxSteps }));
+    const outcomes = Object.fromEntries(policies.map(([name], k) => [name, drives[k].outcome]));
+    yield { done: settings.episodes + i + 1, total, live: { drive: { world, path: drives[0].poses.map(({ x, y }) => [x, y]), outcome: drives[0].outcome, outcomes } } };
+  }
+  const { sizes, weights, biases } = network;
+  return { sizes, weights: weights.map((part) => [...part]), biases: biases.map((part) => [...part]) };
+}
+
+// ---- Pictures -------------------------------------------------------------------------------------------------------
+
+/** Draws a world and the path of a robot through it, a dot each second. */
+function drawPath(board, { world, path, outcome }, { dots = true } = {}) {
+  board.begin(world.size);
+  world.obstacles.forEach((o) => board.obstacle(o));
+  board.start(world.start);
+  board.target(world.target);
+  board.line(path, OUTCOME_COLOURS[outcome], dots ? 1.8 : 6);
+  if (dots) board.dots(path.flat(), 0, path.length, { colour: OUTCOME_COLOURS[outcome], radius: 2 });
+  const [[x0, y0], [x1, y1]] = [path.at(-2) ?? path.at(-1), path.at(-1)];
+  board.robot({ x: x1, y: y1, heading: Math.atan2(y1 - y0, x1 - x0) });
+}
+
+/** How the robots did in the new maps. @param {Record<string, string>[]} outcomes how each map ended for each of them */
+export function trialRows(outcomes) {
+  return Object.keys(outcomes[0] ?? {}).map((name) => {
+    const count = (end) => outcomes.filter((ended) => ended[name] === end).length;
+    const arrived = count("arrived");
+    const [low, high] = wilsonInterval(arrived, outcomes.length);
+    return { name, n: outcomes.length, arrived, rate: (100 * arrived) / outcomes.length, low: 100 * low, high: 100 * high, collided: count("collided"), endless: count("out of steps") };
+  });
+}
+
+function trialTable() {
+  const body = h("tbody", {});
+  const heads = ["robot", "arrives (%)", "95 % interval", "collides", "never ends"];
+  const caption = h("caption", {}, "");
+  const element = h("div", { class: "scroll", hidden: true }, h("table", { class: "results" }, caption, h("thead", {}, h("tr", {}, ...heads.map((text) => h("th", { scope: "col" }, text)))), body));
+  const show = (outcomes, maps) => {
+    element.hidden = outcomes.length === 0;
+    caption.textContent = `${outcomes.length === maps ? maps : `${outcomes.length} of ${maps}`} new maps, the same for every robot and every run`;
+    body.replaceChildren(...trialRows(outcomes).map(({ name, rate, low, high, collided, endless }) =>
+      h("tr", {}, h("th", { scope: "row" }, name), ...[rate.toFixed(1), `${low.toFixed(1)} to ${high.toFixed(1)}`, collided, endless].map((value) => h("td", {}, String(value))))));
+  };
+  return { element, show };
+}
+
+// ---- In the page ----------------------------------------------------------------------------------------------------
+
+const FIG_42 = [0, 19, 49, 99, 149, 199, 249, 299].map((episode) => episode / 299);
+const VIEWS = ["the episodes of the training", "new maps where it failed", "new maps that it crossed"];
+const LINES = [
+  { name: "successes", label: "arrivals in 30", colour: PALETTE.GREEN, high: BLOCK, text: String },
+  { name: "first", label: "change of W(1)", text: (value) => value.toFixed(0) },
+  { name: "second", label: "change of W(2)", colour: PALETTE.ORANGE, text: (value) => value.toFixed(0) },
+];
+
+/** A map to look back on a run: its episodes, or the new maps that it drove. */
+function lookBack() {
+  const board = mapCanvas({ role: "img", "aria-label": "Map" });
+  const told = h("p", { class: "told" });
+  const controls = h("div", { class: "viewer" });
+  let stop = () => {};
+  const show = (drive, sentence) => {
+    told.textContent = sentence;
+    drawPath(board, drive);
+    board.canvas.setAttribute("aria-label", `Map with the path of the robot. ${sentence}`);
+  };
+  const hide = () => {
+    stop();
+    controls.replaceChildren();
+  };
+  /** Opens a list of drives, at one of them. */
+  const open = (run, view, at = 0) => {
+    stop();
+    const list = view === 0 ? run.episodes : run.drives.filter(({ outcome }) => (outcome === "arrived") === (view === 2));
+    const name = view === 0 ? "episode" : "map";
+    const text = (frame) => (list.length === 0 ? "none" : `${frame + 1} of ${list.length}, ${ENDINGS[list[frame].outcome]} after ${list[frame].path.length - 1} s`);
+    const see = (frame) => {
+      if (list.length > 0) show(list[frame], `${name[0].toUpperCase()}${name.slice(1)} ${text(frame)}.`);
+      else told.textContent = `There are no ${VIEWS[view]}.`;
+    };
+    const first = clamp(at, 0, Math.max(list.length - 1, 0));
+    const which = choice({ label: "look at", options: VIEWS, value: view, change: (index) => open(run, index) });
+    const time = player({ label: name, count: Math.max(list.length, 1), value: first, interval: view === 0 ? 120 : 700, text, change: see });
+    stop = time.stop;
+    controls.replaceChildren(which.element, time.element);
+    see(first);
+  };
+  return { element: h("div", { class: "grow" }, board.canvas, told, controls), show, open, hide };
+}
+
+/** Eight episodes of a run as small maps, as in Fig. 4.2. */
+function snapshots(pick) {
+  const all = FIG_42.map((share) => {
+    const small = mapCanvas({ "aria-hidden": "true" });
+    const title = h("span", {}, " ");
+    const one = { share, small, title, at: -1 };
+    one.element = h("button", { type: "button", disabled: true, click: () => pick(one.at) }, small.canvas, title);
+    return one;
+  });
+  const clear = () => all.forEach((one) => {
+    one.at = -1;
+    one.element.disabled = true;
+  });
+  const show = ({ episodes, settings }) => all.forEach((one) => {
+    const at = Math.round(one.share * (settings.episodes - 1));
+    if (!episodes[at] || one.at === at) return;
+    drawPath(one.small, episodes[at], { dots: false });
+    one.title.textContent = `${at + 1}: ${ENDINGS[episodes[at].outcome]}`;
+    one.element.disabled = false;
+    one.at = at;
+  });
+  return { element: h("div", { class: "snapshots", role: "group", "aria-label": "Eight episodes of the training" }, ...all.map(({ element }) => element)), clear, show };
+}
+
+/** A list of ways to go wrong, each with what to watch and its cure. */
+function faults(presets, put) {
+  const about = h("p", { class: "told" });
+  const apply = (index, cured) => {
+    put(cured ? null : presets[index].settings);
+    cure.disabled = cured;
+    about.textContent = cured ? `${presets[index].cure} Press Train, and compare with the grey curve of the run before.` : presets[index].watch;
+  };
+  let chosen = 0;
+  const which = choice({ label: "what goes wrong", options: presets.map(({ name }) => name), change: (index) => apply((chosen = index), false) });
+  const cure = h("button", { type: "button", click: () => apply(chosen, true) }, "Cure it");
+  apply(0, false);
+  return [h("div", { class: "row presets" }, which.element, cure), about];
+}
+
+/** Several robots in the kernel's Python; there is nothing of it until a kernel says that it is there. */
+function kernelPanel({ model, form }) {
+  let [number, inbox, wake] = [0, [], () => {}];
+  /** A job that Python does: what Python says becomes its steps. */
+  async function* pythonTraining(argument) {
+    inbox = [];
+    number += 1;
+    model.send({ ask: "train", run: number, ...argument });
+    for (;;) {
+      while (inbox.length === 0) await new Promise((go) => (wake = go));
+      const { error, ended, done, total, live } = inbox.shift();
+      if (error) throw new Error(error);
+      if (ended) return ended;
+      yield { done, total, live };
+    }
+  }
+  const robots = choice({ label: "robots, each with a seed of its own", options: ["1", "4", "16"], value: 1, change: () => {} });
+  const chosen = () => [1, 4, 16][robots.element.querySelector("select").selectedIndex];
+  const panel = trainingPanel({
+    source: null, action: "Train in Python", unit: "robot", total: chosen,
+    lines: [
+      { name: "last", label: "arrivals, last 100", high: 100, text: (value) => value.toFixed(0) },
+      { name: "maps", label: "new maps (%)", colour: PALETTE.GREEN, high: 100, text: (value) => value.toFixed(0) },
+    ],
+    begin: () => form.wrong() || { job: pythonTraining, argument: { settings: form.settings(), robots: chosen() } },
+    done: (sentence) => sentence,
+    cancelled: () => model.send({ ask: "cancel" }),
+  });
+  const fieldset = h("fieldset", {}, h("legend", {}, "The same settings in Python: several robots"), h("div", { class: "row tools" }, robots.element), panel.element);
+  const element = h("div", {});
+  model.on("msg:custom", (message) => {
+    if (message.kernel) element.replaceChildren(fieldset);
+    if (message.run !== number) return;
+    inbox.push(message);
+    wake();
+  });
+  try {
+    model.send({ ask: "kernel" });
+  } catch {
+    // A page without a kernel: the robot learns in the page, and this stays hidden.
+  }
+  return { element, cancel: panel.cancel };
+}
+
+function render({ model, el }) {
+  const { table, open, first, thesis, presets, trial } = model.get("data");
+  let maps = trial.numbers[0];
+  let [run, frame] = [null, 0];
+
+  const note = h("p", { class: "note", role: "status" });
+  const form = settingsForm({ table, open, first, change: (wrong) => (note.textContent = wrong) });
+  /** Other settings in the form, with the reader's own seed and number of episodes. */
+  const put = (settings) => {
+    const { seed, episodes } = form.settings();
+    form.put({ ...(settings ?? first), seed, episodes });
+    note.textContent = "";
+  };
+  const button = (text, settings) => h("button", { type: "button", click: () => {
+    put(settings);
+    note.textContent = `The form shows ${text[0].toLowerCase()}${text.slice(1)}.`;
+  } }, text);
+
+  const map = lookBack();
+  const small = snapshots((at) => map.open(run, 0, at));
+  const results = trialTable();
+  const count = choice({ label: "afterwards, drive", options: trial.numbers.map((number) => `${number} new maps`), change: (index) => (maps = trial.numbers[index]) });
+  const save = h("button", { type: "button", disabled: true, click: () => {
+    const { episodes, seed } = run.settings;
+    saveFile("my-nnql.safetensors", weightsFile(learned(run), { episodes, seed }));
+  } }, "Download the weights");
+
+  const paint = () => {
+    frame = 0;
+    const { episodes, drives, settings } = run;
+    small.show(run);
+    results.show(drives.map(({ outcomes }) => outcomes), run.maps);
+    const latest = drives.at(-1) ?? episodes.at(-1);
+    if (latest && panel.running()) {
+      map.show(latest, drives.length > 0 ? `New map ${drives.length} of ${run.maps}.` : `Episode ${episodes.length} of ${settings.episodes}, ${ENDINGS[latest.outcome]}.`);
+    }
+  };
+  const ended = () => {
+    cancelAnimationFrame(frame);
+    paint();
+    save.disabled = !run.network;
+    if (run.episodes.length > 0) map.open(run, 0, run.episodes.length - 1);
+  };
+  const panel = trainingPanel({
+    source: model.get("_esm"), action: "Train", unit: "episode", total: () => form.settings().episodes, lines: LINES,
+    begin: () => {
+      const wrong = form.wrong();
+      note.textContent = "";
+      if (wrong !== "") return wrong;
+      run = { settings: form.settings(), maps, episodes: [], drives: [], network: null };
+      map.hide();
+      small.clear();
+      results.show([], maps);
+      save.disabled = true;
+      return { job: learnAndDrive, argument: { settings: run.settings, trial: { ...trial, maps } } };
+    },
+    live: (news) => {
+      for (const { episode, drive } of news) {
+        if (episode) run.episodes.push(episode);
+        if (drive) run.drives.push(drive);
+      }
+      frame ||= requestAnimationFrame(paint);
+    },
+    done: (network) => {
+      run.network = network;
+      ended();
+      return verdict(run);
+    },
+    cancelled: ended,
+  });
+
+  const kernel = kernelPanel({ model, form });
+
+  el.classList.add("robonav", "q-learning-lab");
+  el.replaceChildren(
+    ...(presets.length > 0 ? faults(presets, put) : []), form.element,
+    h("div", { class: "row tools" }, count.element, button("The thesis's settings", thesis), button("The book's settings", first)), note,
+    panel.element,
+    h("div", { class: "row" }, map.element, h("div", { class: "grow" }, small.element, results.element, h("div", { class: "row tools" }, save))),
+    kernel.element);
+  const world = trainingWorlds(first)(0);
+  map.show({ world, path: [world.start], outcome: "arrived" }, "The first map of the training.");
+  return () => {
+    panel.cancel();
+    kernel.cancel();
+    map.hide();
+    cancelAnimationFrame(frame);
+  };
+}
+
+/** The network of a run, and what it reads; a network of raw inputs becomes one of scaled inputs, which drives alike. */
+export function learned({ network, settings }) {
+  const { sensors, walls, target, raw } = encoderOf(settings);
+  const [inputs, scale] = [network.sizes[0], [...sensors.map(() => 7), 9]];
+  const first = network.weights[0].map((weight, k) => (raw ? weight * (scale[k % inputs] ?? 1) : weight));
+  return { network: { ...network, weights: [first, ...network.weights.slice(1)] }, encoder: { sensors, walls, target }, method: settings.method };
+}
+
+/** What came of a run, in one sentence. */
+function verdict({ drives }) {
+  const { n, arrived, rate, low, high } = trialRows(drives.map(({ outcomes }) => outcomes))[0];
+  return `Your robot crosses ${arrived} of ${n} new maps: ${rate.toFixed(1)} %, 95 % interval ${low.toFixed(1)} to ${high.toFixed(1)}.`;
+}
+
+export default { render };

@@ -1,0 +1,160 @@
+"""What a reader sets for chapter 4's training, for Python's trainings and for the page's (``learning/nnql.js``)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robonav.experiments.chapter4.ablations import RawNumbers
+from robonav.nnql import NavigationTask, reward_row
+from robonav.nnql.reward import REWARDS
+from robonav.robot import NNQL_SENSORS, TARGET_ENCODINGS, Encoder, Sensing
+from robonav.robot.environments import Reward
+from robonav.validation import (
+    check_array,
+    check_integer,
+    check_one_of,
+    check_positive,
+    check_real,
+)
+
+INPUTS = (*TARGET_ENCODINGS, "raw")
+"""What the network reads: an encoding of the target's sector, or the numbers of Eq. (4.5) as they are."""
+
+EVADING = (6, 9)
+"""Rows of Table 4.1 that reward a robot for staying away from things."""
+
+
+@dataclass(frozen=True)
+class QLearningSettings:
+    """One training by NNQL or by its online form.
+
+    Parameters
+    ----------
+    method : {"nnql", "online"}
+        The method.
+    rewards : tuple of 13 floats
+        The reward of each row of Table 4.1.
+    must_move_away : bool
+        Whether staying away is rewarded only if the nearest thing is farther away than before.
+    obstacles, moving, speed, max_steps
+        See :class:`robonav.nnql.NavigationTask`.
+    inputs : {"number", "signed", "one-hot", "sine-cosine", "raw"}
+        How the target's sector is encoded, or raw numbers.
+    hidden : int
+        Units of the hidden layer.
+    episodes, learning_rate, discount, gradient_step, temperature, rescale, passes, tolerance, seed
+        See :func:`robonav.nnql.nnql`; schedules are pairs.
+
+    Examples
+    --------
+    >>> from robonav.widgets.q_learning_settings import QLearningSettings
+    >>> settings = QLearningSettings(obstacles=20, discount=0.7)
+    >>> settings.task().obstacles, settings.hyperparameters()["discount"]
+    (20, 0.7)
+    """
+
+    method: str = "nnql"
+    rewards: tuple[float, ...] = tuple(REWARDS.tolist())
+    must_move_away: bool = False
+    obstacles: int = 10
+    moving: int = 0
+    speed: float = 2.5
+    max_steps: int = 400
+    inputs: str = "number"
+    hidden: int = 8
+    episodes: int = 300
+    learning_rate: tuple[float, float] = (0.8, 0.1)
+    discount: float = 0.6
+    gradient_step: tuple[float, float] = (0.3, 0.05)
+    temperature: tuple[float, float] = (0.9, 0.1)
+    rescale: str = "shift"
+    passes: int = 3
+    tolerance: float = 1e-3
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        check_one_of("method", self.method, ("nnql", "online"))
+        check_one_of("inputs", self.inputs, INPUTS)
+        check_one_of("rescale", self.rescale, ("shift", "clip"))
+        check_array("rewards", self.rewards, shape=(len(REWARDS),))
+        for name in ("hidden", "episodes", "max_steps", "passes"):
+            check_integer(name, getattr(self, name), at_least=1)
+        for name in ("obstacles", "moving", "seed"):
+            check_integer(name, getattr(self, name), at_least=0)
+        check_positive("speed", self.speed)
+        check_real("discount", self.discount, at_least=0, at_most=1)
+        check_real("tolerance", self.tolerance, at_least=0)
+        for name in ("learning_rate", "gradient_step", "temperature"):
+            check_array(name, getattr(self, name), shape=(2,))
+
+    def encoder(self) -> Encoder:
+        """What the network reads."""
+        if self.inputs == "raw":
+            return RawNumbers()
+        return Encoder(NNQL_SENSORS, walls=True, target=self.inputs)
+
+    def reward(self) -> Reward:
+        """The reward of a step."""
+        rewards = np.array(self.rewards)
+
+        def reward(
+            before: Sensing, after: Sensing, outcome: NDArray[np.int8]
+        ) -> NDArray[np.float64]:
+            row = reward_row(before, after, outcome)
+            nearer = after.ranges.min(axis=1) <= before.ranges.min(axis=1)
+            unpaid = self.must_move_away & nearer & np.isin(row, EVADING)
+            return np.where(unpaid, 0.0, rewards[row])
+
+        return reward
+
+    def task(self) -> NavigationTask:
+        """The task that Python trains on."""
+        return NavigationTask(
+            self.obstacles,
+            self.moving,
+            self.speed,
+            self.max_steps,
+            encoder=self.encoder(),
+            reward=self.reward(),
+        )
+
+    def hyperparameters(self) -> dict[str, Any]:
+        """The keyword arguments of :func:`robonav.nnql.nnql` and :func:`robonav.nnql.online`, without the seed."""
+        names = (
+            "learning_rate",
+            "discount",
+            "gradient_step",
+            "temperature",
+            "rescale",
+            "passes",
+            "tolerance",
+        )
+        return {name: getattr(self, name) for name in names}
+
+    def for_page(self) -> dict[str, Any]:
+        """The settings under the names that JavaScript has for them."""
+        return {_camel(f.name): getattr(self, f.name) for f in fields(self)}
+
+    @classmethod
+    def from_page(cls, settings: Mapping[str, Any]) -> QLearningSettings:
+        """The settings that a page sent.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If one is missing or out of bounds.
+        """
+        values = {f.name: settings[_camel(f.name)] for f in fields(cls)}
+        pairs = {k: tuple(v) for k, v in values.items() if isinstance(v, list)}
+        return cls(**(values | pairs))
+
+
+def _camel(name: str) -> str:
+    """The JavaScript name of a Python name."""
+    first, *rest = name.split("_")
+    return first + "".join(part.capitalize() for part in rest)

@@ -1,0 +1,215 @@
+"""The page's Q-learning against Python's readable functions: worlds, updates, whole trainings."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from importlib import import_module
+
+import numpy as np
+import pytest
+from scipy.stats import binomtest
+
+from robonav.experiments import bootstrap_interval
+from robonav.nnql import STARTS, TARGETS, q_network, reward_row, train
+from robonav.nnql.reward import REWARDS
+from robonav.robot import Sensing, navigate, random_worlds
+from robonav.widgets.q_learning_settings import INPUTS, QLearningSettings
+from robonav.widgets.simulator import page_world
+
+readable = import_module("robonav.nnql.nnql")  # the package has a function of that name
+FILES = (
+    "simulator",
+    "learning/random",
+    "learning/network",
+    "learning/worlds",
+    "learning/nnql",
+)
+
+FIRST_UPDATES = """
+const flat = ({ weights, biases }) => [...weights, ...biases].flatMap((part) => [...part]);
+return data.map((settings) => {
+  const seen = [];
+  const watch = ({ q, network }) => seen.length < 100 && seen.push({ q: [...q], weights: flat(network) });
+  for (const _ of page.neuralQLearning(settings, { watch })) if (seen.length >= 100) break;
+  return [1, 10, 100].map((update) => seen[update - 1]);
+});
+"""
+
+
+class Enough(Exception):
+    """The updates that a test looks at have been made."""
+
+
+def first_updates(monkeypatch, settings):
+    """Q-values before and weights after updates 1, 10 and 100 of a readable function."""
+    seen = []
+    q_targets, descend = readable.q_targets, readable.stochastic_gradient_descent
+
+    def watched_targets(q, *rest):
+        seen.append([q])
+        return q_targets(q, *rest)
+
+    def watched_descent(*arguments):
+        network = descend(*arguments)
+        parts = [*network.weights, *network.biases]
+        seen[-1].append(np.concatenate([part.ravel() for part in parts]))
+        if len(seen) == 100:
+            raise Enough
+        return network
+
+    env, method = settings.task().environment(), getattr(readable, settings.method)
+    network = q_network(env, hidden=settings.hidden, seed=settings.seed)
+    with monkeypatch.context() as patch:
+        patch.setattr(readable, "q_targets", watched_targets)
+        patch.setattr(readable, "stochastic_gradient_descent", watched_descent)
+        with pytest.raises(Enough):
+            method(
+                env,
+                network,
+                episodes=settings.episodes,
+                seed=settings.seed,
+                **settings.hyperparameters(),
+            )
+    return [seen[update - 1] for update in (1, 10, 100)]
+
+
+def same_updates(node, monkeypatch, cases):
+    """The page makes the same updates as Python."""
+    shown = node(FILES, FIRST_UPDATES, [settings.for_page() for settings in cases])
+    for settings, updates in zip(cases, shown, strict=True):
+        expected = first_updates(monkeypatch, settings)
+        for (q, weights), update in zip(expected, updates, strict=True):
+            np.testing.assert_allclose(update["q"], q, rtol=0, atol=1e-9)
+            np.testing.assert_allclose(update["weights"], weights, rtol=0, atol=1e-9)
+
+
+def test_updates_are_pythons(node, monkeypatch):
+    same_updates(node, monkeypatch, [QLearningSettings()])
+
+
+@pytest.mark.slow
+def test_updates_of_twenty_seeds_are_pythons(node, monkeypatch):
+    cases = [QLearningSettings(seed=seed) for seed in range(20)]
+    same_updates(node, monkeypatch, cases)
+
+
+@pytest.mark.slow
+def test_updates_are_pythons_in_every_setting(node, monkeypatch):
+    online = {
+        "method": "online",
+        "learning_rate": (0.8, 0.8),
+        "discount": 0.7,
+        "gradient_step": (0.3, 0.3),
+        "rescale": "clip",
+        "passes": 1,
+    }
+    paid = REWARDS.copy()
+    paid[[2, 6]] = 0.6, 0.0
+    cases = [
+        QLearningSettings(obstacles=14, moving=6, speed=1.5, seed=4),
+        QLearningSettings(temperature=(0.03, 0.03), hidden=4, seed=5),
+        QLearningSettings(rewards=tuple(paid), must_move_away=True, seed=6),
+        QLearningSettings(**{**online, "method": "nnql"}, seed=7),
+        *(QLearningSettings(inputs=inputs, seed=8) for inputs in INPUTS),
+        *(QLearningSettings(**online, seed=seed) for seed in range(20)),
+    ]
+    same_updates(node, monkeypatch, cases)
+
+
+TRAINED = """
+const { settings, worlds, speed, steps } = data;
+return settings.map((own) => {
+  const outcomes = [];
+  let network = null;
+  for (const episode of page.neuralQLearning(own)) {
+    outcomes.push(episode.outcome);
+    network = episode.network;
+  }
+  const policy = { network, encoder: page.encoderOf(own) };
+  const drives = worlds.map((world) => page.driveWith(policy, world, { speed, maxSteps: steps }).outcome);
+  return { outcomes, arrived: drives.filter((outcome) => outcome === "arrived").length };
+});
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ["nnql", "online"])
+def test_whole_trainings_succeed_as_often_as_pythons(node, method):
+    online = {"rescale": "clip", "passes": 1, "discount": 0.7}
+    first = QLearningSettings(method=method, **(online if method == "online" else {}))
+    settings = [replace(first, seed=seed) for seed in range(20)]
+    worlds = random_worlds(200, 10, seed=44_000, starts=STARTS, targets=TARGETS)
+    data = {
+        "settings": [own.for_page() for own in settings],
+        "worlds": [page_world(world) for world in worlds],
+        "speed": 2.5,
+        "steps": 400,
+    }
+    page = node(FILES, TRAINED, data)
+    python = train(method, 20, 300, task=first.task(), **first.hyperparameters())
+    learning = [np.mean([end == "arrived" for end in one["outcomes"]]) for one in page]
+    driving = [one["arrived"] / 200 for one in page]
+    rates = [navigate(p, worlds, 2.5, 400).success.mean() for p in python.policies]
+    for ours, theirs in (
+        (learning, python.successes.mean(axis=1)),
+        (driving, np.array(rates)),
+    ):
+        (low, high), (least, most) = (
+            bootstrap_interval(100 * np.array(both)) for both in (ours, theirs)
+        )
+        assert low <= most
+        assert least <= high
+
+
+def test_rows_of_the_reward_are_pythons(node):
+    rng = np.random.default_rng(0)
+    nearest = (
+        np.round(rng.uniform(0.5, 12, (2000, 2)).clip(0, 10) * 4) / 4
+    )  # borders, too
+    outcome = rng.choice([0, 0, 0, 1, 2], 2000).astype(np.int8)
+    before, after = (Sensing.empty(2000) for _ in range(2))
+    before.ranges[:], after.ranges[:] = nearest[:, :1], nearest[:, 1:]
+    expected = reward_row(before, after, outcome)
+    body = """return data.map(([before, after, outcome]) =>
+      page.rewardRow({ ranges: [before, 10] }, { ranges: [10, after] }, outcome));"""
+    names = np.array(["running", "arrived", "collided"])[outcome].tolist()
+    steps = [[*pair, name] for pair, name in zip(nearest.tolist(), names, strict=True)]
+    assert node(FILES, body, steps) == expected.tolist()
+    assert set(expected.tolist()) == set(range(13))
+
+
+def test_worlds_of_a_training_are_pythons(node):
+    settings = QLearningSettings(obstacles=12, moving=3, episodes=40, seed=9)
+    body = "const at = page.trainingWorlds(data); return Array.from({ length: 40 }, (_, e) => at(e));"
+    seen = node(FILES, body, settings.for_page())
+    worlds = settings.task().worlds([9], 0, 40)
+    for world, drawn in zip(worlds, seen, strict=True):
+        expected = page_world(world)
+        assert drawn["key"] == expected["key"]
+        assert (drawn["start"], drawn["target"]) == (
+            expected["start"],
+            expected["target"],
+        )
+        for mine, theirs in zip(drawn["obstacles"], expected["obstacles"], strict=True):
+            assert mine == pytest.approx(theirs, abs=1e-9)
+
+
+def test_wilson_interval_is_scipys(node):
+    body = "return data.map(([arrived, n]) => page.wilsonInterval(arrived, n));"
+    counts = [(0, 100), (47, 100), (99, 100), (100, 100), (3, 200)]
+    expected = [
+        [ends.low, ends.high]
+        for ends in (binomtest(k, n).proportion_ci(method="wilson") for k, n in counts)
+    ]
+    np.testing.assert_allclose(node(FILES, body, counts), expected, atol=1e-9)
+
+
+def test_settings_go_to_the_page_and_back():
+    settings = QLearningSettings(discount=0.7, temperature=(0.5, 0.2), inputs="raw")
+    assert (
+        QLearningSettings.from_page(json.loads(json.dumps(settings.for_page())))
+        == settings
+    )
+    with pytest.raises(ValueError, match="inputs must be one of"):
+        QLearningSettings.from_page(settings.for_page() | {"inputs": "colours"})
