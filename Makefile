@@ -49,13 +49,19 @@ book: $(INSTALLED)
 pdf: book
 	$(BIN)/python book/_ext/print_book.py _build/robonav.pdf
 
-# Lint, types, doctests, and the tests that need no browser, no sandbox and no long run.
+# Lint, types, doctests, and the tests that need no browser, no sandbox and no long run. mypy runs beside the tests.
 check: $(INSTALLED)
-	$(BIN)/ruff check
-	$(BIN)/ruff format --check
-	$(BIN)/mypy
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto -q -m "not slow and not browser and not sandbox" \
-	  robonav tests/unit tests/book/test_tools.py $(PYTEST_OPTIONS)
+	@failed=0; report=$$(mktemp); \
+	$(BIN)/mypy > "$$report" 2>&1 & types=$$!; \
+	$(BIN)/ruff check || failed=1; \
+	$(BIN)/ruff format --check || failed=1; \
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto -q --hypothesis-profile quick \
+	  -m "not slow and not browser and not sandbox" \
+	  robonav tests/unit tests/book/test_tools.py $(PYTEST_OPTIONS) || failed=1; \
+	wait $$types || failed=1; \
+	cat "$$report"; rm "$$report"; \
+	echo "make check took $$SECONDS seconds"; \
+	exit $$failed
 
 # One thread a process: pytest runs as many processes as there are cores.
 test: $(INSTALLED)

@@ -1,4 +1,8 @@
-"""What holds for every test: ``--no-skips`` lets none of them be skipped."""
+"""Settings of all tests.
+
+With the option ``--no-skips``, a test that would be skipped fails instead. Hypothesis' profile ``quick``, which
+``make check`` uses, tries 20 examples of each property instead of 100.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,9 @@ from collections.abc import Generator
 from typing import Any
 
 import pytest
+from hypothesis import settings
+
+settings.register_profile("quick", max_examples=20)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -204,7 +204,7 @@ def faults(package: Path = PACKAGE) -> list[str]:
                 f"{name}: no line of code in {places[0].name} carries the number"
             )
     found += [
-        f"Eq. ({written(number)}) is no equation of the thesis: {_names(places)}"
+        f"Eq. ({written(number)}) is not an equation of the thesis: {_names(places)}"
         for number, places in equations.items()
     ]
     algorithms = definitions("algorithms", package)

@@ -1,4 +1,4 @@
-"""Build what students and instructors get from the one source of each exercise, ``solutions/chN/name.py``.
+"""Build the files for students and instructors from the source of each exercise, ``solutions/chN/name.py``.
 
 Students get the file without its solution, a notebook per chapter, and a zip file with the tests. nbgrader gets a
 notebook that still contains the solutions. These files are generated and never edited; ``outdated`` lists those that
@@ -53,7 +53,7 @@ def stub(source: str, name: str) -> str:
 
 
 def question(source: str) -> str:
-    """Return the question in MyST Markdown: the source's docstring."""
+    """Return the docstring of the source, which is the question in MyST Markdown."""
     return ast.get_docstring(ast.parse(source)) or ""
 
 
@@ -110,7 +110,10 @@ def build(course: Course) -> list[str]:
 
 
 def students_zip(course: Course, path: Path) -> None:
-    """Write a zip file for students: stubs, notebooks, and tests with the answers to the public cases only."""
+    """Write a zip file for students.
+
+    It contains stubs, notebooks, and the tests with the answers to the public cases only.
+    """
     tests = [course.tests / name for name in ("manifest.toml", "pytest.ini")] + sorted(
         course.tests.glob("test_*.py")
     )

@@ -1,8 +1,7 @@
 """The parts of an exercise, the random cases that each part draws, and the result of running one.
 
 A part is a test function ``test_...(answer, rng)`` in ``tests/exercises/test_chN.py``, marked with its exercise and
-points;
-the first line of its docstring tells the student what the part asks for.
+points. The first line of its docstring tells the student what the part asks for.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ Test = Callable[..., None]
 
 
 def secret_from(path: str | Path | None) -> bytes:
-    """Return the secret seed of the cases: the content of a file, or of ROBONAV_SECRET, or nothing."""
+    """Return the secret seed of the cases, from a file or from ROBONAV_SECRET, or None if neither is given."""
     if path is None:
         return os.environ.get(SECRET, "").encode()
     try:

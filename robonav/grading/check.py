@@ -51,7 +51,7 @@ def graded(
 
 
 class InProcessCalls:
-    """Calls without a sandbox: the function runs in this process, on copies made as frames make them."""
+    """Calls without a sandbox: the function runs in this process, on copies of the arguments."""
 
     secret = False
 
@@ -59,7 +59,7 @@ class InProcessCalls:
         self._function = function
 
     def call(self, exercise: Exercise, arguments: Sequence[Any]) -> Any:
-        """As ``Session.call``."""
+        """Call the function, as :meth:`Session.call` does."""
         arguments = frames.decode(frames.encode(list(arguments)))
         try:
             return frames.decode(frames.encode(self._function(*arguments)))

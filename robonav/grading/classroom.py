@@ -1,10 +1,9 @@
 """Grade a class: many submissions, several at a time.
 
 ``OUT/students/NAME/`` holds a student's grade, feedback page, Gradescope's ``results.json`` and JUnit XML. ``OUT``
-itself
-holds the gradebook and an overview. Each student's files are written before the student counts as graded, so that an
-interrupted run can be started again. It keeps the grades that exist, unless the submission or the tests changed or the
-grader failed.
+itself holds the gradebook and an overview. A student counts as graded when all of the student's files are written, so
+an interrupted run can be started again. The new run keeps the existing grades, unless the submission or the tests
+changed or the grader failed.
 """
 
 from __future__ import annotations
@@ -35,14 +34,14 @@ from .submission import Refused, Submission
 
 @dataclass(frozen=True)
 class GradingConfig:
-    """How submissions are graded: the same for a whole class."""
+    """How the submissions of a whole class are graded."""
 
     course: Course
     tier: str
     secret: bytes = b""
 
     def key(self) -> str:
-        """Hash of everything that a grade depends on besides the submission."""
+        """Return a hash of everything that a grade depends on, except the submission."""
         digest = hashlib.sha256(
             hashlib.sha256(self.secret).digest() + self.tier.encode()
         )
@@ -80,7 +79,7 @@ def grade_submission(
             ],
             config.tier,
         )
-    except Exception:  # the student is not to blame for an error in the grader
+    except Exception:  # an error in the grader is not the student's fault
         return fault_grade(exercises, config.tier)
     finally:
         session.close()
@@ -92,7 +91,7 @@ def students(folder: Path) -> dict[str, Path]:
     Raises
     ------
     ValueError
-        If there is none, two have the same name, or a name cannot be written.
+        If there is no submission, two have the same name, or a name contains forbidden characters.
     """
     if not folder.is_dir():
         raise ValueError(f"the class must be a folder of submissions, got {folder}")
@@ -118,7 +117,7 @@ def students(folder: Path) -> dict[str, Path]:
 def passed_over(folder: Path) -> list[str]:
     """Return the names in ``folder`` that are not submissions.
 
-    A file such as ``anna.rar`` may have been meant as one.
+    A student may have meant a file such as ``anna.rar`` as a submission.
     """
     return sorted(
         path.name
@@ -152,13 +151,13 @@ def grade_class(
     folder : Path
         The class: one folder, zip file or notebook per student.
     out : Path
-        Where the reports go.
+        The folder for the reports.
     again : collection of str
         Students to grade again, even if they have a grade.
     ids : collection of str
         Exercises to grade again, for the students in ``again`` or else for all. Other exercises keep their grades.
     jobs : int
-        Submissions graded at the same time; -1 for one per processor.
+        Number of submissions to grade at the same time; -1 means one per processor.
     scheduler : str, optional
         Address of a Dask scheduler. Its workers must see this course at the same path.
     progress : Progress, optional
@@ -197,7 +196,7 @@ def _marked(
 ) -> Iterator[dict[str, Any]]:
     """Yield each task's record when it is done.
 
-    Submissions are read again here, so that only those in work are in memory.
+    Submissions are read again here, so that memory holds only those that are being graded.
     """
     calls = (
         (config, {**entry, "submission": _digest(loaded)}, loaded, old, ids)
@@ -236,7 +235,7 @@ def _record(
     old: dict[str, Any] | None,
     ids: Collection[str],
 ) -> dict[str, Any]:
-    """Grade one student. Exercises outside ``ids`` keep their old entries."""
+    """Grade one student. Exercises that are not in ``ids`` keep their old entries."""
     new = grade_submission(config, loaded, ids)
     if old is not None and ids:
         fresh = {graded["id"]: graded for graded in new["exercises"]}

@@ -6,17 +6,17 @@ from typing import Any
 
 import numpy as np
 
-RELATIVE = 1e-5  # wide enough for an answer computed in single precision
+RELATIVE = 1e-5  # large enough for an answer computed in single precision
 MOST_SHOWN = 300  # characters of an argument
-SCALED = 1e-6  # and for cancellation, against the largest number expected
+SCALED = 1e-6  # allows for cancellation, relative to the largest expected number
 
 
 def difference(got: Any, expected: Any) -> str | None:
     """Describe what is wrong with ``got``, or return None if it is right.
 
-    Numbers agree within a relative 1e-5 (or 1e-6 of the largest one expected); whole numbers and truth values exactly.
-    NaN agrees with itself, so that known mistakes can be recognised; no right answer contains it.
-    Lists count as arrays, and any dtype that holds the values is accepted; shapes must match.
+    Numbers must agree within a relative error of 1e-5, or within 1e-6 of the largest expected number. Whole numbers and
+    truth values must be equal. NaN equals NaN, so that known mistakes can be recognised; no right answer contains it.
+    A list counts as an array, any dtype that can hold the values is accepted, and shapes must match.
     """
     match expected:
         case None | str():
@@ -45,12 +45,12 @@ def difference(got: Any, expected: Any) -> str | None:
 
 
 def without_answer(problem: str) -> str:
-    """Remove the answer itself from a problem, because an answer could repeat what was asked."""
+    """Remove the student's answer from a description of the difference: it could repeat a secret case."""
     return problem.partition(", got ")[0]
 
 
 def as_numbers(value: Any) -> np.ndarray | None:
-    """Convert a student's answer to an array of numbers or truth values; None if that is impossible."""
+    """Convert a student's answer to an array of numbers or truth values. Return None if that is impossible."""
     if not _holds_numbers(value):
         return None
     try:
@@ -61,7 +61,7 @@ def as_numbers(value: Any) -> np.ndarray | None:
 
 
 def _holds_numbers(value: Any) -> bool:
-    """Whether a value holds only numbers. From strings numpy would make an array of any size."""
+    """Whether a value holds only numbers. Numpy could turn strings into an array of any size."""
     if isinstance(value, list | tuple):
         return all(map(_holds_numbers, value))
     return isinstance(value, bool | int | float | np.generic | np.ndarray)
@@ -71,7 +71,7 @@ def _numbers_differ(got: Any, expected: np.ndarray) -> str | None:
     array = as_numbers(got)
     if (
         isinstance(got, list) and not got and expected.shape[:1] == (0,)
-    ):  # no rows: a list cannot say how long they are
+    ):  # no rows: a list without rows does not tell their length
         return None
     if array is None or array.shape != expected.shape:
         return _unlike(expected, got)
@@ -124,7 +124,7 @@ def kind(value: Any) -> str:
 
 
 def call(name: str, arguments: tuple[Any, ...], *, numbers: bool) -> str:
-    """Format ``name(...)`` for feedback: with small arguments in full, or with shapes only."""
+    """Format a call ``name(...)`` for feedback: small arguments in full, or the shapes of all arguments."""
     return (
         f"{name}({', '.join(_argument(argument, numbers) for argument in arguments)})"
     )

@@ -1,4 +1,4 @@
-"""The course: its folders, and the manifest with each exercise's id, points and place."""
+"""The course: its folders, and its manifest with the id, points and file of each exercise."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ DIFFICULTIES = ("warm-up", "exercise", "project")
 
 @dataclass(frozen=True)
 class Exercise:
-    """One exercise: ``2.1`` is the function ``name`` in ``ch2/name.py``, worth ``points``."""
+    """One exercise. Exercise 2.1, for example, asks for the function ``name`` in ``ch2/name.py``."""
 
     id: str
     name: str
@@ -38,7 +38,7 @@ class Exercise:
 
     @property
     def file(self) -> str:
-        """Where a submission has it."""
+        """The file of a submission that contains the answer."""
         return f"{self.chapter}/{self.name}.py"
 
 
@@ -56,7 +56,7 @@ class Course:
                 if (folder / "tests/exercises/manifest.toml").is_file():
                     return cls(folder)
         raise ValueError(
-            "no exercises found: go to the folder that holds tests/exercises"
+            "no exercises found: run this in the folder that contains tests/exercises"
         )
 
     @property

@@ -1,9 +1,9 @@
 """Frames: the only data that pass between the grader and a student's code.
 
-A frame is a prefix with two sizes, a JSON header, and the raw bytes of its arrays one after another. Numbers,
-strings, ``None``, lists, tuples, dicts with strings as keys, and plain arrays cross; nothing that could run code when
-it is read. (Other keys stay out: whole numbers chosen to collide make a dict take minutes.) Every size is checked
-before memory is taken for it. Nothing here imports more than numpy: the file also runs in the sandbox.
+A frame is a prefix with two sizes, a JSON header, and the raw bytes of its arrays one after another. It can hold
+numbers, strings, ``None``, lists, tuples, dicts with strings as keys, and plain arrays, but nothing that could run code
+when it is read. Other keys are refused, because a dict of many whole numbers chosen to collide takes minutes to build.
+Every size is checked before memory is allocated. This file imports only numpy, because it also runs in the sandbox.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def encode(value: Any) -> bytes:
     Raises
     ------
     FrameError
-        If the value holds anything else than the kinds above, is nested too deep, or is too large.
+        If the value contains any other type, is nested too deeply, or is too large.
     """
     arrays: list[np.ndarray] = []
     tree = _to_tree(value, arrays, MOST_DEPTH)
@@ -71,7 +71,7 @@ def decode(frame: bytes) -> Any:
         If the bytes are not exactly one well-formed frame.
     """
     if len(frame) < PREFIX.size:
-        raise FrameError("the frame ends within its prefix")
+        raise FrameError("the frame is shorter than its prefix")
     sizes = _check_sizes(*PREFIX.unpack_from(frame))
     if len(frame) != PREFIX.size + sum(sizes):
         raise FrameError(
@@ -82,7 +82,7 @@ def decode(frame: bytes) -> Any:
     waiting = iter(enumerate(arrays))
     value = _from_tree(header["value"], waiting, MOST_DEPTH)
     if next(waiting, None):
-        raise FrameError("an array is in no value")
+        raise FrameError("an array is not used by the value")
     return value
 
 
@@ -98,7 +98,10 @@ def read(stream: BinaryIO) -> Any:
 
 
 def receive(exactly: Callable[[int], bytes]) -> Any:
-    """Receive one frame with a function that returns a given number of bytes, never more than a frame may have."""
+    """Receive one frame with a function that returns a given number of bytes.
+
+    The function is never asked for more bytes than a frame may have.
+    """
     prefix = exactly(PREFIX.size)
     return decode(prefix + exactly(sum(_check_sizes(*PREFIX.unpack(prefix)))))
 
@@ -158,7 +161,7 @@ def _to_tree(value: Any, arrays: list[np.ndarray], depth: int) -> Any:
             return {"array": len(arrays) - 1}
     raise FrameError(
         f"a value of type {type(value).__name__}"
-    )  # a dict comes here only for its keys
+    )  # a dict is refused only for its keys
 
 
 def _parse(text: bytes) -> dict[str, Any]:
@@ -199,8 +202,10 @@ def _to_arrays(described: list[Any], body: memoryview) -> list[np.ndarray]:
             flat = np.frombuffer(body[start:end], dtype if dtype != "|b1" else "|u1")
             arrays.append(
                 flat.astype(dtype).reshape(shape)
-            )  # astype copies, and makes any byte a true or a false
-        except ValueError:  # a shape such as (0, 2**63): no bytes, yet beyond numpy
+            )  # astype copies, and turns any byte into True or False
+        except (
+            ValueError
+        ):  # a shape such as (0, 2**63) needs no bytes, but numpy refuses it
             raise FrameError("an array's shape is beyond numpy's") from None
         start = end
     if start != len(body):
@@ -235,9 +240,9 @@ def _from_tree(tree: Any, arrays: Iterator[tuple[int, np.ndarray]], depth: int) 
             number, array = next(arrays, (None, None))
             if index == number:
                 return array
-    raise FrameError("the header holds something that is no value")
+    raise FrameError("the header contains something that is not a value")
 
 
 def _is_text(value: str) -> bool:
-    """Whether the string can be written again: a lone surrogate can stand in JSON, but in no file."""
+    """Whether the string can be written to a file. JSON can contain a lone surrogate, which UTF-8 cannot encode."""
     return not any("\ud800" <= character <= "\udfff" for character in value)

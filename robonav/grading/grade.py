@@ -28,12 +28,12 @@ STATES: tuple[State, ...] = (
     "missing",
     "grader-fault",
 )
-FAULT = "The grader failed here, which is not your doing: this exercise will be graded again."
+FAULT = "The grader failed here, which is not your fault: this exercise will be graded again."
 MOST_FEEDBACK = 4_000
 
 
 class Unaccepted(Exception):
-    """Raised when an answer earns no points for a part. Holds the state and the feedback for the student."""
+    """Raised when an answer earns no points for a part. It carries the state and the feedback for the student."""
 
     def __init__(self, state: State, feedback: str) -> None:
         super().__init__(feedback)
@@ -88,7 +88,7 @@ def fault_grade(exercises: Iterable[Exercise], tier: str) -> dict[str, Any]:
 
 
 def printable(text: str) -> str:
-    """Replace what files and terminals cannot show: a student's error messages may contain anything."""
+    """Replace characters that files and terminals cannot show, because a student's error message may contain any."""
     kept = "".join(
         c if c == "\n" or c.isprintable() else "\N{REPLACEMENT CHARACTER}"
         for c in text[:MOST_FEEDBACK]
@@ -101,7 +101,7 @@ def _any(parts: Sequence[Part], state: State) -> bool:
 
 
 def _state(parts: Sequence[Part]) -> State:
-    """A fault of the grader comes first, then correct or partial; otherwise the state of the first part."""
+    """Return the state of an exercise: a fault of the grader, else correct or partial, else that of the first part."""
     if _any(parts, "grader-fault"):
         return "grader-fault"
     if all(part.state == "correct" for part in parts):

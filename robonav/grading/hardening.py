@@ -1,7 +1,7 @@
 """Restrictions that a worker puts on itself before it runs a student's code: resources, system calls, files, user.
 
 The worker cannot undo any of them. Linux on x86-64 and AArch64 offers all of them; on other systems each function does
-what the system allows. This file uses the standard library only, because it also runs in the sandbox.
+as much as the system allows. This file uses the standard library only, because it also runs in the sandbox.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ import platform
 import struct
 from collections.abc import Iterable, Mapping
 
-# Number of each refused call on (x86-64, AArch64). A worker computes: it starts no process, opens no connection, looks
-# into no other process, sets none back, changes no mount, and takes no memory that its limit does not count, which
-# might outlive it, too. Calls that only x86-64 has are None on AArch64.
+# Number of each refused call on (x86-64, AArch64). A worker needs no call that starts or changes a process, reads the
+# memory of another one, opens a connection or changes a mount. It must not allocate memory that its limit does not
+# count and that may exist longer than the worker. Calls that only x86-64 has are None on AArch64.
 REFUSED: dict[str, tuple[int, int | None]] = {
     "fork": (57, None),
     "vfork": (58, None),
@@ -58,23 +58,20 @@ REFUSED: dict[str, tuple[int, int | None]] = {
     "ioprio_set": (251, 30),
     "io_setup": (206, 0),
 }
-PRLIMIT = (
-    302,
-    261,
-)  # for the caller itself, process 0, it can only lower a limit; the worker's limits are the next one's
+# Allowed for process 0, the caller, which can only lower its limits. Changed limits of the worker, its parent, would
+# hold for the next exercise too.
+PRLIMIT = (302, 261)
 CLONE, CLONE3 = (56, 220), (435, 435)
 CLONE_THREAD = 0x10000
-MACHINES = {
-    "x86_64": (0, 0xC000003E),
-    "aarch64": (1, 0xC00000B7),
-}  # column above, audit architecture
+# The column of each machine in the tables above, and its audit architecture.
+MACHINES = {"x86_64": (0, 0xC000003E), "aarch64": (1, 0xC00000B7)}
 
 LOAD, EQUAL, AT_LEAST, HAS_BITS, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 ALLOW, KILL, REFUSE = (
     0x7FFF0000,
     0x80000000,
     0x00050000,
-)  # a refusal carries the error number
+)  # a refused call returns the error number
 CALL, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # offsets in struct seccomp_data
 
 PR_SET_SECCOMP, PR_SET_NO_NEW_PRIVS, FILTER_MODE = 22, 38, 2
@@ -83,7 +80,7 @@ READ, ALL_OF_IT = (
     0b1101,
     (1 << 13) - 1,
 )  # Landlock: execute, read a file, list a folder; all of its first version
-OF_A_FILE = 0b111  # execute, write, read: the rights that a file can have, the others being those of folders
+OF_A_FILE = 0b111  # execute, write, read: the rights of a file; the others are rights of folders
 
 
 def limit(amounts: Mapping[str, int]) -> None:
@@ -118,11 +115,11 @@ def filter_program(machine: str) -> bytes:
         program += [
             step(AT_LEAST, 0x40000000, otherwise=1),
             refuse,
-        ]  # the 32-bit ABI, another table of numbers
+        ]  # the 32-bit ABI, whose calls have other numbers
     for numbers in REFUSED.values():
         if (number := numbers[column]) is not None:
             program += [step(EQUAL, number, otherwise=1), refuse]
-    # The flags of clone3 lie behind a pointer; without it the C library falls back on clone, whose flags we see.
+    # A filter cannot read the flags of clone3, which are behind a pointer. Without clone3 the C library uses clone.
     program += [
         step(EQUAL, CLONE3[column], otherwise=1),
         step(RETURN, REFUSE | errno.ENOSYS),
@@ -146,7 +143,7 @@ def filter_calls() -> bool:
 
 
 def restrict_files(readable: Iterable[str], writable: Iterable[str]) -> bool:
-    """Hide all other folders and files from this process (Landlock). Return whether this kernel supports it."""
+    """Hide all other folders and files from this process with Landlock. Return whether this kernel supports it."""
     call = ctypes.CDLL(None, use_errno=True).syscall
     rules = call(LANDLOCK_CREATE, struct.pack("=Q", ALL_OF_IT), ctypes.c_size_t(8), 0)
     if rules < 0:
@@ -166,7 +163,7 @@ def restrict_files(readable: Iterable[str], writable: Iterable[str]) -> bool:
 
 
 def become(user: int) -> None:
-    """Change to a user and group that own nothing. Only root can do this."""
+    """Change to a user and a group that own no files. Only root can do this."""
     os.setgroups([])
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)

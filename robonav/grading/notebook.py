@@ -1,7 +1,7 @@
-"""Read the definitions of a notebook from its syntax tree. Nothing else of it runs.
+"""Read the definitions of a notebook from its syntax tree. No other code of the notebook runs.
 
-This file uses the standard library only: notebooks are read in the sandbox, because a hostile one could crash its
-reader.
+This file uses the standard library only, because it runs in the sandbox: a hostile notebook could crash the program
+that reads it.
 """
 
 from __future__ import annotations
@@ -16,20 +16,19 @@ PYTHON_CELLS = (
     "%%timeit",
     "%%capture",
     "%%prun",
-)  # what stands below these is Python still
+)  # cell magics whose cell is still Python
 
 
 def definitions(notebook: bytes) -> ast.Module:
     """Return the functions, named lambdas, classes, imports and constants of all code cells as one module.
 
     Cells that Python cannot parse, magics (``%matplotlib inline``) and shell lines are left out. An import that fails
-    is
-    ignored, because only the cells that plot need a plotting library.
+    is ignored, because only the cells that plot need a plotting library.
 
     Raises
     ------
     ValueError
-        If the bytes are no notebook.
+        If the bytes are not a notebook.
     """
     kept = [
         node

@@ -1,12 +1,9 @@
 """The pytest plugin: ``pytest tests/exercises --submission DIR`` grades one submission.
 
 The plugin is opt-in: ``tests/exercises/pytest.ini`` loads it with ``-p robonav.grading.plugin``. A test is one part
-of an
-exercise, ``@pytest.mark.part("2.1", points=2)``. Its fixtures are ``answer`` (the student's function, in the sandbox)
-and
-``rng``, and its docstring tells the student what it asks for. Only trusted code runs in this process, and only in a
-clean
-environment: in any other environment the command starts itself again in a clean one.
+of an exercise, ``@pytest.mark.part("2.1", points=2)``. Its fixtures are ``answer`` (the student's function, in the
+sandbox) and ``rng``, and its docstring tells the student what the part asks for. Only trusted code runs in this
+process, and only with few environment variables. With more than those, the command starts itself again without them.
 """
 
 from __future__ import annotations
@@ -34,6 +31,7 @@ CLEAN = "ROBONAV_GRADER_IS_CLEAN"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the grader's options to the pytest command."""
     group = parser.getgroup("robonav", "grading a submission to the book's exercises")
     group.addoption(
         "--submission", metavar="PATH", help="the folder, zip file or notebook to grade"
@@ -64,12 +62,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_load_initial_conftests(early_config: pytest.Config) -> Generator[None]:
-    """Restart in a clean environment before pytest reads any configuration or conftest of others."""
+    """Restart with a clean environment before pytest reads a configuration or conftest of somebody else."""
     known = early_config.known_args_namespace
     if known.submission and CLEAN not in os.environ:
         from .course import Course
 
-        # The tests named on the command line, or this package's own: a submission may bring tests along.
+        # The tests named on the command line, or the tests of this package: a submission may contain tests of its own.
         tests = Course.around(
             *[Path(name.partition("::")[0]) for name in known.file_or_dir]
         ).tests
@@ -96,6 +94,7 @@ def environment() -> dict[str, str]:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    """Declare the marker ``part``, and start the grading run if a submission is given."""
     config.addinivalue_line(
         "markers", "part(exercise, points): a part of an exercise and its points"
     )

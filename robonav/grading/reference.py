@@ -42,14 +42,21 @@ class Case:
 class Reference(Protocol):
     """Source of right answers and hints."""
 
-    def expected(self, case: Case) -> Any: ...
+    def expected(self, case: Case) -> Any:
+        """Return the right answer to a case."""
 
     def hints(self, case: Case, got: Any) -> list[str]:
         """Return the hints of the known mistakes that give this answer."""
 
 
 class Solutions:
-    """Answers computed by the solutions and cached, because a whole class gets the same cases."""
+    """Answers that the solutions compute. They are cached, because a whole class gets the same cases.
+
+    Parameters
+    ----------
+    course : Course
+        The course, with its folder ``solutions/``.
+    """
 
     def __init__(self, course: Course) -> None:
         self.course = course
@@ -57,12 +64,14 @@ class Solutions:
         self._wrong: dict[bytes, list[tuple[str, Any]]] = {}
 
     def expected(self, case: Case) -> Any:
+        """Return the solution's answer to a case."""
         key = case.key()
         if key not in self._right:
             self._right[key] = solution(self.course, case.exercise)(*case.arguments)
         return self._right[key]
 
     def hints(self, case: Case, got: Any) -> list[str]:
+        """Return the hints of the known mistakes that give this answer."""
         return _hints(self.mistakes(case), got)
 
     def mistakes(self, case: Case) -> list[tuple[str, Any]]:
@@ -73,6 +82,7 @@ class Solutions:
         return self._wrong[key]
 
     def _mistakes(self, case: Case) -> Iterator[tuple[str, Any]]:
+        """Compute the hint and the answer of each known mistake whose answer to the case is wrong."""
         right = self.expected(case)
         for function in mistakes(self.course, case.exercise).values():
             try:
@@ -85,13 +95,20 @@ class Solutions:
 
 
 class Recorder:
-    """Answers of the solutions, recorded for ``Recorded``."""
+    """Answers of the solutions, with a record of them that :class:`Recorded` reads.
+
+    Parameters
+    ----------
+    course : Course
+        The course, with its folder ``solutions/``.
+    """
 
     def __init__(self, course: Course) -> None:
         self._solutions = Solutions(course)
         self._cases: dict[str, dict[str, list[Any]]] = {}
 
     def expected(self, case: Case) -> Any:
+        """Return the solution's answer to a case, and record it with the answers of the known mistakes."""
         right = self._solutions.expected(case)
         mistakes = [list(mistake) for mistake in self._solutions.mistakes(case)]
         of_exercise = self._cases.setdefault(case.exercise.name, {})
@@ -101,6 +118,7 @@ class Recorder:
         return right
 
     def hints(self, case: Case, got: Any) -> list[str]:
+        """Return the hints of the known mistakes that give this answer."""
         return self._solutions.hints(case, got)
 
     def write(self, folder: Path) -> None:
@@ -111,19 +129,34 @@ class Recorder:
 
 
 class Recorded:
-    """Answers recorded on the public cases."""
+    """Recorded answers to the public cases.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder with the files that :meth:`Recorder.write` wrote.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._cases: dict[str, Any] = {}
 
     def expected(self, case: Case) -> Any:
+        """Return the recorded answer to a case."""
         return self._entry(case)[1]
 
     def hints(self, case: Case, got: Any) -> list[str]:
+        """Return the hints of the known mistakes whose recorded answer is this one."""
         return _hints(self._entry(case)[2], got)
 
     def _entry(self, case: Case) -> Any:
+        """Return the arguments, the right answer and the mistakes that are recorded for a case.
+
+        Raises
+        ------
+        RuntimeError
+            If the record has other arguments.
+        """
         name = case.exercise.name
         if name not in self._cases:
             self._cases[name] = frames.decode(
@@ -135,12 +168,14 @@ class Recorded:
             entry = [None, None, []]
         if compare.difference(list(case.arguments), entry[0]) is not None:
             raise RuntimeError(
-                "the recorded answers are to other cases: numpy draws differently here; try numpy 2"
+                "the recorded answers belong to other cases, because this version of numpy draws other random numbers: "
+                "install numpy 2"
             )
         return entry
 
 
 def _hints(mistakes: Iterable[Sequence[Any]], got: Any) -> list[str]:
+    """Return the hints of those mistakes whose answer equals the one given."""
     return [hint for hint, value in mistakes if compare.difference(got, value) is None]
 
 

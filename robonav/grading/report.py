@@ -25,7 +25,7 @@ COLOURS = dict(
 
 
 def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
-    """Write all files of one student. grade.json comes last, so its presence means that the rest is complete."""
+    """Write all files of one student. The last one is grade.json, so where it exists all others are complete."""
     _write(
         folder / "feedback.html", _page("feedback.html", record=record, course=course)
     )
@@ -37,7 +37,7 @@ def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
 def write_class(
     out: Path, names: Sequence[str], passed_over: Sequence[str], course: Course
 ) -> None:
-    """Write the gradebook and the overview of these students, with the names that were not submissions."""
+    """Write the gradebook and the overview of these students, with the names of the files that are not submissions."""
     rows, counts, earned, totals = (
         [],
         {id: Counter[str]() for id in course.exercises},
@@ -79,7 +79,7 @@ def write_class(
 
 
 def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
-    """Return ``results.json`` as Gradescope reads it. It names the exercises that must be graded again."""
+    """Return ``results.json`` in Gradescope's format. It names the exercises that must be graded again."""
     tests = [
         {
             "number": entry["id"],
@@ -94,7 +94,9 @@ def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
     ]
     again = [entry["id"] for entry in record["exercises"] if entry["points"] is None]
     output = (
-        f"To be graded again, the grader failed: {', '.join(again)}." if again else ""
+        f"To be graded again, because the grader failed: {', '.join(again)}."
+        if again
+        else ""
     )
     return {
         "score": record["points"],
@@ -105,7 +107,7 @@ def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
 
 
 def junit(record: dict[str, Any], course: Course) -> str:
-    """Return JUnit XML: one case per exercise, a failure for lost points, an error for a fault of the grader."""
+    """Return JUnit XML with one case per exercise: a failure for lost points, an error for a fault of the grader."""
     cases = record["exercises"]
     suite = ElementTree.Element(
         "testsuite",
@@ -134,7 +136,7 @@ def junit(record: dict[str, Any], course: Course) -> str:
 
 
 def gradebook(rows: Sequence[Sequence[Any]], course: Course) -> str:
-    """Return the gradebook as CSV, one line per student. No cell can be taken for a formula."""
+    """Return the gradebook as CSV, one line per student. Spreadsheets read no cell as a formula."""
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(

@@ -21,7 +21,19 @@ from .session import Answer, Session
 
 
 class Run:
-    """The plugin that is registered when a submission is given."""
+    """One grading run: the plugin that is registered when a submission is given.
+
+    Parameters
+    ----------
+    config : pytest.Config
+        The configuration of pytest, with the grader's options.
+
+    Raises
+    ------
+    pytest.UsageError
+        If an exercise is unknown, the submission or the secret cannot be read, or marks are asked for where no sandbox
+        works.
+    """
 
     def __init__(self, config: pytest.Config) -> None:
         if config.getoption("grade_json"):
@@ -71,6 +83,7 @@ class Run:
         return generator(self.seed, request.node.name)
 
     def _exercise(self, item: pytest.Item) -> tuple[Exercise, int]:
+        """Return the exercise that a test belongs to, and the test's points."""
         marker = item.get_closest_marker("part")
         if marker is None:
             raise pytest.UsageError(
@@ -94,6 +107,7 @@ class Run:
     def pytest_runtest_makereport(
         self, item: pytest.Item, call: pytest.CallInfo[None]
     ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+        """Record the points of a part, and replace the traceback in the report by the feedback."""
         report = yield
         if call.when == "call" or call.excinfo is not None:
             exercise, points = self._exercise(item)
@@ -101,12 +115,12 @@ class Run:
             part = outcome(test, points, call.excinfo.value if call.excinfo else None)
             self.parts.setdefault(exercise.id, []).append(part)
             if part.state not in ("correct", "grader-fault"):
-                report.longrepr = (
-                    part.feedback
-                )  # nothing of the trusted side's traceback
+                # The traceback would show the grader's own code.
+                report.longrepr = part.feedback
         return report
 
     def pytest_sessionfinish(self, session: pytest.Session, exitstatus: int) -> None:
+        """Stop the sandbox, and write the grade file if one is asked for and the run was complete."""
         self.session.close()
         if session.config.getoption("grade_json") and exitstatus in (
             pytest.ExitCode.OK,
@@ -131,6 +145,7 @@ class Run:
     def pytest_terminal_summary(
         self, terminalreporter: pytest.TerminalReporter
     ) -> None:
+        """Print the points and the state of each exercise."""
         result = self.grade()
         terminalreporter.section(
             f"{result['points']} of {result['max_points']} points ({result['tier']} sandbox)"

@@ -33,41 +33,43 @@ import numpy as np
 
 from . import frames
 
-START_SECONDS = 60.0  # for the worker's own start, before any of the student's code
-STAGED = (
-    "hardening",
-    "frames",
-    "notebook",
-    "supervisor",
-    "worker",
-)  # the files of this folder that the sandbox holds
-LOADER = (
-    "/lib",
-    "/lib64",
-    "/usr/lib",
-    "/usr/lib64",
-    "/etc/ld.so.cache",
-)  # shared libraries of the interpreter
+START_SECONDS = (
+    60.0  # time that the worker has to start, before it runs any of the student's code
+)
+# The files of this folder that the sandbox contains.
+STAGED = ("hardening", "frames", "notebook", "supervisor", "worker")
+# The shared libraries of the interpreter.
+LOADER = ("/lib", "/lib64", "/usr/lib", "/usr/lib64", "/etc/ld.so.cache")
 CHUNK = 1 << 16  # bytes moved at once
-HOME = "/submission"  # the one place where it can write in the official tier; not /tmp, where an environment may lie
+HOME = "/submission"  # the only writable folder in the official tier; not /tmp, which may contain an environment
 NOBODY = "65534"
-USERS = range(
-    2_000_000, 4_000_000
-)  # for the restricted tier; systems hand out none of these
+# The user numbers of the restricted tier; no system assigns these numbers.
+USERS = range(2_000_000, 4_000_000)
 ENVIRONMENT = {
     "LANG": "C.UTF-8",
     "OMP_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
     "MKL_NUM_THREADS": "1",
 }
-PYTHON = os.path.realpath(
-    getattr(sys, "_base_executable", sys.executable)
-)  # outside any virtual environment
+# The interpreter outside any virtual environment.
+PYTHON = os.path.realpath(getattr(sys, "_base_executable", sys.executable))
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a submission may use: seconds of wall clock, bytes of memory and of one written file, and open files."""
+    """What a submission may use.
+
+    Attributes
+    ----------
+    call_seconds, exercise_seconds : float
+        Seconds by the clock for one call, and for all calls of one exercise.
+    memory : int
+        Bytes of memory.
+    written : int
+        Bytes of one written file.
+    files : int
+        Open files.
+    """
 
     call_seconds: float = 5.0
     exercise_seconds: float = 30.0
@@ -76,7 +78,7 @@ class Limits:
     files: int = 64
 
     def resources(self) -> dict[str, int]:
-        """Return the limits as the system's resource limits. The processor time is that of one exercise."""
+        """Return the limits under the names of the system's resource limits. The processor time is for one exercise."""
         seconds = int(self.exercise_seconds) + 1
         return {
             "AS": self.memory,
@@ -100,7 +102,17 @@ class Garbled(Exception):
 
 
 class Worker:
-    """A worker in its sandbox. It handles one request at a time."""
+    """A worker in its sandbox. It handles one request at a time.
+
+    Parameters
+    ----------
+    process : subprocess.Popen
+        The process of the worker, with pipes for the requests and replies.
+    end : callable
+        Kills everything in the sandbox.
+    forks : bool
+        Whether the worker runs each exercise in a child process.
+    """
 
     def __init__(
         self, process: subprocess.Popen[bytes], end: Callable[[], None], *, forks: bool
@@ -120,13 +132,13 @@ class Worker:
         Raises
         ------
         TimedOut
-            If it did not come whole within ``seconds``; the sandbox has then been killed.
+            If the whole frame did not arrive within ``seconds``. The sandbox has then been killed.
         EOFError
-            If the worker hung up.
+            If the worker closed its stream.
         Garbled
-            If what came is no frame.
+            If the worker sent something other than a frame.
         FrameError
-            If the request cannot be one.
+            If the request cannot be written as a frame.
         """
         frame = frames.encode(request)
         try:
@@ -141,7 +153,7 @@ class Worker:
             self.kill()
             raise
         except OSError:
-            raise EOFError("the worker hung up") from None
+            raise EOFError("the worker closed its stream") from None
 
     def _exchange(self, frame: bytes, seconds: float) -> Any:
         """Send and receive with one deadline for all bytes, however slowly they arrive."""
@@ -158,7 +170,7 @@ class Worker:
             while len(received) < size:
                 wait([replies], [])
                 if not (part := os.read(replies, min(size - len(received), CHUNK))):
-                    raise EOFError("the worker hung up")
+                    raise EOFError("the worker closed its stream")
                 received += part
             return bytes(received)
 
@@ -170,7 +182,7 @@ class Worker:
         return frames.receive(exactly)
 
     def _exchange_watched(self, frame: bytes, seconds: float) -> Any:
-        """Do the same on systems that cannot wait for a pipe: a timer kills the worker, which ends the stream."""
+        """Send and receive on systems that cannot wait for a pipe: a timer kills the worker, which ends the stream."""
         struck = threading.Event()
 
         def strike() -> None:
@@ -200,7 +212,7 @@ class Worker:
         self.kill()
 
     def kill(self) -> None:
-        """Kill everything in the sandbox at once. Does nothing if it has ended."""
+        """Kill everything in the sandbox. If the sandbox has ended already, nothing happens."""
         self._end()
         self._process.wait()
         for stream in (self._requests, self._replies):
@@ -211,12 +223,27 @@ class Worker:
 def start(
     tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str | None = None
 ) -> Worker:
-    """Start a worker in a sandbox of this tier. It holds the files and has run none of them yet.
+    """Start a worker in a sandbox. The worker has the files of the submission and has run none of them yet.
+
+    Parameters
+    ----------
+    tier : str
+        "official", "restricted" or "practice".
+    files : mapping of str to bytes
+        The content of each file of the submission.
+    limits : Limits
+        What the submission may use.
+    python : str, optional
+        The interpreter; by default the one of this process, outside any virtual environment.
+
+    Returns
+    -------
+    Worker
 
     Raises
     ------
     SandboxFault
-        If it does not start.
+        If the sandbox does not start.
     """
     try:
         worker = {
@@ -244,6 +271,7 @@ def start(
 
 
 def _official(python: str, limits: Limits) -> Worker:
+    """Start a worker in namespaces of its own, made by bubblewrap."""
     process = _spawn(
         [
             *_bubblewrap(python, limits.written),
@@ -255,6 +283,7 @@ def _official(python: str, limits: Limits) -> Worker:
 
 
 def _restricted(python: str, limits: Limits) -> Worker:
+    """Start a worker as another user that Landlock lets read only what it needs."""
     if os.name != "posix" or os.geteuid() != 0:
         raise OSError("only root can give the worker another user")
     user, folder = random.SystemRandom().choice(USERS), tempfile.mkdtemp()
@@ -277,6 +306,7 @@ def _restricted(python: str, limits: Limits) -> Worker:
 
 
 def _practice(python: str, limits: Limits) -> Worker:
+    """Start a worker as a plain process in a temporary folder."""
     folder = tempfile.mkdtemp()
     process = _spawn(_python(python, _stage(), "worker.main()"), folder=folder)
 
@@ -294,6 +324,7 @@ def _practice(python: str, limits: Limits) -> Worker:
 def _spawn(
     command: Sequence[str], *, folder: str | None = None, keep: Sequence[int] = ()
 ) -> subprocess.Popen[bytes]:
+    """Start a process with pipes, in a session of its own, with the few environment variables that it needs."""
     environment = ENVIRONMENT if os.name == "posix" else {**os.environ, **ENVIRONMENT}
     return subprocess.Popen(
         command,
@@ -358,6 +389,7 @@ def _bubblewrap(python: str, writable: int) -> list[str]:
 
 @functools.cache
 def _bubblewrap_can(option: str) -> bool:
+    """Whether the installed bubblewrap knows an option."""
     return (
         option
         in subprocess.run(["bwrap", "--help"], capture_output=True, text=True).stdout
@@ -376,6 +408,7 @@ def _interpreter(python: str) -> list[str]:
 
 
 def _numpy() -> list[str]:
+    """Return the folders of numpy and of its shared libraries."""
     folder = Path(np.__file__).parent
     beside = folder.parent / "numpy.libs"
     return [str(folder), *([str(beside)] if beside.is_dir() else [])]
@@ -383,8 +416,8 @@ def _numpy() -> list[str]:
 
 @functools.cache
 def _package_folders(python: str) -> list[str]:
-    """Return the folders of installed packages that the sandbox must cover. One of them may contain robonav."""
-    shown = {
+    """Return the folders of installed packages that the sandbox must hide. One of them may contain robonav."""
+    visible = {
         Path(path)
         for path in (*LOADER, *_interpreter(python))
         if os.path.isdir(path) and not os.path.islink(path)
@@ -397,7 +430,7 @@ def _package_folders(python: str) -> list[str]:
     )
     found = {
         folder
-        for root in shown
+        for root in visible
         for pattern in patterns
         for folder in root.glob(pattern)
     }
@@ -406,6 +439,7 @@ def _package_folders(python: str) -> list[str]:
 
 @functools.cache
 def _staged() -> tempfile.TemporaryDirectory[str]:
+    """Copy the files that the sandbox needs to a temporary folder that every user can read."""
     folder = tempfile.TemporaryDirectory(prefix="robonav-grader-")
     package = Path(folder.name, "robonav", "grading")
     package.mkdir(parents=True)

@@ -39,7 +39,7 @@ def canary(path):
 
 @functools.cache
 def fault(tier: str, python: str | None = None) -> str | None:
-    """Return why the tier cannot be trusted on this machine, or None if it can."""
+    """Return the reason why the tier cannot be trusted on this machine, or None if it can."""
     try:
         worker = sandbox.start(tier, {"canary.py": CANARY}, Limits(), python=python)
     except sandbox.SandboxFault as error:

@@ -1,4 +1,4 @@
-"""A student's function as the tests see it: calls run in the sandbox, and answers are judged here."""
+"""The student's function for the tests: calls run in the sandbox, and answers are compared in this process."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .submission import Refused, Submission
 
 
 class Calls(Protocol):
-    """Something that calls a student's function."""
+    """An object that calls a student's function."""
 
     secret: bool
 
@@ -28,7 +28,7 @@ class Calls(Protocol):
 
 
 class Session:
-    """One submission in one sandbox. The sandbox starts when it is needed, and restarts after it was killed."""
+    """One submission in one sandbox. The sandbox starts with the first call, and starts again after it was killed."""
 
     def __init__(
         self,
@@ -49,7 +49,7 @@ class Session:
         self._serving: Exercise | None = None
         self._failed: dict[
             str, Unaccepted
-        ] = {}  # by exercise: a file that hangs when it is loaded is loaded only once
+        ] = {}  # by exercise, so that a file that hangs is loaded only once
         self._left: dict[str, float] = {}  # seconds by exercise
         self._asked = 0
 
@@ -148,7 +148,7 @@ class Session:
             self._left[exercise.id] = left - (time.monotonic() - start)
         match (
             reply
-        ):  # match types first: comparing an array with == gives no truth value
+        ):  # match types first, because comparing an array with == gives no truth value
             case {"id": int(number), "value": value, **rest} if (
                 number == self._asked and not rest
             ):
@@ -162,7 +162,7 @@ class Session:
                 self._serving = None
                 raise self._ended(status)
         self.close()
-        raise Unaccepted("error", "What came back is no answer to what was asked.")
+        raise Unaccepted("error", "The reply does not belong to the request.")
 
     def _raised(self, kind: str, message: str, where: Any) -> Unaccepted:
         """Describe an error that the student's code raised."""
@@ -175,7 +175,8 @@ class Session:
             return Unaccepted("missing", "Not attempted.")
         if kind == "MemoryError":
             return Unaccepted(
-                "memory", self._told("Your code needs more memory than there is", place)
+                "memory",
+                self._told("Your code needs more memory than the limit", place),
             )
         if kind == "FrameError":
             said = "The answer must be numbers, strings, lists, dicts or arrays"
@@ -192,7 +193,7 @@ class Session:
         if status == -9:
             return Unaccepted(
                 "memory",
-                "Your code was stopped by the system, for its memory or its processor time.",
+                "The system stopped your code, because it used too much memory or processor time.",
             )
         if status < 0:
             return Unaccepted(
@@ -209,7 +210,7 @@ class Session:
         )
 
     def _told(self, said: str, more: str) -> str:
-        """Omit ``more`` when the cases are secret: the student's code chose it and could leak a case through it."""
+        """Omit ``more`` when the cases are secret, because the student's code could reveal a case in it."""
         return f"{said}; try robonav check at home." if self.secret else f"{said}{more}"
 
 

@@ -1,8 +1,7 @@
 """Read a submission: the bytes of its Python files and notebooks. Only the worker looks into them.
 
 A submission is a folder, a zip file, a notebook or a Python file. Links and paths that leave the submission are
-refused.
-Files other than ``.py`` and ``.ipynb`` are ignored.
+refused. Files other than ``.py`` and ``.ipynb`` are ignored.
 """
 
 from __future__ import annotations
@@ -28,18 +27,18 @@ PASSED_OVER = {
 
 
 class Refused(ValueError):
-    """The submission as a whole cannot be graded; the message says why."""
+    """Raised when the whole submission cannot be graded. The message tells the reason."""
 
 
 @dataclass(frozen=True)
 class Submission:
-    """Contents by name, such as ``ch2/backup.py``."""
+    """The contents of a submission's files by name, such as ``ch2/backup.py``."""
 
     files: dict[str, bytes]
 
     @property
     def digest(self) -> str:
-        """Hash of all names and contents."""
+        """A hash of all names and contents."""
         digest = hashlib.sha256()
         for name, content in sorted(self.files.items()):
             digest.update(f"{len(name)} {name} {len(content)} ".encode() + content)
@@ -52,9 +51,9 @@ def read(path: str | Path) -> Submission:
     Raises
     ------
     ValueError
-        If nothing is there that could be one.
+        If the path is not a folder, a zip file, a notebook or a Python file.
     Refused
-        If it holds a link, a path that leaves it, or too much.
+        If it contains a link, a path that leaves it, or too many files or bytes.
     """
     path = Path(path)
     if path.is_symlink():
@@ -73,7 +72,9 @@ def read(path: str | Path) -> Submission:
     files: dict[str, bytes] = {}
     size = 0
     for number, (name, content) in enumerate(entries, start=1):
-        files[name] = content  # the last one counts, as when a zip is unpacked
+        files[name] = (
+            content  # the last file of a name counts, as when a zip is unpacked
+        )
         size += len(content)
         if number > MOST_FILES or size > MOST_BYTES:
             raise Refused(
@@ -96,7 +97,7 @@ def load_submission(path: str | Path) -> Submission | Refused:
 
 
 def _only_zip(folder: Path) -> Path | None:
-    """Return the zip file if a folder holds nothing else, as in exports of learning platforms."""
+    """Return the zip file if a folder contains nothing else, as folders exported by learning platforms do."""
     try:
         entries = [
             entry for entry in folder.iterdir() if not entry.name.startswith(".")
@@ -144,16 +145,16 @@ def _from_zip(path: Path) -> Iterator[tuple[str, bytes]]:
                     raise Refused(f"{_checked(entry.filename)} is a link")
                 with archive.open(
                     entry
-                ) as file:  # the size that the zip declares may be a lie
+                ) as file:  # the size that the zip declares may be wrong
                     yield _checked(entry.filename), file.read(MOST_BYTES + 1)
     except Refused:
         raise
-    except Exception as error:  # each way to pack has errors of its own
+    except Exception as error:  # each method of compression has errors of its own
         raise Refused(f"the zip cannot be read: {error}") from None
 
 
 def _content(path: Path) -> bytes:
-    """A regular file's bytes; a link, a pipe or a device is refused before it is opened."""
+    """Return the bytes of a regular file. A link, a pipe or a device is refused before it is opened."""
     try:
         descriptor = os.open(
             path,
@@ -165,7 +166,7 @@ def _content(path: Path) -> bytes:
         ) from None
     with os.fdopen(descriptor, "rb") as file:
         if path.is_symlink() or not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-            raise Refused(f"{path.name} is no plain file")
+            raise Refused(f"{path.name} is not a regular file")
         return file.read(MOST_BYTES + 1)
 
 
@@ -177,7 +178,7 @@ def _is_considered(path: PurePosixPath) -> bool:
 
 
 def _checked(name: str) -> str:
-    """A name that stays inside the submission and can be written anywhere."""
+    """Return the name if it stays inside the submission and every system can write it."""
     path = PurePosixPath(name)
     inside = (
         not path.is_absolute()
@@ -186,5 +187,5 @@ def _checked(name: str) -> str:
         and ":" not in name
     )
     if not (inside and name.isprintable() and len(name) <= 200):
-        raise Refused(f"{name!r} is no name of a file within the submission")
+        raise Refused(f"{name!r} is not the name of a file within the submission")
     return path.as_posix()

@@ -1,7 +1,7 @@
-"""The supervisor of the restricted tier: it stays root, runs the worker as another user, and kills all its processes.
+"""The supervisor of the restricted tier. It stays root, runs the worker as another user, and kills all its processes.
 
-``sandbox`` starts it on Linux as root where namespaces are refused. It ends when the worker ends or when the grader's
-end of the lifeline closes, so that nothing survives a grader that was killed.
+``sandbox`` starts it on Linux as root where namespaces are refused. It ends when the worker ends, or when the grader's
+end of the lifeline (a pipe) closes, so that no process remains when the grader was killed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from . import hardening, worker
 
 
 def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) -> None:
-    """Run the worker as ``user``, which sees only ``readable`` and ``folder``. Return when it has ended."""
+    """Run the worker as ``user``, who sees only ``readable`` and ``folder``, until it ends."""
     if (child := os.fork()) == 0:
         try:
             os.close(lifeline)

@@ -20,13 +20,19 @@ from typing import Any, BinaryIO
 
 from . import frames, hardening, notebook
 
-STUB = 'raise NotImplementedError("{name} is yours to write")'  # what stands in a file before the student writes it
+STUB = 'raise NotImplementedError("{name} is yours to write")'  # the body of a function that is not written yet
 ALLOWED = {"numpy", *sys.stdlib_module_names}
 MOST_TEXT = 2_000  # characters of an error message
 
 
 class Gate(importlib.abc.MetaPathFinder):
-    """Refuses modules that graded code may not import, with a clear message."""
+    """Refuse modules that graded code may not import, with a clear message.
+
+    Parameters
+    ----------
+    own : set of str
+        The names of the submission's own modules.
+    """
 
     def __init__(self, own: set[str]) -> None:
         self.allowed = ALLOWED | own
@@ -34,6 +40,7 @@ class Gate(importlib.abc.MetaPathFinder):
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: Any = None
     ) -> None:
+        """Raise a ModuleNotFoundError for a module that is not allowed."""
         top = name.partition(".")[0]
         if top == "robonav":
             raise ModuleNotFoundError(
@@ -42,7 +49,7 @@ class Gate(importlib.abc.MetaPathFinder):
             )
         if top not in self.allowed:
             raise ModuleNotFoundError(
-                f"{top} cannot be imported here: use Python's standard library and numpy",
+                f"{top} cannot be imported here: use only Python's standard library and numpy",
                 name=name,
             )
 
@@ -65,18 +72,17 @@ def main() -> None:
             if opening["fork"]:
                 status = _serve_in_child(requests, replies, request)
                 os.chdir(home)
-                _empty(
-                    home
-                )  # first: who leaves a mess waits for its removal, and not the exercise after it
+                # Before the reply, so that the time for this belongs to the exercise that wrote the files.
+                _empty(home)
                 frames.write(replies, {"ended": status})
             else:
                 _serve(requests, replies, request)
     except (EOFError, BrokenPipeError):
-        os._exit(0)  # there is nothing to tidy up
+        os._exit(0)  # nothing is left to clean up
 
 
 def _take_streams() -> tuple[BinaryIO, BinaryIO]:
-    """Reserve the standard streams for frames. What a student's code prints is discarded."""
+    """Reserve the standard streams for frames. The output of a student's code is discarded."""
     requests, replies = (
         os.fdopen(os.dup(0), "rb", buffering=0),
         os.fdopen(os.dup(1), "wb"),
@@ -88,6 +94,7 @@ def _take_streams() -> tuple[BinaryIO, BinaryIO]:
 
 
 def _empty(home: Path) -> None:
+    """Delete everything in a folder as far as possible."""
     for place, folders, names in os.walk(home, topdown=False):
         for name in names:
             _tried(os.unlink, os.path.join(place, name))
@@ -96,7 +103,7 @@ def _empty(home: Path) -> None:
 
 
 def _unpacked(home: Path, files: Mapping[str, bytes]) -> Path:
-    """Write the files to a new folder. Its name cannot be guessed, so nobody can create it first."""
+    """Write the files to a new folder. Its random name cannot be guessed, so no earlier code can have created it."""
     folder = home / os.urandom(8).hex()
     folder.mkdir()
     for name, content in files.items():
@@ -115,6 +122,7 @@ def _tried(do: Callable[..., Any], *arguments: Any, **options: Any) -> None:
 
 
 def _close_the_gate(own: set[str]) -> None:
+    """Make robonav's modules, and all others that are not allowed, impossible to import."""
     for name in [name for name in sys.modules if name.partition(".")[0] == "robonav"]:
         del sys.modules[name]
     sys.meta_path.insert(0, Gate(own))
@@ -143,9 +151,8 @@ def _serve(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> No
         reply = {"id": request["id"], **_answer(request, functions)}
         try:
             frame = frames.encode(reply)
-        except (
-            BaseException
-        ) as error:  # what the student returned may do anything when it is looked at
+        # Encoding calls methods of the returned object, which are the student's code and may raise anything.
+        except BaseException as error:
             frame = frames.encode({"id": request["id"], "raised": _described(error)})
         replies.write(frame)
         replies.flush()
@@ -153,12 +160,13 @@ def _serve(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> No
 
 
 def _answer(request: dict[str, Any], functions: dict[str, Any]) -> dict[str, Any]:
+    """Load a function or call it, and return its value or a description of the error."""
     try:
         if request["do"] == "load":
             functions["f"] = _load(Path.cwd(), request["chapter"], request["name"])
             return {"value": None}
         return {"value": functions["f"](*request["args"])}
-    except BaseException as error:  # SystemExit and its kin too: a student's code does not end the worker politely
+    except BaseException as error:  # also SystemExit: a student's code must not end the worker as if all were well
         return {"raised": _described(error)}
 
 
@@ -183,19 +191,19 @@ def _load(folder: Path, chapter: str, name: str) -> Any:
 
 
 def _function(module: types.ModuleType, name: str) -> Any:
+    """Return the function of this name, or raise an AttributeError in one sentence."""
     if not hasattr(module, name):
         raise AttributeError(f"{module.__file__} defines no {name}")
     return getattr(module, name)
 
 
 def _run(name: str, path: Path, source: Any) -> types.ModuleType:
+    """Run source code as a module of this name."""
     module = types.ModuleType(name)
     module.__file__ = str(path.relative_to(Path.cwd()))
     sys.modules[name] = module
-    sys.path += [
-        str(path.parent),
-        str(Path.cwd()),
-    ]  # last: a student's random.py does not stand in for Python's
+    # At the end of the path, so that a student's random.py does not replace Python's.
+    sys.path += [str(path.parent), str(Path.cwd())]
     exec(compile(source, str(path), "exec"), module.__dict__)
     return module
 

@@ -24,7 +24,7 @@ from .results import (
 )
 
 BACKENDS = ("joblib", "dask")
-RETRIES = 3
+RETRIES = 3  # how often worker processes may die
 ANSWER = 10  # seconds that a scheduler has to answer
 
 Unit = tuple[int, int]  # case, seed
@@ -55,13 +55,13 @@ def reproduce(
     scale : str
         "quick" or "thesis".
     backend : str
-        "joblib" for this machine, "dask" for a cluster.
+        "joblib" runs on this machine, "dask" on a cluster.
     scheduler : str or None
-        The address of a Dask scheduler, with backend "dask" alone.
+        The address of a Dask scheduler; only for the backend "dask".
     jobs : int
-        The number of processes on this machine; -1 for one a core.
+        The number of processes on this machine; -1 means one process a core.
     progress : callable or None
-        Called with the number of finished runs and of all runs.
+        A function that is called with the number of finished runs and the number of all runs.
 
     Returns
     -------
@@ -71,10 +71,10 @@ def reproduce(
     Raises
     ------
     ValueError
-        For an unknown scale or backend, zero processes, dask without a scheduler that answers, a scheduler without
-        dask, workers with other code than this process, or a folder that cannot be written in.
+        If the scale or backend is unknown, ``jobs`` is 0, no scheduler answers, a scheduler is given without dask,
+        a worker has other code than this process, or the folder is not writable.
     WorkerLost
-        If worker processes die again and again. Finished runs are kept.
+        If worker processes die more than three times. Finished runs are kept.
 
     Examples
     --------
@@ -85,6 +85,39 @@ def reproduce(
     ...     reproduce(dice, folder, jobs=1).values("throw", 0)
     array([1., 2., 3.])
     """
+    _check_settings(scale, backend, scheduler, jobs)
+    check_writable("out", out)
+    folder, began = Path(out), time.perf_counter()
+    units = _units(experiment, scale)
+    finished = _finished(experiment, units, scale, folder)
+    waiting = [unit for unit in units if unit not in finished]
+    report = progress or (lambda done, total: None)
+    report(len(finished), len(units))
+    for unit, rows, seconds in (
+        _on_cluster(experiment, waiting, scale, scheduler)
+        if scheduler
+        else _here(experiment, waiting, scale, jobs)
+    ):
+        save_run(run_file(folder, experiment, scale, *unit), rows, seconds)
+        finished[unit] = rows, seconds
+        report(len(finished), len(units))
+    rows = [row for unit in units for row in finished[unit][0]]
+    results = Results.from_rows(experiment, scale, rows)
+    save_results(folder, results)
+    times = {
+        "runs": len(units),
+        "processor seconds in all runs": sum(
+            seconds for _, seconds in finished.values()
+        ),
+        "runs since the last start": len(waiting),
+        "seconds since the last start": time.perf_counter() - began,
+    }
+    save_timing(folder, experiment, times)
+    return results
+
+
+def _check_settings(scale: str, backend: str, scheduler: str | None, jobs: int) -> None:
+    """Check that the settings of :func:`reproduce` are known and fit each other."""
     check_one_of("scale", scale, SCALES)
     check_one_of("backend", backend, BACKENDS)
     if backend == "dask" and scheduler is None:
@@ -99,50 +132,29 @@ def reproduce(
         raise ValueError(
             "jobs must be a number of processes, or -1 for one a core, got 0"
         )
-    check_writable("out", out)
-    folder = Path(out)
-    units = [
-        (case, seed)
-        for case in range(len(experiment.cases))
-        for seed in range(experiment.seeds[scale])
-    ]
+
+
+def _units(experiment: Experiment, scale: str) -> list[Unit]:
+    """All runs of an experiment: every case with every seed."""
+    seeds = range(experiment.seeds[scale])
+    return [(case, seed) for case in range(len(experiment.cases)) for seed in seeds]
+
+
+def _finished(
+    experiment: Experiment, units: Sequence[Unit], scale: str, folder: Path
+) -> dict[Unit, tuple[list[Row], float]]:
+    """The rows and processor seconds of the runs that are already in the folder."""
     kept = {
         unit: load_run(run_file(folder, experiment, scale, *unit)) for unit in units
     }
-    finished = {unit: run for unit, run in kept.items() if run is not None}
-    waiting = [unit for unit in units if unit not in finished]
-    began = time.perf_counter()
-    if progress is not None:
-        progress(len(finished), len(units))
-    done = (
-        _on_cluster(experiment, waiting, scale, scheduler)
-        if scheduler
-        else _here(experiment, waiting, scale, jobs)
-    )
-    for unit, rows, seconds in done:
-        save_run(run_file(folder, experiment, scale, *unit), rows, seconds)
-        finished[unit] = rows, seconds
-        if progress is not None:
-            progress(len(finished), len(units))
-    rows = [row for unit in units for row in finished[unit][0]]
-    results = Results.from_rows(experiment, scale, rows)
-    save_results(folder, results)
-    spent = {
-        "runs": len(units),
-        "processor seconds in all runs": sum(
-            seconds for _, seconds in finished.values()
-        ),
-    }
-    clock = {
-        "runs since the last start": len(waiting),
-        "seconds since the last start": time.perf_counter() - began,
-    }
-    save_timing(folder, experiment, spent | clock)
-    return results
+    return {unit: run for unit, run in kept.items() if run is not None}
 
 
 def run_unit(experiment: Experiment, unit: Unit, scale: str) -> Done:
-    """The rows of one run, and its processor seconds. It has one thread, so that sums do not depend on the cores."""
+    """Do one run and return its rows and processor seconds.
+
+    The run has one thread, so that the order of additions does not depend on the number of cores.
+    """
     from threadpoolctl import threadpool_limits
 
     case, seed = unit
@@ -163,7 +175,10 @@ def run_unit(experiment: Experiment, unit: Unit, scale: str) -> Done:
 def _here(
     experiment: Experiment, units: Sequence[Unit], scale: str, jobs: int
 ) -> Iterator[Done]:
-    """Runs on this machine, in the order in which they finish. If a process dies, its run starts again."""
+    """Do runs on this machine, and yield them in the order in which they finish.
+
+    If a process dies, the unfinished runs start again.
+    """
     from joblib import Parallel, delayed
 
     waiting, deaths = dict.fromkeys(units), 0
@@ -176,14 +191,19 @@ def _here(
         except BrokenExecutor:
             deaths += 1
             if deaths > RETRIES:
-                raise WorkerLost(f"{experiment.name} lost {deaths} processes, perhaps for want of memory: "
-                                 "what is finished stays, go on with fewer jobs") from None  # fmt: skip
+                raise WorkerLost(
+                    f"{experiment.name} lost {deaths} processes, perhaps because memory ran out: finished runs are "
+                    "kept, start again with fewer jobs"
+                ) from None
 
 
 def _on_cluster(
     experiment: Experiment, units: Sequence[Unit], scale: str, scheduler: str | None
 ) -> Iterator[Done]:
-    """Runs on a Dask cluster, in the order in which they finish. If a worker dies, another one does its run."""
+    """Do runs on a Dask cluster, and yield them in the order in which they finish.
+
+    If a worker dies, another worker does its run.
+    """
     from dask.distributed import Client, KilledWorker, as_completed
 
     try:
@@ -208,14 +228,16 @@ def _on_cluster(
             for future in as_completed(futures):
                 yield future.result()
         except KilledWorker:
-            raise WorkerLost(f"a run of {experiment.name} killed every worker that did it, perhaps for want of memory: "
-                             "what is finished stays, go on with workers that have more") from None  # fmt: skip
+            raise WorkerLost(
+                f"a run of {experiment.name} killed every worker that did it, perhaps because memory ran out: finished "
+                "runs are kept, start again with workers that have more memory"
+            ) from None
 
 
 def _on_worker(experiment: Experiment, unit: Unit, scale: str, wanted: str) -> Done:
-    """One run on a worker; ValueError if the worker has another version of the package."""
+    """Do one run on a worker. Raise a ValueError if the worker has another version of the package."""
     if code_digest(experiment.run) != wanted:
         raise ValueError(
-            "workers must have the same robonav as the command, but one has another: install it anew there"
+            "workers must have the same robonav as the command, but one has another: install the same version there"
         )
     return run_unit(experiment, unit, scale)

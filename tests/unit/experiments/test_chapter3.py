@@ -107,6 +107,7 @@ def test_methods_by_name():
     assert learned_policy("5 neighbours", 0).k == 5
 
 
+@pytest.mark.slow
 def test_what_ships_is_what_the_command_makes():
     policy = cloned_policy(SEED)
     kept = load_weights(folder_of("lfd") / "lfd.safetensors")

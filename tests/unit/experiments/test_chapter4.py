@@ -81,6 +81,7 @@ def test_tuning_and_testing_never_meet():
     assert not tuned & tested
 
 
+@pytest.mark.slow
 def test_finalists_have_other_seeds_than_the_trials_they_were_picked_by():
     case = FINALS.cases[0]
     tried = {tuple(TUNING.run(case, seed, "quick").values()) for seed in range(4)}
@@ -115,6 +116,7 @@ def test_no_method_had_more_learning_steps_than_nnql():
         ).all()  # it stopped no earlier than it had to
 
 
+@pytest.mark.slow
 def test_a_method_is_stopped_where_nnqls_steps_end():
     numbers = EQUAL_STEPS.run({"robot": "nfq"}, 1, "quick")
     allowed = training("nnql", 1, "quick", tuned()["nnql"]).decisions[0].sum()

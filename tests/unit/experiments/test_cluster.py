@@ -94,7 +94,7 @@ def test_a_cluster_with_a_dying_worker_gives_the_same_bytes(tmp_path):
     assert set(here) == {"slow.csv", "slow.json"}
     assert here == there
     assert (
-        "a run of deadly killed every worker that did it, perhaps for want of memory"
+        "a run of deadly killed every worker that did it, perhaps because memory ran out"
         in said
     )
 

@@ -149,6 +149,7 @@ def test_damaged_results_are_refused_with_a_sentence(tmp_path):
         read_results(toy(), tmp_path)
 
 
+@pytest.mark.slow
 def test_a_killed_experiment_goes_on_where_it_was(tmp_path):
     """SIGKILL at several moments, then to the end: the same files as without."""
     script = tmp_path / "slow.py"
@@ -211,6 +212,7 @@ def test_a_folder_that_cannot_be_written_in_is_refused_before_any_run(tmp_path):
         reproduce(toy(), tmp_path / "file" / "results", jobs=1)
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_costs_its_run(tmp_path):
     """The first run kills its process once, as the system does when memory runs out."""
 
@@ -227,12 +229,13 @@ def test_a_process_that_dies_costs_its_run(tmp_path):
     assert content(tmp_path / "cut") == content(tmp_path / "whole")
 
 
+@pytest.mark.slow
 def test_a_run_that_always_kills_its_process_is_one_sentence(tmp_path):
     def deadly(case, seed, scale):
         os.kill(os.getpid(), signal.SIGKILL)
 
     with pytest.raises(
-        WorkerLost, match="toy lost 4 processes, perhaps for want of memory"
+        WorkerLost, match="toy lost 4 processes, perhaps because memory ran out"
     ):
         reproduce(toy(deadly), tmp_path, jobs=2)
 

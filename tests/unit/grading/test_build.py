@@ -134,6 +134,7 @@ def test_building_writes_what_differs_and_removes_what_has_no_source(tmp_path):
     assert not (tmp_path / "exercises/ch2/old.py").exists()
 
 
+@pytest.mark.slow
 def test_a_student_with_the_zip_alone_checks_an_answer(tmp_path):
     build.students_zip(COURSE, tmp_path / "students.zip")
     build.students_zip(COURSE, tmp_path / "again.zip")

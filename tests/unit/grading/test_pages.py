@@ -30,7 +30,11 @@ def answer(exercise):
 
 
 @pytest.mark.parametrize(
-    "solutions", ["", "1"], ids=["for students", "for instructors"]
+    "solutions",
+    [
+        pytest.param("", id="for students"),
+        pytest.param("1", id="for instructors", marks=pytest.mark.slow),
+    ],
 )
 def test_solutions_stand_in_the_instructors_build_alone(tmp_path, solutions):
     pytest.importorskip("sphinx_exercise")

@@ -104,6 +104,7 @@ def test_discrete_toy_environment(method, settings):
     assert network.decide(np.eye(5)[:4]).tolist() == [1, 1, 1, 1]
 
 
+@pytest.mark.slow
 def test_cart_pole():
     """On an environment that has nothing of a robot, training makes episodes longer."""
     env = gymnasium.wrappers.RecordEpisodeStatistics(balancing())
@@ -127,6 +128,7 @@ def test_greedy_navigation():
     assert [navigate_greedily(env, network, seed=k)[0] for k in range(5)] == [1.0] * 5
 
 
+@pytest.mark.slow
 def test_greedy_navigation_of_the_robot():
     task = NavigationTask()
     policy = train("nnql", seeds=[0], episodes=120, task=task)
