@@ -30,7 +30,7 @@ WHEELS: Mapping[str, float] = {
 class BeliefLab(anywidget.AnyWidget):
     """Move and sense; see the prediction, the likelihood and the belief of every cell."""
 
-    _esm = front_end("belief_lab")
+    _esm = front_end("random_numbers", "belief", "belief_lab")
     _css = style_sheet("belief_lab")
     data = traitlets.Dict().tag(sync=True)
 

@@ -12,11 +12,11 @@ import numpy as np
 import traitlets
 from numpy.typing import ArrayLike, NDArray
 
-from robonav import style
 from robonav.mdp import Cell, FiniteMDP, GridWorld
 from robonav.mdp.generalised_policy_iteration import suboptimality
 from robonav.validation import check_array
 
+from .grid import page_grid
 from .shared import front_end, packed, style_sheet
 
 
@@ -90,8 +90,8 @@ Solver = Callable[[GridWorld, tuple[str, ...]], Mapping[str, Replay]]
 class GridLab(anywidget.AnyWidget):
     """Choose a setting; step through what each method did; touch a cell. With a kernel: draw a map and solve it."""
 
-    _esm = front_end("grid_lab")
-    _css = style_sheet("grid_lab")
+    _esm = front_end("grid", "grid_lab")
+    _css = style_sheet("grid", "grid_lab")
     data = traitlets.Dict().tag(sync=True)
 
     def __init__(
@@ -111,7 +111,7 @@ class GridLab(anywidget.AnyWidget):
                 replays = self._solve(
                     grid, tuple(str(choice) for choice in message["choices"])
                 )
-                self.send({"grid": _layout(grid), "run": _run(replays)})
+                self.send({"grid": page_grid(grid), "run": _run(replays)})
             except (ValueError, TypeError) as error:
                 self.send({"error": str(error)})
 
@@ -156,13 +156,12 @@ def grid_lab(
             )
     return GridLab(
         {
-            "grids": [_layout(grid) for grid in grids.values()],
+            "grids": [page_grid(grid) for grid in grids.values()],
             "controls": [
                 {"label": label, "options": options, "value": options.index(choice)}
                 for (label, options), choice in zip(offered.items(), first, strict=True)
             ],
             "runs": [_run(runs[combination]) for combination in combinations],
-            "wall": style.OBSTACLE,
         },
         solve,
         {
@@ -171,16 +170,6 @@ def grid_lab(
             for symbol, cell in grid.legend.items()
         },
     )
-
-
-def _layout(grid: GridWorld) -> dict[str, Any]:
-    """A grid as the page draws it."""
-    return {
-        "rows": list(grid.rows),
-        "cells": grid.cells.tolist(),
-        "ends": np.flatnonzero(grid.terminal).tolist(),
-        "rewards": (grid.cell_rewards - grid.step_reward).round(6).tolist(),
-    }
 
 
 def _run(replays: Mapping[str, Replay]) -> list[dict[str, Any]]:

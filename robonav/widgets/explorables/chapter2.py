@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+import gymnasium as gym
 import numpy as np
+from numpy.typing import NDArray
 
 from robonav import mdp
+from robonav.mdp.belief_planning import AlphaVectors, backup
 
+from ..grid import page_grid
+from ..model import page_model
 from .registry import asks
 
 
@@ -31,3 +36,221 @@ def discounted_return(
         "equal": equal,
         "worth": returns[0],
     }
+
+
+def _grid(grid: mdp.GridWorld, discount: float) -> tuple[mdp.FiniteMDP, dict[str, Any]]:
+    """A grid's model, and what each explorable on a grid takes: picture, model, start and best values."""
+    model = grid.mdp(discount)
+    best = mdp.policy_iteration(model)
+    return model, {
+        "layout": page_grid(grid),
+        "model": page_model(model),
+        "discount": discount,
+        "marked": int(grid.start.argmax()),
+        "best": best.values.tolist(),
+    }
+
+
+@asks(
+    "Turn an arrow of a policy",
+    "One of the nine arrows below is not the best one. If you turn it, and leave all others, "
+    "in how many cells does the value rise?",
+    guesses=["in that cell only", "in two cells", "in five", "in all nine"],
+    files=("grid", "model", "explorables/marked_grid"),
+)
+def turn_arrows(discount: float = 0.95) -> dict[str, Any]:
+    """The policy that goes around, on the grid of four by three cells."""
+    _, given = _grid(mdp.four_by_three(), discount)
+    return given | {"policy": [1, 1, 1, 1, 0, 0, 0, 0, 3, 3, 3], "marked": 8}
+
+
+@asks(
+    "One Bellman backup at a time",
+    "All values are 0. You may back up one cell at a time, in any order. "
+    "What is the smallest number of backups after which the start S has a value above 0?",
+    guesses=["1", "3", "5", "9"],
+    files=("grid", "model", "explorables/marked_grid"),
+)
+def bellman_backup(discount: float = 0.9) -> dict[str, Any]:
+    """Values to be backed up by hand, on the grid of four by three cells."""
+    return _grid(mdp.four_by_three(), discount)[1]
+
+
+@asks(
+    "Evaluate and improve by hand",
+    "All arrows point up and all values are 0. You press: one sweep, improve, one sweep, improve, and so on. "
+    "How many improvements are needed until all arrows are optimal?",
+    guesses=["1", "2", "4", "more than 10"],
+    files=("grid", "model"),
+)
+def evaluate_improve(discount: float = 0.9) -> dict[str, Any]:
+    """Policy iteration by hand, from a policy that always goes up."""
+    model, given = _grid(mdp.four_by_three(), discount)
+    q = model.action_values(np.array(given["best"]))
+    ties = q >= q.max(axis=1, keepdims=True) - 1e-9
+    optimal = [np.flatnonzero(row).tolist() for row in ties]
+    return given | {"policy": [0] * model.n_states, "optimal": optimal}
+
+
+@asks(
+    "Two starts approach each other",
+    "Value iteration runs twice, from values of 0 and from values of 20. The discount is 0.9. "
+    "After how many sweeps do the two differ by at most a hundredth of that?",
+    guesses=["10", "22", "44", "never"],
+    files=("model",),
+)
+def contraction() -> dict[str, Any]:
+    """The process with two states whose values the page draws in a plane."""
+    return {"model": page_model(two_states(0.9))}
+
+
+def two_states(discount: float) -> mdp.FiniteMDP:
+    """A process with two states and two actions."""
+    return mdp.FiniteMDP(
+        transitions=[[[0.2, 0.8], [0, 1]], [[1, 0], [0.3, 0.7]]],
+        rewards=[[-0.9, 0.6], [-0.6, 0.4]],
+        discount=discount,
+    )
+
+
+RUNS, EPISODES = 20, 100
+
+
+@asks(
+    "How large a step?",
+    "TD(0) learns from the same walks with different step sizes. "
+    "Is the step size with the smallest error after 10 episodes also the best after 100?",
+    guesses=[
+        "yes, the same",
+        "no, later a smaller one is better",
+        "no, later a larger one is better",
+    ],
+)
+def td_step_size() -> dict[str, Any]:
+    """Walks through the five rooms, as letters of the rooms passed, and the true values."""
+    rooms = gym.make("FrozenLake-v1", desc=["HFFSFFG"], is_slippery=False)
+    coin = np.tile([0.5, 0.0, 0.5, 0.0], (7, 1))  # left, down, right, up
+    walks = [
+        " ".join(
+            "".join(map(str, episode.states))
+            for episode in mdp.rollouts(rooms, coin, EPISODES, seed=seed)
+        )
+        for seed in range(RUNS)
+    ]
+    return {"walks": walks, "truth": (np.arange(1, 6) / 6).tolist(), "prize": 6}
+
+
+CLIFF = """
+. . . . . .
+. . . . . .
+. . . . . .
+S X X X X G
+"""
+
+
+def cliff() -> mdp.GridWorld:
+    """A short cliff: a step costs 1, and a fall costs 100 and ends the episode."""
+    return mdp.GridWorld(
+        CLIFF,
+        legend={"X": mdp.Cell(reward=-99.0, ends=True), "G": mdp.Cell(ends=True)},
+        step_reward=-1.0,
+    )
+
+
+@asks(
+    "Exploring beside a cliff",
+    "Without exploring (ε = 0) both methods walk along the edge. Which paths will they take with ε = 0.3?",
+    guesses=[
+        "both stay at the edge",
+        "SARSA keeps away, Q-learning stays",
+        "both keep away",
+        "Q-learning keeps away, SARSA stays",
+    ],
+    files=("random_numbers", "grid"),
+)
+def cliff_exploration() -> dict[str, Any]:
+    """The cliff, and for each amount of exploring how far from its edge the best walk is, and what it expects."""
+    grid = cliff()
+    model, begin = grid.mdp(1.0), int(grid.start.argmax())
+    best = []
+    for epsilon in np.linspace(0, 0.5, 11):
+        q = best_while_exploring(model, epsilon)
+        walk = mdp.rollouts(
+            grid.environment(), q.argmax(axis=1), 1, max_steps=30, seed=0
+        )[0]
+        rows = 2 - grid.cells[walk.states, 0].min()
+        best.append(
+            {
+                "rows": int(rows),
+                "value": float((mdp.epsilon_greedy(q, epsilon) * q).sum(axis=1)[begin]),
+            }
+        )
+    return {
+        "layout": page_grid(grid),
+        "moves": grid.moves.tolist(),
+        "rewards": (grid.cell_rewards).tolist(),
+        "ends": grid.terminal.tolist(),
+        "begin": begin,
+        "best": best,
+    }
+
+
+def best_while_exploring(model: mdp.FiniteMDP, epsilon: float) -> NDArray[np.float64]:
+    """Action values of the best policy among those that take a random action with probability ``epsilon``."""
+    q = np.zeros((model.n_states, model.n_actions))
+    for _ in range(5000):
+        values = (mdp.epsilon_greedy(q, epsilon) * q).sum(axis=1)
+        before, q = q, model.action_values(values)
+        if abs(q - before).max() < 1e-9:
+            break
+    return q
+
+
+@asks(
+    "A belief in a corridor of your own",
+    "This corridor has two doors and seven walls, and the robot knows nothing but the plan. "
+    "What tells it more about its place?",
+    guesses=["to see a door", "to see a wall", "both the same"],
+    files=("belief",),
+)
+def own_corridor(cells: str = ".D....D..") -> dict[str, Any]:
+    """The plan of a corridor."""
+    return {"cells": cells}
+
+
+@asks(
+    "How sure is sure enough?",
+    "Listening is right in 85 of 100 cases. How many times more often must the tiger be heard on the left "
+    "before it is best to open the right door?",
+    guesses=["once", "twice", "three times", "five times"],
+)
+def tiger_vectors(steps: int = 12) -> dict[str, Any]:
+    """The alpha vectors of the tiger with 1 to some steps to go, for three accuracies."""
+    accuracies = (0.7, 0.85, 0.95)
+    return {
+        "accuracies": list(accuracies),
+        "plans": [
+            [
+                {
+                    "vectors": plan.vectors.round(4).tolist(),
+                    "actions": plan.actions.tolist(),
+                }
+                for plan in plans_by_steps(mdp.tiger(accuracy=accuracy), steps)
+            ]
+            for accuracy in accuracies
+        ],
+    }
+
+
+def plans_by_steps(pomdp: mdp.POMDP, steps: int) -> list[AlphaVectors]:
+    """The best vectors at a fine grid of beliefs about two states, with 1, 2, ... steps to go."""
+    left = np.linspace(0, 1, 401)
+    points = np.column_stack([left, 1 - left])
+    known = AlphaVectors(np.zeros((1, 2)), np.zeros(1, dtype=np.int64))
+    plans = []
+    for _ in range(steps):
+        known = backup(pomdp, points, known)
+        _, first = np.unique(known.vectors.round(9), axis=0, return_index=True)
+        known = AlphaVectors(known.vectors[first], known.actions[first])
+        plans.append(known)
+    return plans

@@ -59,7 +59,7 @@ export const press = ({ label, act: change, off = () => false }) => ({ act }) =>
 export const explorable = ({ controls, start = () => ({}), draw }) => ({
   render({ model, el }) {
     const { title, question, guesses, given } = model.get("data");
-    const stage = h("div", { class: "stage" });
+    const stage = h("div", { class: "pictures" });
     const said = h("p", { class: "status grow", role: "status" });
     const act = (change) => {
       change(state);
@@ -115,7 +115,7 @@ export function ticks(low, high, count = 5) {
 
 /** Axes with room for lines, bars and dots: `X` and `Y` turn numbers into places, `put` replaces what is drawn. */
 export function plot({ x: [x0, x1], y: [y0, y1], xLabel, yLabel, width = 400, height = 250, xTicks = ticks(x0, x1), yTicks = ticks(y0, y1) }) {
-  const [left, right, top, bottom] = [50, width - 10, 12, height - 42];
+  const [left, right, top, bottom] = [50, width - 16, 12, height - 42];
   const X = (value) => left + ((right - left) * (value - x0)) / (x1 - x0);
   const Y = (value) => bottom - ((bottom - top) * (value - y0)) / (y1 - y0);
   const text = (attributes, words) => svg("text", { "font-size": 13, class: "quiet", ...attributes }, words);

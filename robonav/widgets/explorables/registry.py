@@ -9,7 +9,7 @@ from typing import Any
 import anywidget
 import traitlets
 
-from ..shared import front_end, style_sheet
+from ..shared import HERE, front_end, style_sheet
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,8 @@ class Explorable(anywidget.AnyWidget):
 
     def __init__(self, asked: Question, given: dict[str, Any]) -> None:
         self._esm = front_end(*asked.front_end)
-        self._css = style_sheet("explorables/explorable")
+        styled = [name for name in asked.files if (HERE / f"{name}.css").is_file()]
+        self._css = style_sheet(*styled, "explorables/explorable")
         super().__init__(
             data={
                 "title": asked.title,

@@ -1,9 +1,12 @@
 """The numbers of the explorables' JavaScript against Python's."""
 
+import gymnasium as gym
+import numpy as np
 import pytest
+from gymnasium.spaces import Discrete
 
 from robonav import mdp
-from robonav.widgets.explorables import EXPLORABLES, explorable
+from robonav.widgets.explorables import EXPLORABLES, chapter2, explorable
 
 
 @pytest.fixture
@@ -12,7 +15,11 @@ def compute(node):
 
     def run(name, body, **data):
         given = explorable(name).data["given"]
-        return node(EXPLORABLES[name].front_end, body, {"given": given, **data})
+        return node(
+            EXPLORABLES[name].front_end,
+            f"const {{ given }} = data; {body}",
+            {"given": given, **data},
+        )
 
     return run
 
@@ -39,3 +46,270 @@ def test_both_chargers_are_worth_the_same_where_the_page_says():
     assert round(given["equal"], 3) == 0.858  # as the answer on the page says
     far = mdp.discounted_return(given["far"], given["equal"])[0]
     assert far == pytest.approx(given["worth"], abs=1e-12)
+
+
+GRIDS = ["turn_arrows", "bellman_backup", "evaluate_improve"]
+
+
+def model_of(name):
+    return mdp.four_by_three().mdp(explorable(name).data["given"]["discount"])
+
+
+@pytest.mark.parametrize("name", GRIDS)
+def test_sums_over_the_model(compute, name):
+    model = model_of(name)
+    values = np.random.default_rng(0).normal(size=11) * ~mdp.four_by_three().terminal
+    policy = np.random.default_rng(1).integers(4, size=11)
+    body = """
+    const model = page.modelOf(given.model);
+    const states = data.values.map((_, s) => s);
+    return {
+      q: states.map((s) => page.actionValues(model, given.discount, data.values, s)),
+      evaluated: page.evaluationSweep(model, given.discount, data.values, data.policy),
+      improved: page.optimalitySweep(model, given.discount, data.values),
+      greedy: page.greedy(model, given.discount, data.values, data.policy),
+      exact: page.valuesOf(model, given.discount, data.policy),
+    };"""
+    seen = compute(
+        name,
+        body,
+        values=values.tolist(),
+        policy=policy.tolist(),
+    )
+    q = model.action_values(values)
+    np.testing.assert_allclose(seen["q"], q, atol=1e-12)
+    np.testing.assert_allclose(seen["improved"], q.max(axis=1), atol=1e-12)
+    np.testing.assert_allclose(
+        seen["evaluated"],
+        mdp.bellman_policy_operator(model, policy, values),
+        atol=1e-12,
+    )
+    np.testing.assert_allclose(
+        seen["exact"], mdp.policy_evaluation(model, policy), atol=1e-9
+    )
+    ties = q >= q.max(axis=1, keepdims=True) - 1e-9
+    assert ties[np.arange(11), seen["greedy"]].all()
+
+
+def test_turning_the_wrong_arrow_raises_two_values():
+    given = explorable("turn_arrows").data["given"]
+    model, policy = model_of("turn_arrows"), np.array(given["policy"])
+    before = mdp.policy_evaluation(model, policy)
+    better = [
+        (cell, action)
+        for cell in range(11)
+        for action in range(4)
+        if mdp.is_optimal(model, [*policy[:cell], action, *policy[cell + 1 :]])
+    ]
+    assert len({cell for cell, _ in better}) == 1
+    cell, action = better[0]
+    policy[cell] = action
+    assert (mdp.policy_evaluation(model, policy) > before + 5e-4).sum() == 2
+
+
+def test_five_backups_bring_a_value_to_the_start(compute):
+    body = """
+    const model = page.modelOf(given.model);
+    const values = given.layout.cells.map(() => 0);
+    data.order.forEach((s) => (values[s] = page.backedUp(model, given.discount, values, s)));
+    return values;"""
+    order = [2, 1, 0, 4, 7]  # from beside the good exit to the start
+    seen = compute("bellman_backup", body, order=order)
+    values = np.zeros(11)
+    for state in order:
+        values[state] = model_of("bellman_backup").action_values(values)[state].max()
+    np.testing.assert_allclose(seen, values, atol=1e-12)
+    assert values[7] > 0
+
+
+def test_four_improvements_after_single_sweeps_two_after_full_evaluations():
+    given = explorable("evaluate_improve").data["given"]
+    model = model_of("evaluate_improve")
+
+    def needed(evaluate):
+        policy, values = np.array(given["policy"]), np.zeros(11)
+        for count in range(1, 20):
+            values = evaluate(policy, values)
+            policy = model.greedy(values)
+            if mdp.is_optimal(model, policy):
+                return count
+        return None
+
+    assert needed(lambda policy, v: mdp.bellman_policy_operator(model, policy, v)) == 4
+    assert needed(lambda policy, v: mdp.policy_evaluation(model, policy)) == 2
+
+
+@pytest.mark.parametrize("start", [[20.0, 20.0], [20.0, -20.0], [3.0, 0.0]])
+@pytest.mark.parametrize("discount", [0.5, 0.9])
+def test_two_starts_approach_each_other(compute, discount, start):
+    body = "return page.sweepsFrom(page.modelOf(given.model), data.discount, data.start, 50);"
+    seen = np.array(compute("contraction", body, discount=discount, start=start))
+    model = chapter2.two_states(discount)
+    values = np.array(start)
+    for shown in seen:
+        np.testing.assert_allclose(shown, values, atol=1e-12)
+        values = mdp.bellman_optimality_operator(model, values)
+    from_zero = np.array(
+        compute("contraction", body, discount=discount, start=[0.0, 0.0])
+    )
+    gaps = abs(seen - from_zero).max(axis=1)
+    assert (gaps[1:] <= discount * gaps[:-1] + 1e-12).all()
+    if start == [20.0, 20.0] and discount == 0.9:
+        assert np.flatnonzero(gaps <= 0.2)[0] == 44
+
+
+class Replay(gym.Env):
+    """An environment that walks as it was told, whatever the action."""
+
+    def __init__(self, walks):
+        self.observation_space, self.action_space = Discrete(7), Discrete(1)
+        self.walks, self.walk = iter(walks), []
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.walk = [int(room) for room in next(self.walks)]
+        return self.walk.pop(0), {}
+
+    def step(self, action):
+        room = self.walk.pop(0)
+        return room, float(room == 6), not self.walk, False, {}
+
+
+def test_values_from_walks(compute):
+    walks = explorable("td_step_size").data["given"]["walks"][3]
+    body = """
+    const walks = given.walks[3].split(" ").map((walk) => [...walk].map(Number));
+    const histories = [page.tdHistory(walks, 0.13, 6, 7), page.monteCarloHistory(walks, 6, 7)];
+    return histories.map((history) => history.map((values) => [...values]));"""
+    td, means = compute("td_step_size", body)
+    one = np.ones((7, 1))
+    options = {"discount": 1.0, "record": True, "seed": 0}
+    by_td = mdp.td_prediction(
+        Replay(walks.split()), one, 100, learning_rate=0.13, initial=0.5, **options
+    )
+    by_returns = mdp.monte_carlo_prediction(
+        Replay(walks.split()), one, 100, visit="every", **options
+    )
+    inside = slice(1, 6)
+    np.testing.assert_allclose(
+        np.array(td)[:, inside], by_td.history[:, inside], atol=1e-12
+    )
+    np.testing.assert_allclose(
+        np.array(means)[:, inside],
+        np.nan_to_num(by_returns.history, nan=0.5)[:, inside],
+        atol=1e-12,
+    )
+
+
+def test_a_larger_step_is_best_early_and_a_smaller_one_late(compute):
+    body = """
+    const runs = given.walks.map((walks) => walks.split(" ").map((walk) => [...walk].map(Number)));
+    const of = (walks, alpha, k) => page.errorOf(page.tdHistory(walks, alpha, 6, 7)[k], given.truth);
+    const error = (alpha, k) => runs.reduce((sum, walks) => sum + of(walks, alpha, k), 0);
+    return [10, 100].map((k) => data.rates.map((alpha) => error(alpha, k)));"""
+    rates = [0.02, 0.04, 0.1, 0.24, 0.4]
+    early, late = compute("td_step_size", body, rates=rates)
+    assert (rates[np.argmin(early)], rates[np.argmin(late)]) == (0.24, 0.04)
+
+
+@pytest.mark.parametrize("method", ["Q-learning", "SARSA"])
+def test_every_update_beside_the_cliff_is_pythons(compute, method):
+    body = """
+    const steps = [];
+    const settings = { epsilon: 0.3, episodes: 60, seed: 5, seen: (step) => steps.push(step) };
+    const q = page.learnOnCliff(given, data.method, settings);
+    return { q, steps };"""
+    seen = compute("cliff_exploration", body, method=method)
+    model = chapter2.cliff().mdp(1.0)
+    q = np.zeros((model.n_states, 4))
+    for step in seen["steps"]:
+        s, a, next_state = step["s"], step["a"], step["next"]
+        assert model.transitions[a][s, next_state] == 1
+        assert model.rewards[s, a] == step["reward"]
+        following = q[next_state]
+        future = (
+            following.max() if method == "Q-learning" else following[step["nextAction"]]
+        )
+        q[s, a] += 0.1 * (step["reward"] + (0 if step["ended"] else future) - q[s, a])
+    np.testing.assert_allclose(seen["q"], q, atol=1e-9)
+
+
+def test_sarsa_keeps_away_from_the_cliff_when_it_explores(compute):
+    body = """
+    const rows = (method, epsilon, seed) => {
+      const q = page.learnOnCliff(given, method, { epsilon, episodes: 1000, seed });
+      const walk = page.greedyWalk(given, q);
+      return 2 - Math.min(...walk.map((s) => given.layout.cells[s][0]));
+    };
+    const five = (method, epsilon) => [1, 2, 3, 4, 5].map((seed) => rows(method, epsilon, seed));
+    return ["Q-learning", "SARSA"].map((method) => [0, 0.3].map((epsilon) => five(method, epsilon)));"""
+    (q_still, q_wild), (sarsa_still, sarsa_wild) = compute("cliff_exploration", body)
+    assert {*q_still, *q_wild, *sarsa_still} == {0}
+    assert np.mean(sarsa_wild) > 1
+
+
+@pytest.mark.parametrize(("accuracy", "slip"), [(0.9, 0.1), (0.6, 0.5), (0.99, 0.0)])
+def test_beliefs_in_a_corridor_of_ones_own(compute, accuracy, slip):
+    cells = ".DD...D.."
+    body = """
+    let belief = new Array(9).fill(1 / 9);
+    return data.moves.map(([by, door]) => {
+      if (by) belief = [...page.predict(belief, page.moved(data.cells, by, data.slip))];
+      belief = page.weighed(belief, page.seen(data.cells, door, data.accuracy));
+      return [belief, page.entropy(belief)];
+    });"""
+    moves = [(1, True), (1, False), (-1, True), (0, True), (1, False)]
+    seen = compute(
+        "own_corridor", body, cells=cells, moves=moves, accuracy=accuracy, slip=slip
+    )
+    pomdp = mdp.corridor(cells, accuracy=accuracy, slip=slip)
+    belief = pomdp.uniform()
+    for (by, door), (shown, bits) in zip(moves, seen, strict=True):
+        belief = pomdp.update(belief, {-1: 0, 1: 1, 0: 2}[by], int(door))
+        np.testing.assert_allclose(shown, belief, atol=1e-12)
+        assert bits == pytest.approx(mdp.entropy(belief), abs=1e-9)
+
+
+def test_a_door_tells_more_than_a_wall():
+    pomdp = mdp.corridor(explorable("own_corridor").data["given"]["cells"])
+    wall, door = (
+        mdp.entropy(pomdp.update(pomdp.uniform(), 2, seen)) for seen in (0, 1)
+    )
+    assert (round(door, 2), round(wall, 2)) == (2.36, 2.95)  # as the page says
+
+
+def test_plans_for_the_tiger(compute):
+    given = explorable("tiger_vectors").data["given"]
+    body = """
+    const { plans, accuracies } = given;
+    return plans.map((steps, k) => steps.map(({ vectors, actions }) => [-3, -2, 0, 1, 2].map((more) => {
+      const belief = page.beliefAfter(more, accuracies[k]);
+      const { at, value } = page.bestPlan(vectors, belief);
+      return [belief, value, actions[at]];
+    })));"""
+    seen = compute("tiger_vectors", body)
+    for accuracy, shown in zip(given["accuracies"], seen, strict=True):
+        tiger = mdp.tiger(accuracy=accuracy)
+        heard = tiger.update(tiger.update([0.5, 0.5], 0, 0), 0, 0)[0]
+        assert shown[0][4][0] == pytest.approx(heard, abs=1e-12)
+        for steps in (1, 2, 3):  # every plan of so many steps, one by one
+            for belief, value, _ in shown[steps - 1]:
+                exact = best_of_all_plans(tiger, np.array([belief, 1 - belief]), steps)
+                assert value == pytest.approx(exact, abs=1e-3)
+    listening, opening = seen[1][-1][3], seen[1][-1][4]
+    assert (listening[2], opening[2]) == (0, 2)  # once is not enough, twice is
+
+
+def best_of_all_plans(pomdp, belief, steps):
+    """Value of a belief with some steps to go, through every action and observation."""
+    if steps == 0:
+        return 0.0
+    worth = []
+    for action, reward in enumerate(pomdp.expected_rewards(belief)):
+        chances = pomdp.observation_probabilities(belief, action)
+        futures = [
+            best_of_all_plans(pomdp, pomdp.update(belief, action, seen), steps - 1)
+            for seen in range(2)
+        ]
+        worth.append(reward + pomdp.mdp.discount * chances @ futures)
+    return max(worth)

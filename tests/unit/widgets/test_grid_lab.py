@@ -9,6 +9,7 @@ from robonav import mdp
 from robonav.plots.mdp import colour_of_value
 from robonav.widgets.grid_lab import Replay, grid_lab, replay
 
+LAB = ("grid", "grid_lab")
 MAP = "S . # .\n. . . G\n. . # X"
 
 
@@ -141,7 +142,7 @@ def test_without_a_solver_nothing_is_solved(grid):
 
 def test_cells_have_the_colours_of_the_drawings(node):
     shares = [-2, -1, -0.3, 0, 0.01, 0.5, 1]
-    seen = node("grid_lab", "return data.map(page.colourOf);", shares)
+    seen = node(LAB, "return data.map(page.colourOf);", shares)
     for share, colour in zip(shares, seen, strict=True):
         rgb = [
             int(part)
@@ -166,7 +167,7 @@ def test_numbers_are_short(node):
         "100",
         "−123",
     ]
-    assert node("grid_lab", "return data.map(page.short);", values) == expected
+    assert node(LAB, "return data.map(page.short);", values) == expected
 
 
 def test_the_mark_moves_over_walls_and_stops_at_borders(node, grid):
@@ -183,7 +184,7 @@ def test_the_mark_moves_over_walls_and_stops_at_borders(node, grid):
         (2, left),
         (5, up),
     ]
-    seen = node("grid_lab", body, {"cells": grid.cells.tolist(), "moves": moves})
+    seen = node(LAB, body, {"cells": grid.cells.tolist(), "moves": moves})
     assert seen == [0, 1, 2, 0, 3, 9, 9, 1, 5]
 
 
@@ -197,7 +198,7 @@ def test_frames_reach_the_page_and_stay_at_the_end(node, grid):
     body = """const { last, at } = page.framesOf(data, 10);
       return [last, [0, 2, last, last + 5].map((f) => { const a = at(f);
         return [[...a.values], [...a.policy], a.said, a.walk]; })];"""
-    last, frames = node("grid_lab", body, lab.data["runs"][0][0])
+    last, frames = node(LAB, body, lab.data["runs"][0][0])
     assert last == len(shown.said) - 1
     for place, (values, policy, said, walk) in zip(
         [0, 2, last, last], frames, strict=True

@@ -1,0 +1,20 @@
+"""Decision processes as the page (``model.js``) takes them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from robonav.mdp import FiniteMDP
+
+from .shared import packed
+
+
+def page_model(model: FiniteMDP) -> dict[str, Any]:
+    """Transitions (A, S, S) and rewards (S, A) of a small model, packed."""
+    rows = [
+        np.asarray(matrix.toarray() if hasattr(matrix, "toarray") else matrix)
+        for matrix in model.transitions
+    ]
+    return {"transitions": packed(np.stack(rows)), "rewards": packed(model.rewards)}
