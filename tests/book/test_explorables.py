@@ -20,6 +20,7 @@ SHOWN = """(widget) => [
   ...[...widget.querySelectorAll("svg:not(button svg)")].map((picture) => picture.outerHTML),
   ...[...widget.querySelectorAll("canvas")].map((picture) => picture.toDataURL()),
 ].join()"""
+SEGMENTS = "fieldset.segments:not(.guess *)"
 CHANGED = f"([widget, before]) => ({SHOWN})(widget) !== before"
 
 
@@ -52,41 +53,35 @@ def buttons(widget: Locator) -> list[Locator]:
 def test_by_keyboard_on_a_desktop(visit: Visit, name: str) -> None:
     visit.page.set_viewport_size(DESKTOP)
     widget = mounted_alone(visit, explorable(name))
+    first = widget.evaluate(SHOWN)
     for slider in widget.locator("input[type=range]").all():
         for key in ("End", "Home"):
             with something_changes(widget, f"{key} of {slider}"):
                 slider.press(key)
-    with something_changes(widget, "Reset"):
-        if not widget.locator("input[type=range]").count():
-            change_by_keyboard(widget)
         reset(widget)
-    for group in widget.locator("fieldset.segments:not(.guess *)").all():
+    for group in widget.locator(SEGMENTS).all():
+        chosen = group.locator("input:checked")
         with something_changes(widget, f"arrows on {group}"):
-            (
-                group.locator("input:checked").or_(group.locator("input").first)
-            ).first.press("ArrowRight")
+            (chosen if chosen.count() else group.locator("input").first).press(
+                "ArrowRight"
+            )
     for number in widget.locator("input[type=number]").all():
         with something_changes(widget, f"number {number}"):
             number.press("ArrowDown")
             number.press("Tab")
-    reset(widget)
-    change_by_keyboard(widget)
     for button in buttons(widget):
         reset(widget)
         if button.is_enabled():
             with something_changes(widget, f"button {button.inner_text()}"):
                 button.press("Enter")
-    assert visit.errors == visit.external == []
-
-
-def change_by_keyboard(widget: Locator) -> None:
-    """Each picture that listens to keys hears those it names, and some key changes something."""
+    reset(widget)
     for picture in widget.locator("[data-keys]").all():
         for key in (picture.get_attribute("data-keys") or "").split():
-            with something_changes(
-                widget, f"{key} on {picture.get_attribute('aria-label')}"
-            ):
+            with something_changes(widget, f"{key} on {picture}"):
                 picture.press(key)
+    reset(widget)
+    assert widget.evaluate(SHOWN) == first
+    assert visit.errors == visit.external == []
 
 
 def touch(control: Locator, share: float = 0.5) -> None:
@@ -102,10 +97,11 @@ def test_by_touch_on_a_phone(visit: Visit, name: str) -> None:
     visit.page.set_viewport_size(PHONE)
     widget = mounted_alone(visit, explorable(name))
     for slider in widget.locator("input[type=range]").all():
+        reset(widget)
         for share in (0.93, 0.07):
             with something_changes(widget, f"touching {slider}"):
                 touch(slider, share)
-    for group in widget.locator("fieldset.segments:not(.guess *)").all():
+    for group in widget.locator(SEGMENTS).all():
         with something_changes(widget, f"touching {group}"):
             touch(group.locator("label:not(:has(:checked))").last)
     for button in buttons(widget):

@@ -44,7 +44,7 @@ export function greedyWalk({ moves, ends, begin }, q) {
 export default explorable({
   controls: ({ begin }) => ({
     epsilon: range({ label: "exploring ε", from: 0, to: 0.5, step: 0.05, value: 0, text: (value) => value.toFixed(2) }),
-    episodes: range({ label: "episodes", from: 0, to: EPISODES, step: 50, value: 1000 }),
+    episodes: range({ label: "episodes", from: 0, to: EPISODES, step: 50, value: 200 }),
     again: press({ label: "Learn again with new luck", act: (state) => (state.seed += 1) }),
   }),
   start: () => ({ seed: 1 }),
