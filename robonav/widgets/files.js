@@ -1,4 +1,4 @@
-// Files that a reader takes away or brings: npz archives of NumPy arrays, and safetensors.
+// Files that a reader takes away or brings: npz archives of NumPy arrays, and safetensors. Needs simulator.js.
 
 // ---- npz: a zip of npy files, stored without compression ------------------------------------------------------------
 
@@ -70,34 +70,166 @@ export function npz(arrays) {
   return joined([...bodies, directory, latin("PK\x05\x06"), fields([2, 0], [2, 0], [2, count], [2, count], [4, directory.length], [4, at], [2, 0])]);
 }
 
-/** A drive of the playground as a file that robonav.lfd.load_demonstrations reads. */
-export function demonstrationFile({ base, steps, speed, outcome }) {
-  const { obstacles } = base;
-  const [k, m] = [steps.length, obstacles.length];
+// ---- npz, read ------------------------------------------------------------------------------------------------------
+
+const READERS = {
+  "<f8": [8, (view, at) => view.getFloat64(at, true)],
+  "<f4": [4, (view, at) => view.getFloat32(at, true)],
+  "<i8": [8, (view, at) => Number(view.getBigInt64(at, true))],
+  "<i4": [4, (view, at) => view.getInt32(at, true)],
+  "<i2": [2, (view, at) => view.getInt16(at, true)],
+  "<u4": [4, (view, at) => view.getUint32(at, true)],
+  "|i1": [1, (view, at) => view.getInt8(at)],
+  "|u1": [1, (view, at) => view.getUint8(at)],
+  "|b1": [1, (view, at) => view.getUint8(at) !== 0],
+};
+
+async function inflated(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/** The array in the bytes of a .npy file: its shape and its values, row by row. */
+function npyRead(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const long = bytes[6] > 1;
+  const start = (long ? 12 : 10) + (long ? view.getUint32(8, true) : view.getUint16(8, true));
+  const about = new TextDecoder().decode(bytes.subarray(0, start));
+  const [, descr] = about.match(/'descr': *'([^']+)'/);
+  const shape = [...about.match(/'shape': *\(([^)]*)\)/)[1].matchAll(/\d+/g)].map(Number);
+  const count = shape.reduce((product, length) => product * length, 1);
+  if (descr.startsWith("<U")) {
+    const letters = Array.from({ length: Number(descr.slice(2)) }, (_, k) => view.getUint32(start + 4 * k, true));
+    return { shape, values: String.fromCodePoint(...letters.filter((letter) => letter > 0)) };
+  }
+  const [width, read] = READERS[descr];
+  const values = Array.from({ length: count }, (_, k) => read(view, start + k * width));
+  if (!/'fortran_order': *True/.test(about) || shape.length < 2) return { shape, values };
+  const strides = shape.map((_, axis) => shape.slice(0, axis).reduce((product, length) => product * length, 1));
+  const rowwise = shape.map((_, axis) => shape.slice(axis + 1).reduce((product, length) => product * length, 1));
+  return { shape, values: values.map((_, k) => values[shape.reduce((at, length, axis) => at + (Math.floor(k / rowwise[axis]) % length) * strides[axis], 0)]) };
+}
+
+/** The arrays of an npz archive by name. @param {ArrayBuffer} buffer */
+export async function npzRead(buffer) {
+  const [view, bytes] = [new DataView(buffer), new Uint8Array(buffer)];
+  let end = buffer.byteLength - 22;
+  while (view.getUint32(end, true) !== 0x06054b50) end -= 1;
+  const arrays = {};
+  let at = view.getUint32(end + 16, true);
+  for (let left = view.getUint16(end + 10, true); left > 0; left -= 1) {
+    const [method, size, title] = [view.getUint16(at + 10, true), view.getUint32(at + 20, true), view.getUint16(at + 28, true)];
+    const local = view.getUint32(at + 42, true);
+    const name = new TextDecoder().decode(bytes.subarray(at + 46, at + 46 + title)).replace(/\.npy$/, "");
+    const from = local + 30 + view.getUint16(local + 26, true) + view.getUint16(local + 28, true);
+    const body = bytes.slice(from, from + size);
+    arrays[name] = npyRead(method === 8 ? await inflated(body) : body);
+    at += 46 + title + view.getUint16(at + 30, true) + view.getUint16(at + 32, true);
+  }
+  return arrays;
+}
+
+// ---- Drives as demonstrations ---------------------------------------------------------------------------------------
+
+/**
+ * @typedef {{pose: Pose, sensing: Sensing, action: number}} DriveStep
+ * @typedef {{world: World, speed: number, steps: DriveStep[], outcome: string}} RecordedDrive outcome: arrived, collided,
+ *   or running where it was given up
+ */
+
+const OUTCOME_CODES = { arrived: 1, collided: 2, running: 3 };
+const DEMONSTRATIONS = "robonav demonstrations 1";
+
+/** Drives of one speed as a file that robonav.lfd.load_demonstrations reads. @param {RecordedDrive[]} drives */
+export function demonstrationsFile(drives) {
+  const d = drives.length;
+  const worlds = drives.map(({ world }) => world);
+  const slots = Math.max(...worlds.map(({ obstacles }) => obstacles.length));
+  const nothing = { speed: 0, heading: 0, x: 0, y: 0, a: 0, b: 0, turned: 0 };
+  const obstacles = worlds.flatMap((world) => Array.from({ length: slots }, (_, m) => world.obstacles[m] ?? nothing));
+  const steps = drives.flatMap((drive) => drive.steps);
+  const k = steps.length;
   const floats = (shape, values) => ({ descr: "<f8", shape, values });
   const wholes = (shape, values) => ({ descr: "<i8", shape, values });
   const flags = (shape, values) => ({ descr: "|b1", shape, values });
   return npz({
-    format: { shape: [], values: "robonav demonstrations 1" },
-    speed: floats([], [speed]),
-    trajectory: wholes([k], steps.map(() => 0)),
+    format: { shape: [], values: DEMONSTRATIONS },
+    speed: floats([], [drives[0].speed]),
+    trajectory: wholes([k], drives.flatMap((drive, number) => drive.steps.map(() => number))),
     actions: wholes([k], steps.map(({ action }) => action)),
     poses: floats([k, 3], steps.flatMap(({ pose }) => [pose.x, pose.y, pose.heading])),
     ranges: floats([k, 9], steps.flatMap(({ sensing }) => sensing.ranges)),
     walls: flags([k, 9], steps.flatMap(({ sensing }) => sensing.walls)),
     target_region: wholes([k], steps.map(({ sensing }) => sensing.region)),
     target_seen: flags([k], steps.map(({ sensing }) => sensing.seen)),
-    outcome: { descr: "|i1", shape: [1], values: [{ arrived: 1, collided: 2 }[outcome] ?? 3] },
-    "worlds.kinds": { descr: "|i1", shape: [1, m], values: obstacles.map(({ circle }) => (circle ? 1 : 2)) },
-    "worlds.shapes": floats([1, m, 3], obstacles.flatMap(({ circle, a, b, turned }) => [a, circle ? 0 : b, circle ? 0 : turned])),
-    "worlds.centres": floats([1, m, 2], obstacles.flatMap(({ x, y }) => [x, y])),
-    "worlds.speeds": floats([1, m], obstacles.map(({ speed: own }) => own)),
-    "worlds.headings": floats([1, m], obstacles.map(({ heading }) => heading)),
-    "worlds.starts": floats([1, 2], base.start),
-    "worlds.targets": floats([1, 2], base.target),
-    "worlds.keys": { descr: "<u4", shape: [1, 2], values: base.key },
-    "worlds.size": floats([], [base.size]),
+    outcome: { descr: "|i1", shape: [d], values: drives.map(({ outcome }) => OUTCOME_CODES[outcome]) },
+    "worlds.kinds": { descr: "|i1", shape: [d, slots], values: obstacles.map((o) => (o === nothing ? 0 : o.circle ? 1 : 2)) },
+    "worlds.shapes": floats([d, slots, 3], obstacles.flatMap(({ circle, a, b, turned }) => [a, circle ? 0 : b, circle ? 0 : turned])),
+    "worlds.centres": floats([d, slots, 2], obstacles.flatMap(({ x, y }) => [x, y])),
+    "worlds.speeds": floats([d, slots], obstacles.map(({ speed }) => speed)),
+    "worlds.headings": floats([d, slots], obstacles.map(({ heading }) => heading)),
+    "worlds.starts": floats([d, 2], worlds.flatMap(({ start }) => start)),
+    "worlds.targets": floats([d, 2], worlds.flatMap(({ target }) => target)),
+    "worlds.keys": { descr: "<u4", shape: [d, 2], values: worlds.flatMap(({ key }) => key) },
+    "worlds.size": floats([], [worlds[0].size]),
   });
+}
+
+/**
+ * The drives in a file that robonav.lfd.save_demonstrations or this page wrote.
+ * @param {ArrayBuffer} buffer
+ * @returns {Promise<RecordedDrive[]>}
+ */
+export async function drivesFromFile(buffer) {
+  const refuse = (why) => new Error(`The file must hold demonstrations saved by robonav: ${why}.`);
+  let arrays = null;
+  try {
+    arrays = await npzRead(buffer);
+  } catch {
+    throw refuse("it is damaged or of another kind");
+  }
+  if (arrays.format?.values !== DEMONSTRATIONS) throw refuse("it does not say so");
+  const [steps, drives] = [arrays.actions?.shape[0], arrays.outcome?.shape[0]];
+  const slots = arrays["worlds.kinds"]?.shape[1];
+  const expected = {
+    speed: [], trajectory: [steps], actions: [steps], poses: [steps, 3], ranges: [steps, 9], walls: [steps, 9],
+    target_region: [steps], target_seen: [steps], outcome: [drives], "worlds.kinds": [drives, slots],
+    "worlds.shapes": [drives, slots, 3], "worlds.centres": [drives, slots, 2], "worlds.speeds": [drives, slots],
+    "worlds.headings": [drives, slots], "worlds.starts": [drives, 2], "worlds.targets": [drives, 2],
+    "worlds.keys": [drives, 2], "worlds.size": [],
+  };
+  for (const [name, shape] of Object.entries(expected)) {
+    const { shape: got, values } = arrays[name] ?? { shape: null };
+    if (String(got) !== String(shape) || got.length !== shape.length) throw refuse(`its array ${name} is missing or of another shape`);
+    if (values.some((value) => !Number.isFinite(Number(value)))) throw refuse(`its array ${name} holds what is no number`);
+  }
+  const rows = (name) => (index) => {
+    const [, ...rest] = arrays[name].shape;
+    const width = rest.reduce((product, length) => product * length, 1);
+    return arrays[name].values.slice(index * width, (index + 1) * width);
+  };
+  const row = Object.fromEntries(Object.keys(expected).map((name) => [name, rows(name)]));
+  const [[size], [speed]] = [arrays["worlds.size"].values, arrays.speed.values];
+  const made = Array.from({ length: drives }, (_, d) => {
+    const shapes = row["worlds.shapes"](d);
+    const centres = row["worlds.centres"](d);
+    const obstacles = row["worlds.kinds"](d).map((kind, m) => ({
+      circle: kind === 1, x: centres[2 * m], y: centres[2 * m + 1], a: shapes[3 * m], b: shapes[3 * m + 1], turned: shapes[3 * m + 2],
+      speed: row["worlds.speeds"](d)[m], heading: row["worlds.headings"](d)[m], kind,
+    })).filter(({ kind }) => kind > 0).map(({ kind, ...obstacle }) => obstacle);
+    const world = { size, start: row["worlds.starts"](d), target: row["worlds.targets"](d), key: row["worlds.keys"](d), obstacles };
+    const code = arrays.outcome.values[d];
+    return { world, speed, steps: [], outcome: Object.keys(OUTCOME_CODES).find((name) => OUTCOME_CODES[name] === code) };
+  });
+  if (made.some(({ outcome }) => outcome === undefined)) throw refuse("a drive ends in a way that there is not");
+  for (let k = 0; k < steps; k += 1) {
+    const [drive, action] = [made[arrays.trajectory.values[k]], arrays.actions.values[k]];
+    const [region] = row.target_region(k);
+    if (!drive || !(action in ROBOT.actions) || !(region >= 1 && region <= ROBOT.sensors)) throw refuse("a step of it is none of the robot's");
+    const [x, y, heading] = row.poses(k);
+    drive.steps.push({ pose: { x, y, heading }, sensing: { ranges: row.ranges(k), walls: row.walls(k), region, seen: row.target_seen(k)[0] }, action });
+  }
+  return made;
 }
 
 // ---- safetensors ----------------------------------------------------------------------------------------------------

@@ -77,6 +77,7 @@ function render({ model, el }) {
   const drivers = policies.map(driver);
   let drive = makeDrive(worlds[0].world, 2);
   let [policy, selected, pace, running, t, last, frame] = [0, "robot", 4, false, 1, 0, 0];
+  let [mapNumber, alone] = [null, true]; // of the reader's maps; whether the reader alone has driven since the start
   const mine = () => policy === policies.length;
 
   const status = h("p", { class: "status", role: "status" });
@@ -97,6 +98,7 @@ function render({ model, el }) {
   const board = episodeMap({
     drive: () => drive, selected: () => selected, grabbed: choose,
     moved: (name, point) => {
+      if (name !== "robot" || drive.step === 0) mapNumber = null;
       const [px, py] = point.map((value) => clamp(value, 0, drive.world.size));
       if (name === "robot") {
         if (drive.step > 0) return;
@@ -109,10 +111,12 @@ function render({ model, el }) {
   const inspect = inspector({
     drive: () => drive, selected: () => selected, select: choose,
     changed: (act) => {
+      mapNumber = null;
       drive.edit(act);
       refresh();
     },
     removed: (name) => {
+      mapNumber = null;
       drive.edit((w) => w.obstacles.splice(name, 1));
       choose("robot");
       refresh();
@@ -139,11 +143,18 @@ function render({ model, el }) {
     inspect.update();
     paint();
   }
+  /** Whether the reader drives and the reflex decides: nothing is near, or the robot is blocked. */
+  const coasting = () => mine() && coast.checked && drive.step > 0 && drive.outcome === "running" && reflex(drive.sensing, drive.speed) >= 0;
   const act = (chosen) => {
+    if (drive.outcome !== "running") return;
     if (t < 1) t = 1;
+    alone &&= mine();
     drive.go(chosen ?? 0);
     t = running || mine() ? 0 : 1;
-    if (drive.outcome !== "running") pause();
+    if (drive.outcome !== "running") {
+      pause();
+      if (alone) keep();
+    }
     refresh();
     if (t < 1) wake();
   };
@@ -152,7 +163,7 @@ function render({ model, el }) {
     frame = 0;
     t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * PACES[pace]);
     last = time;
-    if (t >= 1 && running && !mine()) next();
+    if (t >= 1 && (coasting() || (running && !mine()))) next();
     paint();
     if (t < 1 || running) wake();
   }
@@ -167,20 +178,31 @@ function render({ model, el }) {
   };
   const play = h("button", { type: "button", class: "main", click: () => {
     if (running) return pause();
-    if (drive.outcome !== "running") drive.reset();
+    if (drive.outcome !== "running") begin();
     running = true;
     play.textContent = "Pause";
     refresh();
     return wake();
   } }, "Drive");
+  const begin = () => {
+    drive.reset();
+    alone = true;
+  };
   const reset = () => {
     pause();
-    drive.reset();
+    begin();
     t = 1;
     refresh();
     inspect.show();
   };
-  const save = h("button", { type: "button", click: () => saveFile("my-drive.npz", demonstrationFile(drive)) }, "Download this drive");
+  const record = () => ({ world: drive.base, speed: drive.speed, steps: drive.steps, outcome: drive.outcome, map: mapNumber });
+  const save = h("button", { type: "button", click: () => saveFile("my-drive.npz", demonstrationsFile([record()])) }, "Download this drive");
+  const mineKept = drivesList();
+  const keep = () => {
+    const warning = keepDrives([record()]);
+    const count = keptDrives().length;
+    mineKept.say(`This drive is kept: ${count === 1 ? "your first" : `you have ${count} now`}. ${warning}`);
+  };
   const note = h("span", { role: "status" });
   const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights to drive with", change: async () => {
     const [file] = upload.files;
@@ -209,11 +231,20 @@ function render({ model, el }) {
     if (mine()) board.canvas.focus();
   };
   const who = choice({ label: "who drives", options: names, change: pick });
-  const where = choice({ label: "world", options: worlds.map(({ name }) => name), change: (index) => {
-    drive = makeDrive(worlds[index].world, drive.speed);
-    selected = "robot";
+  const go = (world, number = null) => {
+    drive = makeDrive(world, drive.speed);
+    [selected, mapNumber] = ["robot", number];
     reset();
-  } });
+  };
+  const where = choice({ label: "world", options: [...worlds.map(({ name }) => name), "a map of yours"], change: (index) => (index < worlds.length ? go(worlds[index].world) : newMap()) });
+  const newMap = () => {
+    const number = nextMap(keptDrives());
+    where.move(worlds.length);
+    go(ownMap(number), number);
+    mineKept.say(`Map ${number}. Press an arrow key: the robot goes on by itself while nothing is near, and then waits for you.`);
+    pick(policies.length);
+  };
+  const coast = h("input", { type: "checkbox", checked: true, change: () => coasting() && wake() });
   const fast = choice({ label: "speed", options: speeds.map((speed) => `${speed} m/s`), value: speeds.indexOf(2), change: (index) => { drive.speed = speeds[index]; refresh(); } });
   const rate = slider({ label: "steps a second", count: PACES.length, value: pace, text: (step) => String(PACES[step]), change: (step) => (pace = step) });
   const add = (circle) => () => {
@@ -226,30 +257,33 @@ function render({ model, el }) {
     if (!(event.key in KEYS)) return;
     event.preventDefault();
     if (!mine()) pick(policies.length);
+    if (coasting()) return;
     const action = event.shiftKey && event.key === "ArrowLeft" ? HARD_LEFT : event.shiftKey && event.key === "ArrowRight" ? HARD_RIGHT : KEYS[event.key];
     if (drive.outcome === "running") act(action);
   });
   const wheel = h("div", { class: "wheel", role: "group", "aria-label": "Drive yourself, a step at a time" },
     ...[["L60", 2], ["L30", 1], ["F", 0], ["R30", 3], ["R60", 4], ["B", 5]].map(([name, action]) =>
-      h("button", { type: "button", click: () => { if (!mine()) pick(policies.length); act(action); } }, name)));
+      h("button", { type: "button", click: () => { if (!mine()) pick(policies.length); if (!coasting()) act(action); } }, name)));
 
   el.classList.add("robonav");
   el.replaceChildren(
-    h("div", { class: "row" }, where.element, who.element, fast.element),
+    h("div", { class: "row tools" }, where.element, who.element, fast.element, h("button", { type: "button", class: "main", click: newMap }, "Drive a new map yourself")),
     h("div", { class: "row" },
       h("div", { class: "grow" }, board.canvas,
         h("div", { class: "row tools" }, play, h("button", { type: "button", click: () => { pause(); next(); } }, "One step"), h("button", { type: "button", click: reset }, "Back to the start"), rate.element),
-        wheel, status),
+        wheel, h("label", { class: "check" }, coast, h("span", {}, "when I drive, the robot goes on by itself while nothing is near")), status),
       h("div", { class: "grow side" }, h("p", { class: "label" }, "What the driver thinks of each action"), values, picture, table.element)),
     h("div", { class: "row tools" },
       h("button", { type: "button", click: add(true) }, "Add a circle"), h("button", { type: "button", click: add(false) }, "Add a rectangle"), save,
       h("label", { class: "file" }, h("span", {}, "drive with weights of your own"), upload), note),
+    mineKept.element,
     inspect.element);
   pick(0);
   inspect.show();
   return () => {
     pause();
     cancelAnimationFrame(frame);
+    mineKept.end();
   };
 }
 

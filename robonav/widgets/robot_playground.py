@@ -18,10 +18,13 @@ RULES = ("straight", "freer-side")
 
 
 class RobotPlayground(anywidget.AnyWidget):
-    """A map to edit, in which a policy or the reader steers the robot; the episode can be downloaded."""
+    """A map to edit, in which a policy or the reader steers the robot; the reader's drives are kept."""
 
-    _esm = front_end("simulator", "maps", "episode", "files", "robot_playground")
-    _css = style_sheet("maps", "robot_playground")
+    _esm = front_end(
+        "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
+        "drives", "robot_playground",
+    )  # fmt: skip
+    _css = style_sheet("maps", "drives", "robot_playground")
     data = traitlets.Dict().tag(sync=True)
 
 

@@ -176,6 +176,7 @@ def test_a_drive_of_ones_own_is_a_demonstration_for_python(lab, tmp_path):
     save = lab.get_by_role("button", name="Download this drive")
     expect(save).to_be_disabled()
     canvas = lab.locator("canvas")
+    lab.get_by_label("the robot goes on by itself").uncheck()
     canvas.focus()
     for key in ("ArrowUp", "ArrowLeft", "Shift+ArrowRight", "ArrowUp"):
         lab.page.keyboard.press(key)

@@ -14,7 +14,10 @@ from robonav.robot import Encoder, navigate, random_worlds, turn_to_clearer_side
 from robonav.widgets.robot_playground import robot_playground
 from robonav.widgets.simulator import page_policy, page_world
 
-FILE = "const bytes = page.demonstrationFile(drive); return btoa(String.fromCharCode(...bytes));"
+FILE = """
+const bytes = page.demonstrationsFile([{ ...drive, world: drive.base }]);
+return btoa(String.fromCharCode(...bytes));
+"""
 
 
 @pytest.fixture

@@ -1,0 +1,190 @@
+// The reader's own drives: kept in the browser, listed, deleted, downloaded and loaded. Needs files.js, random.js, worlds.js.
+
+const PREFIX = "robonav.drive.";
+const FIRST_MAP = 500_000; // the reader's map n is the world of the seed FIRST_MAP + n; training and tests have small seeds
+
+/** The map of a number that readers drive. @returns {World} */
+export const ownMap = (number, obstacles = 10) => randomWorlds(1, { obstacles, seed: FIRST_MAP + number })[0];
+
+/** The steps to learn from: something in range, and one of the five learned actions. @param {RecordedDrive} drive */
+export const effective = ({ steps }) => steps.filter(({ sensing, action }) => action < 5 && sensing.ranges.some((distance) => distance < ROBOT.range));
+
+// ---- Drives as text -------------------------------------------------------------------------------------------------
+
+/** A drive as a short text. @param {RecordedDrive & {map?: number}} drive */
+export function driveText({ world, speed, steps, outcome, map = null }) {
+  const bits = (flags) => flags.reduce((sum, flag, k) => sum + (flag ? 2 ** k : 0), 0);
+  return JSON.stringify({
+    world, speed, outcome, map,
+    actions: steps.map(({ action }) => action),
+    poses: steps.map(({ pose }) => [pose.x, pose.y, pose.heading]),
+    ranges: steps.map(({ sensing }) => sensing.ranges),
+    walls: steps.map(({ sensing }) => bits(sensing.walls)),
+    regions: steps.map(({ sensing }) => sensing.region),
+    seen: steps.map(({ sensing }) => (sensing.seen ? 1 : 0)),
+  });
+}
+
+/** The drive in a text, or null where it holds none. */
+export function driveOfText(text) {
+  try {
+    const { actions, poses, ranges, walls, regions, seen, ...drive } = JSON.parse(text);
+    const steps = actions.map((action, k) => ({
+      pose: { x: poses[k][0], y: poses[k][1], heading: poses[k][2] },
+      sensing: { ranges: ranges[k], walls: Array.from({ length: 9 }, (_, s) => (walls[k] & (2 ** s)) > 0), region: regions[k], seen: seen[k] === 1 },
+      action,
+    }));
+    return drive.world.obstacles && drive.outcome in OUTCOME_CODES ? { ...drive, steps } : null;
+  } catch {
+    return null;
+  }
+}
+
+// ---- The store ------------------------------------------------------------------------------------------------------
+
+/** What all widgets of a page share: drives that the browser would not keep, and who wants to hear of changes. */
+const sharedStore = () => (globalThis[Symbol.for("robonav.drives")] ??= { memory: new Map(), listeners: new Set() });
+
+/** The browser's storage, or null where it gives none. */
+function storage() {
+  try {
+    const found = globalThis.localStorage;
+    found.setItem(`${PREFIX}try`, "");
+    found.removeItem(`${PREFIX}try`);
+    return found;
+  } catch (error) {
+    return error?.name === "QuotaExceededError" ? globalThis.localStorage : null;
+  }
+}
+
+const stored = (kept) => Array.from({ length: kept?.length ?? 0 }, (_, k) => kept.key(k)).filter((key) => key.startsWith(PREFIX));
+const tellAll = () => sharedStore().listeners.forEach((listener) => listener());
+
+/** All drives, the oldest first. @returns {(RecordedDrive & {id: string, map: number | null})[]} */
+export function keptDrives() {
+  const kept = storage();
+  const texts = [...stored(kept).map((key) => [key, kept.getItem(key)]), ...sharedStore().memory];
+  const drives = texts.map(([id, text]) => ({ id, ...driveOfText(text) })).filter(({ steps }) => steps);
+  return drives.sort((a, b) => (a.id < b.id ? -1 : 1));
+}
+
+/** Keeps drives; returns a sentence where the browser would not. @param {RecordedDrive[]} drives */
+export function keepDrives(drives) {
+  const kept = storage();
+  let sentence = kept ? "" : "This browser keeps nothing for this page: your drives last until you close it.";
+  drives.forEach((drive, k) => {
+    const id = `${PREFIX}${String(Date.now()).padStart(15, "0")}.${String(k).padStart(5, "0")}.${Math.random().toString(36).slice(2, 8)}`;
+    try {
+      if (!kept) throw new Error("no storage");
+      kept.setItem(id, driveText(drive));
+    } catch {
+      sharedStore().memory.set(id, driveText(drive));
+      sentence ||= "The browser's storage is full: what you drive now lasts until you close the page. Delete some drives, or download them.";
+    }
+  });
+  tellAll();
+  return sentence;
+}
+
+/** Deletes some drives. @param {string[]} ids */
+export function deleteDrives(ids) {
+  const kept = storage();
+  for (const id of ids) {
+    kept?.removeItem(id);
+    sharedStore().memory.delete(id);
+  }
+  tellAll();
+}
+
+/** Calls a function whenever the drives change, in this page or another; returns a function that ends this. */
+export function watchDrives(listener) {
+  const elsewhere = ({ key }) => (key === null || key.startsWith(PREFIX)) && listener();
+  sharedStore().listeners.add(listener);
+  globalThis.addEventListener("storage", elsewhere);
+  return () => {
+    sharedStore().listeners.delete(listener);
+    globalThis.removeEventListener("storage", elsewhere);
+  };
+}
+
+/** The number of the next map to drive: one more than the largest that was driven. */
+export const nextMap = (drives) => 1 + Math.max(0, ...drives.map(({ map }) => map ?? 0));
+
+// ---- Seen by the reader ---------------------------------------------------------------------------------------------
+
+const ENDS = { arrived: "arrived", collided: "collided", running: "given up" };
+
+/** A small picture of a drive. @param {RecordedDrive} drive */
+export function drivePicture({ world: { size, start, target, obstacles }, steps, outcome }, side = 96) {
+  const shapes = obstacles.map(({ circle, x, y, a, b, turned, speed }) => {
+    const fill = speed > 0 ? PALETTE.MOVING : PALETTE.OBSTACLE;
+    return circle ? svg("circle", { cx: x, cy: y, r: a, fill })
+      : svg("rect", { x: -a, y: -b, width: 2 * a, height: 2 * b, fill, transform: `translate(${x} ${y}) rotate(${(turned * 180) / Math.PI})` });
+  });
+  const path = steps.map(({ pose }) => `${pose.x.toFixed(1)} ${pose.y.toFixed(1)}`);
+  if (outcome === "arrived") path.push(`${target[0]} ${target[1]}`);
+  const colour = outcome === "collided" ? PALETTE.VERMILION : PALETTE.BLUE;
+  return svg("svg", { viewBox: `0 0 ${size} ${size}`, width: side, height: side, "aria-hidden": "true", class: "drive-picture" },
+    svg("g", { transform: `translate(0 ${size}) scale(1 -1)` }, ...shapes,
+      svg("path", { d: path.length ? `M${path.join("L")}` : "", fill: "none", stroke: colour, "stroke-width": 2.2 }),
+      svg("circle", { cx: start[0], cy: start[1], r: 2.4, fill: PALETTE.ROBOT }),
+      svg("circle", { cx: target[0], cy: target[1], r: 3, fill: "none", stroke: PALETTE.TARGET, "stroke-width": 1.6 })));
+}
+
+/** Every drive of the reader, to see, delete, download and load. */
+export function drivesList() {
+  const said = h("p", { class: "status", role: "status" });
+  const heading = h("summary", {});
+  const list = h("ul", { class: "drives", "aria-label": "Your drives", tabindex: 0 });
+  const upload = h("input", { type: "file", accept: ".npz", "aria-label": "File of drives", change: async () => {
+    const [file] = upload.files;
+    if (!file) return;
+    try {
+      const drives = await drivesFromFile(await file.arrayBuffer());
+      said.textContent = keepDrives(drives) || `${file.name}: ${drives.length} ${drives.length === 1 ? "drive" : "drives"} loaded.`;
+    } catch (error) {
+      said.textContent = error.message;
+    }
+    upload.value = "";
+  } });
+  const download = h("button", { type: "button", click: () => {
+    const sorts = Map.groupBy ? Map.groupBy(keptDrives(), sort) : keptDrives().reduce((all, drive) => all.set(sort(drive), [...(all.get(sort(drive)) ?? []), drive]), new Map());
+    sorts.forEach((drives, name) => saveFile(sorts.size === 1 ? "my-drives.npz" : `my-drives-${name}.npz`, demonstrationsFile(drives)));
+    if (sorts.size > 1) said.textContent = "A file for each speed: a file of demonstrations has one.";
+  } }, "Download all");
+  const sort = ({ speed, world }) => `${speed}-m-s${world.size === 100 ? "" : `-${world.size}-m`}`;
+  let asked = false;
+  const clear = h("button", { type: "button", click: () => {
+    if (asked) {
+      deleteDrives(keptDrives().map(({ id }) => id));
+      said.textContent = "All drives are deleted.";
+      return;
+    }
+    asked = true;
+    clear.textContent = "Press again to delete them all";
+  }, blur: () => {
+    asked = false;
+    clear.textContent = "Delete all";
+  } }, "Delete all");
+  const show = () => {
+    const drives = keptDrives();
+    heading.textContent = `My drives (${drives.length})`;
+    list.replaceChildren(...drives.map((drive, k) => {
+      const title = drive.map ? `map ${drive.map}` : `drive ${k + 1}`;
+      return h("li", {}, drivePicture(drive), h("span", {}, h("b", {}, title), h("br"), `${ENDS[drive.outcome]} after ${drive.steps.length} s`, h("br"), `${effective(drive).length} steps to learn from`),
+        h("button", { type: "button", "aria-label": `Delete ${title}`, click: () => {
+          deleteDrives([drive.id]);
+          said.textContent = `${title} is deleted.`;
+          list.focus();
+        } }, "Delete"));
+    }));
+    list.hidden = drives.length === 0;
+    for (const button of [download, clear]) button.disabled = drives.length === 0;
+    asked = false;
+    clear.textContent = "Delete all";
+  };
+  show();
+  const element = h("details", { class: "my-drives" }, heading, list,
+    h("div", { class: "row tools" }, download, clear, h("label", { class: "file" }, h("span", {}, "load drives (npz)"), upload)), said);
+  return { element, say: (sentence) => (said.textContent = sentence), end: watchDrives(show) };
+}

@@ -1,0 +1,68 @@
+"""Driving maps in the page by keyboard, as a reader would who sees the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from playwright.sync_api import Locator
+
+from robonav.benchmark.policies import method
+from robonav.lfd import Demonstrations, demonstrate
+from robonav.networks import NetworkPolicy
+from robonav.robot import Worlds, random_worlds
+from robonav.widgets.robot_playground import robot_playground
+
+KEYS = (
+    "ArrowUp", "ArrowLeft", "Shift+ArrowLeft", "ArrowRight", "Shift+ArrowRight", "ArrowDown",
+)  # fmt: skip
+WAITS = """(lab) => {
+  const said = lab.querySelector(".status").textContent;
+  return /waits for your key|Arrived|Collided/.test(said) && said;
+}"""
+
+
+def playground() -> Any:
+    """A small playground."""
+    learned = method("lfd")
+    assert isinstance(learned, NetworkPolicy)
+    return robot_playground(
+        {"10 obstacles": random_worlds(1, 10, seed=41)}, {"LfD": learned}
+    )
+
+
+def own_map(number: int) -> Worlds:
+    """The reader's map of a number."""
+    return random_worlds(1, 10, seed=500_000 + number)
+
+
+def good_drive(number: int) -> Demonstrations:
+    """How a reader drives through a map who plans well."""
+    return demonstrate(own_map(number))
+
+
+def keys_of(drive: Demonstrations) -> list[str]:
+    """The keys that a drive takes where the robot waits."""
+    return [KEYS[action] for action in drive.actions if action < 5]
+
+
+def fast(lab: Locator) -> None:
+    """As many steps a second as there may be."""
+    lab.locator("input[aria-label='steps a second']").evaluate(
+        "(input) => { input.value = input.max; input.dispatchEvent(new Event('input')); }"
+    )
+
+
+def drive_map(lab: Locator, keys: Sequence[str]) -> str:
+    """Drive the reader's next map with these keys; gives what is said at the end."""
+    lab.get_by_role("button", name="Drive a new map yourself").click()
+    left = list(keys)
+    said = lab.locator(".status").first.inner_text()
+    if "waits for your key" not in said:
+        lab.page.keyboard.press("ArrowUp")  # off it goes
+    while True:
+        waiting = lab.page.wait_for_function(WAITS, arg=lab.element_handle())
+        said = str(waiting.json_value())
+        if "waits" not in said or not left:
+            return said
+        lab.page.keyboard.press(left.pop(0))

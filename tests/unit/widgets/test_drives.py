@@ -1,0 +1,224 @@
+"""The reader's drives: kept as text, written to and read from files that Python shares."""
+
+import base64
+
+import numpy as np
+import pytest
+
+from robonav import archive
+from robonav.lfd import demonstrate, load_demonstrations, save_demonstrations
+from robonav.networks import Weights, load_weights, random_network, save_weights
+from robonav.robot import Encoder, concatenate, random_worlds
+from robonav.widgets.simulator import page_world
+
+FILES = (
+    "simulator", "maps", "episode", "files", "learning/random", "learning/worlds", "drives",
+)  # fmt: skip
+BUFFER = "const buffer = Uint8Array.from(atob(data), (c) => c.charCodeAt(0)).buffer;"
+BYTES = "return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));"
+STORAGE = """
+const kept = new Map();
+let room = Infinity;
+globalThis.addEventListener ??= () => {};
+const localStorage = {
+  get length() { return kept.size; }, key: (k) => [...kept.keys()][k], getItem: (key) => kept.get(key),
+  setItem: (key, text) => {
+    if (text.length > room) throw new DOMException("full", "QuotaExceededError");
+    kept.set(key, text);
+  },
+  removeItem: (key) => kept.delete(key),
+};
+const get = () => {
+  if (!data.allowed) throw Error("blocked");
+  return localStorage;
+};
+Object.defineProperty(globalThis, "localStorage", { get });
+const drive = page.makeDrive(page.ownMap(3), 2);
+while (drive.outcome === "running") drive.go(0);
+const record = { world: drive.base, speed: 2, steps: drive.steps, outcome: drive.outcome, map: 3 };
+"""
+
+
+def encoded(path):
+    return base64.b64encode(path.read_bytes()).decode()
+
+
+@pytest.fixture(scope="module")
+def shown():
+    """Drives in worlds with different numbers of obstacles, one of which moves."""
+    parts = [random_worlds(2, 5, 1, seed=3), random_worlds(2, 10, seed=4)]
+    return demonstrate(concatenate([part.with_slots(10) for part in parts]))
+
+
+def test_drives_of_python_come_back_to_python(node, shown, tmp_path):
+    save_demonstrations(tmp_path / "there.npz", shown)
+    body = f"""{BUFFER} return page.drivesFromFile(buffer).then((drives) => {{
+      const bytes = page.demonstrationsFile(drives); {BYTES}
+    }});"""
+    back = node(FILES, body, encoded(tmp_path / "there.npz"))
+    (tmp_path / "back.npz").write_bytes(base64.b64decode(back))
+    got = load_demonstrations(tmp_path / "back.npz")
+    assert got.worlds.digest() == shown.worlds.digest()
+    assert got.speed == shown.speed
+    for name in ("trajectory", "actions", "poses", "outcome"):
+        np.testing.assert_array_equal(getattr(got, name), getattr(shown, name))
+    for name in ("ranges", "walls", "target_region", "target_seen"):
+        ours, theirs = (getattr(each.sensing, name) for each in (got, shown))
+        np.testing.assert_array_equal(ours, theirs)
+
+
+def test_arrays_stored_by_columns_are_read(node, shown, tmp_path):
+    save_demonstrations(tmp_path / "drives.npz", shown)
+    arrays = archive.read_archive(tmp_path / "drives.npz")
+    turned = {
+        name: np.asfortranarray(array) if array.ndim > 1 else array
+        for name, array in arrays.items()
+    }
+    archive.write_archive(tmp_path / "turned.npz", turned, compressed=False)
+    body = f"""{BUFFER}
+      const ranges = (steps) => steps.map(({{ sensing }}) => sensing.ranges);
+      return page.drivesFromFile(buffer).then((drives) => drives.map(({{ world, steps }}) => [world, ranges(steps)]));
+    """
+    got = node(FILES, body, encoded(tmp_path / "turned.npz"))
+    for i, (world, ranges) in enumerate(got):
+        mine = shown.trajectory == i
+        np.testing.assert_array_equal(ranges, shown.sensing.ranges[mine])
+        assert world == page_world(shown.worlds[i])
+
+
+def broken(tmp_path, shown, **changes):
+    save_demonstrations(tmp_path / "drives.npz", shown)
+    arrays = archive.read_archive(tmp_path / "drives.npz")
+    for name, change in changes.items():
+        arrays[name] = change(arrays[name])
+    archive.write_archive(tmp_path / "broken.npz", arrays)
+    return (tmp_path / "broken.npz").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        (lambda path, shown: b"", "it is damaged or of another kind"),
+        (lambda path, shown: b"PK" + bytes(300), "it is damaged or of another kind"),
+        (
+            lambda path, shown: broken(path, shown, format=lambda _: np.array("x")),
+            "it does not say so",
+        ),
+        (
+            lambda path, shown: broken(path, shown, poses=lambda a: a[:, :2]),
+            "its array poses is missing or of another shape",
+        ),
+        (
+            lambda path, shown: broken(path, shown, ranges=lambda a: a * np.nan),
+            "its array ranges holds what is no number",
+        ),
+        (
+            lambda path, shown: broken(path, shown, actions=lambda a: a + 5),
+            "a step of it is none of the robot's",
+        ),
+        (
+            lambda path, shown: broken(path, shown, outcome=lambda a: a + 7),
+            "a drive ends in a way that there is not",
+        ),
+    ],
+)
+def test_a_file_that_is_no_drive_gets_one_sentence(node, shown, tmp_path, content, why):
+    body = (
+        f"{BUFFER} return page.drivesFromFile(buffer).catch((error) => error.message);"
+    )
+    said = node(FILES, body, base64.b64encode(content(tmp_path, shown)).decode())
+    assert said == f"The file must hold demonstrations saved by robonav: {why}."
+
+
+def test_weights_of_the_page_are_weights_of_python(node, tmp_path):
+    encoder = Encoder(target="signed")
+    network = random_network((encoder.size, 6, 5), seed=3)
+    about = Weights(network, "lfd", encoder, {"drives": 4}, temperature=0.5)
+    save_weights(tmp_path / "there.safetensors", about)
+    body = f"""{BUFFER}
+      const policy = page.weightsFromFile(buffer);
+      const whole = {{ ...policy, network: page.networks(policy.network)() }};
+      const bytes = page.weightsFile({{ ...whole, method: "lfd" }}, {{ drives: 4 }}); {BYTES}"""
+    back = node(FILES, body, encoded(tmp_path / "there.safetensors"))
+    (tmp_path / "back.safetensors").write_bytes(base64.b64decode(back))
+    got = load_weights(tmp_path / "back.safetensors")
+    for ours, theirs in zip(got.network.weights, network.weights, strict=True):
+        np.testing.assert_array_equal(ours, theirs)
+    for ours, theirs in zip(got.network.biases, network.biases, strict=True):
+        np.testing.assert_array_equal(ours, theirs)
+    assert (got.method, got.encoder, got.temperature) == ("lfd", encoder, 0.5)
+    assert got.made == {"drives": 4, "page": True}
+
+
+def test_drives_are_kept_listed_and_deleted(node):
+    body = (
+        STORAGE
+        + """
+      const said = page.keepDrives([record, record]);
+      const drives = page.keptDrives();
+      const same = JSON.stringify(drives[0].steps) === JSON.stringify(record.steps);
+      let heard = 0;
+      const end = page.watchDrives(() => { heard += 1; });
+      page.deleteDrives([drives[0].id]);
+      const [map, left] = [page.nextMap(drives), page.keptDrives().length];
+      return { said, same, first: drives.length, map, left, heard, inMemory: kept.size === 0 };
+    """
+    )
+    got = node(FILES, body, {"allowed": True})
+    assert got == {
+        "said": "", "same": True, "first": 2, "map": 4, "left": 1, "heard": 1, "inMemory": False,
+    }  # fmt: skip
+
+
+def test_blocked_storage_keeps_drives_in_memory(node):
+    body = (
+        STORAGE
+        + "return [page.keepDrives([record]), page.keptDrives().length, kept.size];"
+    )
+    said, count, stored = node(FILES, body, {"allowed": False})
+    assert (
+        said
+        == "This browser keeps nothing for this page: your drives last until you close it."
+    )
+    assert (count, stored) == (1, 0)
+
+
+def test_full_storage_keeps_drives_in_memory(node):
+    body = (
+        STORAGE
+        + """
+      page.keepDrives([record]);
+      room = 100;
+      const said = page.keepDrives([record]);
+      const both = page.keptDrives();
+      page.deleteDrives(both.map(({ id }) => id));
+      return [said, both.length, page.keptDrives().length];
+    """
+    )
+    said, count, left = node(FILES, body, {"allowed": True})
+    assert said.startswith(
+        "The browser's storage is full: what you drive now lasts until"
+    )
+    assert (count, left) == (2, 0)
+
+
+def test_what_is_no_drive_in_the_storage_is_left_out(node):
+    body = (
+        STORAGE
+        + """
+      for (const text of ["", "{}", "[1]", "null", '{"actions": []}']) kept.set(`robonav.drive.${text.length}`, text);
+      page.keepDrives([record]);
+      return page.keptDrives().length;
+    """
+    )
+    assert node(FILES, body, {"allowed": True}) == 1
+
+
+@pytest.mark.parametrize("number", [1, 12])
+def test_the_readers_maps_are_random_worlds(node, number):
+    expected = page_world(random_worlds(1, 10, seed=500_000 + number))
+    got = node(FILES, "return page.ownMap(data);", number)
+    assert got["key"] == expected["key"]
+    assert [o["x"] for o in got["obstacles"]] == pytest.approx(
+        [o["x"] for o in expected["obstacles"]]
+    )
