@@ -1,4 +1,4 @@
-"""Feature expectations: the discounted features that a policy meets, from a model and from trajectories."""
+"""Feature expectations: the expected discounted sum of features under a policy, from a model or from trajectories."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def action_values(mdp: RewardFreeMDP, policy: ArrayLike, weights: ArrayLike) -> 
 def feature_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
     """Feature expectations mu(s, a) = E[sum_t gamma^t f(s_t, a_t) | s, a], exactly from a model, Eq. (5.3).
 
-    Each feature is taken for a reward, and its action values solve the Bellman equation
+    Take each feature as a reward. Its action values then solve the Bellman equation
     mu(s, a) = f(s, a) + gamma sum_s' T(s, a, s') sum_a' pi(s', a') mu(s', a').
 
     Parameters
@@ -69,11 +69,11 @@ def feature_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
     (42, 4, 4)
     """
     pi = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
-    chain = np.einsum("sa,ast->st", pi, mdp.transitions)
+    chain = np.einsum("sa,ast->st", pi, mdp.transitions)  # from s to s' under pi
     features = np.einsum("sa,sak->sk", pi, mdp.features)
-    of_states = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * chain, features)
-    ahead = np.einsum("ast,tk->sak", mdp.transitions, of_states)
-    return mdp.features + mdp.discount * ahead  # Eq. (5.3)
+    mu = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * chain, features)  # mu(s)
+    next_mu = np.einsum("ast,tk->sak", mdp.transitions, mu)  # expectation over s'
+    return mdp.features + mdp.discount * next_mu  # Eq. (5.3)
 
 
 def initial_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
@@ -130,9 +130,9 @@ def value_of_expectations(weights: ArrayLike, expectations: ArrayLike) -> Floats
 def discounted_feature_sums(
     features: ArrayLike, trajectory: ArrayLike, discount: float
 ) -> Floats:
-    """From every step on, the discounted features of the rest of its trajectory, itself included.
+    """The discounted sum of features from each step to the end of its trajectory.
 
-    This is a Monte Carlo estimate of mu(s_t, a_t), see Eq. (5.3).
+    It is a Monte Carlo estimate of mu(s_t, a_t), see Eq. (5.3).
 
     Parameters
     ----------
@@ -159,9 +159,9 @@ def discounted_feature_sums(
     array([1.5, 1. , 1. ])
     """
     sums = np.array(features, dtype=float)
-    owner = np.asarray(trajectory)
-    for t in range(len(sums) - 2, -1, -1):  # from the last step but one backwards
-        if owner[t] == owner[t + 1]:
+    trajectory = np.asarray(trajectory)
+    for t in reversed(range(len(sums) - 1)):
+        if trajectory[t] == trajectory[t + 1]:
             sums[t] += discount * sums[t + 1]
     return sums
 
@@ -197,7 +197,8 @@ def empirical_expectations(
     array([1.25])
     """
     sums = discounted_feature_sums(features, trajectory, discount)
-    first = np.flatnonzero(np.diff(trajectory, prepend=np.asarray(trajectory)[0] - 1))
+    trajectory = np.asarray(trajectory)
+    first = np.flatnonzero(np.diff(trajectory, prepend=trajectory[0] - 1))
     return sums[first].mean(axis=0)  # Eq. (5.13)
 
 
@@ -225,7 +226,7 @@ def mean_by_pair(pair: ArrayLike, feature_sums: ArrayLike, n_pairs: int) -> Floa
     array([ 2., nan,  5.])
     """
     sums = np.asarray(feature_sums, dtype=float)
-    times = np.bincount(np.asarray(pair), minlength=n_pairs)[:, None]
+    count = np.bincount(np.asarray(pair), minlength=n_pairs)[:, None]
     total = np.zeros((n_pairs, sums.shape[1]))
     np.add.at(total, np.asarray(pair), sums)
-    return np.divide(total, times, out=np.full_like(total, np.nan), where=times > 0)
+    return np.divide(total, count, out=np.full_like(total, np.nan), where=count > 0)

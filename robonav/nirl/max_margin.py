@@ -1,6 +1,6 @@
-"""Maximum margin: the reward under which the expert beats every policy found so far by most.
+"""Maximum margin: the reward under which the expert's lead over the best of the other policies is largest.
 
-Two ways to the same weights: a quadratic program, and subgradient steps (Ratliff et al. 2006).
+Two methods find the same weights: a quadratic program, and subgradient steps (Ratliff et al. 2006).
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from ._arguments import checked
 
 Floats = NDArray[np.float64]
 
-NO_MARGIN = 1e-7  # of the largest gap: a smaller margin counts as 0
+NO_MARGIN = 1e-7
+"""A margin below this share of the largest gap counts as 0."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +45,9 @@ class Margin:
 def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
     """The weights theta, ||theta|| <= 1, with the largest margin min_j theta . (mu_E - mu_j) (Abbeel and Ng 2004).
 
-    This is a quadratic program. Written as min ||w||^2 with w . (mu_E - mu_j) >= 1, it is the least-distance problem of
-    Lawson and Hanson (1974, chapter 23). Its dual is a least-squares problem with non-negative unknowns, which scipy
-    solves exactly; the solution's residual is proportional to (-theta, 1).
+    This is a quadratic program. In the form min ||w||^2 subject to w . (mu_E - mu_j) >= 1 it is the least-distance
+    problem of Lawson and Hanson (1974, chapter 23). Its dual is a least-squares problem with one non-negative unknown,
+    or multiplier, for each policy, which scipy solves. The residual of the solution is proportional to (-w, 1).
 
     Parameters
     ----------
@@ -58,7 +59,7 @@ def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
     Returns
     -------
     Margin
-        With margin 0 and weights 0 where the expert is a mixture of the others: no reward prefers it to all of them.
+        With margin 0 and weights 0 if the expert is a mixture of the others. No reward then prefers it to all of them.
 
     Examples
     --------
@@ -86,10 +87,11 @@ def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
 def maximum_margin_subgradient(
     expert: ArrayLike, others: ArrayLike, *, iterations: int = 10_000
 ) -> Margin:
-    """The same by projected subgradient ascent: step along the gap to the closest rival, project into the unit ball.
+    """The weights with the largest margin, by projected subgradient ascent (Ratliff et al. 2006).
 
-    It is slower and less exact than :func:`maximum_margin`. It needs one policy at a time, so it also works where the
-    policies are found by learning.
+    Each step moves theta along the gap mu_E - mu_j to the policy with the least lead, and projects it into the unit
+    ball. The method is slower and less exact than :func:`maximum_margin`. A step uses one policy only, so the method
+    also works if the policies are found one after the other.
 
     Parameters
     ----------
@@ -98,12 +100,12 @@ def maximum_margin_subgradient(
     others : (n, K) array
         Those of n policies, at least one.
     iterations : int
-        Steps; the k-th has length 1 / sqrt(k) of the largest gap's.
+        Steps. The k-th is the gap divided by sqrt(k) times the length of the largest gap.
 
     Returns
     -------
     Margin
-        The best of all iterations.
+        The weights with the largest margin of all iterations.
 
     Examples
     --------
@@ -118,10 +120,10 @@ def maximum_margin_subgradient(
     if scale == 0:
         return best
     for k in range(1, iterations + 1):
-        advantages = gaps @ weights
-        rival = int(advantages.argmin())
-        if advantages[rival] > best.margin:
-            best = Margin(weights, float(advantages[rival]))
+        leads = gaps @ weights
+        rival = int(leads.argmin())
+        if leads[rival] > best.margin:
+            best = Margin(weights, float(leads[rival]))
         weights = project_to_unit_ball(weights + gaps[rival] / (scale * np.sqrt(k)))
     return best
 

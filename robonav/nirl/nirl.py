@@ -35,30 +35,32 @@ def nirl(
     """Neural inverse reinforcement learning, Algorithm 10.
 
     Each iteration guesses a reward under which the expert does better than the latest policy, and improves the policy
-    for that reward. Of all policies the one is kept that predicts the demonstrations best.
+    for this reward. The result is the policy, of all iterations, that predicts the demonstrations best. The numbers in
+    the code are the lines of Algorithm 10 in the thesis.
 
     Parameters
     ----------
     demonstrations : Transitions
         The expert's decisions.
     task : Task
-        Where the learner practises.
+        The task in which the learner makes its episodes.
     iterations : int
-        At most.
+        Iterations at most.
     tolerance : float
         epsilon: the algorithm ends when the margin is no larger. By default it makes all iterations.
     hidden : int
         Hidden units of the network.
     inverse_temperature : float
-        eta of the Boltzmann policy (5.10) over the network's outputs, which lie between 0 and 1.
+        eta of the Boltzmann policy, Eq. (5.10), over the network's outputs. These lie between 0 and 1.
     reward_update : RewardUpdate
-        Step 5: :class:`SubgradientMaxMargin`, or :class:`LeastSquaresReward`, which takes the thesis literally.
+        Line 5: :class:`SubgradientMaxMargin`, or :class:`LeastSquaresReward` to follow the thesis literally.
     improver : Improver
-        Steps 9 and 10: :class:`ReplaySGD`, or :class:`SingleGradientStep`, which takes the thesis literally.
+        Lines 9 and 10: :class:`ReplaySGD`, or :class:`SingleGradientStep` to follow the thesis literally.
     score : callable
-        By which the policy to keep is chosen: :func:`balanced_accuracy`, or the thesis's :func:`accuracy`.
+        Measures how well a policy predicts the demonstrations: :func:`balanced_accuracy`, or the thesis's
+        :func:`accuracy`.
     seed : int or Generator
-        Of all random numbers.
+        Seed of all random numbers.
     progress : callable, optional
         Called as ``progress(done, iterations)``.
 
@@ -83,13 +85,12 @@ def nirl(
     ((4, 43), np.True_)
     """
     rng = np.random.default_rng(seed)
-    trainer = Trainer(
-        demonstrations, task, hidden, inverse_temperature, improver, rng
-    )  # 1
+    # 1: a network with random weights
+    trainer = Trainer(demonstrations, task, hidden, inverse_temperature, improver, rng)
     theta = np.zeros((task.n_actions, task.n_inputs + 1))
     for iteration in range(1, iterations + 1):  # 2, 3, 11
         trainer.rollout()  # 4: episodes with the current policy
-        theta = reward_update(  # 5
+        theta = reward_update(  # 5: a reward under which the expert does better
             demonstrations,
             trainer.action_probabilities,
             trainer.action_values,
@@ -97,11 +98,9 @@ def nirl(
             iteration,
         )
         if trainer.margin(theta) <= tolerance:  # 6
-            break  # 7
+            break  # 7, 8
         fraction = (iteration - 1) / max(iterations - 1, 1)
-        trainer.improve(
-            theta, fraction
-        )  # 9, 10: rewards, SARSA targets, gradient steps
+        trainer.improve(theta, fraction)  # 9, 10: SARSA targets and gradient steps
         if progress is not None:
             progress(iteration, iterations)
     return trainer.result(score)

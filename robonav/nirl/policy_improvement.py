@@ -11,17 +11,19 @@ from numpy.typing import ArrayLike
 
 from robonav.networks.backpropagation import cross_entropy_gradient
 from robonav.networks.multilayer_perceptron import Network, sigmoid
+from robonav.nnql.updates import descend
 from robonav.validation import check_integer, check_positive, check_real
 
 from .policy import neural_action_values
 from .transitions import Floats, Ints, Transitions, concatenate
 
 SURVIVAL_BONUS = (0.0, 1.0)
-"""Terminal values: 0 after a collision, 1 after any other ending. They reward survival."""
+"""Terminal value 0 after a collision and 1 after any other end. It rewards survival, whatever the reward is."""
 ZERO_TERMINAL_VALUES = (0.0, 0.0)
-"""Terminal values of 0 after every ending. With rewards of at least 0 they too reward survival."""
+"""Terminal value 0 after every end. If no reward is negative, it also rewards survival: a longer episode earns more."""
 NEUTRAL_TERMINAL_VALUES = (0.5, 0.5)
-"""Terminal values equal to the mean reward for ever. How an episode ended then makes no difference."""
+"""Terminal value 1/2 after every end: what the reward 1/2, the middle of [0, 1], would earn for ever. It rewards no
+end of an episode more than another."""
 
 
 class Improved(NamedTuple):
@@ -32,7 +34,7 @@ class Improved(NamedTuple):
 
 
 class Improver(Protocol):
-    """Steps 9 and 10 of NIRL: a better network for a reward, from the episodes made so far."""
+    """Lines 9 and 10 of NIRL: improve the network for a reward, with the episodes made so far."""
 
     def __call__(
         self,
@@ -42,13 +44,13 @@ class Improver(Protocol):
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        """The next network, when ``fraction`` (0 to 1) of the training is over."""
+        """The next network; ``fraction``, from 0 to 1, says how much of the training is over."""
 
 
 def transition_rewards(weights: ArrayLike, transitions: Transitions) -> Floats:
     """Rewards r(s_t, a_t) = theta . f(s_t, a_t) of transitions.
 
-    This is Eq. (5.2). By Eq. (5.5) only the block of the action taken counts, so theta_a . phi(s) suffices.
+    This is Eq. (5.2). By Eq. (5.5) only the block of the action taken is not zero, so the reward is theta_a . phi(s).
 
     Parameters
     ----------
@@ -75,16 +77,16 @@ def transition_rewards(weights: ArrayLike, transitions: Transitions) -> Floats:
 
 
 def scale_to_unit_interval(rewards: ArrayLike, *, percentile: float = 95.0) -> Floats:
-    """Rewards in [0, 1], 1/2 where they were 0: divided by a percentile of their size, clipped and shifted.
+    """Map rewards into [0, 1]: divide by a percentile of their absolute values, clip to [-1, 1], then map 0 to 1/2.
 
-    Apart from the clipping this is an increasing affine map, which changes no preference where terminal values are
-    neutral. If all rewards are zero, all become 1/2.
+    Apart from the clipping this map is affine and increasing. With neutral terminal values it therefore leaves the
+    order of the policies as it is. If all rewards are zero, all become 1/2.
 
     Parameters
     ----------
     rewards : (M,) array
     percentile : float
-        Of the rewards' absolute values: this reward becomes 0 or 1.
+        A reward whose absolute value is this percentile becomes 0 or 1.
 
     Returns
     -------
@@ -134,8 +136,8 @@ def sarsa_targets(
     >>> sarsa_targets([0.5], [1.0], [0.4], learning_rate=0.8, discount=0.65).round(3)
     array([1.108])
     """
-    old, r, ahead = (np.asarray(part) for part in (q, rewards, next_q))
-    return old + learning_rate * (r + discount * ahead - old)  # Eq. (5.16)
+    q, rewards, next_q = (np.asarray(values) for values in (q, rewards, next_q))
+    return q + learning_rate * (rewards + discount * next_q - q)  # Eq. (5.16)
 
 
 def policy_cost(
@@ -184,10 +186,10 @@ def sarsa_descent(
     discount: float,
     gradient_step: float,
 ) -> Improved:
-    """Stochastic gradient descent on the cost, with a SARSA target for one transition at a time.
+    """Stochastic gradient descent on the cost, one transition at a time, with SARSA targets.
 
-    Each step computes its target with the weights of that moment, by Eq. (5.16) cut to [0, 1], and moves against the
-    gradient of the cross-entropy of one output.
+    Each step computes the target of one transition with the current weights, by Eq. (5.16), and clips it into [0, 1].
+    It then changes the weights against the gradient of the cross-entropy of the output of the action taken.
 
     Parameters
     ----------
@@ -198,16 +200,16 @@ def sarsa_descent(
     rewards : (M,) array
         In units of the network's output.
     terminal_values : (M,) array
-        What follows a decision that ends its episode.
+        Future value after a decision that is the last one of its episode.
     order : array of int
-        The decisions, one step for each.
+        Indices of the decisions to train on, one step for each.
     learning_rate, discount, gradient_step : float
         alpha, gamma and sigma.
 
     Returns
     -------
     Improved
-        The network, and the mean cost of the outputs before their steps.
+        The network, and the mean cost, of each step before its change of the weights.
 
     Examples
     --------
@@ -225,25 +227,22 @@ def sarsa_descent(
     """
     w1, w2 = (weight.copy() for weight in network.weights)
     b1, b2 = (bias.copy() for bias in network.biases)
-    inputs, actions, following = (
-        transitions.inputs,
-        transitions.actions,
-        transitions.next_index,
-    )
+    inputs, actions = transitions.inputs, transitions.actions
+    following = transitions.next_index
+    rates = {"learning_rate": learning_rate, "discount": discount}
     cost = 0.0
     for i in order:
-        next_q = terminal_values[i]
-        if following[i] >= 0:
-            x, a = inputs[following[i]], actions[following[i]]
+        next_q, k = terminal_values[i], following[i]
+        if k >= 0:  # the episode went on: Q(s', a') of the next decision
+            x, a = inputs[k], actions[k]
             next_q = sigmoid(w2[a] @ sigmoid(w1 @ x + b1) + b2[a])
         x, a = inputs[i], actions[i]
         hidden = sigmoid(w1 @ x + b1)
         z = w2[a] @ hidden + b2[a]
         q = sigmoid(z)
-        rates = {"learning_rate": learning_rate, "discount": discount}
-        target = sarsa_targets(q, rewards[i], next_q, **rates).clip(0, 1)
-        cost += np.logaddexp(0, z) - target * z
-        delta = gradient_step * (q - target)
+        target = sarsa_targets(q, rewards[i], next_q, **rates).clip(0, 1)  # Eq. (5.16)
+        cost += np.logaddexp(0, z) - target * z  # cross-entropy, as in Eq. (5.15)
+        delta = gradient_step * (q - target)  # its derivative by z, times sigma
         back = delta * w2[a] * hidden * (1 - hidden)
         w2[a] -= delta * hidden
         b2[a] -= delta
@@ -254,10 +253,10 @@ def sarsa_descent(
 
 @dataclass(frozen=True)
 class ReplaySGD:
-    """Many small gradient steps an iteration, each for one decision drawn from the episodes of the last iterations.
+    """Many gradient steps in each iteration, each on one decision drawn from the episodes of the last iterations.
 
-    The network's output is y = (1 - gamma) Q. It lies in [0, 1] when rewards do, so no value is cut off, and the target
-    of Eq. (5.16) becomes y + alpha [(1 - gamma) r + gamma y' - y].
+    The network's output stands for y = (1 - gamma) Q. If the rewards lie in [0, 1], so does y, and no target has to be
+    clipped. The target of Eq. (5.16) becomes y + alpha [(1 - gamma) r + gamma y' - y].
 
     Attributes
     ----------
@@ -266,13 +265,14 @@ class ReplaySGD:
     learning_rate : float
         alpha, above 0 and at most 1.
     gradient_step : tuple of float
-        sigma at the first and at the last iteration; it falls by the same factor each iteration.
+        sigma in the first and in the last iteration; it changes by the same factor in each.
     n_samples : int
-        Decisions drawn an iteration.
+        Decisions drawn in an iteration.
     replay : int
-        Iterations whose episodes are remembered.
+        Number of latest iterations from whose episodes they are drawn.
     terminal_values : tuple of float
-        After a collision and after any other ending, in [0, 1]: see ``SURVIVAL_BONUS``, ``NEUTRAL_TERMINAL_VALUES``.
+        Future value y after a collision and after any other end, in [0, 1]: ``SURVIVAL_BONUS``,
+        ``ZERO_TERMINAL_VALUES`` or ``NEUTRAL_TERMINAL_VALUES``.
 
     Examples
     --------
@@ -351,9 +351,9 @@ def compiled_sarsa_descent(
 
 @dataclass(frozen=True)
 class SingleGradientStep:
-    """NIRL as the thesis writes it: one gradient step an iteration, on the decisions of this iteration alone.
+    """NIRL as the thesis has it: one gradient step in each iteration, on the decisions of this iteration alone.
 
-    Targets are those of Eq. (5.16), cut to [0, 1]. The last decision of an episode has no future value.
+    Targets are those of Eq. (5.16), clipped into [0, 1]. After the last decision of an episode the future value is 0.
 
     Attributes
     ----------
@@ -386,26 +386,21 @@ class SingleGradientStep:
         latest = episodes[-1]
         if len(latest) == 0:
             return Improved(network, np.nan)
-        rows, actions = np.arange(len(latest)), latest.actions
+        rows, actions, following = (
+            np.arange(len(latest)),
+            latest.actions,
+            latest.next_index,
+        )
         targets = neural_action_values(network, latest.inputs)
         q = targets[rows, actions]
         targets[rows, actions] = sarsa_targets(
             q,
-            transition_rewards(weights, latest),
-            np.where(latest.next_index >= 0, q[latest.next_index], 0.0),
+            rewards=transition_rewards(weights, latest),
+            next_q=np.where(following >= 0, q[following], 0.0),
             learning_rate=self.learning_rate,
             discount=self.discount,
         ).clip(0, 1)
         decay = {"regularisation": self.regularisation}
-        slope = cross_entropy_gradient(network, latest.inputs, targets, **decay)
-        stepped = Network(
-            tuple(
-                w - self.gradient_step * dw
-                for w, dw in zip(network.weights, slope.weights, strict=True)
-            ),
-            tuple(
-                b - self.gradient_step * db
-                for b, db in zip(network.biases, slope.biases, strict=True)
-            ),
-        )
-        return Improved(stepped, policy_cost(network, latest.inputs, targets, **decay))
+        gradient = cross_entropy_gradient(network, latest.inputs, targets, **decay)
+        cost = policy_cost(network, latest.inputs, targets, **decay)
+        return Improved(descend(network, gradient, self.gradient_step), cost)

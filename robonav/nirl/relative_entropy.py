@@ -1,8 +1,9 @@
-"""Relative-entropy inverse reinforcement learning (Boularias et al. 2011): no model, only sampled trajectories.
+"""Relative-entropy inverse reinforcement learning (Boularias et al. 2011), from sampled trajectories, without a model.
 
-Of all distributions over trajectories with about the expert's features, take the one closest to that of a baseline
-policy. It gives a trajectory a weight proportional to exp(theta . f). The samples may come from yet another policy, and
-then carry importance weights as well.
+Of all distributions over trajectories whose expected features are close to the expert's, the method takes the one with
+the least relative entropy to the distribution of a baseline policy. This distribution gives a trajectory tau the
+baseline's probability times a number proportional to exp(theta . f(tau)). If the samples come from a policy other than
+the baseline, importance weights correct for it.
 """
 
 from __future__ import annotations
@@ -35,12 +36,12 @@ class RelativeEntropy:
     weights : (K,) array
         theta.
     dual : float
-        Value of the concave function that was maximised.
+        The maximum of :func:`dual`.
     gap : (K,) array
-        Features of the expert minus those of the weighted samples; each entry is within the slack.
+        Features of the expert minus the weighted mean of the samples' features; each entry is within the slack.
     effective_samples : float
-        Number of equally weighted samples that the weighted ones are equivalent to (Kish). If it is small, the estimate
-        depends on a few trajectories.
+        Kish's effective sample size: the number of equally weighted samples with the same variance. If it is small, the
+        estimate depends on a few trajectories.
 
     Examples
     --------
@@ -60,11 +61,11 @@ class RelativeEntropy:
 def importance_weights(
     weights: ArrayLike, samples: ArrayLike, log_ratios: ArrayLike
 ) -> Floats:
-    """Weight of each sampled trajectory under theta, with sum 1.
+    """Weights of the sampled trajectories under theta, which sum to 1.
 
-    It is proportional to U(tau) / pi(tau) * exp(theta . f(tau)), where U is the baseline policy's probability of the
-    trajectory's actions and pi the sampling policy's. The probabilities of the transitions are the same in both and
-    cancel.
+    The weight of tau is proportional to U(tau) / pi(tau) * exp(theta . f(tau)), where U(tau) is the probability of the
+    trajectory's actions under the baseline policy, and pi(tau) that under the sampling policy. The probabilities of the
+    transitions are the same under both policies and cancel.
 
     Parameters
     ----------
@@ -85,7 +86,8 @@ def importance_weights(
     >>> importance_weights([1.0], [[0.0], [1.0]], [0.0, 0.0]).round(3)
     array([0.269, 0.731])
     """
-    return np.asarray(softmax(np.asarray(samples) @ weights + np.asarray(log_ratios)))
+    exponents = np.asarray(samples) @ weights + np.asarray(log_ratios)
+    return np.asarray(softmax(exponents))
 
 
 @checked
@@ -96,9 +98,9 @@ def dual(
     log_ratios: ArrayLike,
     slack: ArrayLike,
 ) -> float:
-    """The concave function to maximise: theta . mu_E - log Z(theta) - sum_i eps_i |theta_i|.
+    """The dual function, which is concave: theta . mu_E - log Z(theta) - sum_i eps_i |theta_i|.
 
-    Z is estimated from the samples.
+    Z(theta), the normalising constant of the weights, is estimated from the samples.
 
     Parameters
     ----------
@@ -115,9 +117,10 @@ def dual(
     >>> dual([0.0], [0.5], [[0.0], [1.0]], [0.0, 0.0], [0.0])
     0.0
     """
-    theta, ratios = np.asarray(weights), np.asarray(log_ratios)
-    log_z = logsumexp(np.asarray(samples) @ theta + ratios) - logsumexp(ratios)
-    return float(theta @ np.asarray(expert) - log_z - np.asarray(slack) @ abs(theta))
+    theta, mu, log_ratios = (np.asarray(x) for x in (weights, expert, log_ratios))
+    exponents = np.asarray(samples) @ theta + log_ratios
+    log_z = logsumexp(exponents) - logsumexp(log_ratios)
+    return float(theta @ mu - log_z - np.asarray(slack) @ abs(theta))
 
 
 @checked
@@ -128,10 +131,10 @@ def dual_gradient(
     log_ratios: ArrayLike,
     slack: ArrayLike,
 ) -> Floats:
-    """The (sub)gradient of :func:`dual`: mu_E - sum_tau w(tau) f(tau) - eps sign(theta).
+    """The subgradient of :func:`dual`: mu_E - sum_tau w(tau) f(tau) - eps sign(theta).
 
-    It depends on theta through the importance weights w. A known fault in published code multiplies and divides by the
-    same factor, which leaves a gradient that is the same for every theta.
+    The importance weights w depend on theta. Published code exists in which a factor of the weights is multiplied and
+    divided again, so that its gradient is the same for every theta.
 
     Parameters
     ----------
@@ -148,8 +151,8 @@ def dual_gradient(
     >>> dual_gradient([0.0], [0.75], [[0.0], [1.0]], [0.0, 0.0], [0.0])
     array([0.25])
     """
-    shares = importance_weights(weights, samples, log_ratios)
-    gap = np.asarray(expert) - shares @ np.asarray(samples)
+    w = importance_weights(weights, samples, log_ratios)
+    gap = np.asarray(expert) - w @ np.asarray(samples)
     return gap - np.asarray(slack) * np.sign(np.asarray(weights))
 
 
@@ -157,9 +160,10 @@ def dual_gradient(
 def hoeffding_slack(
     samples: ArrayLike, n_demonstrations: int, *, confidence: float = 0.95
 ) -> Floats:
-    """The paper's choice of eps: how far a mean over so many demonstrations may be off by chance.
+    """The slack eps of the paper: a bound on the error of the mean features of the demonstrations.
 
-    Hoeffding's bound, with the range of each feature among the samples.
+    By Hoeffding's inequality each mean is within this bound of its expectation, with the given probability. The range
+    of a feature is estimated from the samples.
 
     Parameters
     ----------
@@ -168,7 +172,7 @@ def hoeffding_slack(
     n_demonstrations : int
         Number of demonstrated trajectories.
     confidence : float
-        Probability that the bound holds.
+        Probability with which the bound holds for a feature.
 
     Returns
     -------
@@ -180,9 +184,9 @@ def hoeffding_slack(
     >>> hoeffding_slack([[0.0], [1.0]], 50).round(3)
     array([0.192])
     """
-    width = np.ptp(np.asarray(samples), axis=0)
-    doubt = 1 - confidence
-    return np.asarray(np.sqrt(-np.log(doubt / 2) / (2 * n_demonstrations)) * width)
+    ranges = np.ptp(np.asarray(samples), axis=0)
+    failure = 1 - confidence
+    return np.asarray(np.sqrt(-np.log(failure / 2) / (2 * n_demonstrations)) * ranges)
 
 
 @checked
@@ -197,8 +201,9 @@ def relative_entropy_weights(
 ) -> RelativeEntropy:
     """The weights that maximise :func:`dual`.
 
-    The paper ascends by subgradients. Here theta is split into its positive and its negative part, which makes the
-    function smooth, and L-BFGS with bounds maximises it.
+    The paper uses subgradient ascent, because |theta_i| has no derivative at 0. Here theta is the difference of two
+    vectors with entries of at least 0, and |theta_i| becomes the sum of these entries. The function is then smooth, and
+    L-BFGS with bounds maximises it.
 
     Parameters
     ----------
@@ -207,11 +212,12 @@ def relative_entropy_weights(
     samples, log_ratios
         As in :func:`importance_weights`.
     slack : (K,) array or float
-        eps; 0 matches the expert exactly.
+        eps, at least 0. With 0 the weighted samples have exactly the expert's features.
     bound : float
-        Largest weight. Without slack, an expert outside the samples' range would drive theta to infinity.
+        Largest absolute value of a weight, in units of the feature's scale. Without slack, theta grows without limit if
+        the expert's features lie outside the range of the samples'.
     iterations : int
-        Of L-BFGS at most.
+        Iterations of L-BFGS at most.
 
     Returns
     -------
@@ -251,16 +257,18 @@ def relative_entropy_weights(
     )
     up, down = found.x.reshape(2, n_features) / scale
     theta = up - down
-    shares = importance_weights(theta, features, log_ratios)
+    w = importance_weights(theta, features, log_ratios)
     value = dual(theta, mu, features, log_ratios, eps)
-    gap, effective = mu - shares @ features, float(1 / (shares**2).sum())
-    return RelativeEntropy(theta, value, gap, effective)
+    return RelativeEntropy(theta, value, mu - w @ features, float(1 / (w**2).sum()))
 
 
 def segment_features(
     transitions: Transitions, n_actions: int, discount: float, horizon: int
 ) -> Floats:
-    """Discounted features of the ``horizon`` decisions from each one on; fewer at the end of an episode.
+    """Discounted features of segments: of each decision and the ones after it, ``horizon`` of them at most.
+
+    A segment ends with its episode. Its sum is the sum to the end of the episode, minus the part that begins
+    ``horizon`` decisions later.
 
     Parameters
     ----------
@@ -290,7 +298,7 @@ def segment_features(
     all_sums = discounted_feature_sums(taken, transitions.trajectory, discount)
     sums = all_sums.copy()
     after = np.arange(len(transitions)) + horizon  # the first decision left out
-    same = after < len(transitions)
+    same = after < len(transitions)  # whether it belongs to the same episode
     same[same] = transitions.trajectory[after[same]] == transitions.trajectory[same]
     sums[same] -= discount**horizon * all_sums[after[same]]
     return sums
@@ -303,20 +311,20 @@ def random_segments(
     horizon: int,
     rng: np.random.Generator,
 ) -> Transitions:
-    """Segments of uniformly random actions, begun where the expert had to decide.
+    """Segments of uniformly random actions, each begun in a state in which the expert made a decision.
 
     Parameters
     ----------
     demonstrations : Transitions
         The expert's decisions.
     task : Task
-        Where to act.
+        The task in which the actions are taken.
     n_samples : int
-        Segments.
+        Number of segments.
     horizon : int
-        Decisions of each at most.
+        Decisions of a segment at most.
     rng : Generator
-        Of all random numbers.
+        Source of all random numbers.
 
     Examples
     --------
@@ -349,25 +357,26 @@ def relative_entropy(
 ) -> IRLResult:
     """Relative-entropy IRL (Boularias et al. 2011): a reward from random segments, then neural policy iteration.
 
-    A whole random episode never resembles the expert's. The trajectories compared are therefore segments of ``horizon``
-    decisions: the expert's own, and random ones that begin where one of the expert's decisions was made.
+    An episode of random actions hardly ever resembles the expert's. The method therefore compares segments of
+    ``horizon`` decisions: those of the expert, and random ones that begin in the expert's states.
 
     Parameters
     ----------
     demonstrations : Transitions
         The expert's decisions, with the states where segments can begin.
     task : Task
-        Where the learner practises. Obstacles must stand still, since segments begin in the middle of an episode.
+        The task in which the learner makes its episodes. Obstacles must stand still, because segments begin in the
+        middle of an episode.
     n_samples : int
-        Random segments.
+        Number of random segments.
     horizon : int
-        Decisions of a segment.
+        Decisions of a segment at most.
     slack : float
         eps, as a multiple of each feature's standard deviation among the samples.
     improver : ReplaySGD
-        Improves the network; its discount is that of the features.
+        Improves the network. Its discount is also that of the features.
     seed : int or Generator
-        Of all random numbers.
+        Seed of all random numbers.
     **training
         Other arguments of :func:`train_under_reward`.
 
@@ -391,9 +400,11 @@ def relative_entropy(
     taken = state_action_features(random.features, random.actions, n_actions)
     sums = discounted_feature_sums(taken, random.trajectory, discount)
     samples = sums[np.flatnonzero(np.diff(random.trajectory, prepend=-1))]
-    uniform = np.zeros(len(samples))  # the baseline is the sampling policy itself
+    log_ratios = np.zeros(len(samples))  # the sampling policy is the baseline
     eps = slack * samples.std(axis=0)
-    found = relative_entropy_weights(expert.mean(axis=0), samples, uniform, slack=eps)
+    found = relative_entropy_weights(
+        expert.mean(axis=0), samples, log_ratios, slack=eps
+    )
     theta = found.weights.reshape(n_actions, -1)
     return train_under_reward(
         demonstrations, task, theta, improver=improver, seed=rng, **training

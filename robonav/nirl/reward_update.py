@@ -1,4 +1,7 @@
-"""From the expert's decisions to a reward: step 5 of NIRL, which the thesis leaves open, in two readings."""
+"""Line 5 of Algorithm 10: a reward from the expert's decisions and the latest policy, by two methods.
+
+:class:`LeastSquaresReward` is what the thesis prints. :class:`SubgradientMaxMargin` is what :func:`nirl` uses.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ from .transitions import Floats, Transitions
 
 
 class RewardUpdate(Protocol):
-    """Step 5 of NIRL: a reward from the expert's decisions and the latest policy."""
+    """Line 5 of NIRL: a reward from the expert's decisions and the latest policy."""
 
     def __call__(
         self,
@@ -38,9 +41,9 @@ class RewardUpdate(Protocol):
         action_values : (M, A) array
             Outputs of its network there.
         weights : (A, k + 1) array
-            theta of the iteration before.
+            theta of the last iteration.
         iteration : int
-            From 1.
+            Number of this iteration, from 1.
         """
 
 
@@ -80,8 +83,8 @@ def feature_gap(
 ) -> Floats:
     """The expert's features minus a policy's in the same states: sum_t w_t [f(s_t, a_t) - sum_a pi(a | s_t) f(s_t, a)].
 
-    The expert and the policy are compared in the expert's states, one decision at a time. What a decision leads to is
-    left to the policy iteration.
+    The function compares single decisions, in the expert's states. The consequences of a decision enter later, when the
+    policy is improved for the reward.
 
     Parameters
     ----------
@@ -113,17 +116,17 @@ def feature_gap(
 
 @dataclass(frozen=True)
 class SubgradientMaxMargin:
-    """Maximum margin by subgradient steps: theta sums the feature gaps to one policy after the other.
+    """Maximum margin by subgradient steps, one for each new policy (Ratliff et al. 2006).
 
-    The margin sum_t w_t [r(s_t, a_t) - sum_a pi(a | s_t) r(s_t, a)] is linear in theta, and :func:`feature_gap` is its
-    gradient. Each new policy is the rival of the next step; the i-th step has length 1 / sqrt(i) (Ratliff et al. 2006).
-    The length of theta does not matter later, so it is not limited here.
+    The margin sum_t w_t [r(s_t, a_t) - sum_a pi(a | s_t) r(s_t, a)] between the expert and a policy is linear in theta,
+    and :func:`feature_gap` is its gradient. Iteration i adds 1 / sqrt(i) times the gradient for the latest policy.
+    Later steps use theta scaled to length 1 at most, so its length is not limited here.
 
     Attributes
     ----------
     power : float
-        How far rare actions are made up for, see :func:`inverse_frequency_weights`. Without it, nearly all there is to
-        learn is to go forward.
+        How much more rare actions count, see :func:`inverse_frequency_weights`. With 0 all decisions count alike, and
+        the reward mainly says to go forward, since most decisions are that.
 
     Examples
     --------
@@ -150,7 +153,7 @@ class SubgradientMaxMargin:
         weights: Floats,
         iteration: int,
     ) -> Floats:
-        """theta (A, k + 1) after ``iteration`` (from 1); parameters as in ``RewardUpdate``."""
+        """theta (A, k + 1) after this iteration; parameters as in ``RewardUpdate``."""
         step_weights = inverse_frequency_weights(
             demonstrations.actions, action_probabilities.shape[1], power=self.power
         )
@@ -162,16 +165,17 @@ class SubgradientMaxMargin:
 class LeastSquaresReward:
     """The thesis's objective taken literally: least squares between the expert's values and the network's.
 
-    J(theta) = mean_t (theta . mu_E(s_t, a_t) - Q(s_t, a_t))^2 + lambda ||theta||, minimised over the unit ball by
-    projected gradient descent. mu_E are the discounted features of the rest of the expert's episode. Q is the output of
-    the learner's network and does not depend on theta, so the reward is fitted to what the learner already believes.
+    J(theta) = mean_t (theta . mu_E(s_t, a_t) - Q(s_t, a_t))^2 + lambda ||theta|| is minimised over the unit ball by
+    projected gradient descent. mu_E(s_t, a_t) are the discounted features from step t to the end of the expert's
+    episode. Q is the output of the learner's network, which does not depend on theta. The reward is therefore fitted to
+    the values that the learner already has.
 
     Attributes
     ----------
     discount, regularisation : float
         gamma and lambda.
     iterations : int
-        Of the descent.
+        Iterations of the descent.
 
     Examples
     --------
@@ -208,10 +212,11 @@ class LeastSquaresReward:
         mu = discounted_feature_sums(taken, demonstrations.trajectory, self.discount)
         q = action_values[np.arange(len(actions)), actions]
         theta = np.zeros(mu.shape[1])
-        step = 0.5 / max(float(np.linalg.norm(mu.T @ mu / len(mu), 2)), 1e-12)
+        curvature = float(np.linalg.norm(mu.T @ mu / len(mu), 2))
+        step = 0.5 / max(curvature, 1e-12)  # no larger, or the descent diverges
         for _ in range(self.iterations):
-            slope = 2 * mu.T @ (mu @ theta - q) / len(mu)  # Eq. (5.14)
+            gradient = 2 * mu.T @ (mu @ theta - q) / len(mu)  # Eq. (5.14)
             length = np.linalg.norm(theta)
             decay = self.regularisation / length * theta if length > 0 else 0.0
-            theta = project_to_unit_ball(theta - step * (slope + decay))
+            theta = project_to_unit_ball(theta - step * (gradient + decay))
         return theta.reshape(n_actions, -1)

@@ -1,8 +1,9 @@
 """SCIRL: structured classification for inverse reinforcement learning (Klein et al. 2012).
 
-A linear classifier that scores action a in state s by theta . mu_E(s, a), where mu_E are the expert's feature
-expectations, computes action values: those of the expert under the reward theta . f. If it puts the expert's actions
-first, the expert is optimal for that reward. No policy has to be found on the way.
+Let a linear classifier score action a in state s by theta . mu_E(s, a), where mu_E are the expert's feature
+expectations. The score is then the value of this action for the expert under the reward theta . f. If the classifier
+gives the expert's actions the largest scores, the expert is optimal for this reward. The method therefore finds a
+reward without finding any policy.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ from .transitions import Transitions
 Floats = NDArray[np.float64]
 
 Estimate = Callable[[Transitions, int, float], Floats]
-"""``estimate(demonstrations, n_actions, discount) -> (M, A, A (k + 1))``: mu_E(s_t, a) of every action in the expert's
-states."""
+"""``estimate(demonstrations, n_actions, discount) -> (M, A, A (k + 1))``: mu_E(s_t, a) of every action in each of the
+expert's states."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,9 +61,10 @@ def lstd_mu(
     *,
     regularisation: float = 1e-6,
 ) -> Floats:
-    """LSTD-mu: coefficients omega with mu(s, a) close to psi(s, a) . omega, from single steps of the expert.
+    """LSTD-mu: coefficients omega such that psi(s, a) . omega estimates mu_E(s, a), from steps of the expert.
 
-    Least-squares temporal differences (Bradtke and Barto 1996), with every feature in place of the reward.
+    This is the method of least-squares temporal differences (Bradtke and Barto 1996) with each feature in turn as the
+    reward. It solves sum_t psi_t (psi_t - gamma psi_t+1)' omega = sum_t psi_t f_t'.
 
     Parameters
     ----------
@@ -75,7 +77,7 @@ def lstd_mu(
     discount : float
         gamma, from 0 to 1.
     regularisation : float
-        Added to the diagonal for every step, positive: coefficients that the steps do not determine stay at zero.
+        Positive; added to the diagonal for every step. Coefficients that the steps do not determine then stay at 0.
 
     Returns
     -------
@@ -102,10 +104,10 @@ def lstd_mu(
 def heuristic_mu(
     expectations: ArrayLike, actions: ArrayLike, n_actions: int, discount: float
 ) -> Floats:
-    """mu_E(s, a) of every action, where only that of the expert's action is known (Klein et al. 2012, section 5).
+    """mu_E(s, a) of every action, if only that of the expert's action is known (Klein et al. 2012, section 5).
 
-    The heuristic assumes that another action costs the expert one step, after which it goes on as before:
-    mu(s, a) = gamma mu(s, a_E).
+    The heuristic assumes that any other action leaves the state as it is and has no features, and that the expert then
+    takes its own action: mu_E(s, a) = gamma mu_E(s, a_E).
 
     Parameters
     ----------
@@ -142,11 +144,11 @@ def large_margin_cost(
     *,
     regularisation: float = 0.0,
 ) -> tuple[float, Floats]:
-    """The large-margin cost of a classifier that scores theta . mu(s, a), and its subgradient.
+    """The large-margin cost of a classifier with the scores theta . mu(s, a), and its subgradient.
 
-    sum_t w_t {max_a [theta . mu(s, a) + 1(a != a_E)] - theta . mu(s, a_E)} + lambda ||theta||^2 / 2 (Taskar et al.
-    2005; Klein et al. 2012). With a* the maximising action, a step contributes mu(s, a*) - mu(s, a_E) to the
-    subgradient.
+    The cost is sum_t w_t {max_a [theta . mu(s_t, a) + 1(a != a_t)] - theta . mu(s_t, a_t)} + lambda ||theta||^2 / 2
+    (Taskar et al. 2005; Klein et al. 2012). A step costs nothing if the expert's action a_t leads every other action by
+    1. If a* is the action of the maximum, the step contributes w_t [mu(s_t, a*) - mu(s_t, a_t)] to the subgradient.
 
     Parameters
     ----------
@@ -163,7 +165,7 @@ def large_margin_cost(
     Returns
     -------
     cost : float
-    slope : (K,) array
+    gradient : (K,) array
 
     Examples
     --------
@@ -173,14 +175,15 @@ def large_margin_cost(
     (1.0, array([-1.]))
     """
     n_steps, n_actions, _ = expectations.shape
-    row = np.arange(n_steps)
-    scores = expectations @ theta + (np.arange(n_actions) != actions[:, None])
-    top = scores.argmax(axis=1)
-    cost = step_weights @ (scores[row, top] - scores[row, actions])
-    slope = step_weights @ (expectations[row, top] - expectations[row, actions])
+    t = np.arange(n_steps)
+    other = np.arange(n_actions) != actions[:, None]  # 1(a != a_t)
+    scores = expectations @ theta + other
+    best = scores.argmax(axis=1)  # a*
+    cost = step_weights @ (scores[t, best] - scores[t, actions])
+    gradient = step_weights @ (expectations[t, best] - expectations[t, actions])
     return (
         float(cost + regularisation / 2 * theta @ theta),
-        slope + regularisation * theta,
+        gradient + regularisation * theta,
     )
 
 
@@ -194,11 +197,12 @@ def structured_classification(
     gradient_step: float = 1.0,
     iterations: int = 1000,
 ) -> Classification:
-    """The weights whose scores theta . mu_E(s, a) put the expert's actions first by a margin.
+    """Weights under which the scores theta . mu_E(s, a) of the expert's actions are the largest, by a margin.
 
-    Subgradient descent with a step of its own for each weight: ``gradient_step`` over the root of its summed squared
-    subgradients (Duchi et al. 2011). Otherwise features whose expectations hardly differ between actions would hardly
-    move. The weights are averaged over the second half of the iterations.
+    The cost is :func:`large_margin_cost`. Adagrad (Duchi et al. 2011) minimises it: subgradient descent in which each
+    weight has a step of its own, ``gradient_step`` divided by the root of the sum of its squared subgradients. With a
+    common step, weights of features that differ little between actions would hardly change. The result is the mean of
+    the weights over the second half of the iterations.
 
     Parameters
     ----------
@@ -211,7 +215,7 @@ def structured_classification(
     regularisation : float
         lambda, for expectations scaled so that their largest difference between actions has length 1.
     gradient_step, iterations : float, int
-        Of the descent; at least two iterations.
+        Step of Adagrad, and its number of iterations.
 
     Returns
     -------
@@ -240,11 +244,11 @@ def structured_classification(
     theta, total = np.zeros(mu.shape[2]), np.zeros(mu.shape[2])
     squares, costs = np.full(mu.shape[2], 1e-12), np.empty(iterations)
     for k in range(iterations):
-        costs[k], slope = large_margin_cost(
+        costs[k], gradient = large_margin_cost(
             theta, mu, own, shares, regularisation=regularisation
         )
-        squares += slope**2
-        theta = theta - gradient_step * slope / np.sqrt(squares)
+        squares += gradient**2
+        theta = theta - gradient_step * gradient / np.sqrt(squares)
         if k >= iterations // 2:
             total += theta
     mean = total / (iterations - iterations // 2)
@@ -256,7 +260,7 @@ def lstd_estimate(
 ) -> Floats:
     """mu_E of every action by :func:`lstd_mu`, with the state-action features as its basis.
 
-    The expectations after an action that was not demonstrated are estimated from similar states.
+    For an action that was not demonstrated in a state, the estimate comes from similar states.
 
     Parameters
     ----------
@@ -289,7 +293,7 @@ def lstd_estimate(
 def heuristic_estimate(
     demonstrations: Transitions, n_actions: int, discount: float
 ) -> Floats:
-    """mu_E of every action by Monte Carlo for the expert's own, and by :func:`heuristic_mu` for all others.
+    """mu_E of every action: a Monte Carlo estimate for the expert's own, :func:`heuristic_mu` for all others.
 
     Parameters
     ----------
@@ -337,17 +341,17 @@ def scirl(
     demonstrations : Transitions
         The expert's decisions.
     task : Task
-        Where the learner practises, once it has the reward.
+        The task in which the learner makes its episodes once it has the reward.
     estimate : callable
-        Of mu_E: :func:`lstd_estimate` or :func:`heuristic_estimate`.
+        Estimates mu_E: :func:`lstd_estimate` or :func:`heuristic_estimate`.
     regularisation : float
         lambda of the classifier.
     power : float
-        How far rare actions are made up for, see :func:`inverse_frequency_weights`; 0 is the paper's cost.
+        How much more rare actions count, see :func:`inverse_frequency_weights`. 0 gives the paper's cost.
     improver : ReplaySGD
-        Improves the network; its discount is that of mu_E.
+        Improves the network. Its discount is also that of mu_E.
     seed : int or Generator
-        Of all random numbers.
+        Seed of all random numbers.
     **training
         Other arguments of :func:`train_under_reward`.
 
