@@ -21,7 +21,7 @@ export const ROBOT = {
   toTarget: 6,
   dangerBorders: [3, 7, 11, 15, 20, 25, 30].map((border) => (border * 10) / 30),
 };
-const [DRIFTING, CHOOSING, ITEMS, TURN_PROBABILITY] = [2, 5, 1024, 0.1];
+const [DRIFTING, SENSING, SLIPPING, CHOOSING, ITEMS, TURN_PROBABILITY] = [2, 3, 4, 5, 1024, 0.1];
 
 // ---- Random numbers: the hash of _fast.py -------------------------------------------------------------------------
 
@@ -37,6 +37,12 @@ export function uniform(key, purpose, step, item, draw) {
   const counter = ((step * ITEMS + item) * 8 + draw) % 4294967296;
   const first = mix((Math.imul(counter, 0x9e3779b9) + key[0]) | 0);
   return mix(((mix(first ^ key[1]) >>> 0) + Math.imul(purpose, 0x632be5ab)) | 0) / 4294967296;
+}
+
+/** A standard normal number (Box and Muller 1958). */
+function normal(key, purpose, step, item) {
+  const radius = Math.sqrt(-2 * Math.log(1 - uniform(key, purpose, step, item, 0)));
+  return radius * Math.cos(2 * Math.PI * uniform(key, purpose, step, item, 1));
 }
 
 // ---- Geometry -------------------------------------------------------------------------------------------------------
@@ -157,8 +163,15 @@ function senseBorders(size, { x, y, heading }, ranges, walls) {
   });
 }
 
-/** What a robot perceives. @param {World} world @param {Pose} pose @returns {Sensing} */
-export function sense(world, pose) {
+/**
+ * What a robot perceives.
+ * @param {World} world
+ * @param {Pose} pose
+ * @param {number} noise standard deviation, in metres, of an error on every range that sees something
+ * @param {number} step seconds since the start, which the error depends on
+ * @returns {Sensing}
+ */
+export function sense(world, pose, noise = 0, step = 0) {
   const ranges = new Array(ROBOT.sensors).fill(ROBOT.range);
   const walls = new Array(ROBOT.sensors).fill(false);
   const [c, s] = [Math.cos(pose.heading), Math.sin(pose.heading)];
@@ -171,7 +184,11 @@ export function sense(world, pose) {
     else seeRectangle(ranges, forward, left, a, b, turned - pose.heading);
   }
   senseBorders(world.size, pose, ranges, walls);
-  const rounded = ranges.map(micrometres);
+  const rounded = ranges.map((range, k) => {
+    const distance = micrometres(range);
+    if (noise === 0 || distance >= ROBOT.range) return distance;
+    return micrometres(clamp(distance + noise * normal(world.key, SENSING, step, k), 0, ROBOT.range));
+  });
   const [tx, ty] = [world.target[0] - pose.x, world.target[1] - pose.y];
   const bearing = micrometres(Math.atan2(ty, tx) - pose.heading);
   return {
@@ -223,13 +240,26 @@ export const startPose = ({ start, target }) => ({
   heading: Math.atan2(target[1] - start[1], target[0] - start[0]),
 });
 
+/** The action that comes of one, when row a of `slip` says how likely a turns into each. */
+function slipped(action, slip, key, step) {
+  const draw = uniform(key, SLIPPING, step, 0, 0);
+  let total = 0;
+  for (let other = 0; other < slip[action].length; other += 1) {
+    total += slip[action][other];
+    if (draw < total) return other;
+  }
+  return action;
+}
+
 /**
  * One second: turn, go; obstacles drift.
+ * @param {number[][] | null} slip how likely each action turns into another
  * @returns {{world: World, pose: Pose, outcome: string}} outcome: running, arrived or collided
  */
-export function advance(world, pose, step, command, speed) {
+export function advance(world, pose, step, command, speed, slip = null) {
   let { heading } = pose;
-  const action = command === ROBOT.toTarget ? 0 : command;
+  const straight = command === ROBOT.toTarget ? 0 : command;
+  const action = slip ? slipped(straight, slip, world.key, step) : straight;
   if (command === ROBOT.toTarget) heading = Math.atan2(world.target[1] - pose.y, world.target[0] - pose.x);
   heading = wrap(heading + ROBOT.turns[action]);
   const length = action === ROBOT.backward ? -speed : speed;
