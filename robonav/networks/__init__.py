@@ -1,35 +1,40 @@
 """The multilayer perceptron: its passes, its training and its use as a policy (sections 3.3 and 3.4)."""
 
-from .backpropagation import (
+from .costs import (
     CROSS_ENTROPY,
     SQUARED_ERROR,
     Objective,
-    backpropagate,
-    backpropagate_by_units,
     cross_entropy_cost,
-    cross_entropy_gradient,
     squared_error,
     squared_error_cost,
-    squared_error_gradient,
 )
 from .multilayer_perceptron import (
+    Gradient,
     Network,
-    action_probabilities,
-    forward_by_units,
+    backpropagate,
+    cross_entropy_gradient,
+    descend,
     propagate,
     random_network,
     sigmoid,
     sigmoid_slope,
+    squared_error_gradient,
     stacked,
 )
-from .optimisers import descend, fit, gradient_descent, lbfgs, one_hot
+from .optimisers import fit, gradient_descent, lbfgs, one_hot
 from .policy import NetworkPolicy
 from .training_history import TrainingHistory, accuracy
+from .unit_by_unit import (
+    action_probabilities,
+    backpropagate_by_units,
+    forward_by_units,
+)
 from .weights import Weights, load_weights, save_weights
 
 __all__ = [
     "CROSS_ENTROPY",
     "SQUARED_ERROR",
+    "Gradient",
     "Network",
     "NetworkPolicy",
     "Objective",

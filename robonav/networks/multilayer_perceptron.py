@@ -1,4 +1,14 @@
-"""The multilayer sigmoid network, by hand: neurons, layers, forward propagation (section 3.3)."""
+"""The multilayer perceptron by hand: forward pass, backpropagation, gradient descent (sections 3.3 and 3.4).
+
+In the notation of the thesis, layer l has s_l units with activations a(l). The weights W(l) and the biases b(l) lead
+to layer l + 1. Python counts from 0, so that ``weights[0]`` is W(1) and ``a[0]`` is a(1) = x. Examples are rows: with
+m examples, a(l) is (m, s_l) and stands on the left of the transposed weights. One step of learning is
+
+1. forward: ``a, z = propagate(weights, biases, x)``;
+2. error of the output layer, the derivative of the cost by z: ``delta = a[-1] - y`` for the cross-entropy;
+3. backward: ``backpropagate(weights, a, delta)`` sums the gradient over the examples;
+4. downhill: ``descend(network, gradient, gradient_step)``.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +23,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit
 
 from robonav.validation import check_array, check_generator, check_integer, check_real
+
+from ._checks import checked, checked_layers
+from ._fast.stacks import propagate_stack
 
 Array = NDArray[np.float64]
 
@@ -65,39 +78,6 @@ def sigmoid_slope(a: Array) -> Array:
     return a * (1 - a)  # Eq. (3.5)
 
 
-def forward_by_units(network: Network, x: ArrayLike) -> list[float]:
-    """Forward propagation of one input, unit by unit, Eq. (3.1).
-
-    Slow, and written to be read: :func:`propagate` computes the same with matrices.
-
-    Parameters
-    ----------
-    network : Network
-        A single network.
-    x : (s[0],) array
-        The input.
-
-    Returns
-    -------
-    list of float
-        The activations of the output layer.
-
-    Examples
-    --------
-    >>> from robonav.networks import forward_by_units, random_network
-    >>> forward_by_units(random_network((3, 3, 1), seed=0, spread=0), [1, 2, 3])
-    [0.5]
-    """
-    a = [float(number) for number in np.asarray(x)]
-    for W, b in zip(network.weights, network.biases, strict=True):
-        z = [
-            sum(W[i, j] * a[j] for j in range(len(a))) + b[i]  # Eq. (3.1)
-            for i in range(len(b))
-        ]
-        a = [1 / (1 + math.exp(-weighted_sum)) for weighted_sum in z]
-    return a
-
-
 def propagate(
     weights: Sequence[Any],
     biases: Sequence[Any],
@@ -106,66 +86,210 @@ def propagate(
 ) -> tuple[list[Any], Any]:
     """Forward propagation from layer to layer, Eq. (3.3).
 
-    Examples are rows, so that W acts from the right, transposed. The code serves NumPy arrays and torch tensors.
+    The code serves NumPy arrays and torch tensors.
 
     Parameters
     ----------
-    weights, biases : sequences of arrays
-        As in :class:`Network`. Leading dimensions stack networks.
-    x : (..., m, s[0]) array
+    weights, biases : sequences of (s[l + 1], s[l]) and (s[l + 1],) arrays
+        Of one network.
+    x : (m, s[0]) array
         Inputs.
     f : callable
         The activation function; ``torch.sigmoid`` for tensors.
 
     Returns
     -------
-    a : list of (..., m, s[l]) arrays
+    a : list of (m, s[l]) arrays
         Activations of each layer, the input first.
-    z : (..., m, s[-1]) array
+    z : (m, s[-1]) array
         Weighted sums of the output layer.
 
     Examples
     --------
+    >>> import numpy as np
     >>> from robonav.networks import propagate, random_network
     >>> network = random_network((3, 4, 2), seed=0)
-    >>> a, z = propagate(network.weights, network.biases, [[1.0, 2.0, 3.0]])
-    >>> [layer.shape for layer in a[1:]], z.shape
-    ([(1, 4), (1, 2)], (1, 2))
+    >>> a, z = propagate(network.weights, network.biases, np.ones((5, 3)))
+    >>> [layer.shape for layer in a], z.shape
+    ([(5, 3), (5, 4), (5, 2)], (5, 2))
     """
     a = [x]
-    for weight, bias in zip(weights, biases, strict=True):
-        z = a[-1] @ weight.swapaxes(-1, -2) + bias[..., None, :]
-        a.append(f(z))  # Eq. (3.3)
+    for W, b in zip(weights, biases, strict=True):
+        z = a[-1] @ W.T + b  # Eq. (3.3)
+        a.append(f(z))
     return a, z
 
 
-def action_probabilities(network: Network, x: ArrayLike) -> Array:
-    """Outputs of a network with one hidden layer, Eqs. (3.19), (3.20) and (3.21).
+@dataclass(frozen=True, eq=False)
+class Gradient:
+    """The derivatives of a cost by the weights and the biases of a network.
 
-    These are the three steps of :meth:`Network.forward` for the network of section 3.4.2.
+    Attributes
+    ----------
+    weights : list of (s[l + 1], s[l]) arrays
+        Derivatives by the weights of each layer but the last.
+    biases : list of (s[l + 1],) arrays
+        Derivatives by the biases.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import Gradient
+    >>> Gradient([np.zeros((2, 3))], [np.zeros(2)]).weights[0].shape
+    (2, 3)
+    """
+
+    weights: list[Array]
+    biases: list[Array]
+
+
+def backpropagate(weights: Sequence[Array], a: list[Array], delta: Array) -> Gradient:
+    """Backpropagation with matrices, Eqs. (3.14), (3.15), (3.24), (3.25) and (3.26).
+
+    The errors of the output layer are carried back through the network, for all examples at once. The bias unit of a
+    hidden layer has no incoming weights and therefore no error (the thesis lets j start at 0 in the equation for the
+    hidden layer's errors).
+
+    Parameters
+    ----------
+    weights : sequence of (s[l + 1], s[l]) arrays
+        Of one network.
+    a : list of (m, s[l]) arrays
+        Activations of every layer, from :func:`propagate`.
+    delta : (m, s[-1]) array
+        Errors of the output layer: the derivative of the cost by its weighted sums z.
+
+    Returns
+    -------
+    Gradient
+        Summed over the examples.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import backpropagate, propagate, random_network
+    >>> network, x = random_network((2, 3, 1), seed=0), np.ones((4, 2))
+    >>> a, z = propagate(network.weights, network.biases, x)
+    >>> backpropagate(network.weights, a, a[-1] - 1).biases[1].shape
+    (1,)
+    """
+    dW: list[Array] = []
+    db: list[Array] = []
+    for layer in reversed(range(len(weights))):
+        dW.insert(0, delta.T @ a[layer])  # Eqs. (3.15), (3.25) and (3.26)
+        db.insert(0, delta.sum(axis=0))
+        if layer > 0:
+            back = delta @ weights[layer]
+            delta = back * sigmoid_slope(a[layer])  # Eqs. (3.14) and (3.24)
+    return Gradient(dW, db)
+
+
+def mean_gradient(
+    network: Network, total: Gradient, m: int, *, decay: float
+) -> Gradient:
+    """Gradient of a cost with weight decay, Eqs. (3.9) and (3.27).
 
     Parameters
     ----------
     network : Network
-        A single network with one hidden layer.
-    x : (..., s[0]) array
-        States, as the encoder gives them.
+        A single network.
+    total : Gradient
+        Summed over the examples, from :func:`backpropagate`.
+    m : int
+        Number of examples.
+    decay : float
+        What the weights are multiplied by. The biases do not decay.
 
     Returns
     -------
-    (..., A) array
-        One number between 0 and 1 for each action. They do not add up to 1.
+    Gradient
+    """
+    pairs = zip(network.weights, total.weights, strict=True)
+    dW = [dw / m + decay * W for W, dw in pairs]  # Eqs. (3.9) and (3.27)
+    return Gradient(dW, [db / m for db in total.biases])
+
+
+@checked
+def squared_error_gradient(
+    network: Network, x: Array, y: Array, *, regularisation: float = 0.0
+) -> Gradient:
+    """Gradient of the squared-error cost, from the output errors of Eq. (3.13).
+
+    Parameters and errors are those of :func:`squared_error_cost`.
+
+    Returns
+    -------
+    Gradient
 
     Examples
     --------
-    >>> from robonav.networks import action_probabilities, random_network
-    >>> action_probabilities(random_network((2, 8, 5), seed=0, spread=0), [1, 2]).tolist()
-    [0.5, 0.5, 0.5, 0.5, 0.5]
+    >>> from robonav.networks import random_network, squared_error_gradient
+    >>> network = random_network((2, 1), seed=0, spread=0)
+    >>> squared_error_gradient(network, [[1, 2]], [[1]]).weights[0].tolist()
+    [[-0.125, -0.25]]
     """
-    (w1, w2), (b1, b2) = network.weights, network.biases
-    h = sigmoid(np.asarray(x) @ w1.T + b1)  # Eq. (3.19)
-    z = h @ w2.T + b2  # Eq. (3.20)
-    return sigmoid(z)  # Eq. (3.21)
+    a, _ = propagate(network.weights, network.biases, x)
+    delta = -(y - a[-1]) * sigmoid_slope(a[-1])  # Eq. (3.13)
+    total = backpropagate(network.weights, a, delta)
+    return mean_gradient(network, total, len(x), decay=regularisation)
+
+
+@checked
+def cross_entropy_gradient(
+    network: Network, x: Array, y: Array, *, regularisation: float = 0.0
+) -> Gradient:
+    """Gradient of the cross-entropy cost, from the output errors of Eq. (3.23).
+
+    The weights decay by lambda / m, which is the derivative of the cost. (The thesis writes lambda alone.) Parameters
+    and errors are those of :func:`squared_error_cost`.
+
+    Returns
+    -------
+    Gradient
+
+    Examples
+    --------
+    >>> from robonav.networks import cross_entropy_gradient, random_network
+    >>> network = random_network((2, 1), seed=0, spread=0)
+    >>> cross_entropy_gradient(network, [[1, 2]], [[1]]).weights[0].tolist()
+    [[-0.5, -1.0]]
+    """
+    a, _ = propagate(network.weights, network.biases, x)
+    delta = a[-1] - y  # Eq. (3.23): the slope of the sigmoid cancels
+    total = backpropagate(network.weights, a, delta)
+    return mean_gradient(network, total, len(x), decay=regularisation / len(x))
+
+
+def descend(network: Network, gradient: Gradient, gradient_step: float) -> Network:
+    """One step of gradient descent, Eqs. (3.8) and (3.28).
+
+    Parameters
+    ----------
+    network : Network
+        A single network.
+    gradient : Gradient
+        The derivatives of the cost by its weights and biases.
+    gradient_step : float
+        alpha, which the thesis calls the learning rate.
+
+    Returns
+    -------
+    Network
+        One step further down.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import Gradient, Network, descend
+    >>> network = Network((np.array([[3.0]]),), (np.array([1.0]),))
+    >>> descend(network, Gradient([np.array([[4.0]])], [np.array([0.0])]), 0.5).weights
+    (array([[1.]]),)
+    """
+    pairs = zip(network.weights, gradient.weights, strict=True)
+    weights = [W - gradient_step * dW for W, dW in pairs]  # Eqs. (3.8) and (3.28)
+    pairs = zip(network.biases, gradient.biases, strict=True)
+    biases = [b - gradient_step * db for b, db in pairs]
+    return Network(tuple(weights), tuple(biases))
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,36 +326,7 @@ class Network:
     biases: tuple[Array, ...]
 
     def __post_init__(self) -> None:
-        weights = tuple(
-            _kept(f"weights[{layer}]", array)
-            for layer, array in enumerate(self.weights)
-        )
-        biases = tuple(
-            _kept(f"biases[{layer}]", array) for layer, array in enumerate(self.biases)
-        )
-        if not weights or len(weights) != len(biases):
-            raise ValueError(
-                f"weights and biases must be as many, at least one each, got {len(weights)} and {len(biases)}"
-            )
-        for layer, (weight, bias) in enumerate(zip(weights, biases, strict=True)):
-            if weight.ndim < 2 or 0 in weight.shape:
-                raise ValueError(
-                    f"weights[{layer}] must have shape (..., outputs, inputs), got {weight.shape}"
-                )
-            before = (
-                weights[layer - 1].shape[:-1]
-                if layer
-                else (*weight.shape[:-2], weight.shape[-1])
-            )
-            if (*weight.shape[:-2], weight.shape[-1]) != before:
-                raise ValueError(
-                    f"weights[{layer}] must take the {before[-1]} units of the layer before it "
-                    f"and share its stack {before[:-1]}, got shape {weight.shape}"
-                )
-            if bias.shape != weight.shape[:-1]:
-                raise ValueError(
-                    f"biases[{layer}] must have shape {weight.shape[:-1]}, got {bias.shape}"
-                )
+        weights, biases = checked_layers(self.weights, self.biases)
         object.__setattr__(self, "weights", weights)
         object.__setattr__(self, "biases", biases)
 
@@ -285,49 +380,11 @@ class Network:
             raise ValueError(
                 f"x must hold {self.sizes[0]} inputs along its last axis, got shape {inputs.shape}"
             )
+        forward = propagate_stack if self.stack else propagate
         if inputs.ndim > 1:
-            return propagate(self.weights, self.biases, inputs)
-        a, z = propagate(self.weights, self.biases, inputs[None])
+            return forward(self.weights, self.biases, inputs)
+        a, z = forward(self.weights, self.biases, inputs[None])  # a batch of one
         return [layer[..., 0, :] for layer in a], z[..., 0, :]
-
-
-def stacked(networks: Sequence[Network]) -> Network:
-    """Stack networks of one shape along a new first dimension.
-
-    Parameters
-    ----------
-    networks : sequence of Network
-
-    Returns
-    -------
-    Network
-
-    Raises
-    ------
-    ValueError
-        If there is no network, or they differ in shape.
-
-    Examples
-    --------
-    >>> from robonav.networks import random_network, stacked
-    >>> stacked([random_network((2, 1), seed=seed) for seed in range(3)]).stack
-    (3,)
-    """
-    if (
-        not networks
-        or len({(network.stack, network.sizes) for network in networks}) != 1
-    ):
-        raise ValueError("networks must be at least one, all of the same sizes")
-    return Network(
-        tuple(
-            np.stack(layers)
-            for layers in zip(*(network.weights for network in networks), strict=True)
-        ),
-        tuple(
-            np.stack(layers)
-            for layers in zip(*(network.biases for network in networks), strict=True)
-        ),
-    )
 
 
 def random_network(
@@ -381,8 +438,40 @@ def random_network(
     return Network(tuple(weights), tuple(biases))
 
 
-def _kept(name: str, value: ArrayLike) -> Array:
-    """Copy the caller's array, so that later changes to it do not change the network."""
-    array = check_array(name, value).copy()
-    array.flags.writeable = False
-    return array
+def stacked(networks: Sequence[Network]) -> Network:
+    """Stack networks of one shape along a new first dimension.
+
+    Parameters
+    ----------
+    networks : sequence of Network
+
+    Returns
+    -------
+    Network
+
+    Raises
+    ------
+    ValueError
+        If there is no network, or they differ in shape.
+
+    Examples
+    --------
+    >>> from robonav.networks import random_network, stacked
+    >>> stacked([random_network((2, 1), seed=seed) for seed in range(3)]).stack
+    (3,)
+    """
+    if (
+        not networks
+        or len({(network.stack, network.sizes) for network in networks}) != 1
+    ):
+        raise ValueError("networks must be at least one, all of the same sizes")
+    return Network(
+        tuple(
+            np.stack(layers)
+            for layers in zip(*(network.weights for network in networks), strict=True)
+        ),
+        tuple(
+            np.stack(layers)
+            for layers in zip(*(network.biases for network in networks), strict=True)
+        ),
+    )

@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike
 from robonav.progress import Progress
 from robonav.validation import check_array, check_integer, check_positive, check_real
 
-from .backpropagation import SQUARED_ERROR, Objective, examples
-from .multilayer_perceptron import Array, Network, random_network
+from ._checks import checked_examples
+from .costs import SQUARED_ERROR, Objective
+from .multilayer_perceptron import Array, Network, descend, random_network
 from .training_history import Iterate, TrainingHistory, accuracy, run_optimiser
 
 MOST_ITERATIONS = 100_000  # these take minutes; a larger number is a slip of the pen
@@ -49,38 +50,6 @@ def one_hot(actions: ArrayLike, count: int) -> Array:
             f"actions must lie in 0..{width - 1}, got {indices.min()}..{indices.max()}"
         )
     return np.eye(width)[indices]
-
-
-def descend(network: Network, gradient: Network, gradient_step: float) -> Network:
-    """One step of gradient descent, Eqs. (3.8) and (3.28).
-
-    Parameters
-    ----------
-    network : Network
-        A single network.
-    gradient : Network
-        The derivatives of the cost by its weights and biases, in the shape of a network.
-    gradient_step : float
-        alpha, which the thesis calls the learning rate.
-
-    Returns
-    -------
-    Network
-        One step further down.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.networks import Network, descend
-    >>> network = Network((np.array([[3.0]]),), (np.array([1.0]),))
-    >>> descend(network, network, 0.5).weights
-    (array([[1.5]]),)
-    """
-    pairs = zip(network.weights, gradient.weights, strict=True)
-    weights = [w - gradient_step * dw for w, dw in pairs]  # Eqs. (3.8) and (3.28)
-    pairs = zip(network.biases, gradient.biases, strict=True)
-    biases = [b - gradient_step * db for b, db in pairs]
-    return Network(tuple(weights), tuple(biases))
 
 
 def gradient_descent_iterates(
@@ -168,7 +137,7 @@ def gradient_descent(
     >>> bool(history.costs[-1] < history.costs[0])
     True
     """
-    inputs, labels = examples(network, x, y)
+    inputs, labels = checked_examples(network, x, y)
     step = check_positive("gradient_step", gradient_step)
     count = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
     iterates = gradient_descent_iterates(
@@ -205,7 +174,7 @@ def lbfgs(
     >>> lbfgs(random_network((2, 4, 1), seed=0), x, y, regularisation=0.01, iterations=20).iterations
     20
     """
-    inputs, labels = examples(network, x, y)
+    inputs, labels = checked_examples(network, x, y)
     decay = check_real("regularisation", regularisation, at_least=0)
     count = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
     from .torch_lbfgs import lbfgs_iterates  # loads torch, which planning does not need

@@ -15,18 +15,31 @@ from .multilayer_perceptron import Network
 
 @dataclass(frozen=True, eq=False)
 class NetworkPolicy:
-    """Takes the action of the network's strongest output, or at some temperature one of the stronger by chance.
+    """A policy that takes the action with the largest output, or draws one from the softmax of the outputs.
 
-    Attributes
+    Parameters
     ----------
-    network : a single network, as many inputs as the encoder gives, one output an action.
-    encoder : how what is sensed becomes the network's inputs.
-    temperature : T of the Boltzmann distribution, ``exp(z / T)`` over its sum, that actions are drawn from, with z the
-        logits; 0 leaves nothing to chance. A robot without a memory can go round in circles; a little chance ends that.
+    network : Network
+        A single network, with as many inputs as the encoder gives and one output for each action.
+    encoder : Encoder
+        How what is sensed becomes the network's inputs.
+    temperature : float
+        T of the distribution proportional to ``exp(z / T)`` that actions are drawn from, with z the logits. At 0 the
+        policy takes the largest. A robot without memory can go round in circles; random actions end that.
 
     Raises
     ------
-    ValueError : if network and encoder do not fit, or the temperature is negative.
+    ValueError
+        If network and encoder do not fit, or the temperature is negative.
+
+    Examples
+    --------
+    >>> from robonav.networks import NetworkPolicy, random_network
+    >>> from robonav.robot import Encoder, navigate, random_worlds
+    >>> encoder = Encoder(target="number")
+    >>> policy = NetworkPolicy(random_network((encoder.size, 8, 5), seed=0), encoder)
+    >>> navigate(policy, random_worlds(3, obstacles=0, seed=0)).success.tolist()
+    [True, True, True]
     """
 
     network: Network
@@ -42,11 +55,14 @@ class NetworkPolicy:
             )
 
     def logits(self, sensing: Sensing) -> NDArray[np.float64]:
-        """The output units (N, A) before their sigmoid: no two large ones round to the same 1."""
+        """Return the weighted sums (N, A) of the output units. Their sigmoids would round to 1 if they are large."""
         return self.network.logits(self.encoder(sensing))
 
     def __call__(self, sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
-        """Actions (N,); the largest of logits with Gumbel noise of scale T is distributed as Boltzmann has it."""
+        """Return actions (N,).
+
+        The largest of ``z + T * Gumbel noise`` is distributed as ``exp(z / T)`` over its sum (the Gumbel-max trick).
+        """
         z = self.logits(sensing)
         if self.temperature > 0:
             z = z + self.temperature * rng.gumbel(size=z.shape)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from robonav.progress import Progress
 
-from .backpropagation import examples
+from ._checks import checked_examples
 from .multilayer_perceptron import Array, Network, stacked
 
 
@@ -106,7 +106,7 @@ def accuracy(network: Network, x: ArrayLike, y: ArrayLike) -> float:
     >>> accuracy(random_network((2, 1), seed=0, spread=0), [[0, 0], [1, 1]], [[0], [1]])
     0.5
     """
-    inputs, labels = examples(network, x, y)
+    inputs, labels = checked_examples(network, x, y)
     return fraction_correct(network.logits(inputs), labels)
 
 

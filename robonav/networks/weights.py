@@ -28,16 +28,32 @@ class Weights:
 
     Parameters
     ----------
-    network : the network, or a stack of them.
-    method : how it was trained: ``"lfd"``, ``"nnql"``, ...
-    encoder : how raw sensing becomes the network's inputs.
-    made : anything else that it takes to train it again (seed, number of demonstrations, ...), as JSON knows it.
-    temperature : at which the policy draws its actions, see :class:`NetworkPolicy`; 0 leaves nothing to chance.
-    version : of robonav, when it was trained.
+    network : Network
+        The network, or a stack of them.
+    method : str
+        How it was trained: ``"lfd"``, ``"nnql"``, ...
+    encoder : Encoder
+        How what is sensed becomes the network's inputs.
+    made : mapping
+        What else it takes to train it again (seed, number of demonstrations, ...), in types that JSON knows.
+    temperature : float
+        At which the policy draws its actions, see :class:`NetworkPolicy`.
+    version : str
+        Of robonav, when it was trained.
 
     Raises
     ------
-    ValueError : if the encoder gives another number of inputs than the network takes, or the temperature is negative.
+    ValueError
+        If the encoder gives another number of inputs than the network takes, or the temperature is negative.
+
+    Examples
+    --------
+    >>> from robonav.networks import Weights, random_network
+    >>> from robonav.robot import Encoder
+    >>> encoder = Encoder(target="number")
+    >>> weights = Weights(random_network((encoder.size, 8, 5), seed=3), "lfd", encoder, {"seed": 3})
+    >>> weights.method, weights.network.sizes
+    ('lfd', (11, 8, 5))
     """
 
     network: Network
@@ -63,9 +79,30 @@ def save_weights(path: str | Path, weights: Weights) -> None:
 
     The same weights give the same bytes.
 
+    Parameters
+    ----------
+    path : path
+        Of the file, which appears whole or not at all.
+    weights : Weights
+        What to write.
+
     Raises
     ------
-    TypeError : if ``weights.made`` holds what JSON does not know.
+    TypeError
+        If ``weights.made`` holds what JSON does not know.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from robonav.networks import Weights, load_weights, random_network, save_weights
+    >>> from robonav.robot import Encoder
+    >>> encoder = Encoder(target="number")
+    >>> weights = Weights(random_network((encoder.size, 8, 5), seed=0), "lfd", encoder)
+    >>> with TemporaryDirectory() as folder:
+    ...     save_weights(Path(folder) / "lfd.safetensors", weights)
+    ...     load_weights(Path(folder) / "lfd.safetensors").method
+    'lfd'
     """
     network = weights.network
     tensors = {
@@ -95,10 +132,33 @@ def save_weights(path: str | Path, weights: Weights) -> None:
 def load_weights(path: str | Path) -> Weights:
     """Read what :func:`save_weights` wrote.
 
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    Weights
+
     Raises
     ------
-    FileNotFoundError : if there is no such file.
-    ValueError : if it is no safetensors file, not one of ours, of another format, or does not hold a network.
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If it is no safetensors file, was not written by robonav, has another format, or does not hold a network.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from robonav.networks import Weights, load_weights, random_network, save_weights
+    >>> from robonav.robot import Encoder
+    >>> weights = Weights(random_network((16, 8, 5), seed=0), "nnql", Encoder((9, 1, 2, 8, 3, 7, 4), True, "number"))
+    >>> with TemporaryDirectory() as folder:
+    ...     save_weights(Path(folder) / "nnql.safetensors", weights)
+    ...     load_weights(Path(folder) / "nnql.safetensors").network.sizes
+    (16, 8, 5)
     """
     name = Path(path).name
     try:

@@ -11,8 +11,8 @@ import math
 import numpy as np
 
 from robonav.compilation import compiler
-from robonav.networks import _fast as network
-from robonav.networks._fast import hidden_layer, output_logit
+from robonav.networks._fast import kernels as network
+from robonav.networks._fast.kernels import hidden_layer, output_logit
 
 compiled = compiler(network)
 

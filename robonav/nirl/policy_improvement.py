@@ -9,8 +9,11 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robonav.networks.backpropagation import cross_entropy_gradient
-from robonav.networks.multilayer_perceptron import Network, sigmoid
+from robonav.networks.multilayer_perceptron import (
+    Network,
+    cross_entropy_gradient,
+    sigmoid,
+)
 from robonav.nnql.updates import descend
 from robonav.validation import check_integer, check_positive, check_real
 

@@ -7,8 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.networks.backpropagation import backpropagate
-from robonav.networks.multilayer_perceptron import Network
+from robonav.networks.multilayer_perceptron import Gradient, Network, backpropagate
 
 Array = NDArray[np.float64]
 
@@ -133,7 +132,7 @@ def cross_entropy(targets: ArrayLike, logits: ArrayLike) -> Array:
 
 
 def descend(
-    network: Network, gradient: Network, gradient_step: float | Array
+    network: Network, gradient: Gradient, gradient_step: float | Array
 ) -> Network:
     """One step of gradient descent on all weights and biases, Eq. (4.12).
 
@@ -141,8 +140,8 @@ def descend(
     ----------
     network : Network
         Its weights W.
-    gradient : Network
-        The derivatives of the cost by these weights, in the shape of the network.
+    gradient : Gradient
+        The derivatives of the cost by these weights.
     gradient_step : float
         The thesis's sigma.
 
@@ -153,10 +152,11 @@ def descend(
 
     Examples
     --------
-    >>> from robonav.networks import random_network
+    >>> from robonav.networks import Gradient, random_network
     >>> from robonav.nnql import descend
     >>> network = random_network((4, 8, 2), seed=0)
-    >>> descend(network, network, 1.0).weights[0].any()
+    >>> same = Gradient(list(network.weights), list(network.biases))
+    >>> descend(network, same, 1.0).weights[0].any()
     np.False_
     """
     weights = zip(network.weights, gradient.weights, strict=True)
@@ -214,7 +214,7 @@ def stochastic_gradient_descent(
             layers = network.activations(state[None])
             cost += float(cross_entropy(target, network.logits(state))) / len(inputs)
             delta = network_error(target, layers[-1])
-            gradient = backpropagate(network, layers, -delta)  # of the cost
+            gradient = backpropagate(network.weights, layers, -delta)  # of the cost
             network = descend(network, gradient, gradient_step)
         if abs(previous - cost) < tolerance:
             break

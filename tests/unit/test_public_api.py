@@ -154,9 +154,6 @@ def without_example(package: str) -> list[str]:
     ]
 
 
-WAITING: set[str] = {"networks"}
-
-
 @pytest.mark.parametrize("package", PUBLIC)
 def test_every_public_name_has_an_example(package: str) -> None:
-    assert package in WAITING or without_example(package) == []
+    assert without_example(package) == []

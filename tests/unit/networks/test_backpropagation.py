@@ -8,14 +8,16 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robonav.networks.backpropagation import (
+from robonav.networks import (
     CROSS_ENTROPY,
     SQUARED_ERROR,
+    Network,
     backpropagate,
     backpropagate_by_units,
+    propagate,
+    random_network,
     squared_error_gradient,
 )
-from robonav.networks.multilayer_perceptron import Network, propagate, random_network
 
 OBJECTIVES = pytest.mark.parametrize(
     "objective", [SQUARED_ERROR, CROSS_ENTROPY], ids=["squared", "entropy"]
@@ -145,10 +147,10 @@ def test_weight_decay_leaves_the_biases_alone(objective):
 def test_backpropagation_adds_up_single_examples():
     network, x, y = problem((3, 4, 2), 5, 2)
     a = network.activations(x)
-    whole = backpropagate(network, a, a[-1] - y)
+    whole = backpropagate(network.weights, a, a[-1] - y)
     parts = [
         backpropagate(
-            network, [layer[i : i + 1] for layer in a], (a[-1] - y)[i : i + 1]
+            network.weights, [layer[i : i + 1] for layer in a], (a[-1] - y)[i : i + 1]
         )
         for i in range(5)
     ]

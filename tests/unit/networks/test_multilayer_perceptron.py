@@ -8,7 +8,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robonav.networks.multilayer_perceptron import (
+from robonav.networks import (
     Network,
     action_probabilities,
     forward_by_units,
@@ -18,6 +18,7 @@ from robonav.networks.multilayer_perceptron import (
     sigmoid_slope,
     stacked,
 )
+from robonav.networks._fast.stacks import propagate_stack
 
 SIZES = st.lists(st.integers(1, 5), min_size=2, max_size=4)
 
@@ -99,14 +100,26 @@ def test_one_network_takes_inputs_of_any_leading_dimensions():
 
 
 def test_torch_takes_the_same_forward_pass():
-    networks = stacked([random_network((3, 4, 2), seed=seed) for seed in range(2)])
+    network = random_network((3, 4, 2), seed=0)
     x = np.random.default_rng(0).normal(size=(5, 3))
     weights, biases = (
         [torch.tensor(array) for array in arrays]
-        for arrays in (networks.weights, networks.biases)
+        for arrays in (network.weights, network.biases)
     )
     _, z = propagate(weights, biases, torch.tensor(x), torch.sigmoid)
-    np.testing.assert_allclose(z.numpy(), networks.logits(x), rtol=1e-12)
+    np.testing.assert_allclose(z.numpy(), network.logits(x), rtol=1e-12)
+
+
+@given(SIZES, st.integers(1, 40), st.integers(0, 1000))
+def test_a_stack_of_one_propagates_as_its_network_does_to_the_bit(sizes, m, seed):
+    network = random_network(sizes, seed=seed)
+    x = np.random.default_rng(seed).normal(size=(m, sizes[0]))
+    single, z = propagate(network.weights, network.biases, x)
+    stack = stacked([network])
+    activations, logits = propagate_stack(stack.weights, stack.biases, x)
+    np.testing.assert_array_equal(logits[0], z)
+    for one, other in zip(activations[1:], single[1:], strict=True):
+        np.testing.assert_array_equal(one[0], other)
 
 
 def test_decisions_survive_outputs_that_round_to_one():

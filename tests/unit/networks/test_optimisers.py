@@ -5,7 +5,7 @@ import pytest
 import torch
 from scipy.optimize import minimize
 
-from robonav.networks.backpropagation import CROSS_ENTROPY, SQUARED_ERROR
+from robonav.networks.costs import CROSS_ENTROPY, SQUARED_ERROR
 from robonav.networks.multilayer_perceptron import Network, random_network
 from robonav.networks.optimisers import fit, gradient_descent, lbfgs, one_hot
 from robonav.networks.training_history import accuracy

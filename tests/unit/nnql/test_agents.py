@@ -5,8 +5,12 @@ import pytest
 from scipy.special import expit
 
 from robonav.mdp import FiniteMDP, value_iteration
-from robonav.networks.backpropagation import cross_entropy_gradient
-from robonav.networks.multilayer_perceptron import Network, random_network, stacked
+from robonav.networks.multilayer_perceptron import (
+    Network,
+    cross_entropy_gradient,
+    random_network,
+    stacked,
+)
 from robonav.nnql._fast.agents import (
     Agent,
     Decisions,

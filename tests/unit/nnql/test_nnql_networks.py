@@ -3,8 +3,12 @@
 import numpy as np
 import pytest
 
-from robonav.networks.backpropagation import cross_entropy_gradient
-from robonav.networks.multilayer_perceptron import Network, random_network, stacked
+from robonav.networks.multilayer_perceptron import (
+    Network,
+    cross_entropy_gradient,
+    random_network,
+    stacked,
+)
 from robonav.nnql import cross_entropy
 from robonav.nnql._fast.networks import BatchedNetworks, packed, unpacked
 
