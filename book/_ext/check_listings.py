@@ -1,8 +1,9 @@
-"""Check the listings of the built pages: ``python book/_ext/check_listings.py [PAGE ...]``.
+"""Check the code on the built pages: ``python book/_ext/check_listings.py [PAGE ...]``.
 
-A listing of the package's code has at most 40 lines of at most 88 columns, shows neither imports nor input checks, and
-each numbered equation of a page is followed, on that page, by a listing whose comments carry its number. Equations that
-only introduce a symbol (``symbols.toml``) need none.
+A listing of the package's code has at most 40 lines of at most 88 columns, and shows neither imports nor input checks.
+Each numbered equation of a page is followed, on that page, by a listing whose comments carry its number. Equations that
+only introduce a symbol (``symbols.toml``) need no listing. A code cell of the page that is not folded has at most 88
+columns.
 """
 
 from __future__ import annotations
@@ -25,10 +26,21 @@ IMPORT = re.compile(r"^\s*(?:from\s+\S+\s+import|import)\s", re.MULTILINE)
 INPUT_CHECK = re.compile(r"\bcheck_\w+\(")
 
 
-def faults(html: str) -> Iterator[str]:
-    """What is wrong with the listings of one page, a sentence each."""
-    waiting: list[str] = []  # equations whose listing has not come yet
+def wide_cells(html: str) -> Iterator[str]:
+    """Yield one sentence for each line of a page's own code cells that is too wide."""
     soup = BeautifulSoup(html, "html.parser")
+    for number, cell in enumerate(soup.select("div.cell"), start=1):
+        for code in cell.select("div.cell_input pre"):
+            if code.find_parent("details") is None:
+                for line in code.get_text().splitlines():
+                    if len(line) > citations.MOST_COLUMNS:
+                        yield f"code cell {number} has {len(line)} columns: {line}"
+
+
+def faults(html: str) -> Iterator[str]:
+    """Yield one sentence for each fault of the listings of one page."""
+    soup = BeautifulSoup(html, "html.parser")
+    waiting: list[str] = []  # equations whose listing has not come yet
     for found in soup.select("div.math[id^=equation-eq-], div.function-source"):
         if "math" in (found.get("class") or ()):
             number = _number(str(found["id"]))
@@ -61,15 +73,14 @@ def _number(anchor: str) -> str | None:
 
 
 def main() -> None:
-    """Print the faults of the named pages, or of all; exit 1 if there are any."""
+    """Print the faults of the named pages, or of all pages. Exit with 1 if there are any."""
     names = sys.argv[1:] or pages(
         yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))
     )
-    found = [
-        f"{name}: {fault}"
-        for name in names
-        for fault in faults((SITE / f"{name}.html").read_text("utf-8"))
-    ]
+    found = []
+    for name in names:
+        html = (SITE / f"{name}.html").read_text("utf-8")
+        found += [f"{name}: {fault}" for fault in (*faults(html), *wide_cells(html))]
     print("\n".join(found))
     sys.exit(bool(found))
 

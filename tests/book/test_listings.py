@@ -1,11 +1,11 @@
-"""Listings on the built pages can be read on one screen, and each equation is followed by its own."""
+"""Code on the built pages fits on one screen, and each equation is followed by its own listing."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
-from check_listings import faults
+from check_listings import faults, wide_cells
 
 
 def test_listings_of_page(page_name: str, site: Path) -> None:
@@ -65,3 +65,22 @@ def test_listing_fault(code: str, fault: str) -> None:
 )
 def test_listing_without_fault(code: str) -> None:
     assert list(faults(listing(code))) == []
+
+
+def cell(code: str) -> str:
+    return f'<div class="cell"><div class="cell_input"><pre>{code}</pre></div></div>'
+
+
+def folded(code: str) -> str:
+    inside = f"<details class='hide'>{cell(code)}</details>"
+    return f'<div class="cell">{inside}</div>'
+
+
+def test_wide_code_cell() -> None:
+    page = cell("x = 1") + cell("x = 1\n" + "y" * 89)
+    assert list(wide_cells(page)) == [f"code cell 2 has 89 columns: {'y' * 89}"]
+
+
+@pytest.mark.parametrize("page", [cell("x" * 88), folded("x" * 89)])
+def test_code_cell_without_fault(page: str) -> None:
+    assert list(wide_cells(page)) == []

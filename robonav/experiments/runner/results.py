@@ -132,7 +132,7 @@ def load_results(name: str, folder: str | Path = RESULTS) -> pd.DataFrame:
     Raises
     ------
     FileNotFoundError
-        If there are no results of this name.
+        If the folder has no results of this name.
     ValueError
         If a file is damaged, or the two files do not belong together.
 
@@ -151,16 +151,23 @@ def load_results(name: str, folder: str | Path = RESULTS) -> pd.DataFrame:
     import pandas as pd
 
     path = Path(folder) / f"{name}.csv"
-    content = path.read_bytes()
     try:
-        about: Mapping[str, Any] = json.loads(path.with_suffix(".json").read_text())
+        content = path.read_bytes()
+        description = path.with_suffix(".json").read_text()
+    except FileNotFoundError as error:
+        raise FileNotFoundError(
+            f"results of {name} must be in {path.parent}, but {Path(error.filename).name} is missing there: run "
+            f"robonav reproduce {name}"
+        ) from None
+    try:
+        about: Mapping[str, Any] = json.loads(description)
         whole = hashlib.sha256(content).hexdigest()
         if (about["format"], about["sha256"]) != (FORMAT, whole):
             raise ValueError
         return pd.read_csv(path, converters={"value": float}, keep_default_na=False)
     except (ValueError, KeyError, TypeError):
         raise ValueError(
-            f"{path.name} must hold results of {name}, but is damaged or of another"
+            f"{path.name} must hold results of {name}, but is damaged or belongs to another experiment"
         ) from None
 
 
@@ -210,7 +217,7 @@ def read_results(experiment: Experiment | str, folder: str | Path = RESULTS) -> 
         return Results(experiment, json.loads(path.read_text())["scale"], frame)
     except KeyError:
         raise ValueError(
-            f"{path.stem}.csv must hold results of {experiment.name}, but is damaged or of another"
+            f"{path.stem}.csv must hold results of {experiment.name}, but is damaged or belongs to another experiment"
         ) from None
 
 

@@ -149,6 +149,16 @@ def test_damaged_results_are_refused_with_a_sentence(tmp_path):
         read_results(toy(), tmp_path)
 
 
+@pytest.mark.parametrize("ending", ["csv", "json"])
+def test_missing_results_are_one_sentence(tmp_path, ending):
+    reproduce(toy(), tmp_path, jobs=1)
+    (tmp_path / f"toy.{ending}").unlink()
+    with pytest.raises(
+        FileNotFoundError, match=f"but toy.{ending} is missing there: run robonav"
+    ):
+        load_results("toy", tmp_path)
+
+
 @pytest.mark.slow
 def test_a_killed_experiment_goes_on_where_it_was(tmp_path):
     """SIGKILL at several moments, then to the end: the same files as without."""
