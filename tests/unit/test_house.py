@@ -52,9 +52,9 @@ LATE = (
 )
 PROBE = """
 import json, sys, time
-before = time.perf_counter()
+before = time.process_time()
 import robonav
-print(json.dumps({"seconds": time.perf_counter() - before, "loaded": sorted(sys.modules)}))
+print(json.dumps({"seconds": time.process_time() - before, "loaded": sorted(sys.modules)}))
 """
 
 
@@ -197,9 +197,8 @@ def test_import_loads_nothing_heavy_and_is_quick() -> None:
         )
         runs.append(json.loads(run.stdout))
     assert [name for name in LATE if name in runs[0]["loaded"]] == []
-    assert (
-        min(run["seconds"] for run in runs) < 1
-    )  # seconds; the benchmarks say how quick, this says that nothing slipped in
+    # Processor seconds, which other programs do not lengthen much. The benchmarks measure the time of the import.
+    assert min(run["seconds"] for run in runs) < 1
 
 
 def test_plain_pytest_has_no_option_of_the_grader(tmp_path: Path) -> None:
