@@ -1,4 +1,4 @@
-"""Plans, demonstrations and learned drives over their maps, and chapter 3's results (Fig. 3.4-3.10, Table 3.2, 3.3)."""
+"""Figures of chapter 3: planned paths, demonstrations and episodes on their maps, and the experiments' results."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ CYCLE = (
     style.PURPLE,
     style.SKY,
 )
-ARRIVE = "drives that arrive (%)"
+SUCCESS = "episodes that arrive (%)"
 VISITED = LinearSegmentedColormap.from_list(
     "visited", [to_rgba(style.SKY, 0.75), to_rgba(style.PURPLE, 0.75)]
 )
@@ -49,7 +49,19 @@ def draw_search(
     *,
     colour: str = style.METHODS["A*"],
 ) -> None:
-    """A plan as stars and what its search visited as dots, light for early and dark for late (Fig. 3.4)."""
+    """Draw a planned path as stars, and the nodes expanded as dots from light (early) to dark (late) (Fig. 3.4).
+
+    Parameters
+    ----------
+    axes : Axes
+        Where to draw.
+    world : Worlds
+        Batch of one: the map.
+    made : Plan or GridPlan
+        What the search found in this map. Without recorded nodes, only the path is drawn.
+    colour : str
+        Of the path.
+    """
     draw_world(axes, world)
     if made.visited is not None:
         x, y = made.visited[:, 0], made.visited[:, 1]
@@ -65,36 +77,60 @@ def draw_search(
     axes.plot(*made.points.T, marker="*", markersize=4, linewidth=0.8, color=colour)
 
 
-def draw_ways(
+def draw_named_paths(
     axes: Axes,
     world: Worlds,
-    ways: Mapping[str, ArrayLike],
+    paths: Mapping[str, ArrayLike],
     *,
     colours: Mapping[str, str] = style.METHODS,
 ) -> None:
-    """Several ways (steps + 1, 2 or 3) over one map, named as in ``style.METHODS`` (Fig. 3.5, 3.9)."""
+    """Draw several paths on one map, each with its name in the legend (Fig. 3.5, 3.9).
+
+    Parameters
+    ----------
+    axes : Axes
+        Where to draw.
+    world : Worlds
+        Batch of one: the map.
+    paths : mapping of str to (steps + 1, 2 or 3) array
+        x, y (and heading) along each path, by name.
+    colours : mapping of str to str
+        Colours by name, by default those of the methods.
+    """
     draw_world(axes, world)
-    for name, way in ways.items():
-        x, y = np.asarray(way)[:, :2].T
+    for name, path in paths.items():
+        x, y = np.asarray(path)[:, :2].T
         axes.plot(x, y, color=colours.get(name, style.BLUE), linewidth=1.6, label=name)
 
 
 def draw_demonstrations(
     figure: Figure,
     demonstrations: Demonstrations,
-    drives: Sequence[int],
+    trajectories: Sequence[int],
     *,
     columns: int = 4,
 ) -> None:
-    """Some drives over their maps; steps that are learned from stand out (Fig. 3.6)."""
-    rows = -(-len(drives) // columns)
-    for place, drive in enumerate(drives, start=1):
+    """Draw some demonstrations on their maps, with dots where the effective pairs are (Fig. 3.6).
+
+    Parameters
+    ----------
+    figure : Figure
+        Gets a panel for each trajectory.
+    demonstrations : Demonstrations
+        By any expert.
+    trajectories : sequence of int
+        Which of them to draw.
+    columns : int
+        Panels a row.
+    """
+    rows = -(-len(trajectories) // columns)
+    for place, number in enumerate(trajectories, start=1):
         axes = figure.add_subplot(rows, columns, place)
-        draw_world(axes, demonstrations.worlds[drive])
-        shown = demonstrations.select_trajectories([drive])
-        axes.plot(*shown.poses[:, :2].T, color=style.GREY, linewidth=1)
+        draw_world(axes, demonstrations.worlds[number])
+        one = demonstrations.select_trajectories([number])
+        axes.plot(*one.poses[:, :2].T, color=style.GREY, linewidth=1)
         axes.plot(
-            *shown.effective.poses[:, :2].T,
+            *one.effective.poses[:, :2].T,
             color=style.METHODS["A*"],
             linestyle="none",
             marker=".",
@@ -105,7 +141,7 @@ def draw_demonstrations(
             yticks=[],
             xlabel="",
             ylabel="",
-            title=str(demonstrations.outcome[drive]),
+            title=str(demonstrations.outcome[number]),
         )
 
 
@@ -117,7 +153,23 @@ def draw_moments(
     *,
     colour: str = style.ROBOT,
 ) -> None:
-    """A drive among moving obstacles at some moments: the robot, its way so far, the obstacles then (Fig. 3.10)."""
+    """Draw some moments of an episode among moving obstacles (Fig. 3.10).
+
+    Each panel shows the robot, its path so far, and the obstacles where they are at that moment.
+
+    Parameters
+    ----------
+    figure : Figure
+        Gets a panel for each moment.
+    world : Worlds
+        Batch of one.
+    path : (steps + 1, 3) array
+        The robot's poses in the episode.
+    moments : sequence of int
+        Seconds after the start.
+    colour : str
+        Of the robot and its path.
+    """
     tracks = obstacle_tracks(world, len(path) - 1)[0]
     for place, moment in enumerate(moments, start=1):
         axes = figure.add_subplot(1, len(moments), place)
@@ -130,20 +182,31 @@ def draw_moments(
 def draw_against(
     axes: Axes, results: Results, key: str, metric: str, *, thesis: bool = False
 ) -> None:
-    """A metric against what one key of the cases says, a line for each setting of the others, with 95 % intervals.
+    """Draw a metric against one setting of the cases, with one line for each combination of the other settings.
+
+    Bars show 95 % intervals over runs.
 
     Parameters
     ----------
-    thesis : whether to mark the thesis's numbers too.
+    axes : Axes
+        Where to draw.
+    results : Results
+        Of one experiment.
+    key : str
+        The setting on the horizontal axis.
+    metric : str
+        The metric on the vertical axis.
+    thesis : bool
+        Whether to mark the thesis's numbers too.
     """
     lines: dict[str, list[int]] = {}
     for place, case in enumerate(results.experiment.cases):
         others = {name: value for name, value in case.items() if name != key}
-        said = (
+        words = (
             f"{value}" if isinstance(value, str) else f"{name} {value}"
             for name, value in others.items()
         )
-        lines.setdefault(", ".join(said), []).append(place)
+        lines.setdefault(", ".join(words), []).append(place)
     numbers = results.experiment.thesis.get(metric, ())
     for (name, places), colour in zip(lines.items(), cycle(CYCLE)):
         x = [float(results.experiment.cases[place][key]) for place in places]
@@ -182,18 +245,18 @@ def draw_against(
 
 
 def plot_demonstrations(results: Results) -> Figure:
-    """Success against number of demonstrations, the thesis's beside ours (Table 3.2)."""
+    """Plot success against the number of demonstrations, with the thesis's numbers (Table 3.2)."""
     figure, axes = plt.subplots(figsize=(6.5, 4))
     draw_against(axes, results, "demonstrations", "success", thesis=True)
-    axes.set(ylabel=ARRIVE)
+    axes.set(ylabel=SUCCESS)
     return figure
 
 
 def plot_iterations(results: Results) -> Figure:
-    """Agreement with the demonstrations, and success, against iterations of training (Table 3.3)."""
+    """Plot agreement with the demonstrations, and success, against training iterations (Table 3.3)."""
     figure, (above, below) = plt.subplots(2, figsize=(6.5, 6), sharex=True)
     draw_against(above, results, "iterations", "success")
-    above.set(ylabel=ARRIVE, xlabel="")
+    above.set(ylabel=SUCCESS, xlabel="")
     above.get_legend().remove()
     draw_against(below, results, "iterations", "accuracy", thesis=True)
     below.set(ylabel="agreement (%)")
@@ -201,7 +264,7 @@ def plot_iterations(results: Results) -> Figure:
 
 
 def plot_planners(results: Results) -> Figure:
-    """How much farther than the bird's way two planners go, and how many nodes they expand (Fig. 3.5)."""
+    """Plot by how much two planners' paths exceed the straight line, and how many nodes they expand (Fig. 3.5)."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.4), sharey=True)
     cases = results.experiment.cases
     rows = np.arange(len(cases))
@@ -238,7 +301,7 @@ def plot_planners(results: Results) -> Figure:
 
 
 def plot_cost(results: Results) -> Figure:
-    """The cost in training: mean and, shaded, least to largest over runs (Fig. 3.7)."""
+    """Plot the cost during training: the mean over runs, shaded from the least to the largest (Fig. 3.7)."""
     figure, axes = plt.subplots(figsize=(6.5, 3.6))
     for case, (setting, colour) in enumerate(
         zip(results.experiment.cases, CYCLE, strict=False)
@@ -262,26 +325,36 @@ def plot_cost(results: Results) -> Figure:
 
 
 def plot_methods(results: Results) -> Figure:
-    """Success of methods against the number of obstacles, with 95 % intervals over runs (Fig. 3.8)."""
+    """Plot the success of methods against the number of obstacles, with 95 % intervals over runs (Fig. 3.8)."""
     figure, axes = plt.subplots(figsize=(6.5, 4.6))
     draw_against(axes, results, "obstacles", "success")
     axes.set(
-        ylabel=ARRIVE,
+        ylabel=SUCCESS,
         xticks=sorted({int(case["obstacles"]) for case in results.experiment.cases}),
     )
     return figure
 
 
 def plot_margins(results: Results) -> Figure:
-    """Success against the margin that the expert keeps."""
+    """Plot success against the margin that the expert keeps, with 95 % intervals over runs."""
     figure, axes = plt.subplots(figsize=(6.5, 4))
     draw_against(axes, results, "margin", "success")
-    axes.set(xlabel="margin of the expert (m)", ylabel=ARRIVE)
+    axes.set(xlabel="margin of the expert (m)", ylabel=SUCCESS)
     return figure
 
 
 def draw_rounds(axes: Axes, results: Results) -> None:
-    """Success after each of DAgger's rounds, a line a number of obstacles: mean, and least to largest over runs."""
+    """Draw the success after each round of DAgger, with one line for each number of obstacles.
+
+    A line is the mean over runs; the shade extends from the least to the largest.
+
+    Parameters
+    ----------
+    axes : Axes
+        Where to draw.
+    results : Results
+        Of an experiment with cases of the method "DAgger".
+    """
     cases = [
         place
         for place, case in enumerate(results.experiment.cases)
@@ -307,6 +380,6 @@ def draw_rounds(axes: Axes, results: Results) -> None:
             linewidth=0,
         )
     axes.set(
-        xlabel="round of DAgger (0: before the first)", ylabel=ARRIVE, xticks=rounds
+        xlabel="round of DAgger (0: behaviour cloning)", ylabel=SUCCESS, xticks=rounds
     )
     axes.legend(fontsize=8)

@@ -1,4 +1,4 @@
-"""Networks, their training, and what they answer: Fig. 3.1-3.3 and 3.7."""
+"""Figures of networks: their layers, their training, and their outputs (Fig. 3.1 to 3.3 and 3.7)."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ ANSWERS = LinearSegmentedColormap.from_list(
 
 
 def unit_positions(sizes: Sequence[int]) -> list[NDArray[np.float64]]:
-    """Where the units of each layer stand, (s[l] + 1, 2), the bias unit first, on top; the output layer has none."""
+    """Return the positions of each layer's units, (s[l] + 1, 2): the bias unit on top; the output layer has none."""
     last = len(sizes) - 1
     layers = []
     for layer, size in enumerate(sizes):
@@ -53,14 +53,19 @@ def draw_network(
     inputs: Sequence[str] | None = None,
     outputs: Sequence[str] | None = None,
 ) -> None:
-    """A network as circles and lines, bias units marked +1 (Fig. 3.1, 3.2, 3.3).
+    """Draw a network's units as circles and its weights as lines; bias units are marked +1 (Fig. 3.1 to 3.3).
 
     Parameters
     ----------
-    axes : where to draw.
-    sizes : units of each layer, without bias units.
-    network : of these sizes; its lines are then as thick as their weights, blue where positive and red where negative.
-    inputs, outputs : names of the units of the first and the last layer; by default x and h.
+    axes : Axes
+        Where to draw.
+    sizes : sequence of int
+        Number of units in each layer, without bias units.
+    network : Network, optional
+        A network of these sizes. The lines are then as thick as the weights are large, blue for positive weights and
+        red for negative ones.
+    inputs, outputs : sequence of str, optional
+        Names of the units in the first and the last layer; by default x and h with an index.
     """
     layers = unit_positions(sizes)
     for layer, (here, there) in enumerate(pairwise(layers)):
@@ -121,7 +126,7 @@ def draw_network(
 
 
 def _line_style(network: Network | None, layer: int) -> dict[str, Any]:
-    """Even grey lines, or lines that show the weights and, from the bias unit, the bias."""
+    """Return the style of a layer's lines: grey without a network, else by the sizes and signs of its weights."""
     if network is None:
         return {"colors": style.INK, "linewidths": 0.7}
     values = np.column_stack([network.biases[layer], network.weights[layer]]).ravel()
@@ -139,7 +144,17 @@ def plot_costs(
     *,
     colours: Mapping[str, str] | None = None,
 ) -> None:
-    """Cost against iterations, a named curve a training (Fig. 3.7)."""
+    """Plot cost against iterations, with one curve for each training (Fig. 3.7).
+
+    Parameters
+    ----------
+    axes : Axes
+        Where to draw.
+    trainings : mapping of str to TrainingHistory
+        Trainings by name.
+    colours : mapping of str to str, optional
+        Colours by name.
+    """
     for name, training in trainings.items():
         axes.plot(training.costs, label=name, color=(colours or {}).get(name))
     axes.set(xlabel="iteration", ylabel="cost $J$")
@@ -153,7 +168,17 @@ def plot_accuracies(
     *,
     colours: Mapping[str, str] | None = None,
 ) -> None:
-    """Examples answered as labelled, in per cent, against iterations (Table 3.3)."""
+    """Plot accuracy, the percentage of examples classified as labelled, against iterations (Table 3.3).
+
+    Parameters
+    ----------
+    axes : Axes
+        Where to draw.
+    trainings : mapping of str to TrainingHistory
+        Trainings by name.
+    colours : mapping of str to str, optional
+        Colours by name.
+    """
     for name, training in trainings.items():
         axes.plot(
             100 * training.accuracies, label=name, color=(colours or {}).get(name)
@@ -164,13 +189,18 @@ def plot_accuracies(
 
 
 def draw_answers(axes: Axes, field: ArrayLike, x: ArrayLike, y: ArrayLike) -> None:
-    """What a network answers over the square of the two-input problems, the examples, and the boundary at 1/2.
+    """Draw a network's output over the plane of its two inputs, its boundary at 1/2, and the examples.
 
     Parameters
     ----------
-    axes : where to draw.
-    field : answers (R, R) from :func:`robonav.networks.toy_datasets.field`.
-    x, y : the examples (m, 2) and (m, 1).
+    axes : Axes
+        Where to draw.
+    field : (R, R) array
+        Outputs on a grid, from :func:`robonav.networks.toy_datasets.field`.
+    x : (m, 2) array
+        Inputs of the examples.
+    y : (m, 1) array
+        Their labels, 0 or 1.
     """
     square = (-EXTENT, EXTENT, -EXTENT, EXTENT)
     values, points, yes = np.asarray(field), np.asarray(x), np.asarray(y)[:, 0] > 0.5
