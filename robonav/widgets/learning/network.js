@@ -41,6 +41,16 @@ export function randomNetwork(sizes, rng, spread = null) {
   return network;
 }
 
+/** The action that a uniform random number draws. */
+export function sampleAction(probabilities, drawn) {
+  let [sum, action] = [0, 0];
+  for (const probability of probabilities) {
+    sum += probability;
+    if (sum <= drawn) action += 1;
+  }
+  return Math.min(action, probabilities.length - 1);
+}
+
 /** Rows of numbers as examples. @param {number[][]} x @param {number[][]} y @returns {Examples} */
 export const examplesOf = (x, y) => ({ m: x.length, x: Float64Array.from(x.flat()), y: Float64Array.from(y.flat()) });
 

@@ -75,16 +75,6 @@ export function softmaxPolicy(q, temperature) {
   return weights.map((weight) => weight / sum);
 }
 
-/** The action that a uniform random number draws. */
-export function sampleAction(probabilities, drawn) {
-  let [sum, action] = [0, 0];
-  for (const probability of probabilities) {
-    sum += probability;
-    if (sum <= drawn) action += 1;
-  }
-  return Math.min(action, probabilities.length - 1);
-}
-
 /** Q-values after one update of the action taken, Eq. (4.9). */
 export function qTargets(q, action, reward, nextValue, learningRate, discount) {
   const targets = Float64Array.from(q);

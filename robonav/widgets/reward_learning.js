@@ -1,0 +1,198 @@
+// Learn a reward from drives, look at it as a map, and train another robot for it. Needs learning/nirl.js and a training panel.
+
+const HEAT_CELL = 2; // metres
+const HEAT_SHADES = 5; // on either side of 0
+const ACTION_NAMES = ROBOT.actions.slice(0, 5);
+
+/** The job: a reward and a policy from decisions, or with `reward` a policy alone. */
+export function* rewardJob({ inputs, actions, settings, seed, reward }) {
+  const run = nirl({ inputs: inputs.map((row) => Float64Array.from(row)), actions }, settings, seed, reward);
+  for (;;) {
+    const step = run.next();
+    if (step.done) {
+      const { network, theta, iteration, balanced } = step.value;
+      return { network: { sizes: network.sizes, weights: network.weights.map((w) => w.slice()), biases: network.biases.map((b) => b.slice()) }, theta, iteration, balanced };
+    }
+    const { iteration, iterations, margin, balanced, arrived, theta } = step.value;
+    yield { done: iteration, total: iterations, live: { at: iteration, margin, balanced: 100 * balanced, arrived: 100 * arrived, theta } };
+  }
+}
+
+/** The reward of each cell of a map for a robot that faces the target there; null inside things. */
+export function rewardMap(theta, world, settings, action) {
+  const cells = [];
+  for (let y = HEAT_CELL / 2; y < world.size; y += HEAT_CELL) {
+    for (let x = HEAT_CELL / 2; x < world.size; x += HEAT_CELL) {
+      const pose = { x, y, heading: Math.atan2(world.target[1] - y, world.target[0] - x) };
+      const sensing = sense(world, pose);
+      if (Math.min(...sensing.ranges) === 0) continue;
+      const input = encode(settings.encoder, sensing);
+      const rewards = ACTION_NAMES.map((_, a) => rewardAt(theta, input, a));
+      cells.push({ x, y, reward: action < 0 ? Math.max(...rewards) : rewards[action] });
+    }
+  }
+  return cells;
+}
+
+/** What stands in each column of theta. */
+const featureNames = ({ sensors }) => [...sensors.map((s) => `danger in sector ${s}`),
+  "target: sine of its direction", "target: cosine of its direction", "target seen", ...sensors.map((s) => `wall in sector ${s}`), "constant"];
+
+function render({ model, el }) {
+  const { sets, world, policies, seed, maps } = model.get("data");
+  const source = model.get("_esm");
+  let [settings, found, shownAction, second] = [{ ...NIRL_SETTINGS, seed: 0 }, null, 0, { obstacles: 10, moving: 10, speed: 2 }];
+  let chosen = 0;
+  const others = policies.map(({ name, rule, network, encoder }) => ({ name, policy: rule ? { rule } : { network: networks(network)(), encoder } }));
+  const number = (label, value, { step = 1, least, most }, change) => {
+    const input = h("input", { type: "number", value, step, min: least, max: most, "aria-label": label, change: () => {
+      const typed = input.valueAsNumber;
+      const right = Number.isFinite(typed) && typed >= least && typed <= most && (step !== 1 || Number.isInteger(typed));
+      complain.textContent = right ? "" : `${label} must be ${step === 1 ? "a whole number" : "a number"} from ${least} to ${most}.`;
+      input.setAttribute("aria-invalid", String(!right));
+      if (right) change(typed);
+    } });
+    return h("label", {}, h("span", {}, label), input);
+  };
+  const complain = h("p", { class: "status", role: "alert" });
+
+  // What was learned, as a picture
+  const board = mapCanvas({ role: "img" });
+  const paint = (theta) => {
+    board.begin(world.size);
+    if (theta) {
+      const cells = rewardMap(theta, world, settings, shownAction);
+      const sizes = cells.map(({ reward }) => Math.abs(reward)).sort((a, b) => a - b);
+      const strongest = sizes[Math.floor(0.95 * sizes.length)] || 1;
+      for (let shade = 1; shade <= HEAT_SHADES; shade += 1) {
+        for (const [colour, sign] of [[PALETTE.BLUE, 1], [PALETTE.VERMILION, -1]]) {
+          const flat = cells.filter(({ reward }) => Math.min(HEAT_SHADES, Math.ceil((HEAT_SHADES * sign * reward) / strongest)) === shade).flatMap(({ x, y }) => [x, y]);
+          board.dots(flat, 0, flat.length / 2, { colour, radius: 5, alpha: 0.13 * shade });
+        }
+      }
+    }
+    world.obstacles.forEach((o) => board.obstacle(o));
+    board.start(world.start);
+    board.target(world.target);
+    board.canvas.setAttribute("aria-label", theta ? "Map of the learned reward: blue where the robot likes to take the action, red where it fears to" : "Map without a reward: nothing is learned yet");
+  };
+  const table = h("div", { class: "scroll" });
+  const list = (theta) => {
+    const names = featureNames(settings.encoder);
+    const strongest = Math.max(1e-12, ...theta.map(Math.abs));
+    const cell = (value) => h("td", { style: `background: color-mix(in srgb, ${value > 0 ? PALETTE.BLUE : PALETTE.VERMILION} ${Math.round((45 * Math.abs(value)) / strongest)}%, transparent)` }, value.toFixed(2));
+    table.replaceChildren(h("table", { class: "results" },
+      h("caption", {}, "Weights of the reward, one column an action"),
+      h("thead", {}, h("tr", {}, ...["feature", ...ACTION_NAMES].map((text) => h("th", { scope: "col" }, text)))),
+      h("tbody", {}, ...names.map((name, j) => h("tr", {}, h("th", { scope: "row" }, name), ...ACTION_NAMES.map((_, a) => cell(theta[a * names.length + j])))))));
+  };
+
+  // How well a robot does in new maps
+  const results = h("div", {});
+  const trials = (where, mine, name) => new Promise((resolve) => {
+    const all = [{ name, policy: mine }, ...others];
+    const rows = all.map(({ name: title }) => [h("th", { scope: "row" }, title), h("td", {}, "")]);
+    const caption = h("caption", {}, "");
+    results.replaceChildren(h("table", { class: "results" }, caption,
+      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "policy"), h("th", { scope: "col" }, "arrived, with its 95 % interval"))),
+      h("tbody", {}, ...rows.map((row) => h("tr", {}, ...row)))));
+    const show = (counts, n) => {
+      caption.textContent = `${n} of ${maps} new maps: ${where.obstacles} standing and ${where.moving} moving obstacles, ${where.speed} m/s`;
+      counts.forEach((count, k) => {
+        const [low, high] = wilsonInterval(count, n).map((rate) => Math.round(100 * rate));
+        rows[k][1].textContent = `${Math.round((100 * count) / n)} % [${low}, ${high}]`;
+      });
+    };
+    trial = startJob(source, trialsJob, { policies: all.map(({ policy }) => policy), seed, count: maps, conditions: where }, {
+      live: (news) => show(news.at(-1).arrived, news.at(-1).at),
+      done: (arrived) => { show(arrived, maps); resolve(); },
+      error: (sentence) => { caption.textContent = sentence; resolve(); },
+    });
+  });
+  let trial = null;
+  const lines = [
+    { name: "margin", label: "margin", low: null },
+    { name: "balanced", label: "expert matched (%)", low: 0, high: 100, colour: PALETTE.GREEN },
+    { name: "arrived", label: "arrived (%)", low: 0, high: 100, colour: PALETTE.ORANGE },
+  ].map((line) => ({ ...line, text: (value) => (line.high ? value.toFixed(0) : value.toPrecision(2)) }));
+
+  const learn = trainingPanel({
+    source, action: "Learn the reward", unit: "iteration", total: () => settings.iterations, lines,
+    begin: () => {
+      if (complain.textContent) return complain.textContent;
+      trial?.cancel();
+      const { inputs, actions } = decisions(chosen);
+      if (actions.length === 0) return "Your drives hold no decision to learn from: drive some maps with obstacles in the playground first.";
+      return { job: rewardJob, argument: { inputs, actions, settings, seed: settings.seed, reward: null } };
+    },
+    live: (news) => paint(news.at(-1).theta),
+    done: (result) => {
+      found = result;
+      paint(found.theta);
+      list(found.theta);
+      elsewhere.hidden = false;
+      for (const each of [weights, reward]) each.disabled = false;
+      trials({ obstacles: settings.obstacles, moving: settings.moving, speed: settings.speed }, { network: found.network, encoder: settings.encoder }, "your robot");
+      return `The policy of iteration ${found.iteration} matches the expert best and is kept.`;
+    },
+  });
+  const again = trainingPanel({
+    source, action: "Train a new robot for this reward", unit: "iteration", total: () => settings.iterations, lines: lines.slice(2),
+    begin: () => {
+      if (complain.textContent) return complain.textContent;
+      trial?.cancel();
+      const { inputs, actions } = decisions(chosen);
+      return { job: rewardJob, argument: { inputs, actions, settings: { ...settings, ...second }, seed: (settings.seed) + 1, reward: found.theta } };
+    },
+    done: (result) => {
+      trials(second, { network: result.network, encoder: settings.encoder }, "the new robot");
+    },
+  });
+  const weights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl.safetensors", weightsFile({ network: found.network, encoder: settings.encoder, method: "nirl" })) }, "Download the policy");
+  const reward = h("button", { type: "button", disabled: true, click: () => saveFile("my-reward.npz", npz({ reward_weights: { descr: "<f8", shape: [5, found.theta.length / 5], values: [...found.theta] } })) }, "Download the reward");
+
+  const ready = sets.map(({ inputs, actions }) => {
+    const { shape: [rows, width], values } = unpack(inputs);
+    return { inputs: Array.from({ length: rows }, (_, t) => values.slice(t * width, (t + 1) * width)), actions: [...unpack(actions).values] };
+  });
+  const own = () => decisionsOf(keptDrives().flatMap(effective), settings);
+  const decisions = (index) => ready[index] ?? own();
+  const names = () => [...sets.map(({ name }) => name), `my own drives (${keptDrives().length})`];
+  const from = choice({ label: "demonstrations", options: names(), change: (index) => (chosen = index) });
+  const forget = watchDrives(() => (from.element.querySelector("option:last-child").textContent = names().at(-1)));
+  const action = choice({ label: "reward of the action", options: [...ACTION_NAMES, "best of the five"], value: 0, change: (index) => {
+    shownAction = index < ACTION_NAMES.length ? index : -1;
+    if (found) paint(found.theta);
+  } });
+
+  const elsewhere = h("div", { hidden: true });
+  el.classList.add("robonav");
+  el.replaceChildren(
+    h("div", { class: "row" }, from.element,
+      number("iterations", settings.iterations, { least: 1, most: 1000 }, (value) => (settings = { ...settings, iterations: value })),
+      number("obstacles in practice", settings.obstacles, { least: 0, most: 40 }, (value) => (settings = { ...settings, obstacles: value })),
+      number("inverse temperature η", settings.inverseTemperature, { step: 0.5, least: 0, most: 200 }, (value) => (settings = { ...settings, inverseTemperature: value })),
+      number("seed", 0, { least: 0, most: 1e6 }, (value) => (settings = { ...settings, seed: value }))),
+    complain, learn.element,
+    h("div", { class: "row" },
+      h("div", { class: "grow" }, board.canvas, action.element,
+        h("p", { class: "legend" }, h("span", { style: `--mark: ${PALETTE.BLUE}` }, "it likes to do this here"), h("span", { style: `--mark: ${PALETTE.VERMILION}` }, "it fears to do this here"))),
+      h("div", { class: "grow" }, results, h("details", {}, h("summary", {}, "The weights of the reward"), table))),
+    h("div", { class: "row tools" }, weights, reward),
+    elsewhere);
+  elsewhere.append(
+    h("fieldset", { class: "inspector" }, h("legend", {}, "The same reward somewhere else"),
+      number("standing obstacles", second.obstacles, { least: 0, most: 40 }, (value) => (second = { ...second, obstacles: value })),
+      number("moving obstacles", second.moving, { least: 0, most: 40 }, (value) => (second = { ...second, moving: value })),
+      number("speed (m/s)", second.speed, { step: 0.5, least: 1, most: 4 }, (value) => (second = { ...second, speed: value }))),
+    again.element);
+  paint(null);
+  return () => {
+    forget();
+    learn.cancel();
+    again.cancel();
+    trial?.cancel();
+  };
+}
+
+export default { render };

@@ -1,0 +1,150 @@
+"""Learning a reward in the page: learn, look, try, train elsewhere, cancel, take away."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from browser import DESKTOP, PHONE, Visit
+from mounting import mounted
+from playwright.sync_api import Locator, expect
+
+from robonav.benchmark.policies import method
+from robonav.lfd import demonstrate
+from robonav.networks import load_weights
+from robonav.nirl import learn
+from robonav.robot import random_worlds
+from robonav.widgets.reward_learning import reward_learning
+from robonav.widgets.simulator import page_world
+
+SLOW = 240_000  # milliseconds: a training on a busy machine
+DRIVES = demonstrate(random_worlds(6, 20, seed=3))
+
+
+@pytest.fixture(params=["desktop", "phone"])
+def lab(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Locator]:
+    """The widget alone on a page."""
+    visit.page.set_viewport_size(DESKTOP if request.param == "desktop" else PHONE)
+    widget = reward_learning(
+        {"six": DRIVES},
+        random_worlds(1, 20, seed=8),
+        {"the book's NIRL": method("nirl")},
+        maps=100,
+        seed=55_000,
+    )
+    yield mounted(visit, http, widget)
+    assert visit.errors == []
+    assert visit.page.evaluate(
+        "document.documentElement.scrollWidth <= window.innerWidth"
+    )
+
+
+def set_number(lab: Locator, label: str, value: float) -> None:
+    field = lab.get_by_label(label, exact=True)
+    field.fill(str(value))
+    field.press("Tab")
+
+
+def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
+    set_number(lab, "iterations", 30)
+    expect(lab.get_by_role("button", name="Download the policy")).to_be_disabled()
+    lab.get_by_role("button", name="Learn the reward").click()
+    expect(lab.locator(".status").nth(1)).to_contain_text("is kept", timeout=SLOW)
+    expect(lab.locator("caption").first).to_contain_text("100 of 100", timeout=SLOW)
+    rates = [
+        int(re.match(r"(\d+) %", text)[1])
+        for text in lab.locator("table").first.locator("td").all_inner_texts()
+    ]
+    assert rates[0] > rates[1] + 30  # straight on, with twenty obstacles
+    with lab.page.expect_download() as download:
+        lab.get_by_role("button", name="Download the reward").click()
+    download.value.save_as(tmp_path / "reward.npz")
+    theta = np.load(tmp_path / "reward.npz")["reward_weights"]
+    expected = learn(DRIVES, "nirl", seed=0, iterations=30)
+    assert theta.shape == expected.reward_weights.shape == (5, 18)
+    with lab.page.expect_download() as download:
+        lab.get_by_role("button", name="Download the policy").click()
+    download.value.save_as(tmp_path / "policy.safetensors")
+    assert load_weights(tmp_path / "policy.safetensors").network.sizes == (17, 10, 5)
+
+    set_number(lab, "moving obstacles", 5)
+    lab.get_by_role("button", name="Train a new robot for this reward").click()
+    expect(lab.locator("caption").first).to_contain_text(
+        "100 of 100 new maps: 10 standing and 5 moving", timeout=SLOW
+    )
+
+
+def test_map_shows_the_reward_of_the_chosen_action(lab):
+    set_number(lab, "iterations", 3)
+    lab.get_by_role("button", name="Learn the reward").click()
+    expect(lab.locator(".status").nth(1)).to_contain_text("is kept", timeout=SLOW)
+    canvas = lab.locator("canvas")
+    ahead = canvas.evaluate("(canvas) => canvas.toDataURL()")
+    lab.get_by_label("reward of the action", exact=True).select_option("L60")
+    assert canvas.evaluate("(canvas) => canvas.toDataURL()") != ahead
+
+
+def test_training_is_cancelled(lab):
+    lab.get_by_role("button", name="Learn the reward").click()
+    lab.get_by_role("button", name="Cancel").click()
+    expect(lab.locator(".status").nth(1)).to_have_text("Cancelled.")
+    expect(lab.get_by_role("button", name="Learn the reward")).to_be_enabled()
+
+
+def test_wrong_number_is_one_sentence(lab):
+    set_number(lab, "iterations", 0)
+    sentence = "iterations must be a whole number from 1 to 1000."
+    expect(lab.get_by_role("alert")).to_have_text(sentence)
+    lab.get_by_role("button", name="Learn the reward").click()
+    expect(lab.locator(".status").nth(1)).to_have_text(sentence)
+    set_number(lab, "iterations", 5)
+    expect(lab.get_by_role("alert")).to_have_text("")
+
+
+def test_without_own_drives_one_sentence_says_where_to_drive(lab):
+    lab.get_by_label("demonstrations").select_option("my own drives (0)")
+    lab.get_by_role("button", name="Learn the reward").click()
+    expect(lab.locator(".status").nth(1)).to_contain_text("in the playground first")
+
+
+KEPT = """(drives) => {
+  for (const [k, drive] of drives.entries()) localStorage.setItem(`robonav.drive.test.${k}`, JSON.stringify(drive));
+  window.dispatchEvent(new StorageEvent("storage", { key: null }));
+}"""
+
+
+def kept_drives():
+    """Demonstrations as the playground keeps drives."""
+    for number in range(len(DRIVES.worlds)):
+        rows = DRIVES.trajectory == number
+        sensing = DRIVES.sensing[rows]
+        yield {
+            "world": page_world(DRIVES.worlds[number]),
+            "speed": DRIVES.speed,
+            "outcome": "arrived",
+            "map": number,
+            "actions": DRIVES.actions[rows].tolist(),
+            "poses": DRIVES.poses[rows].tolist(),
+            "ranges": sensing.ranges.tolist(),
+            "walls": (sensing.walls @ (1 << np.arange(9))).tolist(),
+            "regions": sensing.target_region.tolist(),
+            "seen": sensing.target_seen.astype(int).tolist(),
+        }
+
+
+def test_own_drives_teach_what_the_same_demonstrations_teach(lab, tmp_path):
+    lab.page.evaluate(KEPT, list(kept_drives()))
+    set_number(lab, "iterations", 2)
+    rewards = []
+    for name in ("six", "my own drives (6)"):
+        lab.get_by_label("demonstrations").select_option(name)
+        lab.get_by_role("button", name="Learn the reward").click()
+        expect(lab.locator(".status").nth(1)).to_contain_text("is kept", timeout=SLOW)
+        with lab.page.expect_download() as download:
+            lab.get_by_role("button", name="Download the reward").click()
+        download.value.save_as(tmp_path / f"{len(rewards)}.npz")
+        rewards.append(np.load(tmp_path / f"{len(rewards)}.npz")["reward_weights"])
+    np.testing.assert_allclose(rewards[0], rewards[1], atol=1e-12)
+    assert abs(rewards[0]).max() > 0
