@@ -8,6 +8,8 @@ m examples, a(l) is (m, s_l) and stands on the left of the transposed weights. O
 2. error of the output layer, the derivative of the cost by z: ``delta = a[-1] - y`` for the cross-entropy;
 3. backward: ``backpropagate(weights, a, delta)`` sums the gradient over the examples;
 4. downhill: ``descend(network, gradient, gradient_step)``.
+
+:func:`robonav.networks.gradient_descent` repeats these steps.
 """
 
 from __future__ import annotations
@@ -115,8 +117,8 @@ def propagate(
     """
     a = [x]
     for W, b in zip(weights, biases, strict=True):
-        z = a[-1] @ W.T + b  # Eq. (3.3)
-        a.append(f(z))
+        z = a[-1] @ W.T + b  # Eq. (3.3): z(l+1) = W(l) a(l) + b(l)
+        a.append(f(z))  # a(l+1) = f(z(l+1))
     return a, z
 
 
@@ -176,9 +178,10 @@ def backpropagate(weights: Sequence[Array], a: list[Array], delta: Array) -> Gra
     dW: list[Array] = []
     db: list[Array] = []
     for layer in reversed(range(len(weights))):
+        # delta(l+1) a(l)^T and delta(l+1), summed over the examples
         dW.insert(0, delta.T @ a[layer])  # Eqs. (3.15), (3.25) and (3.26)
         db.insert(0, delta.sum(axis=0))
-        if layer > 0:
+        if layer > 0:  # delta(l) = (W(l)^T delta(l+1)) * f'(z(l))
             back = delta @ weights[layer]
             delta = back * sigmoid_slope(a[layer])  # Eqs. (3.14) and (3.24)
     return Gradient(dW, db)
@@ -393,7 +396,9 @@ def random_network(
     seed: int | np.random.Generator,
     spread: float | None = None,
 ) -> Network:
-    """Draw a network whose weights and biases are small random numbers, so that no two hidden units start alike.
+    """Draw a network with small random weights and biases.
+
+    Hidden units that start with equal weights stay equal. Random numbers make them differ.
 
     Parameters
     ----------
@@ -402,8 +407,8 @@ def random_network(
     seed : int or Generator
         Of the random numbers.
     spread : float, optional
-        Parameters are uniform in [-spread, spread]; 0 is the trap of section 3.3.1. By default
-        sqrt(6 / (inputs + outputs)) of each layer (Glorot and Bengio 2010).
+        Weights and biases are uniform in [-spread, spread]. By default it is sqrt(6 / (inputs + outputs)) of each
+        layer (Glorot and Bengio 2010). With 0 all hidden units are equal.
 
     Returns
     -------
