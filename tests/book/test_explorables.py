@@ -102,6 +102,7 @@ def test_by_touch_on_a_phone(visit: Visit, name: str) -> None:
             with something_changes(widget, f"touching {slider}"):
                 touch(slider, share)
     for group in widget.locator(SEGMENTS).all():
+        reset(widget)
         with something_changes(widget, f"touching {group}"):
             touch(group.locator("label:not(:has(:checked))").last)
     for button in buttons(widget):
