@@ -6,6 +6,17 @@ import pytest
 from gymnasium.spaces import Discrete
 
 from robonav import mdp
+from robonav.robot import (
+    Action,
+    Reflex,
+    concatenate,
+    degree_of_danger,
+    make_world,
+    navigate,
+    random_worlds,
+    sense,
+    turn_to_clearer_side,
+)
 from robonav.widgets.explorables import EXPLORABLES, chapter2, explorable
 
 
@@ -313,3 +324,103 @@ def best_of_all_plans(pomdp, belief, steps):
         ]
         worth.append(reward + pomdp.mdp.discount * chances @ futures)
     return max(worth)
+
+
+def test_sensors_read_what_python_reads(compute):
+    poses = [(17.0, 18.0, 40), (20.5, 21.0, 80), (2.0, 3.0, 350), (35.0, 20.0, 0)]
+    body = """
+    return data.poses.map(([x, y, degrees]) => page.readings(given.world, { x, y, heading: (degrees * Math.PI) / 180 }));"""
+    world = sensor_world()
+    for (x, y, degrees), read in zip(
+        poses, compute("sensor_sectors", body, poses=poses), strict=True
+    ):
+        sensed = sense(world, [(x, y, np.radians(degrees))])
+        np.testing.assert_allclose(read["ranges"], sensed.ranges[0], atol=1e-6)
+        assert read["degrees"] == degree_of_danger(sensed.ranges[0]).tolist()
+        assert read["walls"] == sensed.walls[0].tolist()
+        assert read["region"] == sensed.target_region[0]
+
+
+def sensor_world():
+    """The world of the explorable, put together again from what its page gets."""
+    world = explorable("sensor_sectors").data["given"]["world"]
+    circles = [(o["x"], o["y"], o["a"]) for o in world["obstacles"] if o["circle"]]
+    rectangles = [
+        (o["x"], o["y"], 2 * o["a"], 2 * o["b"], np.degrees(o["turned"]))
+        for o in world["obstacles"]
+        if not o["circle"]
+    ]
+    return make_world(
+        circles=circles,
+        rectangles=rectangles,
+        start=world["start"],
+        target=world["target"],
+        size=world["size"],
+    )
+
+
+def test_a_turn_by_a_sector_moves_every_reading_on_by_one_sensor():
+    poses = [(17.0, 18.0, np.radians(degrees)) for degrees in (40, 80)]
+    world = sensor_world()
+    before, after = sense(world[[0, 0]], poses).ranges
+    np.testing.assert_allclose(after, np.roll(before, -1), atol=1e-6)
+
+
+@pytest.mark.parametrize("speed", [2.0, 8.0])
+def test_the_policy_decides_where_python_says(compute, speed):
+    body = "return given.worlds.map((world) => page.decisions(world, { sight: 10, speed: data.speed }));"
+    seen = compute("reflex_map", body, speed=speed)
+    middles = np.arange(1.0, 100, 2)
+    places = np.stack(np.meshgrid(middles, middles), axis=-1).reshape(-1, 2)
+    for obstacles, shown in zip((5, 10, 20, 30), seen, strict=True):
+        world = random_worlds(1, obstacles, seed=41)
+        towards = world.targets[0] - places
+        poses = np.column_stack([places, np.arctan2(towards[:, 1], towards[:, 0])])
+        sensing = sense(world[np.zeros(len(poses), int)], poses)
+        commands = Reflex()(sensing, speed)
+        kinds = np.select([commands == Action.TO_TARGET, commands == Action.B], [0, 2], 1)
+        kinds[sensing.ranges.min(axis=1) < 1] = 3
+        assert (np.array(shown) == kinds).all()
+        if (obstacles, speed) == (10, 2.0):
+            assert round(100 * (kinds == 1).sum() / (kinds < 3).sum()) == 67
+
+
+@pytest.mark.parametrize(("speed", "near"), [(2, 10), (6.5, 10), (7, 10), (4.5, 6)])
+def test_episodes_past_an_obstacle_end_as_in_python(compute, speed, near):
+    body = "return page.episodes(given.world, { speed: data.speed, turnAt: data.near }).map(({ outcome }) => outcome);"
+    seen = compute("speed_and_sight", body, speed=speed, near=near)
+    worlds = concatenate(
+        [
+            make_world(
+                circles=[(50, 50, 4)], start=(10 + k * speed / 40, 50), target=(90, 50)
+            )
+            for k in range(40)
+        ]
+    )
+
+    def policy(sensing, rng):
+        return np.where(sensing.ranges[:, 0] < near, 2, 0)
+
+    result = navigate(policy, worlds, speed=speed, max_steps=400)
+    assert [outcome == "collided" for outcome in seen] == result.collision.tolist()
+    assert [outcome == "arrived" for outcome in seen] == result.success.tolist()
+    if near == 10:
+        assert result.collision.any() == (speed > 6.5)  # as the page says
+
+
+@pytest.mark.parametrize("width", [12, 20])
+@pytest.mark.parametrize("depth", [0, 2, 7, 8, 12])
+def test_pockets_hold_the_robot_as_in_python(compute, width, depth):
+    body = "return page.episodeInPocket(page.withPocket(given.world, data));"
+    seen = compute("pocket", body, width=width, depth=depth)
+    side = width / 2 + 1
+    arms = [(60 - depth / 2, 50 + s, depth, 2, 0) for s in (side, -side) if depth]
+    world = make_world(
+        rectangles=[(60, 50, 2, width + 4, 0), *arms], start=(20, 50), target=(90, 50)
+    )
+    result = navigate(turn_to_clearer_side, world, max_steps=300, record_paths=True)
+    assert (seen["outcome"] == "arrived") == result.success[0]
+    assert (seen["outcome"] == "collided") == result.collision[0]
+    np.testing.assert_allclose(seen["path"], result.paths[0][:, :2], atol=1e-9)
+    if width == 12:
+        assert result.success[0] == (depth < 8)  # as the page says

@@ -1,0 +1,73 @@
+"""The numbers of the explorables on the robot and its playground."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from robonav.robot import make_world, random_worlds
+
+from ..simulator import page_world
+from .registry import asks
+
+SIMULATOR = ("simulator", "maps")
+
+
+@asks(
+    "Nine sensors that turn with the robot",
+    "The robot turns by 40° to the left, on the spot. What happens to its nine readings?",
+    guesses=[
+        "nothing: it is where it was",
+        "those ahead change",
+        "each moves on to the sensor before it",
+        "all become new numbers",
+    ],
+    files=SIMULATOR,
+)
+def sensor_sectors() -> dict[str, Any]:
+    """A small world and the robot's first place in it."""
+    world = make_world(
+        circles=[(26, 24, 2.5), (12, 30, 2)],
+        rectangles=[(28, 12, 6, 3, 30)],
+        start=(5, 5),
+        target=(35, 35),
+        size=40.0,
+    )
+    return {"world": page_world(world), "pose": [17.0, 18.0]}
+
+
+@asks(
+    "Who decides?",
+    "The map has 10 obstacles, and the robot sees 10 m far. "
+    "In what part of the free places does the policy decide, and not a reflex?",
+    guesses=["20 %", "40 %", "67 %", "90 %"],
+    files=SIMULATOR,
+)
+def reflex_map(seed: int = 41) -> dict[str, Any]:
+    """Worlds with 5, 10, 20 and 30 obstacles."""
+    worlds = [random_worlds(1, number, seed=seed) for number in (5, 10, 20, 30)]
+    return {"worlds": [page_world(world) for world in worlds]}
+
+
+@asks(
+    "Too fast for its sensors",
+    "The robot senses once a second and turns by 60° when something ahead is nearer than 10 m. "
+    "Up to which speed does it always get past the obstacle?",
+    guesses=["2 m/s", "4 m/s", "6.5 m/s", "9 m/s"],
+    files=SIMULATOR,
+)
+def speed_and_sight() -> dict[str, Any]:
+    """One circle between start and target."""
+    world = make_world(circles=[(50, 50, 4)], start=(10, 50), target=(90, 50))
+    return {"world": page_world(world)}
+
+
+@asks(
+    "A pocket in the way",
+    "A pocket of 12 m width opens towards the robot, which turns to the side with more room and remembers nothing. "
+    "From which depth on does it no longer get out?",
+    guesses=["4 m", "8 m", "16 m", "it always gets out"],
+    files=SIMULATOR,
+)
+def pocket() -> dict[str, Any]:
+    """An empty world; the page builds the pocket."""
+    return {"world": page_world(make_world(start=(20, 50), target=(90, 50)))}
