@@ -329,7 +329,8 @@ def best_of_all_plans(pomdp, belief, steps):
 def test_sensors_read_what_python_reads(compute):
     poses = [(17.0, 18.0, 40), (20.5, 21.0, 80), (2.0, 3.0, 350), (35.0, 20.0, 0)]
     body = """
-    return data.poses.map(([x, y, degrees]) => page.readings(given.world, { x, y, heading: (degrees * Math.PI) / 180 }));"""
+    const pose = ([x, y, degrees]) => ({ x, y, heading: (degrees * Math.PI) / 180 });
+    return data.poses.map((at) => page.readings(given.world, pose(at)));"""
     world = sensor_world()
     for (x, y, degrees), read in zip(
         poses, compute("sensor_sectors", body, poses=poses), strict=True
@@ -378,7 +379,9 @@ def test_the_policy_decides_where_python_says(compute, speed):
         poses = np.column_stack([places, np.arctan2(towards[:, 1], towards[:, 0])])
         sensing = sense(world[np.zeros(len(poses), int)], poses)
         commands = Reflex()(sensing, speed)
-        kinds = np.select([commands == Action.TO_TARGET, commands == Action.B], [0, 2], 1)
+        kinds = np.select(
+            [commands == Action.TO_TARGET, commands == Action.B], [0, 2], 1
+        )
         kinds[sensing.ranges.min(axis=1) < 1] = 3
         assert (np.array(shown) == kinds).all()
         if (obstacles, speed) == (10, 2.0):
