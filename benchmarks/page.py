@@ -29,56 +29,61 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         "robot.py",
         (),
         True,
-        "Steps of the simulator as Gymnasium's environments.",
+        "Steps of the simulator through Gymnasium's environments.",
     ),
     "Planning": (
         "dp.py",
         ("--million",),
         False,
-        "Exact planning, beside QuantEcon in the same process.",
+        "Exact planning, compared with QuantEcon in the same process.",
     ),
     "Tabular learning": (
         "tabular.py",
         (),
         False,
-        "Q-learning on FrozenLake, beside a loop that only steps.",
+        "Q-learning on FrozenLake, compared with a loop that only takes steps.",
     ),
     "Learning from demonstration": (
         "lfd.py",
         (),
         False,
-        "Planning, training and driving of chapter 3.",
+        "Planning, training and navigation of chapter 3.",
     ),
     "Neural Q-learning": (
         "nnql.py",
         (),
         True,
-        "Training of chapter 4, beside stable-baselines3's DQN.",
+        "Training of chapter 4, compared with stable-baselines3's DQN.",
     ),
     "Inverse reinforcement learning": ("nirl.py", (), False, "One run of chapter 5."),
-    "Deciding": ("decisions.py", (), False, "One decision of every method that ships."),
+    "Decisions": (
+        "decisions.py",
+        (),
+        False,
+        "One decision of each method on the leaderboard.",
+    ),
     "Grading a class": (
         "grading.py",
         ("--students", "300"),
         False,
-        "Three hundred students, all exercises.",
+        "Three hundred students and all exercises.",
     ),
 }
 INTRODUCTION = """# How fast it is
 
-What the scripts in `benchmarks/` printed on {date}, on {system} on {machine} with {cores} cores and nothing
-else running; `python benchmarks/page.py --peers DIR` runs them all and writes this page. Every figure is a
-median or the best of several rounds. Where another package does the same work, the two took turns in one run:
-seconds do not carry over to your machine, ratios do, roughly. `benchmarks/peers/README.md` says how to set the
-peers up.
+This page shows the output of the scripts in `benchmarks/` on {date}, on {system} on {machine} with {cores} cores
+and no other programs. `python benchmarks/page.py --peers DIR` runs all of them and writes this page. Every number
+is a median or the best of several rounds. Where another package does the same work, both packages took turns in one
+run. Seconds on your machine will differ; ratios should be similar. `benchmarks/peers/README.md` tells how to install
+the other packages.
 """
-GROWTH = """## How it grows
+GROWTH = """## How time and memory grow
 
 ```{{figure}} _static/growth.svg
-:alt: Seconds and memory against the numbers of obstacles, worlds, seeds and states; no line is steeper than one.
+:alt: Seconds and memory against the numbers of obstacles, worlds, seeds and states; no slope is greater than one.
 :name: fig-growth
 
-Seconds (blue) and memory (orange) against size. A line of slope one is in proportion.
+Seconds (blue) and memory (orange) against size. A slope of one means that the cost is proportional to the size.
 ```
 
 ```text

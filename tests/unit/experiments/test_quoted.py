@@ -1,4 +1,4 @@
-"""Numbers that the table of what holds quotes in words are those of the committed results."""
+"""Numbers that the page of reproduction quotes are those of the committed results."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from robonav.experiments.runner.report import short
 BOOK = Path(__file__).parents[3] / "book"
 PAGE = (BOOK / "reproduction.md").read_text() if BOOK.is_dir() else ""
 NIRL = {"method": "nirl", "discount": 0.65}
-QUOTED = [  # what a row says first, experiment, metric, case, what is quoted: mean with interval, mean, best or worst
+QUOTED = [  # start of the row, experiment, metric, case, which of the fitting cases, quoted number
     ("25 demonstrations", "table-3.2", "success", {"expert": "keeps clear", "target": "sine-cosine"}, 1, "interval"),
     ("Training settles", "table-3.3", "accuracy", {"expert": "shortest path", "iterations": 300}, 0, "mean"),
     ("NNQL learns", "table-4.3", "success", {"robot": "nnql"}, 0, "interval"),
@@ -20,12 +20,12 @@ QUOTED = [  # what a row says first, experiment, metric, case, what is quoted: m
     ("Online learning", "table-4.3", "success, low temperature", {"robot": "online"}, 0, "mean"),
     ("Online learning", "table-4.3", "success, low temperature", {"robot": "nfq"}, 0, "mean"),
     ("Online learning", "table-4.3", "success", {"robot": "nfq"}, 0, "mean"),
-    ("NIRL drives", "table-5.2", "success", NIRL, 0, "interval"),
-    ("NIRL drives", "table-5.2", "success", NIRL, 0, "worst"),
-    ("It beats", "table-5.2", "success", NIRL | {"method": "apprenticeship"}, 0, "mean"),
-    ("It beats", "table-5.2", "success", NIRL | {"method": "relative_entropy"}, 0, "mean"),
-    ("It beats", "table-5.2", "success", NIRL | {"method": "scirl"}, 0, "mean"),
-    ("So a reward", "table-5.2", "success", {"method": "cloning"}, 0, "mean"),
+    ("NIRL arrives", "table-5.2", "success", NIRL, 0, "interval"),
+    ("NIRL arrives", "table-5.2", "success", NIRL, 0, "worst"),
+    ("NIRL beats", "table-5.2", "success", NIRL | {"method": "apprenticeship"}, 0, "mean"),
+    ("NIRL beats", "table-5.2", "success", NIRL | {"method": "relative_entropy"}, 0, "mean"),
+    ("NIRL beats", "table-5.2", "success", NIRL | {"method": "scirl"}, 0, "mean"),
+    ("NIRL learns", "table-5.2", "success", {"method": "cloning"}, 0, "mean"),
     ("Learning from a human", "table-5.1", "success", {"expert": "human", "demonstrations": 30}, 0, "mean"),
     ("Learning from a human", "table-5.1", "success", {"expert": "computer", "demonstrations": 40}, 0, "mean"),
     ("Contradictory", "nirl-refinement", "success", {"expert": "slipping", "actions": "as demonstrated"}, 0, "mean"),
