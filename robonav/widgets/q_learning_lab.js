@@ -63,6 +63,17 @@ export function complaint({ key, label, least, most, positive }, value) {
   return "";
 }
 
+/** What differs between two settings, in words: "discount 0.7 instead of 0.6". @param {{label: string}[]} rewards a field for each row */
+export function differences(settings, other, rewards) {
+  const shown = (field, from) => String(read(from, field));
+  const named = ({ key, options }, from) => options.find(([value]) => value === from[key])[1];
+  return [
+    ...[...rewards, ...Object.values(NUMBERS).flat()].filter((field) => read(settings, field) !== read(other, field))
+      .map((field) => `${field.label} ${shown(field, settings)} instead of ${shown(field, other)}`),
+    ...Object.values(CHOICES).filter(({ key }) => settings[key] !== other[key]).map((list) => `${list.label}: ${named(list, settings)}`),
+  ];
+}
+
 /** The form: all settings, in groups that open and close. */
 function settingsForm({ table, open, first, change }) {
   let settings = first;
@@ -91,8 +102,9 @@ function settingsForm({ table, open, first, change }) {
   };
   const row = (...children) => h("div", { class: "row" }, ...children);
   const group = (name, title, ...children) => h("details", { open: open.includes(name) }, h("summary", {}, title), ...children);
+  const rewardFields = table.map(({ before, after, condition }, part) => rewardField(part, `${before} to ${after}${condition ? `, ${condition}` : ""}`));
   const rewards = h("div", { class: "rewards" }, ...table.map(({ before, after, condition }, part) =>
-    h("label", {}, h("span", {}, `${before} → ${after}`, h("small", {}, condition)), numberInput(rewardField(part, `${before} to ${after}${condition ? `, ${condition}` : ""}`)))));
+    h("label", {}, h("span", {}, `${before} → ${after}`, h("small", {}, condition)), numberInput(rewardFields[part]))));
   const element = h("div", { class: "settings" },
     group("reward", "Reward: Table 4.1", rewards, row(list("evading"))),
     group("exploration", "Exploration", row(...NUMBERS.exploration.map(labelled))),
@@ -118,7 +130,7 @@ function settingsForm({ table, open, first, change }) {
     return complaint(found.field, found.input.valueAsNumber);
   };
   put(first);
-  return { element, put, wrong, settings: () => settings };
+  return { element, put, wrong, settings: () => settings, changes: () => differences(settings, first, rewardFields) };
 }
 
 // ---- What is computed, in the worker --------------------------------------------------------------------------------
@@ -269,10 +281,12 @@ function snapshots(pick) {
 }
 
 /** A list of ways to go wrong, each with what to watch and its cure. */
-function faults(presets, put) {
+function faults(presets, first, form, tell) {
   const about = h("p", { class: "told" });
   const apply = (index, cured) => {
-    put(cured ? null : presets[index].settings);
+    const { seed, episodes } = presets[index].settings;
+    form.put(cured ? { ...first, seed, episodes } : presets[index].settings);
+    tell();
     cure.disabled = cured;
     about.textContent = cured ? `${presets[index].cure} Press Train, and compare with the grey curve of the run before.` : presets[index].watch;
   };
@@ -333,22 +347,28 @@ function render({ model, el }) {
   let [run, frame] = [null, 0];
 
   const note = h("p", { class: "note", role: "status" });
-  const form = settingsForm({ table, open, first, change: (wrong) => (note.textContent = wrong) });
+  const setting = h("p", { class: "told" });
+  const tell = (wrong = "") => {
+    note.textContent = wrong;
+    const changes = form.changes();
+    setting.textContent = `${changes.length > 0 ? `Changed: ${changes.join("; ")}.` : "Nothing is changed."} After its training the robot drives ${maps} new maps.`;
+  };
+  const form = settingsForm({ table, open, first, change: (wrong) => tell(wrong) });
   /** Other settings in the form, with the reader's own seed and number of episodes. */
   const put = (settings) => {
     const { seed, episodes } = form.settings();
-    form.put({ ...(settings ?? first), seed, episodes });
-    note.textContent = "";
+    form.put({ ...settings, seed, episodes });
+    tell();
   };
-  const button = (text, settings) => h("button", { type: "button", click: () => {
-    put(settings);
-    note.textContent = `The form shows ${text[0].toLowerCase()}${text.slice(1)}.`;
-  } }, text);
+  const button = (text, settings) => h("button", { type: "button", click: () => put(settings) }, text);
 
   const map = lookBack();
   const small = snapshots((at) => map.open(run, 0, at));
   const results = trialTable();
-  const count = choice({ label: "afterwards, drive", options: trial.numbers.map((number) => `${number} new maps`), change: (index) => (maps = trial.numbers[index]) });
+  const count = choice({ label: "afterwards, drive", options: trial.numbers.map((number) => `${number} new maps`), change: (index) => {
+    maps = trial.numbers[index];
+    tell();
+  } });
   const save = h("button", { type: "button", disabled: true, click: () => {
     const { episodes, seed } = run.settings;
     saveFile("my-nnql.safetensors", weightsFile(learned(run), { episodes, seed }));
@@ -374,7 +394,6 @@ function render({ model, el }) {
     source: model.get("_esm"), action: "Train", unit: "episode", total: () => form.settings().episodes, lines: LINES,
     begin: () => {
       const wrong = form.wrong();
-      note.textContent = "";
       if (wrong !== "") return wrong;
       run = { settings: form.settings(), maps, episodes: [], drives: [], network: null };
       map.hide();
@@ -402,11 +421,12 @@ function render({ model, el }) {
 
   el.classList.add("robonav", "q-learning-lab");
   el.replaceChildren(
-    ...(presets.length > 0 ? faults(presets, put) : []), form.element,
-    h("div", { class: "row tools" }, count.element, button("The thesis's settings", thesis), button("The book's settings", first)), note,
+    ...(presets.length > 0 ? faults(presets, first, form, tell) : []), form.element,
+    h("div", { class: "row tools" }, count.element, button("The thesis's settings", thesis), button("The book's settings", first)), setting, note,
     panel.element,
     h("div", { class: "row" }, map.element, h("div", { class: "grow" }, small.element, results.element, h("div", { class: "row tools" }, save))),
     kernel.element);
+  tell();
   const world = trainingWorlds(first)(0);
   map.show({ world, path: [world.start], outcome: "arrived" }, "The first map of the training.");
   return () => {

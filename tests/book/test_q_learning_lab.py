@@ -1,0 +1,265 @@
+"""The Q-learning lab from disk, with no network: train from nothing, cancel, set, go wrong, look back, take away."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from browser import DESKTOP, PHONE, Visit, tap
+from mounting import mounted, mounted_alone
+from playwright.sync_api import Locator, expect
+from scipy.stats import binomtest
+from test_accessibility import AXE, RUN
+
+from robonav.networks import NetworkPolicy, load_weights
+from robonav.nnql import STARTS, TARGETS
+from robonav.robot import navigate, random_worlds
+from robonav.widgets.q_learning_lab import MAPS_SEED, Preset, q_learning_lab
+from robonav.widgets.q_learning_settings import QLearningSettings
+
+PAYS_FOR_SAFETY = Preset(
+    "0.6 for getting safe, too",
+    "Look at the new maps where it failed.",
+    "Getting safe earns nothing again.",
+    QLearningSettings(
+        rewards=(1, -1, 0.6, 0, 0.5, 0, 0.6, 0, -0.2, 0.4, -0.2, -0.5, -1)
+    ),
+)
+CROSSES = re.compile(
+    r"^Done in [\d.]+ s\. Your robot crosses (\d+) of (\d+) new maps: "
+)
+
+
+@pytest.fixture(params=[DESKTOP, PHONE], ids=["desktop", "phone"])
+def view(request: pytest.FixtureRequest, visit: Visit) -> Iterator[Visit]:
+    visit.page.set_viewport_size(request.param)
+    yield visit
+    assert visit.errors == visit.external == []
+
+
+def said(lab: Locator) -> Locator:
+    return lab.locator(".training .status").first
+
+
+def train(lab: Locator) -> tuple[int, int]:
+    """Train, and give how many of how many new maps the robot crosses."""
+    lab.get_by_role("button", name="Train", exact=True).press("Enter")
+    expect(said(lab)).to_have_text(CROSSES)
+    found = CROSSES.match(said(lab).inner_text())
+    assert found
+    return int(found[1]), int(found[2])
+
+
+def touch(control: Locator) -> None:
+    """A finger on the middle of a control."""
+    control.scroll_into_view_if_needed()
+    box = control.bounding_box()
+    assert box
+    tap(control.page, box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+
+
+def group(lab: Locator, title: str) -> None:
+    """Opens a group of settings by keyboard."""
+    lab.locator("summary", has_text=title).press("Enter")
+
+
+def cells(lab: Locator, robot: str) -> list[str]:
+    row = lab.locator("table.results tr").filter(
+        has=lab.page.get_by_role("rowheader", name=robot, exact=True)
+    )
+    return row.locator("td").all_inner_texts()
+
+
+def test_a_robot_learns_from_nothing_and_crosses_new_maps(view):
+    lab = mounted_alone(view, q_learning_lab())
+    arrived, maps = train(lab)
+    assert (arrived >= 80, maps) == (True, 100)
+    for robot, least in [
+        ("your robot", 80),
+        ("the book's NNQL", 90),
+        ("straight on", 30),
+    ]:
+        rate, interval, collided, endless = cells(lab, robot)
+        number = round(float(rate))
+        assert number >= least
+        assert number + int(collided) + int(endless) == 100
+        ends = binomtest(number, 100).proportion_ci(method="wilson")
+        assert interval == f"{100 * ends.low:.1f} to {100 * ends.high:.1f}"
+    assert float(cells(lab, "straight on")[0]) < 70
+    curve = lab.get_by_role("img", name=re.compile("^arrivals in 30"))
+    expect(curve).to_have_attribute(
+        "aria-label", re.compile(r"at first, \d+ after 300$")
+    )
+    grey = lab.locator(".curves path[stroke-opacity]")
+    assert [path.get_attribute("d") for path in grey.all()] == [""] * 3
+    lab.get_by_label("afterwards, drive").select_option("200 new maps")
+    group(lab, "Robot and maps")
+    lab.get_by_label("seed of the random numbers").fill("1")
+    assert train(lab)[1] == 200
+    assert all(path.get_attribute("d").startswith("M") for path in grey.all())
+
+
+def test_the_episodes_and_the_new_maps_are_looked_at(view):
+    lab = mounted_alone(view, q_learning_lab())
+    arrived, maps = train(lab)
+    small = lab.get_by_role("group", name="Eight episodes of the training")
+    expect(small.get_by_role("button")).to_have_count(8)
+    assert small.get_by_role("button").all_inner_texts()[1].strip().startswith("20: ")
+    touch(small.get_by_role("button").nth(1))
+    board = lab.get_by_role("img", name=re.compile("^Map with the path"))
+    expect(board).to_have_attribute("aria-label", re.compile("Episode 20 of 300, "))
+    lab.get_by_label("One on").press("Enter")
+    expect(board).to_have_attribute("aria-label", re.compile("Episode 21 of 300, "))
+    lab.get_by_label("look at").select_option("new maps that it crossed")
+    expect(board).to_have_attribute(
+        "aria-label", re.compile(f"Map 1 of {arrived}, arrived after")
+    )
+    lab.get_by_label("look at").select_option("new maps where it failed")
+    failed = (
+        f"Map 1 of {maps - arrived}, "
+        if arrived < maps
+        else "There are no new maps where it failed."
+    )
+    expect(lab.get_by_text(failed).first).to_be_visible()
+
+
+def test_a_training_is_cancelled_while_the_page_answers(view):
+    lab = mounted_alone(view, q_learning_lab("robot"))
+    lab.get_by_label("episodes", exact=True).fill("2000")
+    lab.get_by_role("button", name="Train", exact=True).press("Enter")
+    expect(lab.get_by_role("button", name=re.compile("^1: "))).to_be_enabled()
+    lab.get_by_role("button", name="The thesis's settings").click()
+    expect(lab.get_by_text(re.compile("Changed: .*discount 0.7 instead of 0.6"))).to_be_visible()
+    lab.get_by_role("button", name="Cancel").press("Enter")
+    expect(said(lab)).to_have_text("Cancelled.")
+    expect(lab.get_by_role("button", name="Download the weights")).to_be_disabled()
+    expect(lab.get_by_label("look at")).to_be_visible()
+    lab.get_by_label("episodes", exact=True).fill("60")
+    train(lab)
+
+
+@pytest.mark.parametrize(
+    ("title", "label", "value", "sentence"),
+    [
+        ("Exploration", "temperature, start", "0", "Temperature, start must be greater than 0 and at most 100, got 0."),
+        ("Reward", "reward for any to safe", "11", "Reward for any to safe must be from -10 to 10, got 11."),
+        ("Robot", "episodes", "2.5", "Episodes must be a whole number, got 2.5."),
+        ("Learning", "discount", "", "Discount must be a number."),
+    ],
+)  # fmt: skip
+def test_a_wrong_number_gets_one_sentence(view, title, label, value, sentence):
+    lab = mounted_alone(view, q_learning_lab())
+    group(lab, title)
+    field = lab.get_by_label(label, exact=True)
+    field.fill(value)
+    field.press("Tab")
+    expect(lab.locator(".note")).to_have_text(sentence)
+    expect(field).to_have_attribute("aria-invalid", "true")
+    group(lab, title)
+    lab.get_by_role("button", name="Train", exact=True).click()
+    expect(said(lab)).to_have_text(sentence)
+    expect(field).to_be_focused()
+    lab.get_by_role("button", name="The book's settings").click()
+    expect(field).to_have_attribute("aria-invalid", "false")
+
+
+def test_maps_without_a_way_get_one_sentence(view):
+    lab = mounted_alone(view, q_learning_lab("robot"))
+    lab.get_by_label("obstacles that stand still").fill("40")
+    lab.get_by_label("obstacles that move").fill("30")
+    lab.get_by_label("episodes", exact=True).fill("1")
+    lab.get_by_role("button", name="Train", exact=True).click()
+    expect(said(lab)).to_have_text(
+        re.compile(r"^(Done in|70 obstacles leave no way).*\.$")
+    )
+
+
+def test_a_fault_is_watched_and_cured(view):
+    lab = mounted_alone(view, q_learning_lab(presets=[PAYS_FOR_SAFETY]))
+    expect(lab.get_by_text(PAYS_FOR_SAFETY.watch)).to_be_visible()
+    group(lab, "Reward")
+    paid = lab.get_by_label("reward for any to safe")
+    expect(paid).to_have_value("0.6")
+    train(lab)
+    assert int(cells(lab, "your robot")[3]) >= 5
+    lab.get_by_label("look at").select_option("new maps where it failed")
+    expect(
+        lab.get_by_text(re.compile("Map 1 of .* never ended after 400 s")).first
+    ).to_be_visible()
+    touch(lab.get_by_role("button", name="Cure it"))
+    expect(
+        lab.get_by_text(re.compile(f"^{re.escape(PAYS_FOR_SAFETY.cure)}"))
+    ).to_be_visible()
+    expect(paid).to_have_value("0")
+    train(lab)
+    assert int(cells(lab, "your robot")[3]) <= 1
+
+
+@pytest.mark.parametrize("inputs", ["number", "raw"])
+def test_the_weights_drive_in_python_as_in_the_page(visit, tmp_path, inputs):
+    lab = mounted_alone(
+        visit,
+        q_learning_lab(settings=QLearningSettings(inputs=inputs, episodes=90, seed=3)),
+    )
+    arrived, _ = train(lab)
+    with visit.page.expect_download() as download:
+        lab.get_by_role("button", name="Download the weights").click()
+    download.value.save_as(tmp_path / "mine.safetensors")
+    weights = load_weights(tmp_path / "mine.safetensors")
+    assert (weights.method, weights.made["seed"], weights.made["episodes"]) == (
+        "nnql",
+        3,
+        90,
+    )
+    worlds = random_worlds(100, 10, seed=MAPS_SEED, starts=STARTS, targets=TARGETS)
+    policy = NetworkPolicy(weights.network, weights.encoder)
+    assert navigate(policy, worlds, 2.5, 400).success.sum() == arrived
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_is_out_of_reach(view, scheme):
+    view.page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+    lab = mounted_alone(
+        view,
+        q_learning_lab(
+            "reward", "exploration", "learning", "robot", presets=[PAYS_FOR_SAFETY]
+        ),
+    )
+    lab.get_by_label("episodes", exact=True).fill("60")
+    train(lab)
+    width = view.page.evaluate("document.documentElement.scrollWidth - innerWidth")
+    assert width <= 0
+    view.page.evaluate(AXE.read_text("utf-8"))
+    assert view.page.evaluate(RUN) == []
+
+
+def test_without_a_kernel_nothing_speaks_of_python(view):
+    lab = mounted_alone(view, q_learning_lab())
+    expect(lab.get_by_text("in Python")).to_have_count(0)
+
+
+def test_with_a_kernel_several_robots_are_trained_watched_and_cancelled(visit, http):
+    widget = q_learning_lab(settings=QLearningSettings(episodes=30))
+    lab = mounted(visit, http, widget, kernel=True)
+    begin = lab.get_by_role("button", name="Train in Python")
+    note = lab.locator("fieldset .training .status")
+    begin.click()
+    expect(note).to_have_text(
+        re.compile(
+            r"^Done in [\d.]+ s\. 4 robots cross [\d.]+ % of 400 new maps on average, "
+        )
+    )
+    assert len(widget.trainings) == 4
+    lab.get_by_label("robots, each").select_option("16")
+    begin.click()
+    lab.get_by_role("button", name="Cancel").click()
+    expect(note).to_have_text("Cancelled.")
+    lab.get_by_label("robots, each").select_option("1")
+    begin.click()
+    expect(note).to_have_text(re.compile("One robot crosses"))
+    lab.locator("summary", has_text="Learning").click()
+    lab.get_by_label("discount").fill("2")
+    begin.click()
+    expect(note).to_have_text("Discount must be from 0 to 1, got 2.")
+    assert visit.errors == []
