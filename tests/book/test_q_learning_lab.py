@@ -130,7 +130,9 @@ def test_a_training_is_cancelled_while_the_page_answers(view):
     lab.get_by_role("button", name="Train", exact=True).press("Enter")
     expect(lab.get_by_role("button", name=re.compile("^1: "))).to_be_enabled()
     lab.get_by_role("button", name="The thesis's settings").click()
-    expect(lab.get_by_text(re.compile("Changed: .*discount 0.7 instead of 0.6"))).to_be_visible()
+    expect(
+        lab.get_by_text(re.compile("Changed: .*discount 0.7 instead of 0.6"))
+    ).to_be_visible()
     lab.get_by_role("button", name="Cancel").press("Enter")
     expect(said(lab)).to_have_text("Cancelled.")
     expect(lab.get_by_role("button", name="Download the weights")).to_be_disabled()
