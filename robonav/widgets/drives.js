@@ -1,6 +1,5 @@
 // The reader's own drives: kept in the browser, listed, deleted, downloaded and loaded. Needs files.js, random.js, worlds.js.
 
-const PREFIX = "robonav.drive.";
 const FIRST_MAP = 500_000; // the reader's map n is the world of the seed FIRST_MAP + n; training and tests have small seeds
 
 /** The map of a number that readers drive. @returns {World} */
@@ -42,70 +41,19 @@ export function driveOfText(text) {
 
 // ---- The store ------------------------------------------------------------------------------------------------------
 
-/** What all widgets of a page share: drives that the browser would not keep, and who wants to hear of changes. */
-const sharedStore = () => (globalThis[Symbol.for("robonav.drives")] ??= { memory: new Map(), listeners: new Set() });
-
-/** The browser's storage, or null where it gives none. */
-function storage() {
-  try {
-    const found = globalThis.localStorage;
-    found.setItem(`${PREFIX}try`, "");
-    found.removeItem(`${PREFIX}try`);
-    return found;
-  } catch (error) {
-    return error?.name === "QuotaExceededError" ? globalThis.localStorage : null;
-  }
-}
-
-const stored = (kept) => Array.from({ length: kept?.length ?? 0 }, (_, k) => kept.key(k)).filter((key) => key.startsWith(PREFIX));
-const tellAll = () => sharedStore().listeners.forEach((listener) => listener());
+const DRIVES = browserStore("robonav.drive.", { what: "your drives", advice: "Delete some drives, or download them." });
 
 /** All drives, the oldest first. @returns {(RecordedDrive & {id: string, map: number | null})[]} */
-export function keptDrives() {
-  const kept = storage();
-  const texts = [...stored(kept).map((key) => [key, kept.getItem(key)]), ...sharedStore().memory];
-  const drives = texts.map(([id, text]) => ({ id, ...driveOfText(text) })).filter(({ steps }) => steps);
-  return drives.sort((a, b) => (a.id < b.id ? -1 : 1));
-}
+export const keptDrives = () => DRIVES.all().map(([id, text]) => ({ id, ...driveOfText(text) })).filter(({ steps }) => steps);
 
 /** Keeps drives; returns a sentence where the browser would not. @param {RecordedDrive[]} drives */
-export function keepDrives(drives) {
-  const kept = storage();
-  let sentence = kept ? "" : "This browser keeps nothing for this page: your drives last until you close it.";
-  drives.forEach((drive, k) => {
-    const id = `${PREFIX}${String(Date.now()).padStart(15, "0")}.${String(k).padStart(5, "0")}.${Math.random().toString(36).slice(2, 8)}`;
-    try {
-      if (!kept) throw new Error("no storage");
-      kept.setItem(id, driveText(drive));
-    } catch {
-      sharedStore().memory.set(id, driveText(drive));
-      sentence ||= "The browser's storage is full: what you drive now lasts until you close the page. Delete some drives, or download them.";
-    }
-  });
-  tellAll();
-  return sentence;
-}
+export const keepDrives = (drives) => DRIVES.keep(drives.map(driveText));
 
 /** Deletes some drives. @param {string[]} ids */
-export function deleteDrives(ids) {
-  const kept = storage();
-  for (const id of ids) {
-    kept?.removeItem(id);
-    sharedStore().memory.delete(id);
-  }
-  tellAll();
-}
+export const deleteDrives = (ids) => DRIVES.remove(ids);
 
 /** Calls a function whenever the drives change, in this page or another; returns a function that ends this. */
-export function watchDrives(listener) {
-  const elsewhere = ({ key }) => (key === null || key.startsWith(PREFIX)) && listener();
-  sharedStore().listeners.add(listener);
-  globalThis.addEventListener("storage", elsewhere);
-  return () => {
-    sharedStore().listeners.delete(listener);
-    globalThis.removeEventListener("storage", elsewhere);
-  };
-}
+export const watchDrives = (listener) => DRIVES.watch(listener);
 
 /** The number of the next map to drive: one more than the largest that was driven. */
 export const nextMap = (drives) => 1 + Math.max(0, ...drives.map(({ map }) => map ?? 0));

@@ -308,3 +308,71 @@ export function saveFile(name, bytes) {
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
+
+// ---- What the browser keeps -----------------------------------------------------------------------------------------
+
+/**
+ * Texts that the browser keeps under keys with a prefix, shared by all pages of the book.
+ * @param {string} prefix
+ * @param {{what: string, advice: string}} words what is kept, and what helps when the storage is full
+ */
+export function browserStore(prefix, { what, advice }) {
+  /** What all widgets of a page share: texts that the browser would not keep, and who wants to hear of changes. */
+  const shared = () => (globalThis[Symbol.for(prefix)] ??= { memory: new Map(), listeners: new Set() });
+  /** The browser's storage, or null where it gives none. */
+  const storage = () => {
+    try {
+      const found = globalThis.localStorage;
+      found.setItem(`${prefix}try`, "");
+      found.removeItem(`${prefix}try`);
+      return found;
+    } catch (error) {
+      return error?.name === "QuotaExceededError" ? globalThis.localStorage : null;
+    }
+  };
+  const tellAll = () => shared().listeners.forEach((listener) => listener());
+  return {
+    /** Pairs of key and text, the oldest first. */
+    all: () => {
+      const kept = storage();
+      const keys = Array.from({ length: kept?.length ?? 0 }, (_, k) => kept.key(k)).filter((key) => key.startsWith(prefix));
+      return [...keys.map((key) => [key, kept.getItem(key)]), ...shared().memory].sort(([a], [b]) => (a < b ? -1 : 1));
+    },
+    /** Keeps texts; returns a sentence where the browser would not, or "". @param {string[]} texts */
+    keep: (texts) => {
+      const kept = storage();
+      let sentence = kept ? "" : `This browser keeps nothing for this page: ${what} last until you close it.`;
+      texts.forEach((text, k) => {
+        const id = `${prefix}${String(Date.now()).padStart(15, "0")}.${String(k).padStart(5, "0")}.${Math.random().toString(36).slice(2, 8)}`;
+        try {
+          if (!kept) throw new Error("no storage");
+          kept.setItem(id, text);
+        } catch {
+          shared().memory.set(id, text);
+          sentence ||= `The browser's storage is full: ${what} made from now on last until you close the page. ${advice}`;
+        }
+      });
+      tellAll();
+      return sentence;
+    },
+    /** Deletes texts. @param {string[]} keys */
+    remove: (keys) => {
+      const kept = storage();
+      for (const key of keys) {
+        kept?.removeItem(key);
+        shared().memory.delete(key);
+      }
+      tellAll();
+    },
+    /** Calls a function whenever the texts change, in this page or another; returns a function that ends this. */
+    watch: (listener) => {
+      const elsewhere = ({ key }) => (key === null || key.startsWith(prefix)) && listener();
+      shared().listeners.add(listener);
+      globalThis.addEventListener("storage", elsewhere);
+      return () => {
+        shared().listeners.delete(listener);
+        globalThis.removeEventListener("storage", elsewhere);
+      };
+    },
+  };
+}

@@ -128,6 +128,7 @@ function render({ model, el }) {
     live: (news) => paint(news.at(-1).theta),
     done: (result) => {
       found = result;
+      keepRobot({ name: `NIRL, seed ${settings.seed}, ${names()[chosen]}`, network: found.network, encoder: settings.encoder });
       paint(found.theta);
       list(found.theta);
       elsewhere.hidden = false;

@@ -27,6 +27,7 @@ FILES = (
     "learning/nirl",
     "learning/trials",
     "drives",
+    "kept_robots",
     "learning/worker",
     "learning/training_panel",
     "reward_learning",

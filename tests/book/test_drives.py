@@ -132,7 +132,7 @@ FULL = """Storage.prototype.setItem = () => { throw new DOMException("full", "Qu
     ("trouble", "sentence"),
     [
         (BLOCKED, "This browser keeps nothing for this page: your drives last until you close it."),
-        (FULL, "The browser's storage is full: what you drive now lasts until you close the page."),
+        (FULL, "The browser's storage is full: your drives made from now on last until you close the page."),
     ],
 )  # fmt: skip
 def test_without_storage_the_page_goes_on_in_memory(

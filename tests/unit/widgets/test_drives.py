@@ -197,7 +197,7 @@ def test_full_storage_keeps_drives_in_memory(node):
     )
     said, count, left = node(FILES, body, {"allowed": True})
     assert said.startswith(
-        "The browser's storage is full: what you drive now lasts until"
+        "The browser's storage is full: your drives made from now on last until"
     )
     assert (count, left) == (2, 0)
 

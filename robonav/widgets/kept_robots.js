@@ -1,0 +1,33 @@
+// Robots that the reader has trained: kept in the browser, so that other pages can try them. Needs files.js.
+
+const ROBOTS = browserStore("robonav.robot.", { what: "your robots", advice: "Delete some robots, or download them." });
+
+/**
+ * @typedef {{name: string, network: Network, encoder: Encoder, temperature?: number}} KeptRobot
+ */
+
+/** Keeps a robot; returns a sentence where the browser would not. @param {KeptRobot} robot */
+export function keepRobot({ name, network: { sizes, weights, biases }, encoder, temperature = 0 }) {
+  const plain = { sizes, weights: weights.map((part) => [...part]), biases: biases.map((part) => [...part]) };
+  return ROBOTS.keep([JSON.stringify({ name, network: plain, encoder, temperature })]);
+}
+
+/** The robot in a text, or null where it holds none. */
+function robotOfText(text) {
+  try {
+    const robot = JSON.parse(text);
+    const layers = robot.network.sizes.length - 1;
+    return robot.network.weights.length === layers && robot.encoder.sensors ? robot : null;
+  } catch {
+    return null;
+  }
+}
+
+/** All robots, the oldest first. @returns {(KeptRobot & {id: string})[]} */
+export const keptRobots = () => ROBOTS.all().map(([id, text]) => ({ id, ...robotOfText(text) })).filter(({ network }) => network);
+
+/** Deletes some robots. @param {string[]} ids */
+export const deleteRobots = (ids) => ROBOTS.remove(ids);
+
+/** Calls a function whenever the robots change; returns a function that ends this. */
+export const watchRobots = (listener) => ROBOTS.watch(listener);

@@ -1,0 +1,103 @@
+// The reader's robot on the leaderboard: its episodes in the frozen worlds, beside the methods of the book.
+
+/**
+ * A job: one policy in the frozen worlds of every setting; yields how many arrived in each so far.
+ * @param {{policy: Policy, settings: Conditions[], seeds: number[], worlds: number}} argument
+ */
+export function* boardJob({ policy, settings, seeds, worlds }) {
+  const arrived = settings.map(() => 0);
+  const total = settings.length * seeds.length * worlds;
+  let done = 0;
+  for (const [k, conditions] of settings.entries()) {
+    for (const seed of seeds) {
+      for (const world of randomWorlds(worlds, { seed, ...conditions })) {
+        if (driveWith(policy, world, conditions).outcome === "arrived") arrived[k] += 1;
+        done += 1;
+        if (done % 10 === 0) yield { done, total, live: { at: done, setting: k, arrived: [...arrived] } };
+      }
+    }
+  }
+  return arrived;
+}
+
+function render({ model, el }) {
+  const { settings, methods, seeds, worlds, playground } = model.get("data");
+  const source = model.get("_esm");
+  let brought = [];
+  const robots = () => [...keptRobots().reverse(), ...brought];
+  const note = h("p", { class: "status", role: "status" });
+  const percent = (rate) => `${Math.round(100 * rate)}`;
+  const mine = settings.map(() => h("td", {}, ""));
+  const head = h("th", { scope: "row" }, "your robot");
+  const table = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Your robot beside the methods of the book" },
+    h("table", { class: "results" },
+      h("caption", {}, "Episodes that arrive, in per cent"),
+      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "method"), ...settings.map(({ name }) => h("th", { scope: "col" }, name)))),
+      h("tbody", {}, h("tr", { class: "mine" }, head, ...mine),
+        ...methods.map(({ name, rates }) => h("tr", {}, h("th", { scope: "row" }, name), ...rates.map((rate) => h("td", {}, rate.toFixed(0))))))));
+  const which = h("select", { "aria-label": "robot" });
+  const fill = () => {
+    const found = robots();
+    which.replaceChildren(...found.map(({ name }) => h("option", {}, name)));
+    which.disabled = found.length === 0;
+    if (found.length === 0) which.append(h("option", {}, "none yet"));
+    remove.disabled = which.selectedIndex >= keptRobots().length || found.length === 0;
+  };
+  const sets = choice({ label: "worlds of each setting", options: [`${worlds} (about ten seconds)`, `${worlds * seeds.length} (all)`], change: () => {} });
+  const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights of a robot", change: async () => {
+    const [file] = upload.files;
+    if (!file) return;
+    try {
+      const { network, encoder, temperature } = weightsFromFile(await file.arrayBuffer());
+      brought.push({ name: file.name, network: networks(network)(), encoder, temperature });
+      fill();
+      which.selectedIndex = robots().length - 1;
+      note.textContent = `${file.name} is ready to be tried.`;
+    } catch (error) {
+      note.textContent = error.message;
+    }
+    upload.value = "";
+  } });
+  const remove = h("button", { type: "button", click: () => deleteRobots([robots()[which.selectedIndex].id]) }, "Delete this robot");
+  which.addEventListener("change", () => (remove.disabled = which.selectedIndex >= keptRobots().length));
+  let each = worlds;
+  const show = (arrived, until) => arrived.forEach((count, k) => {
+    mine[k].textContent = k < until ? percent(count / each) : "";
+    if (k < until) mine[k].title = `95 % interval: ${wilsonInterval(count, each).map(percent).join(" to ")}`;
+  });
+  const panel = trainingPanel({
+    source, action: "Try this robot in the frozen worlds", unit: "episode", total: () => settings.length * each, lines: [],
+    begin: () => {
+      const robot = robots()[which.selectedIndex];
+      if (!robot) return "There is no robot yet: train one on a page of chapter 3, 4 or 5, or choose a file of weights.";
+      const chosen = sets.element.querySelector("select").selectedIndex === 0 ? seeds.slice(0, 1) : seeds;
+      each = worlds * chosen.length;
+      head.textContent = robot.name;
+      show(settings.map(() => 0), 0);
+      return { job: boardJob, argument: { policy: robot, settings: settings.map(({ conditions }) => conditions), seeds: chosen, worlds } };
+    },
+    live: (news) => show(news.at(-1).arrived, news.at(-1).setting),
+    done: (arrived) => {
+      show(arrived, arrived.length);
+      const first = arrived.map((count, k) => {
+        const [low, high] = wilsonInterval(count, each).map(percent);
+        return `${settings[k].name}: ${percent(count / each)} % [${low}, ${high}]`;
+      });
+      return `${each} episodes a setting. ${first.slice(0, 3).join("; ")}.`;
+    },
+  });
+  const forget = watchRobots(fill);
+  el.classList.add("robonav");
+  el.replaceChildren(
+    h("div", { class: "row tools" }, h("label", {}, h("span", {}, "robot"), which), sets.element, remove,
+      h("label", { class: "file" }, h("span", {}, "or weights from a file"), upload)),
+    note, panel.element, table,
+    h("p", {}, h("a", { href: playground }, "Train a robot of your own")));
+  fill();
+  return () => {
+    forget();
+    panel.cancel();
+  };
+}
+
+export default { render };

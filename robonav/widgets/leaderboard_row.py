@@ -1,0 +1,90 @@
+"""The reader's own robot on the leaderboard, tried in the page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import anywidget
+import traitlets
+
+from robonav.benchmark import SETTINGS
+from robonav.benchmark.leaderboard import SEED, SETS, WORLDS
+from robonav.robot import neighbour_slip
+
+from .shared import front_end, style_sheet
+
+
+class LeaderboardRow(anywidget.AnyWidget):
+    """Try a robot in the frozen worlds of the leaderboard and read its row beside those of the book's methods."""
+
+    _esm = front_end(
+        "simulator", "files", "learning/random", "learning/worlds", "learning/trials",
+        "learning/worker", "learning/training_panel", "kept_robots", "leaderboard_row",
+    )  # fmt: skip
+    _css = style_sheet("learning/training_panel", "robot_playground", "leaderboard_row")
+    data = traitlets.Dict().tag(sync=True)
+
+
+def leaderboard_row(
+    rates: Mapping[str, Sequence[float]],
+    *,
+    playground: str = "policy-learning.html",
+    worlds: int = WORLDS,
+) -> LeaderboardRow:
+    """Make the widget that tries a robot of the reader.
+
+    Parameters
+    ----------
+    rates : mapping of str to sequence of float
+        By method, the success in per cent in each of the leaderboard's settings.
+    playground : str
+        Address of the page where a reader trains a robot.
+    worlds : int
+        Worlds of a set.
+
+    Returns
+    -------
+    LeaderboardRow
+
+    Raises
+    ------
+    ValueError
+        If a method has not as many rates as there are settings.
+
+    Examples
+    --------
+    >>> from robonav.benchmark import SETTINGS
+    >>> from robonav.widgets.leaderboard_row import leaderboard_row
+    >>> row = leaderboard_row({"straight": [36.0] * len(SETTINGS)})
+    >>> row.data["settings"][0]["name"]
+    '10 obstacles'
+    """
+    for name, values in rates.items():
+        if len(values) != len(SETTINGS):
+            raise ValueError(
+                f"rates must hold {len(SETTINGS)} numbers for {name}, got {len(values)}"
+            )
+    settings = [
+        {
+            "name": name,
+            "conditions": {
+                "obstacles": setting.obstacles,
+                "moving": setting.moving,
+                "speed": setting.speed,
+                "noise": setting.noise,
+                "slip": neighbour_slip(setting.slip).tolist() if setting.slip else None,
+            },
+        }
+        for name, setting in SETTINGS.items()
+    ]
+    return LeaderboardRow(
+        data={
+            "settings": settings,
+            "methods": [
+                {"name": name, "rates": list(values)} for name, values in rates.items()
+            ],
+            "seeds": [SEED + number for number in range(SETS)],
+            "worlds": worlds,
+            "playground": playground,
+        }
+    )

@@ -1,0 +1,99 @@
+"""The reader's robot in the frozen worlds of the leaderboard, compared with Python's episodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from browser import DESKTOP, PHONE, Visit
+from mounting import mounted
+from playwright.sync_api import Locator, expect
+
+from robonav.benchmark import SETTINGS, board_worlds
+from robonav.benchmark.policies import method
+from robonav.networks import NetworkPolicy, Weights, save_weights
+from robonav.robot import navigate, neighbour_slip
+from robonav.widgets.leaderboard_row import leaderboard_row
+
+FEW = 20
+
+
+@pytest.fixture(params=["desktop", "phone"])
+def row(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Locator]:
+    """The widget alone on a page, with few worlds a setting."""
+    visit.page.set_viewport_size(DESKTOP if request.param == "desktop" else PHONE)
+    rates = {"straight": [30.0] * len(SETTINGS)}
+    yield mounted(visit, http, leaderboard_row(rates, worlds=FEW))
+    assert visit.errors == []
+    assert visit.page.evaluate(
+        "document.documentElement.scrollWidth <= window.innerWidth"
+    )
+
+
+@pytest.fixture(scope="module")
+def learned() -> NetworkPolicy:
+    policy = method("lfd")
+    assert isinstance(policy, NetworkPolicy)
+    return policy
+
+
+def expected(policy: NetworkPolicy) -> list[str]:
+    """The success in each setting, in per cent."""
+    rates = []
+    for name, setting in SETTINGS.items():
+        slip = neighbour_slip(setting.slip) if setting.slip else None
+        worlds = board_worlds(name, 0, FEW)
+        found = navigate(policy, worlds, setting.speed, noise=setting.noise, slip=slip)
+        rates.append(f"{100 * found.success.mean():.0f}")
+    return rates
+
+
+def test_row_is_pythons(row, learned, tmp_path):
+    path = tmp_path / "mine.safetensors"
+    save_weights(path, Weights(learned.network, "mine", learned.encoder))
+    row.get_by_label("Weights of a robot").set_input_files(path)
+    expect(row.locator(".status").first).to_contain_text("is ready to be tried")
+    row.get_by_role("button", name="Try this robot").click()
+    expect(row.locator(".status").nth(1)).to_contain_text(
+        "20 episodes a setting", timeout=240_000
+    )
+    cells = row.locator(".mine td")
+    assert cells.all_inner_texts() == expected(learned)
+
+
+def test_kept_robot_is_offered_tried_cancelled_and_deleted(row):
+    robot = {
+        "name": "walker",
+        "network": {"sizes": [11, 1, 5], "weights": [[0] * 11, [0] * 5], "biases": [[0], [1, 0, 0, 0, 0]]},
+        "encoder": {"sensors": [1, 2, 3, 4, 5, 6, 7, 8, 9], "walls": False, "target": "signed"},
+    }  # fmt: skip
+    row.page.evaluate(
+        """(robot) => {
+          localStorage.setItem("robonav.robot.test", JSON.stringify(robot));
+          window.dispatchEvent(new StorageEvent("storage", { key: null }));
+        }""",
+        robot,
+    )
+    expect(row.get_by_label("robot", exact=True)).to_have_value("walker")
+    row.get_by_role("button", name="Try this robot").click()
+    row.get_by_role("button", name="Cancel").click()
+    expect(row.locator(".status").nth(1)).to_have_text("Cancelled.")
+    row.get_by_role("button", name="Delete this robot").click()
+    expect(row.get_by_label("robot", exact=True)).to_be_disabled()
+
+
+def test_without_a_robot_one_sentence_says_where_to_train(row):
+    row.get_by_role("button", name="Try this robot").click()
+    expect(row.locator(".status").nth(1)).to_contain_text("There is no robot yet")
+
+
+def test_file_that_holds_no_weights_is_one_sentence(row, tmp_path):
+    path = tmp_path / "no.safetensors"
+    path.write_bytes(b"nothing")
+    row.get_by_label("Weights of a robot").set_input_files(path)
+    expect(row.locator(".status").first).to_contain_text("must hold weights")
+
+
+def test_rates_of_another_length_are_refused():
+    with pytest.raises(ValueError, match="rates"):
+        leaderboard_row({"straight": [1.0]})
