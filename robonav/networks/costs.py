@@ -97,9 +97,9 @@ def cross_entropy_cost(
     >>> round(cross_entropy_cost(network, [[0, 0], [1, 1]], [[0], [1]]), 6)
     0.693147
     """
-    # In floating point p = 1 / (1 + exp(-z)) is exactly 1 where z > 37, and log(1 - p) fails.
-    # The same error, -y log p - (1 - y) log(1 - p), is log(1 + exp(z)) - y z, and
-    # logaddexp(0, z) computes log(exp(0) + exp(z)) for a z of any size.
+    # Where z > 37, the output p = 1 / (1 + exp(-z)) rounds to 1, and log(1 - p) fails.
+    # But -y log p - (1 - y) log(1 - p) is log(1 + exp(z)) - y z, and logaddexp(0, z)
+    # computes log(exp(0) + exp(z)) for a z of any size.
     z = network.logits(x)
     error = (np.logaddexp(0, z) - y * z).sum()
     decay = regularisation / 2 * squared_weights(network)
