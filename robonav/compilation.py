@@ -12,7 +12,7 @@ from numba import njit
 from numba.core.caching import FunctionCache
 
 
-def compiler(*used: ModuleType) -> Callable[[Any], Any]:
+def compiler(*used: ModuleType, inline: bool = False) -> Callable[[Any], Any]:
     """Return a decorator that compiles kernels and caches them on disk.
 
     numba recompiles a cached kernel when its own file changes, but not when a file changes whose kernels it calls.
@@ -22,7 +22,11 @@ def compiler(*used: ModuleType) -> Callable[[Any], Any]:
     ----------
     *used : module
         The modules whose kernels the decorated ones call.
+    inline : bool
+        Whether numba copies the decorated functions into the kernels that call them. Use it where a call with many
+        arrays costs more than the work of the function.
     """
+    where = "always" if inline else "never"
     digests = tuple(
         hashlib.sha256(Path(str(module.__file__)).read_bytes()).hexdigest()
         for module in used
@@ -33,7 +37,7 @@ def compiler(*used: ModuleType) -> Callable[[Any], Any]:
             return (*super()._index_key(sig, codegen), *digests)
 
     def compiled(function: Any) -> Any:
-        kernel: Any = njit(nogil=True, error_model="numpy")(function)
+        kernel: Any = njit(nogil=True, error_model="numpy", inline=where)(function)
         kernel._cache = Cache(function)
         return kernel
 

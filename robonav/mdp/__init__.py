@@ -28,7 +28,7 @@ from .exploration import (
     linear_decay,
     polynomial_decay,
 )
-from .features import Features, OneHot, Tiles
+from .features import Features, OneHot, Tiles, with_bias
 from .finite_horizon import (
     FiniteHorizonSolution,
     backward_induction,
@@ -36,7 +36,8 @@ from .finite_horizon import (
 )
 from .generalised_policy_iteration import GPIHistory, generalized_policy_iteration
 from .gridworld import Cell, GridEnvironment, GridWorld, four_by_three
-from .linear import LinearControlResult, linear_q_learning, linear_sarsa, with_bias
+from .learning_results import ControlResult, LinearControlResult, PredictionResult
+from .linear import linear_q_learning, linear_sarsa
 from .localisation import Localiser, PoseGrid, RangeSensor, pose_transitions
 from .models import FiniteMDP, expected_rewards
 from .monte_carlo import monte_carlo_control, monte_carlo_prediction
@@ -49,7 +50,6 @@ from .pomdp import (
 )
 from .small_pomdps import corridor, fork, tiger, without_sensing
 from .solutions import Solution
-from .tabular import ControlResult, PredictionResult
 from .temporal_difference import (
     expected_sarsa,
     q_learning,

@@ -8,29 +8,19 @@ interpreter's lock, and are in one file because numba's cache does not notice an
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from robonav.compilation import compiler
 
 Floats = NDArray[np.float64]
 Unsigned = NDArray[Any]
 Actions = NDArray[np.intp]
-Function = TypeVar("Function", bound=Callable[..., Any])
 
-
-def compiled(function: Function) -> Function:
-    """A kernel callers see with its own signature."""
-    kernel: Any = njit(cache=True, nogil=True)(function)
-    return kernel
-
-
-def inlined(function: Function) -> Function:
-    """A part of kernels, written out where it is used: calls with so many arrays would cost more than the work."""
-    part: Any = njit(inline="always")(function)
-    return part
+compiled = compiler()
+inlined = compiler(inline=True)
 
 
 @inlined

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import gymnasium as gym
 import numpy as np
@@ -22,10 +22,15 @@ BLOCK = 4096  # random numbers drawn at a time: one by one they would cost more 
 TRAINING, TESTING = range(2**31 - 1), range(2**31 - 1, 2**32 - 2)
 
 
-def uniform_stream(rng: np.random.Generator) -> Iterator[float]:
-    """Endless stream of numbers drawn uniformly from [0, 1)."""
-    while True:
-        yield from rng.random(BLOCK).tolist()
+class UniformNumbers:
+    """The numbers that ``rng.random()`` would give one by one, drawn in blocks; call :attr:`random`."""
+
+    def __init__(self, rng: np.random.Generator) -> None:
+        def stream() -> Iterator[float]:
+            while True:
+                yield from rng.random(BLOCK).tolist()
+
+        self.random = stream().__next__
 
 
 @checked
@@ -110,97 +115,109 @@ class Trajectory:
     terminated: bool
 
 
-class EpisodeRunner:
-    """Episodes of an environment, one after the other, with their returns and lengths.
+class Environment(Protocol):
+    """What a learner uses of a Gymnasium environment."""
 
-    The loop of every learner::
+    def reset(self) -> tuple[Any, dict[str, Any]]:
+        """Begin an episode: the first state, and information."""
 
-        for state in runner.episodes():
-            while not runner.done:
-                next_state, reward, terminated = runner.step(action)
+    def step(self, action: int) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Take an action: next state, reward, whether it is terminal, whether time is up, and information."""
 
-    An episode is over when the environment ends it or cuts it off, or after ``max_steps``. With ``record``, the states
-    of each episode stay in ``visited_states``, and a copy of the array or nested list given to :meth:`watch` is kept
-    before the first episode and after each. The environment's seed is drawn from the range ``seeds``.
+
+class EpisodeLog(gym.Wrapper[Any, Any, Any, Any]):
+    """An environment that keeps the records of its episodes.
+
+    The first episode gets a seed, which is drawn from the range ``seeds``. An episode is cut off after ``max_steps``
+    steps. It counts as done when the next one begins; call :meth:`end_episode` after the last.
+
+    Attributes
+    ----------
+    returns : list of float
+        Sum of the rewards of each episode, without discount.
+    lengths : list of int
+        Number of steps of each.
+    visited_states : list of lists
+        The states of each, if :meth:`record` was called.
     """
 
     def __init__(
         self,
         env: gym.Env[Any, Any],
         episodes: int,
-        *,
         max_steps: int,
         rng: np.random.Generator,
+        *,
         seeds: range = TRAINING,
-        record: bool = False,
         progress: Progress | None = None,
     ) -> None:
-        self.n_episodes = episodes
-        self.max_steps = max_steps
-        self.episode = 0
+        super().__init__(env)
         self.returns: list[float] = []
         self.lengths: list[int] = []
         self.visited_states: list[list[Any]] = []
-        self.done = True
-        self._step: Callable[[int], tuple[Any, Any, bool, bool, Any]] = env.step
-        self._reset = env.reset
-        self._env_seed = int(rng.integers(seeds.start, seeds.stop))
-        self._record = record
-        self._watched: Any = None
+        self._seed: int | None = int(rng.integers(seeds.start, seeds.stop))
+        self._step: Callable[[Any], Any] = env.step
+        self._max_steps = max_steps
+        self._estimates: Callable[[], NDArray[Any]] | None = None
         self._history: list[NDArray[Any]] = []
-        self._progress = progress
+        self._states: list[Any] = []  # of the present episode
+        self._progress, self._episodes = progress, episodes
 
-    def watch(self, table: Any) -> Any:
-        """Keep a copy of ``table`` now and after each episode, if recording; returns the table itself."""
-        self._watched = table
-        if self._record:
-            self._history.append(np.array(table))
-        return table
+    def record(self, estimates: Callable[[], NDArray[Any]]) -> None:
+        """Keep the visited states, and what ``estimates()`` returns now and after each episode."""
+        self._estimates = estimates
+        self._history.append(estimates())
 
     @property
     def history(self) -> NDArray[Any] | None:
-        """The copies of the watched table, (episodes + 1, ...), or None if nothing is recorded."""
-        return np.stack(self._history) if self._record else None
+        """The recorded estimates, (episodes + 1, ...), or None if nothing was recorded."""
+        return np.stack(self._history) if self._estimates else None
 
-    def episodes(self) -> Iterator[Any]:
-        """First state of each episode; ``episode`` is the number of the episode, from 0."""
-        for episode in range(self.n_episodes):
-            self.episode = episode
-            state, _ = self._reset(seed=self._env_seed if episode == 0 else None)
-            self.done, self._return, self._passed = False, 0.0, [state]
-            yield state
-            self.returns.append(self._return)
-            self.lengths.append(len(self._passed) - 1)
-            if self._record:
-                self.visited_states.append(self._passed)
-                if self._watched is not None:
-                    self._history.append(np.array(self._watched))
-            if self._progress is not None:
-                self._progress(episode + 1, self.n_episodes)
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begin an episode."""
+        self.end_episode()
+        state, info = self.env.reset(seed=self._seed, options=options)
+        self._seed, self._return, self._states = None, 0.0, [state]
+        return state, info
 
-    def step(self, action: int) -> tuple[Any, float, bool]:
-        """Take an action: next state, reward, and whether that state is terminal (a cut-off one is not)."""
-        state, reward, terminated, truncated, _ = self._step(action)
+    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        """Take one step; the episode is truncated after ``max_steps``."""
+        state, reward, terminated, truncated, info = self._step(action)
         self._return += reward
-        self._passed.append(state)
-        self.done = terminated or truncated or len(self._passed) > self.max_steps
-        return state, reward, terminated
+        self._states.append(state)
+        truncated = truncated or len(self._states) > self._max_steps
+        return state, reward, terminated, truncated, info
 
-    def rollout(self, state: int, choose: Callable[[int], int]) -> Trajectory:
-        """Run the episode from ``state`` to its end with the actions ``choose(state)``."""
-        states, actions, rewards, terminated = [state], [], [], False
-        while not self.done:
-            action = choose(state)
-            state, reward, terminated = self.step(action)
-            states.append(state)
-            actions.append(action)
-            rewards.append(reward)
-        return Trajectory(
-            np.array(states),
-            np.array(actions),
-            np.array(rewards, dtype=float),
-            bool(terminated),
-        )
+    def end_episode(self) -> None:
+        """Add the present episode to the records, if there is one."""
+        if not self._states:
+            return
+        self.returns.append(self._return)
+        self.lengths.append(len(self._states) - 1)
+        if self._estimates is not None:
+            self.visited_states.append(self._states)
+            self._history.append(self._estimates())
+        if self._progress is not None:
+            self._progress(len(self.returns), self._episodes)
+        self._states = []
+
+
+def rollout(env: Environment, policy: Callable[[int], int]) -> Trajectory:
+    """One episode of a policy, a function from a state to an action."""
+    state, _ = env.reset()
+    states, actions, rewards, done = [state], [], [], False
+    while not done:
+        action = policy(state)
+        state, reward, terminated, truncated, _ = env.step(action)
+        states.append(state)
+        actions.append(action)
+        rewards.append(reward)
+        done = terminated or truncated
+    return Trajectory(
+        np.array(states), np.array(actions), np.array(rewards, float), bool(terminated)
+    )
 
 
 def policy_sampler(
@@ -215,9 +232,9 @@ def policy_sampler(
         return table.tolist().__getitem__
     thresholds = np.cumsum(table, axis=1)
     thresholds /= thresholds[:, -1:]
-    draw = uniform_stream(rng)
+    numbers = UniformNumbers(rng)
     return lambda state: int(
-        np.searchsorted(thresholds[state], next(draw), side="right")
+        np.searchsorted(thresholds[state], numbers.random(), side="right")
     )
 
 
@@ -265,8 +282,8 @@ def rollouts(
     [[0.0, 1.0], [0.0, 1.0]]
     """
     env, rng = discretise_spaces(env), np.random.default_rng(seed)
-    choose = policy_sampler(policy, *space_sizes(env), rng)
-    runner = EpisodeRunner(
-        env, episodes, max_steps=max_steps, rng=rng, seeds=TESTING, progress=progress
-    )
-    return [runner.rollout(state, choose) for state in runner.episodes()]
+    act = policy_sampler(policy, *space_sizes(env), rng)
+    log = EpisodeLog(env, episodes, max_steps, rng, seeds=TESTING, progress=progress)
+    trajectories = [rollout(log, act) for _ in range(episodes)]
+    log.end_episode()
+    return trajectories

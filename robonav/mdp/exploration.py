@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.validation import check_integer, check_positive, check_real
 
 from ._arguments import checked
-from .episodes import uniform_stream
 
 Schedule = Callable[[int], float]
 """A rate as a function of the number of earlier events: 0, 1, 2, ..."""
@@ -84,7 +83,7 @@ def polynomial_decay(power: float) -> Schedule:
     return lambda n: (1 + n) ** -power
 
 
-def schedule(name: str, value: float | Schedule) -> Schedule:
+def schedule(name: str, value: float | Schedule | None) -> Schedule:
     """A schedule whose rates, all in [0, 1], are checked when used; a number becomes a constant schedule."""
     if not callable(value):
         return constant(_rate(name, value))
@@ -134,32 +133,28 @@ def epsilon_greedy(q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
     )
 
 
-class EpsilonGreedy:
-    """Draw actions from :func:`epsilon_greedy` quickly: ``choose(values)`` with the action values (A,) of one state.
+def epsilon_greedy_action(q: Sequence[float], epsilon: float, rng: Any) -> int:
+    """Draw an action: with probability ``epsilon`` any of them, otherwise one of the best.
 
-    ``epsilon`` is a number or a schedule over episodes; :meth:`begin` sets the episode.
+    It follows the probabilities of :func:`epsilon_greedy`.
+
+    Parameters
+    ----------
+    q : list of A floats
+        Action values of one state.
+    epsilon : float
+        In [0, 1].
+    rng : numpy.random.Generator
+        Its ``random()`` is called once for each of: whether to explore, which action, which of several best ones.
+
+    Returns
+    -------
+    int
     """
-
-    def __init__(self, epsilon: float | Schedule, rng: np.random.Generator) -> None:
-        self._schedule = schedule("epsilon", epsilon)
-        self._draw = uniform_stream(rng).__next__
-        self.epsilon = 1.0
-
-    def begin(self, episode: int) -> None:
-        """Use the epsilon of this episode."""
-        self.epsilon = self._schedule(episode)
-
-    def __call__(self, values: Sequence[Any]) -> int:
-        if self._draw() < self.epsilon:
-            return int(self._draw() * len(values))
-        best = max(values)
-        if values.count(best) == 1:
-            return values.index(best)
-        ties = [action for action, value in enumerate(values) if value == best]
-        return ties[int(self._draw() * len(ties))]
-
-    def expected(self, values: Sequence[float]) -> float:
-        """Mean of the values under the policy: the mean of SARSA's target."""
-        return self.epsilon * sum(values) / len(values) + (1 - self.epsilon) * max(
-            values
-        )
+    if rng.random() < epsilon:
+        return int(rng.random() * len(q))
+    best = max(q)
+    if q.count(best) == 1:
+        return q.index(best)
+    ties = [action for action, value in enumerate(q) if value == best]
+    return ties[int(rng.random() * len(ties))]

@@ -132,3 +132,20 @@ class Tiles:
         found = np.zeros(int(np.prod(self.shape)))
         found[self.active(state)] = 1.0
         return for_each_action(found, self.n_actions)
+
+
+def with_bias(features: Features) -> Features:
+    """Put f_0 = 1 before the features, so that the constant is a weight like the others.
+
+    Examples
+    --------
+    >>> from robonav.mdp import OneHot, with_bias
+    >>> with_bias(OneHot(2, 1))(1)
+    array([[1., 0., 1.]])
+    """
+
+    def extended(state: Any) -> NDArray[np.float64]:
+        found = features(state)
+        return np.hstack([np.ones((len(found), 1)), found])
+
+    return extended

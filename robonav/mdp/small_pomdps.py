@@ -40,12 +40,12 @@ def tiger(*, accuracy: float = 0.85, discount: float = 0.95) -> POMDP:
     array([0.15, 0.85])
     """
     check_real("accuracy", accuracy, at_least=0, at_most=1)
-    stay, anew = np.eye(2), np.full((2, 2), 0.5)
+    stay, reset = np.eye(2), np.full((2, 2), 0.5)
     rewards = [[-1.0, -100.0, 10.0], [-1.0, 10.0, -100.0]]
     heard = np.array([[accuracy, 1 - accuracy], [1 - accuracy, accuracy]])
     return POMDP(
-        FiniteMDP(np.stack([stay, anew, anew]), rewards, discount),
-        np.stack([heard, anew, anew]),
+        FiniteMDP(np.stack([stay, reset, reset]), rewards, discount),
+        np.stack([heard, reset, reset]),
     )
 
 

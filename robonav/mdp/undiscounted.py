@@ -187,7 +187,7 @@ def closed_classes(transitions: sp.csr_array, rewards: Floats, name: str) -> Boo
     rewarded = closed[member] & (rewards != 0)
     if rewarded.any():
         raise ValueError(
-            f"{name} must not collect rewards for ever where discount is 1, "
-            f"got one that does in state {int(rewarded.argmax())} and never ends"
+            f"{name} must not collect rewards forever where discount is 1, "
+            f"but it returns to state {int(rewarded.argmax())} forever, which pays a reward"
         )
     return closed[member]

@@ -382,9 +382,9 @@ def test_without_discount_a_start_too_high_is_no_answer(planner):
 
 def test_without_discount_endless_reward_is_refused():
     mdp = GridWorld("..G", step_reward=1).mdp(1.0)
-    with pytest.raises(ValueError, match="policy must not collect rewards for ever"):
+    with pytest.raises(ValueError, match="policy must not collect rewards forever"):
         policy_iteration(mdp)
-    with pytest.raises(ValueError, match="start must not collect rewards for ever"):
+    with pytest.raises(ValueError, match="start must not collect rewards forever"):
         policy_iteration(mdp, start=[0, 0, 0])
     with pytest.warns(
         ConvergenceWarning,

@@ -199,7 +199,7 @@ def test_without_discount_a_policy_that_never_ends_has_no_value():
     always_up = np.zeros(16, dtype=int)
     with pytest.raises(
         ValueError,
-        match=r"must not collect rewards for ever where discount is 1, .* state 1 ",
+        match=r"must not collect rewards forever where discount is 1, .* state 1 ",
     ):
         policy_evaluation(mdp, always_up)
 

@@ -7,13 +7,15 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from robonav.mdp import (
+    GridWorld,
     epsilon_greedy,
     exponential_decay,
     harmonic_decay,
     linear_decay,
     polynomial_decay,
+    q_learning,
 )
-from robonav.mdp.exploration import EpsilonGreedy, constant, schedule
+from robonav.mdp.exploration import constant, epsilon_greedy_action, schedule
 
 VALUES = arrays(
     float,
@@ -41,23 +43,18 @@ def test_epsilon_greedy_is_a_policy_that_favours_the_best(q, epsilon):
 @pytest.mark.parametrize("values", [[0.0, 1.0, 0.5], [2.0, 2.0, 1.0], [0.0, 0.0, 0.0]])
 @pytest.mark.parametrize("epsilon", [0.0, 0.3, 1.0])
 def test_the_quick_draw_follows_the_policy(values, epsilon):
-    choose = EpsilonGreedy(epsilon, np.random.default_rng(1))
-    choose.begin(0)
-    drawn = np.bincount([choose(values) for _ in range(20_000)], minlength=3) / 20_000
+    rng = np.random.default_rng(1)
+    actions = [epsilon_greedy_action(values, epsilon, rng) for _ in range(20_000)]
+    drawn = np.bincount(actions, minlength=3) / 20_000
     np.testing.assert_allclose(drawn, epsilon_greedy(values, epsilon), atol=0.015)
-    assert choose.expected(values) == pytest.approx(
-        epsilon_greedy(values, epsilon) @ values
-    )
 
 
-def test_epsilon_follows_its_schedule():
-    choose = EpsilonGreedy(linear_decay(1.0, 0.0, 10), np.random.default_rng(0))
-    seen = []
-    for episode in range(12):
-        choose.begin(episode)
-        seen.append(choose.epsilon)
+def test_linear_decay_by_hand():
+    falling = linear_decay(1.0, 0.0, 10)
     np.testing.assert_allclose(
-        seen, [1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0, 0], atol=1e-12
+        [falling(episode) for episode in range(12)],
+        [1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0, 0],
+        atol=1e-12,
     )
 
 
@@ -105,7 +102,8 @@ def test_rates_of_ones_own_schedule_are_checked_as_they_come(rate):
 
 @pytest.mark.parametrize("epsilon", [-0.1, 1.1, float("nan")])
 def test_epsilon_outside_its_range_is_refused(epsilon):
-    with pytest.raises(ValueError, match="epsilon"):
-        EpsilonGreedy(epsilon, np.random.default_rng(0))
-    with pytest.raises(ValueError, match="epsilon"):
-        EpsilonGreedy(lambda episode: epsilon, np.random.default_rng(0)).begin(0)
+    env = GridWorld("S . G").environment()
+    with pytest.raises(ValueError, match="epsilon must be"):
+        q_learning(env, 1, epsilon=epsilon)
+    with pytest.raises(ValueError, match=r"epsilon\(0\) must be"):
+        q_learning(env, 1, epsilon=lambda episode: epsilon)

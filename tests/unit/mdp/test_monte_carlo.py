@@ -12,7 +12,6 @@ from robonav.mdp import (
     monte_carlo_prediction,
     rollouts,
 )
-from robonav.mdp.monte_carlo import counted_visits
 
 VISITS = ["first", "every"]
 
@@ -32,9 +31,42 @@ class Loop(gym.Env):
         return int(ended), 1.0, ended, False, {}
 
 
+class Script(gym.Env):
+    """Passes the states 0, 1, 0, 2, 0, 1 with rewards 1, 2, 4, 8, 16, 32, then ends in state 3."""
+
+    observation_space, action_space = spaces.Discrete(4), spaces.Discrete(1)
+    states = (0, 1, 0, 2, 0, 1, 3)
+
+    def reset(self, *, seed=None, options=None):
+        self.at = 0
+        return 0, {}
+
+    def step(self, action):
+        self.at += 1
+        return self.states[self.at], 2.0 ** (self.at - 1), self.at == 6, False, {}
+
+
 def test_visits_counted_by_hand():
-    assert list(counted_visits("abacab", "first")) == [0, 1, 3]
-    assert list(counted_visits("abacab", "every")) == [0, 1, 2, 3, 4, 5]
+    """The return from step t on is 64 - 2 ** t without discount."""
+    first, every = (
+        monte_carlo_prediction(Script(), [0] * 4, 1, visit=visit, discount=1.0)
+        for visit in VISITS
+    )
+    assert first.visits.tolist() == [1, 1, 1, 0]
+    np.testing.assert_allclose(first.values, [63, 62, 56, np.nan])
+    assert every.visits.tolist() == [3, 2, 1, 0]
+    np.testing.assert_allclose(
+        every.values, [(63 + 60 + 48) / 3, (62 + 32) / 2, 56, np.nan]
+    )
+
+
+@pytest.mark.parametrize("visit", VISITS)
+def test_a_constant_rate_takes_the_visits_of_an_episode_in_their_order(visit):
+    learned = monte_carlo_control(
+        Script(), 1, visit=visit, learning_rate=0.5, discount=1.0
+    )
+    every = 63 / 8 + 60 / 4 + 48 / 2
+    assert learned.q[0, 0] == pytest.approx(63 / 2 if visit == "first" else every)
 
 
 def test_first_and_every_visit_of_one_episode():

@@ -1,5 +1,8 @@
 """Q-learning, SARSA, expected SARSA and TD(0) against plans, closed forms and steps worked out by hand."""
 
+import inspect
+import re
+
 import gymnasium as gym
 import numpy as np
 import pytest
@@ -10,6 +13,7 @@ from robonav.mdp import (
     expected_sarsa,
     harmonic_decay,
     linear_decay,
+    monte_carlo_control,
     polynomial_decay,
     q_learning,
     rollouts,
@@ -138,6 +142,40 @@ class Fork(gym.Env):
 def test_targets_by_hand(learn, value):
     learned = learn(Fork(), 200, discount=0.9, learning_rate=1.0, epsilon=1.0, seed=0)
     np.testing.assert_allclose(learned.q, [[value, value], [10, 0], [0, 0]])
+
+
+def test_expected_sarsas_target_with_some_exploration():
+    """With a learning rate of 1 and the second value known, it is 0.9 times 0.7 * 10 + 0.3 * 5."""
+    learned = expected_sarsa(
+        Fork(), 400, discount=0.9, learning_rate=1.0, epsilon=0.3, seed=0
+    )
+    np.testing.assert_allclose(learned.q[0], 0.9 * (0.7 * 10 + 0.3 * 5))
+
+
+@pytest.mark.parametrize("learn", CONTROL)
+def test_the_algorithm_as_written_runs_on_any_environment(learn):
+    """Without its decorator it is a loop over a plain Gymnasium environment, and learns the way over firm ice."""
+    lake = gym.make("FrozenLake-v1", is_slippery=False)
+    q = [[0.0] * 4 for _ in range(16)]
+    visits = [[0] * 4 for _ in range(16)]
+    inspect.unwrap(learn)(
+        lake,
+        q,
+        visits,
+        600,
+        discount=0.9,
+        learning_rate=lambda n: 0.5,
+        epsilon=linear_decay(1.0, 0.1, 400),
+        rng=np.random.default_rng(0),
+    )
+    (walk,) = rollouts(lake, np.argmax(q, axis=1), 1, seed=0)
+    assert walk.rewards.sum() == 1
+
+
+@pytest.mark.parametrize("learn", [*CONTROL, td_prediction, monte_carlo_control])
+def test_documented_parameters_are_those_of_the_signature(learn):
+    documented = re.findall(r"^(\w+) : ", inspect.getdoc(learn), re.MULTILINE)
+    assert documented == list(inspect.signature(learn).parameters)
 
 
 def test_sarsas_target_is_the_action_that_follows():

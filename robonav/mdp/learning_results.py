@@ -1,21 +1,16 @@
-"""What tabular learners share: their table, their exploration and their results."""
+"""The results of learning from episodes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.progress import Progress
-
-from .discrete_spaces import discretise_spaces, space_sizes
-from .episodes import EpisodeRunner
-from .exploration import EpsilonGreedy, Schedule, schedule
+from .features import Features
 from .policies import optimal_values_of
 
 
@@ -90,60 +85,39 @@ class PredictionResult:
     history: NDArray[np.float64] | None = None
 
 
-class TabularTraining(EpisodeRunner):
-    """Episodes of a learner with a table of action values and epsilon-greedy exploration.
+@dataclass(frozen=True, eq=False)
+class LinearControlResult:
+    """Weights learned from episodes, and the course of the learning.
 
-    The table ``q`` is a nested list, of which Python reads single entries faster than of arrays. ``choose(q[state])``
-    draws an action, and ``step_size(state, action)`` is the learning rate for the visit that it counts.
+    Attributes
+    ----------
+    weights : (n,) array
+        One weight for each feature.
+    features : callable
+        ``features(state)`` is an (A, n) array.
+    returns : (episodes,) array
+        Sum of the rewards of each training episode, without discount.
+    lengths : (episodes,) array of ints
+        Number of its steps.
+    history : (episodes + 1, n) array or None
+        Weights before the first episode and after each, if recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.mdp import LinearControlResult, OneHot
+    >>> nothing = np.empty(0)
+    >>> LinearControlResult(np.array([1.0, 2.0]), OneHot(1, 2), nothing, nothing).q([0])
+    array([[1., 2.]])
     """
 
-    def __init__(
-        self,
-        env: gym.Env[Any, Any],
-        episodes: int,
-        rates: tuple[float | Schedule, float | Schedule],
-        initial: float,
-        max_steps: int,
-        seed: int | np.random.Generator,
-        record: bool,
-        progress: Progress | None,
-    ) -> None:
-        env, rng = discretise_spaces(env), np.random.default_rng(seed)
-        learning_rate, epsilon = rates
-        self._rate = schedule("learning_rate", learning_rate)
-        super().__init__(
-            env,
-            episodes,
-            max_steps=max_steps,
-            rng=rng,
-            record=record,
-            progress=progress,
-        )
-        self.choose = EpsilonGreedy(epsilon, rng)
-        states, actions = space_sizes(env)
-        self.q = self.watch([[initial] * actions for _ in range(states)])
-        self.visits = [[0] * actions for _ in range(states)]
+    weights: NDArray[np.float64]
+    features: Features
+    returns: NDArray[np.float64]
+    lengths: NDArray[np.int64]
+    history: NDArray[np.float64] | None = None
 
-    def episodes(self) -> Iterator[int]:
-        """First state of each episode, for which the exploration rate is set."""
-        for state in super().episodes():
-            self.choose.begin(self.episode)
-            yield state
-
-    def step_size(self, state: int, action: int) -> float:
-        """Learning rate for this visit of a pair; it may depend on the number of earlier visits."""
-        rate = self._rate(self.visits[state][action])
-        self.visits[state][action] += 1
-        return rate
-
-    def result(self) -> ControlResult:
-        """Everything as arrays."""
-        passed = tuple(map(np.array, self.visited_states)) if self._record else None
-        return ControlResult(
-            np.array(self.q),
-            np.array(self.visits),
-            np.array(self.returns),
-            np.array(self.lengths),
-            self.history,
-            passed,
-        )
+    def q(self, states: Iterable[Any]) -> NDArray[np.float64]:
+        """Action values (k, A) of k states, Eq. (4.3)."""
+        features = np.stack([self.features(state) for state in states])
+        return features @ self.weights  # Eq. (4.3)
