@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, Literal
 
 from numba import njit
 from numba.core.caching import FunctionCache
@@ -26,7 +26,7 @@ def compiler(*used: ModuleType, inline: bool = False) -> Callable[[Any], Any]:
         Whether numba copies the decorated functions into the kernels that call them. Use it where a call with many
         arrays costs more than the work of the function.
     """
-    where = "always" if inline else "never"
+    where: Literal["always", "never"] = "always" if inline else "never"
     digests = tuple(
         hashlib.sha256(Path(str(module.__file__)).read_bytes()).hexdigest()
         for module in used
