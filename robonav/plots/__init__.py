@@ -1,1 +1,1 @@
-"""Results in, matplotlib figures out; no computing."""
+"""Figures of results with matplotlib. These functions draw, and compute nothing else."""

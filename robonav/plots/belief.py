@@ -1,4 +1,4 @@
-"""Beliefs: over the cells of a corridor, over poses on a map, and what each is worth (Fig. 2.3)."""
+"""Beliefs about the cells of a corridor and about poses on a map, and the values of beliefs (Fig. 2.3)."""
 
 from __future__ import annotations
 
@@ -21,13 +21,20 @@ SURE = LinearSegmentedColormap.from_list(
 def draw_belief(
     axes: Axes, belief: ArrayLike, cells: str, *, state: int | None = None
 ) -> None:
-    """A belief over a corridor's cells as bars; below them the corridor, its doors filled, the robot as a triangle.
+    """Draw a belief about the cells of a corridor as bars, with the corridor below them.
+
+    The corridor has its doors filled. A triangle marks the true cell of the robot.
 
     Parameters
     ----------
-    belief : (S,).
-    cells : one letter a cell, ``D`` where there is a door.
-    state : the cell where the robot truly is; not shown if left out.
+    axes : Axes
+        The axes to draw on.
+    belief : (S,) array
+        The probability of each cell.
+    cells : str
+        One letter for each cell; ``D`` is a door.
+    state : int, optional
+        The true cell of the robot; by default it is not drawn.
     """
     b = np.asarray(belief, dtype=float)
     axes.bar(np.arange(len(b)), b, width=0.9, color=style.BLUE)
@@ -56,12 +63,16 @@ def draw_belief(
 def draw_values_of_beliefs(
     axes: Axes, values: AlphaVectors, names: Sequence[str]
 ) -> None:
-    """The value of a belief about two states: the upper edge of straight lines, one a vector.
+    """Draw the value of a belief about two states: the maximum of straight lines, one for each vector.
 
     Parameters
     ----------
-    values : with vectors (K, 2); the horizontal axis is the belief in the first state.
-    names : of the actions.
+    axes : Axes
+        The axes to draw on.
+    values : AlphaVectors
+        Vectors (K, 2). The horizontal axis is the belief in the first state.
+    names : sequence of str
+        The names of the actions.
     """
     colours = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.SKY)
     belief = np.linspace(0, 1, 501)
@@ -88,14 +99,20 @@ def draw_pose_belief(
     pose: ArrayLike | None = None,
     arrows: int = 12,
 ) -> None:
-    """A belief about the pose: each cell as dark as its share, an arrow for each of the likeliest poses.
+    """Draw a belief about the pose: dark cells are likely, and arrows show the likeliest poses.
 
     Parameters
     ----------
-    grid : of poses; cells that are not free are drawn as walls.
-    belief : (S,).
-    pose : true x, y, heading; not shown if left out.
-    arrows : how many of the likeliest poses to point out.
+    axes : Axes
+        The axes to draw on.
+    grid : PoseGrid
+        The grid of poses. Cells that are not free are drawn as walls.
+    belief : (S,) array
+        The probability of each pose.
+    pose : (3,) array, optional
+        The true x, y and heading; by default they are not drawn.
+    arrows : int
+        The number of poses with an arrow.
     """
     b = np.asarray(belief, dtype=float)
     rows, columns = grid.free.shape
@@ -143,7 +160,7 @@ def draw_pose_belief(
 
 
 def draw_robot(axes: Axes, pose: ArrayLike, *, size: float = 1.5) -> None:
-    """The robot where it truly is: a triangle that points ahead."""
+    """Draw the robot at its pose as a triangle that points ahead."""
     x, y, heading = np.asarray(pose, dtype=float)
     corners = heading + np.array([0, 2.4, -2.4])
     axes.fill(
@@ -155,7 +172,7 @@ def draw_robot(axes: Axes, pose: ArrayLike, *, size: float = 1.5) -> None:
 
 
 def plot_uncertainty(axes: Axes, entropies: Mapping[str, ArrayLike]) -> None:
-    """Entropy of a belief in bits after each step, one line a name."""
+    """Plot the entropy of a belief in bits after each step, with one line for each name."""
     for colour, (name, bits) in zip(
         (style.BLUE, style.ORANGE, style.GREEN, style.GREY),
         entropies.items(),
@@ -174,7 +191,7 @@ def plot_uncertainty(axes: Axes, entropies: Mapping[str, ArrayLike]) -> None:
 
 
 def draw_pomdp(axes: Axes) -> None:
-    """States, observations, beliefs, actions and rewards over time, and what depends on what (Fig. 2.3)."""
+    """Draw the states, observations, beliefs, actions and rewards of some steps, with their dependences (Fig. 2.3)."""
     rows = {
         "action": 3.0,
         "belief": 2.0,

@@ -1,4 +1,4 @@
-"""Results of experiments as figures: bars with intervals, bands over seeds, and the thesis's numbers."""
+"""Figures of experiments: bars with intervals, bands over seeds, and the thesis's numbers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ OURS, THESIS = style.BLUE, style.ORANGE
 
 
 def case_labels(results: Results) -> list[str]:
-    """One label a case: what varies among the cases, in order."""
+    """Return one label for each case, in order: the settings that vary among the cases."""
     cases = results.experiment.cases
     varied = [
         key for key in cases[0] if len({case[key] for case in cases}) > 1
@@ -28,7 +28,7 @@ def case_labels(results: Results) -> list[str]:
 
 
 def draw_bars(results: Results, metric: str, label: str) -> Figure:
-    """One bar a case with its 95 % interval over seeds; a diamond where the thesis has a number."""
+    """Draw one bar for each case with its 95 % interval over seeds, and a diamond for the number of the thesis."""
     cases = range(len(results.experiment.cases))
     figure, axes = plt.subplots(figsize=(7, 0.42 * len(cases) + 1.2))
     thesis = results.experiment.thesis.get(metric, [None] * len(cases))
@@ -58,7 +58,7 @@ def draw_bars(results: Results, metric: str, label: str) -> Figure:
 
 
 def draw_board(results: Results, metric: str) -> Figure:
-    """A cell for each method and setting of the leaderboard, the darker the higher its percentage."""
+    """Draw the leaderboard: one cell for each method and setting, dark where the percentage is high."""
     cases = results.experiment.cases
     methods = list(dict.fromkeys(str(case["method"]) for case in cases))
     settings = list(dict.fromkeys(str(case["setting"]) for case in cases))
@@ -89,7 +89,7 @@ def draw_board(results: Results, metric: str) -> Figure:
 
 
 def draw(results: Results) -> Figure | None:
-    """The figure of an experiment as its :class:`~robonav.experiments.Plot` names it; None if it has no figure."""
+    """Draw the figure that an experiment names (:class:`~robonav.experiments.Plot`). Return None if it names none."""
     plot = results.experiment.plot
     if isinstance(plot, str):
         return None
@@ -100,7 +100,10 @@ def draw(results: Results) -> Figure | None:
 
 
 def save_figure(results: Results, folder: Path) -> None:
-    """Write ``NAME.svg`` and ``NAME.png`` if the experiment has a figure. The same results give the same bytes."""
+    """Write the figure of an experiment, if it has one, to ``NAME.svg`` and ``NAME.png``.
+
+    Equal results give equal bytes.
+    """
     name = results.experiment.name
     with mpl.rc_context(style.STYLE | {"svg.hashsalt": name}):
         figure = draw(results)

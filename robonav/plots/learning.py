@@ -1,4 +1,4 @@
-"""Learning from episodes: returns over training, walks on a grid, estimates beside the truth."""
+"""Learning from episodes: returns during training, paths on a grid, estimates and true values."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ COLOURS: dict[str, str] = {
 
 
 def colour_of(name: str, place: int) -> str:
-    """A method's own colour; for any other name one of the palette, by its place."""
+    """Return the colour of a method, or for another name the palette's colour of this place."""
     others = (
         style.BLUE,
         style.VERMILION,
@@ -42,13 +42,20 @@ def plot_runs(
     window: int = 1,
     band: float = 80.0,
 ) -> None:
-    """The mean over seeds of some numbers a training, and the band that holds the middle ``band`` per cent of them.
+    """Plot the mean over seeds of a number for each episode, with a band of the middle ``band`` per cent of seeds.
 
     Parameters
     ----------
-    curves : (seeds, T) by name.
-    x : (T,) where they stand; 1, 2, ... if left out.
-    window : neighbours to average over, along T.
+    axes : Axes
+        The axes to draw on.
+    curves : mapping of str to (seeds, T) array
+        The numbers, by name.
+    x : (T,) array, optional
+        The horizontal positions; by default 1, 2, ...
+    window : int
+        The number of neighbours along T to average over.
+    band : float
+        The percentage of seeds in the band.
     """
     for place, (name, given) in enumerate(curves.items()):
         runs = np.atleast_2d(np.asarray(given, dtype=float))
@@ -74,13 +81,20 @@ def draw_walks(
     start: int | None = None,
     goal: int | None = None,
 ) -> None:
-    """Walks over a grid of cells, each a line through the cells' numbers, row by row from the top.
+    """Draw paths over a grid of cells. Cells are numbered row by row from the top.
 
     Parameters
     ----------
-    shape : rows and columns.
-    walks : numbers of the cells passed, by name.
-    forbidden : cells to mark, as the cliff.
+    axes : Axes
+        The axes to draw on.
+    shape : (int, int)
+        The numbers of rows and columns.
+    walks : mapping of str to array of int
+        The numbers of the cells on each path, by name.
+    forbidden : sequence of int
+        Cells to mark, such as those of the cliff.
+    start, goal : int, optional
+        Cells to name.
     """
     rows, columns = shape
     for cell in range(rows * columns):
@@ -137,13 +151,18 @@ def plot_estimates(
     truth: ArrayLike,
     estimates: Mapping[str, ArrayLike],
 ) -> None:
-    """Estimated values of some states beside the true ones.
+    """Plot the estimated values of some states with the true values.
 
     Parameters
     ----------
-    names : of the states, (S,).
-    truth : (S,).
-    estimates : (S,) by name.
+    axes : Axes
+        The axes to draw on.
+    names : sequence of str
+        The names of the S states.
+    truth : (S,) array
+        The true values.
+    estimates : mapping of str to (S,) array
+        The estimates, by name.
     """
     places = np.arange(len(names))
     axes.plot(

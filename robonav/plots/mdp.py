@@ -1,4 +1,4 @@
-"""Decision processes: grids with values and arrows, the schemes of Figs. 2.1, 2.2 and 2.4, planning as curves."""
+"""Decision processes: grids with values and arrows, Figs. 2.1, 2.2 and 2.4, and plots of planning."""
 
 from __future__ import annotations
 
@@ -35,14 +35,22 @@ def draw_grid(
     digits: int = 2,
     scale: float | None = None,
 ) -> None:
-    """A gridworld: walls dark, ends framed; values as colours and numbers, a policy as arrows.
+    """Draw a gridworld: dark walls, framed terminal cells, values as colours and numbers, a policy as arrows.
 
     Parameters
     ----------
-    values : (S,); not shown if left out.
-    policy : (S,) actions, or (S, A) probabilities: longer arrows for likelier actions.
-    digits : after the point; negative for no numbers.
-    scale : value with the strongest colour; the largest of the values if not given.
+    axes : Axes
+        The axes to draw on.
+    grid : GridWorld
+        The gridworld.
+    values : (S,) array, optional
+        The values of the states; by default they are not drawn.
+    policy : (S,) or (S, A) array, optional
+        Actions, or probabilities, which give likelier actions longer arrows.
+    digits : int
+        The number of digits after the point; no numbers are drawn if it is negative.
+    scale : float, optional
+        The value with the strongest colour; by default the largest absolute value.
     """
     for row, column in np.argwhere(grid.numbers < 0):
         axes.add_patch(Rectangle((column, row), 1, 1, color=style.OBSTACLE))
@@ -89,7 +97,7 @@ def draw_grid(
 
 
 def colour_of_value(share: float) -> tuple[float, float, float]:
-    """The colour of a value, given as a share of the strongest, -1 to 1: blue where positive, red where negative."""
+    """Return the colour of a value in [-1, 1], relative to the strongest colour: blue above 0, red below 0."""
     pale, full = (
         np.array(to_rgb(ZERO)),
         np.array(to_rgb(style.BLUE if share > 0 else style.VERMILION)),
@@ -99,7 +107,7 @@ def colour_of_value(share: float) -> tuple[float, float, float]:
 
 
 def _draw_meaning(axes: Axes, grid: GridWorld, state: int, ink: str) -> None:
-    """A frame and the reward where the episode ends; else the symbol of the cell, if it is a special one."""
+    """Draw a frame and the reward on a terminal cell, or the symbol of another special cell."""
     row, column = grid.cells[state]
     symbol = grid.rows[row][column]
     if grid.terminal[state]:
@@ -138,7 +146,7 @@ def _draw_meaning(axes: Axes, grid: GridWorld, state: int, ink: str) -> None:
 def _draw_arrows(
     axes: Axes, grid: GridWorld, policy: NDArray, *, up: float, ink: str
 ) -> None:
-    """An arrow for each action taken, ``up`` from the upper edge of its cell."""
+    """Draw an arrow for each action that the policy takes, starting ``up`` from the upper edge of its cell."""
     chances = policy if policy.ndim == 2 else np.eye(len(STEPS))[policy]
     for state in np.flatnonzero(~grid.terminal):
         row, column = grid.cells[state]
@@ -208,7 +216,7 @@ def _bare(axes: Axes, width: tuple[float, float], height: tuple[float, float]) -
 
 
 def draw_interaction(axes: Axes) -> None:
-    """The learner and its environment, step after step (Fig. 2.1)."""
+    """Draw the agent and its environment, which exchange actions, states and rewards (Fig. 2.1)."""
     _box(axes, (0, 1.6), "agent")
     _box(axes, (0, 0), "environment")
     for out, word, side in (
@@ -234,7 +242,7 @@ def draw_interaction(axes: Axes) -> None:
 
 
 def draw_decision_network(axes: Axes, *, steps: int = 3) -> None:
-    """States, actions and rewards of a run, and what depends on what (Fig. 2.2)."""
+    """Draw the states, actions and rewards of some steps, with their dependences (Fig. 2.2)."""
     for t in range(steps + 1):
         _node(axes, (2.0 * t, 0), f"$S_{t}$", style.SKY)
         if t == steps:
@@ -258,7 +266,7 @@ def _node(axes: Axes, middle: tuple[float, float], text: str, colour: str) -> No
 
 
 def draw_evaluation_and_improvement(axes: Axes) -> None:
-    """The two processes of generalized policy iteration and what each hands to the other (Fig. 2.4(a))."""
+    """Draw the two processes of generalised policy iteration and what each passes to the other (Fig. 2.4(a))."""
     _box(axes, (0, 0), r"policy $\pi$", width=1.3)
     _box(axes, (4, 0), "values $V$", width=1.3)
     _arrow(axes, (0.2, 0.38), (3.8, 0.38), bend=-0.35)
@@ -271,7 +279,7 @@ def draw_evaluation_and_improvement(axes: Axes) -> None:
 
 
 def draw_two_lines(axes: Axes) -> None:
-    """Two lines that meet where values and policy are optimal, and the way there (Fig. 2.4(b))."""
+    """Draw two lines that meet at the optimal values and policy, and the iteration between them (Fig. 2.4(b))."""
     axes.plot([0, 6], [2.2, 0], color=style.BLUE)
     axes.plot([0, 6], [-2.2, 0], color=style.VERMILION)
     way = [(0.0, -0.6)]
@@ -291,11 +299,16 @@ def draw_two_lines(axes: Axes) -> None:
 
 
 def plot_trace(axes: Axes, trace: GPIHistory, *, least: float = 1e-8) -> None:
-    """How far generalized policy iteration is from either line of Fig. 2.4(b) after each half step.
+    """Plot how far generalised policy iteration is from both lines of Fig. 2.4(b) after each half step.
 
     Parameters
     ----------
-    least : smaller gaps are drawn at this height: on a logarithmic scale nothing is at 0.
+    axes : Axes
+        The axes to draw on.
+    trace : GPIHistory
+        The half steps.
+    least : float
+        Smaller gaps are drawn at this height, because a logarithmic axis has no 0.
     """
     steps = np.arange(len(trace.values))
     gaps = {
@@ -326,14 +339,20 @@ def draw_value_plane(
     corners: ArrayLike,
     best: ArrayLike,
 ) -> None:
-    """Values of two states as points: those of all policies as a cloud, planners as paths through the plane.
+    """Draw the values of two states as points in a plane: all policies as a cloud, and planners as paths.
 
     Parameters
     ----------
-    cloud : (N, 2), values of many stochastic policies.
-    paths : (n, 2) by name, the values a planner went through.
-    corners : (K, 2), values of the deterministic policies.
-    best : (2,), the optimal values.
+    axes : Axes
+        The axes to draw on.
+    cloud : (N, 2) array
+        The values of many stochastic policies.
+    paths : mapping of str to (n, 2) array
+        The values in each iteration of a planner, by name.
+    corners : (K, 2) array
+        The values of the deterministic policies.
+    best : (2,) array
+        The optimal values.
     """
     points = np.asarray(cloud)
     axes.plot(

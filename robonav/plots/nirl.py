@@ -1,4 +1,4 @@
-"""Experts and learned rewards: Fig. 5.3 to 5.5, 5.7, 5.8, 5.10, 5.11, and what a reward likes and fears."""
+"""Experts and learned rewards: Figs. 5.3 to 5.5, 5.7, 5.8, 5.10 and 5.11, and the weights of a reward."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def draw_slips(axes: Axes, shown: Demonstrations, meant: ArrayLike) -> None:
 def draw_margin(
     axes: Axes, expert: ArrayLike, others: ArrayLike, weights: ArrayLike
 ) -> None:
-    """Draw the feature expectations of an expert (2,) and of others (n, 2), and the margin of a reward (2,)."""
+    """Draw the feature expectations of an expert (2,) and of other policies (n, 2), and the margin of a reward (2,)."""
     mu, rivals, theta = (
         np.asarray(part, dtype=float) for part in (expert, others, weights)
     )
@@ -106,13 +106,16 @@ def draw_margin(
 def animate_projection(
     corners: ArrayLike, expert: ArrayLike, found: ArrayLike, means: ArrayLike
 ) -> FuncAnimation:
-    """The projection method in a plane, a policy a frame.
+    """Animate the projection method in a plane, with one policy in each frame.
 
     Parameters
     ----------
-    corners : (m, 2) of the polygon of all that policies can collect.
-    expert : (2,).
-    found, means : (n, 2) what each policy collects, and the point after it.
+    corners : (m, 2) array
+        The corners of the polygon that contains the feature expectations of all policies.
+    expert : (2,) array
+        The feature expectations of the expert.
+    found, means : (n, 2) array
+        The feature expectations of each policy, and the projected point after it.
     """
     from matplotlib.animation import FuncAnimation
 
@@ -148,7 +151,7 @@ def draw_counts(
     counts: Mapping[str, ArrayLike],
     thesis: tuple[float, float],
 ) -> None:
-    """Something counted a trajectory, mean and range over runs (R, n) by expert; the thesis's range grey (Fig. 5.4)."""
+    """Draw counts for each trajectory by expert (R, n): mean and range over runs, the thesis's in grey (Fig. 5.4)."""
     x = np.asarray(numbers, dtype=float)
     axes.axhspan(*thesis, color=style.GREY, alpha=0.25, linewidth=0, label="thesis")
     colours = (style.METHODS["A*"], style.PURPLE, style.SKY, style.VERMILION)
@@ -162,7 +165,7 @@ def draw_counts(
 
 
 def draw_iterations(axes: Axes, series: Mapping[str, ArrayLike], label: str) -> None:
-    """Draw series (runs, n) by name against the iteration: mean and range over runs."""
+    """Draw series (runs, n) by name over the iterations: mean and range over runs."""
     colours = (style.VERMILION, style.BLUE, style.GREEN, style.ORANGE)
     for (name, given), colour in zip(series.items(), colours, strict=False):
         runs = np.atleast_2d(np.asarray(given, dtype=float))
@@ -179,7 +182,7 @@ def draw_iterations(axes: Axes, series: Mapping[str, ArrayLike], label: str) -> 
 def draw_densities(
     axes: Axes, obstacles: Sequence[int], rates: Mapping[str, ArrayLike], title: str
 ) -> None:
-    """Success (S, n) by method against the number of obstacles, mean and range over runs (Fig. 5.10)."""
+    """Draw success (S, n) by method over the number of obstacles: mean and range over runs (Fig. 5.10)."""
     for name, given in rates.items():
         runs = np.asarray(given, dtype=float)
         colour = style.METHODS.get(name, style.BLUE)
@@ -198,7 +201,7 @@ def draw_densities(
 
 
 def draw_steps(axes: Axes, rates: Mapping[str, ArrayLike]) -> None:
-    """Draw the success of every run (S,) as dots, with their mean, one row a step from the top down."""
+    """Draw the success of every run (S,) as a dot, and their mean, with one row for each change from the top down."""
     for row, (_, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
         axes.plot(
@@ -219,19 +222,23 @@ def draw_steps(axes: Axes, rates: Mapping[str, ArrayLike]) -> None:
         yticks=range(len(rates)),
         yticklabels=list(rates),
         xlim=(-2, 102),
-        xlabel="drives that arrive (%)",
+        xlabel="episodes that arrive (%)",
     )
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
 
 
 def draw_choice(axes: Axes, scores: Mapping[str, ArrayLike], driven: ArrayLike) -> None:
-    """Each policy of a run as a dot, how well it predicts the demonstrations against how it drives; one colour a score.
+    """Draw each policy of a run as a dot: accuracy of its predictions and success, with one colour for each score.
 
     Parameters
     ----------
-    scores : (n,) by name, in 0 to 1. The highest of each is ringed: it would be chosen.
-    driven : (n,) success in per cent.
+    axes : Axes
+        The axes to draw on.
+    scores : mapping of str to (n,) array
+        Scores in [0, 1] by name. A ring marks the policy with the highest score, which this score would choose.
+    driven : (n,) array
+        Success in per cent.
     """
     success = np.asarray(driven, dtype=float)
     for (name, given), colour in zip(
@@ -250,14 +257,14 @@ def draw_choice(axes: Axes, scores: Mapping[str, ArrayLike], driven: ArrayLike) 
         )
     axes.set(
         xlabel="decisions of the expert that are predicted (%)",
-        ylabel="drives that arrive (%)",
+        ylabel="episodes that arrive (%)",
         ylim=(-2, 102),
     )
     axes.legend()
 
 
 def draw_black_boxes(axes: Axes) -> None:
-    """A network seen from outside: a state in, five values out; or with the choice inside, one action (Fig. 5.2)."""
+    """Draw two networks as black boxes: one returns five values, the other also chooses the action (Fig. 5.2)."""
     for row, (inside, out) in enumerate(
         (
             ("network", [f"$Q(s, {a})$" for a in ACTIONS]),
@@ -291,7 +298,7 @@ def draw_black_boxes(axes: Axes) -> None:
 
 
 def names_of(encoder: Encoder) -> list[str]:
-    """Names of a reward's inputs, the constant last."""
+    """Return the names of a reward's inputs. The last one is the constant."""
     sensors = [f"S{sensor}" for sensor in encoder.sensors]
     sector = {
         "number": ["sector"],
@@ -305,7 +312,7 @@ def names_of(encoder: Encoder) -> list[str]:
 
 
 def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
-    """Draw a reward's weights (5, k + 1): one row an action, one column an input; blue positive, red negative."""
+    """Draw a reward's weights (5, k + 1), actions as rows and inputs as columns; blue is positive, red negative."""
     theta = np.asarray(weights, dtype=float)
     most = abs(theta).max() or 1.0
     image = axes.imshow(theta, cmap=GOOD_AND_BAD, vmin=-most, vmax=most, aspect="auto")
@@ -321,7 +328,7 @@ def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
 
 
 def draw_likes(figure: Figure, weights: ArrayLike, encoder: Encoder) -> None:
-    """Draw one robot for each action, its sectors coloured by the weight of danger: blue positive, red negative."""
+    """Draw one robot for each action; a sector has the colour of its weight of danger (blue positive, red negative)."""
     theta = np.asarray(weights, dtype=float)[:, : len(encoder.sensors)]
     most = abs(theta).max() or 1.0
     half = np.degrees(SECTOR) / 2
@@ -370,9 +377,9 @@ def draw_reward_map(
     *,
     spacing: float = 1.0,
 ) -> None:
-    """Draw where in a world the reward of going forward is high (blue) or low (red), for a robot that faces the target.
+    """Draw the reward of going straight on over a world, for a robot that faces the target: high is blue, low is red.
 
-    Blank where nothing is in range, since nothing is decided there, and within a metre of an obstacle.
+    The map is blank within a metre of an obstacle, and where nothing is in range: there the policy decides nothing.
     """
     ticks = np.arange(spacing / 2, world.size, spacing)
     x, y = (part.ravel() for part in np.meshgrid(ticks, ticks))
@@ -393,12 +400,12 @@ def draw_reward_map(
     )
     draw_world(axes, world)
     axes.figure.colorbar(
-        image, ax=axes, label="reward of going on", pad=0.02, shrink=0.8
+        image, ax=axes, label="reward of going straight on", pad=0.02, shrink=0.8
     )
 
 
 def of_runs(results: Results, metric: str, **wanted: object) -> Floats:
-    """A metric of all cases that have the ``wanted`` values, in their order: (S, n), or (S, T) of a single series."""
+    """Return a metric of all cases that have the ``wanted`` values: (S, n), or (S, T) for a single series."""
     cases = results.experiment.cases
     own = [
         k
@@ -410,7 +417,7 @@ def of_runs(results: Results, metric: str, **wanted: object) -> Floats:
 
 
 def plot_counts(results: Results) -> Figure:
-    """Fig. 5.4 from its results."""
+    """Plot Fig. 5.4 from its results."""
     figure, panels = plt.subplots(1, 2, figsize=(9, 3))
     cases = results.experiment.cases
     experts, numbers = (
@@ -433,7 +440,7 @@ def plot_counts(results: Results) -> Figure:
 
 
 def plot_iterations(results: Results, metric: str, label: str) -> Figure:
-    """Fig. 5.7 or 5.8 from its results."""
+    """Plot Fig. 5.7 or 5.8 from its results."""
     figure, axes = plt.subplots(figsize=(7, 3))
     cases = results.experiment.cases
     series = {
@@ -445,7 +452,7 @@ def plot_iterations(results: Results, metric: str, label: str) -> Figure:
 
 
 def plot_changes(results: Results) -> Figure:
-    """Fig. 5.11 from its results, a panel a layer."""
+    """Plot Fig. 5.11 from its results, with one panel for each layer."""
     figure, panels = plt.subplots(1, 2, figsize=(9, 2.8))
     cases = results.experiment.cases
     for axes, layer in zip(panels, ("first layer", "second layer"), strict=True):
@@ -459,7 +466,7 @@ def plot_changes(results: Results) -> Figure:
 
 
 def plot_densities(results: Results) -> Figure:
-    """Fig. 5.10 from its results, a panel a speed."""
+    """Plot Fig. 5.10 from its results, with one panel for each speed."""
     cases = results.experiment.cases
     speeds, methods = (
         list(dict.fromkeys(case[key] for case in cases)) for key in ("speed", "method")
@@ -471,13 +478,13 @@ def plot_densities(results: Results) -> Figure:
             str(m): of_runs(results, "success", method=m, speed=speed) for m in methods
         }
         draw_densities(axes, obstacles, rates, f"{speed:g} m/s")
-    panels[0].set(ylabel="drives that arrive (%)")
+    panels[0].set(ylabel="episodes that arrive (%)")
     panels[0].legend(loc="lower left")
     return figure
 
 
 def plot_steps(results: Results) -> Figure:
-    """The steps from Algorithm 10 as written to what works, from their results."""
+    """Plot the changes from Algorithm 10 as written to an algorithm that works, from their results."""
     figure, axes = plt.subplots(figsize=(8, 4))
     cases = results.experiment.cases
     draw_steps(
@@ -491,7 +498,7 @@ def plot_steps(results: Results) -> Figure:
 
 
 def plot_comparison(results: Results, discount: float) -> Figure:
-    """Table 5.2 with one discount from its results; controls and rules below the methods."""
+    """Plot Table 5.2 for one discount from its results, with controls and baselines below the methods."""
     cases, thesis = results.experiment.cases, results.experiment.thesis["success"]
     own = [
         k

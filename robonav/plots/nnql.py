@@ -32,7 +32,7 @@ ACTION_COLOURS = (style.BLUE, style.GREEN, style.SKY, style.ORANGE, style.VERMIL
 
 
 def draw_rewards(axes: Axes) -> None:
-    """Draw the reward of a step by the least range before and after it, where the episode continues (Table 4.1)."""
+    """Draw the reward of a step that does not end the episode, over the least range before and after (Table 4.1)."""
     distance = (np.arange(400) + 0.5) / 400 * (SENSOR_RANGE + 1)
     before, after = np.meshgrid(distance, distance)
     row = reward_row(
@@ -68,7 +68,7 @@ def draw_rewards(axes: Axes) -> None:
 
 
 def _seen(nearest: ArrayLike) -> Sensing:
-    """Sensing of robots with given least ranges; beyond the sensors' range they sense nothing."""
+    """Return the sensing of robots with given least ranges. Beyond the sensors' range they sense nothing."""
     ranges = np.minimum(np.ravel(nearest), SENSOR_RANGE)[:, None] + np.zeros(9)
     n = len(ranges)
     return Sensing(ranges, np.zeros((n, 9), bool), np.ones(n, int), np.zeros(n, bool))
@@ -77,7 +77,7 @@ def _seen(nearest: ArrayLike) -> Sensing:
 def draw_softmax_policy(
     axes: Axes, q: ArrayLike, *, coldest: float = 0.01, hottest: float = 10.0
 ) -> None:
-    """Draw how likely each action is at low to high temperatures, for Q-values (5,)."""
+    """Draw the probability of each action from low to high temperatures, for Q-values (5,)."""
     temperatures = np.geomspace(coldest, hottest, 200)
     shares = softmax_policy(np.tile(np.asarray(q, dtype=float), (200, 1)), temperatures)
     for name, value, share, colour in zip(
@@ -110,10 +110,12 @@ def animate_softmax_policy(
 def draw_learning(
     axes: Axes, counts: Mapping[str, ArrayLike], *, size: int = 30
 ) -> None:
-    """Draw successful episodes in every ``size``: mean over seeds, and a standard deviation around it (Fig. 4.4, 4.6).
+    """Draw the successful episodes in every ``size``: mean and standard deviation over seeds (Figs. 4.4 and 4.6).
 
     Parameters
     ----------
+    axes : Axes
+        The axes to draw on.
     counts : mapping of str to (S, blocks) array
         Counts by method.
     size : int
@@ -207,7 +209,7 @@ def draw_rates(
         colour = style.METHODS.get(name, style.BLUE)
         height = row + 0.22 * np.sin(
             2.4 * np.arange(len(dots))
-        )  # apart from one another, the same every time
+        )  # a fixed spread, so that dots do not overlap
         axes.plot(dots, height, ".", color=colour, alpha=0.6, markersize=5)
         axes.plot(
             [dots.mean()] * 2, [row - 0.35, row + 0.35], color=colour, linewidth=2.5
@@ -219,7 +221,7 @@ def draw_rates(
     axes.set(
         yticks=range(len(rates)),
         yticklabels=list(rates),
-        xlabel="drives that arrive (%)",
+        xlabel="episodes that arrive (%)",
     )
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
@@ -245,7 +247,7 @@ def draw_trials(axes: Axes, means: Mapping[str, ArrayLike]) -> None:
 
 
 def draw_endings(axes: Axes, endings: Mapping[str, tuple[float, float, float]]) -> None:
-    """Draw how episodes end, one bar a label: arrived, out of steps and collided, in per cent."""
+    """Draw how episodes end in per cent, with one bar for each label: arrived, out of steps and collided."""
     left = np.zeros(len(endings))
     rates = np.array(list(endings.values())).reshape(-1, 3)
     kinds = (
@@ -337,7 +339,7 @@ def plot_speeds(results: Results) -> Figure:
             linewidth=0,
         )
         axes.plot(speeds, runs.mean(axis=1), color=colour, marker=".", label=name)
-    axes.set(xlabel="speed (m/s)", ylabel="drives that arrive (%)", ylim=(0, 102))
+    axes.set(xlabel="speed (m/s)", ylabel="episodes that arrive (%)", ylim=(0, 102))
     axes.legend()
     return figure
 
@@ -355,7 +357,7 @@ def plot_trials(results: Results) -> Figure:
 
 
 def plot_endings(results: Results, what: str) -> Figure:
-    """Plot how episodes end for all choices of one thing, from the results of ``nnql-circles``."""
+    """Plot how episodes end for all choices of one setting, from the results of ``nnql-circles``."""
     ends = {}
     for k, case in enumerate(results.experiment.cases):
         if case["what"] == what:
@@ -381,7 +383,7 @@ def plot_variations(results: Results) -> Figure:
     axes.set(
         yticks=range(len(cases)),
         yticklabels=labels,
-        xlabel="drives that arrive (%)",
+        xlabel="episodes that arrive (%)",
         xlim=(0, 102),
     )
     axes.invert_yaxis()

@@ -1,4 +1,4 @@
-"""A matplotlib animation as a player that works on a static page, with no network and for every reader."""
+"""Players of matplotlib animations, which work on a static page, offline and with a screen reader."""
 
 from __future__ import annotations
 
@@ -25,18 +25,23 @@ def player(
     frames_per_second: int = 8,
     loop: bool = True,
 ) -> HTML:
-    """The animation's frames with buttons and a slider, as the last value of a notebook cell.
+    """Return a player of an animation, with buttons and a slider. It is the last value of a notebook cell.
 
     Parameters
     ----------
-    animation : what matplotlib's ``FuncAnimation`` or ``ArtistAnimation`` made.
-    description : what the animation shows, read out instead of the picture; not empty.
-    frames_per_second : speed at first; at least 1.
-    loop : start again at the end.
+    animation : Animation
+        An animation of matplotlib's, such as ``FuncAnimation``.
+    description : str
+        A description of the animation for readers who do not see it.
+    frames_per_second : float
+        The speed at first; at least 1.
+    loop : bool
+        Whether the animation starts again at the end.
 
     Raises
     ------
-    ValueError : if ``description`` is empty or ``frames_per_second`` less than 1.
+    ValueError
+        If ``description`` is empty or ``frames_per_second`` is less than 1.
     """
     from IPython.display import HTML
     from matplotlib import pyplot as plt
@@ -60,7 +65,7 @@ def player(
 
 
 def _frames(animation: Animation, frames_per_second: int, mode: str) -> str:
-    """matplotlib's own page for an animation, with frames that let the page's background through."""
+    """Return matplotlib's own page of an animation, with frames of transparent background."""
     from matplotlib.animation import HTMLWriter
 
     class Transparent(HTMLWriter):

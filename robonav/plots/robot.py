@@ -117,20 +117,20 @@ def animate_episode(
     colour: str = style.ROBOT,
     size: float = 4.6,
 ) -> FuncAnimation:
-    """Animate a robot on its way through the first world, with its sensors and the moving obstacles.
+    """Animate an episode of a robot in the first world, with its sensors and the moving obstacles.
 
     Parameters
     ----------
     world : Worlds
-        The first of them is drawn.
+        A batch, of which the first world is drawn.
     path : (steps + 1, 3) array
         Poses, as ``navigate(..., record_paths=True)`` returns them.
     every : int
-        Show one step in so many; the last step is always shown.
+        Draw every step whose number is a multiple of this; the last step is always drawn.
     colour : str
-        Of the robot and its path.
+        The colour of the robot and its path.
     size : float
-        Side of the square picture in inches.
+        The side of the square picture in inches.
 
     Returns
     -------
@@ -158,7 +158,7 @@ def animate_episode(
 
 
 def draw_outcomes(axes: Axes, rates: dict[str, tuple[float, float, float]]) -> None:
-    """Draw success rates with their intervals: each label has (rate, low, high), all in 0..1."""
+    """Draw success rates with their intervals: the value of each label is (rate, low, high), all in [0, 1]."""
     for row, (label, (rate, low, high)) in enumerate(rates.items()):
         colour = style.METHODS.get(label, style.BLUE)
         axes.barh(row, 100 * rate, color=colour, height=0.6)

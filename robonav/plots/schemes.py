@@ -1,4 +1,4 @@
-"""The three ways to learn a policy, as boxes and arrows (the thesis's Figures 2 to 4 of its summary)."""
+"""The three ways to learn a policy as boxes and arrows (Figures 2 to 4 of the summary of the thesis)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Box:
-    """A box of a scheme: its text in each language, the place of its centre on a grid, and its colour."""
+    """A box of a scheme: its text in each language, its centre on a grid, and its colour."""
 
     texts: dict[str, str]
     column: float
@@ -24,7 +24,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Arrow:
-    """An arrow between two boxes; ``bend`` moves it along their sides, ``shift`` its words from its middle."""
+    """An arrow between two boxes. ``bend`` moves it along their sides, ``shift`` moves its text from its middle."""
 
     start: str
     end: str
@@ -35,7 +35,7 @@ class Arrow:
 
 @dataclass(frozen=True)
 class Scheme:
-    """Boxes by name, and the arrows between them."""
+    """A scheme: boxes by name, and the arrows between them."""
 
     boxes: dict[str, Box]
     arrows: tuple[Arrow, ...]
@@ -194,17 +194,21 @@ SCHEMES: dict[str, Scheme] = {
 
 
 def draw_scheme(axes: Axes, name: str, *, language: str = "en") -> None:
-    """One of the schemes; ``SIZE`` is a good size for its figure, in inches.
+    """Draw one of the schemes. ``SIZE`` is a suitable size of its figure, in inches.
 
     Parameters
     ----------
-    axes : where to draw; its frame and ticks go.
-    name : ``demonstration``, ``reinforcement`` or ``inverse``.
-    language : ``en`` or ``fr``.
+    axes : Axes
+        The axes to draw on. Their frame and ticks are removed.
+    name : {"demonstration", "reinforcement", "inverse"}
+        The scheme.
+    language : {"en", "fr"}
+        The language of the text.
 
     Raises
     ------
-    ValueError : for another name or language.
+    ValueError
+        If there is no such scheme or language.
     """
     drawn = SCHEMES[check_one_of("name", name, SCHEMES)]
     check_one_of("language", language, ("en", "fr"))
@@ -270,7 +274,7 @@ def _draw_arrow(axes: Axes, drawn: Scheme, arrow: Arrow, language: str) -> None:
 
 
 def _edge(box: Box, other: Box, bend: float) -> tuple[float, float]:
-    """Where an arrow between two boxes meets the first; ``bend`` moves it along that side."""
+    """Return the point where an arrow between two boxes meets the first box; ``bend`` moves it along that side."""
     across, down = other.column - box.column, other.row - box.row
     if abs(across) * HEIGHT >= abs(down) * WIDTH:
         side = 1 if across > 0 else -1
@@ -283,6 +287,6 @@ def _edge(box: Box, other: Box, bend: float) -> tuple[float, float]:
 
 
 def _lift(tail: tuple[float, float], head: tuple[float, float], arrow: Arrow) -> float:
-    """Words stand above a level arrow that has no place of its own for them."""
+    """Return how far the text of an arrow is lifted: above a horizontal arrow whose text has no shift of its own."""
     level = abs(tail[1] - head[1]) < 0.1
     return 0.12 if level and arrow.shift == (0.0, 0.0) else 0.0

@@ -16,7 +16,7 @@ COLUMNS = 4
 
 
 def plot_paths(results: Results) -> Figure:
-    """One map for each case with its path; dots are the nodes that a search visited."""
+    """Plot one map for each case with its path. Dots are the nodes that a search visited."""
     cases = results.experiment.cases
     columns = min(len(cases), COLUMNS)
     rows = -(-len(cases) // columns)
@@ -41,7 +41,7 @@ def plot_paths(results: Results) -> Figure:
 
 
 def plot_gaps(results: Results) -> Figure:
-    """Fig. 2.4: both gaps after each half step, one panel for each case."""
+    """Plot both gaps of Fig. 2.4 after each half step, with one panel for each case."""
     cases = results.experiment.cases
     figure, panels = plt.subplots(
         1, len(cases), figsize=(3.2 * len(cases), 2.8), sharey=True
@@ -62,7 +62,7 @@ def plot_gaps(results: Results) -> Figure:
 
 
 def _title(results: Results, place: int, metrics: set[str]) -> str:
-    """The title of a panel: what varies among the cases, and the outcome."""
+    """Return the title of a panel: the settings that vary among the cases, and the outcome."""
     cases = results.experiment.cases
     varies = [
         key
