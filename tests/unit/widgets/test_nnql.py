@@ -14,6 +14,8 @@ from robonav.experiments import bootstrap_interval
 from robonav.nnql import STARTS, TARGETS, q_network, reward_row, train
 from robonav.nnql.reward import REWARDS
 from robonav.robot import Sensing, navigate, random_worlds
+from robonav.widgets.q_learning_faults import FAULTS
+from robonav.widgets.q_learning_lab import MAPS_SEED
 from robonav.widgets.q_learning_settings import INPUTS, QLearningSettings
 from robonav.widgets.simulator import page_world
 
@@ -213,3 +215,30 @@ def test_settings_go_to_the_page_and_back():
     )
     with pytest.raises(ValueError, match="inputs must be one of"):
         QLearningSettings.from_page(settings.for_page() | {"inputs": "colours"})
+
+
+@pytest.mark.slow
+def test_faults_show_with_their_seeds_and_are_cured(node):
+    cases = [fault.settings for fault in FAULTS]
+    cases += [QLearningSettings(seed=settings.seed) for settings in cases]
+    worlds = random_worlds(100, 10, seed=MAPS_SEED, starts=STARTS, targets=TARGETS)
+    data = {
+        "settings": [own.for_page() for own in cases],
+        "worlds": [page_world(world) for world in worlds],
+        "speed": 2.5,
+        "steps": 400,
+    }
+    trained = node(FILES, TRAINED, data)
+    arrived = dict(zip(cases, (one["arrived"] for one in trained), strict=True))
+    for fault in FAULTS:
+        cure = arrived[QLearningSettings(seed=fault.settings.seed)]
+        assert cure >= 93
+        if fault.name.startswith("no fault"):
+            assert abs(arrived[fault.settings] - cure) <= 4
+        elif fault.name not in (
+            "temperature: 0.9 throughout",
+            "discount 0.9, Q clipped",
+        ):
+            assert arrived[fault.settings] <= cure - 4, fault.name
+    hot = trained[[fault.name for fault in FAULTS].index("temperature: 0.9 throughout")]
+    assert hot["outcomes"][-100:].count("arrived") <= 60 < 90 <= hot["arrived"]

@@ -1,0 +1,93 @@
+"""The ways in which a robot's learning goes wrong on the page *My robot circles*, each with its cure.
+
+Each has a seed with which the fault shows. With other seeds it shows more or less, as the page's tables say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from .q_learning_lab import Preset
+from .q_learning_settings import QLearningSettings
+
+TABLE_4_1 = QLearningSettings().rewards
+ARRIVAL_AND_COLLISION = (1.0, -1.0, *[0.0] * (len(TABLE_4_1) - 2))
+GETTING_SAFE, STAYING_COZY, STAYING_DANGEROUS = 2, 6, 9
+"""Rows of Table 4.1: into a safe state, and evading in a cozy and in a dangerous one."""
+
+
+def _rewards(changes: Mapping[int, float]) -> tuple[float, ...]:
+    """Table 4.1 with other rewards in some rows."""
+    return tuple(changes.get(row, reward) for row, reward in enumerate(TABLE_4_1))
+
+
+FAULTS = (
+    Preset(
+        "reward: 0.6 for getting safe, too",
+        "The curve of the training is excellent. Look at the new maps where the robot failed, and at the row T = 0.4.",
+        "Getting safe earns nothing, as in Table 4.1.",
+        QLearningSettings(rewards=_rewards({GETTING_SAFE: 0.6}), seed=1),
+    ),
+    Preset(
+        "reward: nothing for staying cozy",
+        "Where does staying still earn something? Look there in the new maps where the robot failed.",
+        "Staying cozy earns 0.6 again.",
+        QLearningSettings(rewards=_rewards({STAYING_COZY: 0.0}), seed=4),
+    ),
+    Preset(
+        "reward: arrival and collision alone",
+        "The robot gets what we want it to want, and nothing else. Compare it with the robot that goes straight on.",
+        "The steps on the way are rewarded again.",
+        QLearningSettings(rewards=ARRIVAL_AND_COLLISION, seed=0),
+    ),
+    Preset(
+        "reward: evading must be moving away",
+        "Only getting farther from things is rewarded. Look at the paths in the new maps where the robot failed.",
+        "Evading is rewarded again whenever nothing comes a metre nearer.",
+        QLearningSettings(must_move_away=True, seed=6),
+    ),
+    Preset(
+        "temperature: 0.9 throughout",
+        "The curve of the training is poor to the end. Is the finished robot as poor?",
+        "The temperature falls to 0.1.",
+        QLearningSettings(temperature=(0.9, 0.9), seed=4),
+    ),
+    Preset(
+        "temperature: 0.03 throughout",
+        "This robot keeps its first idea. Try the seeds 4 and 6, and see how much the first idea decides.",
+        "The temperature starts at 0.9 and falls to 0.1.",
+        QLearningSettings(temperature=(0.03, 0.03), seed=6),
+    ),
+    Preset(
+        "learning rate: 0.8 throughout",
+        "The last surprises decide what this robot knows. Does T = 0.4 help? Try other seeds: is every robot bad?",
+        "The learning rate falls to 0.1.",
+        QLearningSettings(learning_rate=(0.8, 0.8), seed=0),
+    ),
+    Preset(
+        "discount 0.9, Q shifted",
+        "Five values share the interval from 0 to 1, and much more has to fit into it. Does T = 0.4 help?",
+        "The discount is 0.6.",
+        QLearningSettings(discount=0.9, seed=9),
+    ),
+    Preset(
+        "discount 0.9, Q clipped",
+        "All that is worth 1 or more becomes 1, so that good and better are the same. Does T = 0.4 help?",
+        "The discount is 0.6, and the values are shifted.",
+        QLearningSettings(discount=0.9, rescale="clip", seed=9),
+    ),
+    Preset(
+        "no fault: half as much for evading",
+        "The rewards for evading are 0.3 and 0.2, half of what they were. How much does the robot lose?",
+        "The rewards for evading are 0.6 and 0.4 again.",
+        QLearningSettings(
+            rewards=_rewards({STAYING_COZY: 0.3, STAYING_DANGEROUS: 0.2}), seed=0
+        ),
+    ),
+    Preset(
+        "no fault: raw numbers as inputs",
+        "The network reads degrees of danger up to 7 and the target's sector up to 9. How much does the robot lose?",
+        "Every input lies between 0 and 1.",
+        QLearningSettings(inputs="raw", seed=6),
+    ),
+)
