@@ -80,7 +80,7 @@ class Network:
 
 def test_unknown_number_is_a_fault(package: Path) -> None:
     source = DEFINED.replace("2.9", "2.31")
-    assert "no equation" in faults_of(package, source, "Eq. (2.31)")[0]
+    assert "not an equation" in faults_of(package, source, "Eq. (2.31)")[0]
 
 
 @pytest.mark.parametrize(("lines", "right"), [(40, True), (41, False)])

@@ -77,7 +77,7 @@ def test_a_link_to_a_file_is_refused_and_a_linked_folder_is_not_entered(tmp_path
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names here")
 def test_a_pipe_is_refused_and_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "a.py")
-    with pytest.raises(Refused, match="no plain file"):
+    with pytest.raises(Refused, match="not a regular file"):
         read(tmp_path)
 
 

@@ -132,6 +132,7 @@ def test_lbfgs_goes_pythons_way(node, examples):
         np.testing.assert_allclose(accuracies, history.accuracies)
 
 
+@pytest.mark.slow
 def test_lbfgs_ends_where_pythons_does(node, examples):
     given = {"tasks": examples, "regularisation": 1.0, "iterations": 300}
     for task, iterates in zip(examples, node(FILES, LBFGS, given), strict=True):
@@ -144,6 +145,7 @@ def test_lbfgs_ends_where_pythons_does(node, examples):
         ]
 
 
+@pytest.mark.slow
 def test_demonstrations_are_learned_as_in_python(node):
     """Rounding grows with the iterations: the two go one way at first, and end at one minimum."""
     x, y = labelled_states(demonstrate(random_worlds(25, obstacles=10, seed=7)))
