@@ -1,19 +1,22 @@
-"""Worlds in files: a whole batch as npz, one world as text that a person can read and write."""
+"""Worlds in files: a whole batch as npz, one world as TOML that a person can read and write."""
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from robonav import archive
-from robonav.validation import check_array, check_instance
+from robonav.validation import check_array, check_instance, check_one_of, check_real
 
 from . import _fast
 from .worlds import SIZE, START, TARGET, Worlds
 
 FORMAT = "robonav worlds 1"
+ENTRIES = ("size", "start", "target", "key", "obstacles")
 
 
 def save_worlds(path: str | Path, worlds: Worlds) -> None:
@@ -91,7 +94,7 @@ def load_worlds(path: str | Path) -> Worlds:
 
 
 def format_world(worlds: Worlds) -> str:
-    """Write one world as text, which :func:`parse_world` reads.
+    """Write one world as TOML, which :func:`parse_world` reads.
 
     Parameters
     ----------
@@ -108,53 +111,61 @@ def format_world(worlds: Worlds) -> str:
     >>> from robonav.robot import format_world, make_world
     >>> print(format_world(make_world(circles=[(40, 50, 3)])), end="")
     # metres, degrees and seconds
-    size 100.0
-    start 10.0 10.0
-    target 90.0 90.0
-    key 0 0
-    circle 40.0 50.0 radius 3.0
+    size = 100.0
+    start = [10.0, 10.0]
+    target = [90.0, 90.0]
+    key = [0, 0]
+    obstacles = [
+        {circle = [40.0, 50.0], radius = 3.0},
+    ]
     """
     if len(check_instance("worlds", worlds, Worlds)) != 1:
         raise ValueError(f"worlds must be a batch of one, got {len(worlds)}")
-    start, target, key = worlds.starts[0], worlds.targets[0], worlds.keys[0]
     lines = [
         "# metres, degrees and seconds",
-        f"size {worlds.size!r}",
-        f"start {float(start[0])!r} {float(start[1])!r}",
-        f"target {float(target[0])!r} {float(target[1])!r}",
-        f"key {key[0]} {key[1]}",
+        f"size = {worlds.size!r}",
+        f"start = {worlds.starts[0].tolist()}",
+        f"target = {worlds.targets[0].tolist()}",
+        f"key = {worlds.keys[0].tolist()}",
+        "obstacles = [",
     ]
     for m in np.flatnonzero(worlds.kinds[0]):
-        x, y = (float(v) for v in worlds.centres[0, m])
-        a, b, turned = (float(v) for v in worlds.shapes[0, m])
+        centre = worlds.centres[0, m].tolist()
+        a, b, turned = worlds.shapes[0, m].tolist()
         if worlds.kinds[0, m] == _fast.CIRCLE:
-            line = f"circle {x!r} {y!r} radius {a!r}"
+            obstacle = f"circle = {centre}, radius = {a!r}"
         else:
-            line = f"rectangle {x!r} {y!r} sides {2 * a!r} {2 * b!r} turned {float(np.degrees(turned))!r}"
+            degrees = float(np.degrees(turned))
+            obstacle = (
+                f"rectangle = {centre}, sides = {[2 * a, 2 * b]}, turned = {degrees!r}"
+            )
         if worlds.speeds[0, m] > 0:
-            heading = float(np.degrees(worlds.headings[0, m]))
-            line += f" speed {float(worlds.speeds[0, m])!r} towards {heading!r}"
-        lines.append(line)
-    return "\n".join(lines) + "\n"
+            towards = float(np.degrees(worlds.headings[0, m]))
+            obstacle += (
+                f", speed = {float(worlds.speeds[0, m])!r}, towards = {towards!r}"
+            )
+        lines.append(f"    {{{obstacle}}},")
+    return "\n".join([*lines, "]", ""])
 
 
 def parse_world(text: str) -> Worlds:
-    """Read one world from text.
+    """Read one world from TOML.
 
-    There is one line for each obstacle, and one each for size, start, target and key, which may be missing. After a #
-    come comments::
+    All of it may be missing. Rectangles may be turned and obstacles may move::
 
-        size 100
-        start 10 10
-        target 90 90
-        circle 40 50 radius 3
-        rectangle 60 30 sides 8 4 turned 45
-        circle 70 70 radius 2 speed 0.5 towards 90    # moves
+        size = 100
+        start = [10, 10]
+        target = [90, 90]
+        obstacles = [
+            {circle = [40, 50], radius = 3},
+            {rectangle = [60, 30], sides = [8, 4], turned = 45},
+            {circle = [70, 70], radius = 2, speed = 0.5, towards = 90},
+        ]
 
     Parameters
     ----------
     text : str
-        Metres, degrees and seconds.
+        Metres, degrees and seconds. ``key``, two whole numbers, is the key of :class:`Worlds`.
 
     Returns
     -------
@@ -164,89 +175,61 @@ def parse_world(text: str) -> Worlds:
     Raises
     ------
     ValueError
-        If a line cannot be read (the message names it), or if the world is not valid.
+        If the text is not TOML, an entry cannot be read, or the world is not valid. The message says where.
 
     Examples
     --------
     >>> from robonav.robot import parse_world
-    >>> parse_world("circle 40 50 radius 3").centres
+    >>> parse_world("obstacles = [{circle = [40, 50], radius = 3}]").centres
     array([[[40., 50.]]])
     """
-    header: dict[str, list[float]] = {
-        "size": [SIZE],
-        "start": [*START],
-        "target": [*TARGET],
-        "key": [0, 0],
-    }
-    rows, seen = [], set()
-    for number, line in enumerate(
-        check_instance("text", text, str).splitlines(), start=1
-    ):
-        words = line.partition("#")[0].split()
-        if not words:
-            continue
-        try:
-            if words[0] in header:
-                values = [float(word) for word in words[1:]]
-                if len(values) != len(header[words[0]]) or words[0] in seen:
-                    raise ValueError
-                seen.add(words[0])
-                header[words[0]] = values
-            else:
-                rows.append(_parse_obstacle(words))
-        except (ValueError, KeyError):
-            raise ValueError(
-                f"line {number} of the world must be like 'circle 40 50 radius 3' or 'rectangle 60 30 sides 8 4 "
-                f"turned 45', perhaps with 'speed 0.5 towards 90', or 'size', 'start', 'target', 'key' and numbers; "
-                f"got {line.strip()!r}"
-            ) from None
+    try:
+        world = tomllib.loads(check_instance("text", text, str))
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"text must be a world in TOML: {error}") from None
+    for name in world:
+        check_one_of("entries of a world", name, ENTRIES)
+    obstacles = check_instance("obstacles", world.get("obstacles", []), list)
+    rows = [_parse_obstacle(number, each) for number, each in enumerate(obstacles, 1)]
     table = np.array(rows, dtype=float).reshape(len(rows), 8)
-    key = header["key"]
-    if any(not 0 <= word < 2**32 or word != int(word) for word in key):
-        raise ValueError(f"key must be two whole numbers of 32 bits, got {key}")
     return Worlds(
         kinds=table[None, :, 0].astype(np.int8),
         centres=table[None, :, 1:3],
         shapes=table[None, :, 3:6],
         speeds=table[None, :, 6],
         headings=table[None, :, 7],
-        starts=np.array([header["start"]]),
-        targets=np.array([header["target"]]),
-        keys=np.array([key]).astype(np.uint32),
-        size=header["size"][0],
+        starts=check_array("start", [world.get("start", START)], shape=(1, 2)),
+        targets=check_array("target", [world.get("target", TARGET)], shape=(1, 2)),
+        keys=check_array(
+            "key", [world.get("key", (0, 0))], shape=(1, 2), dtype=np.uint32
+        ),
+        size=world.get("size", SIZE),
     )
 
 
-def _parse_obstacle(words: list[str]) -> tuple[float, ...]:
-    """Read kind, x, y, shape, speed and heading from an obstacle's words; raise ValueError or KeyError if it fails."""
-    kind, rest = words[0], words[1:]
-    lengths = {"circle": {"radius": 1}, "rectangle": {"sides": 2, "turned": 1}}[
-        kind
-    ] | {"speed": 1, "towards": 1}
-    x, y = (float(word) for word in rest[:2])
-    rest = rest[2:]
-    values: dict[str, list[float]] = {}
-    while rest:
-        name = rest.pop(0)
-        if name in values or len(rest) < lengths[name]:
-            raise ValueError
-        values[name] = [float(rest.pop(0)) for _ in range(lengths[name])]
-    if "towards" in values and "speed" not in values:
-        raise ValueError
-    speed, towards = (
-        values.get("speed", [0.0])[0],
-        np.radians(values.get("towards", [0.0])[0]),
-    )
+def _parse_obstacle(number: int, entry: Any) -> tuple[float, ...]:
+    """Read kind, x, y, shape, speed and heading of an obstacle."""
+    given = set(entry) if isinstance(entry, dict) else set()
+    kind, extent = ("circle", "radius") if "circle" in given else ("rectangle", "sides")
+    optional = {"speed", "towards"} | ({"turned"} if kind == "rectangle" else set())
+    if not {kind, extent} <= given <= {kind, extent} | optional:
+        raise ValueError(
+            f"obstacle {number} of the world must be like {{circle = [40, 50], radius = 3}} or "
+            "{rectangle = [60, 30], sides = [8, 4], turned = 45}, perhaps with speed = 0.5, towards = 90; "
+            f"got {entry}"
+        )
+    if "towards" in given and "speed" not in given:
+        raise ValueError(
+            f"obstacle {number} of the world must have a speed to go towards {entry['towards']}"
+        )
+    x, y = check_array(f"obstacle {number}: {kind}", entry[kind], shape=(2,))
+    numbers = {
+        name: check_real(f"obstacle {number}: {name}", entry.get(name, 0.0))
+        for name in optional
+    }
+    moves = numbers["speed"], np.radians(numbers["towards"])
     if kind == "circle":
-        return _fast.CIRCLE, x, y, values["radius"][0], 0.0, 0.0, speed, towards
-    length, width = values["sides"]
-    return (
-        _fast.RECTANGLE,
-        x,
-        y,
-        length / 2,
-        width / 2,
-        np.radians(values.get("turned", [0.0])[0]),
-        speed,
-        towards,
-    )
+        radius = check_real(f"obstacle {number}: radius", entry["radius"])
+        return _fast.CIRCLE, x, y, radius, 0.0, 0.0, *moves
+    sides = check_array(f"obstacle {number}: sides", entry["sides"], shape=(2,))
+    return _fast.RECTANGLE, x, y, *(sides / 2), np.radians(numbers["turned"]), *moves

@@ -20,7 +20,6 @@ from robonav.robot import (
     navigate,
     neighbour_slip,
     obstacle_tracks,
-    parse_world,
     random_worlds,
     sense,
     straight,
@@ -375,7 +374,7 @@ def test_bad_settings_are_refused_with_a_sentence(settings, error, message):
 )
 def test_bad_policies_are_refused_with_a_sentence(policy, error, message):
     with pytest.raises(error, match=message):
-        navigate(policy, parse_world("circle 50 50 radius 3"))
+        navigate(policy, make_world(circles=[(50, 50, 3)]))
 
 
 @pytest.mark.parametrize(

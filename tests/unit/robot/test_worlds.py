@@ -146,11 +146,13 @@ def test_text_round_trips():
 def test_text_is_easy_to_write():
     world = parse_world(
         """
-        # a lesson
-        start 20 20
-        circle 40 50 radius 3
-        rectangle 60 30 sides 8 4 turned 45   # leaning
-        circle 70 70 radius 2 speed 0.5 towards 90
+        # moving obstacles, too
+        start = [20, 20]
+        obstacles = [
+            {circle = [40, 50], radius = 3},
+            {rectangle = [60, 30], sides = [8, 4], turned = 45},  # leaning
+            {circle = [70, 70], radius = 2, speed = 0.5, towards = 90},
+        ]
         """
     )
     assert world.kinds.tolist() == [[1, 2, 1]]
@@ -158,22 +160,50 @@ def test_text_is_easy_to_write():
     assert world.targets.tolist() == [[90, 90]]
     assert world.shapes[0, 1].tolist() == [4, 2, np.radians(45)]
     assert world.speeds.tolist() == [[0, 0, 0.5]]
+    assert world.headings[0, 2] == np.radians(90)
+
+
+def test_empty_text_is_an_empty_world():
+    assert parse_world("").digest() == make_world().digest()
 
 
 @pytest.mark.parametrize(
-    "line",
+    ("text", "error", "message"),
     [
-        "circle 40 50",
-        "circle 40 radius 3",
-        "square 1 2 3",
-        "rectangle 4 5 sides 3",
-        "start 10",
-        "circle 4 5 radius x",
+        ("size = 100\ncircle 40 50", ValueError, "must be a world in TOML: .* line 2"),
+        ("start = [1, 2]\nstart = [3, 4]", ValueError, "must be a world in TOML"),
+        ("start = [10]", ValueError, r"start must have shape \(1, 2\)"),
+        ("start = 'here'", TypeError, "start must be an array of numbers"),
+        ("target = ['a', 'b']", TypeError, "target must be an array of numbers"),
+        ("size = '100'", TypeError, "size must be a number"),
+        ("key = [-1, 0]", ValueError, "key must hold whole numbers"),
+        ("obstacle = []", ValueError, "entries of a world must be one of size, start"),
+        ("obstacles = 5", TypeError, "obstacles must be list"),
     ],
 )
-def test_text_that_cannot_be_read_names_the_line(line):
-    with pytest.raises(ValueError, match="line 2 of the world must be like"):
-        parse_world(f"size 100\n{line}\n")
+def test_text_that_is_no_world_gets_a_sentence(text, error, message):
+    with pytest.raises(error, match=message):
+        parse_world(text)
+
+
+@pytest.mark.parametrize(
+    ("obstacle", "error", "message"),
+    [
+        ("5", ValueError, "must be like"),
+        ("{circle = [40, 50]}", ValueError, "must be like"),
+        ("{circle = [40, 50], radius = 3, turned = 4}", ValueError, "must be like"),
+        ("{square = [1, 2], side = 3}", ValueError, "must be like"),
+        ("{rectangle = [4, 5], radius = 3}", ValueError, "must be like"),
+        ("{circle = [4, 5], radius = 3, towards = 9}", ValueError, "must have a speed"),
+        ("{circle = 4, radius = 3}", ValueError, r"circle must have shape \(2,\)"),
+        ("{circle = [4, 5], radius = '3'}", TypeError, "radius must be a number"),
+        ("{rectangle = [4, 5], sides = [3]}", ValueError, "sides must have shape"),
+    ],
+)
+def test_an_obstacle_that_cannot_be_read_is_named(obstacle, error, message):
+    first = "{circle = [50, 50], radius = 1}"
+    with pytest.raises(error, match=f"obstacle 2.*{message}"):
+        parse_world(f"obstacles = [{first}, {obstacle}]")
 
 
 @pytest.mark.parametrize(
@@ -322,16 +352,6 @@ def test_values_are_not_bent_into_shape(change, message):
         ),
         (lambda: make_world(key=(-1, 0)), ValueError, "key must hold whole numbers"),
         (lambda: make_world(size=10**400), ValueError, "size must be finite"),
-        (
-            lambda: parse_world("start 10 10\nstart 20 20"),
-            ValueError,
-            "line 2 of the world",
-        ),
-        (
-            lambda: parse_world("circle 50 50 radius 3 towards 90"),
-            ValueError,
-            "line 1 of the world",
-        ),
         (lambda: parse_world(5), TypeError, "text must be str"),
         (lambda: navigate(straight, "x"), TypeError, "worlds must be Worlds"),
         (lambda: concatenate(["x"]), TypeError, "batches must be Worlds"),
