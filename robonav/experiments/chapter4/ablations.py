@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robonav.nnql import reward
-from robonav.nnql.reward import REWARDS, reward_row
+from robonav.nnql.reward import REWARDS, TABLE, reward_row
 from robonav.robot import NNQL_SENSORS, Encoder, Sensing, nnql_state
 from robonav.robot.environment_settings import Reward, arrival_or_collision
 
@@ -20,12 +20,24 @@ from .setup import ABOUT, EVALUATION_TEMPERATURE, SETUP, evaluate, training, tun
 Array = NDArray[np.float64]
 
 
+def _row(before: str, after: str, condition: str = "") -> int:
+    """The number of a row of Table 4.1, by the words that it has there."""
+    return [row[:3] for row in TABLE].index((before, after, condition))
+
+
+GETTING_SAFE = _row("any", "safe")
+STAYING_COZY = _row("cozy", "cozy", "not a metre nearer")
+STAYING_DANGEROUS = _row("dangerous", "dangerous", "not a metre nearer")
+EVADING = (STAYING_COZY, STAYING_DANGEROUS)
+"""The rows that reward a robot for keeping its distance from the nearest object."""
+
+
 def only_moving_away(
     before: Sensing, after: Sensing, outcome: NDArray[np.int8]
 ) -> Array:
-    """Table 4.1, but evading earns its reward only if the nearest object is farther away than before."""
+    """Table 4.1, except that the rows ``EVADING`` count only if the nearest object is farther away than before."""
     farther = after.ranges.min(axis=1) > before.ranges.min(axis=1)
-    evading = np.isin(reward_row(before, after, outcome), (6, 9))
+    evading = np.isin(reward_row(before, after, outcome), EVADING)
     return np.where(evading & ~farther, 0.0, reward(before, after, outcome))
 
 
@@ -38,10 +50,12 @@ def _rows_changed(changes: Mapping[int, float]) -> Reward:
 
 REWARDS_TRIED: dict[str, Reward] = {
     "Table 4.1": reward,
-    "half as much for evading": _rows_changed({6: 0.3, 9: 0.2}),
+    "half as much for evading": _rows_changed(
+        {STAYING_COZY: 0.3, STAYING_DANGEROUS: 0.2}
+    ),
     "evading is moving away": only_moving_away,
-    "0.6 for getting safe, too": _rows_changed({2: 0.6}),
-    "nothing for staying cozy": _rows_changed({6: 0.0}),
+    "0.6 for getting safe, too": _rows_changed({GETTING_SAFE: 0.6}),
+    "nothing for staying cozy": _rows_changed({STAYING_COZY: 0.0}),
     "arrival and collision alone": arrival_or_collision,
 }
 

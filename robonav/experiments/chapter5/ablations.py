@@ -44,20 +44,20 @@ CHANGES: dict[str, Mapping[str, Any]] = {
         "score": accuracy,
         "target": "number",
     },
-    "reward: expert against policy, in the expert's states": {
+    "reward: feature gaps in the expert's states": {
         "reward_update": SubgradientMaxMargin(power=0.0)
     },
-    "rewards in [0, 1]; 300 steps, this iteration's episodes": {
+    "rewards scaled to [0, 1]; 300 steps, latest episodes": {
         "improver": replace(_FAST, n_samples=300, replay=1)
     },
-    "9,600 steps, 20 iterations' episodes": {"improver": _FAST},
-    "rare actions count alike": {"reward_update": SubgradientMaxMargin()},
-    "chosen by balanced accuracy": {"score": balanced_accuracy},
-    "the target's sector as sine and cosine": {"target": "sine-cosine"},
-    "any end but a collision is worth the most": {
+    "9,600 steps, episodes of 20 iterations": {"improver": _FAST},
+    "each action has the same total weight": {"reward_update": SubgradientMaxMargin()},
+    "policy chosen by balanced accuracy": {"score": balanced_accuracy},
+    "target's sector as sine and cosine": {"target": "sine-cosine"},
+    "terminal values reward survival": {
         "improver": ReplaySGD(gradient_step=(0.4, 0.4))
     },
-    "learning rate falls": {"improver": ReplaySGD()},
+    "gradient step falls": {"improver": ReplaySGD()},
     "discount 0.9": {"improver": ReplaySGD(discount=0.9)},
 }
 """What each change sets, on top of all changes before it."""

@@ -106,7 +106,7 @@ def policy_improvement(settings: Settings) -> ReplaySGD:
     return ReplaySGD(
         discount=settings["discount"],
         gradient_step=settings["gradient_step"],
-        n_samples=settings["samples"],
+        n_samples=settings["n_samples"],
         replay=settings["replay"],
         terminal_values=TERMINAL_VALUES[settings.get("terminal_values", "bonus")],
     )
@@ -119,7 +119,7 @@ def own_options(method: str, settings: Settings, iterations: int) -> dict[str, A
     if method == "apprenticeship":
         return {
             "expectations": EXPECTATIONS[settings["expectations"]],
-            "n_rewards": min(settings["rewards"], iterations),
+            "n_rewards": min(settings["n_rewards"], iterations),
         }
     if method == "relative_entropy":
         return {"horizon": settings["horizon"], "slack": settings["slack"]}

@@ -31,7 +31,7 @@ from .setup import (
 TRIALS = 8  # with each of two discounts
 DISCOUNTS: tuple[float, ...] = tuple(CONDITIONS["discounts"])
 TUNING_SEEDS = 1000  # run k trains with this seed + k, from demonstrations of its own; the tables take others
-SAMPLES = 9600  # steps of gradient descent an iteration, in all trials
+N_SAMPLES = 9600  # gradient steps in an iteration, in all trials
 
 _SHARED: dict[str, list[Any]] = {
     "inverse_temperature": [15.0, 25.0, 40.0],
@@ -44,7 +44,7 @@ _OWN: dict[str, dict[str, list[Any]]] = {
     "nirl": {"power": [0.5, 1.0]},
     "apprenticeship": {
         "expectations": ["all states", "initial state"],
-        "rewards": [7, 14, 28],
+        "n_rewards": [7, 14, 28],
     },
     "relative_entropy": {"horizon": [3, 5, 8], "slack": [0.02, 0.05, 0.1]},
     "scirl": {
@@ -67,9 +67,10 @@ SPACE: dict[str, dict[str, list[Any]]] = {
 
 
 def draws(method: str, discount: float) -> list[dict[str, Any]]:
-    """The hyperparameters of all trials but the first. Each value occurs about equally often, in random combinations.
+    """The hyperparameters of a method, one dictionary a trial: random combinations in which all values are as frequent.
 
-    Cloning has no discount: for the second one it gets other draws.
+    The methods of inverse reinforcement learning try the same combinations with both discounts. Cloning has no
+    discount. Its trials for the second discount are further combinations.
     """
     seed = [TUNING_SEEDS, DISCOUNTS.index(discount) if method == "cloning" else 0]
     rng = np.random.default_rng(seed)
@@ -87,11 +88,11 @@ def draws(method: str, discount: float) -> list[dict[str, Any]]:
 
 
 def trial_settings(method: str, trial: int, discount: float) -> Settings:
-    """The hyperparameters of a trial."""
+    """The hyperparameters of a trial: trial 0 has the thesis's, the others have random ones."""
     first = trial == 0 and (method != "cloning" or discount == DISCOUNTS[0])
     drawn = dict(THESIS[method]) if first else draws(method, discount)[trial]
     if method != "cloning":
-        drawn |= {"discount": discount, "samples": SAMPLES}
+        drawn |= {"discount": discount, "n_samples": N_SAMPLES}
     return Settings.of(drawn)
 
 

@@ -138,7 +138,7 @@ def test_steps_begin_with_the_algorithm_as_written_and_add_up():
     assert isinstance(written["reward_update"], LeastSquaresReward)
     assert isinstance(written["improver"], SingleGradientStep)
     assert written["score"] is accuracy
-    half = ablations.options_up_to("chosen by balanced accuracy")
+    half = ablations.options_up_to("policy chosen by balanced accuracy")
     assert half["score"] is balanced_accuracy
     assert half["target"] == "number"
     assert half["improver"].terminal_values == ZERO_TERMINAL_VALUES
