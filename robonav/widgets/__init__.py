@@ -1,1 +1,1 @@
-"""What readers touch; no computing."""
+"""Interactive widgets for the pages of the book."""

@@ -1,4 +1,4 @@
-"""Belief lab: a robot in a corridor moves and senses; where it may be is worked out in the page, by Bayes' rule."""
+"""Belief lab: a robot in a corridor moves and senses, and the page computes its belief by Bayes' rule."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ WHEELS: Mapping[str, float] = {
 
 
 class BeliefLab(anywidget.AnyWidget):
-    """Move and sense; see the prediction, the likelihood and the belief of every cell."""
+    """Move and sense in a corridor, and see the prediction, the likelihood and the belief of every cell."""
 
     _esm = front_end("random_numbers", "belief", "belief_lab")
     _css = style_sheet("belief_lab")
@@ -42,18 +42,27 @@ def belief_lab(
     wheels: Mapping[str, float] = WHEELS,
     seed: int = 1,
 ) -> BeliefLab:
-    """The lab for some corridors, in every combination with some sensors and wheels.
+    """Make the lab for some corridors, each with every combination of sensors and wheels.
 
     Parameters
     ----------
-    corridors : plans by name, as :func:`robonav.mdp.corridor` takes them.
-    sensors : accuracy by description; None for a robot with no sensing at all.
-    wheels : share of moves that fail, by description.
-    seed : of the first run; what happens in the page is drawn from it, in the next run from the number after.
+    corridors : mapping of str to str
+        Plans by name, as :func:`robonav.mdp.corridor` takes them.
+    sensors : mapping of str to float or None
+        The accuracy of a sensor by its description; None for a robot without sensing.
+    wheels : mapping of str to float
+        The share of moves that fail, by description.
+    seed : int
+        The seed of the first run in the page. Each further run adds 1 to it.
+
+    Returns
+    -------
+    BeliefLab
 
     Raises
     ------
-    ValueError : if there is no corridor, sensor or wheel to choose.
+    ValueError
+        If there is no corridor, sensor or wheel to choose from.
     """
     for name, choices in (
         ("corridors", corridors),
@@ -89,7 +98,7 @@ def belief_lab(
 
 
 def _observations(cells: str, accuracy: float | None) -> NDArray[np.float64]:
-    """Z (3, S, O) of a corridor seen with some accuracy, or not at all."""
+    """Return the observation probabilities Z (3, S, O) of a corridor for a sensor of some accuracy, or for none."""
     pomdp = (
         without_sensing(corridor(cells).mdp)
         if accuracy is None

@@ -1,4 +1,4 @@
-"""Boundary lab: networks of two inputs, trained in every setting, and what they answer all over the plane."""
+"""Boundary lab: networks of two inputs trained in every setting, and their outputs over the plane."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .shared import front_end, packed, packed_network, style_sheet
 
 
 class BoundaryLab(anywidget.AnyWidget):
-    """Choose a problem, a network and a way to train; step through the training; probe the answer anywhere."""
+    """Choose a problem, a network and a training, step through the training, and read the output at any point."""
 
     _esm = front_end("boundary_lab")
     _css = style_sheet("boundary_lab")
@@ -32,19 +32,29 @@ def boundary_lab(
     frames: Sequence[int],
     start: Sequence[str] = (),
 ) -> BoundaryLab:
-    """The lab for trainings in every combination of some settings.
+    """Make the lab for trainings in every combination of some settings.
 
     Parameters
     ----------
-    controls : names of the settings and their choices; the first setting is the problem.
-    runs : a recorded training for each combination of choices.
-    examples : x (m, 2) and y (m, 1) of each problem.
-    frames : iterations to show; a training that ended earlier stays at its end.
-    start : the choices shown at first; by default the first of each.
+    controls : mapping of str to sequence of str
+        The names of the settings and their choices. The first setting is the problem.
+    runs : mapping of tuple to TrainingHistory
+        A recorded training for each combination of choices.
+    examples : mapping of str to (array, array)
+        The examples of each problem: x (m, 2) and y (m, 1).
+    frames : sequence of int
+        The iterations to show. A training that ended earlier shows its last network.
+    start : sequence of str, optional
+        The choices at first; by default the first of each setting.
+
+    Returns
+    -------
+    BoundaryLab
 
     Raises
     ------
-    ValueError : if a combination or a problem's examples are missing, or a training has no record of its networks.
+    ValueError
+        If a combination or the examples of a problem are missing, or a training has no record of its networks.
     """
     combinations = list(product(*controls.values()))
     first = tuple(start) or combinations[0]
@@ -83,7 +93,7 @@ def boundary_lab(
 def _run(
     combination: tuple[str, ...], training: TrainingHistory, frames: Sequence[int]
 ) -> dict[str, Any]:
-    """One training as the page reads it; single precision is more than a picture shows."""
+    """Pack one training for the page, in single precision, which is sufficient for a picture."""
     if training.networks is None:
         raise ValueError(
             f"runs[{combination}] must hold the network of every iteration: train with record=True"

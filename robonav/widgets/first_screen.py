@@ -1,4 +1,4 @@
-"""The first screen of the book: a robot that drives, which the reader can stop, obstruct and steer."""
+"""The first screen of the book: a moving robot, which the reader can stop, obstruct and steer."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MAPS = 200
 
 
 class FirstScreen(anywidget.AnyWidget):
-    """A robot crosses one random map after another; the reader stops it, obstructs it or steers it."""
+    """Watch a robot cross one random map after another, and stop, obstruct or steer it."""
 
     _esm = front_end("simulator", "maps", "episode", "learning/worlds", "first_screen")
     _css = style_sheet("maps", "robot_playground", "first_screen")
@@ -39,17 +39,17 @@ def first_screen(
     Parameters
     ----------
     policy : NetworkPolicy
-        What steers the robot.
+        The policy that steers the robot.
     about : str
-        One sentence, read beside the map while the policy steers.
+        One sentence, shown beside the map while the policy steers.
     links : mapping of str to str
-        Where to go from here: a text and the page's address.
+        Links to other pages: the text and the address of each.
     obstacles : int
-        Obstacles of each random map.
+        The number of obstacles in each random map.
     speed : float
-        Of the robot, in m/s.
+        The speed of the robot in m/s.
     seed : int
-        Of the maps; after 200 they begin again.
+        The seed of the maps. After 200 maps they start again.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Grids as the page's picture of them (``grid.js``) takes them."""
+"""Grids in the format of the page (``grid.js``)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from robonav.mdp import GridWorld
 
 
 def page_grid(grid: GridWorld) -> dict[str, Any]:
-    """A grid as the page draws it."""
+    """Pack a grid for the page."""
     return {
         "rows": list(grid.rows),
         "cells": grid.cells.tolist(),

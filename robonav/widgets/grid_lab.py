@@ -1,4 +1,4 @@
-"""Grid lab: values and arrows on a grid, step by step, several methods side by side, in every setting."""
+"""Grid lab: values and arrows on a grid, step by step, for several methods and in every setting."""
 
 from __future__ import annotations
 
@@ -22,14 +22,18 @@ from .shared import front_end, packed, style_sheet
 
 @dataclass(frozen=True)
 class Replay:
-    """What one method did on a grid, as frames to step through.
+    """The steps of one method on a grid, as F frames.
 
     Attributes
     ----------
-    values : (F, S).
-    policies : (F, S), action indices.
-    said : a few words on each frame, F of them.
-    walks : states passed, to be drawn as a line, F lists; none if left out.
+    values : (F, S) array
+        The values of the states.
+    policies : (F, S) array of int
+        The actions of the states.
+    said : sequence of str
+        A few words on each frame.
+    walks : sequence of sequence of int
+        The states visited in each frame, drawn as a line; empty if there are none.
     """
 
     values: NDArray[np.float64]
@@ -47,18 +51,27 @@ def replay(
     steps: Sequence[str],
     walks: Sequence[Sequence[int]] = (),
 ) -> Replay:
-    """Frames from a recorded history, each compared with the best.
+    """Make the frames of a recorded history, each compared with the optimal values.
 
     Parameters
     ----------
-    values, policies : (F, S), such as ``history`` and ``policies`` of a recorded solution.
-    best : (S,), the optimal values.
-    steps : what each frame shows, such as "sweep 3".
-    walks : the states passed in each frame, to be drawn as a line; none if left out.
+    values, policies : (F, S) array
+        The history of a recorded solution, such as its ``history`` and ``policies``.
+    best : (S,) array
+        The optimal values.
+    steps : sequence of str
+        The name of each frame, such as "sweep 3".
+    walks : sequence of sequence of int
+        The states visited in each frame, drawn as a line; empty if there are none.
+
+    Returns
+    -------
+    Replay
 
     Raises
     ------
-    ValueError : if there are not as many values, policies and walks as steps.
+    ValueError
+        If the numbers of values, policies, walks and steps differ.
     """
     held = check_array("values", values, shape=(len(steps), mdp.n_states))
     chosen = check_array("policies", policies, shape=held.shape, dtype=np.intp)
@@ -88,7 +101,7 @@ Solver = Callable[[GridWorld, tuple[str, ...]], Mapping[str, Replay]]
 
 
 class GridLab(anywidget.AnyWidget):
-    """Choose a setting; step through what each method did; touch a cell. With a kernel: draw a map and solve it."""
+    """Choose a setting, step through each method, and touch a cell. With a kernel, draw a map and solve it."""
 
     _esm = front_end("grid", "grid_lab")
     _css = style_sheet("grid", "grid_lab")
@@ -102,7 +115,7 @@ class GridLab(anywidget.AnyWidget):
         self.on_msg(self._answer)
 
     def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
-        """The page asks whether a kernel is there, or for a map of the reader's own to be solved."""
+        """Answer the page, which asks whether a kernel is there, or for the solution of the reader's own map."""
         if message.get("ask") == "kernel":
             self.send({"kernel": self._solve is not None})
         elif message.get("ask") == "solve" and self._solve is not None:
@@ -124,20 +137,30 @@ def grid_lab(
     start: Sequence[str] = (),
     solve: Solver | None = None,
 ) -> GridLab:
-    """The lab for some grids and for every combination of some settings.
+    """Make the lab for some grids and every combination of some settings.
 
     Parameters
     ----------
-    grids : by the name under which they are offered.
-    controls : names of further settings, and their choices.
-    runs : for each grid's name and combination of choices, (grid, choice, choice, ...), a replay by method.
-    start : grid and choices shown at first; by default the first of each.
-    solve : what a map drawn by the reader is solved with, given the grid and the choices; needs a kernel. Its symbols
-        mean what they mean in the grids offered.
+    grids : mapping of str to GridWorld
+        The grids by name.
+    controls : mapping of str to sequence of str
+        The names of further settings, and their choices.
+    runs : mapping of tuple to mapping of str to Replay
+        A replay of each method for each grid and combination of choices, (grid, choice, choice, ...).
+    start : sequence of str, optional
+        The grid and the choices at first; by default the first of each.
+    solve : callable, optional
+        A function of a grid that the reader drew and the choices. It returns the replays and needs a kernel. The
+        symbols of the map have the same meaning as in the given grids.
+
+    Returns
+    -------
+    GridLab
 
     Raises
     ------
-    ValueError : if a combination is missing, or a replay is of another grid.
+    ValueError
+        If a combination is missing, or a replay belongs to another grid.
     """
     offered = {
         "map": list(grids),
@@ -173,7 +196,7 @@ def grid_lab(
 
 
 def _run(replays: Mapping[str, Replay]) -> list[dict[str, Any]]:
-    """The replays of one setting; single precision is more than a picture shows."""
+    """Pack the replays of one setting for the page, in single precision, which is sufficient for a picture."""
     return [
         {
             "name": name,

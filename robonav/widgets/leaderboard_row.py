@@ -1,4 +1,4 @@
-"""The reader's own robot on the leaderboard, tried in the page."""
+"""A row of the leaderboard for the reader's own robot, tried in the page."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .shared import front_end, style_sheet
 
 
 class LeaderboardRow(anywidget.AnyWidget):
-    """Try a robot in the frozen worlds of the leaderboard and read its row beside those of the book's methods."""
+    """Try a robot in the frozen worlds of the leaderboard and compare its row with those of the book's methods."""
 
     _esm = front_end(
         "simulator", "files", "learning/random", "learning/worlds", "learning/trials",
@@ -31,16 +31,16 @@ def leaderboard_row(
     playground: str = "policy-learning.html",
     worlds: int = WORLDS,
 ) -> LeaderboardRow:
-    """Make the widget that tries a robot of the reader.
+    """Make the widget that tries the reader's robot.
 
     Parameters
     ----------
     rates : mapping of str to sequence of float
-        By method, the success in per cent in each of the leaderboard's settings.
+        The success of each method in per cent, one number for each setting of the leaderboard.
     playground : str
-        Address of the page where a reader trains a robot.
+        The address of the page where a reader trains a robot.
     worlds : int
-        Worlds of a set.
+        The number of worlds in a set.
 
     Returns
     -------
@@ -49,7 +49,7 @@ def leaderboard_row(
     Raises
     ------
     ValueError
-        If a method has not as many rates as there are settings.
+        If the number of rates of a method differs from the number of settings.
 
     Examples
     --------

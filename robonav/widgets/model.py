@@ -1,4 +1,4 @@
-"""Decision processes as the page (``model.js``) takes them."""
+"""Decision processes in the format of the page (``model.js``)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .shared import packed
 
 
 def page_model(model: FiniteMDP) -> dict[str, Any]:
-    """Transitions (A, S, S) and rewards (S, A) of a small model, packed."""
+    """Pack the transitions (A, S, S) and rewards (S, A) of a small model for the page."""
     rows = [
         np.asarray(matrix.toarray() if hasattr(matrix, "toarray") else matrix)
         for matrix in model.transitions

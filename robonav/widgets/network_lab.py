@@ -1,4 +1,4 @@
-"""Network lab: the robot's 11-8-5 network over its training, and what it answers wherever the reader puts the robot."""
+"""Network lab: the robot's 11-8-5 network during its training, and its outputs for any sensor readings."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .shared import front_end, packed, packed_network, spread_out, style_sheet
 
 
 class NetworkLab(anywidget.AnyWidget):
-    """Step through a training; touch the sensors and see every unit answer."""
+    """Step through a training, change the sensor readings, and see the activation of every unit."""
 
     _esm = front_end("network_lab")
     _css = style_sheet("network_lab")
@@ -30,17 +30,25 @@ def network_lab(
     *,
     frames: int = 60,
 ) -> NetworkLab:
-    """The lab for one recorded training.
+    """Make the lab for one recorded training.
 
     Parameters
     ----------
-    training : of a network that reads ``Encoder(target="number")`` and answers the five actions; recorded.
-    situations : named moments of demonstrations: the state of 11 numbers, Eq. (3.17), and the expert's action 0 to 4.
-    frames : iterations to show, at most.
+    training : TrainingHistory
+        A recorded training of a network that reads ``Encoder(target="number")`` and has five outputs.
+    situations : mapping of str to (array, int)
+        Moments of demonstrations by name: the state of 11 numbers, Eq. (3.17), and the expert's action from 0 to 4.
+    frames : int
+        The largest number of iterations to show.
+
+    Returns
+    -------
+    NetworkLab
 
     Raises
     ------
-    ValueError : if the training has no record of its networks, or these have other inputs or outputs.
+    ValueError
+        If the training has no record of its networks, or their inputs or outputs are others.
     """
     if training.networks is None:
         raise ValueError(

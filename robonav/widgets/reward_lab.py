@@ -1,4 +1,4 @@
-"""Reward lab: a reward that was learned, with weights to push, and what a robot does that follows it."""
+"""Reward lab: a learned reward with weights to change, and the behaviour of a robot that follows it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ TARGET_FEATURES = {
 
 
 class RewardLab(anywidget.AnyWidget):
-    """Push a weight of the reward; see where the reward is high, and what the robot does then."""
+    """Change a weight of the reward, and see where the reward is high and what a robot does that follows it."""
 
     _esm = front_end("simulator", "maps", "reward_lab")
     _css = style_sheet("maps", "reward_lab")
@@ -44,21 +44,33 @@ def reward_lab(
     discount: float = 0.9,
     speed: float = 2.0,
 ) -> RewardLab:
-    """The lab for one reward.
+    """Make the lab for one reward.
 
     Parameters
     ----------
-    reward_weights : theta (5, k + 1), a row an action, the constant last, as :func:`robonav.nirl.learn` gives it.
-    encoder : phi(s), k features.
-    shown : the expert's decisions, to say how often the reward agrees with them.
-    worlds : named batches of one, to look at.
-    others : more of them, in which arrivals are counted.
-    discount : gamma of a robot that looks more than one decision ahead.
-    speed : in m/s.
+    reward_weights : (5, k + 1) array
+        The weights theta, one row for each action and the constant last, as :func:`robonav.nirl.learn` returns them.
+    encoder : Encoder
+        The encoder phi(s), with k features.
+    shown : Demonstrations
+        The expert's decisions, with which the choices of the reward are compared.
+    worlds : mapping of str to Worlds
+        Batches of one by name, which the lab draws.
+    others : sequence of Worlds
+        More batches of one, in which the lab counts arrivals.
+    discount : float
+        The discount of a robot that looks more than one decision ahead.
+    speed : float
+        The speed of the robot in m/s.
+
+    Returns
+    -------
+    RewardLab
 
     Raises
     ------
-    ValueError : if the weights do not fit the encoder, or there is no world or decision.
+    ValueError
+        If the weights do not fit the encoder, or there is no world or decision.
     """
     theta = check_array(
         "reward_weights", reward_weights, shape=(LEARNED, encoder.size + 1)
@@ -88,7 +100,7 @@ def reward_lab(
 
 
 def _features(encoder: Encoder) -> list[dict[str, Any]]:
-    """Names of the features, in the encoder's order, and what each is about."""
+    """Return the name of each feature in the order of the encoder, with the sensor or the target that it describes."""
     named = [("danger", f"danger in sector {sensor}") for sensor in encoder.sensors]
     named += [
         ("target", name) for name in (*TARGET_FEATURES[encoder.target], "target seen")

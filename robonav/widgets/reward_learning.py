@@ -1,4 +1,4 @@
-"""Learn a reward in the page: from drives to a reward, a map of it, and robots that are trained for it."""
+"""Learn a reward in the page from demonstrations, see it as a map, and train robots with it."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ FILES = (
 
 
 class RewardLearning(anywidget.AnyWidget):
-    """Learn a reward from demonstrations by NIRL, look at it as a map, and train a robot for it elsewhere."""
+    """Learn a reward from demonstrations by NIRL, see it as a map, and train a robot with it in other worlds."""
 
     _esm = front_end(*FILES)
     _css = style_sheet("maps", "drives", "robot_playground", "learning/training_panel")
@@ -55,15 +55,15 @@ def reward_learning(
     Parameters
     ----------
     demonstrations : mapping of str to Demonstrations
-        What to learn from, by the names to choose from.
+        Sets of demonstrations to choose from, by name.
     world : Worlds
         A batch of one: the map on which the reward is drawn.
     policies : mapping of str to NetworkPolicy
-        What the learned policy is compared with; straight on always is.
+        Policies to compare the learned one with. The rule that goes straight on is always among them.
     maps : int
-        Maps that the robots are tried in.
+        The number of maps in which the robots are tried.
     seed : int
-        Of these maps.
+        The seed of these maps.
 
     Returns
     -------
@@ -72,15 +72,15 @@ def reward_learning(
     Raises
     ------
     ValueError
-        If demonstrations hold no decision, or ``maps`` is below 1.
+        If there is no decision in the demonstrations, or ``maps`` is below 1.
 
     Examples
     --------
     >>> from robonav.lfd import demonstrate
     >>> from robonav.robot import random_worlds
     >>> from robonav.widgets.reward_learning import reward_learning
-    >>> drives = demonstrate(random_worlds(2, 20, seed=3))
-    >>> widget = reward_learning({"two": drives}, random_worlds(1, 20, seed=4), {}, seed=5)
+    >>> demonstrations = demonstrate(random_worlds(2, 20, seed=3))
+    >>> widget = reward_learning({"two": demonstrations}, random_worlds(1, 20, seed=4), {}, seed=5)
     >>> [policy["name"] for policy in widget.data["policies"]]
     ['straight on']
     """

@@ -18,7 +18,7 @@ RULES = ("straight", "freer-side")
 
 
 class RobotPlayground(anywidget.AnyWidget):
-    """A map to edit, in which a policy or the reader steers the robot; the reader's drives are kept."""
+    """Edit a map in which a policy or the reader steers the robot, and download the episode."""
 
     _esm = front_end(
         "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
@@ -34,12 +34,12 @@ def robot_playground(
     *,
     speeds: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0),
 ) -> RobotPlayground:
-    """Make a playground with some worlds and networks; the two baselines and the reader can always steer.
+    """Make a playground with some worlds and networks. The two baselines and the reader can always steer.
 
     Parameters
     ----------
     worlds : mapping of str to Worlds
-        Batches of one, by the names to choose from.
+        Batches of one to choose from, by name.
     policies : mapping of str to NetworkPolicy, optional
         Networks with their encoders, by name.
     speeds : sequence of float

@@ -21,11 +21,11 @@ from .shared import front_end, packed, style_sheet
 from .simulator import page_world
 
 Found = TypeVar("Found", Plan, GridPlan)
-REPEATS = 3  # searches are timed so often, and the shortest time counts
+REPEATS = 3  # the number of timings, of which the shortest counts
 
 
 class SearchLab(anywidget.AnyWidget):
-    """Choose a map, a margin and a cell; watch both searches. With a kernel: put the target elsewhere."""
+    """Choose a map, a margin and a cell, and watch both searches. With a kernel, move the target."""
 
     _esm = front_end("simulator", "maps", "search_lab")
     _css = style_sheet("maps", "search_lab")
@@ -64,7 +64,7 @@ class SearchLab(anywidget.AnyWidget):
         self.on_msg(self._answer)
 
     def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
-        """The page asks whether a kernel is there, or for a way to another target."""
+        """Answer the page, which asks whether a kernel is there, or for paths to another target."""
         if message.get("ask") == "kernel":
             self.send({"kernel": True})
         elif message.get("ask") == "search":
@@ -88,21 +88,30 @@ def search_lab(
     cells: Sequence[float] = (1.0, 2.0, 4.0),
     speed: float = 2.0,
 ) -> SearchLab:
-    """The lab for some maps: ``search_lab({"10 obstacles": random_worlds(1, 10, seed=41)})``.
+    """Make the lab for some maps: ``search_lab({"10 obstacles": random_worlds(1, 10, seed=41)})``.
 
-    Both searches run here, for every map, margin and cell; the page replays them.
+    Both searches run here for every map, margin and cell, and the page replays them.
 
     Parameters
     ----------
-    worlds : named batches of one.
-    margins : distances in metres to keep from obstacles; the first is shown at first.
-    cells : sides in metres of the squares in which the modified search counts poses of one heading as one, and of the
-        other one's grid.
-    speed : in m/s.
+    worlds : mapping of str to Worlds
+        Batches of one by name.
+    margins : sequence of float
+        Distances in metres to keep from obstacles. The first is chosen at first.
+    cells : sequence of float
+        Sides of squares in metres. The modified search treats poses with one heading in one square as equal. For
+        grid A* they are the cells of the grid.
+    speed : float
+        The speed of the robot in m/s.
+
+    Returns
+    -------
+    SearchLab
 
     Raises
     ------
-    ValueError : if there is nothing to choose from, or a number out of bounds.
+    ValueError
+        If there is nothing to choose from, or a number is out of bounds.
     """
     for name, choices in (("worlds", worlds), ("margins", margins), ("cells", cells)):
         if not choices:
@@ -113,7 +122,7 @@ def search_lab(
 def _both(
     world: Worlds, margin: float, cell: float, speed: float
 ) -> list[dict[str, Any]]:
-    """The two searches as the page reads them."""
+    """Return both searches in the format of the page."""
     with warnings.catch_warnings():  # the page itself shows that cells are too large
         warnings.filterwarnings("ignore", message="plan found no path")
         by_actions, seconds = _timed(
@@ -134,7 +143,7 @@ def _both(
 
 
 def _timed(search: Callable[[], Found]) -> tuple[Found, float]:
-    """What a search found and its seconds."""
+    """Return a plan and the time of its search in seconds."""
     spent = []
     for _ in range(REPEATS):
         begin = time.perf_counter()
@@ -144,7 +153,7 @@ def _timed(search: Callable[[], Found]) -> tuple[Found, float]:
 
 
 def _told(found: Plan | GridPlan) -> dict[str, Any]:
-    """What both kinds of plan have in common; places of nodes to a centimetre."""
+    """Return the values that both kinds of plan have; positions of nodes are rounded to a centimetre."""
     assert found.visited is not None
     return {
         "found": bool(found.found),

@@ -1,4 +1,4 @@
-"""What all widgets share: one front-end file made of several, one style, arrays packed for the page."""
+"""Code that all widgets share: one front-end file made of several, one style, and packed arrays."""
 
 from __future__ import annotations
 
@@ -23,30 +23,30 @@ PALETTE = {
 
 
 def front_end(*names: str) -> str:
-    """The JavaScript of a widget: the palette, ``shared.js`` and the named files as one module.
+    """Return the JavaScript of a widget: the palette, ``shared.js`` and the named files as one module.
 
-    One text, because a module that imports another does not load from disk.
+    It is one text, because a module that imports another one does not load from disk.
     """
     parts = [(HERE / f"{name}.js").read_text("utf-8") for name in ("shared", *names)]
     return "\n".join([f"export const PALETTE = {json.dumps(PALETTE)};", *parts])
 
 
 def style_sheet(*names: str) -> str:
-    """The style sheet of a widget: ``shared.css`` and the named files."""
+    """Return the style sheet of a widget: ``shared.css`` and the named files."""
     return "\n".join(
         (HERE / f"{name}.css").read_text("utf-8") for name in ("shared", *names)
     )
 
 
 def packed(array: ArrayLike, dtype: DTypeLike = np.float64) -> dict[str, Any]:
-    """An array as the page's ``unpack`` reads it: shape, type and bytes (little-endian, base 64)."""
+    """Pack an array for the page's ``unpack``: shape, type and bytes (little-endian, base 64)."""
     values = np.ascontiguousarray(array, dtype=np.dtype(dtype).newbyteorder("<"))
     data = base64.b64encode(values.tobytes()).decode("ascii")
     return {"shape": list(values.shape), "dtype": np.dtype(dtype).name, "data": data}
 
 
 def packed_network(network: Network, dtype: DTypeLike = np.float64) -> dict[str, Any]:
-    """A network, or a stack of them, as the page's ``networkAt`` reads it."""
+    """Pack a network, or a stack of networks, for the page's ``networkAt``."""
     return {
         "sizes": list(network.sizes),
         "weights": [packed(weight, dtype) for weight in network.weights],
@@ -55,7 +55,7 @@ def packed_network(network: Network, dtype: DTypeLike = np.float64) -> dict[str,
 
 
 def spread_out(last: int, count: int) -> Sequence[int]:
-    """Some ``count`` of the iterations 0 to ``last``, close together at first, where most happens."""
+    """Return about ``count`` of the iterations 0 to ``last``, denser at the start, where the network changes most."""
     steps = np.geomspace(1, last + 1, count) - 1
     return sorted(
         {*range(min(last, 5) + 1), *np.rint(steps).astype(int).tolist(), last}

@@ -1,4 +1,4 @@
-"""Worlds and policies as the page's simulator (``simulator.js``) takes them."""
+"""Worlds and policies in the format of the page's simulator (``simulator.js``)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CHOOSING = 5
 
 
 def page_world(world: Worlds) -> dict[str, Any]:
-    """The first world of a batch: lengths in metres, angles in radians."""
+    """Pack the first world of a batch for the page: lengths in metres, angles in radians."""
     obstacles = [
         {
             "circle": bool(world.kinds[0, m] == CIRCLE),
@@ -41,7 +41,7 @@ def page_world(world: Worlds) -> dict[str, Any]:
 
 
 def page_policy(policy: NetworkPolicy) -> dict[str, Any]:
-    """A network's policy: its weights, how what is sensed becomes inputs, and how much is left to chance."""
+    """Pack a network's policy for the page: its weights, its encoder and its temperature."""
     encoder = policy.encoder
     return {
         "network": packed_network(policy.network),

@@ -1,4 +1,4 @@
-"""Training lab: learning runs in every setting, replayed step by step. With a kernel: train here and now."""
+"""Training lab: learning runs in every setting, replayed step by step. With a kernel, new trainings run."""
 
 from __future__ import annotations
 
@@ -27,8 +27,10 @@ class Curve:
 
     Attributes
     ----------
-    steps : (T,) iterations or episodes at which it was taken, ascending.
-    values : (T,), or (S, T) of S seeds: then their mean is drawn, and the band between their least and largest.
+    steps : (T,) array
+        The iterations or episodes of the measurements, in ascending order.
+    values : (T,) or (S, T) array
+        The measurements, of one seed or of S seeds. For several seeds the page draws the mean and the range.
     """
 
     steps: ArrayLike
@@ -37,11 +39,11 @@ class Curve:
 
 Curves = Mapping[str, Curve]
 Trainer = Callable[[tuple[str, ...]], Iterator[tuple[int, int, Curves]]]
-"""``train(choices)`` trains bit by bit and yields how much is done, of how much, and the curves so far."""
+"""``train(choices)`` trains in small parts and yields the number of finished steps, of all steps, and the curves."""
 
 
 class TrainingLab(anywidget.AnyWidget):
-    """Choose settings; step through the learning; keep one run to compare. With a kernel: train, watch, cancel."""
+    """Choose settings, step through a training, and keep one run to compare. With a kernel, train, watch and cancel."""
 
     _esm = front_end("training_lab")
     _css = style_sheet("training_lab")
@@ -55,7 +57,7 @@ class TrainingLab(anywidget.AnyWidget):
         self.on_msg(self._answer)
 
     def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
-        """The page asks whether a kernel is there, for a training, or for its end."""
+        """Answer the page, which asks whether a kernel is there, for a training, or for its end."""
         asked = message.get("ask")
         if asked == "kernel":
             self.send({"kernel": self._train is not None})
@@ -71,10 +73,10 @@ class TrainingLab(anywidget.AnyWidget):
             self._thread = threading.Thread(
                 target=self._run, args=(self._train, choices), daemon=True
             )
-            self._thread.start()  # apart, so that a cancellation is heard
+            self._thread.start()  # in a thread of its own, so that the kernel can receive a cancellation
 
     def _run(self, train: Trainer, choices: tuple[str, ...]) -> None:
-        """Train, and tell the page of it."""
+        """Train, and send the curves to the page."""
         told = 0.0
         try:
             for done, total, curves in train(choices):
@@ -87,7 +89,7 @@ class TrainingLab(anywidget.AnyWidget):
             self.send({"ended": "done"})
         except (
             Exception
-        ) as error:  # the thread's last word: the page shows it, or nobody would
+        ) as error:  # an error in a thread would be lost, so the page shows it
             self.send({"error": f"{type(error).__name__}: {error}"})
 
 
@@ -100,20 +102,31 @@ def training_lab(
     start: Sequence[str] = (),
     train: Trainer | None = None,
 ) -> TrainingLab:
-    """The lab for trainings in every combination of some settings.
+    """Make the lab for trainings in every combination of some settings.
 
     Parameters
     ----------
-    controls : names of the settings, and their choices.
-    runs : for each combination of choices, a curve for each measure.
-    step : what a step of the training is called, such as "iteration".
-    measures : by name, what stands at the axis, with its unit: ``{"accuracy": "right answers (%)"}``.
-    start : the choices shown at first; by default the first of each.
-    train : what trains anew in the chosen setting, bit by bit; needs a kernel.
+    controls : mapping of str to sequence of str
+        The names of the settings, and their choices.
+    runs : mapping of tuple to mapping of str to Curve
+        A curve of each measure for each combination of choices.
+    step : str
+        The name of a step of the training, such as "iteration".
+    measures : mapping of str to str
+        The label of the axis of each measure, with its unit: ``{"accuracy": "right answers (%)"}``.
+    start : sequence of str, optional
+        The choices at first; by default the first of each setting.
+    train : callable, optional
+        A function of the chosen settings that trains in small parts; it needs a kernel.
+
+    Returns
+    -------
+    TrainingLab
 
     Raises
     ------
-    ValueError : if a combination or a measure is missing, or a curve has not as many values as steps.
+    ValueError
+        If a combination or a measure is missing, or a curve has another number of values than steps.
     """
     combinations = list(product(*controls.values()))
     first = tuple(start) or combinations[0]
@@ -145,7 +158,7 @@ def training_lab(
 
 
 def _packed(curves: Curves) -> dict[str, Any]:
-    """Curves as the page reads them: mean, least and largest of the seeds; single precision shows as much."""
+    """Pack curves for the page: mean, least and largest over the seeds, in single precision."""
     return {name: _drawn(name, curve) for name, curve in curves.items()}
 
 
