@@ -1,0 +1,219 @@
+"""Train on my drives, from disk, with the network cut: driven by keyboard, learned, tested, taken to Python."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from browser import DESKTOP, PHONE, Visit
+from driving import drive_map, fast, good_drive, keys_of, playground
+from mounting import mounted
+from playwright.sync_api import Locator, expect
+from test_accessibility import AXE, RUN
+
+from robonav.benchmark.policies import method
+from robonav.lfd import concatenate, learn_policy, record, save_demonstrations
+from robonav.networks import Weights, load_weights, random_network, save_weights
+from robonav.networks.policy import NetworkPolicy
+from robonav.robot import Encoder, navigate, random_worlds, straight
+from robonav.widgets.imitation_lab import ImitationLab, imitation_lab
+
+CLEAR = "localStorage.clear()"
+UNSEEN = random_worlds(200, 10, seed=2024)
+
+
+@pytest.fixture(scope="module")
+def widget() -> ImitationLab:
+    learned = method("lfd")
+    assert isinstance(learned, NetworkPolicy)
+    return imitation_lab(learned, demonstrations=30)
+
+
+@pytest.fixture(params=["desktop", "phone"])
+def view(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Visit]:
+    visit.page.set_viewport_size(DESKTOP if request.param == "desktop" else PHONE)
+    visit.open(f"{site.as_uri()}/book/cite.html")
+    visit.page.evaluate(CLEAR)
+    yield visit
+    visit.page.evaluate(CLEAR)
+    assert visit.errors == []
+
+
+def opened(view: Visit, site: Path, widget: ImitationLab) -> Locator:
+    return mounted(view, site.as_uri(), widget)
+
+
+def said(lab: Locator) -> Locator:
+    return lab.locator(".training .status")
+
+
+def train(lab: Locator) -> None:
+    lab.get_by_role("button", name="Train").press("Enter")
+    expect(said(lab)).to_contain_text(re.compile("^Done .* Your robot arrives in"))
+
+
+def rates(lab: Locator) -> dict[str, float]:
+    rows = [
+        row.locator("th, td").all_inner_texts() for row in lab.locator("tbody tr").all()
+    ]
+    return {name.split(":")[0]: float(rate) for name, rate, *_ in rows}
+
+
+def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
+    view, site, widget, tmp_path
+):
+    lab = mounted(view, site.as_uri(), playground())
+    fast(lab)
+    for number in range(1, 6):
+        assert "Arrived" in drive_map(lab, keys_of(good_drive(number)))
+    lab = opened(view, site, widget)
+    expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
+    expect(lab.locator(".about")).to_contain_text("5 drives, ")
+    train(lab)
+    found = rates(lab)
+    assert found["always straight on"] == pytest.approx(
+        100 * navigate(straight, UNSEEN).success.mean()
+    )
+    assert found["the book's robot"] == pytest.approx(
+        100 * navigate(method("lfd"), UNSEEN).success.mean()
+    )
+    assert found["robot 1"] > found["always straight on"] + 10
+    with lab.page.expect_download() as download:
+        lab.get_by_role("button", name="Download the latest").click()
+    download.value.save_as(tmp_path / "mine.safetensors")
+    mine = load_weights(tmp_path / "mine.safetensors")
+    assert mine.made["drives"] == 5
+    policy = NetworkPolicy(mine.network, mine.encoder)
+    assert found["robot 1"] == pytest.approx(
+        100 * navigate(policy, UNSEEN).success.mean()
+    )
+    drives = concatenate([good_drive(number) for number in range(1, 6)])
+    ours = navigate(learn_policy(drives, regularisation=0.1), UNSEEN).success.mean()
+    assert found["robot 1"] == pytest.approx(100 * ours, abs=8)
+    lab.get_by_label("regularisation λ").select_option("1")
+    train(lab)  # so much of it that few drives teach only the commonest action
+    assert rates(lab)["robot 2"] == found["always straight on"]
+
+
+def test_without_drives_the_page_says_so_and_offers_the_experts(view, site, widget):
+    lab = opened(view, site, widget)
+    expect(lab.get_by_label("learn from", exact=True)).to_have_value(
+        "the expert's drives"
+    )
+    lab.get_by_label("learn from", exact=True).select_option("my drives")
+    expect(lab.locator(".about")).to_contain_text("You have no drive yet that arrived.")
+    link = lab.locator(".about").get_by_role("link", name="playground")
+    expect(link).to_have_attribute("href", "playground.html")
+    lab.get_by_role("button", name="Train").click()
+    expect(said(lab)).to_contain_text("There is nothing to learn from")
+    lab.get_by_label("learn from", exact=True).select_option("the expert's drives")
+    lab.get_by_label("iterations of L-BFGS").select_option("30")
+    train(lab)
+    assert rates(lab)["robot 1"] > 80
+
+
+def test_drives_that_collided_are_left_out(view, site, widget, tmp_path):
+    hits = navigate(straight, random_worlds(9, 10, seed=1))
+    world = int(np.flatnonzero(hits.collision)[0])
+
+    def ahead(simulator: object, asked: np.ndarray) -> np.ndarray:
+        return np.zeros(len(asked), dtype=np.int64)
+
+    bad = record(ahead, random_worlds(9, 10, seed=1)[world])
+    save_demonstrations(tmp_path / "both.npz", concatenate([bad, good_drive(1)]))
+    lab = opened(view, site, widget)
+    lab.locator(".my-drives summary").click()
+    lab.get_by_label("File of drives").set_input_files(tmp_path / "both.npz")
+    expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
+    expect(lab.locator(".about")).to_have_text(
+        re.compile(
+            r"^1 drive, \d+ steps .* 1 of your drives did not arrive and is left out\.$"
+        )
+    )
+
+
+def test_training_is_cancelled_and_begun_again(view, site, widget):
+    lab = opened(view, site, widget)
+    lab.get_by_label("hidden units").select_option("32")
+    lab.get_by_label("iterations of L-BFGS").select_option("1000")
+    button = lab.get_by_role("button", name="Train")
+    button.press("Enter")
+    expect(
+        lab.get_by_role("img", name=re.compile("cost J: .* at first"))
+    ).to_be_visible()
+    lab.get_by_role("button", name="Cancel").press("Enter")
+    expect(said(lab)).to_have_text("Cancelled.")
+    expect(lab.locator("tbody tr")).to_have_count(0)
+    lab.get_by_label("iterations of L-BFGS").select_option("3")
+    train(lab)
+    expect(lab.locator("tbody tr")).to_have_count(3)
+
+
+def test_without_a_worker_the_page_trains_itself(visit, site, widget):
+    visit.page.add_init_script("delete globalThis.Worker")
+    lab = opened(visit, site, widget)
+    lab.get_by_label("iterations of L-BFGS").select_option("10")
+    train(lab)
+    assert visit.errors == []
+
+
+def test_weights_from_a_file_are_tried_and_watched(view, site, widget, tmp_path):
+    encoder = Encoder(target="signed")
+    network = random_network((encoder.size, 4, 5), seed=5, spread=3.0)
+    save_weights(tmp_path / "own.safetensors", Weights(network, "own", encoder))
+    (tmp_path / "bad.safetensors").write_bytes(b"nothing")
+    lab = opened(view, site, widget)
+    upload = lab.get_by_label("Weights to try")
+    upload.set_input_files(tmp_path / "bad.safetensors")
+    expect(
+        lab.get_by_text("The file must hold weights saved by robonav")
+    ).to_be_visible()
+    upload.set_input_files(tmp_path / "own.safetensors")
+    expect(said(lab)).to_contain_text("Your robot arrives in")
+    own = navigate(NetworkPolicy(network, encoder), UNSEEN)
+    assert rates(lab)["robot 1"] == pytest.approx(100 * own.success.mean())
+    lab.get_by_label("robot to watch").select_option("always straight on")
+    track = lab.locator("input[aria-label='map']")
+    track.press("Home")
+    ends = navigate(straight, UNSEEN)
+    told = lab.locator(".viewer .status")
+    first = f"always straight on, map 1: {ends.outcome[0]} after {ends.steps[0]} s."
+    expect(told).to_have_text(first)
+    lab.get_by_role("button", name="Next map where it fails").press("Enter")
+    fails = int(np.flatnonzero(~ends.success[1:])[0]) + 1
+    expect(told).to_contain_text(f"map {fails + 1}: {ends.outcome[fails]}")
+    before = lab.locator(".viewer canvas").evaluate("(map) => map.toDataURL()")
+    lab.get_by_role("button", name="Watch it drive").press("Enter")
+    lab.page.wait_for_function(
+        "([map, before]) => map.toDataURL() !== before",
+        arg=[lab.locator(".viewer canvas").element_handle(), before],
+    )
+
+
+def test_other_maps_begin_a_new_table(view, site, widget):
+    lab = opened(view, site, widget)
+    lab.get_by_label("iterations of L-BFGS").select_option("3")
+    train(lab)
+    lab.get_by_label("obstacles in the new maps").select_option("30")
+    expect(lab.locator("tbody tr")).to_have_count(0)
+    train(lab)
+    unseen = random_worlds(200, 30, seed=2024)
+    assert rates(lab)["always straight on"] == pytest.approx(
+        100 * navigate(straight, unseen).success.mean()
+    )
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_serious(view, site, widget, scheme):
+    view.page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+    lab = opened(view, site, widget)
+    lab.get_by_label("iterations of L-BFGS").select_option("3")
+    train(lab)
+    view.page.evaluate("() => { window.define = undefined; }")
+    view.page.evaluate(AXE.read_text("utf-8"))
+    assert view.page.evaluate(RUN) == []
+    width = view.page.evaluate("document.documentElement.scrollWidth")
+    assert width <= view.page.viewport_size["width"]

@@ -1,0 +1,132 @@
+"""The imitation lab: the expert's drives, learning and driving in the page as in Python."""
+
+import numpy as np
+import pytest
+
+from robonav.benchmark.policies import method
+from robonav.lfd import demonstrate, labelled_states, learn_policy
+from robonav.networks import NetworkPolicy, fit
+from robonav.robot import navigate, random_worlds, straight
+from robonav.widgets.imitation_lab import ImitationLab, imitation_lab
+from robonav.widgets.simulator import page_policy
+
+FILES = (
+    "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
+    "learning/network", "learning/lbfgs", "learning/nnql", "learning/worker",
+    "learning/training_panel", "drives", "imitation_lab",
+)  # fmt: skip
+IMITATE = """
+const { expert, trial, seeds, iterations, count, book } = data;
+const encoder = { sensors: [1, 2, 3, 4, 5, 6, 7, 8, 9], walls: false, target: "sine-cosine" };
+const rivals = [{ ...book }, { rule: "straight" }];
+return seeds.map((seed) => {
+  const examples = page.examplesFrom(page.replayed(expert).slice(0, count));
+  const learning = { examples, sizes: [12, 8, 5], seed, regularisation: 1, iterations };
+  const task = { ...learning, network: null, encoder, rivals, trial };
+  const outcomes = [];
+  for (const { live } of page.imitate(task)) if (live.outcomes) outcomes.push(live.outcomes);
+  return outcomes;
+});
+"""
+
+
+@pytest.fixture(scope="module")
+def lab() -> ImitationLab:
+    return imitation_lab(method("lfd"), demonstrations=25)
+
+
+@pytest.fixture(scope="module")
+def shown():
+    return demonstrate(random_worlds(25, 10, seed=7))
+
+
+def test_the_expert_drives_in_the_page_as_in_python(node, lab, shown):
+    body = """return page.replayed(data).map(({ steps, outcome }) => ({
+      outcome, poses: steps.map(({ pose }) => [pose.x, pose.y, pose.heading]),
+    }));"""
+    got = node(FILES, body, lab.data["expert"])
+    assert [each["outcome"] for each in got] == shown.outcome.tolist()
+    poses = np.concatenate([each["poses"] for each in got])
+    np.testing.assert_allclose(poses, shown.poses, rtol=0, atol=1e-9)
+
+
+def test_examples_are_pythons(node, lab, shown):
+    body = """const { m, x, y } = page.examplesFrom(page.replayed(data)); return { m, x: [...x], y: [...y] };"""
+    got = node(FILES, body, lab.data["expert"])
+    x, y = labelled_states(shown)
+    assert got["m"] == len(x)
+    np.testing.assert_allclose(got["x"], x.ravel(), atol=1e-12)
+    np.testing.assert_array_equal(got["y"], y.ravel())
+
+
+def test_rivals_end_in_every_new_map_as_in_python(node, lab):
+    given = {
+        **lab.data, "trial": {"seed": 2024, "maps": 200, "obstacles": 20},
+        "seeds": [0], "iterations": 1, "count": 1,
+    }  # fmt: skip
+    (outcomes,) = node(FILES, IMITATE, given)
+    unseen = random_worlds(200, 20, seed=2024)
+    for rival, policy in ((1, method("lfd")), (2, straight)):
+        expected = navigate(policy, unseen).outcome.tolist()
+        assert [ends[rival] for ends in outcomes] == expected
+
+
+@pytest.mark.slow
+def test_robots_of_twenty_seeds_arrive_as_often_as_pythons(node, lab, shown):
+    """Rounding makes two networks of one; they drive alike, though not the same."""
+    given = {
+        **lab.data, "trial": {"seed": 2024, "maps": 100, "obstacles": 20},
+        "seeds": list(range(20)), "iterations": 300, "count": 25,
+    }  # fmt: skip
+    got = node(FILES, IMITATE, given)
+    ours = np.array([np.mean([ends[0] == "arrived" for ends in run]) for run in got])
+    unseen = random_worlds(100, 20, seed=2024)
+    theirs = np.array(
+        [
+            navigate(learn_policy(shown, seed=s), unseen).success.mean()
+            for s in range(20)
+        ]
+    )
+    difference = ours - theirs
+    assert abs(difference.mean()) <= 2 * difference.std(ddof=1) / np.sqrt(20) + 0.01
+    assert abs(difference).mean() < 0.03
+
+
+def test_wrong_arguments_get_one_sentence():
+    policy = method("lfd")
+    with pytest.raises(ValueError, match="expert_seed and test_seed must differ"):
+        imitation_lab(policy, expert_seed=3, test_seed=3)
+    with pytest.raises(ValueError, match="demonstrations must be at least 1"):
+        imitation_lab(policy, demonstrations=0)
+    with pytest.raises(TypeError, match="policy must be"):
+        imitation_lab(straight)
+
+
+def test_rates_have_wilsons_intervals(node):
+    body = "return page.rateOf([...Array(47).fill('arrived'), 'collided', 'out of steps', 'collided']);"
+    got = node(FILES, body, None)
+    assert (got["maps"], got["arrived"], got["rate"]) == (50, 47, 0.94)
+    assert got["low"] == pytest.approx(0.8378, abs=1e-4)
+    assert got["high"] == pytest.approx(0.9794, abs=1e-4)
+
+
+def test_the_book_policy_reaches_the_page(lab):
+    assert lab.data["book"] == page_policy(method("lfd"))
+
+
+def test_the_answers_on_the_page_are_true(shown):
+    unseen = random_worlds(200, 10, seed=2024)
+
+    def trained(count, regularisation):
+        x, y = labelled_states(shown.select_trajectories(range(count)))
+        history = fit(x, y, regularisation=regularisation, seed=0)
+        driven = navigate(NetworkPolicy(history.network), unseen)
+        return history.accuracies[-1], driven
+
+    one, three, all_of_them = (trained(count, 0.1) for count in (1, 3, 25))
+    assert three[1].success.mean() > 0.9
+    assert one[0] == pytest.approx(all_of_them[0], abs=0.05)
+    assert 0.4 < one[1].success.mean() < 0.6
+    assert all_of_them[1].success.mean() > 0.95
+    always_ahead = navigate(straight, unseen)
+    assert trained(3, 1.0)[1].outcome.tolist() == always_ahead.outcome.tolist()
