@@ -1,4 +1,4 @@
-"""Problems of two inputs and one answer, small enough to see what each hidden unit does."""
+"""Data sets with two inputs and one label, small enough to see what each hidden unit does."""
 
 from __future__ import annotations
 
@@ -15,11 +15,30 @@ EXTENT = 1.5
 
 
 def xor(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
-    """Four clouds; those in opposite corners belong together (exclusive or): one line cannot part them.
+    """Draw four clouds of points, where opposite corners have the same label (exclusive or).
+
+    One line cannot separate the labels.
+
+    Parameters
+    ----------
+    m : int
+        Number of examples.
+    seed : int or Generator
+        Of the random numbers.
 
     Returns
     -------
-    x (m, 2) and y (m, 1) of 0 and 1, for all problems here.
+    x : (m, 2) array
+        Points.
+    y : (m, 1) array
+        Labels 0 and 1.
+
+    Examples
+    --------
+    >>> from robonav.networks.toy_datasets import xor
+    >>> x, y = xor(4, seed=0)
+    >>> x.shape, y.ravel().tolist()
+    ((4, 2), [1.0, 0.0, 1.0, 1.0])
     """
     rng = check_generator("seed", seed)
     signs = rng.choice([-1.0, 1.0], size=(_count(m), 2))
@@ -29,7 +48,16 @@ def xor(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
 
 
 def disc(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
-    """A disc inside a ring: no line does, and two do not either."""
+    """Draw a disc (label 1) inside a ring (label 0); parameters and results are those of :func:`xor`.
+
+    Three lines are needed to enclose the disc.
+
+    Examples
+    --------
+    >>> from robonav.networks.toy_datasets import disc
+    >>> disc(50, seed=0)[0].shape
+    (50, 2)
+    """
     rng = check_generator("seed", seed)
     inside = rng.random(_count(m)) < 0.5
     radius = np.where(
@@ -42,7 +70,16 @@ def disc(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
 
 
 def moons(m: int, *, seed: int | np.random.Generator) -> tuple[Array, Array]:
-    """Two half moons that reach into each other; a line gets most of them right."""
+    """Draw two half moons that reach into each other; parameters and results are those of :func:`xor`.
+
+    One line classifies most of the points correctly, but not all.
+
+    Examples
+    --------
+    >>> from robonav.networks.toy_datasets import moons
+    >>> moons(50, seed=0)[1].shape
+    (50, 1)
+    """
     rng = check_generator("seed", seed)
     upper = rng.random(_count(m)) < 0.5
     angle = rng.uniform(0, np.pi, len(upper))
@@ -63,7 +100,27 @@ TOY_DATASETS: dict[str, Callable[..., tuple[Array, Array]]] = {
 
 
 def field(network: Network, *, resolution: int = 100) -> Array:
-    """What a network of two inputs and one output answers all over the square: (resolution, resolution), y upwards."""
+    """Return the outputs of a network with two inputs and one output on a grid over the square.
+
+    Parameters
+    ----------
+    network : Network
+        A single network.
+    resolution : int
+        Points along each side.
+
+    Returns
+    -------
+    (resolution, resolution) array
+        Rows go upwards, columns to the right.
+
+    Examples
+    --------
+    >>> from robonav.networks import random_network
+    >>> from robonav.networks.toy_datasets import field
+    >>> field(random_network((2, 3, 1), seed=0), resolution=5).shape
+    (5, 5)
+    """
     line = np.linspace(
         -EXTENT, EXTENT, check_integer("resolution", resolution, at_least=2)
     )

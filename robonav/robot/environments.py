@@ -199,7 +199,9 @@ class NavigationEnv(gymnasium.Env):
     ) -> tuple[Observation, Info]:
         """Begin an episode, in a new world unless ``options["worlds"]`` gives one."""
         super().reset(seed=seed)
-        world = worlds_in(options, 1) or self.settings.next_worlds([self.np_random])
+        world = worlds_in(options, 1)
+        if world is None:
+            world = self.settings.next_worlds([self.np_random])
 
         # The map: its size and obstacles, of which some may move.
         self.world, self.size = world, world.size
@@ -238,9 +240,9 @@ class NavigationEnv(gymnasium.Env):
         # A collision anywhere along the way counts, not only where the robot stops.
         clearance = self._clearance(centres_before, x, y, new_x, new_y)
         to_target = math.hypot(self.target[0] - new_x, self.target[1] - new_y)
-        if clearance < COLLISION_DISTANCE:
+        if clearance < COLLISION_DISTANCE:  # 1 m
             self.outcome = COLLIDED
-        elif micrometres(to_target) <= ARRIVAL_DISTANCE:
+        elif micrometres(to_target) <= ARRIVAL_DISTANCE:  # 3 m
             self.outcome = ARRIVED
         elif self.steps >= self.settings.max_episode_steps:
             self.outcome = OUT_OF_STEPS
@@ -286,7 +288,7 @@ class NavigationEnv(gymnasium.Env):
             self.kinds, self.shapes, centres_before, self.centres, self.size,
             x, y, new_x, new_y, COLLISION_DISTANCE + 1e-3,
         )  # fmt: skip
-        return micrometres(clearance)
+        return micrometres(clearance)  # rounded: the last bit should decide nothing
 
     def _sense(self) -> Sensing:
         """What the robot senses now, as a batch of one."""
