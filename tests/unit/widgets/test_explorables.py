@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from gymnasium.spaces import Discrete
 
-from robonav import mdp
+from robonav import mdp, networks
+from robonav.lfd import plan, plan_on_grid
 from robonav.robot import (
     Action,
     Reflex,
@@ -17,7 +18,7 @@ from robonav.robot import (
     sense,
     turn_to_clearer_side,
 )
-from robonav.widgets.explorables import EXPLORABLES, chapter2, explorable
+from robonav.widgets.explorables import EXPLORABLES, chapter2, chapter3, explorable
 
 
 @pytest.fixture
@@ -427,3 +428,87 @@ def test_pockets_hold_the_robot_as_in_python(compute, width, depth):
     np.testing.assert_allclose(seen["path"], result.paths[0][:, :2], atol=1e-9)
     if width == 12:
         assert result.success[0] == (depth < 8)  # as the page says
+
+
+def test_a_neuron_answers_as_in_python(compute):
+    neuron = {"first": 2.5, "second": -1.5, "bias": 0.5}
+    one = networks.Network((np.array([[2.5, -1.5]]),), (np.array([0.5]),))
+    body = """
+    return given.sets.map(({ points, labels }) =>
+      [points.map((point) => page.answer(data.neuron, point)), page.right(data.neuron, points, labels)]);"""
+    seen = compute("neuron_line", body, neuron=neuron)
+    sets = explorable("neuron_line").data["given"]["sets"]
+    for (answers, count), chosen in zip(seen, sets, strict=True):
+        said = one.forward(np.array(chosen["points"]))[:, 0]
+        np.testing.assert_allclose(answers, said, atol=1e-12)
+        assert count == ((said > 0.5) == np.array(chosen["labels"])).sum()
+
+
+def test_one_line_divides_two_clouds_and_not_opposite_corners():
+    clouds, corners = explorable("neuron_line").data["given"]["sets"]
+    directions = np.linspace(0, 2 * np.pi, 90)
+    for chosen, can in ((clouds, True), (corners, False)):
+        points, labels = np.array(chosen["points"]), np.array(chosen["labels"])
+        along = points @ [np.cos(directions), np.sin(directions)]
+        best = max(
+            ((along[:, k] + offset > 0) == labels).mean()
+            for k in range(90)
+            for offset in np.linspace(-3, 3, 61)
+        )
+        assert bool(best == 1) is can
+
+
+@pytest.mark.parametrize("first", [1.0, 8.0, -3.5])
+def test_errors_travel_back_as_in_python(compute, first):
+    numbers = {"x": 0.8, "y": 0.2, "first": first, "second": 2.0}
+    seen = compute("backpropagation_by_hand", "return page.passes(data);", **numbers)
+    network = networks.Network(
+        (np.array([[first]]), np.array([[2.0]])), (np.zeros(1), np.zeros(1))
+    )
+    x, y = np.array([[0.8]]), np.array([[0.2]])
+    activations = network.activations(x)
+    assert seen["a2"] == pytest.approx(activations[1].item(), abs=1e-12)
+    assert seen["a3"] == pytest.approx(activations[2].item(), abs=1e-12)
+    cost = networks.squared_error_cost(network, x, y, regularisation=0.0)
+    assert seen["cost"] == pytest.approx(cost, abs=1e-12)
+    gradient = networks.squared_error_gradient(network, x, y, regularisation=0.0)
+    assert seen["gradient1"] == pytest.approx(gradient.weights[0].item(), abs=1e-12)
+    assert seen["gradient2"] == pytest.approx(gradient.weights[1].item(), abs=1e-12)
+    assert seen["delta3"] == pytest.approx(gradient.biases[1].item(), abs=1e-12)
+    assert seen["delta2"] == pytest.approx(gradient.biases[0].item(), abs=1e-12)
+
+
+SEARCH = """
+const { target, points } = given;
+const search = page.newSearch(given);
+while (search.closed.at(-1) !== target) page.expand(search, given, page.nextOf(search, given, data.rule));
+return { order: search.closed.map((k) => points[k]), length: search.G[target] };
+"""
+
+
+def test_nodes_are_expanded_in_pythons_order(compute):
+    seen = compute("astar_by_hand", SEARCH, rule="F")
+    made = plan_on_grid(chapter3.small_map(), margin=2.0, cell=5.0, record=True)
+    assert seen["length"] == pytest.approx(made.length, abs=1e-9)
+    assert len(seen["order"]) == made.expanded
+    np.testing.assert_allclose(seen["order"], made.visited, atol=1e-9)
+
+
+def test_without_the_estimate_the_search_expands_more_nodes(compute):
+    by_f, by_g, by_h = (compute("astar_by_hand", SEARCH, rule=rule) for rule in "FGH")
+    assert by_g["length"] == pytest.approx(by_f["length"])
+    assert (len(by_f["order"]), len(by_g["order"])) == (22, 39)  # as the page says
+    assert len(by_h["order"]) < len(by_f["order"])
+    assert by_h["length"] > by_f["length"]
+
+
+@pytest.mark.parametrize(("margin", "caution"), [(1.0, 0), (3.0, 0), (4.5, 2)])
+def test_paths_with_a_margin_are_the_planners(compute, margin, caution):
+    body = "return given.paths[page.placeOf(given, data)];"
+    seen = compute("margin_and_caution", body, margin=margin, caution=caution)
+    world = random_worlds(1, obstacles=15, seed=21)
+    made = plan(world, margin=margin, caution=caution, cell=2)
+    assert seen["length"] == pytest.approx(made.length, abs=1e-9)
+    np.testing.assert_allclose(seen["points"], made.points, atol=0.0051)
+    if caution == 0 and margin <= 3:
+        assert round(seen["length"]) == 114  # as the question and the answer say

@@ -1,0 +1,138 @@
+"""The numbers of chapter 3's explorables."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from robonav.lfd import plan
+from robonav.lfd.astar import EIGHT_DIRECTIONS, step_clearance
+from robonav.networks import toy_datasets
+from robonav.robot import Worlds, clearance, make_world, random_worlds
+
+from ..simulator import page_world
+from .registry import asks
+
+
+@asks(
+    "One neuron, two weights and its line",
+    "A neuron answers 1 on one side of a line and 0 on the other. You double both weights and the bias. "
+    "What happens to the line?",
+    guesses=[
+        "it moves away",
+        "it turns",
+        "nothing; the answer changes more abruptly",
+        "nothing at all",
+    ],
+)
+def neuron_line(points: int = 40) -> dict[str, Any]:
+    """Two sets of labelled points: one that a line can divide, one that none can."""
+    rng = np.random.default_rng(3)
+    labels = np.arange(points) % 2
+    clouds = np.array([[-1.0, -0.6], [1.1, 0.9]])[labels]
+    clouds = clouds + rng.normal(scale=0.4, size=(points, 2))
+    corners, opposite = toy_datasets.xor(points, seed=0)
+    sets = {
+        "two clouds": (clouds, labels),
+        "opposite corners": (corners, opposite.ravel()),
+    }
+    return {
+        "sets": [
+            {
+                "name": name,
+                "points": np.round(x, 3).tolist(),
+                "labels": np.asarray(y).astype(int).tolist(),
+            }
+            for name, (x, y) in sets.items()
+        ]
+    }
+
+
+@asks(
+    "Backpropagation, a number at a time",
+    "The first weight is 1. You raise it to 8, so that the hidden unit is very sure. "
+    "What happens to the gradient of this weight?",
+    guesses=["it grows eightfold", "it stays", "it nearly vanishes"],
+)
+def backpropagation_by_hand() -> dict[str, Any]:
+    """Nothing: the page computes all numbers from the reader's."""
+    return {}
+
+
+def small_map() -> Worlds:
+    """A map of 40 m with an angle of two walls in the way."""
+    walls = [(22, 22, 3, 16, 0), (15, 29, 14, 3, 0)]
+    return make_world(rectangles=walls, start=(5, 5), target=(35, 35), size=40)
+
+
+@asks(
+    "A* by hand",
+    "A* expands the open node with the least F = G + H. Leave H out, and expand the node with the least G. "
+    "What changes?",
+    guesses=[
+        "the path gets longer",
+        "the same length, more nodes",
+        "fewer nodes, longer path",
+        "nothing",
+    ],
+)
+def astar_by_hand(cell: float = 5.0, margin: float = 2.0) -> dict[str, Any]:
+    """The points of a coarse grid over a small map, and the steps that keep the margin."""
+    world = small_map()
+    middles = np.arange(cell, world.size, cell)
+    points = [(float(x), float(y)) for x, y in product(middles, middles)]
+    place = {point: number for number, point in enumerate(points)}
+    steps = []
+    for x, y in points:
+        beside = [(x + cell * right, y + cell * up) for right, up in EIGHT_DIRECTIONS]
+        steps.append(
+            [
+                place[point]
+                for point in beside
+                if point in place
+                and step_clearance(world, (x, y), point, margin) >= margin
+            ]
+        )
+    boxes = [
+        [o["x"], o["y"], 2 * o["a"], 2 * o["b"]] for o in page_world(world)["obstacles"]
+    ]
+    return {
+        "points": points,
+        "steps": steps,
+        "start": place[(5.0, 5.0)],
+        "target": place[(35.0, 35.0)],
+        "size": world.size,
+        "boxes": boxes,
+    }
+
+
+@asks(
+    "What does a margin cost?",
+    "The planner may pass obstacles at 1 m, and its path is 114 m long. Now it must keep 3 m from everything. "
+    "How much longer is the path?",
+    guesses=["not at all", "about 5 %", "about 15 %", "there is none"],
+    files=("simulator", "maps"),
+)
+def margin_and_caution(seed: int = 21) -> dict[str, Any]:
+    """The expert's paths in one map for some margins and some caution."""
+    world = random_worlds(1, obstacles=15, seed=seed)
+    margins, cautions = [1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0], [0, 1, 2, 3]
+    paths = []
+    for caution, margin in product(cautions, margins):
+        made = plan(world, margin=margin, caution=caution, cell=2)
+        along = world[np.zeros(len(made.points), int)]
+        paths.append(
+            {
+                "points": made.points.round(2).tolist(),
+                "length": float(made.length),
+                "clearance": float(clearance(along, made.points).min()),
+            }
+        )
+    return {
+        "world": page_world(world),
+        "margins": margins,
+        "cautions": cautions,
+        "paths": paths,
+    }
