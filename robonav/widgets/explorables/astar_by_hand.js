@@ -106,7 +106,7 @@ export default explorable({
         `${search.closed.length} ${search.closed.length === 1 ? "node" : "nodes"} expanded, ${search.open.length} open.`,
         ended
           ? Number.isFinite(search.G[target]) ? `The target is reached: the path is ${number(search.G[target], 1)} m long.` : "There is no path."
-          : `By this rule the next node has ${told(best)}.`,
+          : `The open node with the least ${rule} has ${told(best)}.`,
         ...(search.closed.length ? [`The last one expanded had ${told(search.closed.at(-1))}.`] : []),
       ].join("\n");
     };

@@ -50,6 +50,7 @@ export default explorable({
         ...edge(MIDDLE_X, RIGHT_X, "w₂", second, step >= 8 ? `∂J/∂w₂ = ${number(n.gradient2, 4)}` : ""),
         ...unit(LEFT_X, "input", number(x, 1), "", true),
         ...unit(MIDDLE_X, "hidden", step >= 2 ? three(n.a2) : "", step >= 6 ? `δ = ${number(n.delta2, 4)}` : "", step >= 2),
+        text(RIGHT_X - 4, 18, `label ${number(y, 1)}`),
         ...unit(RIGHT_X, "output", step >= 4 ? three(n.a3) : "", step >= 5 ? `δ = ${number(n.delta3, 4)}` : "", step >= 4),
       );
       set(picture, { "aria-label": `A network of three units after step ${step} of ${STEPS}` });

@@ -36,7 +36,7 @@ def neuron_line(points: int = 40) -> dict[str, Any]:
     corners, opposite = toy_datasets.xor(points, seed=0)
     sets = {
         "two clouds": (clouds, labels),
-        "opposite corners": (corners, opposite.ravel()),
+        "opposite corners": (2 * corners, opposite.ravel()),
     }
     return {
         "sets": [
