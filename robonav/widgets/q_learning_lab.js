@@ -175,16 +175,25 @@ export function* learnAndDrive({ settings, trial }) {
 
 // ---- Pictures -------------------------------------------------------------------------------------------------------
 
-/** Draws a world and the path of a robot through it, a dot each second. */
-function drawPath(board, { world, path, outcome }, { dots = true } = {}) {
+/** A world's obstacles after so many seconds. @param {World} world */
+function obstaclesAt(world, seconds) {
+  if (world.obstacles.every(({ speed }) => speed === 0)) return world.obstacles;
+  let { obstacles } = world;
+  for (let step = 0; step < seconds; step += 1) obstacles = drift({ ...world, obstacles }, step);
+  return obstacles;
+}
+
+/** Draws a world and the path of a robot through it, up to a second, with a dot each second. */
+function drawPath(board, { world, path, outcome }, { second = path.length - 1, dots = true } = {}) {
+  const gone = path.slice(0, second + 1);
   board.begin(world.size);
-  world.obstacles.forEach((o) => board.obstacle(o));
+  obstaclesAt(world, second).forEach((o) => board.obstacle(o));
   board.start(world.start);
   board.target(world.target);
-  board.line(path, OUTCOME_COLOURS[outcome], dots ? 1.8 : 6);
-  if (dots) board.dots(path.flat(), 0, path.length, { colour: OUTCOME_COLOURS[outcome], radius: 2 });
-  const [[x0, y0], [x1, y1]] = [path.at(-2) ?? path.at(-1), path.at(-1)];
-  board.robot({ x: x1, y: y1, heading: Math.atan2(y1 - y0, x1 - x0) });
+  board.line(gone, OUTCOME_COLOURS[outcome], dots ? 1.8 : 6);
+  if (dots) board.dots(gone.flat(), 0, gone.length, { colour: OUTCOME_COLOURS[outcome], radius: 2 });
+  const [[x0, y0], [x1, y1]] = second > 0 ? gone.slice(-2) : [world.start, world.target];
+  board.robot({ x: gone.at(-1)[0], y: gone.at(-1)[1], heading: Math.atan2(y1 - y0, x1 - x0) });
 }
 
 /** How the robots did in the new maps. @param {Record<string, string>[]} outcomes how each map ended for each of them */
@@ -202,10 +211,12 @@ function trialTable() {
   const heads = ["robot", "arrives (%)", "95 % interval", "collides", "never ends"];
   const caption = h("caption", {}, "");
   const element = h("div", { class: "scroll", hidden: true }, h("table", { class: "results" }, caption, h("thead", {}, h("tr", {}, ...heads.map((text) => h("th", { scope: "col" }, text)))), body));
-  const show = (outcomes, maps) => {
+  const show = (outcomes, maps, before) => {
     element.hidden = outcomes.length === 0;
+    const rows = trialRows(outcomes);
+    if (before) rows.splice(2, 0, { ...before, name: "the run before" });
     caption.textContent = `${outcomes.length === maps ? maps : `${outcomes.length} of ${maps}`} new maps, the same for every robot and every run`;
-    body.replaceChildren(...trialRows(outcomes).map(({ name, rate, low, high, collided, endless }) =>
+    body.replaceChildren(...rows.map(({ name, rate, low, high, collided, endless }) =>
       h("tr", {}, h("th", { scope: "row" }, name), ...[rate.toFixed(1), `${low.toFixed(1)} to ${high.toFixed(1)}`, collided, endless].map((value) => h("td", {}, String(value))))));
   };
   return { element, show };
@@ -221,15 +232,16 @@ const LINES = [
   { name: "second", label: "change of W(2)", colour: PALETTE.ORANGE, text: (value) => value.toFixed(0) },
 ];
 
-/** A map to look back on a run: its episodes, or the new maps that it drove. */
+/** A map to look back on a run: its episodes, or the new maps that it drove, second by second. */
 function lookBack() {
   const board = mapCanvas({ role: "img", "aria-label": "Map" });
   const told = h("p", { class: "told" });
-  const controls = h("div", { class: "viewer" });
-  let stop = () => {};
-  const show = (drive, sentence) => {
+  const [controls, seconds] = [h("div", { class: "viewer" }), h("div", {})];
+  let [listTime, driveTime] = [null, null];
+  const stop = () => [listTime, driveTime].forEach((time) => time?.stop());
+  const show = (drive, sentence, second = drive.path.length - 1) => {
     told.textContent = sentence;
-    drawPath(board, drive);
+    drawPath(board, drive, { second });
     board.canvas.setAttribute("aria-label", `Map with the path of the robot. ${sentence}`);
   };
   const hide = () => {
@@ -243,14 +255,22 @@ function lookBack() {
     const name = view === 0 ? "episode" : "map";
     const text = (frame) => (list.length === 0 ? "none" : `${frame + 1} of ${list.length}, ${ENDINGS[list[frame].outcome]} after ${list[frame].path.length - 1} s`);
     const see = (frame) => {
-      if (list.length > 0) show(list[frame], `${name[0].toUpperCase()}${name.slice(1)} ${text(frame)}.`);
-      else told.textContent = `There are no ${VIEWS[view]}.`;
+      driveTime?.stop();
+      seconds.replaceChildren();
+      if (list.length === 0) {
+        told.textContent = `There are no ${VIEWS[view]}.`;
+        return;
+      }
+      const [drive, sentence] = [list[frame], `${name[0].toUpperCase()}${name.slice(1)} ${text(frame)}.`];
+      const last = drive.path.length - 1;
+      driveTime = player({ label: "second", count: last + 1, value: last, interval: 60, text: (second) => `${second} of ${last}`, change: (second) => show(drive, sentence, second) });
+      seconds.replaceChildren(driveTime.element);
+      show(drive, sentence);
     };
     const first = clamp(at, 0, Math.max(list.length - 1, 0));
     const which = choice({ label: "look at", options: VIEWS, value: view, change: (index) => open(run, index) });
-    const time = player({ label: name, count: Math.max(list.length, 1), value: first, interval: view === 0 ? 120 : 700, text, change: see });
-    stop = time.stop;
-    controls.replaceChildren(which.element, time.element);
+    listTime = player({ label: name, count: Math.max(list.length, 1), value: first, interval: view === 0 ? 120 : 700, text, change: see });
+    controls.replaceChildren(which.element, listTime.element, seconds);
     see(first);
   };
   return { element: h("div", { class: "grow" }, board.canvas, told, controls), show, open, hide };
@@ -344,7 +364,7 @@ function kernelPanel({ model, form }) {
 function render({ model, el }) {
   const { table, open, first, thesis, presets, trial } = model.get("data");
   let maps = trial.numbers[0];
-  let [run, frame] = [null, 0];
+  let [run, before, frame] = [null, null, 0];
 
   const note = h("p", { class: "note", role: "status" });
   const setting = h("p", { class: "told" });
@@ -378,7 +398,7 @@ function render({ model, el }) {
     frame = 0;
     const { episodes, drives, settings } = run;
     small.show(run);
-    results.show(drives.map(({ outcomes }) => outcomes), run.maps);
+    results.show(drives.map(({ outcomes }) => outcomes), run.maps, before);
     const latest = drives.at(-1) ?? episodes.at(-1);
     if (latest && panel.running()) {
       map.show(latest, drives.length > 0 ? `New map ${drives.length} of ${run.maps}.` : `Episode ${episodes.length} of ${settings.episodes}, ${ENDINGS[latest.outcome]}.`);
@@ -395,6 +415,7 @@ function render({ model, el }) {
     begin: () => {
       const wrong = form.wrong();
       if (wrong !== "") return wrong;
+      if (run?.network) [before] = trialRows(run.drives.map(({ outcomes }) => outcomes));
       run = { settings: form.settings(), maps, episodes: [], drives: [], network: null };
       map.hide();
       small.clear();

@@ -11,21 +11,16 @@ from mounting import mounted, mounted_alone
 from playwright.sync_api import Locator, expect
 from scipy.stats import binomtest
 from test_accessibility import AXE, RUN
+from test_controls import choose_everything, press_everything
 
 from robonav.networks import NetworkPolicy, load_weights
 from robonav.nnql import STARTS, TARGETS
 from robonav.robot import navigate, random_worlds
-from robonav.widgets.q_learning_lab import MAPS_SEED, Preset, q_learning_lab
+from robonav.widgets.q_learning_faults import FAULTS
+from robonav.widgets.q_learning_lab import MAPS_SEED, q_learning_lab
 from robonav.widgets.q_learning_settings import QLearningSettings
 
-PAYS_FOR_SAFETY = Preset(
-    "0.6 for getting safe, too",
-    "Look at the new maps where it failed.",
-    "Getting safe earns nothing again.",
-    QLearningSettings(
-        rewards=(1, -1, 0.6, 0, 0.5, 0, 0.6, 0, -0.2, 0.4, -0.2, -0.5, -1)
-    ),
-)
+PAYS_FOR_SAFETY = FAULTS[0]
 CROSSES = re.compile(
     r"^Done in [\d.]+ s\. Your robot crosses (\d+) of (\d+) new maps: "
 )
@@ -109,8 +104,18 @@ def test_the_episodes_and_the_new_maps_are_looked_at(view):
     touch(small.get_by_role("button").nth(1))
     board = lab.get_by_role("img", name=re.compile("^Map with the path"))
     expect(board).to_have_attribute("aria-label", re.compile("Episode 20 of 300, "))
-    lab.get_by_label("One on").press("Enter")
+    lab.get_by_label("One on").first.press("Enter")
     expect(board).to_have_attribute("aria-label", re.compile("Episode 21 of 300, "))
+    second = lab.get_by_label("second", exact=True).and_(lab.locator("input"))
+    picture, whole = (
+        "(map) => map.toDataURL()",
+        board.evaluate("(map) => map.toDataURL()"),
+    )
+    second.press("Home")
+    expect(second).to_have_attribute("aria-valuetext", re.compile("^0 of "))
+    assert board.evaluate(picture) != whole
+    second.press("End")
+    assert board.evaluate(picture) == whole
     lab.get_by_label("look at").select_option("new maps that it crossed")
     expect(board).to_have_attribute(
         "aria-label", re.compile(f"Map 1 of {arrived}, arrived after")
@@ -194,8 +199,10 @@ def test_a_fault_is_watched_and_cured(view):
         lab.get_by_text(re.compile(f"^{re.escape(PAYS_FOR_SAFETY.cure)}"))
     ).to_be_visible()
     expect(paid).to_have_value("0")
+    failed = cells(lab, "your robot")
     train(lab)
     assert int(cells(lab, "your robot")[3]) <= 1
+    assert cells(lab, "the run before") == failed
 
 
 @pytest.mark.parametrize("inputs", ["number", "raw"])
@@ -234,6 +241,38 @@ def test_nothing_is_out_of_reach(view, scheme):
     assert width <= 0
     view.page.evaluate(AXE.read_text("utf-8"))
     assert view.page.evaluate(RUN) == []
+
+
+def test_every_control_does_something(visit):
+    visit.page.set_viewport_size(PHONE)
+    lab = mounted_alone(
+        visit,
+        q_learning_lab("reward", "exploration", "learning", "robot", presets=FAULTS),
+    )
+    choose_everything(lab)
+    press_everything(lab)
+    expect(said(lab)).to_have_text(CROSSES)
+    for name in ("look at", "Play", "One back"):
+        expect(lab.get_by_label(name).first).to_be_enabled()
+    assert visit.errors == visit.external == []
+
+
+def test_moving_obstacles_move_when_a_drive_is_looked_at(visit):
+    settings = QLearningSettings(obstacles=0, moving=6, episodes=1)
+    lab = mounted_alone(visit, q_learning_lab(settings=settings))
+    train(lab)
+    board = lab.get_by_role("img", name=re.compile("^Map with the path"))
+    second = lab.get_by_label("second", exact=True).and_(lab.locator("input"))
+    purple = """(map) => {
+      const { width, height } = map, pixels = map.getContext("2d").getImageData(0, 0, width, height).data;
+      let where = [];
+      for (let i = 0; i < width * height; i += 1) if (pixels[4 * i] === 204 && pixels[4 * i + 1] === 121) where.push(i);
+      return [where.length, where.reduce((sum, i) => sum + i, 0)];
+    }"""
+    (before, first), _ = board.evaluate(purple), second.press("Home")
+    after, moved = board.evaluate(purple)
+    assert min(before, after) > 100
+    assert first != moved
 
 
 def test_without_a_kernel_nothing_speaks_of_python(view):
