@@ -105,7 +105,7 @@ def iterative_policy_evaluation(
 ) -> EvaluationResult:
     """Values of a policy by repeated sweeps, Eq. (2.24).
 
-    These are steps 5 to 7 of Algorithm 1. They stop when a sweep changes no value by more than
+    These are steps 5 to 8 of Algorithm 1. They stop when a sweep changes no value by more than
     ``tolerance * (1 - discount) / discount``. Every value is then within ``tolerance`` of the policy's. Without
     discount there is no such bound, and ``tolerance`` itself is used.
 
@@ -139,20 +139,20 @@ def iterative_policy_evaluation(
     >>> iterative_policy_evaluation(mdp, [0] * 11).values.round(2)[:4]
     array([-0.47, -0.3 ,  0.13,  0.  ])
     """
-    transitions, rewards = mdp.induced_chain(policy)
+    transitions, rewards = mdp.induced_chain(policy)  # T_pi (S, S) and r_pi (S,)
     values = starting_values("start", mdp, start)
     history = History(record)
     history.append(values)
-    limit = evaluation_residual(mdp, tolerance)
-    for iteration in range(1, max_iterations + 1):  # 5
-        before = values
-        values = rewards + mdp.discount * (transitions @ before)  # 6  Eq. (2.24)
-        history.append(values)
-        residual = abs(values - before).max()  # 7
-        if residual <= limit:
+    epsilon = evaluation_residual(mdp, tolerance)
+    for iteration in range(1, max_iterations + 1):  # 5: repeat
+        previous = values
+        values = rewards + mdp.discount * (transitions @ previous)  # 6  Eq. (2.24)
+        history.append(values)  # 7
+        residual = abs(values - previous).max()
+        if residual <= epsilon:  # 8
             break
     else:
-        warn_not_converged("iterative_policy_evaluation", iteration, residual, limit)
+        warn_not_converged("iterative_policy_evaluation", iteration, residual, epsilon)
     return EvaluationResult(values, iteration, float(residual), history.rows)
 
 

@@ -69,7 +69,7 @@ def backward_induction(
     policy = np.empty((horizon, mdp.n_states), dtype=np.intp)
     values[horizon] = starting_values("final_values", mdp, final_values)
     for t in reversed(range(horizon)):
-        q = mdp.action_values(values[t + 1])
+        q = mdp.rewards + mdp.discount * mdp.expected_next_values(values[t + 1])
         values[t], policy[t] = q.max(axis=1), q.argmax(axis=1)
     return FiniteHorizonSolution(values, policy)
 

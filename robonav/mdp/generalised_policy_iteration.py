@@ -101,51 +101,52 @@ def generalized_policy_iteration(
     """
     values = first_values(mdp, start_values, name="start_values")
     policy = first_or_given(mdp, start_policy)
-    limit, rows = mdp.residual_for(tolerance), [(values, policy, False)]
+    epsilon, state = mdp.residual_for(tolerance), np.arange(mdp.n_states)
+    rows = [(values, policy, False)]
     for rounds in range(1, max_rounds + 1):
-        values, rounding = evaluate(mdp, policy, values, sweeps)
-        improved = improve(mdp, policy, values, rounding)
-        rows += [(values, policy, False), (values, improved, True)]
-        best = clamp_undiscounted(mdp, mdp.action_values(values)).max(axis=1)
-        residual = abs(best - values).max()
-        changed = int((improved != policy).sum())
-        if residual <= max(limit, rounding) and not changed:
+        if sweeps == math.inf:  # evaluate the policy exactly
+            values = policy_evaluation(mdp, policy)
+        else:  # or move the values towards those of the policy, Eq. (2.24)
+            for _ in range(int(sweeps)):
+                values = action_values(mdp, values)[state, policy]
+        rows.append((values, policy, False))
+        q = action_values(mdp, values)
+        rounding = largest_rounding(mdp, policy, values, exact=sweeps == math.inf)
+        greedy = keep_ties(mdp, policy, values, q, rounding)  # improve, Eq. (2.25)
+        rows.append((values, greedy, True))
+        residual = abs(q.max(axis=1) - values).max()
+        changed = int((greedy != policy).sum())
+        policy = greedy
+        if residual <= max(epsilon, rounding) and changed == 0:
             break
-        policy = improved
     else:
-        _warn_not_converged(rounds, residual, limit, changed)
+        _warn_not_converged(rounds, residual, epsilon, changed)
     return history_of(mdp, rows)
 
 
-def evaluate(
-    mdp: FiniteMDP, policy: Actions, values: Floats, sweeps: float
-) -> tuple[Floats, float]:
-    """Move the values towards the policy's by some sweeps, all the way by infinitely many.
-
-    Returns
-    -------
-    values : (S,) array
-    rounding : float
-        Largest gain of an action that rounding can explain: more for exact values, since the equations amplify it.
-    """
-    state = np.arange(mdp.n_states)
-    if sweeps == math.inf:
-        exact = policy_evaluation(mdp, policy)
-        own = mdp.action_values(exact)[state, policy]
-        return exact, rounding_of_gains(mdp, exact, own)
-    for _ in range(int(sweeps)):
-        values = clamp_undiscounted(mdp, mdp.action_values(values))[state, policy]
-    return values, 4 * np.finfo(float).eps * float(abs(values).max())
+def action_values(mdp: FiniteMDP, values: Floats) -> Floats:
+    """Action values (S, A) one step ahead; without discount at least 0 for staying in zero-reward states."""
+    q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
+    return clamp_undiscounted(mdp, q)
 
 
-def improve(
-    mdp: FiniteMDP, policy: Actions, values: Floats, rounding: float
+def largest_rounding(
+    mdp: FiniteMDP, policy: Actions, values: Floats, *, exact: bool
+) -> float:
+    """Largest gain of an action that rounding can explain: more for exact values, since the equations amplify it."""
+    if not exact:
+        return 4 * np.finfo(float).eps * float(abs(values).max())
+    own = mdp.action_values(values)[np.arange(mdp.n_states), policy]
+    return rounding_of_gains(mdp, values, own)
+
+
+def keep_ties(
+    mdp: FiniteMDP, policy: Actions, values: Floats, q: Floats, rounding: float
 ) -> Actions:
     """The greedy policy, except that an action as good as the best stays: otherwise ties could alternate forever."""
-    q = mdp.action_values(values)
-    clamped = clamp_undiscounted(mdp, q)
-    gain = clamped.max(axis=1) - q[np.arange(mdp.n_states), policy]
-    return np.where(gain <= rounding, policy, clamped.argmax(axis=1))
+    own = mdp.action_values(values)[np.arange(mdp.n_states), policy]
+    gain = q.max(axis=1) - own
+    return np.where(gain <= rounding, policy, q.argmax(axis=1))
 
 
 def first_or_given(mdp: FiniteMDP, policy: ArrayLike | None) -> Actions:

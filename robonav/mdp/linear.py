@@ -2,7 +2,7 @@
 
 ``f = features(state)`` is an array (A, n): ``f[a, i]`` is f_i(s, a), and ``f @ weights`` are the action values (A,).
 The functions change ``weights`` in place. ``learning_rate(episode)`` and ``epsilon(episode)`` are schedules. The
-decorator ``linear_method`` makes them and the weights, so users call
+decorator ``linear_method`` makes them and the weights (step 1 of the algorithm), so users call
 ``linear_sarsa(env, episodes, features, epsilon=0.1)``.
 """
 
@@ -47,19 +47,19 @@ def linear_sarsa(
     array([1, 1, 1])
     """
     for episode in range(episodes):
-        alpha, explore = learning_rate(episode), epsilon(episode)
+        alpha, eps = learning_rate(episode), epsilon(episode)
         state, _ = env.reset()  # 2
         f = features(state)
         q = (f @ weights).tolist()
-        action = epsilon_greedy_action(q, explore, rng)  # 3
+        action = epsilon_greedy_action(q, eps, rng)  # 3
         done = False
         while not done:  # 4
             state, reward, terminated, truncated, _ = env.step(action)  # 5 and 6
             next_f = features(state)
             next_q = (next_f @ weights).tolist()
-            next_action = epsilon_greedy_action(next_q, explore, rng)  # 7
-            future = 0.0 if terminated else next_q[next_action]
-            delta = reward + discount * future - f[action] @ weights  # 8
+            next_action = epsilon_greedy_action(next_q, eps, rng)  # 7
+            next_value = 0.0 if terminated else next_q[next_action]
+            delta = reward + discount * next_value - f[action] @ weights  # 8
             weights += alpha * delta * f[action]  # 9 to 11
             f, action = next_f, next_action  # 12
             done = terminated or truncated  # 13
@@ -93,16 +93,16 @@ def linear_q_learning(
     array([1, 1, 1])
     """
     for episode in range(episodes):
-        alpha, explore = learning_rate(episode), epsilon(episode)
+        alpha, eps = learning_rate(episode), epsilon(episode)
         state, _ = env.reset()
         f = features(state)
         done = False
         while not done:
             q = (f @ weights).tolist()
-            action = epsilon_greedy_action(q, explore, rng)
+            action = epsilon_greedy_action(q, eps, rng)
             state, reward, terminated, truncated, _ = env.step(action)
             next_f = features(state)
-            future = 0.0 if terminated else (next_f @ weights).max()
-            delta = reward + discount * future - f[action] @ weights
+            next_value = 0.0 if terminated else (next_f @ weights).max()
+            delta = reward + discount * next_value - f[action] @ weights
             weights += alpha * delta * f[action]
             f, done = next_f, terminated or truncated

@@ -90,12 +90,12 @@ def monte_carlo_control(
     array([1, 1, 1])
     """
     for episode in range(episodes):
-        explore = epsilon(episode)
+        eps = epsilon(episode)
         pairs, rewards = [], []
         state, _ = env.reset()
         done = False
         while not done:  # one whole episode
-            action = epsilon_greedy_action(q[state], explore, rng)
+            action = epsilon_greedy_action(q[state], eps, rng)
             next_state, reward, terminated, truncated, _ = env.step(action)
             pairs.append((state, action))
             rewards.append(reward)

@@ -4,7 +4,8 @@ In each function ``q[state][action]`` is Q(s, a), or ``values[state]`` is V(s), 
 each entry. All of them are changed in place. ``epsilon(episode)`` and ``learning_rate(n)`` are schedules: the
 probability of a random action in an episode, and the learning rate alpha after n earlier updates.
 
-The decorators of ``learner`` make these tables and schedules, so users call ``q_learning(env, episodes, epsilon=0.1)``.
+The decorators of ``learner`` make these tables (step 1 of the algorithms) and schedules, so users call
+``q_learning(env, episodes, epsilon=0.1)``.
 """
 
 from __future__ import annotations
@@ -44,14 +45,14 @@ def q_learning(
     array([1, 1, 1])
     """
     for episode in range(episodes):  # 2
-        explore = epsilon(episode)
+        eps = epsilon(episode)
         state, _ = env.reset()  # 3
         done = False
         while not done:  # 4
-            action = epsilon_greedy_action(q[state], explore, rng)  # 5
+            action = epsilon_greedy_action(q[state], eps, rng)  # 5
             next_state, reward, terminated, truncated, _ = env.step(action)  # 6
-            future = 0.0 if terminated else max(q[next_state])
-            td_error = reward + discount * future - q[state][action]
+            next_value = 0.0 if terminated else max(q[next_state])
+            td_error = reward + discount * next_value - q[state][action]
             alpha = learning_rate(visits[state][action])
             q[state][action] += alpha * td_error  # 7  Eqs. (2.29) and (4.1)
             visits[state][action] += 1
@@ -83,15 +84,15 @@ def sarsa(
     array([1, 1, 1])
     """
     for episode in range(episodes):  # 2
-        explore = epsilon(episode)
+        eps = epsilon(episode)
         state, _ = env.reset()  # 3
-        action = epsilon_greedy_action(q[state], explore, rng)  # 4
+        action = epsilon_greedy_action(q[state], eps, rng)  # 4
         done = False
         while not done:  # 5
             next_state, reward, terminated, truncated, _ = env.step(action)  # 6
-            next_action = epsilon_greedy_action(q[next_state], explore, rng)  # 7
-            future = 0.0 if terminated else q[next_state][next_action]
-            td_error = reward + discount * future - q[state][action]
+            next_action = epsilon_greedy_action(q[next_state], eps, rng)  # 7
+            next_value = 0.0 if terminated else q[next_state][next_action]
+            td_error = reward + discount * next_value - q[state][action]
             alpha = learning_rate(visits[state][action])
             q[state][action] += alpha * td_error  # 8  Eqs. (2.30) and (4.2)
             visits[state][action] += 1
@@ -124,18 +125,18 @@ def expected_sarsa(
     array([1, 1, 1])
     """
     for episode in range(episodes):
-        explore = epsilon(episode)
+        eps = epsilon(episode)
         state, _ = env.reset()
         done = False
         while not done:
-            action = epsilon_greedy_action(q[state], explore, rng)
+            action = epsilon_greedy_action(q[state], eps, rng)
             next_state, reward, terminated, truncated, _ = env.step(action)
             next_q = q[
                 next_state
             ]  # any action with probability epsilon, else a best one
-            expected = explore * sum(next_q) / len(next_q) + (1 - explore) * max(next_q)
-            future = 0.0 if terminated else expected
-            td_error = reward + discount * future - q[state][action]
+            expected = eps * sum(next_q) / len(next_q) + (1 - eps) * max(next_q)
+            next_value = 0.0 if terminated else expected
+            td_error = reward + discount * next_value - q[state][action]
             alpha = learning_rate(visits[state][action])
             q[state][action] += alpha * td_error
             visits[state][action] += 1
@@ -167,8 +168,8 @@ def td_prediction(
         done = False
         while not done:
             next_state, reward, terminated, truncated, _ = env.step(policy(state))
-            future = 0.0 if terminated else values[next_state]
-            td_error = reward + discount * future - values[state]
+            next_value = 0.0 if terminated else values[next_state]
+            td_error = reward + discount * next_value - values[state]
             alpha = learning_rate(visits[state])
             values[state] += alpha * td_error
             visits[state] += 1
