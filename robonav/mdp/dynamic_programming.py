@@ -194,8 +194,8 @@ def policy_iteration(
         converged = np.array_equal(policy, previous)
         if converged:  # 11
             break
-    rows, greedy = np.array(history), np.array(policies)
-    return Solution(values, policy, iteration, gain, converged, rows, greedy)
+    rows = np.array(history), np.array(policies)
+    return Solution(values, policy, iteration, gain, converged, *rows)
 
 
 @planner(start=first_values_below, limit=evaluation_residual, compiled=True)
