@@ -1,9 +1,10 @@
-# Exercise 3.6: Gathering advice with little memory. 6 points, exercise, about 30 minutes.
+# Exercise 3.6: Dataset aggregation with limited memory. 6 points, exercise, about 30 minutes.
 # Check it with: robonav check 3.6
-"""DAgger lets the learner drive, asks the expert what it would have done in the states that came up, and learns from
-everything gathered so far. Write the gathering for a robot with little memory. The expert is not always there:
-advice of $-1$ is none, and teaches nothing. When a state comes up that is in the data already, the newest advice on
-it is the one to keep, and it counts as new. When the data outgrow the memory, the oldest go.
+"""In DAgger the learner acts, the expert labels the states that the learner visits, and the learner is trained on all data
+aggregated so far. Write the aggregation for a robot with limited memory. Three rules apply. The expert does not label
+every state: a label of $-1$ means that there is none, and such a state is not added. If a state is visited that is in
+the data already, its newest label replaces the older one, and the pair counts as the newest. If there are more pairs
+than fit into the memory, the oldest are removed.
 """
 
 import numpy as np
@@ -17,15 +18,15 @@ def aggregate(
     advice: NDArray[np.int64],
     capacity: int,
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The data after one more round.
+    """Return the data after one more round.
 
     Parameters
     ----------
-    states : (N, k), states in the data, oldest first, all different.
-    labels : (N,), the expert's action in each.
-    visited : (M, k), states that the learner came through, in order; they may repeat.
-    advice : (M,), the expert's action in each, -1 for none.
-    capacity : most pairs to keep, at least 1.
+    states : (N, k), the states in the data, oldest first, all different.
+    labels : (N,), the expert's action in each of them.
+    visited : (M, k), the states that the learner visited, in order; a state may occur more than once.
+    advice : (M,), the expert's label for each of them: an action, or -1 for none.
+    capacity : the largest number of pairs to keep, at least 1.
 
     Returns
     -------

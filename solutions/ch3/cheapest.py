@@ -1,9 +1,9 @@
-"""An evening's project: a search like the modified A*, to the end. A robot moves on a grid of cells with one of eight
-headings, numbered counter-clockwise from east in steps of 45 degrees. It can go forward to the next cell in its
-heading, one unit of length straight and $\\sqrt 2$ diagonally, or turn by 45 degrees to either side where it
-stands, which costs something, too. A diagonal move must not cut a corner: the two cells beside it must be free as
-well. Find the cost of the cheapest way to the goal, with any heading there. An admissible heuristic makes the
-search quick; without one it must still come to an end.
+"""This project is a complete search like modified A*. A robot moves on a grid of cells. It has one of eight headings,
+numbered counter-clockwise from east in steps of 45 degrees. It has two kinds of moves. It can go to the next cell in the
+direction of its heading, which costs 1 along a row or column and $\\sqrt 2$ diagonally. Or it can turn by 45 degrees to
+either side where it stands, which costs ``turn_cost``. It must not cut corners: a diagonal move needs the two cells
+beside it to be free as well. Find the cost of the cheapest path to the goal, with any heading there. An admissible
+heuristic makes the search fast. Without one the search must still end.
 """
 
 import numpy as np
@@ -11,18 +11,18 @@ from numpy.typing import NDArray
 
 
 def cheapest(blocked: NDArray[np.bool_], start: tuple[int, int, int], goal: tuple[int, int], turn_cost: float) -> float:
-    """Cost of the cheapest way.
+    """Return the cost of the cheapest path.
 
     Parameters
     ----------
     blocked : (rows, columns), whether a cell is blocked; row 0 is the southernmost, column 0 the westernmost.
-    start : row, column and heading 0 to 7 at the start; the cell is free.
+    start : row, column and heading (0 to 7) at the start; this cell is free.
     goal : row and column of the goal.
     turn_cost : cost of turning by 45 degrees, at least 0.
 
     Returns
     -------
-    The cost, infinity if there is no way.
+    The cost; infinity if there is no path.
     """
     ### BEGIN SOLUTION
     import heapq

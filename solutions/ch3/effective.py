@@ -1,7 +1,7 @@
-"""Most of a demonstration is easy going: nothing in sight, the robot makes for its target. The chapter keeps only the
-*effective* pairs, those where a sensor detects something. Go one step further. A robot that follows a wall repeats
-itself: of effective pairs that come one right after another and are equal in state and action, keep the first. Do
-this within the effective pairs, after the others are gone.
+"""In most steps of a demonstration nothing is in range, and the robot goes to its target by reflex. The chapter keeps only
+the *effective* pairs, those in which a sensor detects something. Here, repetitions are removed as well. A robot that
+follows a wall, for example, has the same state and action many times in a row. First select the effective pairs. Then,
+of several effective pairs in a row with equal state and action, keep only the first.
 """
 
 import numpy as np
@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 
 
 def effective(states: NDArray[np.int64], actions: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The effective pairs without repeats.
+    """Return the effective pairs without repetitions.
 
     Parameters
     ----------
     states : (T, 11), states of one demonstration as in Eq. (3.17): nine degrees of danger, then region and target seen.
-    actions : (T,), the action taken in each.
+    actions : (T,), the action taken in each state.
 
     Returns
     -------
-    (n, 11) states and (n,) actions, in their order.
+    (n, 11) states and (n,) actions, in their original order.
     """
     ### BEGIN SOLUTION
     near = (states[:, :9] > 0).any(axis=1)

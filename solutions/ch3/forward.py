@@ -1,9 +1,10 @@
-"""The chapter's network answers with five numbers that need not add up to one, each through a sigmoid of its own. Make
-them probabilities: hidden layers with the hyperbolic tangent, and at the end the softmax
+"""Each output of the chapter's network has a sigmoid of its own, so its five outputs need not add up to one. Write the
+forward pass of a network whose outputs are probabilities: hidden layers with the hyperbolic tangent, and in the last
+layer the softmax
 
 $$p_k = \\frac{e^{z_k}}{\\sum_j e^{z_j}}.$$
 
-The weights have the bias in their first column, as in Eq. (3.18). Inputs may be large: nothing must overflow.
+The weights have the bias in their first column, as in Eq. (3.18). Inputs may be large, and nothing may overflow.
 """
 
 import numpy as np
@@ -11,16 +12,16 @@ from numpy.typing import NDArray
 
 
 def forward(weights: list[NDArray[np.float64]], inputs: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Probabilities of the actions.
+    """Return the probabilities of the actions.
 
     Parameters
     ----------
-    weights : one array a layer, (units, units before + 1), the bias in column 0; any number of layers.
-    inputs : (M, n), one state a row, without the bias unit.
+    weights : one array for each layer, (units, units before + 1), with the bias in column 0; any number of layers.
+    inputs : (M, n), one state in each row, without the bias unit.
 
     Returns
     -------
-    (M, K), each row sums to one.
+    (M, K), probabilities; each row sums to one.
     """
     ### BEGIN SOLUTION
     activation = inputs

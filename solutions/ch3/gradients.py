@@ -1,11 +1,11 @@
-"""Backpropagation through the network of exercise 3.1: one hidden layer or more of hyperbolic tangents, softmax at the
-end, and the mean cross-entropy with weight decay on everything but the biases,
+"""Write backpropagation through the network of exercise 3.1. It has one or more hidden layers with the hyperbolic tangent
+and a softmax in the last layer. Its cost is the mean cross-entropy with weight decay on all weights but the biases,
 
 $$J = -\\frac{1}{m} \\sum_{i=1}^{m} \\log p_{y_i}(x_i) + \\frac{\\lambda}{2 m} \\sum_l \\lVert W^{(l)} \\rVert^2.$$
 
-Two things change against the chapter: the slope of a hidden unit is $1 - h^2$, and the thesis's Eq. (3.27) has
-$\\lambda$ where its Eq. (3.22) gives $\\lambda / m$. A good answer agrees with the slope measured by changing a
-weight a little.
+Two things differ from the chapter. The derivative of a hidden unit is $1 - h^2$. And the weight decay has the factor
+$\\lambda / m$ that follows from the cost, where the thesis's Eq. (3.27) has $\\lambda$. You can check your answer: change
+one weight a little, and compare the change of the cost with your derivative.
 """
 
 import numpy as np
@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 def gradients(
     weights: list[NDArray[np.float64]], inputs: NDArray[np.float64], labels: NDArray[np.int64], decay: float
 ) -> list[NDArray[np.float64]]:
-    """Derivatives of the cost by every weight.
+    """Return the derivatives of the cost with respect to all weights.
 
     Parameters
     ----------
-    weights : one array a layer, (units, units before + 1), the bias in column 0; two layers or more.
-    inputs : (M, n), one state a row, without the bias unit.
-    labels : (M,), the index of the right output.
-    decay : the lambda above, at least 0.
+    weights : one array for each layer, (units, units before + 1), with the bias in column 0; two layers or more.
+    inputs : (M, n), one state in each row, without the bias unit.
+    labels : (M,), the index of the correct output for each state.
+    decay : lambda in the cost, at least 0.
 
     Returns
     -------

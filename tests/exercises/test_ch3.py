@@ -20,34 +20,34 @@ def test_forward_through_one_hidden_layer(answer, rng):
 
 @pytest.mark.part("3.1", points=1)
 def test_forward_through_any_depth(answer, rng):
-    """Works without a hidden layer, and with several."""
+    """Works without a hidden layer and with several."""
     for sizes in ((3, 4), (3, 6, 5, 2), (2, 3, 3, 3, 4)):
         answer.agrees(network(rng, *sizes), rng.normal(size=(5, sizes[0])))
 
 
 @pytest.mark.part("3.1", points=1)
 def test_forward_of_large_inputs(answer, rng):
-    """Stays finite where the sums are in the thousands."""
+    """Stays finite where the weighted sums are in the thousands."""
     for _ in range(5):
         answer.agrees(network(rng, 3, 4, scale=300.0), 10 * rng.normal(size=(4, 3)))
 
 
-def sensed(rng, reach, n=8):
+def readings(rng, reach, n=8):
     """Ranges, bearings and distances; no bearing lies within a degree of a region's border."""
     bearings = np.radians(40 * rng.integers(-12, 13, size=n) + rng.uniform(-19, 19, size=n))
     return rng.uniform(0, 1.1 * reach, size=(n, 9)), bearings, rng.uniform(0, 2 * reach, size=n), reach
 
 
 @pytest.mark.part("3.2", points=2)
-def test_encode_what_is_sensed(answer, rng):
-    """Agrees with the definition for sensors of 10 m, of 30 cm and of other reaches."""
+def test_encode_readings(answer, rng):
+    """Agrees with the definition for ranges of 10 m, 30 cm and others."""
     for reach in (10.0, 0.3, 3.0, 25.0):
-        answer.agrees(*sensed(rng, reach))
+        answer.agrees(*readings(rng, reach))
 
 
 @pytest.mark.part("3.2", points=2)
 def test_encode_all_around(answer, rng):
-    """Names the region of targets in all directions, whatever turns their bearing has."""
+    """Gives the region of targets in all directions, also where the bearing contains full turns."""
     for turns in (-1, 0, 2):
         bearings = np.radians(40.0 * np.arange(9) + 360 * turns) + rng.uniform(-0.3, 0.3, size=9)
         answer.agrees(np.full((9, 9), 5.0), bearings, np.full(9, 20.0), 10.0)
@@ -55,7 +55,7 @@ def test_encode_all_around(answer, rng):
 
 @pytest.mark.part("3.2", points=1)
 def test_encode_on_the_borders(answer, rng):
-    """Takes a reading just on a border for the lesser danger, and a target just within reach for seen."""
+    """Gives a reading on a border the lesser danger, and counts a target at exactly the range as in range."""
     borders = np.array([3.0, 7.0, 11.0, 15.0, 20.0, 25.0, 30.0])
     answer.agrees(rng.choice(borders, size=(6, 9)), np.zeros(6), np.array([29.0, 30.0, 31.0, 30.0, 0.0, 30.5]), 30.0)
 
@@ -73,14 +73,14 @@ def test_gradients_without_decay(answer, rng):
 
 @pytest.mark.part("3.3", points=2)
 def test_gradients_with_decay(answer, rng):
-    """Lets the weights decay, and not the biases."""
+    """Applies weight decay to the weights but not to the biases."""
     for _ in range(5):
         answer.agrees(network(rng, 3, 4, 3), *examples(rng, 6, 3, 3), rng.uniform(0.5, 2))
 
 
 @pytest.mark.part("3.3", points=2)
 def test_gradients_through_two_hidden_layers(answer, rng):
-    """Goes back through two hidden layers."""
+    """Propagates the error back through two hidden layers."""
     for _ in range(3):
         answer.agrees(network(rng, 3, 5, 4, 3), *examples(rng, 6, 3, 3), 0.3)
 
@@ -95,27 +95,21 @@ def cost(weights, inputs, labels, decay):
 
 
 @pytest.mark.part("3.3", points=1)
-def test_gradients_as_they_are_measured(answer, rng):
-    """Foretells how the cost changes along a random direction."""
+def test_gradients_against_differences(answer, rng):
+    """Predicts how the cost changes along a random direction."""
     for _ in range(3):
         weights, data = network(rng, 3, 4, 2), examples(rng, 5, 3, 2)
         slopes = answer.agrees(weights, *data, 0.5)
-        way = [rng.normal(size=layer.shape) for layer in weights]
-        there, back = ([w + sign * 1e-5 * v for w, v in zip(weights, way, strict=True)] for sign in (1, -1))
-        measured = (cost(there, *data, 0.5) - cost(back, *data, 0.5)) / 2e-5
-        foretold = sum((np.asarray(slope, dtype=float) * v).sum() for slope, v in zip(slopes, way, strict=True))
-        answer.check(abs(foretold - measured) < 1e-4 * (1 + abs(measured)), "a measured slope is another")
-
-
-def scattered(rng, k, margin=1.0, size=20.0):
-    """A pose and k round obstacles, no step of which decides by a hair."""
-    pose = np.array([*rng.uniform(2, size - 2, size=2), rng.uniform(-np.pi, np.pi)])
-    return pose, rng.uniform(1, 4), 0.5, rng.uniform(0, size, size=(k, 2)), rng.uniform(0.3, 1.5, size=k), size, margin
+        direction = [rng.normal(size=layer.shape) for layer in weights]
+        after, before = ([w + sign * 1e-5 * v for w, v in zip(weights, direction, strict=True)] for sign in (1, -1))
+        measured = (cost(after, *data, 0.5) - cost(before, *data, 0.5)) / 2e-5
+        predicted = sum((np.asarray(slope, dtype=float) * v).sum() for slope, v in zip(slopes, direction, strict=True))
+        answer.check(abs(predicted - measured) < 1e-4 * (1 + abs(measured)), "a measured derivative differs")
 
 
 @pytest.mark.part("3.4", points=2)
 def test_successors_in_the_open(answer, rng):
-    """Takes all five actions where nothing is near, each with its turn, its step and its cost."""
+    """Returns all five actions where nothing is near, each with its pose and its cost."""
     for _ in range(8):
         pose = np.array([*rng.uniform(40, 60, size=2), rng.uniform(-np.pi, np.pi)])
         answer.agrees(pose, rng.uniform(1, 4), rng.uniform(0.2, 2), np.zeros((0, 2)), np.zeros(0), 100.0, 1.0)
@@ -123,7 +117,7 @@ def test_successors_in_the_open(answer, rng):
 
 @pytest.mark.part("3.4", points=2)
 def test_successors_among_obstacles(answer, rng):
-    """Leaves out the steps that come too near to an obstacle on their way."""
+    """Leaves out steps that come too near to an obstacle between their ends."""
     for _ in range(15):
         pose = np.array([50.0, 50.0, rng.uniform(-np.pi, np.pi)])
         far, around = rng.uniform(0.8, 4.5, size=4), rng.uniform(-np.pi, np.pi, size=4)
@@ -142,7 +136,7 @@ def test_successors_by_the_border(answer, rng):
 
 @pytest.mark.part("3.4", points=1)
 def test_successors_where_there_are_none(answer, rng):
-    """Answers with no row where no action is possible, and allows a step that keeps the margin exactly."""
+    """Returns no row where no action is possible, and allows a step that keeps exactly the margin."""
     answer.agrees(np.array([10.0, 10.0, 0.0]), 2.0, 1.0, np.array([[10.0, 11.0]]), np.array([1.0]), 20.0, 0.5)
     answer.agrees(np.array([10.0, 10.0, 0.0]), 2.0, 1.0, np.array([[14.0, 10.0]]), np.array([1.0]), 20.0, 1.0)
 
@@ -158,14 +152,14 @@ def demonstration(rng, length, few=3):
 
 @pytest.mark.part("3.5", points=2)
 def test_effective_pairs(answer, rng):
-    """Keeps what has something in sight, without repeats, in its order."""
+    """Keeps the pairs with something in range, without repetitions, in their order."""
     for _ in range(10):
         answer.agrees(*demonstration(rng, 25))
 
 
 @pytest.mark.part("3.5", points=1)
-def test_effective_pairs_of_easy_going(answer, rng):
-    """Keeps nothing of a demonstration that saw nothing, or of none at all."""
+def test_no_effective_pairs(answer, rng):
+    """Keeps no pair if nothing was in range, or if there are no steps."""
     for length in (6, 0):
         states, actions = demonstration(rng, length)
         states[:, :9] = 0
@@ -173,14 +167,14 @@ def test_effective_pairs_of_easy_going(answer, rng):
 
 
 def known(rng, n, k=2):
-    """Different states and their labels."""
+    """States, all different, and their labels."""
     cells = rng.permutation(4**k)[:n]
     return np.stack(np.unravel_index(cells, (4,) * k), axis=1).reshape(n, k), rng.integers(5, size=n)
 
 
 @pytest.mark.part("3.6", points=2)
 def test_aggregate_new_states(answer, rng):
-    """Adds states that are new, with the expert's advice."""
+    """Adds new states with the expert's labels."""
     for _ in range(5):
         states, labels = known(rng, 12)
         answer.agrees(states[:6], labels[:6], states[6:], labels[6:], 100)
@@ -188,14 +182,14 @@ def test_aggregate_new_states(answer, rng):
 
 @pytest.mark.part("3.6", points=2)
 def test_aggregate_known_states(answer, rng):
-    """Renews the advice on states that are known, and heeds no advice of -1."""
+    """Replaces the labels of states already in the data, and ignores labels of -1."""
     for _ in range(8):
         answer.agrees(*known(rng, 8), rng.integers(4, size=(10, 2)), rng.integers(-1, 5, size=10), 100)
 
 
 @pytest.mark.part("3.6", points=2)
 def test_aggregate_beyond_the_memory(answer, rng):
-    """Lets the oldest pairs go when there are too many."""
+    """Removes the oldest pairs when there are too many."""
     for capacity in (1, 4, 7):
         answer.agrees(*known(rng, 6), rng.integers(4, size=(9, 2)), rng.integers(-1, 5, size=9), capacity)
     answer.agrees(*known(rng, 5), np.zeros((0, 2), dtype=int), np.zeros(0, dtype=int), 3)
@@ -210,7 +204,7 @@ def maze(rng, rows, columns, share):
 
 @pytest.mark.part("3.7", points=4)
 def test_cheapest_in_the_open(answer, rng):
-    """Finds the cheapest way in rooms without obstacles, turning where it pays."""
+    """Finds the cheapest path in rooms without obstacles."""
     for _ in range(8):
         rows, columns = rng.integers(3, 7, size=2)
         goal = (int(rng.integers(rows)), int(rng.integers(columns)))
@@ -220,15 +214,15 @@ def test_cheapest_in_the_open(answer, rng):
 
 @pytest.mark.part("3.7", points=5)
 def test_cheapest_through_mazes(answer, rng):
-    """Finds the cheapest way around obstacles, and no corner is cut."""
+    """Finds the cheapest path around obstacles without cutting corners."""
     for _ in range(12):
         blocked = maze(rng, 7, 8, 0.3)
         answer.agrees(blocked, (0, 0, int(rng.integers(8))), (6, 7), round(rng.uniform(0.1, 1.0), 2))
 
 
 @pytest.mark.part("3.7", points=2)
-def test_cheapest_where_there_is_no_way(answer, rng):
-    """Says that there is no way, and that standing at the goal costs nothing."""
+def test_cheapest_without_a_path(answer, rng):
+    """Returns infinity where there is no path, and 0 where the start is at the goal."""
     blocked = np.zeros((4, 4), dtype=bool)
     blocked[:, 2] = True
     answer.agrees(blocked, (0, 0, 0), (3, 3), 0.5)
@@ -237,5 +231,5 @@ def test_cheapest_where_there_is_no_way(answer, rng):
 
 @pytest.mark.part("3.7", points=1)
 def test_cheapest_across_a_large_map(answer, rng):
-    """Comes to an end in time on a map of 25 by 25 cells."""
+    """Ends in time on a map of 25 by 25 cells."""
     answer.agrees(maze(rng, 25, 25, 0.15), (0, 0, 1), (24, 24), 0.3)
