@@ -1,16 +1,21 @@
 """This project is a complete search like modified A*. A robot moves on a grid of cells. It has one of eight headings,
-numbered counter-clockwise from east in steps of 45 degrees. It has two kinds of moves. It can go to the next cell in the
-direction of its heading, which costs 1 along a row or column and $\\sqrt 2$ diagonally. Or it can turn by 45 degrees to
-either side where it stands, which costs ``turn_cost``. It must not cut corners: a diagonal move needs the two cells
-beside it to be free as well. Find the cost of the cheapest path to the goal, with any heading there. An admissible
-heuristic makes the search fast. Without one the search must still end.
+numbered counter-clockwise from east in steps of 45 degrees. It has two kinds of moves. It can go to the next cell in
+the direction of its heading, which costs 1 along a row or column and $\\sqrt 2$ diagonally. Or it can turn by 45
+degrees to either side where it stands, which costs ``turn_cost``. It must not cut corners: a diagonal move needs the
+two cells beside it to be free as well. Find the cost of the cheapest path to the goal, with any heading there. An
+admissible heuristic makes the search fast. Without one the search must still end.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
 
-def cheapest(blocked: NDArray[np.bool_], start: tuple[int, int, int], goal: tuple[int, int], turn_cost: float) -> float:
+def cheapest(
+    blocked: NDArray[np.bool_],
+    start: tuple[int, int, int],
+    goal: tuple[int, int],
+    turn_cost: float,
+) -> float:
     """Return the cost of the cheapest path.
 
     Parameters

@@ -1,14 +1,17 @@
-"""In most steps of a demonstration nothing is in range, and the robot goes to its target by reflex. The chapter keeps only
-the *effective* pairs, those in which a sensor detects something. Here, repetitions are removed as well. A robot that
-follows a wall, for example, has the same state and action many times in a row. First select the effective pairs. Then,
-of several effective pairs in a row with equal state and action, keep only the first.
+"""In most steps of a demonstration nothing is in range, and the robot goes to its target by reflex. The chapter keeps
+only the *effective* pairs, those in which a sensor detects something. Here, repetitions are removed as well. A robot
+that follows a wall, for example, has the same state and action many times in a row. First select the effective pairs.
+Then, of several effective pairs in a row with equal state and action, keep only the first.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
 
-def effective(states: NDArray[np.int64], actions: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def effective(
+    states: NDArray[np.int64],
+    actions: NDArray[np.int64],
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the effective pairs without repetitions.
 
     Parameters

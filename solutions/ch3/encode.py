@@ -1,8 +1,8 @@
 """Table 3.1 is for a sensor with a range of 30 cm. Write the state of Eq. (3.17) for sensors of any range (``reach``):
 nine degrees of danger, with the borders of the table scaled in proportion; the target's region; and whether the target
 is within range. The target is given by its distance and by its bearing from straight ahead, counter-clockwise in
-radians. Region 1 covers the 40 degrees around straight ahead, and the regions are numbered counter-clockwise from 1 to 9.
-A reading that lies on a border of the table has the lesser danger.
+radians. Region 1 covers the 40 degrees around straight ahead, and the regions are numbered counter-clockwise from 1 to
+9. A reading that lies on a border of the table has the lesser danger.
 """
 
 import numpy as np
@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 
 
 def encode(
-    ranges: NDArray[np.float64], bearing: NDArray[np.float64], distance: NDArray[np.float64], reach: float
+    ranges: NDArray[np.float64],
+    bearing: NDArray[np.float64],
+    distance: NDArray[np.float64],
+    reach: float,
 ) -> NDArray[np.int64]:
     """Return the states of Eq. (3.17).
 

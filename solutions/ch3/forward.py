@@ -11,7 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def forward(weights: list[NDArray[np.float64]], inputs: NDArray[np.float64]) -> NDArray[np.float64]:
+def forward(
+    weights: list[NDArray[np.float64]],
+    inputs: NDArray[np.float64],
+) -> NDArray[np.float64]:
     """Return the probabilities of the actions.
 
     Parameters

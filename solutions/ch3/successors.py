@@ -1,7 +1,7 @@
-"""Expand one node of modified A*: find out which of the five actions are possible from a pose, where each leads, and what
-it costs. In the chapter the cost of a step is its length. Here turning costs something, too. The robot first turns, then
-goes straight on for one second. An action is possible if the *whole step* keeps at least the margin to all round
-obstacles and to the borders of the square map. A step that keeps exactly the margin is possible.
+"""Expand one node of modified A*: find out which of the five actions are possible from a pose, where each leads, and
+what it costs. In the chapter the cost of a step is its length. Here turning costs something, too. The robot first
+turns, then goes straight on for one second. An action is possible if the *whole step* keeps at least the margin to all
+round obstacles and to the borders of the square map. A step that keeps exactly the margin is possible.
 """
 
 import numpy as np

@@ -8,7 +8,10 @@ import pytest
 
 def network(rng, *sizes, scale=1.0):
     """Weights of a network of these sizes, the bias in column 0."""
-    return [scale * rng.normal(size=(after, before + 1)) for before, after in pairwise(sizes)]
+    return [
+        scale * rng.normal(size=(after, before + 1))
+        for before, after in pairwise(sizes)
+    ]
 
 
 @pytest.mark.part("3.1", points=2)
@@ -34,8 +37,15 @@ def test_forward_of_large_inputs(answer, rng):
 
 def readings(rng, reach, n=8):
     """Ranges, bearings and distances; no bearing lies within a degree of a region's border."""
-    bearings = np.radians(40 * rng.integers(-12, 13, size=n) + rng.uniform(-19, 19, size=n))
-    return rng.uniform(0, 1.1 * reach, size=(n, 9)), bearings, rng.uniform(0, 2 * reach, size=n), reach
+    bearings = np.radians(
+        40 * rng.integers(-12, 13, size=n) + rng.uniform(-19, 19, size=n)
+    )
+    return (
+        rng.uniform(0, 1.1 * reach, size=(n, 9)),
+        bearings,
+        rng.uniform(0, 2 * reach, size=n),
+        reach,
+    )
 
 
 @pytest.mark.part("3.2", points=2)
@@ -49,7 +59,9 @@ def test_encode_readings(answer, rng):
 def test_encode_all_around(answer, rng):
     """Gives the region of targets in all directions, also where the bearing contains full turns."""
     for turns in (-1, 0, 2):
-        bearings = np.radians(40.0 * np.arange(9) + 360 * turns) + rng.uniform(-0.3, 0.3, size=9)
+        bearings = np.radians(40.0 * np.arange(9) + 360 * turns) + rng.uniform(
+            -0.3, 0.3, size=9
+        )
         answer.agrees(np.full((9, 9), 5.0), bearings, np.full(9, 20.0), 10.0)
 
 
@@ -57,7 +69,12 @@ def test_encode_all_around(answer, rng):
 def test_encode_on_the_borders(answer, rng):
     """Gives a reading on a border the lesser danger, and counts a target at exactly the range as in range."""
     borders = np.array([3.0, 7.0, 11.0, 15.0, 20.0, 25.0, 30.0])
-    answer.agrees(rng.choice(borders, size=(6, 9)), np.zeros(6), np.array([29.0, 30.0, 31.0, 30.0, 0.0, 30.5]), 30.0)
+    answer.agrees(
+        rng.choice(borders, size=(6, 9)),
+        np.zeros(6),
+        np.array([29.0, 30.0, 31.0, 30.0, 0.0, 30.5]),
+        30.0,
+    )
 
 
 def examples(rng, m, n, k):
@@ -75,7 +92,9 @@ def test_gradients_without_decay(answer, rng):
 def test_gradients_with_decay(answer, rng):
     """Applies weight decay to the weights but not to the biases."""
     for _ in range(5):
-        answer.agrees(network(rng, 3, 4, 3), *examples(rng, 6, 3, 3), rng.uniform(0.5, 2))
+        answer.agrees(
+            network(rng, 3, 4, 3), *examples(rng, 6, 3, 3), rng.uniform(0.5, 2)
+        )
 
 
 @pytest.mark.part("3.3", points=2)
@@ -101,10 +120,19 @@ def test_gradients_against_differences(answer, rng):
         weights, data = network(rng, 3, 4, 2), examples(rng, 5, 3, 2)
         slopes = answer.agrees(weights, *data, 0.5)
         direction = [rng.normal(size=layer.shape) for layer in weights]
-        after, before = ([w + sign * 1e-5 * v for w, v in zip(weights, direction, strict=True)] for sign in (1, -1))
+        after, before = (
+            [w + sign * 1e-5 * v for w, v in zip(weights, direction, strict=True)]
+            for sign in (1, -1)
+        )
         measured = (cost(after, *data, 0.5) - cost(before, *data, 0.5)) / 2e-5
-        predicted = sum((np.asarray(slope, dtype=float) * v).sum() for slope, v in zip(slopes, direction, strict=True))
-        answer.check(abs(predicted - measured) < 1e-4 * (1 + abs(measured)), "a measured derivative differs")
+        predicted = sum(
+            (np.asarray(slope, dtype=float) * v).sum()
+            for slope, v in zip(slopes, direction, strict=True)
+        )
+        answer.check(
+            abs(predicted - measured) < 1e-4 * (1 + abs(measured)),
+            "a measured derivative differs",
+        )
 
 
 @pytest.mark.part("3.4", points=2)
@@ -112,7 +140,15 @@ def test_successors_in_the_open(answer, rng):
     """Returns all five actions where nothing is near, each with its pose and its cost."""
     for _ in range(8):
         pose = np.array([*rng.uniform(40, 60, size=2), rng.uniform(-np.pi, np.pi)])
-        answer.agrees(pose, rng.uniform(1, 4), rng.uniform(0.2, 2), np.zeros((0, 2)), np.zeros(0), 100.0, 1.0)
+        answer.agrees(
+            pose,
+            rng.uniform(1, 4),
+            rng.uniform(0.2, 2),
+            np.zeros((0, 2)),
+            np.zeros(0),
+            100.0,
+            1.0,
+        )
 
 
 @pytest.mark.part("3.4", points=2)
@@ -121,8 +157,12 @@ def test_successors_among_obstacles(answer, rng):
     for _ in range(15):
         pose = np.array([50.0, 50.0, rng.uniform(-np.pi, np.pi)])
         far, around = rng.uniform(0.8, 4.5, size=4), rng.uniform(-np.pi, np.pi, size=4)
-        centres = pose[:2] + far[:, None] * np.column_stack([np.cos(around), np.sin(around)])
-        answer.agrees(pose, 4.0, 0.5, centres, rng.uniform(0.1, 0.4, size=4), 100.0, 0.3)
+        centres = pose[:2] + far[:, None] * np.column_stack(
+            [np.cos(around), np.sin(around)]
+        )
+        answer.agrees(
+            pose, 4.0, 0.5, centres, rng.uniform(0.1, 0.4, size=4), 100.0, 0.3
+        )
 
 
 @pytest.mark.part("3.4", points=1)
@@ -137,8 +177,24 @@ def test_successors_by_the_border(answer, rng):
 @pytest.mark.part("3.4", points=1)
 def test_successors_where_there_are_none(answer, rng):
     """Returns no row where no action is possible, and allows a step that keeps exactly the margin."""
-    answer.agrees(np.array([10.0, 10.0, 0.0]), 2.0, 1.0, np.array([[10.0, 11.0]]), np.array([1.0]), 20.0, 0.5)
-    answer.agrees(np.array([10.0, 10.0, 0.0]), 2.0, 1.0, np.array([[14.0, 10.0]]), np.array([1.0]), 20.0, 1.0)
+    answer.agrees(
+        np.array([10.0, 10.0, 0.0]),
+        2.0,
+        1.0,
+        np.array([[10.0, 11.0]]),
+        np.array([1.0]),
+        20.0,
+        0.5,
+    )
+    answer.agrees(
+        np.array([10.0, 10.0, 0.0]),
+        2.0,
+        1.0,
+        np.array([[14.0, 10.0]]),
+        np.array([1.0]),
+        20.0,
+        1.0,
+    )
 
 
 def demonstration(rng, length, few=3):
@@ -169,7 +225,9 @@ def test_no_effective_pairs(answer, rng):
 def known(rng, n, k=2):
     """States, all different, and their labels."""
     cells = rng.permutation(4**k)[:n]
-    return np.stack(np.unravel_index(cells, (4,) * k), axis=1).reshape(n, k), rng.integers(5, size=n)
+    return np.stack(np.unravel_index(cells, (4,) * k), axis=1).reshape(
+        n, k
+    ), rng.integers(5, size=n)
 
 
 @pytest.mark.part("3.6", points=2)
@@ -184,15 +242,27 @@ def test_aggregate_new_states(answer, rng):
 def test_aggregate_known_states(answer, rng):
     """Replaces the labels of states already in the data, and ignores labels of -1."""
     for _ in range(8):
-        answer.agrees(*known(rng, 8), rng.integers(4, size=(10, 2)), rng.integers(-1, 5, size=10), 100)
+        answer.agrees(
+            *known(rng, 8),
+            rng.integers(4, size=(10, 2)),
+            rng.integers(-1, 5, size=10),
+            100,
+        )
 
 
 @pytest.mark.part("3.6", points=2)
 def test_aggregate_beyond_the_memory(answer, rng):
     """Removes the oldest pairs when there are too many."""
     for capacity in (1, 4, 7):
-        answer.agrees(*known(rng, 6), rng.integers(4, size=(9, 2)), rng.integers(-1, 5, size=9), capacity)
-    answer.agrees(*known(rng, 5), np.zeros((0, 2), dtype=int), np.zeros(0, dtype=int), 3)
+        answer.agrees(
+            *known(rng, 6),
+            rng.integers(4, size=(9, 2)),
+            rng.integers(-1, 5, size=9),
+            capacity,
+        )
+    answer.agrees(
+        *known(rng, 5), np.zeros((0, 2), dtype=int), np.zeros(0, dtype=int), 3
+    )
 
 
 def maze(rng, rows, columns, share):
@@ -208,8 +278,17 @@ def test_cheapest_in_the_open(answer, rng):
     for _ in range(8):
         rows, columns = rng.integers(3, 7, size=2)
         goal = (int(rng.integers(rows)), int(rng.integers(columns)))
-        start = (int(rng.integers(rows)), int(rng.integers(columns)), int(rng.integers(8)))
-        answer.agrees(np.zeros((rows, columns), dtype=bool), start, goal, round(rng.uniform(0.2, 1.5), 2))
+        start = (
+            int(rng.integers(rows)),
+            int(rng.integers(columns)),
+            int(rng.integers(8)),
+        )
+        answer.agrees(
+            np.zeros((rows, columns), dtype=bool),
+            start,
+            goal,
+            round(rng.uniform(0.2, 1.5), 2),
+        )
 
 
 @pytest.mark.part("3.7", points=5)
@@ -217,7 +296,12 @@ def test_cheapest_through_mazes(answer, rng):
     """Finds the cheapest path around obstacles without cutting corners."""
     for _ in range(12):
         blocked = maze(rng, 7, 8, 0.3)
-        answer.agrees(blocked, (0, 0, int(rng.integers(8))), (6, 7), round(rng.uniform(0.1, 1.0), 2))
+        answer.agrees(
+            blocked,
+            (0, 0, int(rng.integers(8))),
+            (6, 7),
+            round(rng.uniform(0.1, 1.0), 2),
+        )
 
 
 @pytest.mark.part("3.7", points=2)

@@ -26,30 +26,30 @@ def _gathered(
 
 
 def only_the_new(states, labels, visited, advice, capacity):
-    """The data of earlier rounds stay: that is what keeps the learner from forgetting them."""
+    """Keep the data of earlier rounds: DAgger trains on the data of all rounds."""
     return _gathered(states[:0], labels[:0], visited, advice, capacity)
 
 
 def learns_from_silence(states, labels, visited, advice, capacity):
-    """Advice of -1 is none: such a state teaches nothing."""
+    """A label of -1 means that there is none: do not add such a state."""
     return _gathered(states, labels, visited, advice, capacity, heed=False)
 
 
 def first_advice_stays(states, labels, visited, advice, capacity):
-    """The newest advice on a state replaces what was said before."""
+    """The newest label of a state replaces the older one."""
     return _gathered(states, labels, visited, advice, capacity, replace=False)
 
 
 def keeps_both(states, labels, visited, advice, capacity):
-    """A state is in the data once: its old pair goes when there is new advice."""
+    """Each state occurs in the data once: remove its old pair when it gets a new label."""
     return _gathered(states, labels, visited, advice, capacity, unique=False)
 
 
 def keeps_its_place(states, labels, visited, advice, capacity):
-    """A state with new advice counts as new: it moves to the end."""
+    """A state with a new label counts as the newest: move it to the end."""
     return _gathered(states, labels, visited, advice, capacity, renew=False)
 
 
 def newest_go(states, labels, visited, advice, capacity):
-    """When there are too many, the oldest pairs go."""
+    """When there are too many pairs, remove the oldest."""
     return _gathered(states, labels, visited, advice, capacity, oldest=False)

@@ -34,7 +34,7 @@ def _search(blocked, start, goal, turn_cost, *, corners=False, diagonal=2**0.5, 
 
 
 def cuts_corners(blocked, start, goal, turn_cost):
-    """A diagonal move needs the two cells beside it free as well."""
+    """A diagonal move needs the two cells beside it to be free as well."""
     return _search(blocked, start, goal, turn_cost, corners=True)
 
 
@@ -44,15 +44,15 @@ def counts_cells(blocked, start, goal, turn_cost):
 
 
 def turns_for_nothing(blocked, start, goal, turn_cost):
-    """Turning costs, too."""
+    """Turning costs something, too."""
     return _search(blocked, start, goal, 0.0)
 
 
 def upside_down(blocked, start, goal, turn_cost):
-    """Headings are numbered counter-clockwise from east, and row 0 lies in the south: heading 2 goes up a row."""
+    """Headings are numbered counter-clockwise from east, and row 0 is the southernmost: heading 2 leads one row up."""
     return _search(blocked, start, goal, turn_cost, clockwise=True)
 
 
 def overestimates(blocked, start, goal, turn_cost):
-    """The heuristic must never be more than what is left to go, or the first way found need not be the cheapest."""
+    """The heuristic must never exceed the cost that remains, or the first path found need not be the cheapest."""
     return _search(blocked, start, goal, turn_cost, greedy=1.0)

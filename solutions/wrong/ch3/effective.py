@@ -12,26 +12,26 @@ def _thinned(states, actions, with_action=True):
 
 
 def any_number(states, actions):
-    """The target's region is never zero: look at the nine degrees of danger alone."""
+    """The target's region is never zero: test only the nine degrees of danger."""
     near = (states > 0).any(axis=1)
     return _thinned(states[near], actions[near])
 
 
 def keeps_repeats(states, actions):
-    """Of equal pairs one right after another only the first is kept."""
+    """Of equal pairs in a row, keep only the first."""
     near = (states[:, :9] > 0).any(axis=1)
     return states[near], actions[near]
 
 
 def keeps_repeats_apart(states, actions):
-    """Take the safe pairs out first: two equal effective pairs with only safe ones between them follow one another."""
+    """Remove the safe pairs first: two equal effective pairs with only safe ones between them are then in a row."""
     states, actions = _thinned(states, actions)
     near = (states[:, :9] > 0).any(axis=1)
     return states[near], actions[near]
 
 
 def never_again(states, actions):
-    """A pair that comes again later, after another one, is kept."""
+    """Keep a pair that occurs again after a different one."""
     near = (states[:, :9] > 0).any(axis=1)
     pairs = np.column_stack([states[near], actions[near]])
     _, first = np.unique(pairs, axis=0, return_index=True)

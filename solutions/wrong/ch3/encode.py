@@ -11,22 +11,22 @@ def _encoded(ranges, bearing, distance, reach, *, scale=None, strict=True, shift
 
 
 def in_centimetres(ranges, bearing, distance, reach):
-    """The borders of Table 3.1 are for a reach of 30 cm: stretch them to the reach of this sensor."""
+    """The borders of Table 3.1 are for a range of 30 cm: scale them to the range of this sensor."""
     return _encoded(ranges, bearing, distance, reach, scale=0.3)
 
 
 def on_the_border(ranges, bearing, distance, reach):
-    """A reading just on a border belongs to the lesser danger: the table has r < 3, then 3 <= r < 7."""
+    """A reading on a border has the lesser danger: the table has r < 3, then 3 <= r < 7."""
     return _encoded(ranges, bearing, distance, reach, strict=False)
 
 
 def from_the_edge(ranges, bearing, distance, reach):
-    """Region 1 is centred straight ahead: it reaches 20 degrees to either side."""
+    """Region 1 is centred straight ahead: it extends 20 degrees to either side."""
     return _encoded(ranges, bearing, distance, reach, shift=0.0)
 
 
 def clockwise(ranges, bearing, distance, reach):
-    """The regions are numbered counter-clockwise, as the bearing is measured."""
+    """The regions are numbered counter-clockwise, in the direction in which the bearing is measured."""
     return _encoded(ranges, bearing, distance, reach, turn=-1)
 
 
@@ -36,5 +36,5 @@ def from_zero(ranges, bearing, distance, reach):
 
 
 def just_out_of_reach(ranges, bearing, distance, reach):
-    """A target exactly as far as the sensors reach is still seen."""
+    """A target whose distance equals the range of the sensors is still in range."""
     return _encoded(ranges, bearing, distance, reach, over=True)

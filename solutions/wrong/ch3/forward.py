@@ -18,7 +18,7 @@ def _softmax(z):
 
 
 def no_bias(weights, inputs):
-    """Column 0 holds the biases: add them, they stand for a unit that is always one."""
+    """Column 0 holds the biases: add them. They are the weights of a unit that is always one."""
     return _softmax(_z([np.hstack([0 * layer[:, :1], layer[:, 1:]]) for layer in weights], inputs))
 
 
@@ -28,12 +28,12 @@ def bias_last(weights, inputs):
 
 
 def sigmoid_hidden(weights, inputs):
-    """The hidden units take the hyperbolic tangent here, not the sigmoid."""
+    """The hidden units have the hyperbolic tangent here, not the sigmoid."""
     return _softmax(_z(weights, inputs, squash=lambda z: 0.5 * (1 + np.tanh(z / 2))))
 
 
 def sigmoid_outputs(weights, inputs):
-    """Sigmoids at the output need not sum to one; the softmax compares the outputs with one another."""
+    """Sigmoid outputs need not sum to one; the softmax divides each exponential by the sum of all."""
     return 0.5 * (1 + np.tanh(_z(weights, inputs) / 2))
 
 
@@ -45,11 +45,11 @@ def over_the_batch(weights, inputs):
 
 
 def squashed_twice(weights, inputs):
-    """The last layer's sums go into the softmax as they are, without the hyperbolic tangent."""
+    """Apply the softmax to the last layer's weighted sums directly, without the hyperbolic tangent."""
     return _softmax(np.tanh(_z(weights, inputs)))
 
 
 def overflows(weights, inputs):
-    """The exponential of a large number overflows: subtract the largest one in each row first, nothing else changes."""
+    """Exponentials of large numbers overflow: first subtract the largest in each row, which leaves the result as it is."""
     e = np.exp(_z(weights, inputs))
     return e / e.sum(axis=1, keepdims=True)

@@ -21,12 +21,12 @@ def _slopes(weights, inputs, labels, decay, slope_of=lambda a: 1 - a**2, mean=Tr
 
 
 def sigmoid_slope(weights, inputs, labels, decay):
-    """The slope of the hyperbolic tangent is 1 - h * h; h * (1 - h) is the sigmoid's."""
+    """The derivative of the hyperbolic tangent is 1 - h * h; h * (1 - h) is the sigmoid's."""
     return _slopes(weights, inputs, labels, decay, slope_of=lambda a: a * (1 - a))
 
 
 def no_slope(weights, inputs, labels, decay):
-    """Going back through a hidden unit multiplies by its slope."""
+    """Multiply the error by the derivative of the hidden unit when you propagate it back."""
     return _slopes(weights, inputs, labels, decay, slope_of=lambda a: 1.0)
 
 
@@ -36,10 +36,10 @@ def summed(weights, inputs, labels, decay):
 
 
 def decays_biases(weights, inputs, labels, decay):
-    """The biases do not decay: leave column 0 out."""
+    """The biases have no weight decay: leave column 0 out."""
     return _slopes(weights, inputs, labels, decay, bias=True)
 
 
 def decays_too_much(weights, inputs, labels, decay):
-    """The decay is divided by the number of examples like the rest; this is Eq. (3.27) as printed."""
+    """Divide the weight decay by the number of examples, too. The thesis prints Eq. (3.27) without this division."""
     return _slopes(weights, inputs, labels, decay, per_example=False)

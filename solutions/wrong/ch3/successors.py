@@ -23,7 +23,7 @@ def _expanded(pose, speed, turn_cost, centres, radii, size, margin, *, signs=1, 
 
 
 def goes_first(*arguments):
-    """The robot turns first and goes then, in the new direction."""
+    """The robot first turns, then goes in the new direction."""
     return _expanded(*arguments, first=False)
 
 
@@ -33,17 +33,17 @@ def right_is_left(*arguments):
 
 
 def only_the_end(*arguments):
-    """A step can jump over an obstacle: what counts is the least distance along the whole step, not at its end."""
+    """A step can lead across an obstacle: compute the least distance along the whole step, not at its end."""
     return _expanded(*arguments, whole=False)
 
 
 def no_borders(*arguments):
-    """The borders of the map are obstacles as well."""
+    """The step must keep the margin to the borders of the map as well."""
     return _expanded(*arguments, border=False)
 
 
 def no_margin(*arguments):
-    """Not touching is not enough: the step must keep the margin."""
+    """It is not sufficient that the step touches no obstacle: it must keep the margin."""
     return _expanded(*arguments, keep=False)
 
 
@@ -53,5 +53,5 @@ def left_pays_right(*arguments):
 
 
 def heading_runs_away(*arguments):
-    """Bring the heading back to within pi of zero."""
+    """Bring the heading back into the interval from -pi to pi."""
     return _expanded(*arguments, wrap=False)
