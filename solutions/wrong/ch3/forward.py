@@ -50,6 +50,6 @@ def squashed_twice(weights, inputs):
 
 
 def overflows(weights, inputs):
-    """Exponentials of large numbers overflow: first subtract the largest in each row, which leaves the result as it is."""
+    """Exponentials of large numbers overflow: first subtract the largest in each row. The result stays the same."""
     e = np.exp(_z(weights, inputs))
     return e / e.sum(axis=1, keepdims=True)
