@@ -1,4 +1,10 @@
-"""``robonav/Navigation-v0``: the robot as a Gymnasium environment (section 2.5)."""
+"""``robonav/Navigation-v0``: the robot as a Gymnasium environment (section 2.5).
+
+What loops over obstacles or sensors is compiled and stands in ``_fast``: ``sense_robot`` reads the sensors,
+``drift_world`` moves the obstacles, ``swept_clearance`` measures how near a step came to them. ``wrap`` keeps an angle
+in (-pi, pi], and ``micrometres`` rounds a distance. The arguments of the environment are checked in
+:class:`NavigationSettings`.
+"""
 
 from __future__ import annotations
 

@@ -10,8 +10,6 @@ from hypothesis import strategies as st
 
 from robonav.networks import (
     Network,
-    action_probabilities,
-    forward_by_units,
     propagate,
     random_network,
     sigmoid,
@@ -196,10 +194,3 @@ def test_wrong_arguments_get_a_sentence():
         random_network((3, 2), seed=0, spread=-1)
     with pytest.raises(ValueError, match="all of the same sizes"):
         stacked([network, random_network((3, 3), seed=0)])
-
-
-def test_forward_passes_by_units_and_by_equations_of_the_robots_network():
-    network, x = random_network((11, 8, 5), seed=3), np.linspace(-2, 2, 11)
-    expected = network.forward(x)
-    np.testing.assert_allclose(forward_by_units(network, x), expected, rtol=1e-12)
-    np.testing.assert_allclose(action_probabilities(network, x), expected, rtol=1e-12)

@@ -13,10 +13,8 @@ from robonav.networks import (
     SQUARED_ERROR,
     Network,
     backpropagate,
-    backpropagate_by_units,
     propagate,
     random_network,
-    squared_error_gradient,
 )
 
 OBJECTIVES = pytest.mark.parametrize(
@@ -183,17 +181,3 @@ def test_equal_hidden_units_stay_equal():
 def test_examples_that_do_not_fit_are_refused(x, y, message):
     with pytest.raises(ValueError, match=message):
         CROSS_ENTROPY.cost(random_network((3, 2), seed=0), x, y)
-
-
-@pytest.mark.parametrize("sizes", [(3, 1), (4, 3, 2), (3, 4, 3, 2)])
-def test_backpropagation_by_units_and_with_matrices(sizes):
-    network, x = random_network(sizes, seed=5), np.linspace(-1, 1, sizes[0])
-    y = np.linspace(0, 1, sizes[-1])
-    by_units = backpropagate_by_units(network, x, y)
-    with_matrices = squared_error_gradient(network, x[None], y[None])
-    for one, other in zip(
-        [*by_units.weights, *by_units.biases],
-        [*with_matrices.weights, *with_matrices.biases],
-        strict=True,
-    ):
-        np.testing.assert_allclose(one, other, rtol=1e-12)
