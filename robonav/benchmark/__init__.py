@@ -1,4 +1,4 @@
-"""The registry of policies and the leaderboard, on which all methods meet the same worlds."""
+"""The registry of policies, and the leaderboard, which tests all methods in the same worlds."""
 
 from .evaluation import outcome_rates
 from .leaderboard import (

@@ -17,7 +17,7 @@ def outcome_rates(navigation: Navigation) -> dict[str, float]:
     Parameters
     ----------
     navigation : Navigation
-        What :func:`robonav.robot.navigate` returned.
+        The result of :func:`robonav.robot.navigate`.
 
     Returns
     -------

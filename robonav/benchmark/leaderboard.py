@@ -1,4 +1,4 @@
-"""The leaderboard: the methods of all chapters in the same worlds, which nothing was trained or tuned in.
+"""The leaderboard: the methods of all chapters in the same worlds. No method was trained or tuned in these worlds.
 
 The worlds are those of :func:`board_worlds`. :data:`DIGESTS` freezes version 1 of them, and every table names the
 version.
@@ -21,15 +21,11 @@ from .evaluation import outcome_rates
 from .policies import method
 
 VERSION = 1
-SETS = 10  # sets of worlds; each is one "seed" of the experiment
+SETS = 10  # number of sets of worlds; each set is one "seed" of the experiment
 WORLDS = 200  # in a set
-SEED = 77_000_000  # of the first set; no other experiment comes near
-ARRIVAL = (
-    3.0  # metres: an episode ends at most this far from the target, a plan ends on it
-)
-MARGIN = (
-    2.0  # metres that a plan keeps from obstacles; every world has a path that wide
-)
+SEED = 77_000_000  # seed of the first set; no other experiment has seeds near it
+ARRIVAL = 3.0  # metres from the target at which an episode may end, while a plan ends on the target
+MARGIN = 2.0  # metres that a plan keeps from obstacles; every world has such a path
 
 
 @dataclass(frozen=True)
@@ -39,7 +35,7 @@ class Setting:
     Attributes
     ----------
     obstacles, moving : int
-        The number of standing obstacles, and of moving ones on top.
+        The numbers of standing and of moving obstacles.
     speed : float
         Metres a second.
     noise : float
@@ -81,9 +77,9 @@ def board_worlds(setting: str, number: int, worlds: int = WORLDS) -> Worlds:
     setting : str
         A key of :data:`SETTINGS`.
     number : int
-        Which of the ten sets, from 0.
+        The number of the set, from 0 to 9.
     worlds : int
-        How many worlds, from the set's first on.
+        The number of worlds, starting with the first one of the set.
 
     Returns
     -------
@@ -100,7 +96,7 @@ def board_worlds(setting: str, number: int, worlds: int = WORLDS) -> Worlds:
 
 
 def digest(setting: str) -> str:
-    """SHA-256 of all worlds of a setting: the digest of the digests of its ten sets.
+    """Return the SHA-256 of all worlds of a setting: the digest of the digests of its ten sets.
 
     Parameters
     ----------
@@ -123,16 +119,16 @@ def digest(setting: str) -> str:
 
 @lru_cache(maxsize=64)
 def shortest_paths(obstacles: int, number: int, worlds: int) -> NDArray[np.float64]:
-    """Length of grid A*'s path in each world of a set, up to the distance at which the robot has arrived.
+    """Return the length of grid A*'s path in each world of a set, up to the distance of arrival.
 
     Parameters
     ----------
     obstacles : int
         The number of standing obstacles.
     number : int
-        Which set.
+        The number of the set, from 0 to 9.
     worlds : int
-        How many worlds, from the set's first on.
+        The number of worlds, starting with the first one of the set.
 
     Returns
     -------
@@ -152,16 +148,16 @@ def shortest_paths(obstacles: int, number: int, worlds: int) -> NDArray[np.float
 def spl(
     success: NDArray[np.bool_], lengths: ArrayLike, shortest: NDArray[np.float64]
 ) -> float:
-    """Success weighted by path length (Anderson et al. 2018): the mean of shortest over actual length.
+    """Success weighted by path length (Anderson et al. 2018): the mean of the shortest length over the actual one.
 
     Parameters
     ----------
     success : (N,) array of bool
-        Which episodes arrived. The others count 0.
+        Whether each episode arrived. The others count as 0.
     lengths : (N,) array
-        Metres that the robot went.
+        The length of the robot's path in metres.
     shortest : (N,) array
-        Metres of the shortest path.
+        The length of the shortest path in metres.
 
     Returns
     -------
@@ -189,15 +185,15 @@ def evaluate_on_board(
     setting : str
         A key of :data:`SETTINGS`.
     number : int
-        Which set.
+        The number of the set, from 0 to 9.
     worlds : int
-        How many worlds, from the set's first on.
+        The number of worlds, starting with the first one of the set.
 
     Returns
     -------
     dict
-        ``success``, ``collision``, ``out of steps`` and ``SPL``, in per cent. Where obstacles move there is no SPL,
-        since they can block a planned path or leave it.
+        ``success``, ``collision``, ``out of steps`` and ``SPL``, in per cent. There is no SPL for moving obstacles,
+        because they can block a planned path, or leave it free.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The registry of policies: two baselines, the networks that ship with the package, and a reader's own files."""
+"""The registry of policies: two baselines, the networks of the package, and files of the reader."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ BASELINES: dict[str, Policy] = {
     "straight": straight,
     "freer-side": turn_to_clearer_side,
 }
-"""Policies that have learned nothing. Every table shows them beside what was learned."""
+"""Policies that have learned nothing. Every table compares the learned policies with them."""
 
 CHAPTERS = ("lfd", "nnql", "nirl")
 
 
 def methods() -> list[str]:
-    """The names of all methods: first the baselines, then the shipped networks, chapter by chapter.
+    """Return the names of all methods: first the baselines, then the networks of the package by chapter.
 
     Returns
     -------
@@ -50,8 +50,8 @@ def method(name: str) -> Policy:
     Parameters
     ----------
     name : str
-        One of :func:`methods`; or a file: weights (.safetensors), or Python code (.py) that defines ``policy``. Code is
-        run, so load only your own.
+        One of :func:`methods`, or a file with weights (.safetensors) or Python code (.py) that defines ``policy``. The
+        code runs, so load only your own.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def method(name: str) -> Policy:
 
 
 def fingerprint(name: str) -> str:
-    """SHA-256 of the file of a method. Results name it, so that they are not taken for those of another network.
+    """Return the SHA-256 of the file of a method. Results contain it, so that they name one network.
 
     Parameters
     ----------
@@ -107,14 +107,14 @@ def fingerprint(name: str) -> str:
 def evaluate(
     name: str, *, obstacles: int, moving: int, speed: float, worlds: int, seed: int
 ) -> dict[str, Any]:
-    """Evaluate a method in new worlds: what the command ``robonav navigate`` prints.
+    """Evaluate a method in new worlds. The command ``robonav navigate`` prints the result.
 
     Parameters
     ----------
     name : str
         As in :func:`method`.
     obstacles, moving : int
-        The number of standing obstacles, and of moving ones on top.
+        The numbers of standing and of moving obstacles.
     speed : float
         Metres a second.
     worlds : int
@@ -164,7 +164,7 @@ def evaluate(
 
 
 def _shipped() -> dict[str, Path]:
-    """The files of the shipped networks, by method."""
+    """Return the files of the package's networks, by method."""
     found: dict[str, Path] = {}
     for chapter in CHAPTERS:
         folder = Path(str(files(f"robonav.{chapter}"))) / "shipped"
@@ -178,7 +178,7 @@ def _from_weights(path: Path) -> NetworkPolicy:
 
 
 def _from_code(path: Path) -> Policy:
-    """The object that a reader's file calls ``policy``. Loading the file runs its code."""
+    """Run a Python file of the reader and return its object ``policy``."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     if spec is None or spec.loader is None:
         raise ValueError(f"method must be a Python file, got {path}")
@@ -191,5 +191,5 @@ def _from_code(path: Path) -> Policy:
         ) from None
     policy: Callable | None = getattr(module, "policy", None)
     if not callable(policy):
-        raise ValueError(f"{path.name} must define policy(sensing, rng), and does not")
+        raise ValueError(f"{path.name} must define policy(sensing, rng), but does not")
     return policy

@@ -1,4 +1,4 @@
-"""The baselines as an experiment: every table is compared with policies that have learned nothing."""
+"""The baselines as an experiment. Every table is compared with these policies, which have learned nothing."""
 
 from __future__ import annotations
 

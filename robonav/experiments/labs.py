@@ -1,4 +1,4 @@
-"""What the training labs replay: trainings in every combination of some settings, one experiment a chapter."""
+"""The trainings that the training labs replay, in every combination of some settings, by chapter."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .chapter5 import setup as chapter5
 from .chapter5.tuning import trial_settings
 from .runner.experiment import Case, Experiment, Numbers, Results
 
-# Most happens in the first 50 iterations.
+# The first 50 iterations change the network most.
 EARLY = (0, 5, 10, 15, 20, 25, 30, 40, 50, 75, 100, 150, 200, 250, 300)
 BIN = 30  # episodes, as in Fig. 4.4
 EPISODES = 300
@@ -52,7 +52,7 @@ STEPS: dict[str, dict[str, Sequence[int]]] = {
 
 
 def from_demonstrations(case: Case, seed: int, scale: str) -> Numbers:
-    """Algorithm 3 over its iterations: cost, accuracy on the demonstrations, and success in new maps."""
+    """Return cost, accuracy on the demonstrations, and success in new maps over the iterations of Algorithm 3."""
     x, y = labelled_states(
         chapter3.demonstrations(seed, number=int(case["demonstrations"]))
     )
@@ -80,7 +80,7 @@ def from_demonstrations(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def from_reward(case: Case, seed: int, scale: str) -> Numbers:
-    """Successes and collisions while a method of chapter 4 trains, in per cent of every 30 episodes."""
+    """Return successes and collisions while a method of chapter 4 trains, in per cent of every 30 episodes."""
     method = str(case["method"])
     settings = chapter4.THESIS[method] | UPDATES[str(case["learning rate"])][method]
     settings |= {"temperature": TEMPERATURES[str(case["temperature"])]}
@@ -93,7 +93,7 @@ def from_reward(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def from_expert(case: Case, seed: int, scale: str) -> Numbers:
-    """Algorithm 10 over its iterations: margin, cost, episodes that arrive, and balanced accuracy."""
+    """Return margin, cost, episodes that arrive, and balanced accuracy over the iterations of Algorithm 10."""
     settings = trial_settings("nirl", 0, float(case["discount"])) | {
         "terminal_values": str(case["terminal values"])
     }
@@ -114,7 +114,7 @@ def from_expert(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def _combinations(settings: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
-    """Every combination; the last setting changes fastest."""
+    """Return every combination of the settings. The last setting changes fastest."""
     cases: list[dict[str, Any]] = [{}]
     for name, values in settings.items():
         cases = [case | {name: value} for case in cases for value in values]

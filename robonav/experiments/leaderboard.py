@@ -1,4 +1,4 @@
-"""The leaderboard as an experiment: a run is a method in one set of worlds of one setting."""
+"""The leaderboard as an experiment. A run is one method in one set of worlds of one setting."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ WORLDS = {"quick": 20, "thesis": leaderboard.WORLDS}
 def evaluate_entry(
     case: Case, seed: int, scale: str, *, sources: Mapping[str, str]
 ) -> Numbers:
-    """A method in one set of worlds of a setting. ``sources`` has the full path of each method that is a file."""
+    """Evaluate a method in one set of worlds of a setting. ``sources`` has the full path of each method in a file."""
     name = str(case["method"])
     return evaluate_on_board(
         sources.get(name, name), str(case["setting"]), seed, WORLDS[scale]
@@ -31,7 +31,7 @@ def evaluate_entry(
 
 
 def board(names: Sequence[str]) -> Experiment:
-    """The leaderboard of some methods: those that ship, or a reader's own files."""
+    """Return the experiment of some methods: those of the package, or the reader's own files."""
     sources = {name: str(Path(name).resolve()) for name in names if Path(name).suffix}
     return Experiment(
         name="leaderboard",

@@ -1,4 +1,4 @@
-"""All experiments by name. Each module listed here has a tuple ``EXPERIMENTS``."""
+"""All experiments by name. Each module of the list below has a tuple ``EXPERIMENTS``."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MODULES = (
 
 
 def names() -> list[str]:
-    """The names of all experiments, chapter by chapter.
+    """Return the names of all experiments by chapter.
 
     Returns
     -------
@@ -39,7 +39,7 @@ def names() -> list[str]:
 
 
 def experiment(name: str) -> Experiment:
-    """The experiment of a name.
+    """Return the experiment of this name.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def experiment(name: str) -> Experiment:
     Raises
     ------
     ValueError
-        If there is none. The message names those there are.
+        If there is no such experiment. The message contains the known names.
 
     Examples
     --------

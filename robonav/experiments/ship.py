@@ -1,7 +1,8 @@
-"""The networks that ship with the package; ``python -m robonav.experiments.ship`` trains them again.
+"""The networks of the package. ``python -m robonav.experiments.ship`` trains them again.
 
-Chapter 3's are the first run of its tables. Of each method of chapters 4 and 5 some seeds train as for Tables 4.3 and
-5.2, and the policy with the greatest success in worlds kept for tuning ships.
+The networks of chapter 3 are those of the first run of its tables. For each method of chapters 4 and 5, some seeds
+train under the conditions of Tables 4.3 and 5.2, and the package has the policy with the greatest success in the worlds
+that are reserved for tuning.
 """
 
 from __future__ import annotations
@@ -24,22 +25,22 @@ from .chapter5 import setup as chapter5
 from .chapter5 import tuning as tuning5
 from .runner.setup import Setup
 
-SEED = 0  # of chapter 3's networks
+SEED = 0  # the seed of chapter 3's networks
 SEEDS_4 = tuple(range(tuning4.TUNING_SEEDS, tuning4.TUNING_SEEDS + 8))
 SEEDS_5 = tuple(range(tuning5.TUNING_SEEDS + 10, tuning5.TUNING_SEEDS + 14))
 TEMPERATURE_5 = (
-    0.05  # a robot without memory can go in circles, and a little randomness ends that
+    0.05  # a robot without memory can go in circles, which a little randomness ends
 )
 COMMAND = "python -m robonav.experiments.ship"
 
 
 def folder_of(chapter: str) -> Path:
-    """Where a chapter's networks lie: "lfd", "nnql" or "nirl"."""
+    """Return the folder of a chapter's networks: that of "lfd", "nnql" or "nirl"."""
     return Path(str(files(f"robonav.{chapter}"))) / "shipped"
 
 
 def lfd_weights() -> dict[str, Weights]:
-    """``lfd``, cloned from 25 demonstrations, and ``dagger``, after three rounds of as many maps."""
+    """Return ``lfd``, cloned from 25 demonstrations, and ``dagger``, after three rounds with as many maps each."""
     made = {
         "seed": SEED,
         "demonstrations": chapter3.DEMONSTRATIONS,
@@ -61,7 +62,7 @@ def lfd_weights() -> dict[str, Weights]:
 def nnql_weights(
     method: str, seeds: Sequence[int] = SEEDS_4, *, length: float = 1.0
 ) -> Weights:
-    """The best of some seeds of a method of chapter 4."""
+    """Return the best network of some seeds of a method of chapter 4."""
     settings = chapter4.tuned()[method]
     temperature = chapter4.EVALUATION_TEMPERATURE[method]
 
@@ -93,7 +94,7 @@ def nirl_weights(
     length: float = 1.0,
     discount: float = chapter5.OTHER_DISCOUNT,
 ) -> Weights:
-    """The best of some seeds of a method of chapter 5, with the reward that it learned."""
+    """Return the best network of some seeds of a method of chapter 5, with its learned reward."""
     settings = chapter5.tuned(method, discount)
 
     def train(seed: int) -> NetworkPolicy:
@@ -126,7 +127,7 @@ def best_of(
     setup: Setup,
     worlds: Worlds,
 ) -> tuple[int, NetworkPolicy, float]:
-    """Train once a seed; seed, policy and success of the policy that arrives most often, of equal ones the first."""
+    """Train with each seed. Return seed, policy and success of the best policy; of equal ones the first."""
     policies = {seed: train(seed) for seed in seeds}
     success = {
         seed: setup.evaluate(policy, worlds)["success"]
@@ -137,12 +138,12 @@ def best_of(
 
 
 def weights_of(method: str, policy: NetworkPolicy, made: dict[str, Any]) -> Weights:
-    """A policy with what made it, as a file holds it."""
+    """Return a policy with a description of its training, in the form of a file."""
     return Weights(policy.network, method, policy.encoder, made, policy.temperature)
 
 
 def all_weights() -> Iterator[tuple[str, str, Weights]]:
-    """Chapter, file name and weights of every network that ships."""
+    """Return chapter, file name and weights of every network of the package."""
     for name, weights in lfd_weights().items():
         yield "lfd", name, weights
     for method in METHODS:
@@ -152,7 +153,7 @@ def all_weights() -> Iterator[tuple[str, str, Weights]]:
 
 
 def ship() -> None:
-    """Write a file for every network where the package looks for it."""
+    """Write a file for every network to the folder from which the package loads it."""
     total = 2 + len(METHODS) + len(chapter5.LEARNERS)
     with bar("networks that ship") as progress:
         for done, (chapter, name, weights) in enumerate(all_weights()):

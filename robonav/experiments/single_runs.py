@@ -1,6 +1,6 @@
-"""Figures of the thesis that show single episodes, plans and demonstrations: their paths as numbers.
+"""Figures of the thesis that show single episodes, plans and demonstrations, as numbers.
 
-Every case is one panel. Its world is drawn from seeds named in the case; ``x`` and ``y`` are the path in metres.
+Every case is one panel. Its world is drawn from seeds that the case contains; ``x`` and ``y`` are the path in metres.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from robonav.robot import Worlds, navigate, neighbour_slip, random_worlds
 from .runner.experiment import Case, Experiment, Numbers, Plot
 
 ONCE = {"quick": 1, "thesis": 1}
-SEED = 4_010  # of the worlds
+SEED = 4_010  # the seed of the worlds
 EPISODES = 300
-TRAINING_SEED = 3  # of the robot whose training Fig. 4.2 shows
-EVERY = 4  # of the visited nodes are kept
+TRAINING_SEED = 3  # the seed of the training that Fig. 4.2 shows
+EVERY = 4  # every fourth visited node is kept
 FAR = {"starts": ((10.0, 50.0), (50.0, 10.0)), "targets": ((90.0, 85.0), (50.0, 90.0))}
 
 
 def world_of(case: Case) -> Worlds:
-    """The world (a batch of one) that a panel shows."""
+    """Return the world (a batch of one) of a panel."""
     if "episode" in case:
         return NavigationTask().worlds([TRAINING_SEED], 0, EPISODES)[
             int(case["episode"]) - 1
@@ -53,13 +53,13 @@ def world_of(case: Case) -> Worlds:
 
 
 def path_of(poses: ArrayLike) -> dict[str, ArrayLike]:
-    """The x and y of poses (T, 2 or more)."""
+    """Return the x and y of poses (T, 2 or more)."""
     x, y = np.asarray(poses, dtype=float)[:, :2].T
     return {"x": x, "y": y}
 
 
 def navigation(case: Case, seed: int, scale: str) -> Numbers:
-    """One episode of a method in the panel's world."""
+    """Return one episode of a method in the panel's world."""
     episode = navigate(
         method(str(case["method"])),
         world_of(case),
@@ -72,7 +72,7 @@ def navigation(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def search(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.4: the path that a planner finds, and every fourth of the nodes that it expands."""
+    """Return the path of a planner and every fourth of the nodes that it expands (Fig. 3.4)."""
     planners: dict[str, Callable[..., Any]] = {
         "modified A*": plan,
         "grid A*": plan_on_grid,
@@ -88,12 +88,12 @@ def search(case: Case, seed: int, scale: str) -> Numbers:
 
 @lru_cache(maxsize=1)
 def training() -> TrainingResult:
-    """The training that Fig. 4.2 shows."""
+    """Return the training that Fig. 4.2 shows."""
     return train("nnql", seeds=[TRAINING_SEED], episodes=EPISODES, record=True)
 
 
 def training_episode(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 4.2: the path of one episode of training."""
+    """Return the path of one episode of training (Fig. 4.2)."""
     number = int(case["episode"]) - 1
     trained = training()
     assert trained.paths is not None
@@ -103,7 +103,7 @@ def training_episode(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def demonstration_by_hand(case: Case, seed: int, scale: str) -> Numbers:
-    """Figs. 5.3 and 5.6: a demonstration through key points."""
+    """Return a demonstration through key points (Figs. 5.3 and 5.6)."""
     world = world_of(case)
     trajectories = demonstrate_by_hand(world, sketch(world, seed=seed))
     return path_of(trajectories.poses) | {
@@ -112,7 +112,7 @@ def demonstration_by_hand(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def slipping_demonstration(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 5.5: an expert whose turns sometimes come out 30 degrees off."""
+    """Return a demonstration of an expert whose turns sometimes miss by 30 degrees (Fig. 5.5)."""
     slip = neighbour_slip(float(case["slip"]))
     executed = record(ComputerExpert(), world_of(case), slip=slip)
     intended = record(ComputerExpert(), world_of(case), slip=slip, intended=True)
@@ -122,7 +122,7 @@ def slipping_demonstration(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def iteration_gaps(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 2.4: the gaps of evaluation and improvement after each half step."""
+    """Return the gaps of evaluation and improvement after each half step (Fig. 2.4)."""
     exits = {"G": mdp.Cell(reward=1, ends=True), "X": mdp.Cell(reward=-1, ends=True)}
     grid = mdp.GridWorld("S...\n.#.X\n...G", legend=exits, slip=0.2, step_reward=-0.04)
     solution = mdp.generalized_policy_iteration(
@@ -145,7 +145,7 @@ def panels(
     plot: Plot = PATHS,
     **settings: Any,
 ) -> Experiment:
-    """A figure with a panel for each case, run once."""
+    """Return the experiment of a figure with one panel for each case. Each case has one run."""
     return Experiment(
         name=name,
         title=title,
@@ -160,7 +160,7 @@ def panels(
 def shipped_policies(
     name: str, title: str, methods: Sequence[str], **case: str | float | int
 ) -> Experiment:
-    """A figure of shipped policies, four worlds each."""
+    """Return the experiment of a figure of policies of the package, in four worlds each."""
     cases = [
         {"method": one, "world": world, "speed": 2.0, **case}
         for one in methods

@@ -1,7 +1,7 @@
-"""The conditions of section 3.6, which all experiments of chapter 3 share; ``settings.toml`` beside this file has them.
+"""The conditions of section 3.6, which all experiments of chapter 3 share. They are in ``settings.toml``.
 
-A run is one seed: 25 maps with their demonstrations, one network, and new maps to test it in. Worlds of demonstrations,
-of DAgger's rounds, and of tests never meet.
+A run is one seed: 25 maps with their demonstrations, one network, and new maps in which the network is tested. The
+worlds of demonstrations, of DAgger's rounds, and of tests are all different.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def demonstrations(
 
 @lru_cache(32)
 def expert_in_test_worlds(seed: int, scale: str, obstacles: int) -> Demonstrations:
-    """The computer expert's episodes in the worlds that a run is tested in."""
+    """Return the computer expert's episodes in the worlds in which a run is tested."""
     return demonstrate(SETUP.test_worlds(seed, scale, obstacles))
 
 
@@ -86,7 +86,7 @@ def expert_in_test_worlds(seed: int, scale: str, obstacles: int) -> Demonstratio
 def cloned_policy(
     seed: int, obstacles: int = 10, *, target: str = "sine-cosine"
 ) -> NetworkPolicy:
-    """The policy learned from a run's demonstrations (Algorithm 3)."""
+    """Return the policy learned from a run's demonstrations (Algorithm 3)."""
     return learn_policy(
         demonstrations(seed, obstacles), seed=seed, encoder=Encoder(target=target)
     )
@@ -123,7 +123,7 @@ def training(
 
 
 def policy_of(network: Network, inputs: str) -> NetworkPolicy:
-    """The policy of a network trained on inputs of a scale. The encoder gives 0 to 1; the weights take the factor."""
+    """Return the policy of a network trained on scaled inputs. The encoder gives 0 to 1; the weights have the scale."""
     first, *others = network.weights
     return NetworkPolicy(
         Network((first * INPUTS[inputs], *others), network.biases),
@@ -135,7 +135,7 @@ def policy_of(network: Network, inputs: str) -> NetworkPolicy:
 def dagger_result(
     seed: int, obstacles: int = 10, *, target: str = "sine-cosine", rounds: int = ROUNDS
 ) -> DaggerResult:
-    """DAgger from a run's demonstrations, each round with as many new maps as there are demonstrations."""
+    """Run DAgger from a run's demonstrations. Each round has as many new maps as there are demonstrations."""
     worlds = [
         random_worlds(DEMONSTRATIONS, obstacles, seed=DAGGER_SEED + 10 * seed + number)
         for number in range(rounds)

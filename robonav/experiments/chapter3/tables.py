@@ -1,4 +1,4 @@
-"""Tables 3.2 and 3.3, Figs. 3.5 to 3.10; encoding and margin, about which the thesis says nothing."""
+"""Tables 3.2 and 3.3, Figs. 3.5 to 3.10, and the encoding and the margin, which the thesis does not give."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def with_demonstrations(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def with_iterations(case: Case, seed: int, scale: str) -> Numbers:
-    """Table 3.3: accuracy on the demonstrations learned from, and on others; cost; and success in new maps."""
+    """Table 3.3: accuracy on the training demonstrations and on others, cost, and success in new maps."""
     expert, inputs = str(case["expert"]), str(case["inputs"])
     trained = training(seed, expert, inputs, iterations=MOST_ITERATIONS)
     assert trained.networks is not None
@@ -86,7 +86,7 @@ def training_cost(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def compare_planners(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.5: modified A* and grid A* in the same maps. Lengths go up to the target, which neither path reaches."""
+    """Fig. 3.5: modified A* and grid A* in the same maps. Lengths include the last part up to the target."""
     target = (90.0, float(case["target y"]))
     worlds = planning_worlds(seed, int(case["obstacles"]), target)
     ours = [plan(world, margin=MARGIN) for world in worlds]
@@ -113,13 +113,13 @@ def compare_planners(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def planning_worlds(seed: int, obstacles: int, target: tuple[float, float]) -> Worlds:
-    """The maps that a run plans in."""
+    """Return the maps of a run."""
     first = SETUP.test_seed + seed
     return random_worlds(PLANNING["maps"], obstacles, seed=first, targets=(target,))
 
 
 def expert_demonstrations(expert: str, seed: int) -> Demonstrations:
-    """25 demonstrations by the computer or by hand, of a robot that slips or does not (section 5.5.5)."""
+    """Return 25 demonstrations by the computer or by hand, with or without slipping (section 5.5.5)."""
     worlds = random_worlds(DEMONSTRATIONS, seed=DEMONSTRATION_SEED + seed)
     slip = neighbour_slip(PLANNING["slip"]) if expert.endswith("slipping") else None
     if expert.startswith("computer"):
@@ -128,7 +128,7 @@ def expert_demonstrations(expert: str, seed: int) -> Demonstrations:
 
 
 def compare_experts(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.6: what 25 demonstrations hold, and the success of the policy learned from them."""
+    """Fig. 3.6: the content of 25 demonstrations, and the success of the policy learned from them."""
     trajectories = expert_demonstrations(str(case["expert"]), seed)
     held = summarise_dataset(trajectories)
     policy = learn_policy(trajectories, seed=seed)
@@ -145,7 +145,7 @@ def compare_experts(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def learned_policy(name: str, seed: int, obstacles: int = 10) -> Policy:
-    """A baseline, or the policy of a method trained among a number of obstacles."""
+    """Return a baseline, or the policy of a method trained with a number of obstacles."""
     if name in BASELINES:
         return BASELINES[name]
     if name == "DAgger":
@@ -156,7 +156,7 @@ def learned_policy(name: str, seed: int, obstacles: int = 10) -> Policy:
 
 
 def in_new_maps(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.8 in numbers: a method is tested in maps with as many obstacles as it was trained among."""
+    """Fig. 3.8 in numbers: a method is tested in maps with as many obstacles as in its training."""
     obstacles, name = int(case["obstacles"]), str(case["method"])
     worlds = SETUP.test_worlds(seed, scale, obstacles)
     rates = SETUP.evaluate(learned_policy(name, seed, obstacles), worlds)
@@ -168,7 +168,7 @@ def in_new_maps(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def beside_the_expert(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.9: a learned policy and the expert that it was learned from, in the same maps."""
+    """Fig. 3.9: a learned policy and its expert in the same maps."""
     obstacles = int(case["obstacles"])
     expert = expert_in_test_worlds(seed, scale, obstacles)
     worlds = expert.worlds
@@ -193,7 +193,7 @@ def beside_the_expert(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def among_moving_obstacles(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 3.10: standing and moving obstacles, for policies learned among standing ones."""
+    """Fig. 3.10: standing and moving obstacles, for policies trained with standing ones."""
     worlds = SETUP.test_worlds(seed, scale, int(case["standing"]), int(case["moving"]))
     return SETUP.evaluate(learned_policy(str(case["method"]), seed), worlds)
 
@@ -209,7 +209,7 @@ def compare_encodings(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def expert_margin(case: Case, seed: int, scale: str) -> Numbers:
-    """An expert that keeps a distance, and the policy learned from it."""
+    """Test an expert that keeps a margin, and the policy learned from it."""
     obstacles = int(case["obstacles"])
     trajectories = demonstrate(
         random_worlds(DEMONSTRATIONS, obstacles, seed=DEMONSTRATION_SEED + seed),

@@ -1,4 +1,4 @@
-"""How learning fails, one choice at a time: reward, temperature, encoding, scaling (not in the thesis)."""
+"""Failures of learning: reward, temperature, encoding and scaling are changed one at a time (not in the thesis)."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def only_moving_away(
 
 
 def _rows_changed(changes: Mapping[int, float]) -> Reward:
-    """Table 4.1 with other rewards in some rows."""
+    """Return Table 4.1 with other rewards in some rows."""
     rewards = REWARDS.copy()
     rewards[list(changes)] = list(changes.values())
     return lambda before, after, outcome: rewards[reward_row(before, after, outcome)]
@@ -62,14 +62,14 @@ REWARDS_TRIED: dict[str, Reward] = {
 
 @dataclass(frozen=True)
 class RawNumbers(Encoder):
-    """The 16 numbers of Eq. (4.5) as they are, up to 7 and 9. The other encoders scale them to at most 1."""
+    """The 16 numbers of Eq. (4.5) without scaling, up to 7 and 9. The other encoders scale them to at most 1."""
 
     walls: bool = True
     target: str = "number"
     sensors: tuple[int, ...] = NNQL_SENSORS
 
     def __call__(self, sensing: Sensing) -> Array:
-        """Inputs (N, 16) of N robots."""
+        """Return the inputs (N, 16) of N robots."""
         return nnql_state(sensing).astype(float)
 
 
@@ -100,11 +100,11 @@ VARIATIONS: dict[str, dict[str, dict[str, Any]]] = {
         "0.8 to 0.1": {"learning_rate": (0.8, 0.1)},
     },
 }
-"""What is varied, one at a time, from the tuned hyperparameters of NNQL."""
+"""The variations of the tuned hyperparameters of NNQL, one at a time."""
 
 
 def vary(case: Case, seed: int, scale: str) -> Numbers:
-    """One seed of one variation: outcome rates, and the success in the last 100 episodes of training."""
+    """Return the outcome rates of one seed of one variation, and the success in the last 100 episodes of training."""
     changes = VARIATIONS[str(case["what"])][str(case["choice"])]
     of_task = {k: v for k, v in changes.items() if k in ("reward", "encoder")}
     settings = tuned()["nnql"] | {k: v for k, v in changes.items() if k not in of_task}

@@ -1,7 +1,7 @@
-"""The conditions of section 4.5, which all experiments of chapter 4 share; ``settings.toml`` beside this file has them.
+"""The conditions of section 4.5, which all experiments of chapter 4 share. They are in ``settings.toml``.
 
-A run is one training seed: it trains a network and tests its greedy policy in new worlds. Worlds for training, for
-tuning and for testing never meet.
+A run is one training seed: it trains a network and tests its greedy policy in new worlds. The worlds for training, for
+tuning and for tests are all different.
 """
 
 from __future__ import annotations
@@ -46,13 +46,13 @@ ABOUT: Mapping[str, Any] = {
 
 @lru_cache(maxsize=1)
 def tuned() -> dict[str, Settings]:
-    """The tuned hyperparameters of each method."""
+    """Return the tuned hyperparameters of each method."""
     found = read_settings(HYPERPARAMETERS)
     return {method: Settings.of(values) for method, values in found.items()}
 
 
 def task(*, target: str = "number", **changes: Any) -> NavigationTask:
-    """The training task of section 4.5, with one of the encodings of the target's sector.
+    """Return the training task of section 4.5, with one of the encodings of the target's sector.
 
     ``changes`` are other attributes of :class:`robonav.nnql.NavigationTask`.
     """
@@ -71,7 +71,7 @@ def training(
 ) -> TrainingResult:
     """One seed of a method.
 
-    At the thesis's scale seeds train together, ``SEEDS_PER_BATCH`` of them. Trainings are kept, since several tables
+    At the thesis's scale ``SEEDS_PER_BATCH`` seeds train together. Trainings are kept in memory, because several tables
     test the same networks.
 
     Parameters
@@ -85,9 +85,9 @@ def training(
     settings : Settings
         Hyperparameters.
     length : float
-        The number of episodes, as a multiple of the usual.
+        The number of episodes relative to the usual number.
     **changes
-        Changes of the :func:`task`, and ``record``.
+        Changes of the :func:`task`, and the option ``record``.
     """
     batch = SEEDS_PER_BATCH[scale]
     episodes = round(EPISODES * length)
@@ -111,13 +111,13 @@ def _training(
 
 
 def batch_of(seed: int, size: int) -> range:
-    """The seeds that train together with this one, in batches of a size."""
+    """Return the seeds that train together with this one, in batches of a size."""
     first = seed - seed % size
     return range(first, first + size)
 
 
 def trained_policy(name: str, seed: int, scale: str, **changes: Any) -> Policy:
-    """A baseline, or the policy of one training with the tuned hyperparameters."""
+    """Return a baseline, or the policy of one training with the tuned hyperparameters."""
     if name in BASELINES:
         return BASELINES[name]
     return training(name, seed, scale, tuned()[name], **changes).policies[0]
@@ -130,7 +130,7 @@ def evaluate(
     *,
     temperature: float = EVALUATION_TEMPERATURE["nnql"],
 ) -> dict[str, float]:
-    """Outcome rates of a greedy policy (Algorithm 9); of a network also its success at a low temperature."""
+    """Return the outcome rates of a greedy policy (Algorithm 9), and a network's success at a low temperature."""
     rates = SETUP.evaluate(policy, worlds, speed)
     if isinstance(policy, NetworkPolicy):
         nearly_greedy = replace(policy, temperature=temperature)
@@ -140,7 +140,7 @@ def evaluate(
 
 
 def blocks(successes: ArrayLike, size: int = BLOCK) -> np.ndarray:
-    """Successes (S, E) counted in blocks of ``size`` episodes: (S, E / size). An incomplete last block is dropped."""
+    """Count successes (S, E) in blocks of ``size`` episodes: (S, E / size). An incomplete last block is dropped."""
     arrived = np.asarray(successes)
     seeds, episodes = arrived.shape
     counts: np.ndarray = (

@@ -42,7 +42,7 @@ def compare(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def compare_with_equal_steps(case: Case, seed: int, scale: str) -> Numbers:
-    """Table 4.3 with each method stopped after as many learning steps as NNQL's training of the same seed takes.
+    """Table 4.3, where each method stops after as many learning steps as NNQL takes with the same seed.
 
     A method stops after the last episode within that number. A method that takes fewer steps goes through all episodes.
     """
@@ -87,7 +87,7 @@ def weights_over_time(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def at_speed(case: Case, seed: int, scale: str) -> Numbers:
-    """Table 4.2: a robot trained at 2.5 m/s, or at the speed it is tested at, or a baseline."""
+    """Table 4.2: a robot trained at 2.5 m/s or at the speed of its test, or a baseline."""
     speed, name = float(case["speed"]), str(case["robot"])
     policy = (
         trained_policy("nnql", seed, scale, speed=speed)
@@ -98,7 +98,7 @@ def at_speed(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def among_moving_obstacles(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 4.7: standing and moving obstacles, for a robot trained among standing ones, or a baseline."""
+    """Fig. 4.7: standing and moving obstacles, for a robot trained with standing ones, or a baseline."""
     worlds = SETUP.test_worlds(seed, scale, int(case["standing"]), int(case["moving"]))
     return evaluate(trained_policy(str(case["robot"]), seed, scale), worlds)
 

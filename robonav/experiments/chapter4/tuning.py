@@ -1,8 +1,8 @@
-"""How the hyperparameters of chapter 4's methods were chosen: as many trials for each, in worlds kept for tuning.
+"""The tuning of chapter 4's hyperparameters: equally many trials for each method, in worlds reserved for tuning.
 
-Sixteen trials of four seeds each come first. The four best run again with twelve other seeds, and these decide: the
-best of sixteen short trials is partly the luckiest, and its second result says how lucky it was. Run both, then write
-``finalists.toml`` after the first and ``hyperparameters.toml`` after the second::
+The first stage has sixteen trials of four seeds each. The second stage runs the four best of them again with twelve
+other seeds, and its results decide. The best of sixteen short trials is partly lucky, so its first result is too high.
+Run both stages, and write ``finalists.toml`` after the first and ``hyperparameters.toml`` after the second::
 
     robonav reproduce nnql-tuning --scale thesis
     python -m robonav.experiments.chapter4.tuning finalists results
@@ -36,8 +36,8 @@ from .setup import (
 )
 
 TRIALS = 16
-FINAL_TRIALS = 4  # of each method run again with other seeds
-TUNING_SEEDS = 10_000  # run k trains with this seed + k; the tables take others
+FINAL_TRIALS = 4  # trials of each method that the second stage runs again
+TUNING_SEEDS = 10_000  # run k trains with this seed + k; the tables use other seeds
 FINALISTS = FOLDER / "finalists.toml"
 
 _NEURAL: dict[str, list[Any]] = {
@@ -70,7 +70,7 @@ SPACE: dict[str, dict[str, list[Any]]] = {
 
 
 def trial_settings(method: str, trial: int) -> Settings:
-    """The hyperparameters of a trial. NNQL and online learning, which share a space, get the same ones."""
+    """Return the hyperparameters of a trial. NNQL and online learning have the same space and get the same ones."""
     if trial == 0:
         return THESIS[method]
     rng = np.random.default_rng([TUNING_SEEDS, trial])
@@ -84,7 +84,7 @@ def trial_settings(method: str, trial: int) -> Settings:
 
 
 def tune(case: Case, seed: int, scale: str) -> Numbers:
-    """One seed of a trial, tested in tuning worlds."""
+    """Test one seed of a trial in tuning worlds."""
     policy = training(
         str(case["method"]),
         TUNING_SEEDS + seed,
@@ -97,12 +97,12 @@ def tune(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def tune_again(case: Case, seed: int, scale: str) -> Numbers:
-    """One seed of a finalist, with other seeds and other worlds than those it was picked by."""
+    """Test one seed of a finalist, with other seeds and worlds than in the first stage."""
     return tune(case, seed + TUNING.seeds["thesis"], scale)
 
 
 def ranking(results: Results) -> dict[str, list[Case]]:
-    """The trials of each method by mean success over seeds, the best first; of equal ones the earlier first."""
+    """Return the trials of each method by mean success over seeds, the best first; of equal ones the earlier first."""
     success = {
         place: round(results.summary("success", place).mean, 6)
         for place in range(len(results.experiment.cases))
@@ -116,7 +116,7 @@ def ranking(results: Results) -> dict[str, list[Case]]:
 
 @lru_cache(maxsize=1)
 def finalists() -> list[Case]:
-    """The cases of the second stage, from ``finalists.toml``."""
+    """Return the cases of the second stage, from ``finalists.toml``."""
     found = read_settings(FINALISTS)
     return [
         _case(method, int(trial), Settings.of(values))

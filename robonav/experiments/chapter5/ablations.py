@@ -1,4 +1,4 @@
-"""From Algorithm 10 as written to what works, one change at a time; and how a run's policy is chosen."""
+"""From Algorithm 10 as written to an algorithm that works, one change at a time; the choice among a run's policies."""
 
 from __future__ import annotations
 
@@ -34,7 +34,9 @@ from .setup import (
 )
 
 CHOOSING_SEED: int = CONDITIONS["choosing_seed"]
-EVERY = 5  # of a run's policies are tried where navigation in other worlds chooses
+EVERY = (
+    5  # every fifth policy of a run is tested, if navigation in other worlds chooses
+)
 
 _FAST = ReplaySGD(gradient_step=(0.4, 0.4), terminal_values=ZERO_TERMINAL_VALUES)
 CHANGES: dict[str, Mapping[str, Any]] = {
@@ -60,11 +62,11 @@ CHANGES: dict[str, Mapping[str, Any]] = {
     "gradient step falls": {"improver": ReplaySGD()},
     "discount 0.9": {"improver": ReplaySGD(discount=0.9)},
 }
-"""What each change sets, on top of all changes before it."""
+"""The options that each change sets, in addition to all changes before it."""
 
 
 def options_up_to(change: str) -> dict[str, Any]:
-    """The options after a change and all before it."""
+    """Return the options after a change and all changes before it."""
     names = list(CHANGES)
     merged: dict[str, Any] = {}
     for name in names[: names.index(change) + 1]:
@@ -84,7 +86,7 @@ def ablation(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def policy_at(learned: IRLResult, k: int) -> NetworkPolicy:
-    """The policy of a run after iteration k."""
+    """Return the policy of a run after iteration k."""
     stack = learned.history.networks
     network = Network(
         tuple(w[k] for w in stack.weights), tuple(b[k] for b in stack.biases)
@@ -93,7 +95,7 @@ def policy_at(learned: IRLResult, k: int) -> NetworkPolicy:
 
 
 def best_by_navigation(learned: IRLResult, worlds: Worlds) -> int:
-    """The iteration whose policy has the greatest success in some worlds, of every fifth one."""
+    """Return the iteration, among every fifth one, whose policy has the greatest success in some worlds."""
     tried = range(0, len(learned.history.accuracies), EVERY)
     success = [navigate(policy_at(learned, k), worlds).success.mean() for k in tried]
     return tried[int(np.argmax(success))]
@@ -108,7 +110,7 @@ CHOICES: dict[str, Callable[[IRLResult, Worlds], int]] = {
 
 
 def choose_policy(case: Case, seed: int, scale: str) -> Numbers:
-    """One run, with a learned reward or none, and its policy chosen in one of four ways."""
+    """Test one run with a learned or a zero reward, and with its policy chosen in one of four ways."""
     method = "nirl" if case["reward"] == "learned" else "zero reward"
     learned = trained(method, seed, tuned(method))
     worlds = SETUP.worlds(SETUP.navigations[scale] // 5, CHOOSING_SEED + seed)

@@ -1,7 +1,7 @@
-"""The conditions of section 5.6, which all experiments of chapter 5 share; ``settings.toml`` beside this file has them.
+"""The conditions of section 5.6, which all experiments of chapter 5 share. They are in ``settings.toml``.
 
-A run is one seed: demonstrations of its own, a network trained from them, and new worlds to test it in. Worlds of
-demonstrations, worlds for tuning and worlds for testing never meet. The worlds of training are drawn from its seed.
+A run is one seed: demonstrations of its own, a network trained from them, and new worlds in which it is tested. The
+worlds of demonstrations, for tuning and for tests are all different. The worlds of a training are drawn from its seed.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def _hyperparameters() -> dict[str, Any]:
 
 
 def tuned(method: str, discount: float = DISCOUNT, **changes: Any) -> Settings:
-    """The tuned hyperparameters of a method for one of two discounts. A control has those of NIRL.
+    """Return the tuned hyperparameters of a method for one of two discounts. A control has those of NIRL.
 
     Cloning has no discount: its entry is the better of two sets of trials.
     """
@@ -83,7 +83,7 @@ def tuned(method: str, discount: float = DISCOUNT, **changes: Any) -> Settings:
 def demonstrations(
     seed: int, number: int = DEMONSTRATIONS, expert: str = "computer"
 ) -> Demonstrations:
-    """The demonstrations of a run by an expert, "computer" or "human", each in a map of its own."""
+    """Return the demonstrations of a run by an expert, "computer" or "human", each in a map of its own."""
     worlds = random_worlds(number, SETUP.obstacles, seed=DEMONSTRATION_SEED + seed)
     if expert == "human":
         drawn = sketch(worlds, seed=seed)
@@ -92,17 +92,17 @@ def demonstrations(
 
 
 def encoder(target: str) -> Encoder:
-    """phi(s) of section 5.4.1, with one of the encodings of the target's sector."""
+    """Return phi(s) of section 5.4.1, with one of the encodings of the target's sector."""
     return Encoder(NNQL_SENSORS, walls=True, target=target)
 
 
 def task(target: str = "sine-cosine", **changes: Any) -> RobotTask:
-    """What a robot trains on: 20 obstacles, 2 m/s, ten episodes an iteration."""
+    """Return the training task: 20 obstacles, 2 m/s, ten episodes in each iteration."""
     return RobotTask(EPISODES_PER_ITERATION, encoder=encoder(target), **changes)
 
 
 def policy_improvement(settings: Settings) -> ReplaySGD:
-    """The policy improvement that all methods share."""
+    """Return the policy improvement that all methods share."""
     return ReplaySGD(
         discount=settings["discount"],
         gradient_step=settings["gradient_step"],
@@ -113,7 +113,7 @@ def policy_improvement(settings: Settings) -> ReplaySGD:
 
 
 def own_options(method: str, settings: Settings, iterations: int) -> dict[str, Any]:
-    """The arguments that one method alone has."""
+    """Return the arguments that only this method has."""
     if method == "nirl":
         return {"reward_update": SubgradientMaxMargin(power=settings["power"])}
     if method == "apprenticeship":
@@ -146,13 +146,13 @@ def train_irl(
     method : str
         A method of :func:`robonav.nirl.learn`, or one of :data:`CONTROLS`.
     trajectories : Demonstrations
-        What the expert demonstrated.
+        The demonstrations of the expert.
     seed : int
         The seed of weights and training.
     settings : Settings
         Hyperparameters.
     length : float
-        The number of iterations, as a multiple of the usual.
+        The number of iterations relative to the usual number.
     **changes
         Other arguments of the method.
     """
@@ -172,7 +172,7 @@ def train_irl(
 
 
 def control_reward(name: str, seed: int, inputs: int) -> NDArray[np.float64]:
-    """The reward weights (5, k + 1) of a control: zero, or random."""
+    """Return the reward weights (5, k + 1) of a control: zero, or random."""
     shape = (LEARNED, inputs + 1)
     if name == "zero reward":
         return np.zeros(shape)
@@ -188,7 +188,7 @@ def trained(
     *,
     length: float = 1.0,
 ) -> IRLResult:
-    """One run of a method or control. Runs are kept, since several tables test the same policies."""
+    """Return one run of a method or control. Runs are kept in memory, because several tables test the same policies."""
     return _trained(method, seed, settings, number, expert, length)
 
 
@@ -207,7 +207,7 @@ def cloned_policy(
     number: int = DEMONSTRATIONS,
     expert: str = "computer",
 ) -> NetworkPolicy:
-    """The policy of behaviour cloning from the same demonstrations, as in chapter 3."""
+    """Return the policy of behaviour cloning from the same demonstrations, as in chapter 3."""
     return learn_policy(
         demonstrations(seed, number, expert),
         settings["hidden"],
@@ -227,7 +227,7 @@ def trained_policy(
     *,
     length: float = 1.0,
 ) -> Policy:
-    """A baseline, or the policy of one run of a method, a control or cloning; by default with tuned hyperparameters."""
+    """Return a baseline, or the policy of one run of a method, a control or cloning."""
     if method in BASELINES:
         return BASELINES[method]
     settings = tuned(method) if settings is None else settings

@@ -1,4 +1,4 @@
-"""Tables 5.1 and 5.2, Figs. 5.4, 5.7, 5.8 and 5.10 to 5.12, and the controls that belong beside them."""
+"""Tables 5.1 and 5.2, Figs. 5.4, 5.7, 5.8 and 5.10 to 5.12, and controls to compare them with."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def compare(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def compare_without_bonus(case: Case, seed: int, scale: str) -> Numbers:
-    """As :func:`compare`, with neutral terminal values, so that the learned reward alone decides the behaviour."""
+    """Table 5.2 with neutral terminal values, so that the learned reward alone determines the behaviour."""
     method, discount = str(case["method"]), float(case["discount"])
     settings = tuned(method, discount, terminal_values="neutral")
     policy = trained_policy(method, seed, settings)
@@ -62,7 +62,7 @@ def from_experts(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def count_samples(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 5.4: samples and distinct states a trajectory. A state is the 16 numbers of Eq. (4.5)."""
+    """Fig. 5.4: samples and distinct states in a trajectory. A state is the 16 numbers of Eq. (4.5)."""
     number = int(case["demonstrations"])
     pairs = demonstrations(seed, number, str(case["expert"])).effective
     states = np.unique(nnql_state(pairs.sensing), axis=0)
@@ -85,7 +85,7 @@ def over_iterations(
 
 
 def at_density(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 5.10: one policy, trained among 20 obstacles at 2 m/s, or a baseline, with other obstacles and speeds."""
+    """Fig. 5.10: a policy trained with 20 obstacles at 2 m/s, or a baseline, with other obstacles and speeds."""
     worlds = SETUP.test_worlds(seed, scale, int(case["obstacles"]))
     fewer = worlds[: SETUP.navigations[scale] // 5]
     policy = trained_policy(str(case["method"]), seed)
@@ -93,7 +93,7 @@ def at_density(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def among_moving_obstacles(case: Case, seed: int, scale: str) -> Numbers:
-    """Fig. 5.12: standing and moving obstacles, for a robot trained among standing ones, or a baseline."""
+    """Fig. 5.12: standing and moving obstacles, for a robot trained with standing ones, or a baseline."""
     worlds = SETUP.test_worlds(seed, scale, int(case["standing"]), int(case["moving"]))
     return SETUP.evaluate(trained_policy(str(case["method"]), seed), worlds)
 

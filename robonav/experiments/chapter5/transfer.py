@@ -1,4 +1,4 @@
-"""What a learned reward is good for: training elsewhere (section 5.5.4), and an expert that slips (Eq. (5.12))."""
+"""Uses of a learned reward: training in other worlds (section 5.5.4), and an expert that slips (Eq. (5.12))."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def train_under_reward(
     obstacles: int,
     speed: float,
 ) -> Policy:
-    """The last policy of a new robot that trains elsewhere under a given reward (5, k + 1)."""
+    """Return the last policy of a new robot that trains in other worlds with a given reward (5, k + 1)."""
     settings = tuned("nirl")
     iterations = round(ITERATIONS * length)
     learned = learn_under_reward(
@@ -74,12 +74,12 @@ def train_under_reward(
 def same_policy(
     seed: int, length: float, obstacles: int, speed: float, *, method: str
 ) -> Policy:
-    """The policy learned among 20 obstacles at 2 m/s, unchanged."""
+    """Return the policy learned with 20 obstacles at 2 m/s, unchanged."""
     return trained_policy(method, seed, length=length)
 
 
 def learned_reward(seed: int, length: float, obstacles: int, speed: float) -> Policy:
-    """A new robot, trained there under the reward learned among 20 obstacles at 2 m/s."""
+    """Return a new robot, trained there with the reward learned with 20 obstacles at 2 m/s."""
     weights = trained("nirl", seed, tuned("nirl"), length=length).reward_weights
     return train_under_reward(weights, seed, length, obstacles, speed)
 
@@ -87,13 +87,13 @@ def learned_reward(seed: int, length: float, obstacles: int, speed: float) -> Po
 def given_reward(
     seed: int, length: float, obstacles: int, speed: float, *, control: str
 ) -> Policy:
-    """A new robot, trained there under the reward of a control: zero, or random."""
+    """Return a new robot, trained there with the reward of a control: zero, or random."""
     weights = control_reward(control, seed, encoder(tuned("nirl")["target"]).size)
     return train_under_reward(weights, seed, length, obstacles, speed)
 
 
 def reward_table(seed: int, length: float, obstacles: int, speed: float) -> Policy:
-    """A new robot, trained there by NNQL with the reward of Table 4.1."""
+    """Return a new robot, trained there by NNQL with the reward of Table 4.1."""
     seeds = batch_of(seed, SEEDS_PER_BATCH)
     return _reward_table(seeds, length, obstacles, speed)[seed % SEEDS_PER_BATCH]
 
@@ -110,7 +110,7 @@ def _reward_table(
 
 
 def clearer_side(seed: int, length: float, obstacles: int, speed: float) -> Policy:
-    """The baseline."""
+    """Return the baseline."""
     return turn_to_clearer_side
 
 
@@ -125,11 +125,11 @@ STRATEGIES: dict[str, Callable[[int, float, int, float], Policy]] = {
     ),
     "freer-side": clearer_side,
 }
-"""How a robot drives elsewhere: with an old policy, or with a new one trained there."""
+"""The strategies for other worlds: an old policy, or a new one that is trained there."""
 
 
 def elsewhere(case: Case, seed: int, scale: str) -> Numbers:
-    """One run of one strategy in maps of another density, or at another speed."""
+    """Test one run of one strategy in maps of another density, or at another speed."""
     obstacles, speed = int(case["obstacles"]), float(case["speed"])
     strategy = STRATEGIES[str(case["strategy"])]
     policy = strategy(seed, SHORTENED[scale], obstacles, speed)
@@ -145,7 +145,7 @@ REFINEMENTS: dict[str, Refinement | None] = {
 
 @lru_cache(maxsize=64)
 def slipping_demonstrations(seed: int) -> Demonstrations:
-    """Demonstrations of an expert whose turns come out 30 degrees off, three times in ten."""
+    """Return demonstrations of an expert whose turns miss by 30 degrees with probability 0.3."""
     worlds = random_worlds(
         DEMONSTRATIONS, SETUP.obstacles, seed=DEMONSTRATION_SEED + seed
     )
@@ -154,7 +154,7 @@ def slipping_demonstrations(seed: int) -> Demonstrations:
 
 
 def refine(case: Case, seed: int, scale: str) -> Numbers:
-    """One run of NIRL from contradictory demonstrations, refined by Eq. (5.12) in one of two ways, or not."""
+    """Test one run of NIRL from contradictory demonstrations, refined by Eq. (5.12) in one of two ways, or not."""
     trajectories = (
         slipping_demonstrations(seed)
         if case["expert"] == "slipping"

@@ -1,4 +1,4 @@
-"""How the hyperparameters of chapter 5's methods were chosen: as many trials for each, in worlds kept for tuning.
+"""The tuning of chapter 5's hyperparameters: equally many trials for each method, in worlds reserved for tuning.
 
 Run the trials, then write ``hyperparameters.toml`` from their results::
 
@@ -30,7 +30,7 @@ from .setup import (
 
 TRIALS = 8  # with each of two discounts
 DISCOUNTS: tuple[float, ...] = tuple(CONDITIONS["discounts"])
-TUNING_SEEDS = 1000  # run k trains with this seed + k, from demonstrations of its own; the tables take others
+TUNING_SEEDS = 1000  # run k trains with this seed + k, from its own demonstrations; the tables use other seeds
 N_SAMPLES = 9600  # gradient steps in an iteration, in all trials
 
 _SHARED: dict[str, list[Any]] = {
@@ -63,7 +63,7 @@ SPACE: dict[str, dict[str, list[Any]]] = {
         "target": ["signed", "sine-cosine"],
     }
 }
-"""The values of each hyperparameter. Those that methods share are drawn alike for all of them."""
+"""The values of each hyperparameter. Methods that share a hyperparameter get the same draws."""
 
 
 def draws(method: str, discount: float) -> list[dict[str, Any]]:
@@ -97,7 +97,7 @@ def trial_settings(method: str, trial: int, discount: float) -> Settings:
 
 
 def tune(case: Case, seed: int, scale: str) -> Numbers:
-    """One seed of a trial, tested in tuning worlds."""
+    """Test one seed of a trial in tuning worlds."""
     settings = Settings.of(json.loads(str(case["settings"])))
     policy = trained_policy(
         str(case["method"]), TUNING_SEEDS + seed, settings, length=SHORTENED[scale]
@@ -129,7 +129,7 @@ TUNING = Experiment(
 
 
 def best_trials(results: Results) -> dict[str, dict[str, Settings]]:
-    """For each method and discount the trial with the greatest mean success; for cloning one of all trials."""
+    """Return the trial with the greatest mean success for each method and discount, and the best of all for cloning."""
     best: dict[tuple[str, str], tuple[float, Settings]] = {}
     for place, case in enumerate(results.experiment.cases):
         method = str(case["method"])

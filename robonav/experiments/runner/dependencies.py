@@ -1,4 +1,4 @@
-"""The code that a run depends on, and its digest: a kept run is used again only while that code is the same."""
+"""The code that a run depends on, and its digest. A kept run is used again only as long as that code is the same."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ PACKAGE = Path(__file__).parents[2]
 
 
 def code_digest(run: Callable[..., Any]) -> str:
-    """SHA-256 of the files of this package that a function's module imports, directly or through others.
+    """Return the SHA-256 of the files of this package that a function's module imports, directly or through others.
 
-    A function from outside the package, such as a reader's own, may use any part of it: then all files count.
+    A function outside the package, such as a reader's own, may use any part of it, so its digest includes all files.
     """
     while isinstance(run, partial):
         run = run.func
@@ -34,7 +34,7 @@ def _digest_of(module: str) -> str:
 
 
 def dependencies(path: Path | None) -> set[Path]:
-    """A file of the package with all files of the package that it imports, and the TOML files beside them."""
+    """Return a file of the package with all files of the package that it imports, and the TOML files next to them."""
     found: set[Path] = set()
     waiting = [path]
     while waiting:
@@ -47,9 +47,9 @@ def dependencies(path: Path | None) -> set[Path]:
 
 
 def _imports(path: Path) -> Iterator[str]:
-    """The names that a file imports, as ``robonav.robot.rollout`` or ``robonav.robot.rollout.navigate``.
+    """Return the names that a file imports, as ``robonav.robot.rollout`` or ``robonav.robot.rollout.navigate``.
 
-    Imports inside functions count as well.
+    Imports inside functions are included.
     """
     package = ("robonav", *path.relative_to(PACKAGE).parts[:-1])
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
@@ -63,7 +63,7 @@ def _imports(path: Path) -> Iterator[str]:
 
 
 def _file_of(name: str) -> Path | None:
-    """The file of a module of this package; None for any other name."""
+    """Return the file of a module of this package, or None for any other name."""
     root, *parts = name.split(".")
     if root != "robonav" or not parts:
         return None

@@ -1,4 +1,4 @@
-"""An experiment as data: what it varies, how often it runs, what it computes, and what the thesis reports."""
+"""An experiment as data: its cases, its runs, the numbers that it computes, and those that the thesis reports."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Case = Mapping[str, str | float | int]
-"""One setting of what an experiment varies, such as ``{"method": "nnql", "obstacles": 10}``."""
+"""The settings of one case of an experiment, such as ``{"method": "nnql", "obstacles": 10}``."""
 
 Numbers = Mapping[str, ArrayLike]
-"""What one run measures, by metric: one number, or one number a step (T,)."""
+"""The numbers of one run by metric: one number, or one number for each step (T,)."""
 
 Row = tuple[int, int, str, int, float]
 """One number of a run: case (its place), seed, metric, step, value."""
@@ -54,7 +54,7 @@ class Plot:
 SUCCESS_BARS = Plot(
     "experiments.draw_bars", metric="success", label="episodes that arrive (%)"
 )
-"""A bar a case with the share of episodes that arrive: the figure of most experiments."""
+"""One bar for each case with the share of episodes that arrive: the figure of most experiments."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,22 +68,22 @@ class Experiment:
     title : str
         One line.
     cases : sequence of mappings
-        What the experiment varies. All cases have the same keys.
+        The settings that the experiment varies. All cases have the same keys.
     run : callable
         ``run(case, seed, scale)`` returns numbers by metric: one number, or one number a step (T,). The numbers must
         depend on these three arguments alone.
     seeds : mapping
-        The number of runs of each case at each scale: "quick" takes less than a minute in all, "thesis" has the
-        thesis's number of runs or more.
+        The number of runs of each case at each scale. The scale "quick" takes less than a minute for all cases. The
+        scale "thesis" has at least as many runs as the thesis.
     thesis : mapping
-        What the thesis reports: metric to one number a case, None where it has none.
+        The numbers that the thesis reports: for each metric one number for each case, or None where it has none.
     settings : mapping
-        What else a reader needs to know. It is written beside the results.
+        Other settings that a reader needs to know. They are written to the file of the results.
     shortened : str
-        What a quick run leaves out of the training. The numbers of a shortened quick run say nothing about those at the
-        thesis's scale. With the empty string a quick run only has fewer seeds and fewer navigations.
+        How a quick run shortens the training. The numbers of such a run cannot be compared with those at the thesis's
+        scale. If the string is empty, a quick run only has fewer seeds and fewer navigations.
     plot : Plot or str
-        How results are drawn, or the reason why there is no figure.
+        The function that draws the results, or the reason why there is no figure.
 
     Examples
     --------
@@ -162,40 +162,40 @@ class Results:
     def from_rows(
         cls, experiment: Experiment, scale: str, rows: Iterable[Row]
     ) -> Results:
-        """Results from rows such as :func:`rows_of` gives."""
+        """Make results from rows, which :func:`rows_of` returns."""
         import pandas as pd
 
         return cls(experiment, scale, pd.DataFrame(list(rows), columns=list(COLUMNS)))
 
     @cached_property
     def _tables(self) -> dict[tuple[int, str], NDArray[np.float64]]:
-        """For each case and metric one row a seed, one column a step."""
+        """Return one table for each case and metric: one row for each seed, one column for each step."""
         return {
             key: group.pivot(index="seed", columns="step", values="value").to_numpy()
             for key, group in self.frame.groupby(["case", "metric"], sort=False)
         }
 
     def metrics(self, case: int) -> list[str]:
-        """The metrics of a case, sorted by name."""
+        """Return the metrics of a case, sorted by name."""
         return sorted(metric for place, metric in self._tables if place == case)
 
     def scalars(self, case: int) -> list[str]:
-        """The metrics of a case that have one number a run."""
+        """Return the metrics of a case that have one number in each run."""
         return [m for m in self.metrics(case) if self._tables[case, m].shape[1] == 1]
 
     def values(self, metric: str, case: int) -> NDArray[np.float64]:
-        """One row a seed: (S,) of a metric with one number a run, (S, T) of one with a number a step."""
+        """Return one row for each seed: (S,) for a metric with one number, (S, T) for one with numbers of T steps."""
         check_one_of("metric", metric, dict.fromkeys(self.metrics(case)))
         table = self._tables[case, metric]
         return table[:, 0] if table.shape[1] == 1 else table
 
     def summary(self, metric: str, case: int) -> Summary:
-        """Mean, interval and the rest over the seeds of a case."""
+        """Return the statistics over the seeds of a case."""
         return summarise(self.values(metric, case))
 
 
 def rows_of(case: int, seed: int, numbers: Numbers) -> list[Row]:
-    """Numbers of one run as rows; ValueError for one that is neither a number nor a list of finite numbers."""
+    """Return the numbers of one run as rows. Raise a ValueError for values that are not finite numbers."""
     rows: list[Row] = []
     for metric in sorted(numbers):
         series = check_array(

@@ -12,7 +12,7 @@ from .statistics import Summary
 
 
 def as_text(results: Results) -> str:
-    """Title and one line for each case and metric: mean, interval, worst and best, the thesis's number beside it."""
+    """Return a title, and one line for each case and metric: mean, interval, worst, best, and the thesis's number."""
     experiment = results.experiment
     seeds = experiment.seeds[results.scale]
     heading = [results.scale, "1 run a case" if seeds == 1 else f"{seeds} runs a case"]
@@ -30,7 +30,7 @@ def as_text(results: Results) -> str:
 
 
 def as_table(results: Results, metric: str, *, rows: str, columns: str) -> str:
-    """A Markdown table of a metric's mean and interval: a line for each value of ``rows``, a column of ``columns``."""
+    """Return a Markdown table of mean and interval of a metric, with one line for each value of ``rows``."""
     import pandas as pd
 
     cells = pd.DataFrame(
@@ -47,7 +47,10 @@ def as_table(results: Results, metric: str, *, rows: str, columns: str) -> str:
 
 
 def as_markdown(results: Results, metrics: Sequence[str]) -> str:
-    """A Markdown table, a line for each case: what varies, each metric's mean and interval, the thesis's numbers."""
+    """Return a Markdown table with one line for each case.
+
+    A line has the settings of the case, mean and interval of each metric, and the thesis's numbers.
+    """
     import pandas as pd
 
     experiment = results.experiment
@@ -65,13 +68,13 @@ def as_markdown(results: Results, metrics: Sequence[str]) -> str:
 
 
 def thesis_number(results: Results, metric: str, case: int) -> float | None:
-    """What the thesis reports for a metric of a case; None if it reports nothing."""
+    """Return the number that the thesis reports for a metric of a case, or None."""
     numbers = results.experiment.thesis.get(metric)
     return None if numbers is None else numbers[case]
 
 
 def number_of_runs(results: Results) -> str:
-    """How many runs a table rests on, in a sentence."""
+    """Return a sentence with the number of runs of each case."""
     runs = results.experiment.seeds[results.scale]
     return (
         "One run a case."
@@ -81,7 +84,7 @@ def number_of_runs(results: Results) -> str:
 
 
 def short(summary: Summary) -> str:
-    """Mean and interval in few characters: ``97.3 [96.8, 97.7]``."""
+    """Return mean and interval in few characters: ``97.3 [96.8, 97.7]``."""
     digits = 1 if abs(summary.mean) >= 10 else 2 if abs(summary.mean) >= 1 else 3
     interval = (
         ""
@@ -92,7 +95,7 @@ def short(summary: Summary) -> str:
 
 
 def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
-    """Every experiment with its cases, each metric's summary and the thesis's number; NaN becomes null."""
+    """Return every experiment with its cases, each metric's statistics and the thesis's number. NaN becomes null."""
     return [
         {
             "name": results.experiment.name,
@@ -118,7 +121,7 @@ def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
 
 
 def _cells(results: Results, metric: str) -> list[str]:
-    """A metric's mean and interval for every case; the empty string for a case without it."""
+    """Return mean and interval of a metric for every case, and the empty string for a case without it."""
     return [
         short(results.summary(metric, place)) if metric in results.scalars(place) else ""
         for place in range(len(results.experiment.cases))
@@ -126,7 +129,7 @@ def _cells(results: Results, metric: str) -> list[str]:
 
 
 def _markdown(table: Any) -> str:
-    """A data frame of text as a Markdown table."""
+    """Return a data frame of text as a Markdown table."""
     text: str = table.to_markdown(index=False, tablefmt="pipe", disable_numparse=True)
     return text
 

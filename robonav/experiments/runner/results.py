@@ -1,6 +1,6 @@
-"""Runs and results in files: a finished run is kept, whatever happens to the next one.
+"""Files of runs and results. Each run is saved when it is finished.
 
-A run is a small JSON file with a checksum of its numbers. A file that does not fit its checksum is not used.
+A run is a small JSON file with a checksum of its numbers. A file with a wrong checksum is not used.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ FORMAT = "robonav results 1"
 
 
 def check_writable(name: str, folder: str | Path) -> None:
-    """Make the folder if need be; ValueError, naming the argument, if nothing can be written in it."""
+    """Make the folder if it does not exist. Raise a ValueError with the name of the argument if it is not writable."""
     try:
         Path(folder).mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -47,7 +47,7 @@ def check_writable(name: str, folder: str | Path) -> None:
 def run_file(
     folder: Path, experiment: Experiment, scale: str, case: int, seed: int
 ) -> Path:
-    """The file of one run. Its name holds the :func:`cache_key`, so other code or settings make another file."""
+    """Return the file of one run. Its name contains the :func:`cache_key`, which depends on code and settings."""
     runs = folder / ".runs" / experiment.name / f"{scale}-{cache_key(experiment)}"
     return runs / f"{case}-{seed}.json"
 
@@ -61,7 +61,7 @@ def save_run(path: Path, rows: Iterable[Row], seconds: float) -> None:
 
 
 def load_run(path: Path) -> tuple[list[Row], float] | None:
-    """The rows of a finished run and its seconds; None if there is no file, or it is damaged."""
+    """Return the rows of a finished run and its seconds, or None if there is no file or it is damaged."""
     try:
         content = json.loads(path.read_text())
         if content["sha256"] != _digest(content["rows"]):
@@ -76,7 +76,7 @@ def load_run(path: Path) -> tuple[list[Row], float] | None:
 
 
 def save_results(folder: str | Path, results: Results) -> None:
-    """Write ``NAME.csv``, one number a line, and ``NAME.json``, which says how it was made.
+    """Write ``NAME.csv``, with one number in each line, and ``NAME.json``, which describes how it was made.
 
     Parameters
     ----------
@@ -113,21 +113,21 @@ def save_results(folder: str | Path, results: Results) -> None:
 
 
 def load_results(name: str, folder: str | Path = RESULTS) -> pd.DataFrame:
-    """All numbers of an experiment as a tidy table.
+    """Read all numbers of an experiment as a tidy table.
 
     Parameters
     ----------
     name : str
         The name of an experiment, such as ``table-4.3``.
     folder : str or Path
-        Where :func:`reproduce` wrote; by default the committed results at the thesis's scale.
+        The folder to which :func:`reproduce` wrote; by default that of the committed results at the thesis's scale.
 
     Returns
     -------
     pandas.DataFrame
-        One number a line. The first columns say what the experiment varies (``method``, ``obstacles``, ...). The last
-        four are ``seed`` (the run), ``metric`` (such as ``success``, in per cent), ``step`` (place in a curve, 0 for a
-        single number) and ``value``.
+        One number in each line. The first columns are the settings that the experiment varies (``method``,
+        ``obstacles``, ...). The last four are ``seed`` (the run), ``metric`` (such as ``success``, in per cent),
+        ``step`` (the position in a curve, 0 for a single number) and ``value``.
 
     Raises
     ------
@@ -172,14 +172,14 @@ def load_results(name: str, folder: str | Path = RESULTS) -> pd.DataFrame:
 
 
 def read_results(experiment: Experiment | str, folder: str | Path = RESULTS) -> Results:
-    """Results with their experiment, for plots and reports.
+    """Read results together with their experiment, for plots and reports.
 
     Parameters
     ----------
     experiment : Experiment or str
         The experiment, or its name.
     folder : str or Path
-        As in :func:`load_results`.
+        The folder of the results, as in :func:`load_results`.
 
     Returns
     -------
@@ -189,7 +189,7 @@ def read_results(experiment: Experiment | str, folder: str | Path = RESULTS) -> 
     Raises
     ------
     FileNotFoundError
-        If there are no results.
+        If the folder has no results of the experiment.
     ValueError
         If a file is damaged, or belongs to another experiment or to other cases.
 
@@ -222,7 +222,7 @@ def read_results(experiment: Experiment | str, folder: str | Path = RESULTS) -> 
 
 
 def _tidy(results: Results) -> pd.DataFrame:
-    """The table that is written: what the cases vary in the place of their numbers."""
+    """Return the table that is written, where each case's settings replace its number."""
     import pandas as pd
 
     frame, cases = results.frame, results.experiment.cases
@@ -236,14 +236,14 @@ def _tidy(results: Results) -> pd.DataFrame:
 def save_timing(
     folder: Path, experiment: Experiment, spent: Mapping[str, float]
 ) -> None:
-    """Write ``NAME.machine.json``: the times and the machine, which another run will not repeat."""
+    """Write ``NAME.machine.json``: the times and the machine, which differ from run to run."""
     with atomic.atomic_write(folder / f"{experiment.name}.machine.json") as file:
         content = json.dumps(machine() | dict(spent), indent=2, sort_keys=True)
         file.write((content + "\n").encode())
 
 
 def machine() -> dict[str, Any]:
-    """What this process runs on: processor, cores it may use, system, and the libraries that compute."""
+    """Return a description of the machine: processor, available cores, system, and versions of libraries."""
     told = Path("/proc/cpuinfo").read_text() if sys.platform == "linux" else ""
     named = re.search(r"model name\s*: (.+)", told)
     return {
@@ -262,7 +262,7 @@ def machine() -> dict[str, Any]:
 
 
 def cache_key(experiment: Experiment) -> str:
-    """Key of an experiment's kept runs: a digest of the code that its runs use, of its cases and of its settings."""
+    """Return the key of an experiment's kept runs: a digest of the code of its runs, its cases and its settings."""
     cases = [dict(case) for case in experiment.cases]
     return _digest(
         [code_digest(experiment.run), cases, dict(experiment.settings)],

@@ -14,12 +14,12 @@ from robonav import atomic
 
 @dataclass(frozen=True)
 class Settings(Mapping[str, Any]):
-    """A mapping that never changes and can be a key, so that a training is kept by its hyperparameters.
+    """An immutable mapping that can be a key, so that a training is kept under its hyperparameters.
 
     Parameters
     ----------
     items_ : tuple of pairs
-        Name and value, sorted by name.
+        Pairs of name and value, sorted by name.
 
     Examples
     --------
@@ -32,7 +32,7 @@ class Settings(Mapping[str, Any]):
 
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> Settings:
-        """Settings from a mapping such as TOML or JSON gives; lists become tuples."""
+        """Make settings from a mapping, such as one read from TOML or JSON. Lists become tuples."""
         return cls(tuple(sorted((name, _frozen(v)) for name, v in values.items())))
 
     def __getitem__(self, name: str) -> Any:
@@ -48,12 +48,12 @@ class Settings(Mapping[str, Any]):
         return Settings.of(dict(self.items_) | dict(changes))
 
     def as_json(self) -> str:
-        """The settings as one line of text."""
+        """Return the settings as one line of text."""
         return json.dumps(dict(self.items_), sort_keys=True)
 
 
 def read_settings(path: Path) -> dict[str, Any]:
-    """The tables of a TOML file."""
+    """Read the tables of a TOML file."""
     with path.open("rb") as file:
         return tomllib.load(file)
 

@@ -1,4 +1,4 @@
-"""The conditions that all experiments of a chapter share: worlds to test and to tune in, speed, navigations."""
+"""The conditions that all experiments of a chapter share: worlds for tests and tuning, speed, navigations."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from robonav.robot import Policy, Worlds, navigate, random_worlds
 
 @dataclass(frozen=True, eq=False)
 class Setup:
-    """How policies of a chapter are tested.
+    """The conditions under which the policies of a chapter are tested.
 
     Parameters
     ----------
     obstacles : int
         The number of standing obstacles.
     speed : float
-        Metres a second.
+        Metres per second.
     max_steps : int
-        An episode that takes longer has failed.
+        The largest number of steps. A longer episode has failed.
     navigations : mapping
-        The number of worlds that a run is tested in, by scale.
+        The number of worlds in which a run is tested, by scale.
     test_seed : int
-        Run k is tested in the worlds of this seed + k.
+        Run k is tested in the worlds of the seed ``test_seed`` + k.
     tuning_seed : int
-        Worlds for tuning have this seed + k. They never meet those for testing.
+        Worlds for tuning have the seed ``tuning_seed`` + k. They differ from all worlds for tests.
     ends : mapping
-        Starts and targets of the worlds, where they are not the usual ones.
+        The starts and targets of the worlds; by default the usual ones.
     """
 
     obstacles: int
@@ -43,7 +43,7 @@ class Setup:
     def worlds(
         self, n: int, seed: int, obstacles: int | None = None, moving: int = 0
     ) -> Worlds:
-        """Random worlds with the chapter's obstacles, starts and targets."""
+        """Return random worlds with the chapter's obstacles, starts and targets."""
         standing = self.obstacles if obstacles is None else obstacles
         ends: dict[str, Any] = dict(self.ends)
         return random_worlds(n, standing, moving, seed=seed, **ends)
@@ -51,17 +51,17 @@ class Setup:
     def test_worlds(
         self, seed: int, scale: str, obstacles: int | None = None, moving: int = 0
     ) -> Worlds:
-        """The worlds that run ``seed`` is tested in."""
+        """Return the worlds in which run ``seed`` is tested."""
         n = self.navigations[scale]
         return self.worlds(n, self.test_seed + seed, obstacles, moving)
 
     def tuning_worlds(self, seed: int, n: int) -> Worlds:
-        """Worlds to tune in or to choose by."""
+        """Return worlds for tuning, or for choosing among policies."""
         return self.worlds(n, self.tuning_seed + seed)
 
     def evaluate(
         self, policy: Policy, worlds: Worlds, speed: float | None = None
     ) -> dict[str, float]:
-        """Outcome rates of a policy, one episode in each world, in per cent."""
+        """Return the outcome rates of a policy in per cent, from one episode in each world."""
         at = self.speed if speed is None else speed
         return outcome_rates(navigate(policy, worlds, at, self.max_steps))

@@ -20,7 +20,7 @@ LEVEL = 0.95
 
 @dataclass(frozen=True)
 class Summary:
-    """Statistics of one number a seed.
+    """Statistics of a number over seeds.
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class Summary:
     mean, deviation : float
         Mean and sample standard deviation.
     low, high : float
-        Bounds of the mean with 95 % confidence, see :func:`bootstrap_interval`.
+        The bounds of the 95 % interval of the mean, see :func:`bootstrap_interval`.
     best, worst : float
         The greatest and the least number.
     interquartile_mean : float
@@ -52,18 +52,18 @@ class Summary:
 
 
 def summarise(values: ArrayLike) -> Summary:
-    """Summarise one number a seed.
+    """Compute the statistics of a number over seeds.
 
     Parameters
     ----------
     values : (S,) array
-        One number a seed.
+        One number for each seed.
 
     Returns
     -------
     Summary
-        The interval has a fixed seed of its own, so the same numbers give the same interval. With one seed there is no
-        interval and no deviation: they are NaN.
+        The statistics. The bootstrap has a fixed seed, so equal numbers give equal intervals. With one seed, interval
+        and deviation are NaN.
 
     Raises
     ------
@@ -91,17 +91,17 @@ def summarise(values: ArrayLike) -> Summary:
 
 
 def bootstrap_interval(values: ArrayLike) -> tuple[float, float]:
-    """Bounds of the mean over seeds with 95 % confidence.
+    """Return the bounds of the 95 % interval of the mean over seeds.
 
     Parameters
     ----------
     values : (S,) array
-        One number a seed.
+        One number for each seed.
 
     Returns
     -------
     tuple of two floats
-        The 2.5 and 97.5 percentiles of the means of 10,000 resamples of the seeds. NaN with one seed.
+        The 2.5 and 97.5 percentiles of the means of 10,000 resamples of the seeds, or NaN for one seed.
 
     Examples
     --------
@@ -121,14 +121,14 @@ def bootstrap_interval(values: ArrayLike) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Improvement:
-    """How likely a run of one method is better than a run of another.
+    """The probability that a run of one method is better than a run of another.
 
     Attributes
     ----------
     probability : float
-        Of a better run.
+        The probability.
     low, high : float
-        Its bounds with 95 % confidence.
+        The bounds of its 95 % interval.
 
     Examples
     --------
@@ -145,20 +145,20 @@ class Improvement:
 
 
 def probability_of_improvement(ours: ArrayLike, theirs: ArrayLike) -> Improvement:
-    """How likely a run of one method is better than a run of another; a tie counts half.
+    """Return the probability that a run of one method is better than a run of another. A tie counts half.
 
     Parameters
     ----------
     ours : (S,) array
-        One number a run of the first method.
+        One number for each run of the first method.
     theirs : (R,) array
-        One number a run of the second method.
+        One number for each run of the second method.
 
     Returns
     -------
     Improvement
-        Its interval is a percentile bootstrap that resamples the runs of both methods. With one run of a method it is
-        NaN.
+        The probability and its interval, from a percentile bootstrap that resamples the runs of both methods. The
+        interval is NaN if a method has only one run.
 
     Raises
     ------
@@ -185,7 +185,7 @@ def probability_of_improvement(ours: ArrayLike, theirs: ArrayLike) -> Improvemen
 
 
 def _middle(resampled: NDArray[np.float64]) -> tuple[float, float]:
-    """The bounds of the middle 95 % of resampled numbers."""
+    """Return the bounds of the middle 95 % of resampled numbers."""
     low, high = np.quantile(resampled, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
     return float(low), float(high)
 
