@@ -7,13 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from robonav.experiments.chapter4.ablations import (
+    GETTING_SAFE,
+    STAYING_COZY,
+    STAYING_DANGEROUS,
+)
+
 from .q_learning_lab import Preset
 from .q_learning_settings import QLearningSettings
 
 TABLE_4_1 = QLearningSettings().rewards
 ARRIVAL_AND_COLLISION = (1.0, -1.0, *[0.0] * (len(TABLE_4_1) - 2))
-GETTING_SAFE, STAYING_COZY, STAYING_DANGEROUS = 2, 6, 9
-"""Rows of Table 4.1: into a safe state, and evading in a cozy and in a dangerous one."""
 
 
 def _rewards(changes: Mapping[int, float]) -> tuple[float, ...]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.experiments.chapter4.ablations import RawNumbers
+from robonav.experiments.chapter4.ablations import EVADING, RawNumbers
 from robonav.nnql import NavigationTask, reward_row
 from robonav.nnql.reward import REWARDS
 from robonav.robot import NNQL_SENSORS, TARGET_ENCODINGS, Encoder, Sensing
@@ -24,9 +24,6 @@ from robonav.validation import (
 
 INPUTS = (*TARGET_ENCODINGS, "raw")
 """What the network reads: an encoding of the target's sector, or the numbers of Eq. (4.5) as they are."""
-
-EVADING = (6, 9)
-"""Rows of Table 4.1 that reward a robot for staying away from things."""
 
 
 @dataclass(frozen=True)
@@ -106,8 +103,8 @@ class QLearningSettings:
             before: Sensing, after: Sensing, outcome: NDArray[np.int8]
         ) -> NDArray[np.float64]:
             row = reward_row(before, after, outcome)
-            nearer = after.ranges.min(axis=1) <= before.ranges.min(axis=1)
-            unpaid = self.must_move_away & nearer & np.isin(row, EVADING)
+            farther = after.ranges.min(axis=1) > before.ranges.min(axis=1)
+            unpaid = self.must_move_away & np.isin(row, EVADING) & ~farther
             return np.where(unpaid, 0.0, rewards[row])
 
         return reward

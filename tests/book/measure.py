@@ -1,4 +1,4 @@
-"""How heavy and how quick the built pages are, and how smoothly the playground runs.
+"""How heavy and how quick the built pages are, how smoothly the playground runs, how fast a robot learns in the page.
 
 Usage: python tests/book/measure.py [PAGE ...]      (all pages of the book when none is named)
 
@@ -23,6 +23,19 @@ FRAMES = """() => new Promise((done) => {
   const times = [];
   const tick = (now) => (times.push(now) < 181 ? requestAnimationFrame(tick) : done(times));
   requestAnimationFrame(tick);
+})"""
+
+LEARN = """(lab) => new Promise((done) => {
+  const [began, status] = [performance.now(), lab.querySelector(".training .status")];
+  let [last, longest] = [began, 0];
+  const tick = () => {
+    const now = performance.now();
+    [longest, last] = [Math.max(longest, now - last), now];
+    if (status.textContent.startsWith("Done")) done([(now - began) / 1000, longest]);
+    else setTimeout(tick);
+  };
+  lab.querySelector(".training button").click();
+  setTimeout(tick);
 })"""
 
 
@@ -54,6 +67,14 @@ def frames_a_second(address: str) -> tuple[float, float]:
     return 1000 * len(gaps) / sum(gaps), 1000 / gaps[int(0.99 * len(gaps))]
 
 
+def learning(address: str) -> tuple[float, float]:
+    """Seconds of 300 episodes of NNQL and 100 new maps, and the longest the page meanwhile answers nothing, in ms."""
+    with chromium(viewport=DESKTOP) as context, visiting(context) as visit:
+        visit.open(f"{address}/book/nnql.html")
+        seconds, silence = visit.page.locator(".q-learning-lab").evaluate(LEARN)
+        return seconds, silence
+
+
 def main() -> None:
     listed = sys.argv[1:] or list(
         pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8")))
@@ -78,6 +99,12 @@ def main() -> None:
             mean, slowest = frames_a_second(address)
             print(
                 f"playground, 30 obstacles: {mean:.0f} frames a second, 99 in 100 at {slowest:.0f} or more"
+            )
+        if "book/nnql" in listed:
+            seconds, silence = learning(address)
+            print(
+                f"NNQL, 300 episodes and 100 new maps: {seconds:.1f} s of 5; "
+                f"the page answers after {silence:.0f} ms of 100 at most"
             )
     whole = sum(path.stat().st_size for path in SITE.rglob("*") if path.is_file())
     print(f"whole site: {whole / 1e6:.1f} MB of {WHOLE_SITE / 1e6:.0f}")

@@ -9,6 +9,8 @@ import pytest
 from jupyter_client.blocking import BlockingKernelClient
 from jupyter_client.manager import start_new_kernel
 
+from robonav.widgets.q_learning_settings import QLearningSettings
+
 PATIENCE = 300  # seconds
 
 MAKE = """
@@ -128,3 +130,20 @@ def test_a_run_is_trained(kernel, rate):
     assert answers[-1] == {"ended": "done"}
     assert answers[-2]["done"] == answers[-2]["total"] == 3
     asker.ask(trainings, {"ask": "kernel"}, "kernel")  # it is still listening
+
+
+def test_robots_learn_from_a_reward(kernel):
+    asker, _ = kernel
+    lab = asker.run(
+        "from robonav.widgets.q_learning_lab import q_learning_lab\n"
+        "learning = q_learning_lab()\n"
+        "print(learning.comm.comm_id)"
+    ).strip()
+    settings = QLearningSettings(episodes=20, obstacles=4).for_page()
+    question = {"ask": "train", "run": 7, "settings": settings, "robots": 2}
+    *told, last = asker.ask(lab, question, "ended")
+    assert [answer["live"]["at"] for answer in told if "live" in answer] == [1, 2]
+    assert told[-1]["done"] == told[-1]["total"] == 40
+    assert last["run"] == 7
+    assert last["ended"].startswith("2 robots cross ")
+    assert asker.run("print(len(learning.trainings))").strip() == "2"
