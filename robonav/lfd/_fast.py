@@ -1,10 +1,10 @@
-"""The compiled twins of :mod:`robonav.lfd.astar`: the two searches of section 3.5.
+"""The compiled twins of the two searches in :mod:`robonav.lfd.astar` (section 3.5).
 
-They return the same paths as the readable functions and expand the same nodes in the same order. Nodes are whole
-numbers here, and tables take the place of sets and dictionaries.
+They return the same paths as the readable functions, and expand the same nodes in the same order. A node is a whole
+number here, the index into arrays that hold G, the parent and the position of each node.
 
-
-Shapes: M obstacle slots. Metres, radians counter-clockwise. Kernels are serial and release the GIL.
+Lengths are in metres, angles in radians counter-clockwise. A world has M slots for obstacles. The functions use one
+core and release the GIL.
 """
 
 from __future__ import annotations
@@ -24,12 +24,10 @@ from robonav.robot._fast import (
 )
 
 HEADINGS = 12  # a heading changes by multiples of 30 degrees
-ACTION_TURNS = np.array(
-    [0, 1, 2, -1, -2]
-)  # what F, L30, L60, R30, R60 add, in steps of 30 degrees
-CLOSE_ENOUGH = (
-    ARRIVAL_DISTANCE - 2e-6
-)  # the simulator rounds to a micrometre; what we call arrived, it does too
+# Turns of F, L30, L60, R30 and R60 in multiples of 30 degrees.
+ACTION_TURNS = np.array([0, 1, 2, -1, -2])
+# The simulator rounds to a micrometre. At this distance it, too, counts a robot as arrived.
+CLOSE_ENOUGH = ARRIVAL_DISTANCE - 2e-6
 NONE = -1
 
 compiled = compiler(constants, geometry)
@@ -51,10 +49,11 @@ def search_actions(
     record,
     visited,
 ):
-    """Search in one world as :func:`robonav.lfd.astar.modified_astar` does, its compiled twin.
+    """Modified A* in one world: the compiled twin of :func:`robonav.lfd.astar.modified_astar`.
 
     Node ``(column * cells + row) * HEADINGS + heading`` stands for the poses of one heading in one cell. The clearance
-    of a cell is computed once, when it is first needed, and where it is large no step into the cell is checked.
+    at the middle of a cell is computed when it is first needed. Where it is large, steps that end in the cell are safe
+    and are not checked.
 
     Parameters
     ----------
@@ -63,7 +62,7 @@ def search_actions(
     pose : (3,) array
         x, y and heading to start from.
     target : (2,) array
-        Where to go.
+        x and y.
     speed, margin, caution, cell : float
         See :func:`robonav.lfd.plan`.
     limit : int
@@ -96,15 +95,10 @@ def search_actions(
             speed * math.cos(heading),
             speed * math.sin(heading),
         )
-    far_enough = (
-        margin + speed + cell
-    )  # clearance of a square, beyond which no step that ends there is too near
-    most = (
-        SENSOR_RANGE if caution > 0.0 else far_enough
-    )  # a larger clearance makes no difference
-    clear = np.full(
-        cells * cells, -1.0
-    )  # at the middle of each square, worked out when first needed
+    # With this clearance at the middle of a square, every step that ends there is safe.
+    far_enough = margin + speed + cell
+    most = SENSOR_RANGE if caution > 0.0 else far_enough  # clearances are cut off here
+    clear = np.full(cells * cells, -1.0)  # of each square; -1: not computed yet
 
     start = (
         min(int(pose[0] / cell), cells - 1) * cells
@@ -119,7 +113,7 @@ def search_actions(
     rest = math.hypot(target[0] - pose[0], target[1] - pose[1])
     queue = [
         (rest, rest, start)
-    ]  # F, then H: of nodes as good as each other, the one nearest to the target
+    ]  # F, then H: of equal F, the node nearest to the target
     reached, expanded = NONE, 0
     while len(queue) > 0 and expanded < limit:
         node = heapq.heappop(queue)[2]
@@ -156,9 +150,9 @@ def search_actions(
                 tentative += speed * caution * (1.0 - clear[square] / most) ** 2
             if costs[neighbour] <= tentative:
                 continue
-            sure = clear[square] >= far_enough
+            safe = clear[square] >= far_enough
             if (
-                not sure
+                not safe
                 and swept_clearance(
                     kinds, shapes, centres, centres, size, x, y, x1, y1, margin
                 )
@@ -207,7 +201,7 @@ def _path(positions, parents, last, heading):
 def search_grid(
     kinds, shapes, centres, size, start, target, margin, cell, record, visited
 ):
-    """Search in one world as :func:`robonav.lfd.astar.grid_astar` does, its compiled twin.
+    """A* on a grid in one world: the compiled twin of :func:`robonav.lfd.astar.grid_astar`.
 
     Node ``column * rows + row`` stands for a point of the grid.
 

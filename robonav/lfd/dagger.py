@@ -146,9 +146,10 @@ def dagger(
     for i, worlds in enumerate(rounds, start=1):
         simulator = Simulator(worlds, demonstrations.speed, max_steps=max_steps)
         rng = np.random.default_rng(seeds[i].episodes)
+        # Roll out the mixture, and label the states visited with the expert's actions.
         visited = labelled_rollout(simulator, policies[-1], expert, betas[i], rng)
         datasets.append(concatenate([datasets[-1], visited]))  # aggregate
-        policies.append(train(datasets[-1], seeds[i].weights))
+        policies.append(train(datasets[-1], seeds[i].weights))  # train
         if progress is not None:
             progress(i, len(rounds))
     return DaggerResult(tuple(policies), tuple(datasets))
@@ -303,4 +304,6 @@ def round_seeds(seed: int | ArrayLike, rounds: int) -> list[RoundSeeds]:
         pairs = sequence.generate_state(2 * (rounds + 1)).reshape(-1, 2)
     else:
         pairs = check_array("seed", seed, shape=(rounds + 1, 2), dtype=np.int64)
+        if pairs.min() < 0:
+            raise ValueError(f"seed must hold numbers from 0 on, got {pairs.min()}")
     return [RoundSeeds(weights, episodes) for weights, episodes in pairs.tolist()]

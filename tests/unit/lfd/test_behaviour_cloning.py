@@ -19,23 +19,23 @@ from robonav.robot import Encoder, Sensing, lfd_state, navigate, random_worlds, 
 
 
 @pytest.fixture(scope="module")
-def shown():
+def demonstrations():
     return demonstrate(random_worlds(25, 10, seed=41))
 
 
 @pytest.fixture(scope="module")
-def policy(shown):
-    return learn_policy(shown, seed=1)
+def policy(demonstrations):
+    return learn_policy(demonstrations, seed=1)
 
 
-def test_examples_are_the_effective_pairs(shown):
-    x, y = labelled_states(shown, Encoder(target="number"))
-    assert x.shape == (len(shown.effective), 11)
+def test_examples_are_the_effective_pairs(demonstrations):
+    x, y = labelled_states(demonstrations, Encoder(target="number"))
+    assert x.shape == (len(demonstrations.effective), 11)
     assert np.allclose(
-        x * np.array([7] * 9 + [9, 1]), lfd_state(shown.effective.sensing)
+        x * np.array([7] * 9 + [9, 1]), lfd_state(demonstrations.effective.sensing)
     )
     assert (y.sum(axis=1) == 1).all()
-    assert np.array_equal(y.argmax(axis=1), shown.effective.actions)
+    assert np.array_equal(y.argmax(axis=1), demonstrations.effective.actions)
 
 
 def test_learning_beats_going_straight(policy):
@@ -48,8 +48,11 @@ def test_learning_beats_going_straight(policy):
     assert learned > yardstick + 0.3
 
 
-def test_a_policy_learned_twice_with_one_seed_is_equal(shown, policy):
-    again, other = learn_policy(shown, seed=1), learn_policy(shown, seed=2)
+def test_a_policy_learned_twice_with_one_seed_is_equal(demonstrations, policy):
+    again, other = (
+        learn_policy(demonstrations, seed=1),
+        learn_policy(demonstrations, seed=2),
+    )
     for mine, same, different in zip(
         policy.network.weights,
         again.network.weights,
@@ -60,14 +63,14 @@ def test_a_policy_learned_twice_with_one_seed_is_equal(shown, policy):
         assert not np.array_equal(mine, different)
 
 
-def test_the_thesis_network(shown):
+def test_the_thesis_network(demonstrations):
     assert learn_policy(
-        shown, iterations=2, encoder=Encoder(target="number")
+        demonstrations, iterations=2, encoder=Encoder(target="number")
     ).network.sizes == (11, 8, 5)
 
 
-def test_strongest_output_is_taken(policy, shown):
-    sensing = shown.effective.sensing
+def test_strongest_output_is_taken(policy, demonstrations):
+    sensing = demonstrations.effective.sensing
     actions = policy(sensing, np.random.default_rng(0))
     assert np.array_equal(actions, policy.logits(sensing).argmax(axis=1))
     assert actions.dtype == np.int64
@@ -98,7 +101,12 @@ def test_nothing_to_learn_from():
 
 @pytest.mark.parametrize(
     "learn",
-    [labelled_states, learn_policy, learn_neighbours, lambda shown: dagger(shown, [])],
+    [
+        labelled_states,
+        learn_policy,
+        learn_neighbours,
+        lambda demonstrations: dagger(demonstrations, []),
+    ],
 )
 def test_only_demonstrations_are_learned_from(learn):
     with pytest.raises(
@@ -123,9 +131,9 @@ def test_only_demonstrations_are_learned_from(learn):
         ({"regularisation": -1}, ValueError, "regularisation must be at least 0"),
     ],
 )
-def test_wrong_arguments_get_a_sentence(shown, options, error, message):
+def test_wrong_arguments_get_a_sentence(demonstrations, options, error, message):
     with pytest.raises(error, match=message):
-        learn_policy(shown, **options)
+        learn_policy(demonstrations, **options)
 
 
 def test_wrong_types_at_the_other_doors(tmp_path):
@@ -141,7 +149,7 @@ def test_wrong_types_at_the_other_doors(tmp_path):
 
 
 def test_behaviour_cloning_and_learn_policy():
-    shown = demonstrate(random_worlds(3, 10, seed=4))
-    one = behaviour_cloning(shown, iterations=20, seed=5).network
-    other = learn_policy(shown, iterations=20, seed=5).network
+    demonstrations = demonstrate(random_worlds(3, 10, seed=4))
+    one = behaviour_cloning(demonstrations, iterations=20, seed=5).network
+    other = learn_policy(demonstrations, iterations=20, seed=5).network
     assert all(map(np.array_equal, one.weights, other.weights))

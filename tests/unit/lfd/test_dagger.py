@@ -27,7 +27,7 @@ from robonav.robot import (
 
 
 @pytest.fixture(scope="module")
-def shown():
+def demonstrations():
     return demonstrate(random_worlds(10, 20, seed=70))
 
 
@@ -69,21 +69,26 @@ def test_advice_is_the_first_action_of_a_plan_from_here(gone_straight):
         )
 
 
-def test_joined_sets(shown, gone_straight):
-    both = concatenate([shown, gone_straight])
-    assert len(both) == len(shown) + len(gone_straight)
-    assert both.lengths.tolist() == [*shown.lengths, *gone_straight.lengths]
-    back = both.select_trajectories(np.arange(len(shown.worlds), len(both.worlds)))
+def test_joined_sets(demonstrations, gone_straight):
+    both = concatenate([demonstrations, gone_straight])
+    assert len(both) == len(demonstrations) + len(gone_straight)
+    assert both.lengths.tolist() == [*demonstrations.lengths, *gone_straight.lengths]
+    back = both.select_trajectories(
+        np.arange(len(demonstrations.worlds), len(both.worlds))
+    )
     assert np.array_equal(back.poses, gone_straight.poses)
     assert np.array_equal(back.sensing.walls, gone_straight.sensing.walls)
     assert back.worlds.digest() == gone_straight.worlds.digest()
-    for sets in ([], [shown, demonstrate(random_worlds(1, 0, seed=1), speed=1.0)]):
+    for sets in (
+        [],
+        [demonstrations, demonstrate(random_worlds(1, 0, seed=1), speed=1.0)],
+    ):
         with pytest.raises(ValueError, match="sets must be at least one, of one speed"):
             concatenate(sets)
 
 
-def test_a_round_of_dagger_beats_cloning_little(shown):
-    few = shown.select_trajectories(range(3))
+def test_a_round_of_dagger_beats_cloning_little(demonstrations):
+    few = demonstrations.select_trajectories(range(3))
     unseen = random_worlds(300, 20, seed=73)
     gathered = dagger(few, [random_worlds(15, 20, seed=74)], seed=1, iterations=100)
     cloned, mended = (
@@ -95,7 +100,7 @@ def test_a_round_of_dagger_beats_cloning_little(shown):
     assert len(gathered.demonstrations[1]) > len(gathered.demonstrations[0]) == len(few)
 
 
-def test_each_round_adds_advice_on_its_own_worlds_to_everything_before(shown):
+def test_each_round_adds_advice_on_its_own_worlds_to_everything_before(demonstrations):
     begin = demonstrate(random_worlds(3, 20, seed=79), speed=1.5)
     rounds = [random_worlds(3, 20, seed=80), random_worlds(2, 20, seed=81)]
     seeds = [[2, 3], [4, 5], [6, 7]]
@@ -115,23 +120,23 @@ def test_each_round_adds_advice_on_its_own_worlds_to_everything_before(shown):
         )
 
 
-def test_dagger_asks_the_expert_it_is_given(shown):
+def test_dagger_asks_the_expert_it_is_given(demonstrations):
     def always_left(simulator, asked):
         return np.full(len(asked), 2)
 
     made = dagger(
-        shown,
+        demonstrations,
         [random_worlds(3, 20, seed=82)],
         expert=always_left,
         iterations=20,
     )
     added = made.demonstrations[1].select_trajectories(
-        np.arange(len(shown.worlds), len(shown.worlds) + 3)
+        np.arange(len(demonstrations.worlds), len(demonstrations.worlds) + 3)
     )
     assert set(added.effective.actions) == {2}
 
 
-def test_an_episode_that_is_stopped_early_gives_no_more_labels(shown):
+def test_an_episode_that_is_stopped_early_gives_no_more_labels(demonstrations):
     worlds = random_worlds(3, 20, seed=83)
     whole, cut = (
         collect_with_expert_labels(straight, worlds),
@@ -143,8 +148,8 @@ def test_an_episode_that_is_stopped_early_gives_no_more_labels(shown):
         [np.flatnonzero(whole.trajectory == number)[:7] for number in range(3)]
     )
     assert np.array_equal(cut.actions, whole.actions[first])
-    made = dagger(shown, [worlds], iterations=10, max_steps=7)
-    assert made.demonstrations[1].lengths[len(shown.worlds) :].max() <= 7
+    made = dagger(demonstrations, [worlds], iterations=10, max_steps=7)
+    assert made.demonstrations[1].lengths[len(demonstrations.worlds) :].max() <= 7
 
 
 def test_mixture_of_expert_and_learner():
@@ -165,15 +170,15 @@ def test_mixture_of_expert_and_learner():
         collect_with_expert_labels(straight, worlds, beta=1.5)
 
 
-def test_beta_schedule_of_dagger(shown):
+def test_beta_schedule_of_dagger(demonstrations):
     worlds = [random_worlds(3, 20, seed=85)] * 2
-    made = dagger(shown, worlds, beta_decay=1.0, iterations=10)
+    made = dagger(demonstrations, worlds, beta_decay=1.0, iterations=10)
     expert = demonstrate(worlds[0])
-    gathered = concatenate([shown, expert, expert])
+    gathered = concatenate([demonstrations, expert, expert])
     assert np.array_equal(made.demonstrations[2].poses, gathered.poses)
     assert np.array_equal(made.demonstrations[2].actions, gathered.actions)
     with pytest.raises(ValueError, match="beta_decay must be at least 0"):
-        dagger(shown, worlds, beta_decay=-0.5)
+        dagger(demonstrations, worlds, beta_decay=-0.5)
 
 
 def test_seeds_of_the_rounds_of_dagger():
@@ -183,6 +188,8 @@ def test_seeds_of_the_rounds_of_dagger():
     assert round_seeds(3, 4) == list(map(tuple, seeds.tolist())) != round_seeds(4, 4)
     with pytest.raises(ValueError, match="seed must have shape"):
         round_seeds([1, 2], 4)
+    with pytest.raises(ValueError, match="seed must hold numbers from 0 on, got -1"):
+        round_seeds([[1, -1]], 0)
 
 
 def test_expert_that_serves_two_worlds():
@@ -200,22 +207,24 @@ def test_expert_that_serves_two_worlds():
         assert np.array_equal(expert._plans[0].actions, fresh.actions)
 
 
-def test_dagger_is_reproducible(shown):
+def test_dagger_is_reproducible(demonstrations):
     rounds = [random_worlds(4, 10, seed=75)]
-    one, same = (dagger(shown, rounds, seed=3, iterations=30) for _ in range(2))
+    one, same = (
+        dagger(demonstrations, rounds, seed=3, iterations=30) for _ in range(2)
+    )
     assert np.array_equal(one.policy.network.weights[0], same.policy.network.weights[0])
     assert np.array_equal(one.demonstrations[1].actions, same.demonstrations[1].actions)
 
 
-def test_round_zero_is_the_clone(shown):
-    clone = learn_policy(shown, seed=4, iterations=30)
-    begun = dagger(shown, [], seed=[[4, 0]], iterations=30, temperature=0.0)
+def test_round_zero_is_the_clone(demonstrations):
+    clone = learn_policy(demonstrations, seed=4, iterations=30)
+    begun = dagger(demonstrations, [], seed=[[4, 0]], iterations=30, temperature=0.0)
     assert np.array_equal(begun.policy.network.weights[1], clone.network.weights[1])
 
 
-def test_temperature(shown):
-    policy = learn_policy(shown, iterations=50)
-    sensing = shown.effective.sensing[:20]
+def test_temperature(demonstrations):
+    policy = learn_policy(demonstrations, iterations=50)
+    sensing = demonstrations.effective.sensing[:20]
     z = policy.logits(sensing)
     warm = NetworkPolicy(policy.network, policy.encoder, temperature=0.7)
     rng = np.random.default_rng(5)
@@ -228,9 +237,9 @@ def test_temperature(shown):
         NetworkPolicy(policy.network, policy.encoder, temperature=-1)
 
 
-def test_the_nearest_neighbour_knows_its_own_examples(shown):
-    one = learn_neighbours(shown, k=1, encoder=Encoder(target="one-hot"))
-    pairs = shown.effective
+def test_the_nearest_neighbour_knows_its_own_examples(demonstrations):
+    one = learn_neighbours(demonstrations, k=1, encoder=Encoder(target="one-hot"))
+    pairs = demonstrations.effective
     x = one.encoder(pairs.sensing)
     answers = one(pairs.sensing, np.random.default_rng(0))
     alone = (x[:, None] == x).all(axis=2).sum(axis=1) == 1
@@ -239,8 +248,8 @@ def test_the_nearest_neighbour_knows_its_own_examples(shown):
 
 
 @pytest.mark.parametrize("k", [1, 3, 6])
-def test_neighbours_vote(shown, k):
-    policy = learn_neighbours(shown, k=k)
+def test_neighbours_vote(demonstrations, k):
+    policy = learn_neighbours(demonstrations, k=k)
     other = demonstrate(random_worlds(2, 20, seed=77)).effective.sensing
     x = policy.encoder(other)
     distance = np.linalg.norm(x[:, None] - policy.states, axis=2)
@@ -254,23 +263,23 @@ def test_neighbours_vote(shown, k):
         assert votes[answer] == votes.max()
 
 
-def test_of_equal_votes_the_nearer_neighbour_has_the_last(shown):
-    sensing = shown.effective.sensing[:1]
-    x = learn_neighbours(shown).encoder(sensing)
+def test_of_equal_votes_the_nearer_neighbour_has_the_last(demonstrations):
+    sensing = demonstrations.effective.sensing[:1]
+    x = learn_neighbours(demonstrations).encoder(sensing)
     for nearer in (1, 3):
         states = np.concatenate([x + 0.01, x + 0.02])
         policy = NeighbourPolicy(states, np.array([nearer, 4 - nearer]), Encoder(), k=2)
         assert policy(sensing, np.random.default_rng(0)).tolist() == [nearer]
 
 
-def test_neighbours_beat_going_straight(shown):
+def test_neighbours_beat_going_straight(demonstrations):
     unseen = random_worlds(200, 20, seed=78)
     assert (
-        navigate(learn_neighbours(shown), unseen).success.mean()
+        navigate(learn_neighbours(demonstrations), unseen).success.mean()
         > navigate(straight, unseen).success.mean() + 0.2
     )
 
 
-def test_too_many_neighbours(shown):
+def test_too_many_neighbours(demonstrations):
     with pytest.raises(ValueError, match="k must be at most"):
-        learn_neighbours(shown, k=10**6)
+        learn_neighbours(demonstrations, k=10**6)

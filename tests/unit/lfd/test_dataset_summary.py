@@ -8,22 +8,22 @@ from robonav.robot import Encoder, random_worlds
 
 
 def test_an_overview_counts():
-    shown = demonstrate(random_worlds(6, 12, seed=21))
-    held = summarise_dataset(shown)
-    x, y = labelled_states(shown, Encoder(target="number"))
+    demonstrations = demonstrate(random_worlds(6, 12, seed=21))
+    held = summarise_dataset(demonstrations)
+    x, y = labelled_states(demonstrations, Encoder(target="number"))
     assert (held.trajectories, held.arrived, held.steps, held.effective) == (
         6,
         6,
-        len(shown),
+        len(demonstrations),
         len(x),
     )
     assert held.states == len({tuple(row) for row in x.round(6)})
     assert held.states < held.effective
     assert held.actions.tolist() == y.sum(axis=0).tolist()
-    assert held.closest == shown.sensing.ranges.min() < 10
+    assert held.closest == demonstrations.sensing.ranges.min() < 10
     text = str(held)
     assert text.startswith(
-        f"6 trajectories, 6 arrived\n{len(shown)} steps, {len(x)} effective pairs in {held.states} "
+        f"6 trajectories, 6 arrived\n{len(demonstrations)} steps, {len(x)} effective pairs in {held.states} "
     )
     assert f"F {held.actions[0] / len(x):.0%}, L30" in text
 

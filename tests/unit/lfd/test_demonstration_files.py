@@ -16,14 +16,14 @@ from robonav.robot import neighbour_slip, random_worlds
 
 
 @pytest.fixture(scope="module")
-def shown():
+def demonstrations():
     return demonstrate(random_worlds(6, 8, 2, seed=11), slip=neighbour_slip(0.2))
 
 
 @pytest.fixture
-def written(shown, tmp_path):
+def written(demonstrations, tmp_path):
     path = tmp_path / "drives.npz"
-    save_demonstrations(path, shown)
+    save_demonstrations(path, demonstrations)
     return path
 
 
@@ -34,16 +34,21 @@ def changed(path, **arrays):
     np.savez(path, **{name: array for name, array in held.items() if array is not None})
 
 
-def test_round_trip(shown, written):
+def test_round_trip(demonstrations, written):
     back = load_demonstrations(written)
     for name in ("trajectory", "actions", "poses", "outcome"):
-        assert np.array_equal(getattr(back, name), getattr(shown, name))
-        assert getattr(back, name).dtype == getattr(shown, name).dtype
+        assert np.array_equal(getattr(back, name), getattr(demonstrations, name))
+        assert getattr(back, name).dtype == getattr(demonstrations, name).dtype
     for name in ("ranges", "walls", "target_region", "target_seen"):
-        assert np.array_equal(getattr(back.sensing, name), getattr(shown.sensing, name))
-    assert back.speed == shown.speed
-    assert back.worlds.digest() == shown.worlds.digest()
-    mine, again = learn_policy(shown, iterations=20), learn_policy(back, iterations=20)
+        assert np.array_equal(
+            getattr(back.sensing, name), getattr(demonstrations.sensing, name)
+        )
+    assert back.speed == demonstrations.speed
+    assert back.worlds.digest() == demonstrations.worlds.digest()
+    mine, again = (
+        learn_policy(demonstrations, iterations=20),
+        learn_policy(back, iterations=20),
+    )
     assert np.array_equal(mine.network.weights[0], again.network.weights[0])
 
 
@@ -142,18 +147,18 @@ def test_what_cannot_be_is_refused(written, arrays, message):
     assert "\n" not in str(caught.value)
 
 
-def test_ranges_out_of_range(written, shown):
-    changed(written, ranges=shown.sensing.ranges + 1)
+def test_ranges_out_of_range(written, demonstrations):
+    changed(written, ranges=demonstrations.sensing.ranges + 1)
     with pytest.raises(ValueError, match=r"ranges must lie in 0\.\.10"):
         load_demonstrations(written)
 
 
-def test_nothing_half_written(shown, tmp_path, monkeypatch):
+def test_nothing_half_written(demonstrations, tmp_path, monkeypatch):
     def fails(file, **arrays):
         file.write(b"half")
         raise OSError("no space left")
 
     monkeypatch.setattr(np, "savez_compressed", fails)
     with pytest.raises(OSError, match="no space left"):
-        save_demonstrations(tmp_path / "drives.npz", shown)
+        save_demonstrations(tmp_path / "drives.npz", demonstrations)
     assert list(tmp_path.iterdir()) == []

@@ -68,23 +68,23 @@ def test_clearance_of_a_path():
 def test_a_robot_stays_on_its_path():
     worlds = random_worlds(1, 0, seed=1)
     path = smooth_path([(10, 10), (30, 60), (60, 40), (90, 90)])
-    shown = record(PathFollower([path]), worlds, reflex=None)
-    assert shown.outcome[0] == "arrived"
+    demonstrations = record(PathFollower([path]), worlds, reflex=None)
+    assert demonstrations.outcome[0] == "arrived"
     line = LineString(path)
-    assert max(line.distance(Point(p)) for p in shown.poses[:, :2]) < 2.0
-    assert len(shown) == pytest.approx(line.length / 2, rel=0.1)
+    assert max(line.distance(Point(p)) for p in demonstrations.poses[:, :2]) < 2.0
+    assert len(demonstrations) == pytest.approx(line.length / 2, rel=0.1)
 
 
 def test_hand_driven_demonstrations():
     worlds = random_worlds(6, 12, seed=3)
     points = sketch(worlds, seed=5)
-    shown = demonstrate_by_hand(worlds, points)
-    assert (shown.outcome == "arrived").mean() > 0.8
-    assert len(shown.effective) > 20
-    assert set(np.unique(shown.effective.actions)) <= set(range(5))
+    demonstrations = demonstrate_by_hand(worlds, points)
+    assert (demonstrations.outcome == "arrived").mean() > 0.8
+    assert len(demonstrations.effective) > 20
+    assert set(np.unique(demonstrations.effective.actions)) <= set(range(5))
     slipping = demonstrate_by_hand(worlds, points, slip=neighbour_slip(0.3))
     assert not np.array_equal(
-        slipping.actions[: len(shown)], shown.actions[: len(slipping)]
+        slipping.actions[: len(demonstrations)], demonstrations.actions[: len(slipping)]
     )
 
 
