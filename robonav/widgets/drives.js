@@ -79,9 +79,9 @@ export function drivePicture({ world: { size, start, target, obstacles }, steps,
       svg("circle", { cx: target[0], cy: target[1], r: 3, fill: "none", stroke: PALETTE.TARGET, "stroke-width": 1.6 })));
 }
 
-/** Every drive of the reader, to see, delete, download and load. */
+/** Every drive of the reader, to see, delete, download and load; `said` is the line that tells of it, to be placed. */
 export function drivesList() {
-  const said = h("p", { class: "status", role: "status" });
+  const said = h("p", { class: "status kept", role: "status" });
   const heading = h("summary", {});
   const list = h("ul", { class: "drives", "aria-label": "Your drives", tabindex: 0 });
   const upload = h("input", { type: "file", accept: ".npz", "aria-label": "File of drives", change: async () => {
@@ -133,6 +133,6 @@ export function drivesList() {
   };
   show();
   const element = h("details", { class: "my-drives" }, heading, list,
-    h("div", { class: "row tools" }, download, clear, h("label", { class: "file" }, h("span", {}, "load drives (npz)"), upload)), said);
-  return { element, say: (sentence) => (said.textContent = sentence), end: watchDrives(show) };
+    h("div", { class: "row tools" }, download, clear, h("label", { class: "file" }, h("span", {}, "load drives (npz)"), upload)));
+  return { element, said, say: (...words) => said.replaceChildren(...words), end: watchDrives(show) };
 }

@@ -171,7 +171,7 @@ function viewer({ world, robots, maps }) {
       element.hidden = list.length === 0;
       who.replaceChildren(...list.map(({ name }) => h("option", {}, name)));
       robot = 0;
-      if (list.length) go(map);
+      if (list.length) go(Math.max(0, list[0].outcomes.findIndex((outcome) => outcome !== "arrived")));
     },
     end: () => cancelAnimationFrame(frame),
   };
@@ -321,7 +321,7 @@ function render({ model, el }) {
     h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element),
     panel.element, table.element, view.element,
     h("div", { class: "row tools" }, download, h("label", { class: "file" }, h("span", {}, "try weights from a file (safetensors)"), upload), note),
-    kept.element);
+    kept.element, kept.said);
   const unwatch = watchDrives(() => {
     if (settings.source === 1 && mine().length === 1 && robots.length === 0) source.move((settings.source = 0));
     refresh();

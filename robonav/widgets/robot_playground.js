@@ -72,7 +72,7 @@ function inspector({ drive, selected, select, changed, removed }) {
 }
 
 function render({ model, el }) {
-  const { worlds, policies, speeds } = model.get("data");
+  const { worlds, policies, speeds, training } = model.get("data");
   const names = [...policies.map(({ name }) => name), ME];
   const drivers = policies.map(driver);
   let drive = makeDrive(worlds[0].world, 2);
@@ -201,7 +201,7 @@ function render({ model, el }) {
   const keep = () => {
     const warning = keepDrives([record()]);
     const count = keptDrives().length;
-    mineKept.say(`This drive is kept: ${count === 1 ? "your first" : `you have ${count} now`}. ${warning}`);
+    mineKept.say(`This drive is kept: ${count === 1 ? "your first" : `you have ${count} now`}. ${warning} `, h("a", { href: training }, "Train a robot on your drives"), ", or drive another map.");
   };
   const note = h("span", { role: "status" });
   const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights to drive with", change: async () => {
@@ -241,7 +241,7 @@ function render({ model, el }) {
     const number = nextMap(keptDrives());
     where.move(worlds.length);
     go(ownMap(number), number);
-    mineKept.say(`Map ${number}. Press an arrow key: the robot goes on by itself while nothing is near, and then waits for you.`);
+    mineKept.say(`Map ${number}. Press an arrow key, or a button below the map. While nothing is near, the robot goes on by itself; then it waits for you.`);
     pick(policies.length);
   };
   const coast = h("input", { type: "checkbox", checked: true, change: () => coasting() && wake() });
@@ -265,13 +265,13 @@ function render({ model, el }) {
     ...[["L60", 2], ["L30", 1], ["F", 0], ["R30", 3], ["R60", 4], ["B", 5]].map(([name, action]) =>
       h("button", { type: "button", click: () => { if (!mine()) pick(policies.length); if (!coasting()) act(action); } }, name)));
 
-  el.classList.add("robonav");
+  el.classList.add("robonav", "robot-playground");
   el.replaceChildren(
     h("div", { class: "row tools" }, where.element, who.element, fast.element, h("button", { type: "button", class: "main", click: newMap }, "Drive a new map yourself")),
     h("div", { class: "row" },
       h("div", { class: "grow" }, board.canvas,
         h("div", { class: "row tools" }, play, h("button", { type: "button", click: () => { pause(); next(); } }, "One step"), h("button", { type: "button", click: reset }, "Back to the start"), rate.element),
-        wheel, h("label", { class: "check" }, coast, h("span", {}, "when I drive, the robot goes on by itself while nothing is near")), status),
+        wheel, h("label", { class: "check" }, coast, h("span", {}, "when I drive, the robot goes on by itself while nothing is near")), status, mineKept.said),
       h("div", { class: "grow side" }, h("p", { class: "label" }, "What the driver thinks of each action"), values, picture, table.element)),
     h("div", { class: "row tools" },
       h("button", { type: "button", click: add(true) }, "Add a circle"), h("button", { type: "button", click: add(false) }, "Add a rectangle"), save,

@@ -33,6 +33,7 @@ def robot_playground(
     policies: Mapping[str, NetworkPolicy] | None = None,
     *,
     speeds: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0),
+    training: str = "policy-learning.html",
 ) -> RobotPlayground:
     """Make a playground with some worlds and networks. The two baselines and the reader can always steer.
 
@@ -44,6 +45,8 @@ def robot_playground(
         Networks with their encoders, by name.
     speeds : sequence of float
         Speeds to choose from, in m/s; 2 must be among them.
+    training : str
+        Address of the page on which a robot learns from the reader's drives.
 
     Returns
     -------
@@ -72,5 +75,6 @@ def robot_playground(
             ],
             "policies": [*networks, *rules],
             "speeds": chosen,
+            "training": training,
         }
     )

@@ -45,7 +45,7 @@ def heading(lab: Locator) -> Locator:
 
 
 def said(lab: Locator) -> Locator:
-    return lab.locator(".my-drives .status")
+    return lab.locator(".status.kept")
 
 
 def test_drives_are_kept_over_a_reload_and_taken_to_python(view, lab, site, tmp_path):

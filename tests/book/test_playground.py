@@ -32,7 +32,7 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
     visit.open(
         f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/playground.html"
     )
-    found = visit.page.locator(".robonav")
+    found = visit.page.locator(".robot-playground")
     found.locator("canvas").wait_for()
     yield found
     assert visit.errors == []
@@ -155,7 +155,7 @@ def test_fields_follow_what_moves_but_not_while_one_types(lab):
 def test_a_finger_drags_things_and_scrolls_elsewhere(visit, http):
     visit.page.set_viewport_size(PHONE)
     visit.open(f"{http}/book/playground.html")
-    lab = visit.page.locator(".robonav")
+    lab = visit.page.locator(".robot-playground")
     choose(lab, "world", "nothing at all")
     lab.get_by_role("button", name="Add a circle").click()
     canvas = lab.locator("canvas")
