@@ -1,10 +1,10 @@
-# make book, make lab, make check, make test: each makes .venv itself, once. Needs Python 3.11 or later and make.
+# make book, make lab, make check and make test each set up .venv if it is missing. They need Python 3.11 or later.
 #
-#   PYTHON   the interpreter that .venv is made from
-#   PIP_OPTIONS   passed to every pip install, for instance an extra index with PyTorch's CPU builds
-#   PYTEST_OPTIONS, LAB_OPTIONS   passed to pytest and to JupyterLab
-#   ADDRESS, REPOSITORY   where the book will stand on the web, and its sources: notebooks then install the package from
-#     there, and pages link to their sources
+#   PYTHON   the interpreter for .venv
+#   PIP_OPTIONS   options of every pip install, for instance an extra index with PyTorch's CPU builds
+#   PYTEST_OPTIONS, LAB_OPTIONS   options of pytest and of JupyterLab
+#   ADDRESS   the address of the book on the web; its notebooks then install the package from there
+#   REPOSITORY   the address of the sources; pages then link to them
 
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
@@ -26,13 +26,13 @@ EXTRAS := book,lab,grading,cluster,tests,benchmarks
 help:
 	@echo "make book   build the book into _build/html"
 	@echo "make pdf    print the built book to _build/robonav.pdf; needs Chromium"
-	@echo "make check  lint, types, doctests and quick tests, in about two minutes"
+	@echo "make check  run lint, types, doctests and quick tests, in at most two minutes"
 	@echo "make test   run every check and every test"
 	@echo "make lab    open JupyterLab on the notebooks"
 	@echo "make lock   write requirements.lock from the newest versions that pyproject.toml allows"
 	@echo "make clean  remove everything that was built, except .venv"
 
-# PyTorch first: left to the resolver it may choose another build, gigabytes larger.
+# PyTorch comes first, because the resolver may choose another build, which is gigabytes larger.
 $(INSTALLED): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "robonav needs Python 3.11 or later; set PYTHON=")'
 	$(BIN)/python -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv --clear .venv
@@ -63,7 +63,7 @@ check: $(INSTALLED)
 	echo "make check took $$SECONDS seconds"; \
 	exit $$failed
 
-# One thread a process: pytest runs as many processes as there are cores.
+# Each process has one thread, because pytest runs as many processes as there are cores.
 test: $(INSTALLED)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
@@ -74,12 +74,13 @@ test: $(INSTALLED)
 	@test -e _build/html/index.html || echo "The book is not built: tests of its pages are skipped; run make book first"
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto -rs $(PYTEST_OPTIONS)
 
-# On copies in plain Markdown: playing with one changes no page of the book.
+# The notebooks are copies in plain Markdown, so changes to them change no page of the book.
 lab: $(INSTALLED)
 	$(BIN)/python book/_ext/notebooks.py _build/lab
 	$(BIN)/jupyter lab --notebook-dir=_build/lab $(LAB_OPTIONS)
 
-# A fresh environment, so that nothing installed by hand slips in; versions only, so that the file serves every index.
+# The environment is new, so that it contains no package installed by hand. The file has versions only, so that it works
+# with every index.
 lock:
 	rm -rf _build/lock && $(PYTHON) -m venv _build/lock
 	_build/lock/bin/python -m pip install --quiet $(PIP_OPTIONS) '$(TORCH)'

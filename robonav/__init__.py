@@ -1,8 +1,7 @@
-"""robonav: robot learning for autonomous navigation, the package behind the book.
+"""robonav: robot learning for autonomous navigation, the package of the book.
 
 Each chapter has its subpackage: ``mdp`` (chapter 2), ``robot`` (section 2.5), ``lfd`` (3, imitation learning),
-``nnql`` (4,
-reinforcement learning) and ``nirl`` (5, inverse reinforcement learning); ``networks`` serves the last three.
+``nnql`` (4, reinforcement learning) and ``nirl`` (5, inverse reinforcement learning). The last three use ``networks``.
 Importing this package only registers the Gymnasium environments. Subpackages load when they are first used.
 """
 

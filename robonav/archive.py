@@ -1,4 +1,4 @@
-"""Arrays in npz files that name their format, read with one sentence for each thing that can be wrong with a file."""
+"""Arrays in npz files that name their format. Every fault of a file gives an error with one sentence."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from . import atomic
 
 
 class Damaged(ValueError):
-    """The file is no npz archive, or not all of one."""
+    """Raised for a file that is not a complete npz archive."""
 
 
 class Pickled(ValueError):
-    """The archive holds a Python object, which could run code and is never loaded."""
+    """Raised for an archive with a Python object, which could run code and is never loaded."""
 
 
 def write_archive(
     path: str | Path, arrays: Mapping[str, Any], *, compressed: bool = True
 ) -> None:
-    """Write arrays by name as an npz file, whole or not at all."""
+    """Write arrays by name as an npz file, completely or not at all."""
     save = np.savez_compressed if compressed else np.savez
     with atomic.atomic_write(path) as file:
         save(file, **arrays)
@@ -37,15 +37,17 @@ def read_archive(path: str | Path) -> dict[str, NDArray[Any]]:
     FileNotFoundError
         If there is no such file.
     Damaged
-        If the file is no whole npz archive.
+        If the file is not a complete npz archive.
     Pickled
-        If the archive holds a Python object.
+        If the archive contains a Python object.
     """
     with open(path, "rb") as file:
         try:
             with np.load(file, allow_pickle=False) as archive:
                 return {name: archive[name] for name in archive.files}
-        except Exception as error:  # a damaged archive can end in almost any of them
-            if "Object arrays" in str(error):  # numpy's words for one inside an archive
+        except Exception as error:  # a damaged archive can raise almost any of these
+            if "Object arrays" in str(
+                error
+            ):  # numpy's message for an object in an archive
                 raise Pickled(str(error)) from None
             raise Damaged(str(error)) from None

@@ -1,4 +1,4 @@
-"""Compiling the fast twins with numba, also where one calls a kernel of another file."""
+"""Compile the fast twins with numba, also kernels that call kernels of other files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def compiler(*used: ModuleType, inline: bool = False) -> Callable[[Any], Any]:
     Parameters
     ----------
     *used : module
-        The modules whose kernels the decorated ones call.
+        The modules with the kernels that the decorated kernels call.
     inline : bool
         Whether numba copies the decorated functions into the kernels that call them. Use it where a call with many
         arrays costs more than the work of the function.

@@ -2,8 +2,8 @@
 
 
 class ConvergenceWarning(UserWarning):
-    """An iteration stopped before it converged. The message says how far it was from convergence."""
+    """An iteration stopped before it converged. The message tells how far it was from convergence."""
 
 
 class WorkerLost(RuntimeError):
-    """Runs of an experiment repeatedly killed their worker processes."""
+    """Raised when runs of an experiment killed their worker processes again and again."""

@@ -1,4 +1,4 @@
-"""Progress of long computations: one optional callback, which can draw a progress bar."""
+"""Progress of long computations: one optional callback, such as a progress bar."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""Warn about every picture without an alternative text, and every cell that promises a picture and shows none.
+"""Warn about pictures without an alternative text, and about cells that have such a text but no picture.
 
-The build turns warnings into failure.
+The build treats warnings as errors.
 
-For a cell's figure the text stands in the cell's metadata, as ``mystnb: {image: {alt: ...}}``; for a picture of the
-page itself in ``![the text](file)`` or in the ``:alt:`` option of its directive.
+The text for a cell's figure is in the cell's metadata, as ``mystnb: {image: {alt: ...}}``. The text for a picture of
+the page is in ``![the text](file)`` or in the ``:alt:`` option of its directive.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ ALT = re.compile(r"\balt\s*=\s*([\"'])\s*\S", re.IGNORECASE)
 
 
 def lint(app: Sphinx, doctree: nodes.document) -> None:
-    """Look at the pictures of one page, as nodes and inside raw HTML."""
+    """Check the pictures of one page, which are nodes or raw HTML."""
     for image in doctree.findall(nodes.image):
         if not image.get("alt", "").strip():
             LOGGER.warning(

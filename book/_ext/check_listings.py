@@ -40,7 +40,7 @@ def wide_cells(html: str) -> Iterator[str]:
 def faults(html: str) -> Iterator[str]:
     """Yield one sentence for each fault of the listings of one page."""
     soup = BeautifulSoup(html, "html.parser")
-    waiting: list[str] = []  # equations whose listing has not come yet
+    waiting: list[str] = []  # equations that are not followed by a listing yet
     for found in soup.select("div.math[id^=equation-eq-], div.function-source"):
         if "math" in (found.get("class") or ()):
             number = _number(str(found["id"]))
@@ -67,7 +67,7 @@ def faults(html: str) -> Iterator[str]:
 
 
 def _number(anchor: str) -> str | None:
-    """The thesis's number of an equation on a page, read from its anchor; None for an equation of the page's own."""
+    """Return the thesis's number of an equation from its anchor, or None for an equation of the page's own."""
     label = anchor.removeprefix("equation-")
     return thesis_number(re.sub(r"-(\d+)$", r".\1", label))
 

@@ -1,6 +1,6 @@
-"""Look at the built book before anyone else does: every page of _toc.yml is there, has text, and shows no failure.
+"""Check the built book: every page of _toc.yml exists, contains text, and shows no error.
 
-Run after a build, as ``make book`` does; prints what is wrong and ends with exit code 1.
+``make book`` runs this after a build. It prints the faults and exits with 1 if there are any.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 SITE = Path(
     os.environ.get("BOOK_SITE", ROOT / "_build" / "html")
-)  # of a book that was built elsewhere
-LEAST_TEXT = 400  # characters of an article, below which a page counts as empty
+)  # the folder of a book that was built elsewhere
+LEAST_TEXT = 400  # a page with fewer characters in its article counts as empty
 FAILURES = {
     "a failed cell": re.compile(r"Traceback \(most recent call last\)|ansi-red-fg"),
     "a directive or role that did not parse": re.compile(
@@ -37,7 +37,7 @@ BARE_TEX = re.compile(r"\\[a-zA-Z]{2,}")
 
 
 def pages(entry: Any) -> Iterator[str]:
-    """Every page named in a table of contents, parts and sections included."""
+    """Return every page named in a table of contents, with those of parts and sections."""
     if isinstance(entry, dict):
         yield from (entry[key] for key in ("root", "file") if key in entry)
         entry = [value for value in entry.values() if isinstance(value, list)]
@@ -47,7 +47,7 @@ def pages(entry: Any) -> Iterator[str]:
 
 
 def faults(page: str) -> Iterator[str]:
-    """What is wrong with one built page."""
+    """Yield one sentence for each fault of a built page."""
     built = SITE / f"{page}.html"
     if not built.is_file():
         yield "was not built"

@@ -1,4 +1,4 @@
-"""What of the thesis the package cites, and where: read from its source, without importing it.
+"""The equations and algorithms of the thesis that the package cites, and where. The source is read, not imported.
 
 A function, class or method *defines* an equation or an algorithm when the first line of its docstring names it, as in
 ``Greedy policy with respect to V, Eq. (2.25).`` Everything below the first line, and everything outside the packages
@@ -24,7 +24,7 @@ SYMBOLS_FILE = Path(__file__).with_name("symbols.toml")
 CHAPTERS = ("mdp", "robot", "networks", "lfd", "nnql", "nirl")
 
 Number = tuple[int, ...]
-# How many numbered equations each chapter of the thesis has.
+# The number of numbered equations in each chapter of the thesis.
 COUNTS = {2: 30, 3: 31, 4: 12, 5: 16}
 EQUATIONS: list[Number] = [
     (chapter, place)
@@ -32,7 +32,7 @@ EQUATIONS: list[Number] = [
     for place in range(1, count + 1)
 ]
 ALGORITHMS: list[Number] = [(number,) for number in range(1, 11)]
-MOST_LINES = 40  # of an algorithm, and of every listing on a page
+MOST_LINES = 40  # the largest size of an algorithm and of a listing on a page
 MOST_COLUMNS = 88
 
 # Each kind of citation: the words that open it, then a list of numbers.
@@ -51,17 +51,17 @@ Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 
 
 def key(number: str) -> Number:
-    """A number of the thesis as something that sorts: chapter, then place in it."""
+    """Return a number of the thesis as a key for sorting: chapter, then place in it."""
     return tuple(map(int, number.split(".")))
 
 
 def written(number: Number) -> str:
-    """A number as the thesis writes it."""
+    """Return a number as the thesis writes it."""
     return ".".join(map(str, number))
 
 
 def numbers(text: str) -> set[Number]:
-    """Every number in a list of them, ranges filled in."""
+    """Return every number in a list of numbers, with those inside its ranges."""
     found: set[Number] = set()
     for first, last in RANGE.findall(text):
         *chapter, start = key(first)
@@ -71,7 +71,7 @@ def numbers(text: str) -> set[Number]:
 
 
 def cited(kind: str, text: str) -> set[Number]:
-    """The numbers of one kind that a text cites."""
+    """Return the numbers of one kind that a text cites."""
     return {number for found in KINDS[kind].findall(text) for number in numbers(found)}
 
 
@@ -93,18 +93,18 @@ class Documented:
         return not any(part.startswith("_") for part in self.name.split("."))
 
     def defines(self, kind: str) -> set[Number]:
-        """The numbers that the first line of the docstring names, in the packages of the chapters."""
+        """Return the numbers that the first line of the docstring names, in the packages of the chapters."""
         if self.name.split(".")[1] not in CHAPTERS:
             return set()
         return cited(kind, self.docstring.partition("\n")[0])
 
     @property
     def listing(self) -> str:
-        """The source as a page shows it: without the docstring."""
+        """Return the source as a page shows it, without the docstring."""
         return without_docstring(self.source)
 
     def commented(self, kind: str) -> set[Number]:
-        """The numbers cited in comments that share their line with code."""
+        """Return the numbers cited in comments that share their line with code."""
         code, found = set(), []
         for token in tokenize.generate_tokens(io.StringIO(self.listing).readline):
             if token.type == tokenize.COMMENT:
@@ -120,7 +120,7 @@ class Documented:
 
 
 def without_docstring(source: str) -> str:
-    """The same source with the docstring of its outermost definition cut out."""
+    """Return the source without the docstring of its outermost definition."""
     definition = ast.parse(source).body[0]
     if not isinstance(definition, Definition) or ast.get_docstring(definition) is None:
         return source
@@ -133,7 +133,7 @@ def without_docstring(source: str) -> str:
 
 
 def in_file(path: Path) -> Iterator[Documented]:
-    """Every function, class and method of one file of the package."""
+    """Return every function, class and method of one file of the package."""
     text = path.read_text("utf-8")
     lines = text.splitlines(keepends=True)
     module = ".".join(
@@ -155,12 +155,12 @@ def in_file(path: Path) -> Iterator[Documented]:
 
 
 def documented(package: Path = PACKAGE) -> list[Documented]:
-    """Every function, class and method of the package, in the order of its files."""
+    """Return every function, class and method of the package, in the order of its files."""
     return [found for path in sorted(package.rglob("*.py")) for found in in_file(path)]
 
 
 def definitions(kind: str, package: Path = PACKAGE) -> dict[Number, list[Documented]]:
-    """For each number of a kind, what defines it."""
+    """Return the definitions of each number of a kind."""
     found: dict[Number, list[Documented]] = defaultdict(list)
     for item in documented(package):
         for number in item.defines(kind):
@@ -169,7 +169,7 @@ def definitions(kind: str, package: Path = PACKAGE) -> dict[Number, list[Documen
 
 
 def uses(kind: str, package: Path = PACKAGE) -> dict[Number, list[Documented]]:
-    """For each number of a kind, the public names whose docstrings cite it without defining it."""
+    """Return, for each number of a kind, the public names whose docstrings cite it without defining it."""
     found: dict[Number, list[Documented]] = defaultdict(list)
     for item in documented(package):
         if item.public:
@@ -180,13 +180,13 @@ def uses(kind: str, package: Path = PACKAGE) -> dict[Number, list[Documented]]:
 
 @cache
 def symbols() -> dict[Number, str]:
-    """Equations that introduce a symbol and compute nothing, each with a sentence on the symbol."""
+    """Return the equations that introduce a symbol and compute nothing, each with a sentence on the symbol."""
     table = tomllib.loads(SYMBOLS_FILE.read_text("utf-8"))
     return {key(number): sentence for number, sentence in table.items()}
 
 
 def faults(package: Path = PACKAGE) -> list[str]:
-    """What is wrong with the definitions of equations and algorithms, a sentence each."""
+    """Return one sentence for each fault in the definitions of equations and algorithms."""
     found: list[str] = []
     equations = definitions("equations", package)
     for number in EQUATIONS:
@@ -221,4 +221,5 @@ def faults(package: Path = PACKAGE) -> list[str]:
 
 
 def _names(places: list[Documented]) -> str:
+    """Return the names of definitions as one string."""
     return ", ".join(place.name for place in places)

@@ -1,8 +1,8 @@
 """The exercises on a page: the directive ``{course-exercises}``, with a chapter such as ``ch2``.
 
-Each exercise shows its question and the file that students fill in, from ``exercises/``. In the instructors' build,
-``make book SOLUTIONS=1``, its solution and the known mistakes with their hints follow behind a fold; in any other build
-they are nowhere.
+Each exercise shows its question and the file that students fill in, from ``exercises/``. The instructors' build,
+``make book SOLUTIONS=1``, also has its solution and the known mistakes with their hints in a folded section. No other
+build contains them.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class CourseExercises(SphinxDirective):
         return self.parse_text_to_nodes(text, allow_section_headings=True)
 
     def _exercise(self, course: Course, exercise: Exercise) -> str:
-        """One exercise in MyST Markdown."""
+        """Return one exercise in MyST Markdown."""
         stub = course.stubs / exercise.file
         self.env.note_dependency(str(stub))
         key = f"exercise-{exercise.id.replace('.', '-')}"

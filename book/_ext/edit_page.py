@@ -1,7 +1,7 @@
-"""A link on every page to edit its source, where it is known whence the book comes.
+"""A link on every page to edit its source, if the address of the repository is known.
 
-That is ``make book REPOSITORY=https://...``, or else the origin of the clone, if it lies with one of the hosts whose
-addresses the theme knows.
+The address is that of ``make book REPOSITORY=https://...``, or else the origin of the clone, if it is on one of the
+hosts whose addresses the theme knows.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ ORIGIN = re.compile(
 
 
 def page_of(origin: str) -> str | None:
-    """The web address of a repository from the address it was cloned from, without anybody's name or token in it."""
+    """Return the web address of a repository from the address of its clone, without any user name or token."""
     found = ORIGIN.fullmatch(origin.strip())
     return f"https://{found['host']}/{found['path']}" if found else None
 
 
 def repository() -> str | None:
-    """Where the book's sources can be edited, if that is known."""
+    """Return the address of the repository of the book's sources, if it is known."""
     if os.environ.get("REPOSITORY"):
         return os.environ["REPOSITORY"].rstrip("/")
     command = ["git", "-C", str(ROOT), "remote", "get-url", "origin"]
@@ -40,7 +40,7 @@ def repository() -> str | None:
 
 
 def offer(app: Sphinx, config: Config) -> None:
-    """Turn on the theme's button."""
+    """Turn on the theme's edit button."""
     address = repository()
     if address:
         config.html_theme_options |= {

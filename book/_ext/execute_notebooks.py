@@ -1,7 +1,7 @@
-"""Execute the book's notebooks that are not in the cache yet, as many at a time as there are cores.
+"""Execute those notebooks of the book that are not in the cache yet, as many at a time as there are cores.
 
-Run before a build, which then finds them executed; Sphinx alone would run them one after the other. A notebook that
-fails here is left to the build, which runs it again and says what went wrong.
+This runs before a build, which then finds them executed. Sphinx alone would execute them one after the other. A
+notebook that fails here is executed again by the build, which reports the error.
 """
 
 from __future__ import annotations
@@ -17,9 +17,7 @@ LONGEST = 120  # seconds a cell may take, as in _config.yml
 
 
 def main() -> None:
-    os.environ.setdefault(
-        "OMP_NUM_THREADS", "1"
-    )  # the cores are busy with other notebooks
+    os.environ.setdefault("OMP_NUM_THREADS", "1")  # other notebooks use the other cores
     cache = get_cache(str(prepared_cache()))
     pages = [str(page) for page in notebook_pages()]
     for page in pages:

@@ -1,10 +1,10 @@
-"""Each notebook page as an ``.ipynb`` to take away, offered by the page's download button.
+"""Each notebook page as an ``.ipynb`` file, which the page's download button offers.
 
-Pages are written in MyST, which a plain Jupyter shows as raw text in places; the notebook that is handed out is
-therefore put into plain Markdown, with equation numbers kept and solutions left out.
+Pages are written in MyST, of which a plain Jupyter shows parts as raw text. The notebook is therefore converted to
+plain Markdown. Equation numbers are kept, and solutions are left out.
 
-Run as a program, ``notebooks.py FOLDER`` writes all of them into a folder, numbered in the order of the book. One that
-is already there is replaced only if its page is newer, and then kept beside the new one.
+Run as a program, ``notebooks.py FOLDER`` writes all notebooks to a folder, numbered in the order of the book. A
+notebook that exists is replaced only if its page is newer. The old notebook is then kept beside the new one.
 """
 
 from __future__ import annotations
@@ -63,14 +63,14 @@ LEFT_OUT = (
 
 
 def with_tag(tex: str, label: str | None) -> str:
-    """A displayed formula, numbered if its label holds a number of the thesis."""
+    """Return a displayed formula, numbered if its label contains a number of the thesis."""
     number = thesis_number(label or "")
     tag = f" \\tag{{{number}}}" if number else ""
     return f"$$\n{tex.strip()}{tag}\n$$"
 
 
 def plain_directive(match: re.Match[str]) -> str:
-    """A directive in plain Markdown: formula, picture, code, or a quotation with a bold title."""
+    """Return a directive in plain Markdown: formula, picture, code, or a quotation with a bold title."""
     name, title, body = match["name"], match["title"].strip(), match["body"]
     options = OPTIONS.match(body)
     content = body[options.end() :] if options else body
@@ -98,7 +98,7 @@ def plain_directive(match: re.Match[str]) -> str:
 
 
 def plain_quiz(content: str) -> str:
-    """A quiz as folds, which Jupyter opens too."""
+    """Return a quiz as folded sections, which Jupyter can open too."""
     text, right = marks(plain(content))
     question, *answers = re.split(r"^- ", text, flags=re.M)
     folds = []
@@ -112,7 +112,7 @@ def plain_quiz(content: str) -> str:
 
 
 def plain_role(match: re.Match[str]) -> str:
-    """A role in plain Markdown: what a reader would see of it."""
+    """Return the text of a role in plain Markdown."""
     name, text = match["name"], match["text"]
     if name == "eq":
         return f"({thesis_number(text) or text})"
@@ -135,7 +135,7 @@ def plain_role(match: re.Match[str]) -> str:
 
 
 def title_of(page: str) -> str:
-    """The title of a page of the book."""
+    """Return the title of a page of the book."""
     return next(
         line[2:]
         for line in (ROOT / "book" / f"{page}.md").read_text("utf-8").splitlines()
@@ -144,14 +144,14 @@ def title_of(page: str) -> str:
 
 
 def called(label: str) -> str:
-    """What a label is called where nothing can be numbered: the thesis's number, or a figure's label in words."""
+    """Return the name of a label where nothing is numbered: the thesis's number, or words for a figure."""
     if match := LABEL.search(label):
         return f"{KINDS[match['kind']]} {match['number'].replace('-', '.')}"
     return f"the figure of {label.removeprefix('fig-').replace('-', ' ')}"
 
 
 def plain(markdown: str) -> str:
-    """MyST Markdown as a plain Jupyter shows it well."""
+    """Convert MyST Markdown to Markdown that a plain Jupyter shows well."""
     steps: list[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]]] = [
         (FENCE, plain_directive),
         (DOLLARS, lambda match: with_tag(match["body"], match["label"])),
@@ -164,7 +164,7 @@ def plain(markdown: str) -> str:
 
 
 def attach_pictures(cell: nbformat.NotebookNode, folder: Path) -> None:
-    """Put the page's own pictures into the cell, since the notebook travels without them."""
+    """Attach the page's own pictures to the cell, because the notebook is used without the book's folder."""
     for path in {match["path"] for match in PICTURE.finditer(cell.source)}:
         picture = folder / path
         kind = mimetypes.guess_type(picture.name)[0] or "application/octet-stream"
@@ -177,7 +177,7 @@ def attach_pictures(cell: nbformat.NotebookNode, folder: Path) -> None:
 
 
 def notebook_of(source: Path) -> nbformat.NotebookNode:
-    """The notebook of one page, without outputs; its first cell installs the package where it is missing."""
+    """Return the notebook of one page, without outputs. Its first cell installs the package if it is missing."""
     notebook = jupytext.read(source)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(first_cell()))
     for index, cell in enumerate(notebook.cells):
@@ -196,9 +196,10 @@ def offer(
     context: dict[str, Any],
     doctree: nodes.document | None,
 ) -> None:
-    """Write a notebook page's ``.ipynb`` beside its source and tell the theme, which adds the button.
+    """Write the ``.ipynb`` of a notebook page beside its source and tell the theme, which adds the button.
 
-    The page holds the notebook, too: from disk a browser would show the file as text, and ``book.js`` hands this out.
+    The page contains the notebook too: a page opened from disk would show the file as text, so ``book.js`` offers this
+    copy.
     """
     if doctree is None or "kernelspec" not in app.env.metadata.get(page, {}):
         return
@@ -214,7 +215,7 @@ def offer(
 
 
 def notebook_pages() -> list[Path]:
-    """The sources of the book's notebook pages, in its order."""
+    """Return the sources of the book's notebook pages, in its order."""
     listed = [
         ROOT / f"{page}.md"
         for page in pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8")))

@@ -1,7 +1,7 @@
-"""Keep the pages free of anything that is loaded from elsewhere.
+"""Remove everything from the pages that would be loaded from the network.
 
-The front-end files that a page needs are committed under ``book/_static/third-party``; what Jupyter Book
-would still load without need is taken out here.
+The front-end files that a page needs are committed in ``book/_static/third-party``. Files that Jupyter Book would load
+although no page needs them are removed here.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def drop_unwanted_scripts(
     context: dict[str, Any],
     doctree: nodes.document | None,
 ) -> None:
-    """Take the script tags of unused tools out of a page's template context."""
+    """Remove the script tags of unused tools from a page's template context."""
     context["script_files"] = [
         script
         for script in context.get("script_files", [])

@@ -1,8 +1,8 @@
-"""The package's code on a page: shown with the directive ``{source}``, named with the role ``{name}``.
+"""The package's code on a page: the directive ``{source}`` shows it, and the role ``{name}`` names it.
 
-``{source} robonav.mdp.value_iteration`` puts a function's or class's source on the page, read from the package as it is
-imported, so a page cannot show an old copy. The docstring is left out, since the page's text takes its place;
-``:docstring:`` keeps it.
+``{source} robonav.mdp.value_iteration`` shows the source of a function or class, read from the imported package, so a
+page cannot show an old copy. The docstring is left out, because the page's text explains the code; ``:docstring:``
+keeps it.
 
 A name in the role is a link into the reference and must exist, or the build fails: ``{name}`robonav.robot.Worlds```, or
 an argument, ``{name}`robonav.robot.navigate(speed)```. The leading ``robonav.`` is not shown.
@@ -34,7 +34,7 @@ BREAK = re.compile(r"(?<=[._/(])(?=[a-zA-Z])")
 
 
 def resolve(name: str) -> Any:
-    """The object of a dotted name: an attribute where there is one, as Python has it, else a module."""
+    """Return the object of a dotted name: an attribute if there is one, as in Python, else a module."""
     package, *parts = name.split(".")
     found: Any = importlib.import_module(package)
     path = package
@@ -84,7 +84,7 @@ class FunctionSource(SphinxDirective):
 
 
 def code_reference(name: str, shown: str, docname: str) -> nodes.Node:
-    """A name as code, a link to where the reference explains it or what it belongs to."""
+    """Return a name as code, with a link to its entry in the reference or to that of its owner."""
     target = {"refdomain": "py", "reftype": "obj", "reftarget": name, "refdoc": docname}
     return pending_xref("", nodes.literal("", shown), **target)
 
@@ -92,7 +92,7 @@ def code_reference(name: str, shown: str, docname: str) -> nodes.Node:
 def link_to_owner(
     app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Element
 ) -> nodes.Node | None:
-    """Link a field or a part that has no entry of its own to its owner's; without one, leave it plain."""
+    """Link a field or a part without an entry of its own to its owner. Without an owner, leave it as plain code."""
     if node.get("refdomain") != "py" or node.get("reftype") != "obj":
         return None
     name: str = node["reftarget"]
@@ -140,7 +140,7 @@ def let_names_break(
     context: dict[str, Any],
     doctree: nodes.document | None,
 ) -> None:
-    """Let a name of code break after its dots, underscores and brackets where a column is narrow."""
+    """Let a name of code break after its dots, underscores and brackets in a narrow column."""
     if body := context.get("body"):
         context["body"] = CODE_WORD.sub(lambda word: BREAK.sub("<wbr>", word[0]), body)
 

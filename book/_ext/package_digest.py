@@ -1,7 +1,7 @@
 """Run notebooks again when the package changes.
 
-Executed notebooks are kept in a cache that knows a notebook's own cells, not the code they import. The cache's folder
-is therefore named after a digest of the package, and pages are read anew when the digest is another.
+The cache of executed notebooks depends on the cells of a notebook, but not on the code that they import. The folder of
+the cache is therefore named after a digest of the package, and pages are read again when the digest changes.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ A_DAY = 24 * 3600  # seconds
 
 
 def digest_of(folder: Path) -> str:
-    """A short digest of every file below a folder, names included, byte code left out."""
+    """Return a short digest of the names and contents of all files below a folder, without byte code."""
     total = hashlib.sha256()
     for path in sorted(folder.rglob("*")):
         if path.is_file() and "__pycache__" not in path.parts:
@@ -35,7 +35,7 @@ def digest_of(folder: Path) -> str:
 
 
 def prepared_cache() -> Path:
-    """The folder for notebooks executed with the package as it is; those that nobody used for a day are dropped."""
+    """Return the folder for notebooks of this package. Folders that nobody used for a day are deleted."""
     chosen = CACHES / digest_of(ROOT / "robonav")
     chosen.mkdir(parents=True, exist_ok=True)
     os.utime(chosen)
@@ -46,7 +46,7 @@ def prepared_cache() -> Path:
 
 
 def choose_cache(app: Sphinx, config: Config) -> None:
-    """Point the notebook cache at the folder of this digest."""
+    """Set the notebook cache to the folder of this digest."""
     chosen = prepared_cache()
     config.package_digest = chosen.name
     config.nb_execution_cache_path = str(chosen)

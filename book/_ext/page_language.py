@@ -1,6 +1,6 @@
-"""A page in another language than the book's says so: ``lang: fr`` at the top of its source.
+"""The language of a page that differs from that of the book: ``lang: fr`` at the top of its source.
 
-A screen reader then pronounces it rightly, and a browser hyphenates and translates it as what it is.
+A screen reader then pronounces the page correctly, and a browser hyphenates and translates it correctly.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""The whole book as a PDF: the built pages joined into one document, and printed by Chromium.
+"""The whole book as a PDF: the built pages are joined into one document, which Chromium prints.
 
-Usage: python print_book.py FILE, after a build. Links between pages become links inside the document, figures that can
-be touched stand as they look at first, animations stand still half-way, and folded answers are open. Needs Chromium.
+Usage: python print_book.py FILE, after a build. Links between pages become links inside the document. Interactive
+figures are printed in their first state, animations at their middle frame, and folded answers are open. Needs Chromium.
 """
 
 from __future__ import annotations
@@ -62,14 +62,14 @@ WIDGETS_SETTLED = """() => [...document.querySelectorAll(".robonav [role=status]
 
 
 def anchor(page: str, fragment: str = "") -> str:
-    """The anchor in the document of a place on a page."""
+    """Return the anchor in the document of a place on a page."""
     return (
         f"{page.replace('/', '-')}--{fragment}" if fragment else page.replace("/", "-")
     )
 
 
 def inside(page: str, address: str, known: set[str]) -> str:
-    """An address on a page as it is in the document: another page's becomes an anchor, a file's stays a file's."""
+    """Return the address in the document of an address on a page: an anchor for a page, a file for a file."""
     parts = urlsplit(address)
     if parts.scheme or parts.netloc:
         return address
@@ -84,7 +84,7 @@ def inside(page: str, address: str, known: set[str]) -> str:
 
 
 def still(article: Tag) -> None:
-    """Give each animation the frame half-way as its picture, which else a script would set."""
+    """Give each animation its middle frame as a picture, which a script would otherwise set."""
     for animation in article.select(".animation"):
         script = animation.find_next("script", string=FRAME)
         frames = FRAME.findall(script.get_text()) if script else []
@@ -93,7 +93,7 @@ def still(article: Tag) -> None:
 
 
 def prepared(page: str, source: str, known: set[str]) -> Tag:
-    """The article of a page, with anchors of its own, open folds and nothing that needs a hand or this machine."""
+    """Return the article of a page with unique anchors, open folded sections, and no controls."""
     article = BeautifulSoup(source, "html.parser").find("article")
     assert isinstance(article, Tag)
     still(article)
@@ -123,7 +123,7 @@ def prepared(page: str, source: str, known: set[str]) -> Tag:
 
 
 def needed(listed: list[str], sources: list[str]) -> str:
-    """Styles, formulas' settings, the states of widgets and the scripts that draw them: what the pages' heads hold."""
+    """Return what the heads of the pages contain: styles, settings of formulas, states and scripts of widgets."""
     found: dict[str, None] = {}
     for page, source in zip(listed, sources, strict=True):
         for tag in BeautifulSoup(source, "html.parser").head.select(LOADED):
@@ -135,7 +135,7 @@ def needed(listed: list[str], sources: list[str]) -> str:
 
 
 def joined(listed: list[str]) -> str:
-    """One document of all pages."""
+    """Return one document of all pages."""
     sources = [(SITE / f"{page}.html").read_text("utf-8") for page in listed]
     sections = [
         prepared(page, source, set(listed))
@@ -157,7 +157,7 @@ def joined(listed: list[str]) -> str:
 
 
 def print_to(target: Path, document: Path) -> None:
-    """Let Chromium print a document, once its formulas and figures stand."""
+    """Print a document with Chromium when its formulas and figures are ready."""
     from playwright.sync_api import sync_playwright
 
     found = next(

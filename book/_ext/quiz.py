@@ -13,8 +13,8 @@
       As in the definition.
     ```
 
-Every answer is a fold that opens to whether it is right, and why: nothing but HTML, so it works without a script, from
-the keyboard and with a screen reader.
+Every answer is a folded section that tells whether it is right, and why. It is plain HTML, so it works without a
+script, with the keyboard and with a screen reader.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ VERDICTS = {True: "Right.", False: "No."}
 
 
 def marks(content: str) -> tuple[str, list[bool]]:
-    """The content as a plain list, and which of its answers are right."""
+    """Return the content as a plain list, and whether each answer is right."""
     return ANSWER.sub("- ", content), [
         found["mark"] == "x" for found in ANSWER.finditer(content)
     ]
@@ -43,7 +43,7 @@ class QuizAnswer(nodes.General, nodes.Element):
 
 
 class QuizChoice(nodes.General, nodes.TextElement):
-    """What is chosen: the line of an answer that is always seen."""
+    """The line of an answer that is always visible."""
 
 
 class Quiz(SphinxDirective):
@@ -73,7 +73,7 @@ class Quiz(SphinxDirective):
         return [box]
 
     def answer(self, item: nodes.list_item, is_right: bool) -> nodes.Node:
-        """One answer: its first paragraph to choose, the rest behind it."""
+        """Return one answer: its first paragraph is visible, and the rest is folded."""
         first, *why = item.children
         if not why or not isinstance(why[0], nodes.paragraph):
             raise self.error(f"an answer must be explained: {item.astext()}")

@@ -1,7 +1,8 @@
-"""The package's reference, made from its docstrings: ``{reference} robonav.mdp``.
+"""The reference of the package, made from its docstrings: ``{reference} robonav.mdp``.
 
-Lists what a subpackage offers (its ``__all__``): constants with their values, then functions and classes with signature
-and docstring, each under a heading of its own. The role ``{name}`` and the index of equations link here.
+The directive lists the public names of a subpackage (its ``__all__``): constants with their values, then functions and
+classes with signature and docstring, each under its own heading. The role ``{name}`` and the index of equations link
+here.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ def markdown(docstring: str) -> str:
 
 
 def _item(item: Parameter, *, type_alone: bool) -> str:
-    """One parameter, attribute, result or error as an entry of a list: its names, its type, its description."""
+    """Return one parameter, attribute, result or error as an entry of a list: names, type and description."""
     names, kind = (item.name or item.type, item.type if item.name else "")
     if not item.name and type_alone and not names.isidentifier():
         head = f"- {_plain(names)}"
@@ -80,12 +81,12 @@ def _item(item: Parameter, *, type_alone: bool) -> str:
 
 
 def _plain(text: str) -> str:
-    """A type as text, so that no character of it is read as Markdown."""
+    """Return a type as text, with the characters escaped that Markdown would read as markup."""
     return re.sub(r"([\[\]*_<|])", r"\\\1", text)
 
 
 def signature(name: str, found: Any) -> str:
-    """How to call something: names and defaults, without types, which the docstring tells in words."""
+    """Return the call of a function: names and defaults, without types, which the docstring gives."""
     if isinstance(found, EnumType):
         return f"{name}: {', '.join(found.__members__)}"
     try:
@@ -113,14 +114,14 @@ class Named:
 
     @classmethod
     def of(cls, default: Any) -> Any:
-        """A class or function by name, also as a part of something else; anything else as Python writes it."""
+        """Return a default that is shown by its name if it is a class or function, and otherwise as in Python."""
         if default is inspect.Parameter.empty:
             return default
         return cls(getattr(default, "__qualname__", FUNCTION.sub(r"\1", repr(default))))
 
 
 def methods(found: Any) -> Iterator[tuple[str, Any]]:
-    """The public methods and properties that a class defines itself, in the order of its source."""
+    """Return the public methods and properties that a class defines itself, in the order of its source."""
     for name, member in vars(found).items():
         function = (
             member.fget
@@ -136,7 +137,7 @@ def methods(found: Any) -> Iterator[tuple[str, Any]]:
 
 
 def own_docstring(found: Any) -> str:
-    """The docstring, unless it is what ``dataclass`` or another class put there."""
+    """Return the docstring, unless ``dataclass`` or another class made it."""
     written = found.__doc__ or ""
     generated = dataclasses.is_dataclass(found) and written.startswith(
         f"{getattr(found, '__name__', '')}("
@@ -170,12 +171,12 @@ class Reference(SphinxDirective):
         ]
 
     def constants(self, named: list[tuple[str, Any]]) -> list[nodes.Node]:
-        """The constants and their values, long ones cut; type aliases and tables are for the eyes of the code alone."""
+        """Return the constants and their values. Long values are cut; type aliases and tables are left out."""
         lines = [f"- `{name} = {shorten(repr(found), 80)}`" for name, found in named]
         return self.parse_text_to_nodes("\n".join(lines))
 
     def entry(self, path: str, name: str, found: Any) -> nodes.section:
-        """One function or class: heading, signature, docstring, methods."""
+        """Return one function or class: heading, signature, docstring, methods."""
         section = nodes.section(ids=[path], names=[path])
         section += nodes.title("", "", nodes.literal("", name))
         kind = "class" if inspect.isclass(found) else "function"
@@ -187,7 +188,7 @@ class Reference(SphinxDirective):
         return section
 
     def method(self, path: str, owner: str, name: str, member: Any) -> nodes.Node:
-        """One method of a class, set apart below it."""
+        """Return one method of a class, indented below the class."""
         function = (
             member.fget
             if isinstance(member, property)
@@ -213,7 +214,7 @@ class Reference(SphinxDirective):
         )
 
     def note(self, path: str, kind: str, anchor: str, definition: str) -> None:
-        """Make the name known to links, under its public path and the one of its definition."""
+        """Register the name for links, under its public path and that of its definition."""
         domain = self.env.get_domain("py")
         assert isinstance(domain, PythonDomain)
         domain.note_object(path, kind, anchor, location=self.get_location())

@@ -1,8 +1,8 @@
-"""The release that the book goes with: a wheel beside the pages, and a notebook's first cell that installs it.
+"""The release of the book: a wheel beside the pages, and the first cell of a notebook, which installs it.
 
-The package cannot be told from others of its name on an index, so a notebook that was taken away installs the very
-wheel that its book was built with: from the book's address if that is known (``make book ADDRESS=https://...``), else
-from beside the notebook.
+An index may have another package of the same name, so a downloaded notebook installs exactly the wheel that its book
+was built with: from the book's address if that is known (``make book ADDRESS=https://...``), else from the notebook's
+folder.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LONG_AGO = (
     0,
     0,
     0,
-)  # the time of every file: the same package gives the same bytes
+)  # the time of every file, so that equal packages give equal bytes
 FIRST_CELL = """\
 # Away from home, in Colab for instance: install the release of robonav that this notebook was made with.
 import importlib.util
@@ -35,12 +35,12 @@ if importlib.util.find_spec("robonav") is None:
 
 
 def wheel_name() -> str:
-    """The file name of the wheel."""
+    """Return the file name of the wheel."""
     return f"robonav-{distribution('robonav').version}-py3-none-any.whl"
 
 
 def first_cell(address: str | None = None) -> str:
-    """Installs the wheel from the book's address, or from beside the notebook."""
+    """Return the cell that installs the wheel, from the book's address or from the notebook's folder."""
     where = os.environ.get("BOOK_ADDRESS", "") if address is None else address
     return FIRST_CELL.format(
         wheel=f"{where.rstrip('/')}/{FOLDER}/{wheel_name()}" if where else wheel_name()
@@ -48,7 +48,7 @@ def first_cell(address: str | None = None) -> str:
 
 
 def build_wheel(folder: Path) -> Path:
-    """Write the wheel: the package's files, and what the installed package says of itself."""
+    """Write the wheel: the files of the package, and the metadata of the installed package."""
     about = distribution("robonav")
     info = f"robonav-{about.version}.dist-info"
     package = [

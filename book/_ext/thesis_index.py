@@ -1,8 +1,8 @@
 """From the thesis to the code: ``{thesis-index} equations`` (or ``algorithms``, ``tables``, ``figures``).
 
-For each number the directive lists the function or class that defines it, then everything public that uses it
-(``citations.py`` says how it tells). Of an equation that computes nothing it says which symbol the equation introduces.
-The number of an equation is a link to the page that shows it.
+For each number the directive lists the function or class that defines it, then all public names that use it. The module
+``citations.py`` finds them. For an equation that computes nothing, the list tells which symbol it introduces. The
+number of an equation is a link to the page that shows it.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class ThesisIndex(SphinxDirective):
         return [nodes.table("", nodes.tgroup("", *columns, head, body, cols=2))]
 
     def symbol(self, number: Number) -> list[nodes.Node]:
-        """The sentence about an equation that only introduces a symbol, or nothing."""
+        """Return the sentence about an equation that only introduces a symbol, or nothing."""
         sentence = citations.symbols().get(number)
         if sentence is None:
             return []
@@ -61,7 +61,7 @@ class ThesisIndex(SphinxDirective):
         return [*inline, *messages]
 
     def names(self, items: list[Documented]) -> list[nodes.Node]:
-        """Names as links, commas between them."""
+        """Return names as links with commas between them."""
         found: list[nodes.Node] = []
         for name in dict.fromkeys(item.name for item in items):
             if found:

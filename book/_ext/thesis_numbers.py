@@ -1,9 +1,9 @@
-"""Equations that carry the thesis's own numbers.
+"""Equations that have the numbers of the thesis.
 
-An equation labelled ``eq-2.24`` is shown and referred to as (2.24), so that a reader can lay the thesis beside the
-book. Every other labelled equation is ours and is counted 1, 2, 3 down its page.
+An equation labelled ``eq-2.24`` is shown and referred to as (2.24), so that a reader can compare the thesis with the
+book. Every other labelled equation belongs to the book and is counted 1, 2, 3 on its page.
 
-The role ``{thesis}`2.24``` also gives (2.24), but needs no page that shows the equation: it is a link if there is one.
+The role ``{thesis}`2.24``` also gives (2.24), but no page needs to show the equation. It is a link if a page does.
 """
 
 from __future__ import annotations
@@ -22,26 +22,26 @@ THESIS_LABEL = re.compile(r"eq-(\d+\.\d+)")
 
 
 def thesis_number(label: str) -> str | None:
-    """The thesis's number in a label, or None for an equation of our own."""
+    """Return the thesis's number in a label, or None for an equation of the book."""
     match = THESIS_LABEL.fullmatch(label)
     return match[1] if match else None
 
 
 class ThesisMathDomain(MathDomain):
-    """Sphinx's domain for mathematics with the numbers taken from the labels."""
+    """Sphinx's domain for mathematics, with numbers from the labels."""
 
     def note_equation(self, docname: str, labelid: str, location: Any = None) -> None:
         number = thesis_number(labelid)
         if number is None or labelid in self.equations:
             super().note_equation(
                 docname, labelid, location
-            )  # which warns of a label that is used twice
+            )  # it warns about a label that is used twice
         else:
             self.equations[labelid] = (docname, number)
 
 
 def equation_reference(number: str, docname: str) -> nodes.Node:
-    """The number in brackets, a link if a page shows the equation."""
+    """Return the number in brackets, with a link if a page shows the equation."""
     target = {
         "refdomain": "math",
         "reftype": "eq",
@@ -65,7 +65,7 @@ class ThesisEquation(SphinxRole):
 def leave_plain(
     app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Element
 ) -> nodes.Node | None:
-    """Leave the number of an equation that no page shows as plain text, but not for the strict role ``{eq}``."""
+    """Leave the number of an equation that no page shows as plain text. The strict role ``{eq}`` fails instead."""
     if (
         node.get("refdomain") == "math"
         and thesis_number(node["reftarget"])

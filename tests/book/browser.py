@@ -1,4 +1,4 @@
-"""A headless Chromium that may reach nothing but this machine, and what a page did in it."""
+"""A headless Chromium that can access only this machine, with a record of what a page did."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from playwright.sync_api import (
 
 sys.path.append(
     str(Path(__file__).resolve().parents[2] / "book" / "_ext")
-)  # where screenshots.py finds it, too
+)  # also imported by screenshots.py
 
 from check_site import ROOT as ROOT
 from check_site import SITE as SITE
@@ -45,11 +45,11 @@ DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 FORMULAS_SET = "async () => { await window.MathJax?.startup?.promise }"
 WIDGETS_DRAWN = """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
   .every(({ parentElement: place }) => place.querySelector(".widget-subarea > * > *"))"""
-PATIENCE = 60_000  # milliseconds: the machine may be slow, and busy with other tests
+PATIENCE = 60_000  # milliseconds; the machine may be slow, or busy with other tests
 
 
 def executable() -> str | None:
-    """Where this machine's Chromium is, if it has one."""
+    """Return the path of Chromium, if it is installed."""
     return next(
         filter(
             None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))
@@ -60,14 +60,14 @@ def executable() -> str | None:
 
 @dataclass
 class Visit:
-    """One opened page, with what it asked of other machines and what it complained about."""
+    """One opened page, with its requests to other machines and its error messages."""
 
     page: Page
     external: list[str] = field(default_factory=list)
     errors: list[str] = field(default_factory=list)
 
     def open(self, address: str, *, settled: bool = True) -> Visit:
-        """Go to an address and wait until formulas and widgets are there."""
+        """Go to an address and wait until formulas and widgets are ready."""
         self.page.goto(address, wait_until="load")
         if settled:
             self.page.evaluate(FORMULAS_SET)
@@ -95,7 +95,7 @@ def _watch(visit: Visit) -> None:
 
 @contextmanager
 def chromium(**options: Any) -> Iterator[BrowserContext]:
-    """A fresh browser; ``options`` are Playwright's, such as ``viewport`` or ``color_scheme``."""
+    """Start a new browser. ``options`` are Playwright's, such as ``viewport`` or ``color_scheme``."""
     with tempfile.TemporaryDirectory() as profile, sync_playwright() as playwright:
         context = playwright.chromium.launch_persistent_context(
             profile, executable_path=executable(), headless=True, args=FLAGS, **options
@@ -108,7 +108,7 @@ def chromium(**options: Any) -> Iterator[BrowserContext]:
 
 @contextmanager
 def visiting(context: BrowserContext) -> Iterator[Visit]:
-    """A new page that is watched from its first request on."""
+    """Open a new page that is recorded from its first request on."""
     visit = Visit(context.new_page())
     visit.page.set_default_timeout(PATIENCE)
     _watch(visit)
@@ -121,7 +121,7 @@ def visiting(context: BrowserContext) -> Iterator[Visit]:
 def swipe(
     page: Page, start: tuple[float, float], end: tuple[float, float], *, steps: int = 8
 ) -> None:
-    """Draw a finger over the screen, from one place of the window to another."""
+    """Move a finger over the screen from one position to another."""
     session = page.context.new_cdp_session(page)
     session.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
     for step in range(steps + 1):
@@ -137,7 +137,7 @@ def swipe(
 
 
 def tap(page: Page, x: float, y: float) -> None:
-    """Touch the screen for a moment at a place of the window."""
+    """Touch the screen briefly at a position."""
     session = page.context.new_cdp_session(page)
     session.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
     session.send(
@@ -157,7 +157,7 @@ class _Quiet(SimpleHTTPRequestHandler):
 
 @contextmanager
 def served(folder: Path) -> Iterator[str]:
-    """A folder served on this machine alone; yields its address."""
+    """Serve a folder to this machine only, and yield its address."""
     handler = functools.partial(_Quiet, directory=str(folder))
     with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()

@@ -1,4 +1,4 @@
-"""The built book, served over http and read from disk, and a browser that cannot leave this machine."""
+"""The built book, served over http and read from disk, and a browser that cannot access the network."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what opens a browser or reads the built book."""
+    """Mark tests that open a browser or read the built book."""
     for item in items:
         if {"site", "context"} & set(getattr(item, "fixturenames", ())):
             item.add_marker("browser")
@@ -39,7 +39,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.fixture(scope="session")
 def site() -> Path:
-    """The folder of the built book."""
+    """Return the folder of the built book."""
     if not (SITE / "index.html").is_file():
         pytest.skip("the book is not built: run `make book` first")
     return SITE
@@ -63,12 +63,12 @@ def visit(context: BrowserContext) -> Iterator[Visit]:
 
 @pytest.fixture(scope="session")
 def http(site: Path) -> Iterator[str]:
-    """The address under which the book is served."""
+    """Return the address at which the book is served."""
     with served(site) as address:
         yield address
 
 
 @pytest.fixture(params=["http", "file"])
 def address(request: pytest.FixtureRequest, site: Path) -> str:
-    """The book's address over http and from disk."""
+    """Return the book's address over http or on disk."""
     return request.getfixturevalue("http") if request.param == "http" else site.as_uri()

@@ -1,10 +1,10 @@
-"""How heavy and how quick the built pages are, how smoothly the playground runs, how fast a robot learns in the page.
+"""Measure the size and speed of the built pages, the frame rate of the playground, and how fast a robot learns.
 
-Usage: python tests/book/measure.py [PAGE ...]      (all pages of the book when none is named)
+Usage: python tests/book/measure.py [PAGE ...]      (all pages of the book if none is named)
 
-For each page: megabytes without the files that all pages share, milliseconds from a local server until its formulas
-and widgets stand (the least of three visits, each with an empty cache), and what is too much. Times are of this
-machine, so nothing but this script holds them to a limit.
+For each page the script prints: megabytes without the files that all pages share, milliseconds from a local server
+until formulas and widgets are ready (the least of three visits, each with an empty cache), and the exceeded limits.
+Times depend on the machine, so only this script compares them with limits.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ LEARN = """(lab) => new Promise((done) => {
 
 
 def weight(page: str) -> int:
-    """Bytes of a page and of its own pictures."""
+    """Return the bytes of a page and its own pictures."""
     built = SITE / f"{page}.html"
     source = built.read_text("utf-8")
     pictures = [path for path in SITE.glob("_images/*") if path.name in source]
@@ -48,7 +48,7 @@ def weight(page: str) -> int:
 
 
 def seconds_to_open(address: str, page: str) -> float:
-    """Until formulas and widgets stand, in a browser that has seen nothing."""
+    """Return the seconds until formulas and widgets are ready, with an empty cache."""
     with chromium(viewport=DESKTOP) as context, visiting(context) as visit:
         visit.page.goto("about:blank")
         began = time.perf_counter()
@@ -57,7 +57,7 @@ def seconds_to_open(address: str, page: str) -> float:
 
 
 def frames_a_second(address: str) -> tuple[float, float]:
-    """Of the playground while a network drives among thirty obstacles: the mean, and what 99 in 100 frames reach."""
+    """Return the frame rate of the playground with thirty obstacles: the mean, and that of the slowest per cent."""
     with chromium(viewport=DESKTOP) as context, visiting(context) as visit:
         visit.open(f"{address}/book/playground.html")
         visit.page.get_by_label("world", exact=True).select_option("30 obstacles")

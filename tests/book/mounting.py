@@ -1,4 +1,4 @@
-"""A widget on a page without a notebook, alone or with Python to answer it as a kernel would."""
+"""Put a widget on a page without a notebook, alone or with Python to answer it like a kernel."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ BLANK = Path(__file__).parent / "blank.html"
 def mounted(
     visit: Visit, address: str, widget: Any, *, kernel: bool = False
 ) -> Locator:
-    """The widget at the foot of a short page; with ``kernel``, what it asks is answered by the widget in Python."""
+    """Put the widget at the end of a short page. With ``kernel``, the widget in Python answers its messages."""
     assert isinstance(widget, anywidget.AnyWidget)
     visit.open(f"{address}/book/cite.html")
     if kernel:
@@ -52,7 +52,7 @@ def mounted(
 
 
 def mounted_alone(visit: Visit, widget: Any, *, theme: str = "light") -> Locator:
-    """The widget on an empty page from disk, in the theme's colours; no built book is needed."""
+    """Put the widget on an empty page from disk, in the theme's colours. This needs no built book."""
     assert isinstance(widget, anywidget.AnyWidget)
     visit.open(BLANK.as_uri())
     visit.page.evaluate(

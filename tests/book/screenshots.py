@@ -1,6 +1,6 @@
-"""Pictures of built pages, to look at: desktop, phone and dark, each in full length.
+"""Take pictures of built pages in full length: on desktop, on a phone and in dark mode.
 
-Usage: python tests/book/screenshots.py FOLDER [PAGE ...]      (all pages of the book when none is named)
+Usage: python tests/book/screenshots.py FOLDER [PAGE ...]      (all pages of the book if none is named)
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ VIEWS = {
         "has_touch": True,
     },
 }
-TALLEST = 1_600  # pixels of one picture; a longer page goes on in the next
+TALLEST = 1_600  # pixels of one picture; a longer page continues in the next one
 
 
 def photograph(folder: Path, pages: list[str]) -> None:

@@ -1,4 +1,4 @@
-"""Gridworlds with a known reward: the truth against which every method of chapter 5 is held."""
+"""Gridworlds with a known reward, with which every method of chapter 5 is compared."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ from robonav.nirl import RewardFreeMDP
 
 @dataclass(frozen=True)
 class Case:
-    """A task, its true reward, and the two policies between which a learned one is rated."""
+    """A task, its true reward, and the two policies between which a learned policy is rated."""
 
     grid: GridWorld
     task: RewardFreeMDP
@@ -23,21 +23,21 @@ class Case:
     expert: np.ndarray
 
     def value(self, policy):
-        """What a policy is really worth from the start."""
+        """Return the true value of a policy at the start."""
         return float(
             self.task.starts
             @ policy_evaluation(self.task.with_reward(self.truth), policy)
         )
 
     def loss(self, policy):
-        """What a policy loses, as a share of the gap between the expert's value and a random policy's."""
+        """Return the loss of a policy, as a share of the gap between the expert's value and a random policy's."""
         best = self.value(self.expert)
         return (best - self.value(policy)) / (
             best - self.value(policies.uniform(self.task.n_states, self.task.n_actions))
         )
 
     def best(self, weights):
-        """The best policy for a learned reward."""
+        """Return the optimal policy for a learned reward."""
         return policy_iteration(self.task.with_reward(weights)).policy
 
 
@@ -47,13 +47,13 @@ def case(grid, task, truth):
 
 @pytest.fixture(scope="session")
 def terrain():
-    """Four kinds of ground, some slipping, a start, a target."""
+    """Four kinds of ground, some of which slip, with a start and a target."""
     return case(*nirl.terrain(), nirl.TRUE_WEIGHTS)
 
 
 @pytest.fixture(scope="session", params=range(4))
 def scattered(request):
-    """Grids of 5 x 5 cells in blocks, every cell a start, a random reward or none on each of 9 blocks."""
+    """Grids of 5 x 5 cells. Every cell is a start, and each of 9 blocks has a random reward or none."""
     rng = np.random.default_rng(request.param)
     grid = GridWorld("\n".join(["....."] * 5), slip=0.1)
     blocks = grid.cells // 2

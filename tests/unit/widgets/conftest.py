@@ -1,4 +1,4 @@
-"""Node, for a widget's JavaScript."""
+"""Node, which runs the JavaScript of the widgets."""
 
 import json
 import shutil
@@ -11,7 +11,7 @@ from robonav.widgets.shared import front_end
 
 @pytest.fixture
 def node(tmp_path):
-    """Run a few lines of JavaScript with the exports of a widget, or of several files, and some data at hand."""
+    """Run a few lines of JavaScript with the exports of a widget or of several files, and with some data."""
     program = shutil.which("node")
     if program is None:
         pytest.skip("Node is not installed")
