@@ -4,8 +4,10 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.spaces import Discrete
+from scipy.optimize import minimize_scalar
+from scipy.special import logsumexp
 
-from robonav import mdp, networks
+from robonav import mdp, networks, nirl
 from robonav.lfd import plan, plan_on_grid
 from robonav.robot import (
     Action,
@@ -512,3 +514,137 @@ def test_paths_with_a_margin_are_the_planners(compute, margin, caution):
     np.testing.assert_allclose(seen["points"], made.points, atol=0.0051)
     if caution == 0 and margin <= 3:
         assert round(seen["length"]) == 114  # as the question and the answer say
+
+
+# ---- Chapter 5 ------------------------------------------------------------------------------------------------------
+
+
+def test_copied_actions_where_the_target_stays_are_the_best_ones():
+    first, *moved = explorable("reward_transfer").data["given"]["grounds"]
+    assert first["still"] == first["cells"]
+    assert first["copied"]["values"] == pytest.approx(
+        first["reward"]["values"], abs=1e-9
+    )
+    for ground in moved:
+        start = ground["start"]
+        assert ground["copied"]["values"][start] < ground["reward"]["values"][start] - 1
+    assert {g["name"]: g["still"] for g in moved}["top left"] == 13  # as the page says
+
+
+@pytest.mark.parametrize("counts", [(10, 1, 1000, 0), (0, 0, 3, 4), (5, 5, 0, 20)])
+def test_evidence_of_actions(compute, counts):
+    here, elsewhere = counts[:2], counts[2:]
+    seen = compute(
+        "inconsistent_expert",
+        "return page.evidence(data.here, data.elsewhere);",
+        here=here,
+        elsewhere=elsewhere,
+    )
+    states = [0] * sum(here) + [1] * sum(elsewhere)
+    actions = [
+        a for part in (here, elsewhere) for a in range(2) for _ in range(part[a])
+    ]
+    if sum(here):
+        by_frequency = nirl.most_frequent(states, actions, 2).actions[0]
+        by_likelihood = nirl.map_uniform_prior(states, actions, 2).actions[0]
+        assert int(np.argmax(seen["joint"])) == by_frequency
+        assert int(np.argmax(seen["likelihood"])) == by_likelihood
+
+
+@pytest.mark.parametrize("discount", [0.5, 0.9, 1.0])
+def test_walks_collect_discounted_features(compute, discount):
+    given = explorable("walk_features").data["given"]
+    for walk in given["walks"]:
+        body = """
+        const mu = page.collected(data.kinds, 4, data.discount);
+        return { mu, worth: page.worthOf(given.weights, mu) };"""
+        seen = compute("walk_features", body, kinds=walk["kinds"], discount=discount)
+        features = np.eye(4)[walk["kinds"]]
+        sums = nirl.discounted_feature_sums(features, [0] * len(features), discount)
+        assert seen["mu"] == pytest.approx(sums[0], abs=1e-12)
+        worth = nirl.value_of_expectations(nirl.TRUE_WEIGHTS, sums[0])
+        assert seen["worth"] == pytest.approx(worth, abs=1e-12)
+
+
+def test_soft_maximum(compute):
+    values = [1.0, 1.0, 0.0]
+    seen = compute(
+        "soft_maximum_of_three",
+        "return [1e-9, 0.5, 2].map((t) => page.softMaximum(data.values, t));",
+        values=values,
+    )
+    expected = [t * logsumexp(np.array(values) / t) for t in (1e-9, 0.5, 2.0)]
+    assert seen == pytest.approx(expected, abs=1e-12)
+
+
+def test_widest_lead(compute):
+    given = explorable("widest_margin").data["given"]
+    body = "return page.widestLead(data.expert, given.others);"
+    for expert in (given["expert"], [0.0, 2.5], [-1.0, -2.0]):
+        seen = compute("widest_margin", body, expert=expert)
+        exact = nirl.maximum_margin(expert, given["others"])
+        assert seen["lead"] == pytest.approx(exact.margin, abs=1e-4)
+    inside = np.mean(given["others"], axis=0).tolist()
+    assert compute("widest_margin", body, expert=inside)["lead"] <= 0
+
+
+def test_projection_steps(compute):
+    given = explorable("projection_steps").data["given"]
+    points, expert = np.array(given["points"]), np.array(given["expert"])
+    body = "return page.mixtures(given.points, given.expert, given.first, 6).all;"
+    seen = compute("projection_steps", body)
+    mixture = points[given["first"]]
+    for found in seen[1:]:
+        policy = points[(points @ (expert - mixture)).argmax()]
+        line = minimize_scalar(
+            lambda share, m=mixture, p=policy: np.linalg.norm(
+                m + share * (p - m) - expert
+            ),
+            bounds=(0, 1),
+            method="bounded",
+            options={"xatol": 1e-12},
+        )
+        mixture = mixture + line.x * (policy - mixture)
+        assert found == pytest.approx(mixture, abs=1e-5)
+
+
+def test_boltzmann(compute):
+    given = explorable("boltzmann_temperature").data["given"]
+    assert given["sure"] == 22.0  # as the page says
+    body = "return page.boltzmannPolicy(given.values, data.eta);"
+    for eta in (0.0, 7.5, 60.0):
+        seen = compute("boltzmann_temperature", body, eta=eta)
+        assert seen == pytest.approx(nirl.boltzmann_policy(given["values"], eta))
+
+
+def test_accuracy_and_balanced_accuracy(compute):
+    actions = np.repeat(np.arange(5), [60, 10, 10, 10, 10])
+    predicted = np.zeros_like(actions)
+    seen = compute(
+        "accuracy_or_balance",
+        "return page.scores([60, 10, 10, 10, 10], [1, 0, 0, 0, 0]);",
+    )
+    assert seen["accuracy"] == pytest.approx(nirl.accuracy(predicted, actions))
+    assert seen["balanced"] == pytest.approx(nirl.balanced_accuracy(predicted, actions))
+
+
+def test_weights_of_samples(compute):
+    given = explorable("weights_of_samples").data["given"]
+    body = """
+    const weights = page.sampleWeights(given.features, data.theta);
+    return { weights, effective: page.effectiveSamples(weights) };"""
+    features = np.array(given["features"])
+    for theta in (0.0, 20.0, 60.0):
+        seen = compute("weights_of_samples", body, theta=theta)
+        weights = nirl.importance_weights(
+            [theta], features[:, None], np.zeros(len(features))
+        )
+        assert seen["weights"] == pytest.approx(weights, abs=1e-12)
+        assert seen["effective"] == pytest.approx(1 / (weights**2).sum())
+
+
+def test_value_of_an_end(compute):
+    body = "return page.valueOfEnding(7, 0.3, 0.8, 0.65);"
+    rewards = [0.3] * 7
+    value = mdp.discounted_return(rewards, 0.65)[0] + 0.65**7 * 0.8 / (1 - 0.65)
+    assert compute("value_of_an_end", body) == pytest.approx((1 - 0.65) * value)

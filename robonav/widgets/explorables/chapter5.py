@@ -1,0 +1,231 @@
+"""The numbers of chapter 5's explorables."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from robonav import mdp, nirl
+from robonav.nirl.benchmark_mdps import CELLS, TERRAIN
+
+from ..grid import page_grid
+from .registry import asks
+
+
+def _ground(target: tuple[int, int]) -> tuple[mdp.GridWorld, nirl.RewardFreeMDP]:
+    """The ground of mud, road and grass with its target in another cell."""
+    rows = [row.split() for row in TERRAIN.split("\n") if row.strip()]
+    rows = [["." if symbol == "T" else symbol for symbol in row] for row in rows]
+    rows[target[0]][target[1]] = "T"
+    grid = mdp.GridWorld(
+        "\n".join(" ".join(row) for row in rows), legend=CELLS, slip=0.2
+    )
+    symbols = np.array([grid.rows[row][column] for row, column in grid.cells])
+    symbols[symbols == "S"] = "."
+    kinds = (symbols[:, None] == np.array(list(".mrT"))).astype(float)
+    return grid, nirl.RewardFreeMDP.of_grid(grid, kinds, 0.9)
+
+
+TARGETS = {
+    "where it was": (3, 6),
+    "top right": (0, 6),
+    "bottom right": (5, 6),
+    "top left": (0, 0),
+    "in the mud": (4, 3),
+}
+
+
+@asks(
+    "Copy the actions, or take the reward along?",
+    "An expert walks to the target on the right. Then the target moves to the top left. "
+    "A pupil who copied the actions goes on as before. In how many of the 41 cells is its action still the best one?",
+    guesses=["in all", "in about two thirds", "in about a third", "in none"],
+    files=("grid",),
+)
+def reward_transfer() -> dict[str, Any]:
+    """For each place of the target: the copied policy and the best one for the expert's reward, with their values."""
+    copied = mdp.policy_iteration(
+        _ground(TARGETS["where it was"])[1].with_reward(nirl.TRUE_WEIGHTS)
+    ).policy
+    grounds = []
+    for name, target in TARGETS.items():
+        grid, task = _ground(target)
+        model = task.with_reward(nirl.TRUE_WEIGHTS)
+        best = mdp.policy_iteration(model)
+        q = model.action_values(best.values)
+        still = q[np.arange(len(copied)), copied] >= q.max(axis=1) - 1e-9
+        begin = int(grid.start.argmax())
+        grounds.append(
+            {
+                "name": name,
+                "layout": page_grid(grid),
+                "start": begin,
+                "still": int(still[~grid.terminal].sum()),
+                "cells": int((~grid.terminal).sum()),
+                "copied": {
+                    "policy": copied.tolist(),
+                    "values": mdp.policy_evaluation(model, copied).tolist(),
+                },
+                "reward": {
+                    "policy": best.policy.tolist(),
+                    "values": best.values.tolist(),
+                },
+            }
+        )
+    return {"grounds": grounds}
+
+
+@asks(
+    "Which action did the expert mean?",
+    "In one state the expert went forward 10 times and turned left once. "
+    "Elsewhere it went forward 1,000 times and never turned left. "
+    "Which action does the maximum a posteriori choose if all actions are equally likely beforehand?",
+    guesses=["forward", "left", "both are equally good"],
+)
+def inconsistent_expert() -> dict[str, Any]:
+    """Counts in the state that the reader changes; the page does the sums."""
+    return {"here": [10, 1]}
+
+
+@asks(
+    "Two walks, four features",
+    "The walk straight on is shorter than the walk round on the road. "
+    "Mud costs 1 a step, grass 0.3, road 0.05, and the target gives 3. "
+    "Does the road still win if the discount is 0.5?",
+    guesses=["yes", "no"],
+    files=("grid",),
+)
+def walk_features() -> dict[str, Any]:
+    """Two walks from the start to the target of the ground, as kinds of the cells stepped onto."""
+    grid, _ = nirl.terrain()
+    place = {tuple(cell): state for state, cell in enumerate(grid.cells.tolist())}
+    road = [
+        (3, 0),
+        (3, 1),
+        (2, 1),
+        (1, 1),
+        (1, 2),
+        (1, 3),
+        (1, 4),
+        (1, 5),
+        (2, 5),
+        (3, 5),
+        (3, 6),
+    ]
+    straight = [(3, column) for column in range(7)]
+    symbols = {".": 0, "S": 0, "m": 1, "r": 2, "T": 3}
+    walks = [
+        {
+            "name": name,
+            "states": [place[cell] for cell in walk],
+            "kinds": [symbols[grid.rows[row][column]] for row, column in walk[1:]],
+        }
+        for name, walk in (
+            ("straight through the mud", straight),
+            ("round on the road", road),
+        )
+    ]
+    return {
+        "layout": page_grid(grid),
+        "walks": walks,
+        "kinds": list(nirl.TERRAIN_KINDS),
+        "weights": nirl.TRUE_WEIGHTS.tolist(),
+    }
+
+
+@asks(
+    "A soft maximum",
+    "Three actions have the values 1, 1 and 0. Their hard maximum is 1. The soft maximum at temperature 1 is",
+    guesses=["below 1", "1", "above 1"],
+)
+def soft_maximum_of_three() -> dict[str, Any]:
+    """Three values to be changed."""
+    return {"values": [1.0, 1.0, 0.0]}
+
+
+@asks(
+    "Turn the reward until the expert leads",
+    "Each grey point is what a policy collects, and the orange one is the expert. A reward is a direction. "
+    "In which direction is the expert's lead over the best of the others widest?",
+    guesses=[
+        "towards the expert from the origin",
+        "away from the nearest point of the others' hull",
+        "along feature 1",
+    ],
+)
+def widest_margin() -> dict[str, Any]:
+    """The points of the page's figure, and the widest margin for the expert where it stands."""
+    rng = np.random.default_rng(4)
+    others, expert = rng.normal(size=(6, 2)), np.array([2.2, 1.4])
+    widest = nirl.maximum_margin(expert, others)
+    return {
+        "others": others.tolist(),
+        "expert": expert.tolist(),
+        "margin": widest.margin,
+        "angle": float(np.degrees(np.arctan2(widest.weights[1], widest.weights[0]))),
+    }
+
+
+@asks(
+    "Projection, step by step",
+    "The apprentice may take any policy on the circle. "
+    "It asks for the best one in the direction of the expert, and mixes. "
+    "How many policies does it need until the mixture is within 0.1 of the expert?",
+    guesses=["1", "3", "6", "more than 12"],
+)
+def projection_steps(policies: int = 12) -> dict[str, Any]:
+    """Feature expectations of twelve policies on a circle, and an expert inside it."""
+    angles = 2 * np.pi * np.arange(policies) / policies
+    points = np.column_stack([np.cos(angles), np.sin(angles)])
+    return {"points": points.tolist(), "expert": [0.45, 0.55], "first": 7}
+
+
+@asks(
+    "How sure is a Boltzmann policy?",
+    "Three actions have the values 0.6, 0.5 and 0.2. "
+    "From which inverse temperature η on is the best one taken nine times in ten?",
+    guesses=["η = 1", "η = 10", "η = 22", "never"],
+)
+def boltzmann_temperature() -> dict[str, Any]:
+    """Three values to be changed, and the answer."""
+    values = [0.6, 0.5, 0.2]
+    etas = np.arange(0, 60.5, 0.5)
+    best = [nirl.boltzmann_policy(values, eta)[0] for eta in etas]
+    return {"values": values, "sure": float(etas[np.argmax(np.array(best) >= 0.9)])}
+
+
+@asks(
+    "Which policy is kept?",
+    "A careful policy predicts seven in ten of the expert's decisions, whichever action the expert took. "
+    "Another one always goes forward. "
+    "The expert goes forward in 75 % of its decisions. Which of the two has the higher accuracy?",
+    guesses=["the careful one", "the one that always goes forward"],
+)
+def accuracy_or_balance() -> dict[str, Any]:
+    """How many actions there are besides going forward, and how well the careful policy predicts."""
+    return {"others": 4, "careful": 0.7}
+
+
+@asks(
+    "A few samples carry all the weight",
+    "Fifty random walks of twenty steps stand for all that could happen. With θ = 1, each step to the right "
+    "multiplies the weight of a walk by e. As many samples of equal weight as how many are left of the fifty?",
+    guesses=["about 50", "about 25", "about 7", "none"],
+)
+def weights_of_samples() -> dict[str, Any]:
+    """Features of fifty random walks: how many of twenty steps go to the right."""
+    rng = np.random.default_rng(9)
+    features = rng.binomial(20, 0.5, size=50) / 20
+    return {"features": features.tolist(), "expert": 0.8}
+
+
+@asks(
+    "What an end is worth",
+    "Each step gives a reward of 0.3, after scaling to the range from 0 to 1, and an end counts as 0. "
+    "Will a robot that maximises its value look for the end?",
+    guesses=["yes", "no, it puts the end off", "it does not care"],
+)
+def value_of_an_end() -> dict[str, Any]:
+    """Nothing but the discount of the chapter."""
+    return {"discount": nirl.ReplaySGD().discount}

@@ -1,0 +1,35 @@
+// A target that moves: the copied actions beside the best ones for the same reward.
+
+/** Makes the letters of a grid large enough for a phone; returns a function that leaves the values to the colours. */
+function bare(element) {
+  const texts = [...element.querySelectorAll("text")];
+  const values = texts.filter((text) => !text.textContent);
+  texts.filter((text) => text.textContent).forEach((text) => set(text, { "font-size": 22, dy: 6 }));
+  return () => values.forEach((text) => (text.textContent = ""));
+}
+
+export default explorable({
+  controls: ({ grounds }) => ({
+    target: segments({ label: "the target stands", options: grounds.map(({ name }, k) => [k, name]), value: 0 }),
+    pupil: segments({ label: "the pupil took along", options: [["copied", "the actions"], ["reward", "the reward"]], value: "copied" }),
+  }),
+  draw({ given: { grounds }, stage }) {
+    const pictures = grounds.map(({ layout }) => gridPicture({ layout, name: "what the pupil does" }));
+    const clear = pictures.map(({ element }) => bare(element));
+    const holder = h("figure", {});
+    stage.append(holder);
+    return ({ target, pupil }) => {
+      const ground = grounds[target];
+      const { policy, values } = ground[pupil];
+      pictures[target].show({ values, policy, said: pupil, walk: [] }, 2.5, ground.start);
+      clear[target]();
+      holder.replaceChildren(pictures[target].element);
+      return [
+        `The copied action is still the best one in ${ground.still} of ${ground.cells} cells.`,
+        `Value of the start with the copied actions: ${number(ground.copied.values[ground.start])}.`,
+        `With the best actions for the same reward: ${number(ground.reward.values[ground.start])}.`, "",
+        "The reward says what each kind of ground is like. The target's place is part of the ground, so the reward goes along with it.",
+      ].join("\n");
+    };
+  },
+});

@@ -1,0 +1,51 @@
+// Two walks over four kinds of ground: what they collect, and which one a reward prefers.
+
+/** Discounted counts of the kinds stepped onto: mu of one walk. */
+export const collected = (kinds, count, discount) =>
+  kinds.reduce((sums, kind, t) => sums.map((sum, k) => sum + (k === kind ? discount ** t : 0)), new Array(count).fill(0));
+
+/** theta . mu, Eq. (5.4). */
+export const worthOf = (weights, mu) => weights.reduce((sum, weight, k) => sum + weight * mu[k], 0);
+
+export default explorable({
+  controls: ({ kinds, weights }) => ({
+    discount: range({ label: "discount γ", from: 0.3, to: 1, step: 0.01, value: 0.9, text: (value) => value.toFixed(2) }),
+    ...Object.fromEntries(kinds.map((name, k) => [name, range({ label: `reward of ${name}`, from: -2, to: 4, step: 0.05, value: weights[k], text: (value) => number(value) })])),
+  }),
+  draw({ given: { layout, walks, kinds }, stage }) {
+    const chart = plot({ x: [0, 8], y: [0, 8], xLabel: "", yLabel: "discounted steps", xTicks: [], height: 210 });
+    const grids = walks.map(() => gridPicture({ layout, name: "two walks to the target" }));
+    stage.append(
+      h("figure", {}, grids[0].element),
+      h("figure", {}, chart.element, legend([PALETTE.BLUE, walks[0].name], [PALETTE.ORANGE, walks[1].name])));
+    grids.forEach((grid, k) => {
+      const nothing = layout.cells.map(() => 0);
+      grid.show({ values: nothing, policy: nothing, said: walks[k].name, walk: walks[k].states }, 1, -1);
+      grid.element.querySelectorAll(".cell + path").forEach((arrow) => arrow.remove());
+      for (const text of grid.element.querySelectorAll("text")) {
+        if (/^[mrS]$/.test(text.textContent)) set(text, { "font-size": 24, dy: 8 });
+        else if (text.textContent !== "+3") text.remove();
+        else set(text, { "font-size": 22 });
+      }
+      const path = grid.element.querySelector("path.still:last-of-type");
+      set(path, { stroke: [PALETTE.BLUE, PALETTE.ORANGE][k], "stroke-width": 6 });
+      grids[0].element.append(path);
+    });
+    return ({ discount, ...rewards }) => {
+      const mus = walks.map((walk) => collected(walk.kinds, kinds.length, discount));
+      const values = mus.map((mu) => worthOf(kinds.map((name) => rewards[name]), mu));
+      const bar = (k, w) => svg("rect", {
+        x: chart.X(2 * k + 0.3 + 0.7 * w), y: chart.Y(mus[w][k]), width: chart.X(0.6) - chart.X(0), height: chart.Y(0) - chart.Y(mus[w][k]), fill: [PALETTE.BLUE, PALETTE.ORANGE][w],
+      });
+      chart.put(
+        "Discounted steps onto each kind of ground",
+        ...kinds.flatMap((name, k) => [bar(k, 0), bar(k, 1), svg("text", { x: chart.X(2 * k + 1), y: chart.Y(0) + 17, "font-size": 13, "text-anchor": "middle" }, name)]),
+      );
+      const better = Math.abs(values[0] - values[1]) < 1e-9 ? "Both are equally good." : `Better: ${walks[values[0] > values[1] ? 0 : 1].name}.`;
+      return [
+        ...walks.map(({ name }, w) => `${name}: μ = (${mus[w].map((value) => number(value)).join(", ")}), θ·μ = ${number(values[w], 3)}`), "", better,
+        "The rewards change θ and leave μ as it is. The discount changes μ.",
+      ].join("\n");
+    };
+  },
+});

@@ -1,0 +1,52 @@
+// A reward is a direction: turn it, and see how far the expert leads.
+
+/** The lead of the expert over the best of the others in a direction, in degrees. */
+export function leadAt(expert, others, degrees) {
+  const theta = [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
+  const along = ([x, y]) => x * theta[0] + y * theta[1];
+  const values = others.map(along);
+  const rival = largest(values);
+  return { lead: along(expert) - values[rival], rival };
+}
+
+/** The widest lead of all directions, tried at every tenth of a degree. */
+export function widestLead(expert, others) {
+  const leads = Array.from({ length: 3600 }, (_, k) => leadAt(expert, others, k / 10).lead);
+  const best = largest(leads);
+  return { lead: leads[best], degrees: best / 10 };
+}
+
+export default explorable({
+  controls: ({ expert }) => ({
+    degrees: range({ label: "direction of the reward", from: 0, to: 355, step: 5, value: 0, text: (value) => `${value}°` }),
+    x: range({ label: "expert, feature 1", from: -3, to: 3, step: 0.1, value: expert[0], text: (value) => number(value, 1) }),
+    y: range({ label: "expert, feature 2", from: -3, to: 3, step: 0.1, value: expert[1], text: (value) => number(value, 1) }),
+  }),
+  draw({ given: { others }, stage }) {
+    const chart = plot({ x: [-3.5, 3.5], y: [-3.5, 3.5], xLabel: "feature 1", yLabel: "feature 2", width: 360, height: 360 });
+    stage.append(h("figure", {}, chart.element, legend([PALETTE.GREY, "other policies"], [PALETTE.ORANGE, "the expert"], [PALETTE.BLUE, "the reward, and where it is equal"])));
+    return ({ degrees, x, y }) => {
+      const expert = [x, y];
+      const { lead, rival } = leadAt(expert, others, degrees);
+      const best = widestLead(expert, others);
+      const [c, s] = [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
+      const inside = (point) => point.every((value) => Math.abs(value) <= 3.5);
+      const across = ([px, py], dashes) => {
+        const points = Array.from({ length: 401 }, (_, k) => [px - (k - 200) * 0.05 * s, py + (k - 200) * 0.05 * c]).filter(inside);
+        return chart.line(points, { stroke: PALETTE.BLUE, "stroke-width": 1.3, "stroke-dasharray": dashes });
+      };
+      const dot = ([px, py], fill, r = 5) => svg("circle", { cx: chart.X(px), cy: chart.Y(py), r, fill });
+      chart.put(
+        `The reward points to ${degrees} degrees; the expert leads by ${lead.toFixed(2)}`,
+        across(expert, "6 4"), across(others[rival], "2 4"),
+        chart.line([[0, 0], [1.6 * c, 1.6 * s]], { stroke: PALETTE.BLUE, "stroke-width": 4 }),
+        ...others.map((point) => dot(point, PALETTE.GREY)), dot(expert, PALETTE.ORANGE, 7),
+      );
+      return [
+        lead > 0 ? `The expert leads by ${number(lead, 3)}.` : `The expert does not lead: another policy collects ${number(-lead, 3)} more.`, "",
+        best.lead <= 0.0005 ? "In no direction does the expert lead: it lies among the others."
+          : lead > 0.99 * best.lead ? "There is hardly a wider lead than this." : `The widest lead of all directions is ${number(best.lead, 3)}.`,
+      ].join("\n");
+    };
+  },
+});
