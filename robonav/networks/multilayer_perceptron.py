@@ -175,16 +175,16 @@ def backpropagate(weights: Sequence[Array], a: list[Array], delta: Array) -> Gra
     >>> backpropagate(network.weights, a, a[-1] - 1).biases[1].shape
     (1,)
     """
-    dW: list[Array] = []
-    db: list[Array] = []
+    gradient = Gradient([], [])
     for layer in reversed(range(len(weights))):
-        # delta(l+1) a(l)^T and delta(l+1), summed over the examples
-        dW.insert(0, delta.T @ a[layer])  # Eqs. (3.15), (3.25) and (3.26)
-        db.insert(0, delta.sum(axis=0))
+        # By W(l): delta(l+1) a(l)^T; by b(l): delta(l+1); both summed over the examples.
+        dW = delta.T @ a[layer]  # Eqs. (3.15), (3.25) and (3.26)
+        gradient.weights.insert(0, dW)
+        gradient.biases.insert(0, delta.sum(axis=0))
         if layer > 0:  # delta(l) = (W(l)^T delta(l+1)) * f'(z(l))
             back = delta @ weights[layer]
             delta = back * sigmoid_slope(a[layer])  # Eqs. (3.14) and (3.24)
-    return Gradient(dW, db)
+    return gradient
 
 
 def mean_gradient(
