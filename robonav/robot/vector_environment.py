@@ -163,10 +163,10 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
             raise ValueError("step: call reset first")
         commands = check_actions(actions, (self.num_envs,))
         simulator, before, fresh = self.simulator, self.sensing, self._ended
-        reflexes = (self.settings.reflex or undecided)(before, simulator.speed)
-        reflexes[fresh] = NO_REFLEX
+        reflex = self.settings.reflex or undecided
+        reflexes = np.where(fresh, NO_REFLEX, reflex(before, simulator.speed))
         simulator.step(np.where(reflexes == NO_REFLEX, commands, reflexes))
-        if fresh.any():  # these robots begin a new episode instead
+        if fresh.any():  # robots whose episode has ended stood still; a new one begins
             index = np.flatnonzero(fresh)
             generators = [self._generators[i] for i in index]
             simulator.restart(index, self.settings.next_worlds(generators))

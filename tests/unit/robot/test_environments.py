@@ -379,3 +379,15 @@ def test_bad_rewards_options_and_seeds_are_refused_with_a_sentence():
         env.step(0)
     with pytest.raises(ValueError, match=r"options\['worlds'\] must hold 1 worlds"):
         env.reset(options={"worlds": random_worlds(2, seed=0)})
+
+
+def test_the_array_of_ones_own_reflex_is_left_alone():
+    always = np.full(3, Action.F)
+    always.flags.writeable = False
+    env = NavigationVectorEnv(
+        3, max_episode_steps=2, reflex=lambda sensing, speed: always
+    )
+    env.reset(seed=0)
+    for _ in range(4):
+        *_, info = env.step(np.zeros(3, int))
+    assert info["reflex"].tolist() == [0, 0, 0]
