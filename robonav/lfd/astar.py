@@ -180,7 +180,7 @@ def modified_astar(
     - Steps near obstacles can be made to cost more (``caution``), and ``limit`` ends a search that takes too long. The
       thesis has neither.
 
-    The numbers are the steps of Algorithm 4. Those missing only end a block.
+    The numbers in the comments are the lines of Algorithm 4. Those missing only end a block.
 
     Parameters
     ----------

@@ -27,7 +27,8 @@ def behaviour_cloning(
     """Policy learning from multiple demonstrations, Algorithm 3.
 
     This is behaviour cloning: a network is trained, by supervised learning, to answer each state in the demonstrations
-    with the expert's action. The numbers are the steps of Algorithm 3.
+    with the expert's action. The numbers in the comments are the lines of
+    Algorithm 3.
 
     Parameters
     ----------
