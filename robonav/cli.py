@@ -193,7 +193,7 @@ def grade(
         raise ValueError(
             f"this machine has no sandbox, so only --practice works: {sandbox_check.fault('official')}"
         )
-    with progress.bar("grading") as shown:
+    with progress.bar("grading") as report:
         grade_class(
             config,
             folder,
@@ -202,7 +202,7 @@ def grade(
             ids=ids,
             jobs=jobs,
             scheduler=scheduler,
-            progress=shown,
+            progress=report,
         )
     print(f"{out / 'index.html'}")
 
@@ -254,7 +254,7 @@ def reproduce(
     ]
     done = []
     for experiment in chosen:
-        with progress.bar(experiment.name) as shown:
+        with progress.bar(experiment.name) as report:
             done.append(
                 experiments.reproduce(
                     experiment,
@@ -263,7 +263,7 @@ def reproduce(
                     backend=backend,
                     scheduler=scheduler,
                     jobs=jobs,
-                    progress=shown,
+                    progress=report,
                 )
             )
         save_figure(done[-1], out)
@@ -350,8 +350,8 @@ def leaderboard(
     for name in names:
         known(name)
     _check_json(json_file)
-    with progress.bar("leaderboard") as shown:
-        results = experiments.reproduce(board(names), out, scale=scale, progress=shown)
+    with progress.bar("leaderboard") as report:
+        results = experiments.reproduce(board(names), out, scale=scale, progress=report)
     print(as_table(results, "success", rows="method", columns="setting"))
     if json_file is not None:
         _write_json(json_file, as_json([results]))

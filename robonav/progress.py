@@ -18,11 +18,11 @@ def bar(description: str) -> Iterator[Progress]:
     """Show a tqdm bar as a progress callback: ``with bar("training") as progress: train(progress=progress)``."""
     from tqdm.auto import tqdm
 
-    with tqdm(desc=description) as shown:
+    with tqdm(desc=description) as drawn:
 
         def update(done: int, total: int) -> None:
-            shown.total = total
-            shown.n = done
-            shown.refresh()
+            drawn.total = total
+            drawn.n = done
+            drawn.refresh()
 
         yield update

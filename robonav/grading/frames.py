@@ -179,7 +179,7 @@ def _parse(text: bytes) -> dict[str, Any]:
 
 
 def _no_constant(name: str) -> None:
-    raise ValueError(f"{name} is no JSON")
+    raise ValueError(f"{name} is not JSON")
 
 
 def _to_arrays(described: list[Any], body: memoryview) -> list[np.ndarray]:

@@ -142,7 +142,7 @@ class Session:
         except Garbled as error:
             self.close()
             raise Unaccepted(
-                "error", self._told("What came back is no answer", f": {error}.")
+                "error", self._told("The reply is not an answer", f": {error}.")
             ) from None
         finally:
             self._left[exercise.id] = left - (time.monotonic() - start)

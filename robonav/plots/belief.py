@@ -79,10 +79,10 @@ def draw_values_of_beliefs(
     both = np.stack([belief, 1 - belief], axis=1)
     lines = both @ values.vectors.T
     edge = lines.max(axis=1)
-    shown = set()
+    named = set()
     for k, action in enumerate(values.actions.tolist()):
-        label = names[action] if action not in shown else None
-        shown.add(action)
+        label = names[action] if action not in named else None
+        named.add(action)
         axes.plot(belief, lines[:, k], color=colours[action], linewidth=0.8, alpha=0.7)
         best = np.where(lines[:, k] >= edge - 1e-9, edge, np.nan)
         axes.plot(belief, best, color=colours[action], linewidth=3.5, label=label)

@@ -15,7 +15,7 @@ from robonav import style
 from robonav.mdp import GPIHistory, GridWorld
 from robonav.mdp.gridworld import STEPS
 
-# Cells are pale and what stands on them is dark, in the light theme and in the dark one; `grid_lab.js` does the same.
+# Cells are pale and their contents dark, in the light and in the dark theme, as in `grid_lab.js`.
 ZERO, DARK, STRENGTH = "#F3F4F5", "#1F2328", 0.6
 PLANNERS: dict[str, str] = {
     "value iteration": style.BLUE,
@@ -54,23 +54,23 @@ def draw_grid(
     """
     for row, column in np.argwhere(grid.numbers < 0):
         axes.add_patch(Rectangle((column, row), 1, 1, color=style.OBSTACLE))
-    shown = None if values is None else np.asarray(values, dtype=float)
-    ink = style.INK if shown is None else DARK
-    strongest = scale or (1.0 if shown is None else float(abs(shown).max()) or 1.0)
+    drawn = None if values is None else np.asarray(values, dtype=float)
+    ink = style.INK if drawn is None else DARK
+    strongest = scale or (1.0 if drawn is None else float(abs(drawn).max()) or 1.0)
     for state, (row, column) in enumerate(grid.cells):
-        face = "none" if shown is None else colour_of_value(shown[state] / strongest)
+        face = "none" if drawn is None else colour_of_value(drawn[state] / strongest)
         axes.add_patch(
             Rectangle(
                 (column, row), 1, 1, facecolor=face, edgecolor=style.INK, linewidth=0.6
             )
         )
         _draw_meaning(axes, grid, state, ink)
-        if shown is not None and digits >= 0 and not grid.terminal[state]:
+        if drawn is not None and digits >= 0 and not grid.terminal[state]:
             lower = 0.5 if policy is None else 0.78
             axes.text(
                 column + 0.5,
                 row + lower,
-                f"{shown[state]:.{digits}f}",
+                f"{drawn[state]:.{digits}f}",
                 fontsize=9,
                 color=ink,
                 ha="center",
@@ -81,7 +81,7 @@ def draw_grid(
             axes,
             grid,
             np.asarray(policy),
-            up=0.5 if shown is None or digits < 0 else 0.38,
+            up=0.5 if drawn is None or digits < 0 else 0.38,
             ink=ink,
         )
     rows, columns = grid.shape

@@ -58,12 +58,12 @@ def draw_key_points(
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, fontsize=8)
 
 
-def draw_slips(axes: Axes, shown: Demonstrations, meant: ArrayLike) -> None:
+def draw_slips(axes: Axes, demonstrations: Demonstrations, meant: ArrayLike) -> None:
     """Draw the first episode of a slipping expert and mark the steps that differ from the action meant (Fig. 5.5)."""
-    own = shown.trajectory == 0
-    slipped = (np.asarray(meant) != shown.actions)[own]
-    draw_world(axes, shown.worlds[0])
-    x, y = shown.poses[own, :2].T
+    own = demonstrations.trajectory == 0
+    slipped = (np.asarray(meant) != demonstrations.actions)[own]
+    draw_world(axes, demonstrations.worlds[0])
+    x, y = demonstrations.poses[own, :2].T
     axes.plot(x, y, color=style.BLUE, linewidth=1.4, marker=".", markersize=4)
     axes.plot(
         x[slipped],

@@ -271,7 +271,7 @@ def draw_endings(axes: Axes, endings: Mapping[str, tuple[float, float, float]]) 
         yticks=range(len(endings)),
         yticklabels=list(endings),
         xlim=(0, 100),
-        xlabel="drives (%)",
+        xlabel="episodes (%)",
     )
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     axes.invert_yaxis()

@@ -37,7 +37,7 @@ class RewardLab(anywidget.AnyWidget):
 def reward_lab(
     reward_weights: ArrayLike,
     encoder: Encoder,
-    shown: Transitions,
+    decisions: Transitions,
     worlds: Mapping[str, Worlds],
     others: Worlds,
     *,
@@ -52,7 +52,7 @@ def reward_lab(
         The weights theta, one row for each action and the constant last, as :func:`robonav.nirl.learn` returns them.
     encoder : Encoder
         The encoder phi(s), with k features.
-    shown : Demonstrations
+    decisions : Transitions
         The expert's decisions, with which the choices of the reward are compared.
     worlds : mapping of str to Worlds
         Batches of one by name, which the lab draws.
@@ -75,8 +75,8 @@ def reward_lab(
     theta = check_array(
         "reward_weights", reward_weights, shape=(LEARNED, encoder.size + 1)
     )
-    if not worlds or not len(others) or not len(shown):
-        raise ValueError("worlds, others and shown must each hold at least one")
+    if not worlds or not len(others) or not len(decisions):
+        raise ValueError("worlds, others and decisions must each hold at least one")
     return RewardLab(
         data={
             "theta": packed(theta),
@@ -86,8 +86,8 @@ def reward_lab(
                 "target": encoder.target,
             },
             "features": _features(encoder),
-            "inputs": packed(shown.inputs),
-            "actions": packed(shown.actions, np.uint8),
+            "inputs": packed(decisions.inputs),
+            "actions": packed(decisions.actions, np.uint8),
             "worlds": [
                 {"name": name, "world": page_world(world)}
                 for name, world in worlds.items()

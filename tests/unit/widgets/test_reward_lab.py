@@ -41,7 +41,7 @@ def page(node):
 def lab(shown, theta, **changes):
     worlds, others = {"one": random_worlds(1, 20, seed=5)}, random_worlds(3, 20, seed=6)
     return reward_lab(
-        **{"reward_weights": theta, "encoder": ENCODER, "shown": shown} | changes,
+        **{"reward_weights": theta, "encoder": ENCODER, "decisions": shown} | changes,
         worlds=worlds,
         others=others,
     )
