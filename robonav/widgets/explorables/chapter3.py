@@ -7,10 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from robonav.lfd import plan
+from robonav.lfd import demonstrate, learn_policy, plan
 from robonav.lfd.astar import EIGHT_DIRECTIONS, step_clearance
 from robonav.networks import toy_datasets
-from robonav.robot import Worlds, clearance, make_world, random_worlds
+from robonav.robot import (
+    Worlds,
+    clearance,
+    make_world,
+    navigate,
+    random_worlds,
+    straight,
+    turn_to_clearer_side,
+)
 
 from ..simulator import page_world
 from .registry import asks
@@ -136,3 +144,66 @@ def margin_and_caution(seed: int = 21) -> dict[str, Any]:
         "cautions": cautions,
         "paths": paths,
     }
+
+
+@asks(
+    "What does agreement say?",
+    "Two policies learn nothing: one goes straight on, one turns to the freer side. Each takes the expert's action "
+    "in 47.5 % of its steps near obstacles. How far apart are their success rates in new maps?",
+    guesses=["they are equal", "up to 10 points", "more than 50 points"],
+)
+def agreement_and_success(maps: int = 500) -> dict[str, Any]:
+    """How often three policies take the expert's action, by action, and how often they arrive."""
+    demonstrations = demonstrate(random_worlds(25, obstacles=10, seed=7))
+    pairs = demonstrations.effective
+    unseen = random_worlds(maps, obstacles=10, seed=2024)
+    policies = {
+        "straight on": straight,
+        "freer side": turn_to_clearer_side,
+        "learned": learn_policy(demonstrations, seed=0),
+    }
+    rows = []
+    for name, policy in policies.items():
+        same = policy(pairs.sensing, np.random.default_rng(0)) == pairs.actions
+        right = [int(same[pairs.actions == action].sum()) for action in range(5)]
+        success = float(navigate(policy, unseen).success.mean())
+        rows.append({"name": name, "right": right, "success": success})
+    return {
+        "policies": rows,
+        "counts": np.bincount(pairs.actions, minlength=5).tolist(),
+        "safe": len(demonstrations) - len(pairs),
+        "maps": maps,
+    }
+
+
+@asks(
+    "How many maps make a test?",
+    "A policy reaches its target in 8 of 8 new maps. How low may its true success rate be?",
+    guesses=["99 %", "95 %", "90 %", "below 70 %"],
+)
+def wilson_interval() -> dict[str, Any]:
+    """Nothing: the page computes the intervals."""
+    return {}
+
+
+@asks(
+    "Errors that add up",
+    "A policy errs once in 100 decisions on the expert's path. An error takes it off the path, "
+    "where it errs in 95 of 100 decisions. How many errors are to be expected in 100 decisions?",
+    guesses=["1", "5", "about 30", "95"],
+)
+def compounding_errors() -> dict[str, Any]:
+    """Nothing: the page computes the expected errors."""
+    return {}
+
+
+@asks(
+    "Sectors as numbers",
+    "The target moves on by one sector, all around the robot. "
+    "For which encoding is the largest jump of the network's inputs the smallest?",
+    guesses=["1 to 9", "−4 to 4", "one-hot", "sine and cosine"],
+    files=("simulator",),
+)
+def target_encoding() -> dict[str, Any]:
+    """Nothing: the page's simulator has the encodings."""
+    return {}

@@ -6,10 +6,12 @@ import pytest
 from gymnasium.spaces import Discrete
 from scipy.optimize import minimize_scalar
 from scipy.special import logsumexp
+from scipy.stats import binomtest
 
 from robonav import mdp, networks, nirl
-from robonav.lfd import plan, plan_on_grid
+from robonav.lfd import demonstrate, plan, plan_on_grid
 from robonav.robot import (
+    TARGET_ENCODINGS,
     Action,
     Reflex,
     concatenate,
@@ -18,6 +20,7 @@ from robonav.robot import (
     navigate,
     random_worlds,
     sense,
+    straight,
     turn_to_clearer_side,
 )
 from robonav.widgets.explorables import EXPLORABLES, chapter2, chapter3, explorable
@@ -648,3 +651,83 @@ def test_value_of_an_end(compute):
     rewards = [0.3] * 7
     value = mdp.discounted_return(rewards, 0.65)[0] + 0.65**7 * 0.8 / (1 - 0.65)
     assert compute("value_of_an_end", body) == pytest.approx((1 - 0.65) * value)
+
+
+def test_agreement_counts_as_in_python(compute):
+    body = """
+    const [first, second] = given.policies;
+    return [
+      [first, second].map((policy) => page.agreement(policy, given, "pairs", 0)),
+      page.agreement(first, given, "pairs", 1), page.agreement(first, given, "balanced", 0),
+    ];"""
+    near, every, balanced = compute("agreement_and_success", body)
+    demonstrations = demonstrate(random_worlds(25, obstacles=10, seed=7))
+    pairs = demonstrations.effective
+    same = [
+        policy(pairs.sensing, np.random.default_rng(0)) == pairs.actions
+        for policy in (straight, turn_to_clearer_side)
+    ]
+    np.testing.assert_allclose(near, [one.mean() for one in same], atol=1e-12)
+    safe = len(demonstrations) - len(pairs)
+    assert every == pytest.approx((same[0].sum() + safe) / len(demonstrations))
+    assert balanced == pytest.approx(0.2)  # it is right for one action of five
+    assert [round(100 * share, 1) for share in near] == [47.5, 47.5]  # as asked
+    first, second, _ = explorable("agreement_and_success").data["given"]["policies"]
+    assert second["success"] - first["success"] > 0.5
+
+
+@pytest.mark.parametrize(("reached", "maps"), [(8, 8), (0, 20), (93, 100), (460, 500)])
+def test_intervals_are_wilsons(compute, reached, maps):
+    seen = compute(
+        "wilson_interval",
+        "return page.wilson(data.reached, data.maps);",
+        reached=reached,
+        maps=maps,
+    )
+    interval = binomtest(reached, maps).proportion_ci(method="wilson")
+    assert seen == pytest.approx([interval.low, interval.high], abs=1e-9)
+    if maps == 8:
+        assert round(100 * interval.low) == 68  # as the page says
+
+
+@pytest.mark.parametrize(
+    ("error", "off", "back"), [(0.01, 0.95, 0.2), (0.05, 0.3, 1.0), (0.02, 1.0, 0.5)]
+)
+def test_errors_add_up_as_values_of_a_chain(compute, error, off, back):
+    body = "return page.expectedErrors(data, 100);"
+    seen = compute("compounding_errors", body, error=error, off=off, back=back)
+    returning = (1 - off) * back
+    chain = mdp.FiniteMDP(
+        [[[1 - error, error], [returning, 1 - returning]]], [[error], [off]], 0.999999
+    )
+    values = [
+        mdp.finite_horizon_evaluation(chain, [0, 0], steps)[0] for steps in (1, 20, 100)
+    ]
+    assert [seen[0], seen[19], seen[99]] == pytest.approx(values, rel=1e-4)
+    if off == 0.95:
+        assert round(seen[99]) == 28  # as the page says
+
+
+def test_targets_are_encoded_as_in_python(compute):
+    body = """
+    const sectors = [1, 2, 3, 4, 5, 6, 7, 8, 9];
+    return data.names.map((name) => [
+      sectors.map((sector) => page.encodedTarget(name, sector)),
+      sectors.map((sector) => page.jump(name, sector, (sector % 9) + 1)),
+    ]);"""
+    names = list(TARGET_ENCODINGS)
+    largest = {}
+    for name, (inputs, jumps) in zip(
+        names, compute("target_encoding", body, names=names), strict=True
+    ):
+        encoded = TARGET_ENCODINGS[name](np.arange(1, 10)).reshape(9, -1)
+        np.testing.assert_allclose(inputs, encoded, atol=1e-12)
+        apart = np.linalg.norm(np.roll(encoded, -1, axis=0) - encoded, axis=1)
+        np.testing.assert_allclose(jumps, apart, atol=1e-12)
+        largest[name] = round(apart.max(), 2)
+    assert largest == {
+        "number": 0.89,
+        "signed": 2.0,
+        "one-hot": 1.41,
+        "sine-cosine": 0.68,
+    }
