@@ -189,8 +189,8 @@ def wilson_interval() -> dict[str, Any]:
 @asks(
     "Errors that add up",
     "A policy errs once in 100 decisions on the expert's path. An error takes it off the path, "
-    "where it errs in 95 of 100 decisions. How many errors are to be expected in 100 decisions?",
-    guesses=["1", "5", "about 30", "95"],
+    "where it errs in 90 of 100 decisions. How many errors are to be expected in 100 decisions?",
+    guesses=["1", "5", "about 20", "90"],
 )
 def compounding_errors() -> dict[str, Any]:
     """Nothing: the page computes the expected errors."""

@@ -19,7 +19,7 @@ const percent = (value) => `${number(100 * value, 0)} %`;
 export default explorable({
   controls: () => ({
     error: range({ label: "errs on the expert's path", from: 0, to: 0.1, step: 0.01, value: 0.01, text: percent }),
-    off: range({ label: "errs off the path", from: 0, to: 1, step: 0.05, value: 0.95, text: percent }),
+    off: range({ label: "errs off the path", from: 0, to: 1, step: 0.05, value: 0.9, text: percent }),
     back: range({ label: "a right decision leads back", from: 0, to: 1, step: 0.05, value: 0.2, text: percent }),
     decisions: range({ label: "decisions", from: 10, to: MOST, step: 10, value: 100 }),
   }),
