@@ -11,6 +11,7 @@ from robonav.lfd import demonstrate, learn_policy, plan
 from robonav.lfd.astar import EIGHT_DIRECTIONS, step_clearance
 from robonav.networks import toy_datasets
 from robonav.robot import (
+    Policy,
     Worlds,
     clearance,
     make_world,
@@ -157,14 +158,15 @@ def agreement_and_success(maps: int = 500) -> dict[str, Any]:
     demonstrations = demonstrate(random_worlds(25, obstacles=10, seed=7))
     pairs = demonstrations.effective
     unseen = random_worlds(maps, obstacles=10, seed=2024)
-    policies = {
+    policies: dict[str, Policy] = {
         "straight on": straight,
         "freer side": turn_to_clearer_side,
         "learned": learn_policy(demonstrations, seed=0),
     }
     rows = []
     for name, policy in policies.items():
-        same = policy(pairs.sensing, np.random.default_rng(0)) == pairs.actions
+        chosen = np.asarray(policy(pairs.sensing, np.random.default_rng(0)))
+        same = chosen == pairs.actions
         right = [int(same[pairs.actions == action].sum()) for action in range(5)]
         success = float(navigate(policy, unseen).success.mean())
         rows.append({"name": name, "right": right, "success": success})
