@@ -191,10 +191,10 @@ def point_based_value_iteration(
     19.37
     """
     points = as_points(pomdp, beliefs)
-    found = worst_vectors(pomdp)
+    found = worst_vectors(pomdp)  # one vector, below every value
     for iteration in range(1, max_iterations + 1):
         backed_up = backup(pomdp, points, found)
-        found, rise = best_of_both(points, found, backed_up, iteration)
+        found, rise = keep_best(points, found, backed_up, iteration)
         if rise <= tolerance * (1 - pomdp.mdp.discount):
             break
     else:
@@ -240,7 +240,7 @@ def worst_vectors(pomdp: POMDP) -> AlphaVectors:
     )
 
 
-def best_of_both(
+def keep_best(
     points: Floats, old: AlphaVectors, new: AlphaVectors, iterations: int
 ) -> tuple[AlphaVectors, float]:
     """The vectors of two sets that are best at some belief, and the largest rise of a belief's vector in a state."""

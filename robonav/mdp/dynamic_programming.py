@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from .evaluation import evaluation_residual, least_gain, policy_evaluation
 from .models import FiniteMDP
 from .planner import planner
-from .rounding import gains_and_rounding, warn_if_hidden
+from .rounding import gains_and_limit
 from .solutions import (
     Solution,
     first_policy,
@@ -119,13 +119,10 @@ def improve(
     gain : float
         The largest gain of any action.
     """
-    matters = least_gain(mdp, tolerance)
-    gains, rounding = gains_and_rounding(mdp, policy, values, q, matters)
+    gains, limit = gains_and_limit(mdp, policy, values, q, tolerance)  # Q(s, a) - V(s)
     best = gains.max(axis=1)
-    strictly_better = best > max(matters, rounding)
-    if not strictly_better.any():
-        warn_if_hidden(rounding, matters, mdp.discount)
-    return np.where(strictly_better, gains.argmax(axis=1), policy), float(best.max())
+    improved = np.where(best > limit, gains.argmax(axis=1), policy)
+    return improved, float(best.max())
 
 
 @planner(start=first_policy, limit=least_gain)
@@ -170,7 +167,7 @@ def policy_iteration(
     -----
     ConvergenceWarning
         If ``max_iterations`` policies were not enough; the message says by how much the last could be improved. Also
-        if rounding near discount 1 hides gains that are worth more than the tolerance.
+        if rounding near discount 1 hides gains that may add up to more than the tolerance.
 
     Examples
     --------

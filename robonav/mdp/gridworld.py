@@ -201,24 +201,24 @@ class GridWorld:
         slip = self._of_states(
             lambda cell: self.slip if cell.slip is None else cell.slip, float
         )
-        chances = np.stack([1 - slip, slip / 2, slip / 2], axis=1)[:, None].repeat(
-            4, axis=1
-        )
+        probabilities = np.stack([1 - slip, slip / 2, slip / 2], axis=1)[
+            :, None
+        ].repeat(4, axis=1)
         reached = self.moves[:, (np.arange(4)[:, None] + [0, -1, 1]) % 4]
         reached[self.terminal] = np.flatnonzero(self.terminal)[:, None, None]
-        return reached, chances
+        return reached, probabilities
 
     def mdp(self, discount: float) -> FiniteMDP:
         """Sparse model of the grid; a step out of a terminal state leads back to it, with reward 0."""
-        reached, chances = self.outcomes
-        rewards = (chances * self.cell_rewards[reached]).sum(axis=2)
+        reached, probabilities = self.outcomes
+        rewards = (probabilities * self.cell_rewards[reached]).sum(axis=2)
         rewards[self.terminal] = 0
         starts = np.arange(0, 3 * self.n_states + 1, 3, dtype=np.int32)
         shape = (self.n_states, self.n_states)
         transitions = [
             sp.csr_array(
                 (
-                    chances[:, action].ravel(),
+                    probabilities[:, action].ravel(),
                     reached[:, action].ravel().astype(np.int32),
                     starts,
                 ),
@@ -348,21 +348,21 @@ class GridEnvironment(gym.Env[Any, Any]):
 
     def _outcomes(self, state: int, action: int) -> list[Outcome]:
         """The entry ``P[s][a]``: what can follow, the same state once."""
-        reached, chances = (part[state, action] for part in self.grid.outcomes)
+        reached, probabilities = (part[state, action] for part in self.grid.outcomes)
         if self.grid.terminal[state]:
             return [(1.0, state, 0.0, True)]
         total: dict[int, float] = {}
-        for to, chance in zip(reached.tolist(), chances.tolist(), strict=True):
-            if chance > 0:
-                total[to] = total.get(to, 0.0) + chance
+        for to, p in zip(reached.tolist(), probabilities.tolist(), strict=True):
+            if p > 0:
+                total[to] = total.get(to, 0.0) + p
         return [
             (
-                chance,
+                probability,
                 to,
                 float(self.grid.cell_rewards[to]),
                 bool(self.grid.terminal[to]),
             )
-            for to, chance in total.items()
+            for to, probability in total.items()
         ]
 
 

@@ -49,14 +49,14 @@ def as_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
     """
     if check_array("policy", policy).ndim == 1:
         return as_deterministic_policy("policy", policy, states, actions)
-    chances = check_array("policy", policy, shape=(states, actions))
-    wrong = (chances < 0).any(axis=1) | (abs(chances.sum(axis=1) - 1) > SUM_TOLERANCE)
+    given = check_array("policy", policy, shape=(states, actions))
+    wrong = (given < 0).any(axis=1) | (abs(given.sum(axis=1) - 1) > SUM_TOLERANCE)
     if wrong.any():
         state = int(wrong.argmax())
         raise ValueError(
-            f"policy must hold one distribution a state, got {chances[state]} for state {state}"
+            f"policy must hold one distribution a state, got {given[state]} for state {state}"
         )
-    return chances
+    return given
 
 
 def probabilities(policy: ArrayLike, states: int, actions: int) -> NDArray[np.float64]:

@@ -9,12 +9,28 @@ from numpy.typing import NDArray
 
 from robonav.errors import ConvergenceWarning
 
+from .evaluation import least_gain
 from .linear_solver import solve_differences
 from .models import FiniteMDP
 from .undiscounted import clamp_undiscounted
 
 Floats = NDArray[np.float64]
 Actions = NDArray[np.intp]
+
+
+def gains_and_limit(
+    mdp: FiniteMDP, policy: Actions, values: Floats, q: Floats, tolerance: float
+) -> tuple[Floats, float]:
+    """Gain Q(s, a) - V(s) of each action (S, A), and the gain above which an action is strictly better.
+
+    Warns if no action is strictly better, but rounding may hide gains that add up to more than the tolerance.
+    """
+    matters = least_gain(mdp, tolerance)
+    gains, rounding = gains_and_rounding(mdp, policy, values, q, matters)
+    limit = max(matters, rounding)
+    if gains.max() <= limit:
+        warn_if_hidden(rounding, matters, mdp.discount)
+    return gains, limit
 
 
 def gains_and_rounding(
@@ -54,11 +70,11 @@ def rounding_of_gains(mdp: FiniteMDP, values: Floats, own: Floats) -> float:
 
 
 def warn_if_hidden(rounding: float, matters: float, discount: float) -> None:
-    """Warn if rounding may hide gains that are worth more than the accepted loss."""
+    """Warn if rounding may hide gains that add up to more than the accepted loss."""
     if discount < 1 and rounding > matters:
         warnings.warn(
             f"policy_iteration cannot tell gains below {rounding:.3g} from rounding: its policy may lose "
             f"{rounding / (1 - discount):.3g}, where {matters / (1 - discount):.3g} was asked for",
             ConvergenceWarning,
-            stacklevel=6,
+            stacklevel=7,
         )

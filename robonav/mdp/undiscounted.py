@@ -3,8 +3,9 @@
 A policy is *proper* if it reaches a terminal state with probability 1 from every state. With gamma = 1 the backup is a
 contraction only under proper policies, which raises three problems that discounted planning does not have:
 
-- A loop of zero-reward actions keeps whatever value it starts from, though staying in it is worth 0. So values of such
-  actions are clamped at 0 from below (:func:`clamp_undiscounted`), and sweeps start from below (:func:`proper_values`).
+- A loop of zero-reward actions keeps whatever value it starts from, though the value of staying in it is 0. So values
+  of such actions are clamped at 0 from below (:func:`clamp_undiscounted`), and sweeps start from below
+  (:func:`proper_values`).
 - An action that waits can be as greedy as the one that goes to the goal. So among greedy actions those are taken that
   lead towards a terminal state (:func:`greedy_policy`).
 - A policy that collects rewards forever has no finite value (:func:`policy_values` refuses it).
@@ -139,7 +140,7 @@ def proper_values(mdp: FiniteMDP, start: Floats) -> Floats:
 def greedy_policy(mdp: FiniteMDP, values: Floats, tolerance: float) -> NDArray[np.intp]:
     """Greedy policy (S,) that also ends, for optimal values known to within ``tolerance``.
 
-    An action that waits forever can be as greedy as the one that goes on, and is worth nothing. So of the greedy
+    An action that waits forever can be as greedy as one that goes on, but its return is 0. So of the greedy
     actions take one that leads closer to a terminal state or, where 0 is the optimal value, to a state in which the
     agent can stay without reward.
     """

@@ -179,8 +179,8 @@ def best_values_of_any_policy(mdp: FiniteMDP) -> Floats:
 def is_optimal(mdp: FiniteMDP, policy: ArrayLike, *, tolerance: float = 1e-9) -> bool:
     """Whether a policy takes a best action under its own action values in every state, Eq. (2.16).
 
-    By Theorem 2.2 it is then optimal. Without discount, no state may be worth less than staying forever in zero-reward
-    states, where that is possible.
+    By Theorem 2.2 it is then optimal. Without discount, no state may have a value below 0 where the agent can stay
+    forever in zero-reward states.
 
     Parameters
     ----------
