@@ -129,9 +129,10 @@ def grid_astar(
     first: Index = (int(start[0] / cell), int(start[1] / cell))
     point = grid_point(origin, first, cell)
     nodes = {first: Node(first, point, G=0.0, H=distance(point, target))}
-    open_list, closed_set = [nodes[first].priority], set[Index]()
+    open_list = [nodes[first].priority]
+    closed_set: set[Index] = set()
     while open_list:
-        *_, index = heapq.heappop(open_list)  # the node with the least F
+        _, _, index = heapq.heappop(open_list)  # the node with the least F
         if index in closed_set:
             continue  # an older entry
         closed_set.add(index)
@@ -211,12 +212,12 @@ def modified_astar(
     (True, 57, 112.0)
     """
     target, point = world.targets[0], (pose[0], pose[1])
-    closed_set = set[Index]()  # 1
+    closed_set: set[Index] = set()  # 1
     first: Index = (*cell_of(world, pose, cell), 0)
     nodes = {first: Node(first, point, G=0.0, H=distance(point, target))}
     open_list = [nodes[first].priority]  # 2
     while open_list and len(closed_set) < limit:  # 3 and 27
-        *_, index = heapq.heappop(open_list)  # 4
+        _, _, index = heapq.heappop(open_list)  # 4
         if index in closed_set:
             continue  # an older entry
         closed_set.add(index)  # 5

@@ -46,7 +46,7 @@ def clearance(world, points):
 
 
 @pytest.mark.parametrize(("margin", "caution"), [(1.0, 0.0), (2.0, 0.0), (2.0, 2.0)])
-def test_plan_keeps_its_margin_and_its_word(margin, caution):
+def test_plan_keeps_its_margin_and_reports_its_length(margin, caution):
     for world in random_worlds(20, 15, seed=3):
         made = plan(world, margin=margin, caution=caution)
         assert made.found
@@ -77,7 +77,7 @@ def test_plan_is_what_the_robot_does():
 
 
 def least_cost(world, speed, margin, depth, caution=0.0):
-    """Length of the way, made dearer by caution, plus what is left at arrival: the least over all sequences."""
+    """Least cost of all sequences of actions: length with caution, plus the distance left at arrival."""
     least = math.inf
     shapes = shapes_of(world)
     border = box(0, 0, world.size, world.size)
@@ -144,8 +144,8 @@ def test_plan_is_optimal_where_cells_tell_all_poses_apart(rectangle):
         (18.1, 17.3, 5.9, 3.6, 10.4),
     ],
 )
-def test_plan_is_optimal_where_haste_is_not(rectangle):
-    """Maps in which a heuristic that promises half as much again finds a longer way."""
+def test_plan_is_optimal_where_a_greedy_search_is_not(rectangle):
+    """Maps in which a search with 1.5 times the heuristic finds a longer path."""
     world = make_world(
         rectangles=[rectangle], start=(6.0, 6.2), target=(24.0, 23.8), size=30
     )
@@ -215,7 +215,7 @@ def test_visited_nodes_are_those_expanded():
     assert plan(world).visited is None
 
 
-def test_caution_keeps_away():
+def test_caution_keeps_plans_away_from_obstacles():
     worlds = random_worlds(20, 10, seed=4)
     near = [clearance(w, plan(w).points) for w in worlds]
     far = [clearance(w, plan(w, caution=2.0).points) for w in worlds]

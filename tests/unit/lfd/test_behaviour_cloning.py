@@ -1,4 +1,4 @@
-"""Algorithm 3: from demonstrations to a policy that drives."""
+"""Algorithm 3: from demonstrations to a policy."""
 
 import numpy as np
 import pytest

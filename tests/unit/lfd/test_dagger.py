@@ -1,4 +1,4 @@
-"""DAgger, and the nearest neighbours: what stands beside the cloned network."""
+"""DAgger and nearest neighbours."""
 
 import numpy as np
 import pytest
@@ -45,7 +45,7 @@ def test_the_policy_acts_and_the_expert_labels(gone_straight):
     assert (gone_straight.effective.actions != 0).any()
 
 
-def test_advice_is_the_first_action_of_a_plan_from_here(gone_straight):
+def test_label_is_the_first_action_of_a_plan_from_there(gone_straight):
     asked = np.flatnonzero(REFLEX(gone_straight.sensing, 2.0) < 0)
     rng = np.random.default_rng(1)
     for row in rng.choice(asked, 12, replace=False):
@@ -100,7 +100,7 @@ def test_a_round_of_dagger_beats_cloning_little(demonstrations):
     assert len(gathered.demonstrations[1]) > len(gathered.demonstrations[0]) == len(few)
 
 
-def test_each_round_adds_advice_on_its_own_worlds_to_everything_before(demonstrations):
+def test_each_round_adds_labelled_states_to_all_data_before(demonstrations):
     begin = demonstrate(random_worlds(3, 20, seed=79), speed=1.5)
     rounds = [random_worlds(3, 20, seed=80), random_worlds(2, 20, seed=81)]
     seeds = [[2, 3], [4, 5], [6, 7]]

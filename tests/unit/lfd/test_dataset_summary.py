@@ -28,7 +28,7 @@ def test_an_overview_counts():
     assert f"F {held.actions[0] / len(x):.0%}, L30" in text
 
 
-def test_nothing_shown_nothing_held():
+def test_summary_of_no_demonstrations():
     held = summarise_dataset(demonstrate(random_worlds(0, 5, seed=1)))
     assert (
         held.trajectories,

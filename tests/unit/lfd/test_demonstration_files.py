@@ -1,4 +1,4 @@
-"""Demonstrations in files: what comes back, and what is refused with a sentence."""
+"""Demonstrations in files: round trips, and errors for files that are damaged or of another format."""
 
 import os
 import zipfile
@@ -52,7 +52,7 @@ def test_round_trip(demonstrations, written):
     assert np.array_equal(mine.network.weights[0], again.network.weights[0])
 
 
-def test_no_drives_round_trip(tmp_path):
+def test_no_trajectories_round_trip(tmp_path):
     save_demonstrations(tmp_path / "none.npz", demonstrate(random_worlds(0, 3, seed=1)))
     assert len(load_demonstrations(tmp_path / "none.npz")) == 0
 
@@ -139,7 +139,7 @@ def test_pickled_objects_are_never_loaded(written, tmp_path, monkeypatch, name):
         ({"trajectory": np.array("x")}, "trajectory must be an array of numbers"),
     ],
 )
-def test_what_cannot_be_is_refused(written, arrays, message):
+def test_impossible_values_are_errors(written, arrays, message):
     changed(written, **arrays)
     with pytest.raises(ValueError, match=message) as caught:
         load_demonstrations(written)

@@ -1,4 +1,4 @@
-"""What is recorded of an expert's drives."""
+"""Demonstrations by the computer expert: what is recorded."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ def demonstrations():
     return demonstrate(random_worlds(8, 20, seed=11))
 
 
-def test_what_is_recorded_can_be_driven_again(demonstrations):
+def test_recorded_actions_lead_through_the_recorded_poses(demonstrations):
     robots = Simulator(demonstrations.worlds, demonstrations.speed)
     for step in range(demonstrations.lengths.max()):
         now = np.flatnonzero(step < demonstrations.lengths)
@@ -63,7 +63,7 @@ def test_the_expert_keeps_clear(demonstrations):
     assert demonstrations.sensing.ranges.min() >= 2 - 1e-6
 
 
-def test_each_drive_is_its_worlds_alone(demonstrations):
+def test_each_trajectory_depends_on_its_own_world_alone(demonstrations):
     alone = demonstrate(demonstrations.worlds[3])
     of_the_batch = demonstrations.select_trajectories([3])
     assert np.array_equal(alone.actions, of_the_batch.actions)
@@ -139,7 +139,7 @@ def test_executed_actions_are_read_off_the_poses(action, heading):
 
 
 def test_moving_obstacles_are_planned_around():
-    """Anew in every moment: where they stood when a plan was made says little."""
+    """The expert plans again in each step, because the obstacles of its last plan have moved."""
 
     expert = Counting()
     demonstrations = record(expert, random_worlds(6, 5, 5, seed=6))
@@ -183,7 +183,7 @@ def broken(demonstrations, **changed):
     return Demonstrations(**(values | changed))
 
 
-def test_what_does_not_fit_is_refused(demonstrations):
+def test_inconsistent_demonstrations_are_errors(demonstrations):
     for changed, message in [
         (
             {"actions": demonstrations.actions[1:]},

@@ -75,7 +75,7 @@ def test_a_robot_stays_on_its_path():
     assert len(demonstrations) == pytest.approx(line.length / 2, rel=0.1)
 
 
-def test_hand_driven_demonstrations():
+def test_demonstrations_by_hand():
     worlds = random_worlds(6, 12, seed=3)
     points = sketch(worlds, seed=5)
     demonstrations = demonstrate_by_hand(worlds, points)
@@ -96,7 +96,7 @@ def test_errors_of_sketches_shrink_until_the_path_is_clear():
         assert path_clearance(world, path).min() > 1.5
 
 
-def test_sketches_hang_on_seed_and_world_alone():
+def test_sketches_depend_on_seed_and_world_alone():
     worlds = random_worlds(4, 12, seed=3)
     some, same, others = (
         sketch(worlds, seed=5),
@@ -108,7 +108,7 @@ def test_sketches_hang_on_seed_and_world_alone():
     assert max(map(len, some)) < 20
 
 
-def test_key_points_through_an_obstacle_are_refused():
+def test_key_points_through_an_obstacle_are_an_error():
     world = make_world(circles=[(50, 50, 5)])
     with pytest.raises(
         ValueError,
