@@ -191,7 +191,7 @@ def double_dqn_targets(
     with torch.no_grad():
         best = q_net(batch.next_states).argmax(dim=1, keepdim=True)
         next_values = target_net(batch.next_states).gather(1, best)[:, 0]
-        return batch.rewards + discount * ~batch.terminal * next_values
+        return batch.rewards + discount * (~batch.terminal * next_values)
 
 
 def values_taken(q_net: torch.nn.Module, batch: Transitions) -> torch.Tensor:

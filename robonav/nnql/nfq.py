@@ -178,7 +178,7 @@ def nfq_targets(
     with torch.no_grad():
         logits = as_module(network)(transitions.next_states)
         next_values = torch.sigmoid(logits.max(dim=1).values)
-        targets = transitions.rewards + discount * ~transitions.terminal * next_values
+        targets = transitions.rewards + discount * (~transitions.terminal * next_values)
         return targets.clamp(0, 1)
 
 

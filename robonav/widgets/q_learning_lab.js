@@ -42,10 +42,14 @@ const rewardField = (part, label) => ({ key: "rewards", part, label: `reward for
 /** @type {Record<string, {key: string, label: string, options: [any, string][]}>} */
 const CHOICES = {
   evading: { key: "mustMoveAway", label: "staying away is rewarded", options: [[false, "if nothing comes a metre nearer"], [true, "only if everything gets farther away"]] },
-  method: { key: "method", label: "method", options: [["nnql", "NNQL: all pairs of the episode"], ["online", "online: the latest pair alone"]] },
+  method: { key: "method", label: "method", options: [["nnql", "NNQL: all pairs of the episode"], ["online", "online: the latest pair alone"], ["dqn", "double DQN: replay, Adam"]] },
   rescale: { key: "rescale", label: "Q comes into [0, 1]", options: [["shift", "shifted and divided"], ["clip", "clipped"]] },
   inputs: { key: "inputs", label: "target's sector", options: [["number", "a number, 1 to 9"], ["signed", "right to left, -1 to 1"], ["one-hot", "nine inputs, one of them 1"], ["sine-cosine", "sine and cosine"], ["raw", "a number; no input is scaled"]] },
 };
+
+const ADAM_STEP = [0.003, 0.003]; // the steps of the other methods are too large for DQN
+/** Whether a method takes no notice of a setting. */
+const idle = (method, { key, part = 0 }) => method === "dqn" && (["learningRate", "passes", "rescale"].includes(key) || (key === "gradientStep" && part === 1));
 
 const read = (settings, { key, part }) => (part === undefined ? settings[key] : settings[key][part]);
 const written = (settings, { key, part }, value) => ({
@@ -95,9 +99,13 @@ function settingsForm({ table, open, first, change }) {
     const { key, label, options } = CHOICES[name];
     const one = choice({ label, options: options.map(([, text]) => text), change: (index) => {
       settings = { ...settings, [key]: options[index][0] };
+      if (key === "method") put({ ...settings, gradientStep: settings.method === "dqn" ? ADAM_STEP : first.gradientStep });
       change("");
     } });
-    lists.push(() => one.move(options.findIndex(([value]) => value === settings[key])));
+    lists.push(() => {
+      one.move(options.findIndex(([value]) => value === settings[key]));
+      one.element.querySelector("select").disabled = idle(settings.method, { key });
+    });
     return one.element;
   };
   const row = (...children) => h("div", { class: "row" }, ...children);
@@ -115,6 +123,7 @@ function settingsForm({ table, open, first, change }) {
     settings = other;
     for (const { field, input } of fields) {
       input.value = String(read(settings, field));
+      input.disabled = idle(settings.method, field);
       input.removeAttribute("data-wrong");
       input.setAttribute("aria-invalid", "false");
     }
@@ -136,8 +145,8 @@ function settingsForm({ table, open, first, change }) {
 // ---- What is computed, in the worker --------------------------------------------------------------------------------
 
 /** The policies that are tried in new maps, by name. */
-function contestants(network, settings, { book, temperature }) {
-  const mine = { network, encoder: encoderOf(settings) };
+function contestants(network, settings, { book, temperatures }) {
+  const [mine, temperature] = [{ network, encoder: encoderOf(settings) }, temperatures[settings.method]];
   return {
     "your robot": mine,
     [`your robot at T = ${temperature}`]: { ...mine, temperature },
@@ -148,7 +157,7 @@ function contestants(network, settings, { book, temperature }) {
 
 /**
  * Learn, and then drive new maps: a job for the worker. Its steps say what happened in each episode, and in each map.
- * @param {{settings: LearningSettings, trial: {seed: number, maps: number, book: object, temperature: number}}} job
+ * @param {{settings: LearningSettings, trial: {seed: number, maps: number, book: object, temperatures: Record<string, number>}}} job
  */
 export function* learnAndDrive({ settings, trial }) {
   const total = settings.episodes + trial.maps;

@@ -20,7 +20,7 @@ from robonav.progress import Progress
 from robonav.robot import navigate, random_worlds
 from robonav.validation import check_instance, check_integer, check_one_of
 
-from .q_learning_settings import QLearningSettings
+from .q_learning_settings import METHODS, QLearningSettings
 from .shared import front_end, style_sheet
 from .simulator import page_policy
 
@@ -88,6 +88,7 @@ class QLearningLab(anywidget.AnyWidget):
         "learning/network",
         "learning/worlds",
         "learning/nnql",
+        "learning/dqn",
         "learning/worker",
         "learning/training_panel",
         "q_learning_lab",
@@ -246,7 +247,9 @@ def q_learning_lab(
             "trial": {
                 "seed": MAPS_SEED,
                 "numbers": list(MAPS),
-                "temperature": EVALUATION_TEMPERATURE["nnql"],
+                "temperatures": {
+                    name: EVALUATION_TEMPERATURE[name] for name in METHODS
+                },
                 "book": page_policy(book),
             },
         }

@@ -22,17 +22,21 @@ from robonav.validation import (
     check_real,
 )
 
+METHODS = ("nnql", "online", "dqn")
 INPUTS = (*TARGET_ENCODINGS, "raw")
 """What the network reads: an encoding of the target's sector, or the numbers of Eq. (4.5) as they are."""
 
 
 @dataclass(frozen=True)
 class QLearningSettings:
-    """One training by NNQL or by its online form.
+    """One training by NNQL, by its online form, or by double DQN.
+
+    DQN takes the start of ``gradient_step`` for the step of Adam, and needs none of ``learning_rate``, ``rescale``,
+    ``passes`` and ``tolerance``.
 
     Parameters
     ----------
-    method : {"nnql", "online"}
+    method : {"nnql", "online", "dqn"}
         The method.
     rewards : tuple of 13 floats
         The reward of each row of Table 4.1.
@@ -75,7 +79,7 @@ class QLearningSettings:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        check_one_of("method", self.method, ("nnql", "online"))
+        check_one_of("method", self.method, METHODS)
         check_one_of("inputs", self.inputs, INPUTS)
         check_one_of("rescale", self.rescale, ("shift", "clip"))
         check_array("rewards", self.rewards, shape=(len(REWARDS),))
@@ -121,7 +125,13 @@ class QLearningSettings:
         )
 
     def hyperparameters(self) -> dict[str, Any]:
-        """The keyword arguments of :func:`robonav.nnql.nnql` and :func:`robonav.nnql.online`, without the seed."""
+        """The keyword arguments of the method's readable function, without episodes and seed."""
+        if self.method == "dqn":
+            return {
+                "discount": self.discount,
+                "gradient_step": self.gradient_step[0],
+                "temperature": self.temperature,
+            }
         names = (
             "learning_rate",
             "discount",

@@ -226,6 +226,24 @@ def test_the_weights_drive_in_python_as_in_the_page(visit, tmp_path, inputs):
     assert navigate(policy, worlds, 2.5, 400).success.sum() == arrived
 
 
+def test_dqn_takes_a_step_of_its_own_and_learns(view):
+    lab = mounted_alone(view, q_learning_lab("learning"))
+    step, rate = (
+        lab.get_by_label("step of gradient descent, start"),
+        lab.get_by_label("learning rate, start"),
+    )
+    lab.get_by_label("method", exact=True).select_option("double DQN: replay, Adam")
+    expect(step).to_have_value("0.003")
+    expect(rate).to_be_disabled()
+    assert train(lab)[0] >= 80
+    assert cells(lab, "your robot at T = 0.04")
+    lab.get_by_label("method", exact=True).select_option(
+        "NNQL: all pairs of the episode"
+    )
+    expect(step).to_have_value("0.3")
+    expect(rate).to_be_enabled()
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_nothing_is_out_of_reach(view, scheme):
     view.page.emulate_media(color_scheme=scheme, reduced_motion="reduce")

@@ -1,4 +1,4 @@
-// Neural-network Q-learning in the page: Algorithm 8 and its online form, as robonav/nnql/nnql.py has them.
+// Neural-network Q-learning in the page: Algorithm 8 and its online form, as robonav/nnql/nnql.py has them; DQN is in dqn.js.
 //
 // With the same seed these functions draw the same numbers as Python's and compute the same Q-values, up to rounding:
 // exponentials differ in their last bit from machine to machine. Learning magnifies such a difference, until a robot
@@ -7,7 +7,7 @@
 /**
  * @typedef {[number, number]} Schedule a quantity's value in the first episode and in the last
  * @typedef {object} LearningSettings
- * @property {"nnql" | "online"} method
+ * @property {"nnql" | "online" | "dqn"} method
  * @property {number} obstacles
  * @property {number} moving
  * @property {number} speed in m/s
@@ -134,30 +134,59 @@ export function weightChanges(before, after) {
 }
 
 /**
- * Neural-network Q-learning (NNQL), Algorithm 8, or with the latest pair alone its online form.
+ * What learns in {@link neuralQLearning}: Q-values of a state, what to do at the start of an episode, and learning from a step.
+ * @typedef {{state: Float64Array, q: Float64Array, action: number, reward: number, next: Float64Array, terminal: boolean}} Decision
+ * @typedef {{values: (state: Float64Array) => Float64Array, begin: (episode: number, fraction: number) => void, learn: (decision: Decision) => void}} Learner
+ */
+
+/** NNQL, or with the latest pair alone its online form. @param {LearningSettings} settings @returns {Learner} */
+function nnqlLearner(settings, network) {
+  const { discount, passes, tolerance } = settings;
+  const [descend, rescale] = [stochasticGradientDescent(network), RESCALE[settings.rescale]];
+  let [inputs, targets, alpha, sigma] = [[], [], 0, 0];
+  const values = (state) => propagate(network, state).activations.at(-1);
+  return {
+    values,
+    begin: (episode, fraction) => {
+      [inputs, targets] = [[], []]; // 6
+      [alpha, sigma] = [geometricSchedule(settings.learningRate, fraction), geometricSchedule(settings.gradientStep, fraction)];
+    },
+    learn: ({ state, q, action, reward, next, terminal }) => {
+      const future = terminal ? 0 : Math.max(...values(next));
+      const target = qTargets(q, action, reward, future, alpha, discount); // 13
+      if (settings.method === "online") [inputs, targets] = [[], []]; // the latest pair alone
+      inputs.push(state); // 15
+      targets.push(rescale(target)); // 14, 15
+      descend(inputs, targets, sigma, passes, tolerance); // 16
+    },
+  };
+}
+
+/** What makes a learner of each method; learning/dqn.js adds its own. */
+const LEARNERS = { nnql: nnqlLearner, online: nnqlLearner };
+
+/**
+ * Neural-network Q-learning (NNQL), Algorithm 8, or another method in its loop.
  *
  * Yields after each episode what happened in it. With `watch`, that function is called after each update of the network.
  * @param {LearningSettings} settings
  * @param {{watch?: (update: {q: Float64Array, network: Network}) => void}} options
  */
 export function* neuralQLearning(settings, { watch = () => {} } = {}) {
-  const { episodes, discount, speed, maxSteps, passes, tolerance, seed } = settings;
-  const encoder = encoderOf(settings);
-  const network = firstNetwork(settings);
-  const [worldOf, learn, rescale] = [trainingWorlds(settings), stochasticGradientDescent(network), RESCALE[settings.rescale]];
+  const { episodes, speed, maxSteps, seed } = settings;
+  const [encoder, network, worldOf] = [encoderOf(settings), firstNetwork(settings), trainingWorlds(settings)];
+  const learner = LEARNERS[settings.method](settings, network);
   for (let episode = 0; episode < episodes; episode += 1) { // 2
     const fraction = episode / Math.max(episodes - 1, 1);
-    const [alpha, sigma, temperature] = ["learningRate", "gradientStep", "temperature"].map((name) => geometricSchedule(settings[name], fraction));
-    const rng = defaultRng([seed, EXPLORING, episode]);
+    const [temperature, rng] = [geometricSchedule(settings.temperature, fraction), defaultRng([seed, EXPLORING, episode])];
     const first = worldOf(episode); // 3
     let [world, pose, step, outcome] = [first, startPose(first), 0, "running"]; // 4
     let sensing = sense(world, pose); // 5
     let state = inputsFor(encoder, sensing);
-    let [inputs, targets] = [[], []]; // 6
+    learner.begin(episode, fraction);
     const [before, path] = [flattened(network), [[pose.x, pose.y]]];
-    let [total, decisions] = [0, 0];
     while (outcome === "running" && step < maxSteps) { // 8
-      const q = propagate(network, state).activations.at(-1); // 9
+      const q = learner.values(state); // 9
       let action = sampleAction(softmaxPolicy(q, temperature), rng.random()); // 10
       const own = reflex(sensing, speed);
       if (own >= 0) action = own;
@@ -166,19 +195,13 @@ export function* neuralQLearning(settings, { watch = () => {} } = {}) {
       const next = inputsFor(encoder, reached);
       if (own < 0) { // in a safe state the reflex acts
         const reward = rewardOf(settings, sensing, reached, outcome); // 12
-        const future = outcome === "running" ? Math.max(...propagate(network, next).activations.at(-1)) : 0;
-        const target = qTargets(q, action, reward, future, alpha, discount); // 13
-        if (settings.method === "online") [inputs, targets] = [[], []]; // the latest pair alone
-        inputs.push(state); // 15
-        targets.push(rescale(target)); // 14, 15
-        learn(inputs, targets, sigma, passes, tolerance); // 16
-        [total, decisions] = [total + reward, decisions + 1];
+        learner.learn({ state, q, action, reward, next, terminal: outcome !== "running" });
         watch({ q, network });
       }
       [sensing, state, step] = [reached, next, step + 1];
       path.push([pose.x, pose.y]);
     } // 17 to 20
-    yield { episode, world: first, path, outcome: outcome === "running" ? "out of steps" : outcome, decisions, total, changes: weightChanges(before, network), network };
+    yield { episode, world: first, path, outcome: outcome === "running" ? "out of steps" : outcome, changes: weightChanges(before, network), network };
   }
 }
 

@@ -1,11 +1,22 @@
 """Targets, rescaling, cost."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from robonav.nnql import clip, cross_entropy, q_targets, shift
+from robonav.networks import Network, sigmoid
+from robonav.networks.torch_module import as_module
+from robonav.nnql import (
+    ReplayBuffer,
+    clip,
+    cross_entropy,
+    double_dqn_targets,
+    nfq_targets,
+    q_targets,
+    shift,
+)
 
 q_values = arrays(float, (6, 5), elements=st.floats(-3, 3))
 
@@ -91,3 +102,14 @@ def test_the_cost_is_finite_where_the_network_is_certain():
         cross_entropy([[1.0, 0.0]], [[800.0, -800.0]]), 0, atol=1e-12
     )
     np.testing.assert_allclose(cross_entropy([[0.0]], [[800.0]]), 800)
+
+
+def test_targets_from_the_replay_buffer_have_double_precision():
+    ones = Network((np.zeros((8, 4)), np.zeros((2, 8))), (np.zeros(8), np.ones(2)))
+    buffer = ReplayBuffer()
+    buffer.append(np.eye(4)[0], 1, 0.1, np.eye(4)[1], False)
+    transitions, module = buffer.all(), as_module(ones)
+    double = double_dqn_targets(module, module, transitions, 0.7).item()
+    fitted = nfq_targets(ones, transitions, 0.7).item()
+    assert double == pytest.approx(0.1 + 0.7, abs=1e-15)
+    assert fitted == pytest.approx(0.1 + 0.7 * sigmoid(1.0), abs=1e-15)

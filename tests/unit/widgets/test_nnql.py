@@ -8,10 +8,18 @@ from importlib import import_module
 
 import numpy as np
 import pytest
+import torch
 from scipy.stats import binomtest
 
 from robonav.experiments import bootstrap_interval
-from robonav.nnql import STARTS, TARGETS, q_network, reward_row, train
+from robonav.nnql import (
+    STARTS,
+    TARGETS,
+    q_network,
+    reward_row,
+    stochastic_gradient_descent,
+    train,
+)
 from robonav.nnql.reward import REWARDS
 from robonav.robot import Sensing, navigate, random_worlds
 from robonav.widgets.q_learning_faults import FAULTS
@@ -19,22 +27,30 @@ from robonav.widgets.q_learning_lab import MAPS_SEED
 from robonav.widgets.q_learning_settings import INPUTS, QLearningSettings
 from robonav.widgets.simulator import page_world
 
-readable = import_module("robonav.nnql.nnql")  # the package has a function of that name
+MODULES = {"nnql": "nnql", "online": "nnql", "dqn": "dqn"}
 FILES = (
     "simulator",
     "learning/random",
     "learning/network",
     "learning/worlds",
     "learning/nnql",
+    "learning/dqn",
 )
+
+DQN = {
+    "method": "dqn",
+    "inputs": "sine-cosine",
+    "discount": 0.7,
+    "gradient_step": (0.003, 0.003),
+}
 
 FIRST_UPDATES = """
 const flat = ({ weights, biases }) => [...weights, ...biases].flatMap((part) => [...part]);
 return data.map((settings) => {
-  const seen = [];
-  const watch = ({ q, network }) => seen.length < 100 && seen.push({ q: [...q], weights: flat(network) });
-  for (const _ of page.neuralQLearning(settings, { watch })) if (seen.length >= 100) break;
-  return [1, 10, 100].map((update) => seen[update - 1]);
+  const [seen, first] = [[], settings.method === "dqn" ? 32 : 1]; // DQN waits for a batch
+  const watch = ({ q, network }) => seen.length < first + 99 && seen.push({ q: [...q], weights: flat(network) });
+  for (const _ of page.neuralQLearning(settings, { watch })) if (seen.length >= first + 99) break;
+  return [1, 10, 100].map((update) => seen[first - 2 + update]);
 });
 """
 
@@ -45,35 +61,48 @@ class Enough(Exception):
 
 def first_updates(monkeypatch, settings):
     """Q-values before and weights after updates 1, 10 and 100 of a readable function."""
-    seen = []
-    q_targets, descend = readable.q_targets, readable.stochastic_gradient_descent
+    module = import_module(f"robonav.nnql.{MODULES[settings.method]}")
+    values, updates = [], []
+    softmax_policy = module.softmax_policy
 
-    def watched_targets(q, *rest):
-        seen.append([q])
-        return q_targets(q, *rest)
+    def watched_policy(q, temperature):
+        values.append(q)
+        return softmax_policy(q, temperature)
+
+    def watch(parts):
+        updates.append((values[-1], np.concatenate([part.ravel() for part in parts])))
+        if len(updates) == 100:
+            raise Enough
+
+    class WatchedAdam(torch.optim.Adam):
+        def step(self, closure=None):
+            super().step(closure)
+            parts = self.param_groups[0]["params"]
+            copies = [part.detach().numpy().copy() for part in parts]
+            watch([*copies[::2], *copies[1::2]])  # weights and biases take turns
 
     def watched_descent(*arguments):
-        network = descend(*arguments)
-        parts = [*network.weights, *network.biases]
-        seen[-1].append(np.concatenate([part.ravel() for part in parts]))
-        if len(seen) == 100:
-            raise Enough
+        network = stochastic_gradient_descent(*arguments)
+        watch([*network.weights, *network.biases])
         return network
 
-    env, method = settings.task().environment(), getattr(readable, settings.method)
+    env, method = settings.task().environment(), getattr(module, settings.method)
     network = q_network(env, hidden=settings.hidden, seed=settings.seed)
+    hyperparameters = settings.hyperparameters()
     with monkeypatch.context() as patch:
-        patch.setattr(readable, "q_targets", watched_targets)
-        patch.setattr(readable, "stochastic_gradient_descent", watched_descent)
+        patch.setattr(module, "softmax_policy", watched_policy)
+        patch.setattr(torch.optim, "Adam", WatchedAdam)
+        if settings.method != "dqn":
+            patch.setattr(module, "stochastic_gradient_descent", watched_descent)
         with pytest.raises(Enough):
             method(
                 env,
                 network,
                 episodes=settings.episodes,
                 seed=settings.seed,
-                **settings.hyperparameters(),
+                **hyperparameters,
             )
-    return [seen[update - 1] for update in (1, 10, 100)]
+    return [updates[update - 1] for update in (1, 10, 100)]
 
 
 def same_updates(node, monkeypatch, cases):
@@ -87,7 +116,8 @@ def same_updates(node, monkeypatch, cases):
 
 
 def test_updates_are_pythons(node, monkeypatch):
-    same_updates(node, monkeypatch, [QLearningSettings()])
+    cases = [QLearningSettings(), QLearningSettings(**DQN)]
+    same_updates(node, monkeypatch, cases)
 
 
 @pytest.mark.slow
@@ -115,6 +145,7 @@ def test_updates_are_pythons_in_every_setting(node, monkeypatch):
         QLearningSettings(**{**online, "method": "nnql"}, seed=7),
         *(QLearningSettings(inputs=inputs, seed=8) for inputs in INPUTS),
         *(QLearningSettings(**online, seed=seed) for seed in range(20)),
+        *(QLearningSettings(**DQN, seed=seed) for seed in range(20)),
     ]
     same_updates(node, monkeypatch, cases)
 
@@ -136,10 +167,11 @@ return settings.map((own) => {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", ["nnql", "online"])
+@pytest.mark.parametrize("method", MODULES)
 def test_whole_trainings_succeed_as_often_as_pythons(node, method):
     online = {"rescale": "clip", "passes": 1, "discount": 0.7}
-    first = QLearningSettings(method=method, **(online if method == "online" else {}))
+    own = {"nnql": {}, "online": online, "dqn": DQN}[method]
+    first = QLearningSettings(**own | {"method": method})
     settings = [replace(first, seed=seed) for seed in range(20)]
     worlds = random_worlds(200, 10, seed=44_000, starts=STARTS, targets=TARGETS)
     data = {
