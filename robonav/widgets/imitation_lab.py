@@ -24,9 +24,9 @@ class ImitationLab(anywidget.AnyWidget):
         "simulator", "maps", "episode", "files",
         "learning/random", "learning/worlds", "learning/network", "learning/lbfgs",
         "learning/nnql", "learning/worker", "learning/training_panel",
-        "drives", "imitation_lab",
+        "drives", "imitation", "imitation_lab",
     )  # fmt: skip
-    _css = style_sheet("maps", "drives", "learning/training_panel", "imitation_lab")
+    _css = style_sheet("maps", "drives", "learning/training_panel", "imitation")
     data = traitlets.Dict().tag(sync=True)
 
 

@@ -43,7 +43,7 @@ def choose(lab: Locator, label: str, option: str) -> None:
 
 
 def status(lab: Locator) -> Locator:
-    return lab.locator(".status")
+    return lab.locator(".status:not(.kept)")
 
 
 def drive_to_the_end(lab: Locator) -> str:

@@ -13,7 +13,7 @@ from robonav.widgets.simulator import page_policy
 FILES = (
     "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
     "learning/network", "learning/lbfgs", "learning/nnql", "learning/worker",
-    "learning/training_panel", "drives", "imitation_lab",
+    "learning/training_panel", "drives", "imitation", "imitation_lab",
 )  # fmt: skip
 IMITATE = """
 const { expert, trial, seeds, iterations, count, book } = data;

@@ -1,0 +1,54 @@
+"""The computer expert in the page: modified A* expands the same nodes as Python's, and drives the same way."""
+
+import numpy as np
+import pytest
+
+from robonav.lfd import demonstrate, plan
+from robonav.robot import random_worlds
+from robonav.widgets.simulator import page_world
+
+FILES = ("simulator", "learning/astar")
+PLAN = """return data.worlds.map((world) => {
+  const { poses, ...plan } = page.modifiedAstar(world, page.startPose(world), data.settings);
+  return { ...plan, points: poses.map(({ x, y }) => [x, y]), headings: poses.map(({ heading }) => heading) };
+});"""
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"speed": 2.0, "margin": 2.0},
+        {"speed": 2.0, "margin": 3.0, "caution": 2.0, "cell": 2.0},
+        {"speed": 1.5, "margin": 1.0, "cell": 1.0, "limit": 500},
+    ],
+)
+def test_plans_are_pythons_node_for_node(node, settings):
+    """Of two paths that are equally long, rounding may choose another; the nodes are as many all the same."""
+    worlds = random_worlds(50, 20, seed=12)
+    given = {"worlds": [page_world(w) for w in worlds], "settings": settings}
+    others = 0
+    for world, got in zip(worlds, node(FILES, PLAN, given), strict=True):
+        expected = plan(world, **settings)
+        assert (got["found"], got["expanded"]) == (expected.found, expected.expanded)
+        assert len(got["actions"]) == len(expected.actions)
+        if got["actions"] != expected.actions.tolist():
+            others += 1
+            continue
+        np.testing.assert_allclose(got["points"], expected.points, atol=1e-9)
+        turned = np.array(got["headings"]) - expected.headings
+        np.testing.assert_allclose(np.sin(turned / 2), 0, atol=1e-9)
+    assert others <= 1
+
+
+@pytest.mark.parametrize("obstacles", [10, 20])
+def test_the_expert_demonstrates_as_in_python(node, obstacles):
+    worlds = random_worlds(25, obstacles, seed=7)
+    shown = demonstrate(worlds)
+    body = """return data.map((world) => {
+      const { steps, outcome } = page.expertDrive(world);
+      return { actions: steps.map(({ action }) => action), outcome };
+    });"""
+    got = node(FILES, body, [page_world(w) for w in worlds])
+    for i, each in enumerate(got):
+        assert each["actions"] == shown.actions[shown.trajectory == i].tolist(), i
+        assert each["outcome"] == shown.outcome[i]
