@@ -1,4 +1,4 @@
-"""Imitation lab: a robot learns from the reader's drives in the page, and drives maps that nobody has driven."""
+"""Imitation lab: in the page, a robot learns from the reader's episodes and navigates new maps."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ OBSTACLES = 10
 
 
 class ImitationLab(anywidget.AnyWidget):
-    """Choose drives; train; watch the robot drive new maps; compare; take the weights along."""
+    """Choose demonstrations, train, watch the robot in new maps, compare it, and download its weights."""
 
     _esm = front_end(
         "simulator", "maps", "episode", "files",
@@ -40,24 +40,24 @@ def imitation_lab(
     playground: str = "playground.html",
     progress: Progress | None = None,
 ) -> ImitationLab:
-    """Make a lab in which a robot learns from the reader's drives, or from the computer expert's.
+    """Make a lab in which a robot learns from demonstrations of the reader or of the computer expert.
 
-    The page gets the expert's actions, a digit a step, and drives them again in the same worlds.
+    The page gets the expert's actions, one digit for each step, and repeats them in the same worlds.
 
     Parameters
     ----------
     policy : NetworkPolicy
-        The book's own, to compare with.
+        The book's policy, with which the reader's is compared.
     demonstrations : int
-        Drives of the computer expert to choose from.
+        The number of demonstrations of the computer expert.
     expert_seed, test_seed : int
-        Of the expert's worlds and of the worlds to test in. They must differ.
+        The seeds of the expert's worlds and of the test worlds. They must differ.
     maps : int
-        Number of worlds to test in.
+        The number of test worlds.
     playground : str
-        Address of the page on which to drive.
+        The address of the page on which the reader steers the robot.
     progress : callable, optional
-        Called as ``progress(worlds done, demonstrations)`` while the expert drives.
+        Called as ``progress(done, demonstrations)`` while the expert demonstrates.
 
     Returns
     -------

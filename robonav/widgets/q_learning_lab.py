@@ -1,4 +1,4 @@
-"""Q-learning lab: a robot learns from a reward of the reader's own, in the page; with a kernel, in Python as well."""
+"""Q-learning lab: a robot learns from the reader's own reward, in the page or, with a kernel, in Python."""
 
 from __future__ import annotations
 
@@ -39,18 +39,18 @@ MAPS_SEED = 44_000
 
 @dataclass(frozen=True)
 class Preset:
-    """A way to go wrong, to be watched and cured.
+    """Settings with which learning fails, and their correction.
 
     Parameters
     ----------
     name : str
-        What is wrong.
+        The name of the fault.
     watch : str
-        One or two sentences that say what to look at.
+        One or two sentences on what to observe.
     cure : str
-        One sentence that says what the cure changes.
+        One sentence on the correction.
     settings : QLearningSettings
-        The settings that go wrong.
+        The settings with the fault.
 
     Examples
     --------
@@ -68,7 +68,7 @@ class Preset:
 
 
 class Cancelled(Exception):
-    """The reader has cancelled a training."""
+    """Raised when the reader has cancelled a training."""
 
 
 class QLearningLab(anywidget.AnyWidget):
@@ -77,7 +77,7 @@ class QLearningLab(anywidget.AnyWidget):
     Attributes
     ----------
     trainings : list of TrainingResult
-        What the kernel trained last, a robot each. What the page trains stays in the page.
+        The last trainings in the kernel, one for each robot. Trainings in the page stay there.
     """
 
     _esm = front_end(
@@ -104,7 +104,7 @@ class QLearningLab(anywidget.AnyWidget):
         self.on_msg(self._answer)
 
     def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
-        """The page asks whether a kernel is there, for a training, or for its end."""
+        """Answer the page, which asks whether a kernel is there, for a training, or for its end."""
         asked = message.get("ask")
         if asked == "kernel":
             self.send({"kernel": True})
@@ -121,7 +121,7 @@ class QLearningLab(anywidget.AnyWidget):
             self._thread.start()  # apart, so that a cancellation is heard
 
     def _run(self, message: dict[str, Any]) -> None:
-        """Train the robots that the page asked for, and tell it of each."""
+        """Train the robots of a request, and send each of them to the page."""
         run = {"run": message["run"]}
         try:
             settings = QLearningSettings.from_page(message["settings"])
@@ -137,7 +137,7 @@ class QLearningLab(anywidget.AnyWidget):
     def _train(
         self, settings: QLearningSettings, robots: int, run: dict[str, Any]
     ) -> str:
-        """Train robots, one after the other; gives the sentence that sums them up."""
+        """Train robots one after the other, and return a sentence with their results."""
         worlds = random_worlds(
             TRIED, settings.obstacles, settings.moving, seed=MAPS_SEED, starts=STARTS, targets=TARGETS,
         )  # fmt: skip
@@ -205,7 +205,7 @@ def q_learning_lab(
     settings : QLearningSettings, optional
         The settings at first, to which the reader can return; by default the book's.
     presets : sequence of Preset
-        Ways to go wrong; what cures them is ``settings``.
+        Settings with which learning fails. ``settings`` corrects them.
 
     Returns
     -------
@@ -257,7 +257,7 @@ def q_learning_lab(
 
 
 def thesis_settings(settings: QLearningSettings) -> QLearningSettings:
-    """The thesis's hyperparameters, in the episodes and maps of other settings."""
+    """Return the thesis's hyperparameters, with the episodes and maps of other settings."""
     own: dict[str, Any] = dict(THESIS["nnql"])
     inputs = own.pop("target")
     for name in ("learning_rate", "gradient_step"):

@@ -79,16 +79,23 @@ class Explorable(anywidget.AnyWidget):
 
 
 def explorable(name: str, **settings: Any) -> Explorable:
-    """The explorable of a name.
+    """Return the explorable of a name.
 
     Parameters
     ----------
-    name : a key of ``EXPLORABLES``.
-    settings : what the function of that name takes, to change its numbers.
+    name : str
+        A key of ``EXPLORABLES``.
+    **settings
+        Arguments of the function of that name, which change its numbers.
+
+    Returns
+    -------
+    Explorable
 
     Raises
     ------
-    ValueError : if there is no such explorable.
+    ValueError
+        If there is no such explorable.
 
     Examples
     --------
