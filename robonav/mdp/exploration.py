@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.validation import check_integer, check_positive, check_real
 
 from ._arguments import checked
+from .episodes import UniformNumbers
 
 Schedule = Callable[[int], float]
 """A rate as a function of the number of earlier events: 0, 1, 2, ..."""
@@ -133,7 +134,9 @@ def epsilon_greedy(q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
     )
 
 
-def epsilon_greedy_action(q: Sequence[float], epsilon: float, rng: Any) -> int:
+def epsilon_greedy_action(
+    q: Sequence[float], epsilon: float, rng: UniformNumbers
+) -> int:
     """Draw an action: with probability ``epsilon`` any of them, otherwise one of the best.
 
     It follows the probabilities of :func:`epsilon_greedy`.
@@ -144,8 +147,8 @@ def epsilon_greedy_action(q: Sequence[float], epsilon: float, rng: Any) -> int:
         Action values of one state.
     epsilon : float
         In [0, 1].
-    rng : numpy.random.Generator
-        Its ``random()`` is called once for each of: whether to explore, which action, which of several best ones.
+    rng : UniformNumbers or numpy.random.Generator
+        Its ``random()`` decides whether to explore, and then draws the random action or one of several best actions.
 
     Returns
     -------

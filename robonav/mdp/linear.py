@@ -8,12 +8,10 @@ decorator ``linear_method`` makes them and the weights (step 1 of the algorithm)
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from .episodes import Environment
+from .episodes import Environment, UniformNumbers
 from .exploration import Schedule, epsilon_greedy_action
 from .features import Features
 from .learner import linear_method
@@ -31,7 +29,7 @@ def linear_sarsa(
     discount: float,
     learning_rate: Schedule,
     epsilon: Schedule,
-    rng: Any,
+    rng: UniformNumbers,
 ) -> None:
     """SARSA with linear function approximation, Algorithm 7.
 
@@ -75,7 +73,7 @@ def linear_q_learning(
     discount: float,
     learning_rate: Schedule,
     epsilon: Schedule,
-    rng: Any,
+    rng: UniformNumbers,
 ) -> None:
     """Q-learning with linear function approximation.
 

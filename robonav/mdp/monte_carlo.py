@@ -6,9 +6,9 @@ The functions change ``values`` or ``q``, and ``visits``, in place, as those of 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Literal
 
-from .episodes import Environment
+from .episodes import Environment, UniformNumbers
 from .exploration import Schedule, epsilon_greedy_action, harmonic_decay
 from .learner import control_method, prediction_method
 
@@ -72,7 +72,7 @@ def monte_carlo_control(
     *,
     discount: float,
     epsilon: Schedule,
-    rng: Any,
+    rng: UniformNumbers,
     learning_rate: Schedule = SAMPLE_AVERAGE,
     visit: Visit = "first",
 ) -> None:

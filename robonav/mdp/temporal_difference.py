@@ -11,9 +11,8 @@ The decorators of ``learner`` make these tables (step 1 of the algorithms) and s
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
-from .episodes import Environment
+from .episodes import Environment, UniformNumbers
 from .exploration import Schedule, epsilon_greedy_action
 from .learner import control_method, prediction_method
 
@@ -31,7 +30,7 @@ def q_learning(
     discount: float,
     learning_rate: Schedule,
     epsilon: Schedule,
-    rng: Any,
+    rng: UniformNumbers,
 ) -> None:
     """One-step Q-learning, Algorithm 5, Eqs. (2.29) and (4.1).
 
@@ -69,7 +68,7 @@ def sarsa(
     discount: float,
     learning_rate: Schedule,
     epsilon: Schedule,
-    rng: Any,
+    rng: UniformNumbers,
 ) -> None:
     """On-policy SARSA, Algorithm 6, Eqs. (2.30) and (4.2).
 
@@ -110,7 +109,7 @@ def expected_sarsa(
     discount: float,
     learning_rate: Schedule,
     epsilon: Schedule,
-    rng: Any,
+    rng: UniformNumbers,
 ) -> None:
     """Expected SARSA (van Seijen et al. 2009): SARSA with the mean over the next action instead of one draw of it.
 
