@@ -1,6 +1,14 @@
 """Small widgets for one idea each, in the flow of a chapter; one JavaScript file each, of the same name."""
 
-from . import chapter2, chapter3, chapter5, robot
+from . import chapter2, chapter3, chapter4, chapter5, robot
 from .registry import EXPLORABLES, explorable
 
-__all__ = ["EXPLORABLES", "chapter2", "chapter3", "chapter5", "explorable", "robot"]
+__all__ = [
+    "EXPLORABLES",
+    "chapter2",
+    "chapter3",
+    "chapter4",
+    "chapter5",
+    "explorable",
+    "robot",
+]

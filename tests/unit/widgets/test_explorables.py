@@ -6,10 +6,12 @@ import pytest
 from gymnasium.spaces import Discrete
 from scipy.optimize import minimize_scalar
 from scipy.special import logsumexp
-from scipy.stats import binomtest
+from scipy.stats import binomtest, norm
 
-from robonav import mdp, networks, nirl
+from robonav import mdp, networks, nirl, nnql
 from robonav.lfd import demonstrate, plan, plan_on_grid
+from robonav.nnql.reward import ROW_NUMBERS
+from robonav.nnql.updates import RESCALE
 from robonav.robot import (
     TARGET_ENCODINGS,
     Action,
@@ -731,3 +733,89 @@ def test_targets_are_encoded_as_in_python(compute):
         "one-hot": 1.41,
         "sine-cosine": 0.68,
     }
+
+
+# ---- Chapter 4 ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("how", ["clip", "shift"])
+def test_rescaled_targets(compute, how):
+    body = """
+    const updated = page.qTargets(Float64Array.from(given.q), given.taken, 1.3, 0, 0.8, 0);
+    return [...page.RESCALE[data.how](updated)];"""
+    q = np.array(explorable("one_q_update").data["given"]["q"])
+    updated = nnql.q_targets(q, 1, 1.3, 0.0, 0.8, 0.0)
+    seen = compute("one_q_update", body, how=how)
+    assert seen == pytest.approx(RESCALE[how](updated), abs=1e-12)
+
+
+def test_one_pair_moves_other_values(compute):
+    body = "return page.trainedOn(given.network, given.states, data.state);"
+    state = {"action": 1, "target": 0.9, "steps": 20}
+    seen = compute("moving_together", body, state=state)
+    network, states = (
+        networks.random_network((2, 4, 3), seed=8),
+        [[1.0, 0.3], [0.6, 0.8]],
+    )
+    for _ in range(20):
+        wanted = network.forward(np.array(states[0]))
+        wanted[1] = 0.9
+        network = nnql.stochastic_gradient_descent(
+            network, [np.array(states[0])], [wanted], 1.0, 1, 0.0
+        )
+    assert seen["after"] == pytest.approx(network.forward(np.array(states)), abs=1e-12)
+
+
+def test_rows_of_the_reward(compute):
+    distances = np.arange(1, 10.5, 0.5).tolist()
+    body = """
+    const row = (a, b) => page.rewardRow({ ranges: [a] }, { ranges: [b] }, "running");
+    return data.distances.map((a) => data.distances.map((b) => row(a, b)));"""
+    seen = compute("row_of_the_reward", body, distances=distances)
+    for before, line in zip(distances, seen, strict=True):
+        for after, row in zip(distances, line, strict=True):
+            properties = (nnql.property_at(before), nnql.property_at(after))
+            nearer = int(np.clip(np.floor(before - after), 0, 3))
+            assert row == ROW_NUMBERS[(*properties, nearer)]
+
+
+def test_cooling_down(compute):
+    seen = compute(
+        "cooling_down", "return [0.9, 0.1].map((t) => page.bestTaken(0.1, t));"
+    )
+    expected = [
+        nnql.softmax_policy(np.array([0.1, 0, 0, 0, 0]), t)[0] for t in (0.9, 0.1)
+    ]
+    assert seen == pytest.approx(expected, abs=1e-12)
+
+
+def test_work_of_an_episode(compute):
+    pairs = sum(3 * k for k in range(1, 41))
+    assert compute("work_of_an_episode", "return page.stepsOf(40, 3);") == pairs == 2460
+
+
+def test_largest_of_normal_numbers():
+    means = explorable("overestimation").data["given"]["means"]
+    drawn = np.random.default_rng(0).normal(size=(200_000, 10)).max(axis=1)
+    assert means[0] == pytest.approx(0, abs=1e-6)
+    assert means[1] == pytest.approx(1 / np.sqrt(np.pi), abs=1e-6)
+    assert means[9] == pytest.approx(drawn.mean(), abs=0.01)
+
+
+def test_seeds_to_tell_apart(compute):
+    body = "return data.at.map((at) => page.normalCdf(given.x, given.cdf, at));"
+    at = [-7.0, 0.0, 0.7071, 3.3, 8.0]
+    seen = compute("seeds_to_tell_apart", body, at=at)
+    assert seen == pytest.approx(norm.cdf(at), abs=1e-3)
+
+
+def test_circle_or_target(compute):
+    state = {"circling": 0.1, "seconds": 20, "discount": 0.9}
+    seen = compute(
+        "circle_or_target", "return page.bothReturns(data.state);", state=state
+    )
+    rewards = np.zeros(20)
+    rewards[-1] = 1.0
+    assert seen["target"] == pytest.approx(mdp.discounted_return(rewards, 0.9)[0])
+    forever = mdp.discounted_return([0.1] * 2000, 0.9)[0]
+    assert seen["circle"] == pytest.approx(forever)

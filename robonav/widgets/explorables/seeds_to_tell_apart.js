@@ -1,0 +1,35 @@
+// Two methods, each trained a few times: how often the better one looks better.
+
+/** The normal distribution function, between the points of a table. */
+export function normalCdf(x, cdf, at) {
+  if (at <= x[0]) return 0;
+  if (at >= x.at(-1)) return 1;
+  const place = (at - x[0]) / (x[1] - x[0]);
+  const k = Math.floor(place);
+  return cdf[k] + (place - k) * (cdf[k + 1] - cdf[k]);
+}
+
+export default explorable({
+  controls: () => ({
+    seeds: range({ label: "trainings of each method", from: 1, to: 64, value: 1 }),
+    difference: range({ label: "true difference, in points", from: 0, to: 5, step: 0.25, value: 1, text: (value) => value.toFixed(2) }),
+    scatter: range({ label: "scatter of single trainings", from: 0.5, to: 6, step: 0.25, value: 2, text: (value) => value.toFixed(2) }),
+  }),
+  draw({ given: { x, cdf }, stage }) {
+    const chart = plot({ x: [0, 64], y: [0.5, 1], xLabel: "trainings of each method", yLabel: "better one has the higher mean" });
+    stage.append(h("figure", {}, chart.element));
+    return ({ seeds, difference, scatter }) => {
+      const right = (n) => normalCdf(x, cdf, difference / (scatter * Math.sqrt(2 / n)));
+      chart.put(
+        `In ${Math.round(100 * right(seeds))} per cent of such comparisons the better method has the higher mean`,
+        chart.line(Array.from({ length: 64 }, (_, k) => [k + 1, right(k + 1)]), { stroke: PALETTE.BLUE }),
+        svg("circle", { cx: chart.X(seeds), cy: chart.Y(right(seeds)), r: 6, fill: PALETTE.VERMILION }),
+      );
+      return [
+        `The better method has the higher mean in ${(100 * right(seeds)).toFixed(0)} % of such comparisons.`,
+        `A 95 % interval of the difference is about ±${number(1.96 * scatter * Math.sqrt(2 / seeds), 1)} points wide.`, "",
+        "Four times as many trainings halve the interval.",
+      ].join("\n");
+    };
+  },
+});
