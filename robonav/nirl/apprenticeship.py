@@ -383,7 +383,7 @@ def apprenticeship(
     demonstrations : Transitions
         The expert's decisions.
     task : Task
-        The task in which the network learns.
+        The task on which the network trains.
     guess : callable
         :func:`projection_guess` or :func:`max_margin_guess`.
     expectations : callable

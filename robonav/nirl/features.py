@@ -1,4 +1,4 @@
-"""From features of a state to features of a state and an action, one block an action (section 5.4.2)."""
+"""From features of a state to features of a state and an action, one block for each action (section 5.4.2)."""
 
 from __future__ import annotations
 

@@ -48,9 +48,9 @@ def learn(
     method : str
         "nirl", "apprenticeship", "relative_entropy" or "scirl": the function of this name.
     seed : int or Generator
-        Of the network's first weights and everything random in practice.
+        Seed of the network's initial weights and of all other random numbers.
     task : RobotTask, optional
-        Where the robot practises; by default 10 episodes an iteration, 20 obstacles, 2 m/s.
+        The task on which the robot trains; by default 10 episodes in each iteration, 20 obstacles, 2 m/s.
     refine : callable, optional
         :func:`most_frequent` or :func:`map_uniform_prior`, for an expert that contradicts itself.
     **settings
@@ -84,9 +84,9 @@ def learn(
 def robot_transitions(
     demonstrations: Demonstrations, task: RobotTask, refine: Refinement | None = None
 ) -> Transitions:
-    """The expert's decisions as the task's encoder sees them, refined on request.
+    """The expert's decisions, with the states as the task's encoder gives them, and refined on request.
 
-    States count as equal if all inputs of the network are equal.
+    Two states are equal if all inputs of the network are equal.
     """
     expert = expert_transitions(demonstrations, task.encoder)
     if refine is None:
@@ -105,7 +105,7 @@ def learn_under_reward(
 ) -> IRLResult:
     """Learn a policy for a given reward: a control (zero, random), or a reward learned elsewhere.
 
-    The demonstrations only serve to choose among the policies found.
+    The demonstrations are used only to choose among the policies found.
 
     Parameters
     ----------
@@ -114,9 +114,9 @@ def learn_under_reward(
     weights : (5, k + 1) array
         theta.
     task : RobotTask, optional
-        Where the robot practises.
+        The task on which the robot trains.
     seed : int or Generator
-        Of all random numbers.
+        Seed of all random numbers.
     **settings
         Other arguments of :func:`train_under_reward`.
 

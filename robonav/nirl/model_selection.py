@@ -1,4 +1,4 @@
-"""Which of the policies found to keep, by how well they predict the demonstrations (end of section 5.5.4)."""
+"""The choice of a policy, by how well each policy predicts the demonstrations (end of section 5.5.4)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ._arguments import checked
 from .reward_update import inverse_frequency_weights
 
 Score = Callable[[NDArray[np.int64], NDArray[np.int64]], float]
-"""``score(predicted, actions)``: how well a policy predicts the demonstrated actions; the best policy is kept."""
+"""``score(predicted, actions)``: how well a policy predicts the demonstrated actions; the best policy is chosen."""
 
 
 @checked

@@ -43,7 +43,7 @@ def nirl(
     demonstrations : Transitions
         The expert's decisions.
     task : Task
-        The task in which the learner makes its episodes.
+        The task on which the network trains.
     iterations : int
         Iterations at most.
     tolerance : float

@@ -1,4 +1,4 @@
-"""The neural policy: a network that gives a value for each action, and two ways to choose by them (section 5.5.2)."""
+"""The neural policy: action values by a network, and two policies over these values (section 5.5.2)."""
 
 from __future__ import annotations
 
@@ -83,8 +83,8 @@ def boltzmann_policy(action_values: ArrayLike, inverse_temperature: float) -> Fl
 def greedy_actions(network: Network, inputs: Floats) -> NDArray[np.intp]:
     """The action with the largest value in each state, Eq. (5.11).
 
-    The sigmoid of the output layer increases, so the largest weighted sum belongs to the largest value. Comparing the
-    sums avoids ties between values that round to the same number.
+    The sigmoid of the output layer is increasing, so the largest logit belongs to the largest value. Two large values
+    can round to the same number; their logits differ.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def greedy_actions(network: Network, inputs: Floats) -> NDArray[np.intp]:
 def exploring_policy(
     network: Network, inverse_temperature: float
 ) -> ActionProbabilities:
-    """The policy that a network practises with: :func:`boltzmann_policy` over :func:`neural_action_values`.
+    """The policy of a network during training: :func:`boltzmann_policy` over :func:`neural_action_values`.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ def transition_rewards(weights: ArrayLike, transitions: Transitions) -> Floats:
     Parameters
     ----------
     weights : (A, k + 1) array
-        theta, one row an action.
+        theta, one row for each action.
     transitions : Transitions
         M decisions.
 

@@ -365,7 +365,7 @@ def relative_entropy(
     demonstrations : Transitions
         The expert's decisions, with the states where segments can begin.
     task : Task
-        The task in which the learner makes its episodes. Obstacles must stand still, because segments begin in the
+        The task on which the network trains. Obstacles must stand still, because segments begin in the
         middle of an episode.
     n_samples : int
         Number of random segments.

@@ -341,7 +341,7 @@ def scirl(
     demonstrations : Transitions
         The expert's decisions.
     task : Task
-        The task in which the learner makes its episodes once it has the reward.
+        The task on which the network trains with the reward.
     estimate : callable
         Estimates mu_E: :func:`lstd_estimate` or :func:`heuristic_estimate`.
     regularisation : float

@@ -1,4 +1,4 @@
-"""Where a learner practises (step 4 of Algorithm 10): the robot in new maps, or a finite MDP with known truth."""
+"""Tasks on which a policy makes its episodes (line 4 of Algorithm 10): the robot in new maps, or a finite MDP."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .transitions import ENCODER, Floats, Ints, Transitions
 
 
 class Task(Protocol):
-    """Anything that a policy can practise on.
+    """A task on which a policy makes episodes.
 
     Examples
     --------

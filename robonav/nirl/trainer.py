@@ -1,4 +1,4 @@
-"""What all methods share: the neural policy iteration for a reward, its record, and the result."""
+"""Neural policy iteration for a reward, which all methods share, with its record and its result."""
 
 from __future__ import annotations
 
@@ -115,14 +115,14 @@ class IRLResult:
 
 
 class Trainer:
-    """A network that practises on a task, and the record of its iterations.
+    """A network that trains on a task, and the record of its iterations.
 
     Parameters
     ----------
     demonstrations : Transitions
-        M decisions of the expert, against which every network is scored.
+        M decisions of the expert. Every network is scored by how well it predicts them.
     task : Task
-        Where the network practises.
+        The task on which the network trains.
     hidden : int
         Hidden units.
     inverse_temperature : float
@@ -251,20 +251,20 @@ def train_under_reward(
     seed: int | np.random.Generator = 0,
     progress: Progress | None = None,
 ) -> IRLResult:
-    """Neural policy iteration under a fixed reward: NIRL without its step 5.
+    """Neural policy iteration under a fixed reward: NIRL without its line 5.
 
-    The demonstrations serve to choose among the policies found, and for nothing else.
+    The demonstrations are used only to choose among the policies found.
 
     Parameters
     ----------
     demonstrations : Transitions
         The expert's decisions.
     task : Task
-        Where the network practises.
+        The task on which the network trains.
     weights : (A, k + 1) array
         theta of the reward.
     iterations : int
-        Of rollout and improvement.
+        Number of rollouts, each followed by an improvement.
     hidden : int
         Hidden units of the network.
     inverse_temperature : float
@@ -272,9 +272,9 @@ def train_under_reward(
     improver : Improver
         Improves the network.
     score : callable
-        By which the policy to keep is chosen.
+        Measures how well a policy predicts the demonstrations; the best one is the result.
     seed : int or Generator
-        Of all random numbers.
+        Seed of all random numbers.
     progress : callable, optional
         Called as ``progress(done, iterations)``.
 

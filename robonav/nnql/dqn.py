@@ -51,7 +51,7 @@ def dqn(
     env : gymnasium.Env
         An environment with discrete actions, whose observations are the network's inputs.
     network : Network
-        The network to start from, with one output an action, see :func:`q_network`.
+        The network to start from, with one output for each action, see :func:`q_network`.
     episodes : int
         Episodes of training.
     discount : float

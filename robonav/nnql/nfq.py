@@ -48,7 +48,7 @@ def nfq(
     env : gymnasium.Env
         An environment with discrete actions, whose observations are the network's inputs.
     network : Network
-        The network to start from, with one output an action, see :func:`q_network`.
+        The network to start from, with one output for each action, see :func:`q_network`.
     episodes : int
         Episodes of training.
     discount : float

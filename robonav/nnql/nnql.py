@@ -40,7 +40,7 @@ def nnql(
     env : gymnasium.Env
         An environment with discrete actions, whose observations are the network's inputs.
     network : Network
-        The network to start from, with one output an action, see :func:`q_network`.
+        The network to start from, with one output for each action, see :func:`q_network`.
     episodes : int
         Episodes of training.
     learning_rate, discount : Schedule, float
@@ -128,7 +128,7 @@ def online(
     env : gymnasium.Env
         An environment with discrete actions, whose observations are the network's inputs.
     network : Network
-        The network to start from, with one output an action, see :func:`q_network`.
+        The network to start from, with one output for each action, see :func:`q_network`.
     episodes : int
         Episodes of training.
     learning_rate, discount : Schedule, float

@@ -1,4 +1,4 @@
-"""What chapter 4 trains on: the navigation task of section 4.5, as batches of worlds and as a Gymnasium environment."""
+"""The navigation task of section 4.5, on which chapter 4 trains: batches of worlds, and a Gymnasium environment."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ TARGETS = ((90.0, 90.0), (10.0, 90.0))
 ACTIONS = 5  # F, L30, L60, R30, R60; the reflex alone steps back
 
 INITIAL, EXPLORING, WORLDS, REPLAYING = range(4)
-"""What a seed's random numbers are for; each purpose has a generator of its own."""
+"""Purposes of a seed's random numbers; each purpose has its own generator."""
 
 
 def make_rng(seed: int, purpose: int, *more: int) -> np.random.Generator:
@@ -185,7 +185,7 @@ class TrainingEnv(gymnasium.Wrapper):
 
 @checked
 def q_network(env: gymnasium.Env, *, hidden: int = 8, seed: int) -> Network:
-    """A network with random weights for an environment: an input a state feature, an output an action (Fig. 4.1).
+    """A network with random weights: one input for each number of the state, one output for each action (Fig. 4.1).
 
     Parameters
     ----------

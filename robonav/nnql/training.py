@@ -130,7 +130,7 @@ def train(
     progress: Progress | None = None,
     **settings: Any,
 ) -> TrainingResult:
-    """Train one network a seed by a method of this chapter.
+    """Train one network for each seed, by a method of this chapter.
 
     The networks train at once, each as the readable function of that name (:func:`nnql`, :func:`online`, :func:`nfq`,
     :func:`dqn`) trains it in ``task.environment()``. All seeds step in one simulator, and compiled code trains their
@@ -162,7 +162,7 @@ def train(
     Returns
     -------
     TrainingResult
-        With ``successes`` (S, E) and ``policies``, one a seed.
+        With ``successes`` (S, E) and ``policies``, one for each seed.
 
     Raises
     ------

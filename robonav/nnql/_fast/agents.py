@@ -52,7 +52,7 @@ class Agent:
     Parameters
     ----------
     networks : BatchedNetworks
-        One network a seed.
+        One network for each seed.
     """
 
     def __init__(self, networks: BatchedNetworks) -> None:
@@ -84,7 +84,7 @@ class NNQLAgent(Agent):
     Parameters
     ----------
     networks : BatchedNetworks
-        One network a seed.
+        One network for each seed.
     shape : (S, L, n, A)
         Seeds, steps that an episode lasts at most, inputs, actions.
     pairs : int
@@ -145,7 +145,7 @@ class NFQAgent(Agent):
     Parameters
     ----------
     networks : BatchedNetworks
-        One network a seed.
+        One network for each seed.
     shape : (S, n)
         Seeds, inputs.
     discount, episodes_per_fit, sweeps, epochs, tolerance
@@ -214,7 +214,7 @@ class DQNAgent(Agent):
     Parameters
     ----------
     networks : BatchedNetworks
-        One network a seed.
+        One network for each seed.
     seeds : (S,) tuple of int
         For the generators of the replay.
     inputs : int

@@ -1,4 +1,4 @@
-"""Stacks of small networks, compiled: one hidden layer, one output an action.
+"""Stacks of small networks, compiled: one hidden layer, one output for each action.
 
 A network is a row of P numbers: weights from n inputs to H hidden units (n, H), their biases (H,), weights to A outputs
 (H, A), their biases (A,). Weights lie with the unit they come from first, so that inner loops run along memory; inputs

@@ -1,4 +1,4 @@
-"""S networks side by side, one a seed: evaluated together and trained together, each as if it were alone."""
+"""S networks side by side, one for each seed: evaluated together and trained together, each as if it were alone."""
 
 from __future__ import annotations
 
