@@ -12,7 +12,7 @@ from browser import DESKTOP, PHONE, Visit
 from driving import drive_map, fast, good_drive, keys_of, playground
 from mounting import mounted
 from playwright.sync_api import Locator, expect
-from test_accessibility import AXE, RUN
+from test_accessibility import AXE, RUN, ours
 
 from robonav.benchmark.policies import method
 from robonav.lfd import concatenate, learn_policy, record, save_demonstrations
@@ -207,13 +207,13 @@ def test_other_maps_begin_a_new_table(view, site, widget):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_nothing_serious(view, site, widget, scheme):
-    view.page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
-    lab = opened(view, site, widget)
-    lab.get_by_label("iterations of L-BFGS").select_option("3")
+@pytest.mark.parametrize("size", [DESKTOP, PHONE])
+def test_axe_finds_nothing_serious(visit, site, size, scheme, widget):
+    visit.page.set_viewport_size(size)
+    visit.page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+    lab = mounted(visit, site.as_uri(), widget)
     train(lab)
-    view.page.evaluate("() => { window.define = undefined; }")
-    view.page.evaluate(AXE.read_text("utf-8"))
-    assert view.page.evaluate(RUN) == []
-    width = view.page.evaluate("document.documentElement.scrollWidth")
-    assert width <= view.page.viewport_size["width"]
+    visit.page.evaluate("() => { window.define = undefined; }")
+    visit.page.evaluate(AXE.read_text("utf-8"))
+    assert [bad for bad in visit.page.evaluate(RUN) if ours(bad)] == []
+    assert visit.page.evaluate("document.documentElement.scrollWidth") <= size["width"]

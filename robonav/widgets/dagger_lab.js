@@ -1,0 +1,216 @@
+// DAgger by hand: the robot drives, the reader takes over where it errs, and the robot learns from the corrections.
+
+const FIRST_CORRECTED = 600_000; // the robot is corrected in the worlds of this seed and on; training and tests have small ones
+const MAPS_TO_CORRECT = 400;
+const LEARNING = { sizes: [12, 8, CHOICES], seed: 0, regularisation: 0.1, iterations: 300 };
+const [BACK, LONG] = [5, 120]; // seconds
+const [DRIVING_PACE, SLOWEST] = [12, 100]; // steps a second; milliseconds a step where the reader steers
+const BASES = ["one drive of the expert", "my drives"];
+
+// ---- The episode ----------------------------------------------------------------------------------------------------
+
+/** An episode that robot and reader drive together, and that can be taken back. @param {World} first */
+export function sharedEpisode(first) {
+  const start = { world: first, pose: startPose(first), outcome: "running" };
+  const moments = [{ ...start, sensing: sense(first, start.pose) }];
+  const steps = []; // {pose, sensing, action, by: "robot", "reader" or "reflex"}
+  const now = () => moments.at(-1);
+  const reflexNow = () => reflex(now().sensing, SPEED);
+  return {
+    moments, steps, now,
+    /** Whether robot or reader is asked: something is near, and the robot is not blocked. */
+    asks: () => now().outcome === "running" && reflexNow() < 0,
+    go: (action, by) => {
+      const { world, pose, sensing, outcome } = now();
+      if (outcome !== "running") return;
+      const own = reflexNow();
+      const taken = own < 0 ? action : own;
+      const next = advance(world, pose, steps.length, taken, SPEED);
+      steps.push({ pose, sensing, action: taken, by: own < 0 ? by : "reflex" });
+      moments.push({ ...next, sensing: sense(next.world, next.pose) });
+    },
+    /** Takes some seconds back. */
+    back: (seconds) => {
+      const left = Math.max(0, steps.length - seconds);
+      steps.length = left;
+      moments.length = left + 1;
+    },
+    /** What the reader did, as a drive to learn from. @returns {RecordedDrive} */
+    corrections: () => ({ world: first, speed: SPEED, outcome: now().outcome, steps: steps.filter(({ by }) => by === "reader") }),
+  };
+}
+
+/** The first map from a number on in which a policy fails, or null. */
+export function nextFailure(policy, from) {
+  for (let map = from; map < MAPS_TO_CORRECT; map += 1) {
+    const [world] = randomWorlds(1, { seed: FIRST_CORRECTED + map, obstacles: 10 });
+    if (driveWith(policy, world, { speed: SPEED, maxSteps: 200 }).outcome !== "arrived") return { map, world };
+  }
+  return null;
+}
+
+// ---- In the page ----------------------------------------------------------------------------------------------------
+
+function render({ model, el }) {
+  const { expert, book, trial } = model.get("data");
+  const rivals = [{ ...book, name: "the book's robot" }, STRAIGHT];
+  const yardsticks = rivals.map((rival) => ({ name: rival.name, outcomes: [], colour: PALETTE.GREY }));
+  const experts = replayed(expert);
+  let [base, corrected, robots, now] = [0, [], [], null];
+  let [episode, map, hands, running, timer, planner] = [null, -1, false, false, null, computerExpert()];
+
+  const mine = () => keptDrives().filter(({ outcome }) => outcome === "arrived");
+  const dataset = () => [...(base === 0 ? experts.slice(0, 1) : mine()), ...corrected];
+  const count = () => corrected.flatMap(effective).length;
+
+  // Learning
+  const table = ranking();
+  const showTable = () => table.show([...(now ? [now] : []), ...robots, ...yardsticks.filter(({ outcomes }) => outcomes.length)], { ...trial, obstacles: 10 });
+  const panel = trainingPanel({
+    source: model.get("_esm"), action: "Train", unit: "iterations", total: () => LEARNING.iterations,
+    lines: [{ name: "cost", label: "cost J" }, { name: "agreement", label: "agreement (%)", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) }],
+    begin: () => {
+      const examples = examplesFrom(dataset());
+      if (examples.m === 0) return "There is nothing to learn from: drive a few maps in the playground, or begin with the expert's drive.";
+      const known = yardsticks.every(({ outcomes }) => outcomes.length === trial.maps);
+      if (!known) for (const each of yardsticks) each.outcomes = [];
+      const begun = base === 0 ? "one drive of the expert" : `${mine().length} of my drives`;
+      now = { name: `robot ${robots.length + 1}: ${begun}${count() ? `, ${count()} corrections` : ""}`, outcomes: [], colour: PALETTE.BLUE };
+      return { job: imitate, argument: { ...LEARNING, examples, network: null, encoder: ENCODER, rivals: known ? [] : rivals, trial: { ...trial, obstacles: 10 } } };
+    },
+    live: (news) => {
+      for (const { outcomes } of news) {
+        if (!outcomes) continue;
+        now.outcomes.push(outcomes[0]);
+        outcomes.slice(1).forEach((outcome, k) => yardsticks[k].outcomes.push(outcome));
+      }
+      showTable();
+    },
+    done: (network) => {
+      robots = [{ ...now, policy: { network, encoder: ENCODER } }, ...robots];
+      now = null;
+      showTable();
+      choose();
+      const [last, before] = robots.map(({ outcomes }) => percent(rateOf(outcomes).rate));
+      return before === undefined ? `Your robot arrives in ${last} % of the new maps. Now watch it, and correct it.` : `It arrives in ${last} % of the new maps, before in ${before} %.`;
+    },
+    cancelled: () => {
+      now = null;
+      showTable();
+    },
+  });
+  const first = choice({ label: "the robot first learns from", options: BASES, change: (index) => {
+    panel.cancel();
+    pause();
+    [base, corrected, robots, episode, map] = [index, [], [], null, -1];
+    stage.hidden = true;
+    showTable();
+  } });
+
+  // Driving
+  const board = mapCanvas({ tabindex: 0, role: "application" });
+  const told = h("p", { class: "status told", role: "status" });
+  const paint = () => {
+    const { world, pose, sensing } = episode.now();
+    board.begin(world.size);
+    world.obstacles.forEach((o) => board.obstacle(o));
+    board.start(world.start);
+    board.target(world.target);
+    board.sectors(pose, sensing.ranges);
+    episode.steps.forEach(({ by }, k) => {
+      const [a, b] = [episode.moments[k].pose, episode.moments[k + 1].pose];
+      board.line([[a.x, a.y], [b.x, b.y]], by === "reader" ? PALETTE.ORANGE : PALETTE.BLUE, by === "reader" ? 3.5 : 1.8);
+    });
+    board.robot(pose);
+  };
+  const show = (hint = "") => {
+    const { outcome } = episode.now();
+    const own = episode.steps.filter(({ by }) => by === "reader").length;
+    const ended = {
+      arrived: own ? `Arrived, with ${own} ${own === 1 ? "correction" : "corrections"} of yours: they are kept. Correct another map, or train.` : "Arrived without you.",
+      collided: `It collided. Go back ${BACK} seconds and take over.`,
+    }[outcome];
+    const drives = hands ? (episode.asks() ? "You steer: it waits for your key." : "You steer: its reflex drives.") : running ? (episode.steps.length > LONG ? "It may be going in circles: take over." : "The robot drives. Press an arrow key to take over.") : "The robot will fail in this map. Press Drive, and take over before it does.";
+    told.textContent = `Map ${map + 1}, ${episode.steps.length} s. ${hint || (ended ?? drives)}`;
+    board.canvas.setAttribute("aria-label", told.textContent);
+    play.textContent = running ? "Pause" : hands ? "Give it back" : "Drive";
+    play.disabled = outcome !== "running";
+    back.disabled = episode.steps.length === 0 || outcome === "arrived";
+    for (const button of [ask, ...wheel.children]) button.disabled = outcome !== "running";
+    paint();
+  };
+  const pause = () => {
+    clearTimeout(timer);
+    running = false;
+  };
+  const finish = () => {
+    const kept = episode.corrections();
+    if (kept.steps.length) corrected.push(kept);
+  };
+  /** One second: the robot's, or the reflex's while the reader steers. */
+  const tick = () => {
+    const robot = robots[0].policy;
+    episode.go(hands ? 0 : consult(robot, episode.now().sensing).action, "robot");
+    if (episode.now().outcome !== "running") {
+      pause();
+      if (episode.now().outcome === "arrived") finish();
+    } else if (running || !episode.asks()) timer = setTimeout(tick, hands ? SLOWEST : 1000 / DRIVING_PACE);
+    show();
+  };
+  const steer = (action) => {
+    if (episode.now().outcome !== "running") return;
+    pause();
+    hands = true;
+    episode.go(action, "reader");
+    if (episode.now().outcome === "arrived") finish();
+    else if (episode.now().outcome === "running" && !episode.asks()) timer = setTimeout(tick, SLOWEST);
+    show();
+  };
+  board.canvas.addEventListener("keydown", (event) => {
+    if (!(event.key in KEYS)) return;
+    event.preventDefault();
+    steer(event.shiftKey && event.key === "ArrowLeft" ? HARD_LEFT : event.shiftKey && event.key === "ArrowRight" ? HARD_RIGHT : KEYS[event.key]);
+  });
+  const wheel = h("div", { class: "wheel", role: "group", "aria-label": "Take over and steer, a second at a time" },
+    ...[["L60", 2], ["L30", 1], ["F", 0], ["R30", 3], ["R60", 4]].map(([name, action]) => h("button", { type: "button", click: () => steer(action) }, name)));
+  const play = h("button", { type: "button", class: "main", click: () => {
+    if (running) pause();
+    else {
+      [hands, running] = [false, true];
+      clearTimeout(timer);
+      timer = setTimeout(tick);
+    }
+    show();
+  } }, "Drive");
+  const back = h("button", { type: "button", click: () => {
+    pause();
+    episode.back(BACK);
+    hands = true;
+    show();
+  } }, `Back ${BACK} s`);
+  const ask = h("button", { type: "button", click: () => {
+    pause();
+    const { world, pose } = episode.now();
+    show(episode.asks() ? `The computer expert would take ${ROBOT.actions[planner(world, pose, SPEED)]} here.` : "Its reflex decides here: nobody is asked.");
+  } }, "Ask the expert");
+  const choose = () => {
+    pause();
+    const found = nextFailure(robots[0].policy, map + 1);
+    stage.hidden = found === null;
+    if (!found) return;
+    [episode, map, hands, planner] = [sharedEpisode(found.world), found.map, false, computerExpert()];
+    show();
+  };
+  const next = h("button", { type: "button", click: choose }, "Next map where it fails");
+  const stage = h("div", { class: "stage", hidden: true }, board.canvas, told, h("div", { class: "row tools" }, play, back, ask, next), wheel);
+
+  el.classList.add("robonav", "imitation", "dagger-lab");
+  el.replaceChildren(h("div", { class: "row" }, first.element), panel.element, table.element, stage);
+  showTable();
+  return () => {
+    panel.cancel();
+    pause();
+  };
+}
+
+export default { render };
