@@ -1,10 +1,10 @@
 # Exercise 4.7: A learning curve with its band. 5 points, exercise, about 25 minutes.
 # Check it with: robonav check 4.7
-"""A learning curve from one seed proves little. Make the curve of Figure 4.6 with its band from many: count each
-seed's successes in every block of so many episodes, then give the mean over the seeds and a 95 % interval for that
-mean. Take the interval by the bootstrap: you are given which seeds to draw for each resample. Draw *seeds*, not
-episodes: the episodes of one seed depend on each other. The interval ends at the 2.5th and the 97.5th percentile of
-the resamples' means, as `numpy.percentile` has them.
+"""A learning curve from one seed proves little. Compute the curve of Figure 4.6 from many seeds, with its band. Count
+each seed's successes in every block of a given number of episodes. Then compute the mean over the seeds, and a 95 %
+interval of this mean by the bootstrap. You are given which seeds to draw for each resample. Draw *seeds*, not episodes,
+because the episodes of one seed depend on each other. The interval ends at the 2.5th and the 97.5th percentile of the
+resamples' means, as `numpy.percentile` computes them.
 """
 
 import numpy as np
@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 
 def band(
-    successes: NDArray[np.bool_], block: int, draws: NDArray[np.int64]
+    successes: NDArray[np.bool_],
+    block: int,
+    draws: NDArray[np.int64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Mean number of successes in each block, and its interval.
 

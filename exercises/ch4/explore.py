@@ -1,9 +1,8 @@
 # Exercise 4.1: A Boltzmann policy fit for use. 5 points, exercise, about 25 minutes.
 # Check it with: robonav check 4.1
-"""The Boltzmann policy of Eq. (4.7), made fit for use. Some actions may not be allowed, and get no probability. The
-temperature falls over time, differently for each robot, and in the end it is exactly zero: Eq. (4.8) then shares
-the choice evenly among the best allowed actions. Between the two, Q-values in the thousands at a temperature of a
-thousandth must not overflow.
+"""Extend the softmax policy of Eq. (4.7). Some actions may not be allowed, and have probability zero. The temperature
+falls over time, differently for each robot, and in the end it is exactly zero. Eq. (4.8) then divides the probability
+equally among the best allowed actions. Q-values in the thousands at a temperature of a thousandth must not overflow.
 """
 
 import numpy as np
@@ -11,7 +10,9 @@ from numpy.typing import NDArray
 
 
 def explore(
-    q: NDArray[np.float64], temperature: NDArray[np.float64], allowed: NDArray[np.bool_]
+    q: NDArray[np.float64],
+    temperature: NDArray[np.float64],
+    allowed: NDArray[np.bool_],
 ) -> NDArray[np.float64]:
     """Probability of each action.
 

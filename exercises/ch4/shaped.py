@@ -1,10 +1,10 @@
 # Exercise 4.2: Advice that does not mislead. 4 points, warm-up, about 15 minutes.
 # Check it with: robonav check 4.2
-"""A reward table like the chapter's is easily gamed: a robot that is paid for every step away from an obstacle may
-dance to and fro before it. Ng, Harada and Russell (1999) found the one safe way to add advice. Give every state a
-potential $\\Phi(s)$, and add $\\gamma \\Phi(s') - \\Phi(s)$ to the reward of each step; nothing is to come after
-the last step, so the potential counts as zero there. Over a whole episode the additions cancel but for the start,
-and the best policy stays the best. Shape the rewards of an episode.
+"""A reward like the chapter's can be exploited: if every step away from an obstacle is rewarded, a robot may go to and
+fro in front of it. Ng, Harada and Russell (1999) found the additional rewards that leave the optimal policy unchanged.
+Give every state a potential $\\Phi(s)$, and add $\\gamma \\Phi(s') - \\Phi(s)$ to the reward of each step. The
+potential after the last step counts as zero. Over a whole episode the additions cancel except for that of the first
+state, so the optimal policy remains optimal. Shape the rewards of an episode.
 """
 
 import numpy as np
@@ -12,7 +12,10 @@ from numpy.typing import NDArray
 
 
 def shaped(
-    rewards: NDArray[np.float64], potentials: NDArray[np.float64], ended: bool, discount: float
+    rewards: NDArray[np.float64],
+    potentials: NDArray[np.float64],
+    ended: bool,
+    discount: float,
 ) -> NDArray[np.float64]:
     """The rewards with the advice added.
 

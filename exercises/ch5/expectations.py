@@ -1,16 +1,19 @@
 # Exercise 5.1: Feature expectations that can be compared. 5 points, exercise, about 20 minutes.
 # Check it with: robonav check 5.1
 """Equation (5.13) adds up discounted features, so that a longer trajectory has larger feature expectations, and two
-experts with trajectories of different lengths cannot be compared. Take the discounted *mean* instead: in each
-trajectory the weights $\\gamma^t$, $t = 0, 1, \\ldots$, divided by their sum; then the mean over the trajectories,
-each counting alike. A feature that is always 1 must have the expectation 1.
+experts with trajectories of different lengths cannot be compared. Compute the discounted *mean* instead. In each
+trajectory the weights are $\\gamma^t$, $t = 0, 1, \\ldots$, divided by their sum. Then take the mean over the
+trajectories, with equal weights. A feature that is always 1 must have the expectation 1.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
 
-def expectations(trajectories: list[NDArray[np.float64]], discount: float) -> NDArray[np.float64]:
+def expectations(
+    trajectories: list[NDArray[np.float64]],
+    discount: float,
+) -> NDArray[np.float64]:
     """Mean features of an expert.
 
     Parameters

@@ -1,10 +1,10 @@
 # Exercise 5.2: What the expert meant. 5 points, exercise, about 30 minutes.
 # Check it with: robonav check 5.2
-"""On a slippery road what the expert did is not always what it meant. The chapter's Eq. (5.12) takes the most frequent
-action in a state. Do better where you know how actions slip: from $P(\\text{done} \\mid \\text{meant})$ and a prior
-over what an expert means, find for each state the action that was most likely meant, given all that was done there.
-A state may have been seen a thousand times: the product of as many probabilities is zero for a computer, whatever
-was meant.
+"""On a slippery road the expert's actions are not always the intended ones. The chapter's Eq. (5.12) takes the most
+frequent action in a state. If the probabilities of slips are known, there is a better estimate. From
+$P(\\text{done} \\mid \\text{meant})$ and a prior over the intended actions, find for each state the intended action
+that is most probable, given all actions done there. A state may occur a thousand times: the product of a thousand
+probabilities is zero in floating-point arithmetic.
 """
 
 import numpy as np

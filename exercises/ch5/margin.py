@@ -1,19 +1,22 @@
 # Exercise 5.4: Max margin as a game. 10 points, project, about 120 minutes.
 # Check it with: robonav check 5.4
-"""An evening's project: max margin with weights that one can read. Of all rewards $r = \\theta \\cdot f$ whose weights
-are not negative and sum to one, find one that makes the expert beat the policies found so far by most: the
-$\\theta$ for which the least of $\\theta \\cdot (\\mu_E - \\mu_j)$ over the policies $j$ is greatest. This is a
-game of two players, the one choosing weights, the other a policy, and it can be solved by letting both learn:
-multiplicative weights, for instance, or a linear program written out by hand. There may be several best $\\theta$;
-any of them will do, and the margin may fall short of the best by a hundredth of the largest number in the
-differences.
+"""A larger project: maximum margin with weights that are easy to interpret. Among all rewards $r = \\theta \\cdot
+f$ whose weights are not negative and sum to one, find one with the largest margin between the expert and the
+policies found so far: the $\\theta$ for which the smallest $\\theta \\cdot (\\mu_E - \\mu_j)$ over the policies $j$
+is largest. This is a game of two players, in which one chooses the weights and the other a policy. It can be solved
+by an algorithm in which both players learn, such as multiplicative weights, or by a linear program that you write
+yourself. There may be several best $\\theta$; any of them is correct. The margin may be smaller than the best one
+by a hundredth of the largest absolute number in the differences.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
 
-def margin(expert: NDArray[np.float64], found: NDArray[np.float64]) -> NDArray[np.float64]:
+def margin(
+    expert: NDArray[np.float64],
+    found: NDArray[np.float64],
+) -> NDArray[np.float64]:
     """Weights of the reward with the greatest margin.
 
     Parameters

@@ -1,10 +1,10 @@
 # Exercise 5.5: Samples of another policy. 6 points, exercise, about 30 minutes.
 # Check it with: robonav check 5.5
-"""Relative-entropy IRL estimates feature expectations under a policy it has no samples of, from samples of another, by
-weights $p(\\tau) / q(\\tau)$. A few huge weights can decide everything. Make the estimate robust. Scale the weights
-so that their mean is one; lower to a given most what is larger; scale them to sum to one; average the features.
-Say, too, how many samples it is worth: the effective sample size $1 / \\sum w_i^2$ of those last weights. Only
-logarithms of the probabilities are given, and they are far from zero.
+"""Relative-entropy IRL estimates feature expectations under one policy from samples of another, with the weights
+$p(\\tau) / q(\\tau)$. A few very large weights can dominate the estimate. Make it robust: scale the weights so that
+their mean is one; clip those that are larger than a given limit; scale them to sum to one; average the features. Also
+return the effective sample size $1 / \\sum w_i^2$ of the final weights. Only logarithms of the probabilities are given,
+and their absolute values can be large.
 """
 
 import numpy as np
@@ -12,7 +12,10 @@ from numpy.typing import NDArray
 
 
 def reweighted(
-    log_p: NDArray[np.float64], log_q: NDArray[np.float64], features: NDArray[np.float64], most: float
+    log_p: NDArray[np.float64],
+    log_q: NDArray[np.float64],
+    features: NDArray[np.float64],
+    most: float,
 ) -> tuple[NDArray[np.float64], float]:
     """Estimate under p from samples of q.
 

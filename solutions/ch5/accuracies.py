@@ -1,17 +1,20 @@
 """Three quarters of an expert's actions are "forward". A policy that always goes forward agrees with three quarters of
-the demonstrations, and hits the first wall. The chapter lets rare actions weigh more. Cohen (1960) went another way,
-and took off what two strangers would agree in by chance: if both keep to their own shares of the actions and never
-look at the state, they agree in $c = \\sum_a p_a q_a$ of the steps, where $p_a$ and $q_a$ are the shares of action $a$
-in what the expert and the policy do. Compute the plain accuracy $o$, and the agreement beyond chance,
-$(o - c) / (1 - c)$: one for a policy that does as the expert, zero for one that knows nothing, however often it is
-right.
+the demonstrations, and collides with the first wall. The chapter gives rare actions a larger weight. Cohen (1960)
+subtracts the agreement that is expected by chance. If expert and policy drew their actions independently of the state,
+each with its own frequencies, they would agree in $c = \\sum_a p_a q_a$ of the steps, where $p_a$ and $q_a$ are the
+frequencies of action $a$. Compute the plain accuracy $o$, and the agreement beyond chance, $(o - c) / (1 - c)$. It is
+one for a policy that always agrees with the expert, and zero for one whose actions do not depend on the state.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
 
-def accuracies(shown: NDArray[np.int64], chosen: NDArray[np.int64], number: int) -> NDArray[np.float64]:
+def accuracies(
+    shown: NDArray[np.int64],
+    chosen: NDArray[np.int64],
+    number: int,
+) -> NDArray[np.float64]:
     """Plain accuracy and agreement beyond chance.
 
     Parameters

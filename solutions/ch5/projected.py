@@ -1,7 +1,7 @@
 """Apprenticeship learning by projection keeps one point, the mixture of the policies found so far that is nearest to
-the expert, and moves it towards each new policy. Features have different units, so measure distances after dividing
-every feature by a scale of its own. Find the point nearest to the expert on the *segment* between the mixture and
-the new policy, and the new policy's share in it. If the two are the same point, nothing moves.
+the expert, and moves it towards each new policy. Features have different units, so divide every feature by its scale
+before you compute distances. Find the point nearest to the expert on the *segment* between the mixture and the new
+policy, and the share of the new policy in it. If the two ends of the segment are the same point, the share is zero.
 """
 
 import numpy as np
