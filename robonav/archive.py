@@ -46,8 +46,7 @@ def read_archive(path: str | Path) -> dict[str, NDArray[Any]]:
             with np.load(file, allow_pickle=False) as archive:
                 return {name: archive[name] for name in archive.files}
         except Exception as error:  # a damaged archive can raise almost any of these
-            if "Object arrays" in str(
-                error
-            ):  # numpy's message for an object in an archive
+            # numpy's message for an object in an archive
+            if "Object arrays" in str(error):
                 raise Pickled(str(error)) from None
             raise Damaged(str(error)) from None

@@ -26,6 +26,7 @@ from .worker import STUB
 SOLUTION = re.compile(
     r"^( *)### BEGIN SOLUTION\n.*?^ *### END SOLUTION\n", re.MULTILINE | re.DOTALL
 )
+# the date of every file in a zip, so that the same content makes the same zip
 LONG_AGO = (
     2015,
     1,
@@ -33,7 +34,7 @@ LONG_AGO = (
     0,
     0,
     0,
-)  # the date of every file in a zip, so that the same content makes the same zip
+)
 
 
 def stub(source: str, name: str) -> str:

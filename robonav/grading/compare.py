@@ -69,9 +69,8 @@ def _holds_numbers(value: Any) -> bool:
 
 def _numbers_differ(got: Any, expected: np.ndarray) -> str | None:
     array = as_numbers(got)
-    if (
-        isinstance(got, list) and not got and expected.shape[:1] == (0,)
-    ):  # no rows: a list without rows does not tell their length
+    # no rows: a list without rows does not tell their length
+    if isinstance(got, list) and not got and expected.shape[:1] == (0,):
         return None
     if array is None or array.shape != expected.shape:
         return _unlike(expected, got)

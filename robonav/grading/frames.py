@@ -159,9 +159,8 @@ def _to_tree(value: Any, arrays: list[np.ndarray], depth: int) -> Any:
                 )
             arrays.append(plain)
             return {"array": len(arrays) - 1}
-    raise FrameError(
-        f"a value of type {type(value).__name__}"
-    )  # a dict is refused only for its keys
+    # a dict is refused only for its keys
+    raise FrameError(f"a value of type {type(value).__name__}")
 
 
 def _parse(text: bytes) -> dict[str, Any]:
@@ -200,12 +199,10 @@ def _to_arrays(described: list[Any], body: memoryview) -> list[np.ndarray]:
             raise FrameError("an array is declared larger than the bytes that came")
         try:
             flat = np.frombuffer(body[start:end], dtype if dtype != "|b1" else "|u1")
-            arrays.append(
-                flat.astype(dtype).reshape(shape)
-            )  # astype copies, and turns any byte into True or False
-        except (
-            ValueError
-        ):  # a shape such as (0, 2**63) needs no bytes, but numpy refuses it
+            # astype copies, and turns any byte into True or False
+            arrays.append(flat.astype(dtype).reshape(shape))
+        except ValueError:
+            # a shape such as (0, 2**63) needs no bytes, but numpy refuses it
             raise FrameError("an array's shape is beyond numpy's") from None
         start = end
     if start != len(body):

@@ -67,19 +67,21 @@ CLONE_THREAD = 0x10000
 MACHINES = {"x86_64": (0, 0xC000003E), "aarch64": (1, 0xC00000B7)}
 
 LOAD, EQUAL, AT_LEAST, HAS_BITS, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
+# a refused call returns the error number
 ALLOW, KILL, REFUSE = (
     0x7FFF0000,
     0x80000000,
     0x00050000,
-)  # a refused call returns the error number
+)
 CALL, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # offsets in struct seccomp_data
 
 PR_SET_SECCOMP, PR_SET_NO_NEW_PRIVS, FILTER_MODE = 22, 38, 2
 LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
+# Landlock: execute, read a file, list a folder; all of its first version
 READ, ALL_OF_IT = (
     0b1101,
     (1 << 13) - 1,
-)  # Landlock: execute, read a file, list a folder; all of its first version
+)
 OF_A_FILE = 0b111  # execute, write, read: the rights of a file; the others are rights of folders
 
 
@@ -112,10 +114,11 @@ def filter_program(machine: str) -> bytes:
         step(LOAD, CALL),
     ]
     if machine == "x86_64":
+        # the 32-bit ABI, whose calls have other numbers
         program += [
             step(AT_LEAST, 0x40000000, otherwise=1),
             refuse,
-        ]  # the 32-bit ABI, whose calls have other numbers
+        ]
     for numbers in REFUSED.values():
         if (number := numbers[column]) is not None:
             program += [step(EQUAL, number, otherwise=1), refuse]

@@ -11,12 +11,13 @@ import json
 import re
 from typing import Any
 
+# cell magics whose cell is still Python
 PYTHON_CELLS = (
     "%%time",
     "%%timeit",
     "%%capture",
     "%%prun",
-)  # cell magics whose cell is still Python
+)
 
 
 def definitions(notebook: bytes) -> ast.Module:

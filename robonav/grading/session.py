@@ -47,9 +47,8 @@ class Session:
         self._python = python
         self._worker: Worker | None = None
         self._serving: Exercise | None = None
-        self._failed: dict[
-            str, Unaccepted
-        ] = {}  # by exercise, so that a file that hangs is loaded only once
+        # by exercise, so that a file that hangs is loaded only once
+        self._failed: dict[str, Unaccepted] = {}
         self._left: dict[str, float] = {}  # seconds by exercise
         self._asked = 0
 
@@ -146,9 +145,8 @@ class Session:
             ) from None
         finally:
             self._left[exercise.id] = left - (time.monotonic() - start)
-        match (
-            reply
-        ):  # match types first, because comparing an array with == gives no truth value
+        # match types first, because comparing an array with == gives no truth value
+        match reply:
             case {"id": int(number), "value": value, **rest} if (
                 number == self._asked and not rest
             ):

@@ -17,13 +17,14 @@ from typing import NoReturn
 
 KINDS = (".py", ".ipynb")
 MOST_FILES, MOST_BYTES, MOST_ZIPPED = 200, 8 << 20, 32 << 20
+# and every hidden folder
 PASSED_OVER = {
     "__pycache__",
     "__MACOSX",
     "venv",
     "site-packages",
     "node_modules",
-}  # and every hidden folder
+}
 
 
 class Refused(ValueError):
@@ -143,9 +144,7 @@ def _from_zip(path: Path) -> Iterator[tuple[str, bytes]]:
                     continue
                 if stat.S_ISLNK(entry.external_attr >> 16):
                     raise Refused(f"{_checked(entry.filename)} is a link")
-                with archive.open(
-                    entry
-                ) as file:  # the size that the zip declares may be wrong
+                with archive.open(entry) as file:
                     yield _checked(entry.filename), file.read(MOST_BYTES + 1)
     except Refused:
         raise

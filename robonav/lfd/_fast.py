@@ -111,9 +111,8 @@ def search_actions(
         NONE,
     )
     rest = math.hypot(target[0] - pose[0], target[1] - pose[1])
-    queue = [
-        (rest, rest, start)
-    ]  # F, then H: of equal F, the node nearest to the target
+    # F, then H: of equal F, the node nearest to the target
+    queue = [(rest, rest, start)]
     reached, expanded = NONE, 0
     while len(queue) > 0 and expanded < limit:
         node = heapq.heappop(queue)[2]

@@ -122,13 +122,11 @@ def prioritized_sweeping(
     """
     epsilon = error_limit(mdp, tolerance)
     values = np.array(start)
-    likeliest = (
-        mdp.likeliest_predecessors()
-    )  # row s', column s: max over a of T(s, a, s')
+    # row s', column s: max over a of T(s, a, s')
+    likeliest = mdp.likeliest_predecessors()
     q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
-    priority = abs(
-        q.max(axis=1) - values
-    )  # an upper bound on each state's Bellman error
+    # an upper bound on each state's Bellman error
+    priority = abs(q.max(axis=1) - values)
     backups = 0
     while priority.max() > epsilon and backups < max_backups:
         state = int(priority.argmax())
@@ -136,9 +134,8 @@ def prioritized_sweeping(
         best = (mdp.rewards[state] + mdp.discount * expected_next_values).max()
         change = abs(best - values[state])
         values[state], priority[state] = best, 0.0
-        row = slice(
-            *likeliest.indptr[state : state + 2]
-        )  # the predecessors of the state
+        # the predecessors of the state
+        row = slice(*likeliest.indptr[state : state + 2])
         predecessors, probabilities = likeliest.indices[row], likeliest.data[row]
         priority[predecessors] += mdp.discount * probabilities * change
         backups += 1

@@ -24,9 +24,8 @@ from robonav.validation import (
 from .models import FiniteMDP
 
 UP, RIGHT, DOWN, LEFT = range(4)
-STEPS = np.array(
-    [(-1, 0), (0, 1), (1, 0), (0, -1)]
-)  # rows and columns, in the order of the actions
+# rows and columns, in the order of the actions
+STEPS = np.array([(-1, 0), (0, 1), (1, 0), (0, -1)])
 ARROWS = "↑→↓←"
 
 # probability, state reached, reward, whether the episode ends

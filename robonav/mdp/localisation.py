@@ -181,9 +181,8 @@ def _move(grid: PoseGrid, turn: float, distance: float) -> sp.csr_array:
     )
     gone, stayed = grid.around(turned + ahead), grid.around(turned)
     blocked = np.asarray(gone.sum(axis=1)) == 0
-    nowhere = blocked & (
-        np.asarray(stayed.sum(axis=1)) == 0
-    )  # poses inside walls; nobody is there
+    # poses inside walls; nobody is there
+    nowhere = blocked & (np.asarray(stayed.sum(axis=1)) == 0)
     return sp.csr_array(
         gone
         + sp.diags_array(blocked.astype(float)) @ stayed

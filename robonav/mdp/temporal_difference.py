@@ -130,9 +130,8 @@ def expected_sarsa(
         while not done:
             action = epsilon_greedy_action(q[state], eps, rng)
             next_state, reward, terminated, truncated, _ = env.step(action)
-            next_q = q[
-                next_state
-            ]  # any action with probability epsilon, else a best one
+            # any action with probability epsilon, else a best one
+            next_q = q[next_state]
             expected = eps * sum(next_q) / len(next_q) + (1 - eps) * max(next_q)
             next_value = 0.0 if terminated else expected
             td_error = reward + discount * next_value - q[state][action]

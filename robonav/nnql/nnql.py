@@ -176,9 +176,10 @@ def online(
             if not reflex_acted(info):
                 next_value = 0.0 if terminated else network.forward(next_state).max()
                 q = q_targets(q, action, float(reward), next_value, alpha, discount)
+                # the latest pair alone
                 network = stochastic_gradient_descent(
                     network, [state], [RESCALE[rescale](q)], sigma, passes, tolerance
-                )  # the latest pair alone
+                )
             state, done = next_state, terminated or truncated
     return network
 

@@ -112,9 +112,8 @@ def draw_walks(
         )
     for place, (name, cells) in enumerate(walks.items()):
         down, across = np.divmod(np.asarray(cells), columns)
-        aside = 0.5 + 0.1 * (
-            place - (len(walks) - 1) / 2
-        )  # walks that share cells lie side by side
+        # walks that share cells lie side by side
+        aside = 0.5 + 0.1 * (place - (len(walks) - 1) / 2)
         axes.plot(
             across + aside,
             down + aside,

@@ -389,6 +389,5 @@ def draw_value_plane(
         zorder=5,
     )
     axes.set(xlabel="value of state 0", ylabel="value of state 1")
-    axes.legend(
-        loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2
-    )  # the values may fill every corner
+    # the values may fill every corner
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)

@@ -207,9 +207,8 @@ def draw_rates(
     for row, (name, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
         colour = style.METHODS.get(name, style.BLUE)
-        height = row + 0.22 * np.sin(
-            2.4 * np.arange(len(dots))
-        )  # a fixed spread, so that dots do not overlap
+        # a fixed spread, so that dots do not overlap
+        height = row + 0.22 * np.sin(2.4 * np.arange(len(dots)))
         axes.plot(dots, height, ".", color=colour, alpha=0.6, markersize=5)
         axes.plot(
             [dots.mean()] * 2, [row - 0.35, row + 0.35], color=colour, linewidth=2.5

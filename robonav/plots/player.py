@@ -70,9 +70,8 @@ def _frames(animation: Animation, frames_per_second: int, mode: str) -> str:
 
     class Transparent(HTMLWriter):
         def grab_frame(self, **options: Any) -> None:
-            super().grab_frame(
-                **{**options, "facecolor": "none"}
-            )  # matplotlib would lay it on white
+            # matplotlib would lay it on white
+            super().grab_frame(**{**options, "facecolor": "none"})
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "animation.html")

@@ -146,9 +146,8 @@ def check_actions(actions: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.int6
         raise TypeError(f"action must be whole numbers 0 to 5, got {given.dtype}")
     if given.shape != shape:
         raise ValueError(f"action must have shape {shape}, got {given.shape}")
-    if (
-        given.size and given.astype(np.uint64).max() > _fast.BACKWARD
-    ):  # negative numbers become very large ones
+    # negative numbers become very large ones
+    if given.size and given.astype(np.uint64).max() > _fast.BACKWARD:
         wrong = given[(given < 0) | (given > _fast.BACKWARD)].flat[0]
         raise ValueError(
             f"action must be one of F, L30, L60, R30, R60, B (0 to 5), got {wrong}"

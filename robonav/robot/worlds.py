@@ -454,9 +454,8 @@ def draw_worlds(
             f"obstacles must leave a way to the target: {ATTEMPTS} draws with {obstacles} standing and "
             f"{moving} moving obstacles in {size:g} m gave no solvable map; take fewer"
         )
-    drawn = Worlds.__new__(
-        Worlds
-    )  # valid by construction; checks would take longer than drawing
+    # valid by construction; checks would take longer than drawing
+    drawn = Worlds.__new__(Worlds)
     values = (
         kinds,
         shapes,

@@ -129,9 +129,7 @@ class QLearningLab(anywidget.AnyWidget):
             self.send(run | {"ended": self._train(settings, robots, run)})
         except Cancelled:
             pass  # the page knows
-        except (
-            Exception
-        ) as error:  # the thread's last word: the page shows it, or nobody would
+        except Exception as error:
             self.send(run | {"error": f"{type(error).__name__}: {error}"})
 
     def _train(

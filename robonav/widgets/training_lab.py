@@ -87,9 +87,7 @@ class TrainingLab(anywidget.AnyWidget):
                     told = time.monotonic()
                     self.send({"done": done, "total": total, "live": _packed(curves)})
             self.send({"ended": "done"})
-        except (
-            Exception
-        ) as error:  # an error in a thread would be lost, so the page shows it
+        except Exception as error:
             self.send({"error": f"{type(error).__name__}: {error}"})
 
 

@@ -143,8 +143,7 @@ def dagger_result(
     return dagger(
         demonstrations(seed, obstacles),
         worlds,
-        seed=np.full(
-            (rounds + 1, 2), seed
-        ),  # the committed results have one seed for all
+        # the committed results have one seed for all
+        seed=np.full((rounds + 1, 2), seed),
         encoder=Encoder(target=target),
     )

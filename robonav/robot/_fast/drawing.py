@@ -88,9 +88,8 @@ def reachable(kinds, shapes, centres, size, x0, y0, x1, y1, spare):
         di = 1 if goal_i >= i else -1
         dj = 1 if goal_j >= j else -1
         sideways = abs(goal_i - i) >= abs(goal_j - j)
-        for order in range(
-            4
-        ):  # last pushed, first visited: the longer way towards the target
+        # last pushed, first visited: the longer way towards the target
+        for order in range(4):
             along = (order % 2 == 1) == sideways
             sign = 1 if order >= 2 else -1
             ni, nj = (i + sign * di, j) if along else (i, j + sign * dj)

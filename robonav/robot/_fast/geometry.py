@@ -120,9 +120,8 @@ def swept_clearance(kinds, shapes, before, after, size, x0, y0, x1, y1, enough):
             continue
         ax, ay = x0 - before[m, 0], y0 - before[m, 1]
         bx, by = x1 - after[m, 0], y1 - after[m, 1]
-        near = (
-            shapes[m, 0] + shapes[m, 1] + least
-        )  # no root: a box reaches less far than the sum of its halves
+        # no root: a box reaches less far than the sum of its halves
+        near = shapes[m, 0] + shapes[m, 1] + least
         if (
             min(ax, bx) > near
             or max(ax, bx) < -near

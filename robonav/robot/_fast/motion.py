@@ -114,9 +114,8 @@ def step(
         heading = wrap(heading + TURNS[action])
         length = -speed if action == BACKWARD else speed
         x1, y1 = x + length * math.cos(heading), y + length * math.sin(heading)
-        for m in range(
-            len(before)
-        ):  # a slice assignment would compile the text of its error, for three seconds
+        # a slice assignment would compile the text of its error, for three seconds
+        for m in range(len(before)):
             before[m, 0], before[m, 1] = centres[i, m, 0], centres[i, m, 1]
         drift_world(
             kinds[i],

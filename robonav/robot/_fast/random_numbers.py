@@ -34,9 +34,8 @@ def _mix(x):
     return x ^ (x >> np.uint64(16))
 
 
-@njit(
-    "f8(u4[::1], i8, i8, i8, i8)", cache=True, nogil=True, error_model="numpy"
-)  # one signature: otherwise each literal argument compiles another, for 2 s
+# one signature: otherwise each literal argument compiles another, for 2 s
+@njit("f8(u4[::1], i8, i8, i8, i8)", cache=True, nogil=True, error_model="numpy")
 def uniform(key, purpose, step, item, draw):
     """Return a number in [0, 1) from a world's key (2,) and a counter: 8 draws an item, 1024 items a step."""
     counter = np.uint64((step * ITEMS + item) * 8 + draw)
