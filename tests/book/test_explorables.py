@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+import yaml
 from browser import DESKTOP, PHONE, ROOT, Visit, tap
 from mounting import mounted_alone
 from playwright.sync_api import Locator
@@ -145,12 +147,33 @@ def small_words(widget: Locator) -> list[str]:
 
 
 @pytest.mark.parametrize("name", EXPLORABLES)
-def test_is_small_and_on_a_page(name: str) -> None:
+def test_is_small_and_on_one_page_with_its_answer_folded(name: str) -> None:
     widget = explorable(name)
     assert len(widget._esm) + len(str(widget.data)) < 100_000
-    used = [
-        path
-        for path in sorted(Path(ROOT / "book").glob("*.md"))
-        if f'explorable("{name}"' in path.read_text("utf-8")
+    cells = [
+        cell for page in ROOT.glob("book/*.md") for cell in asked_on(page, name=name)
     ]
-    assert len(used) == 1
+    assert len(cells) == 1
+
+
+def asked_on(page: Path, name: str = r"\w+") -> list[str]:
+    """The explorables on a page whose answers are folded below them."""
+    cell = rf"""explorable\("({name})"[^)]*\)\n```\n\n```{{dropdown}} Answer\n"""
+    return re.findall(cell, page.read_text("utf-8"))
+
+
+def chapter_pages() -> list[str]:
+    """The pages of chapters 2 to 5 that teach, without exercises and results."""
+    parts = yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))["parts"]
+    files = [
+        chapter["file"]
+        for part in parts
+        if part["caption"].startswith("Chapter")
+        for chapter in part["chapters"]
+    ]
+    return [file for file in files if "exercises" not in file]
+
+
+@pytest.mark.parametrize("page", chapter_pages())
+def test_every_page_of_a_chapter_asks_twice_or_more(page: str) -> None:
+    assert len(asked_on(ROOT / f"{page}.md")) >= 2

@@ -27,9 +27,9 @@ export default explorable({
   },
   start: () => ({ step: 0 }),
   draw({ stage }) {
-    const picture = svg("svg", { viewBox: "0 0 360 170", width: 360, height: 170, role: "img" });
+    const picture = svg("svg", { viewBox: "0 0 384 170", width: 384, height: 170, role: "img" });
     stage.append(h("figure", {}, picture));
-    const [LEFT_X, MIDDLE_X, RIGHT_X, ROW] = [40, 180, 320, 80];
+    const [LEFT_X, MIDDLE_X, RIGHT_X, ROW] = [44, 192, 334, 80];
     const text = (x, y, words, more = {}) => svg("text", { x, y, "text-anchor": "middle", "font-size": 14, ...more }, words);
     return (state) => {
       const { x, y, first, second, step } = state;

@@ -159,7 +159,8 @@ def cliff() -> mdp.GridWorld:
 
 @asks(
     "Exploring beside a cliff",
-    "Without exploring (ε = 0) both methods walk along the edge. Which paths will they take with ε = 0.3?",
+    "Without exploring (ε\u00a0=\u00a00) both methods walk along the edge. "
+    "Which paths will they take with ε\u00a0=\u00a00.3?",
     guesses=[
         "both stay at the edge",
         "SARSA keeps away, Q-learning stays",

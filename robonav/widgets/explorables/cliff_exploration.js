@@ -68,7 +68,7 @@ export default explorable({
       const best = given.best[Math.round(epsilon / 0.05)];
       return [
         ...methods.map((name, k) => `${name} walks ${walks[k] ?? "nowhere yet"}.`),
-        `For a robot that explores with ε = ${epsilon.toFixed(2)} it is truly best to walk ${said(best.rows)}: it expects ${number(best.value, 1)}.`,
+        `For a robot that explores with ε = ${epsilon.toFixed(2)} it is truly best to walk ${said(best.rows)}: it expects a return of ${number(best.value, 1)}.`,
       ].join("\n");
     };
   },
