@@ -127,3 +127,26 @@ def seeds_to_tell_apart() -> dict[str, Any]:
 def circle_or_target() -> dict[str, Any]:
     """Nothing but the discount with which the page starts."""
     return {"discount": 0.6}
+
+
+@asks(
+    "How long does a value remember?",
+    "A Q-value is updated twenty times with a learning rate of 0.8. "
+    "The mean of how many targets would be as reliable?",
+    guesses=["20", "8", "1 or 2"],
+)
+def weight_of_targets() -> dict[str, Any]:
+    """Nothing: the page computes the weights."""
+    return {}
+
+
+@asks(
+    "Values that do not fit",
+    "The best action earns 0.6 in every step, the others 0.5, 0.4, 0.2 and 0 in the first. The discount is 0.9, "
+    "and targets above 1 are clipped. How many of the five actions can the network tell apart?",
+    guesses=["all", "three", "none"],
+    files=LEARNING,
+)
+def values_out_of_range() -> dict[str, Any]:
+    """The rewards of five actions."""
+    return {"rewards": [0.6, 0.5, 0.4, 0.2, 0.0], "discount": 0.5}

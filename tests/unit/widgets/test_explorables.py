@@ -819,3 +819,40 @@ def test_circle_or_target(compute):
     assert seen["target"] == pytest.approx(mdp.discounted_return(rewards, 0.9)[0])
     forever = mdp.discounted_return([0.1] * 2000, 0.9)[0]
     assert seen["circle"] == pytest.approx(forever)
+
+
+@pytest.mark.parametrize(("first", "last"), [(0.8, 0.8), (0.8, 0.1), (0.3, 0.6)])
+def test_each_target_counts_as_in_the_update(compute, first, last):
+    body = """
+    const rates = page.ratesOf(data);
+    return [rates, page.weightsOf(rates)];"""
+    rates, seen = compute("weight_of_targets", body, first=first, last=last)
+    fractions = np.linspace(0, 1, 20)
+    np.testing.assert_allclose(
+        rates, nnql.geometric_schedule((first, last), fractions), atol=1e-12
+    )
+    q = np.zeros(20)  # one value for each target that is 1 while the others are 0
+    for number, rate in enumerate(rates):
+        q = q + rate * (np.eye(20)[number] - q)
+        one = nnql.q_targets(np.array([0.4]), 0, 1.0, 0.0, rate, 0.9)[0]
+        assert one == pytest.approx(0.4 + rate * 0.6)
+    np.testing.assert_allclose(seen["weights"], q, atol=1e-12)
+    assert seen["start"] == pytest.approx(1 - q.sum(), abs=1e-12)
+    if first == last == 0.8:
+        assert 1 / (q**2).sum() == pytest.approx(1.5)  # as the page says
+
+
+@pytest.mark.parametrize("discount", [0.0, 0.5, 0.9])
+def test_values_out_of_range(compute, discount):
+    body = """
+    const values = page.trueValues(given.rewards, data.discount);
+    return [values, page.RESCALE.clip(values), page.RESCALE.shift(values)];"""
+    values, clipped, shifted = compute("values_out_of_range", body, discount=discount)
+    rewards = explorable("values_out_of_range").data["given"]["rewards"]
+    again = mdp.FiniteMDP(np.ones((5, 1, 1)), [rewards], discount)
+    best = mdp.value_iteration(again, 1e-9).values
+    np.testing.assert_allclose(values, again.action_values(best)[0], atol=1e-6)
+    np.testing.assert_allclose(clipped, nnql.clip(np.array(values)), atol=1e-12)
+    np.testing.assert_allclose(shifted, nnql.shift(np.array(values)), atol=1e-12)
+    if discount == 0.9:
+        assert set(clipped) == {1}  # none can be told apart, as the page says
