@@ -236,7 +236,13 @@ def test_the_best_of_several_seeds_ships():
     assert best.made["seed"] == int(np.argmax(alone))
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.slow if name == "dqn" else ())
+        for name in METHODS
+    ],
+)
 def test_seeds_in_a_batch_train_as_alone(name):
     together = training(name, 11, "thesis", THESIS[name], length=1 / 75)
     options = dict(THESIS[name])

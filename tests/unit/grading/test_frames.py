@@ -232,6 +232,7 @@ JSON = st.recursive(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=500)
 @given(JSON, JSON, st.binary(max_size=20))
 def test_any_header_gives_a_value_or_a_frame_error(value, arrays, body):

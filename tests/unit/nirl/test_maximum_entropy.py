@@ -173,6 +173,7 @@ def test_its_reward_makes_the_expert_again(terrain, demonstrations):
     assert terrain.loss(terrain.best(learned.weights)) < 0.05
 
 
+@pytest.mark.slow
 def test_random_rewards(scattered):
     expert = initial_expectations(scattered.task, scattered.expert)
     learned = maximum_causal_entropy(scattered.task, expert, regularisation=1e-4)
