@@ -12,6 +12,10 @@ def test_listings_of_page(page_name: str, site: Path) -> None:
     assert list(faults((site / f"{page_name}.html").read_text("utf-8"))) == []
 
 
+def test_code_cells_of_page(page_name: str, site: Path) -> None:
+    assert list(wide_cells((site / f"{page_name}.html").read_text("utf-8"))) == []
+
+
 def equation(number: str) -> str:
     return f'<div class="math" id="equation-eq-{number.replace(".", "-")}"></div>'
 
