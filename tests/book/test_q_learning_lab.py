@@ -171,17 +171,6 @@ def test_a_wrong_number_gets_one_sentence(view, title, label, value, sentence):
     expect(field).to_have_attribute("aria-invalid", "false")
 
 
-def test_maps_without_a_way_get_one_sentence(view):
-    lab = mounted_alone(view, q_learning_lab("robot"))
-    lab.get_by_label("obstacles that stand still").fill("40")
-    lab.get_by_label("obstacles that move").fill("30")
-    lab.get_by_label("episodes", exact=True).fill("1")
-    lab.get_by_role("button", name="Train", exact=True).click()
-    expect(said(lab)).to_have_text(
-        re.compile(r"^(Done in|70 obstacles leave no way).*\.$")
-    )
-
-
 def test_a_fault_is_watched_and_cured(view):
     lab = mounted_alone(view, q_learning_lab(presets=[PAYS_FOR_SAFETY]))
     expect(lab.get_by_text(PAYS_FOR_SAFETY.watch)).to_be_visible()
