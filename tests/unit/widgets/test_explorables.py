@@ -655,6 +655,7 @@ def test_value_of_an_end(compute):
     assert compute("value_of_an_end", body) == pytest.approx((1 - 0.65) * value)
 
 
+@pytest.mark.slow
 def test_agreement_counts_as_in_python(compute):
     body = """
     const [first, second] = given.policies;
