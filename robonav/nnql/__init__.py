@@ -1,9 +1,15 @@
 """Chapter 4: neural-network Q-learning, its rivals, and the navigation task on which they are compared."""
 
-from .dqn import double_dqn_targets, dqn, select_action, values_taken
+from .dqn import (
+    ReplayBuffer,
+    double_dqn_targets,
+    dqn,
+    dqn_targets,
+    select_action,
+    values_taken,
+)
 from .nfq import collect_episode, nfq, nfq_targets, rprop_fit
 from .nnql import navigate_greedily, nnql, online
-from .replay_buffer import ReplayBuffer
 from .reward import (
     COZY_DISTANCE,
     Property,
@@ -40,6 +46,7 @@ __all__ = [
     "descend",
     "double_dqn_targets",
     "dqn",
+    "dqn_targets",
     "geometric_schedule",
     "greedy_policy",
     "navigate_greedily",

@@ -1,16 +1,21 @@
-"""Deep Q-learning in its variant "double DQN" (van Hasselt et al. 2016), with a softmax policy that explores.
+"""Deep Q-learning (Mnih et al. 2015) in its variant "double DQN" (van Hasselt et al. 2016).
 
-DQN (Mnih et al. 2015) trains a network Q on transitions drawn at random from a replay buffer, and takes the targets
-from a target network: a copy of Q that stands still between its updates. Three things differ here.
+DQN learns Q-values with a network. Three ideas make this stable:
 
-- Double estimator: Q chooses the next action, and the target network gives its value. In DQN the target network does
-  both. The maximum then prefers actions whose values are too large by error, and the targets are too large.
-- Softmax policy, Eq. (4.7), in place of epsilon-greedy. All methods of chapter 4 explore in this way, so that a
-  comparison of them compares how they learn.
-- The buffer keeps every transition. A training of 300 episodes makes about ten thousand, and each is a few numbers.
+1. Replay: the network trains on transitions drawn at random from all that were made, not on the latest one.
+2. A target network: the targets come from a copy of the network that stands still between its updates.
+3. Double estimator (van Hasselt et al. 2016): the network chooses the next action, and the target network gives its
+   value. In plain DQN the target network does both, :func:`dqn_targets`. The maximum then prefers actions whose values
+   are too large by error, and the targets are too large.
+
+Two things differ from the papers. The robot explores with the softmax policy, Eq. (4.7), in place of epsilon-greedy,
+as all methods of chapter 4 do, so that a comparison shows how they learn. The buffer keeps every transition: a training
+of 300 episodes makes about ten thousand, and each is a few numbers.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple, SupportsFloat
 
 import gymnasium
 import numpy as np
@@ -19,11 +24,9 @@ from numpy.typing import NDArray
 from torch.nn.functional import huber_loss
 
 from robonav.networks.multilayer_perceptron import Network
-from robonav.networks.policy import sample_actions
 from robonav.networks.torch_module import as_module, as_network
 
 from ._arguments import Schedule, checked
-from .replay_buffer import ReplayBuffer, Transitions
 from .schedules import geometric_schedule, softmax_policy
 from .task import EXPLORING, REPLAYING, make_rng, reflex_acted
 
@@ -41,7 +44,7 @@ def dqn(
     target_update_interval: int = 1000,
     seed: int,
 ) -> Network:
-    """Double DQN (van Hasselt et al. 2016) with softmax exploration.
+    """Deep Q-learning by double DQN (van Hasselt et al. 2016).
 
     After each step the network makes one update on a batch drawn from all transitions so far. Its outputs are linear,
     so that Q-values need no rescaling into [0, 1].
@@ -84,7 +87,8 @@ def dqn(
     >>> dqn(env, q_network(env, seed=0), episodes=1, seed=0).sizes
     (16, 8, 5)
     """
-    q_net, target_net = as_module(network), as_module(network)
+    q_net = as_module(network)  # torch layers: Linear, Sigmoid, Linear
+    target_net = as_module(network)
     optimiser = torch.optim.Adam(q_net.parameters(), lr=gradient_step)
     buffer, updates = ReplayBuffer(), 0
     for episode in range(episodes):
@@ -93,14 +97,14 @@ def dqn(
         replay_rng = make_rng(seed, REPLAYING, episode)
         state, done = env.reset(seed=None if episode else seed)[0], False
         while not done:
-            action = select_action(q_net, state, t, rng)
+            action = select_action(q_net, state, t, rng)  # act
             next_state, reward, terminated, truncated, info = env.step(action)
             if not reflex_acted(info):
-                buffer.append(state, action, reward, next_state, terminated)
+                buffer.append(state, action, reward, next_state, terminated)  # store
                 if len(buffer) >= batch_size:
-                    batch = buffer.sample(batch_size, replay_rng)
+                    batch = buffer.sample(batch_size, replay_rng)  # replay
                     targets = double_dqn_targets(q_net, target_net, batch, discount)
-                    loss = huber_loss(values_taken(q_net, batch), targets)
+                    loss = huber_loss(values_taken(q_net, batch), targets)  # learn
                     optimiser.zero_grad()
                     loss.backward()
                     optimiser.step()
@@ -116,7 +120,7 @@ def select_action(
     state: NDArray[np.float64],
     temperature: float | NDArray[np.float64],
     rng: np.random.Generator,
-) -> NDArray[np.int64]:
+) -> int:
     """Draw an action from the softmax policy over the network's Q-values.
 
     Parameters
@@ -132,7 +136,7 @@ def select_action(
 
     Returns
     -------
-    () array of int
+    int
         The action.
 
     Examples
@@ -142,12 +146,84 @@ def select_action(
     >>> from robonav.networks.torch_module import as_module
     >>> from robonav.nnql import select_action
     >>> q_net = as_module(random_network((4, 8, 2), seed=0))
-    >>> int(select_action(q_net, np.eye(4)[0], 0.5, np.random.default_rng(0))) in (0, 1)
+    >>> select_action(q_net, np.eye(4)[0], 0.5, np.random.default_rng(0)) in (0, 1)
     True
     """
     with torch.no_grad():
         q = q_net(torch.as_tensor(state, dtype=torch.float64)).numpy()
-    return sample_actions(softmax_policy(q, temperature), rng.random())
+    probabilities = softmax_policy(q, temperature)  # exp(q / T) over their sum
+    return int(rng.choice(len(q), p=probabilities))
+
+
+def values_taken(q_net: torch.nn.Module, batch: Transitions) -> torch.Tensor:
+    """Q-values of the actions taken: of each row of outputs the one that ``batch.actions`` names.
+
+    Parameters
+    ----------
+    q_net : torch.nn.Module
+        The network that learns.
+    batch : Transitions
+        m transitions.
+
+    Returns
+    -------
+    (m,) tensor
+        Q(s, a).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.networks.torch_module import as_module
+    >>> from robonav.nnql import ReplayBuffer
+    >>> from robonav.nnql import values_taken
+    >>> buffer, network = ReplayBuffer(), random_network((4, 8, 2), seed=0)
+    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
+    >>> q = values_taken(as_module(network), buffer.all()).item()
+    >>> bool(np.isclose(q, network.logits(np.eye(4)[0])[1]))
+    True
+    """
+    return q_net(batch.states).gather(1, batch.actions[:, None])[:, 0]
+
+
+def dqn_targets(
+    q_net: torch.nn.Module,
+    target_net: torch.nn.Module,
+    batch: Transitions,
+    discount: float,
+) -> torch.Tensor:
+    """Targets of plain DQN: r + gamma max_a Q_target(s', a), or r where the episode ended.
+
+    Parameters
+    ----------
+    q_net : torch.nn.Module
+        Not used.
+    target_net : torch.nn.Module
+        The older copy of the network.
+    batch : Transitions
+        m transitions.
+    discount : float
+        The thesis's gamma.
+
+    Returns
+    -------
+    (m,) tensor
+        The targets, without a gradient.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.networks.torch_module import as_module
+    >>> from robonav.nnql import ReplayBuffer, dqn_targets
+    >>> buffer, q_net = ReplayBuffer(), as_module(random_network((4, 8, 2), seed=0))
+    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
+    >>> dqn_targets(q_net, q_net, buffer.all(), 0.9)
+    tensor([0.7000], dtype=torch.float64)
+    """
+    with torch.no_grad():
+        next_values = target_net(batch.next_states).max(dim=1).values
+        return batch.rewards + discount * (~batch.terminal * next_values)
 
 
 def double_dqn_targets(
@@ -158,7 +234,7 @@ def double_dqn_targets(
 ) -> torch.Tensor:
     """Targets by the double estimator: r + gamma Q_target(s', argmax_a Q(s', a)), or r where the episode ended.
 
-    DQN has ``target_net(batch.next_states).max(dim=1).values`` in place of the first two lines.
+    The two lines differ from :func:`dqn_targets`: the network chooses the next action, the target network values it.
 
     Parameters
     ----------
@@ -194,32 +270,70 @@ def double_dqn_targets(
         return batch.rewards + discount * (~batch.terminal * next_values)
 
 
-def values_taken(q_net: torch.nn.Module, batch: Transitions) -> torch.Tensor:
-    """Q-values of the actions taken: of each row of outputs the one that ``batch.actions`` names.
+class Transitions(NamedTuple):
+    """m transitions as tensors; the first axis runs over the transitions.
 
-    Parameters
+    Attributes
     ----------
-    q_net : torch.nn.Module
-        The network that learns.
-    batch : Transitions
-        m transitions.
+    states, next_states : (m, n) tensors
+        What the network reads before and after a step.
+    actions : (m,) tensor of int
+        Actions taken.
+    rewards : (m,) tensor
+        Rewards received.
+    terminal : (m,) tensor of bool
+        Whether the episode ended with this step, so that nothing followed.
+    """
 
-    Returns
-    -------
-    (m,) tensor
-        Q(s, a).
+    states: torch.Tensor
+    actions: torch.Tensor
+    rewards: torch.Tensor
+    next_states: torch.Tensor
+    terminal: torch.Tensor
+
+
+class ReplayBuffer:
+    """All transitions made so far.
 
     Examples
     --------
     >>> import numpy as np
-    >>> from robonav.networks import random_network
-    >>> from robonav.networks.torch_module import as_module
     >>> from robonav.nnql import ReplayBuffer
-    >>> from robonav.nnql import values_taken
-    >>> buffer, network = ReplayBuffer(), random_network((4, 8, 2), seed=0)
-    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
-    >>> q = values_taken(as_module(network), buffer.all()).item()
-    >>> bool(np.isclose(q, network.logits(np.eye(4)[0])[1]))
-    True
+    >>> buffer = ReplayBuffer()
+    >>> for k in range(5):
+    ...     buffer.append(np.array([k, 0.0]), k % 2, 1.0, np.array([k + 1, 0.0]), k == 4)
+    >>> buffer.sample(3, np.random.default_rng(0)).states[:, 0].tolist()
+    [4.0, 3.0, 2.0]
+    >>> len(buffer), buffer.all().terminal.tolist()
+    (5, [False, False, False, False, True])
     """
-    return q_net(batch.states).gather(1, batch.actions[:, None])[:, 0]
+
+    def __init__(self) -> None:
+        self._transitions: list[tuple] = []
+
+    def __len__(self) -> int:
+        return len(self._transitions)
+
+    def append(
+        self,
+        state: NDArray[np.float64],
+        action: int | NDArray[np.int64],
+        reward: SupportsFloat,
+        next_state: NDArray[np.float64],
+        terminal: bool,
+    ) -> None:
+        """Keep one transition."""
+        before, after = np.asarray(state, float), np.asarray(next_state, float)
+        self._transitions.append((before, action, float(reward), after, terminal))
+
+    def all(self) -> Transitions:
+        """Every transition, in the order in which they were made."""
+        return self._at(range(len(self)))
+
+    def sample(self, size: int, rng: np.random.Generator) -> Transitions:
+        """Transitions drawn at random, with replacement."""
+        return self._at(rng.integers(len(self), size=size))
+
+    def _at(self, indices: range | NDArray[np.int64]) -> Transitions:
+        columns = zip(*(self._transitions[k] for k in indices), strict=True)
+        return Transitions(*(torch.as_tensor(np.array(column)) for column in columns))

@@ -22,7 +22,7 @@ from robonav.networks.policy import sample_actions
 from robonav.networks.torch_module import as_module, as_network
 
 from ._arguments import Schedule, checked
-from .replay_buffer import ReplayBuffer, Transitions
+from .dqn import ReplayBuffer, Transitions
 from .schedules import geometric_schedule, softmax_policy
 from .task import EXPLORING, make_rng, reflex_acted
 
