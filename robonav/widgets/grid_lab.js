@@ -57,7 +57,7 @@ function render({ model, el }) {
   };
 
   /** Another grid or setting: its replays in new pictures. */
-  function load(nextLayout, run) {
+  function load(nextLayout, run, { atEnd = false } = {}) {
     time?.stop();
     if (layout !== nextLayout) marked = Math.max(0, nextLayout.cells.findIndex(([r, c]) => nextLayout.rows[r][c] === "S"));
     layout = nextLayout;
@@ -72,7 +72,8 @@ function render({ model, el }) {
     const count = Math.max(...replays.map(({ frames }) => frames.last)) + 1;
     time = player({ label: "step", count, text: (frame) => `${frame} of ${count - 1}`, change: () => show(), interval: 350 });
     place.replaceChildren(time.element);
-    show();
+    if (atEnd) time.go(count - 1);
+    else show();
   }
 
   function offer() {
@@ -83,17 +84,52 @@ function render({ model, el }) {
   pictures.setAttribute("aria-label", "Grids; arrow keys move the mark from cell to cell");
   marksByKeys(pictures, { cells: () => layout.cells, marked: () => marked, mark });
 
-  const workshop = editor({ model, rows: () => layout.rows, choices: () => chosen.slice(1).map((at, i) => data.controls[i + 1].options[at]), load });
+  const learner = learning({ model, learners: data.learners, rows: () => data.grids[chosen[0]].rows, load });
+  const workshop = editor({ model, offered: data.solves, rows: () => layout.rows, choices: () => chosen.slice(1).map((at, i) => data.controls[i + 1].options[at]), load });
   el.classList.add("robonav", "grid-lab");
   el.replaceChildren(
-    h("div", { class: "row" }, ...settings.map(({ element }) => element)), place, pictures, status, workshop,
+    h("div", { class: "row" }, ...settings.map(({ element }) => element)), place, pictures, status, workshop, learner.element,
   );
   offer();
-  return () => time.stop();
+  return () => {
+    learner.cancel();
+    time.stop();
+  };
+}
+
+const LEARNING = { // the sliders of a training, with their choices and the first of them
+  episodes: { label: "episodes", options: [20, 50, 100, 200, 500, 1000, 2000, 5000], value: 4 },
+  learning_rate: { label: "learning rate α", options: [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1], value: 3 },
+  epsilon: { label: "exploring ε", options: [0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 1], value: 4 },
+  discount: { label: "discount γ", options: [0.5, 0.8, 0.9, 0.95, 0.99, 1], value: 5 },
+  slip: { label: "probability to slip", options: [0, 0.05, 0.1, 0.2, 0.4], value: 0 },
+  seed: { label: "seed of the random numbers", options: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9], value: 0 },
+};
+
+/** Learning in Python on a map that the reader writes; it stays hidden until a kernel says that it is there. */
+function learning({ model, learners, rows, load }) {
+  if (learners.length === 0) return { element: h("div", {}), cancel: () => {} };
+  let learner = 0;
+  const settings = Object.fromEntries(Object.entries(LEARNING).map(([name, { options, value }]) => [name, options[value]]));
+  const sliders = Object.entries(LEARNING).map(([name, { label, options, value }]) =>
+    slider({ label, count: options.length, value, text: (at) => String(options[at]), change: (at) => (settings[name] = options[at]) }).element);
+  const method = choice({ label: "method", options: learners, change: (index) => (learner = index) });
+  const text = h("textarea", { rows: rows().length + 1, cols: 2 * rows()[0].length + 2, spellcheck: "false" });
+  text.value = rows().map((row) => [...row].join(" ")).join("\n");
+  return kernelPanel({
+    model, title: "Learn on a map of your own in Python", unit: "episode", total: () => settings.episodes,
+    lines: [{ name: "earned", label: "mean return", low: null, text: (value) => value.toPrecision(3) }],
+    controls: [h("label", {}, h("span", {}, "map: . free, # wall, S start, G goal, X pit, ~ ice"), text), method.element, ...sliders],
+    request: () => ({ text: text.value, learner: learners[learner], settings }),
+    done: ({ grid, run, sentence }) => {
+      load(grid, run, { atEnd: true });
+      return sentence;
+    },
+  });
 }
 
 /** A map to write and solve; it stays hidden until a kernel says that it is there. */
-function editor({ model, rows, choices, load }) {
+function editor({ model, offered, rows, choices, load }) {
   const text = h("textarea", { rows: 7, cols: 24, spellcheck: "false", "aria-label": "Map: . free, # wall, S start, G goal, X pit, ~ ice" });
   const answer = h("p", { class: "status", role: "status" });
   const solve = () => model.send({ ask: "solve", text: text.value, choices: choices() });
@@ -105,9 +141,9 @@ function editor({ model, rows, choices, load }) {
   );
   element.addEventListener("toggle", () => { if (element.open && !text.value) text.value = rows().join("\n"); });
   model.on("msg:custom", (message) => {
-    if (message.kernel) element.hidden = false;
-    if (message.error) answer.textContent = message.error;
-    if (message.run) {
+    if (message.kernel) element.hidden = !offered;
+    if (message.error && message.run === undefined) answer.textContent = message.error;
+    if (message.grid) {
       answer.textContent = "";
       load(message.grid, message.run);
     }

@@ -2,22 +2,37 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-import anywidget
+import gymnasium as gym
 import numpy as np
-import traitlets
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.mdp import Cell, FiniteMDP, GridWorld
+from robonav.mdp import Cell, FiniteMDP, GridWorld, rollouts
 from robonav.mdp.generalised_policy_iteration import suboptimality
-from robonav.validation import check_array
+from robonav.mdp.learner import ControlMethod
+from robonav.mdp.learning_results import ControlResult
+from robonav.validation import check_array, check_integer, check_one_of
 
 from .grid import page_grid
-from .shared import front_end, packed, style_sheet
+from .kernel_training import KernelTraining, Report
+from .shared import front_end, packed, spread_out, style_sheet
+
+FRAMES = 25
+"""About so many frames show a training on the reader's map."""
+
+MOST_STEPS = 500
+"""An episode on the reader's map is cut off after so many steps, because a goal may be out of reach."""
+
+WINDOW = 20
+"""The live curve is the mean return of so many latest episodes, because single returns vary too much to be read."""
+
+GREEDY_EPISODES = 100
+"""Episodes with the learned greedy policy."""
 
 
 @dataclass(frozen=True)
@@ -100,25 +115,53 @@ def _judged(off: float, lost: float) -> str:
 Solver = Callable[[GridWorld, tuple[str, ...]], Mapping[str, Replay]]
 
 
-class GridLab(anywidget.AnyWidget):
-    """Choose a setting, step through each method, and touch a cell. With a kernel, draw a map and solve it."""
+class _ReturnOfEpisode(gym.Wrapper[Any, Any, Any, Any]):
+    """Adds up the rewards of the present episode in ``total``."""
 
-    _esm = front_end("grid", "grid_lab")
-    _css = style_sheet("grid", "grid_lab")
-    data = traitlets.Dict().tag(sync=True)
+    total = 0.0
+
+    def reset(self, **options: Any) -> tuple[Any, dict[str, Any]]:
+        self.total = 0.0
+        return self.env.reset(**options)
+
+    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        state, reward, terminated, truncated, info = self.env.step(action)
+        self.total += float(reward)
+        return state, reward, terminated, truncated, info
+
+
+class GridLab(KernelTraining):
+    """Choose a setting, step through each method, and touch a cell. With a kernel, solve a map or learn on it."""
+
+    _esm = front_end(
+        "grid",
+        "learning/worker",
+        "learning/training_panel",
+        "learning/kernel_panel",
+        "grid_lab",
+    )
+    _css = style_sheet("grid", "learning/training_panel", "grid_lab")
 
     def __init__(
-        self, data: dict[str, Any], solve: Solver | None, legend: Mapping[str, Cell]
+        self,
+        data: dict[str, Any],
+        solve: Solver | None,
+        learners: Mapping[str, ControlMethod],
+        grid: GridWorld,
+        legend: Mapping[str, Cell],
     ) -> None:
-        super().__init__(data=data)
-        self._solve, self._legend = solve, legend
-        self.on_msg(self._answer)
+        super().__init__(data)
+        self._solve, self._learners = solve, learners
+        self._step_reward, self._legend = grid.step_reward, legend
 
-    def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
-        """Answer the page, which asks whether a kernel is there, or for the solution of the reader's own map."""
-        if message.get("ask") == "kernel":
-            self.send({"kernel": self._solve is not None})
-        elif message.get("ask") == "solve" and self._solve is not None:
+    def uses_kernel(self) -> bool:
+        """Whether a kernel can do anything with a map of the reader: learn on it, or solve it."""
+        return bool(self._learners) or self._solve is not None
+
+    def _answer(self, widget: Any, message: dict[str, Any], buffers: Any) -> None:
+        """Answer the page: as every widget that trains, and with the solution of the reader's own map."""
+        super()._answer(widget, message, buffers)
+        if message.get("ask") == "solve" and self._solve is not None:
             try:
                 grid = GridWorld(str(message["text"]), legend=self._legend)
                 replays = self._solve(
@@ -128,6 +171,73 @@ class GridLab(anywidget.AnyWidget):
             except (ValueError, TypeError) as error:
                 self.send({"error": str(error)})
 
+    def train(self, request: dict[str, Any], report: Report) -> dict[str, Any]:
+        """Learn on the reader's map by one of the learners, and return the replay of the training."""
+        settings = request["settings"]
+        name = check_one_of("learner", request["learner"], self._learners)
+        episodes = check_integer("episodes", settings["episodes"], at_least=1)
+        seed = check_integer("seed", settings["seed"], at_least=0)
+        grid = GridWorld(
+            str(request["text"]),
+            legend=self._legend,
+            slip=settings["slip"],
+            step_reward=self._step_reward,
+        )
+        env = _ReturnOfEpisode(grid.environment())
+
+        returns: deque[float] = deque(maxlen=WINDOW)
+
+        def progress(done: int, total: int) -> None:
+            returns.append(env.total)
+            report(done, total, at=done, earned=sum(returns) / len(returns))
+
+        learned = self._learners[name](
+            env,
+            episodes,
+            discount=settings["discount"],
+            learning_rate=settings["learning_rate"],
+            epsilon=settings["epsilon"],
+            max_steps=MOST_STEPS,
+            seed=seed,
+            record=True,
+            progress=progress,
+        )
+        self.trainings = [learned]
+        tried = rollouts(
+            grid.environment(),
+            learned.policy,
+            GREEDY_EPISODES,
+            max_steps=MOST_STEPS,
+            seed=seed,
+        )
+        ended = sum(episode.terminated for episode in tried)
+        mean = np.mean([episode.rewards.sum() for episode in tried])
+        return {
+            "grid": page_grid(grid),
+            "run": _run({name: _replay_of_training(learned)}),
+            "sentence": f"The greedy policy ends {ended} of {GREEDY_EPISODES} episodes within {MOST_STEPS} steps; "
+            f"their mean return is {mean:.3g}.",
+        }
+
+
+def _replay_of_training(learned: ControlResult) -> Replay:
+    """Some frames of a recorded training, each with the path of the episode that has just ended."""
+    assert learned.history is not None
+    assert learned.visited_states is not None
+    shown = list(spread_out(len(learned.returns), FRAMES))
+    q = learned.history[shown]
+    return Replay(
+        q.max(axis=2),
+        q.argmax(axis=2),
+        [
+            f"after episode {k}, with a return of {learned.returns[k - 1]:.3g}"
+            if k
+            else "before the first episode"
+            for k in shown
+        ],
+        [learned.visited_states[k - 1].tolist() if k else [] for k in shown],
+    )
+
 
 def grid_lab(
     grids: Mapping[str, GridWorld],
@@ -136,6 +246,7 @@ def grid_lab(
     *,
     start: Sequence[str] = (),
     solve: Solver | None = None,
+    learners: Mapping[str, ControlMethod] | None = None,
 ) -> GridLab:
     """Make the lab for some grids and every combination of some settings.
 
@@ -152,6 +263,9 @@ def grid_lab(
     solve : callable, optional
         A function of a grid that the reader drew and the choices. It returns the replays and needs a kernel. The
         symbols of the map have the same meaning as in the given grids.
+    learners : mapping of str to callable, optional
+        Methods such as :func:`robonav.mdp.q_learning`, by name, that learn on a grid that the reader drew. They need a
+        kernel. Symbols, and the reward of a step, are those of the given grids.
 
     Returns
     -------
@@ -185,8 +299,12 @@ def grid_lab(
                 for (label, options), choice in zip(offered.items(), first, strict=True)
             ],
             "runs": [_run(runs[combination]) for combination in combinations],
+            "solves": solve is not None,
+            "learners": list(learners or {}),
         },
         solve,
+        learners or {},
+        grids[first[0]],
         {
             symbol: cell
             for grid in grids.values()

@@ -326,48 +326,17 @@ function faults(presets, first, form, tell) {
   return [h("div", { class: "row presets" }, which.element, cure), about];
 }
 
-/** Several robots in the kernel's Python; there is nothing of it until a kernel says that it is there. */
-function kernelPanel({ model, form }) {
-  let [number, inbox, wake] = [0, [], () => {}];
-  /** A job that Python does: what Python says becomes its steps. */
-  async function* pythonTraining(argument) {
-    inbox = [];
-    number += 1;
-    model.send({ ask: "train", run: number, ...argument });
-    for (;;) {
-      while (inbox.length === 0) await new Promise((go) => (wake = go));
-      const { error, ended, done, total, live } = inbox.shift();
-      if (error) throw new Error(error);
-      if (ended) return ended;
-      yield { done, total, live };
-    }
-  }
-  const robots = choice({ label: "robots, each with a seed of its own", options: ["1", "4", "16"], value: 1, change: () => {} });
-  const chosen = () => [1, 4, 16][robots.element.querySelector("select").selectedIndex];
-  const panel = trainingPanel({
-    source: null, action: "Train in Python", unit: "robot", total: chosen,
+/** Several robots in the kernel's Python, with the settings of the page. */
+function severalRobots({ model, form }) {
+  const robots = numberOfRobots();
+  return kernelPanel({
+    model, title: "The same settings in Python: several robots", unit: "robot", total: robots.value, controls: [robots.element],
     lines: [
       { name: "last", label: "arrivals, last 100", high: 100, text: (value) => value.toFixed(0) },
       { name: "maps", label: "new maps (%)", colour: PALETTE.GREEN, high: 100, text: (value) => value.toFixed(0) },
     ],
-    begin: () => form.wrong() || { job: pythonTraining, argument: { settings: form.settings(), robots: chosen() } },
-    done: (sentence) => sentence,
-    cancelled: () => model.send({ ask: "cancel" }),
+    request: () => form.wrong() || { settings: form.settings(), robots: robots.value() },
   });
-  const fieldset = h("fieldset", {}, h("legend", {}, "The same settings in Python: several robots"), h("div", { class: "row tools" }, robots.element), panel.element);
-  const element = h("div", {});
-  model.on("msg:custom", (message) => {
-    if (message.kernel) element.replaceChildren(fieldset);
-    if (message.run !== number) return;
-    inbox.push(message);
-    wake();
-  });
-  try {
-    model.send({ ask: "kernel" });
-  } catch {
-    // A page without a kernel: the robot learns in the page, and this stays hidden.
-  }
-  return { element, cancel: panel.cancel };
 }
 
 function render({ model, el }) {
@@ -447,7 +416,7 @@ function render({ model, el }) {
     cancelled: ended,
   });
 
-  const kernel = kernelPanel({ model, form });
+  const kernel = severalRobots({ model, form });
 
   el.classList.add("robonav", "q-learning-lab");
   el.replaceChildren(

@@ -2,36 +2,34 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import anywidget
-import traitlets
-
 from robonav.benchmark.policies import method
-from robonav.experiments import bootstrap_interval
 from robonav.experiments.chapter4.setup import EVALUATION_TEMPERATURE, THESIS
 from robonav.networks import NetworkPolicy
 from robonav.nnql import STARTS, TARGETS, TrainingResult, train
 from robonav.nnql.reward import TABLE
 from robonav.progress import Progress
-from robonav.robot import navigate, random_worlds
+from robonav.robot import random_worlds
 from robonav.validation import check_instance, check_integer, check_one_of
 
+from .kernel_training import (
+    TRIED,
+    KernelTraining,
+    Report,
+    sentence_on_rates,
+    success_rates,
+)
 from .q_learning_settings import METHODS, QLearningSettings
 from .shared import front_end, style_sheet
 from .simulator import page_policy
 
 GROUPS = ("reward", "exploration", "learning", "robot")
 MAPS = (100, 200)
-EPISODES_A_MESSAGE = 10
 TOGETHER = 4
 """Robots that the kernel trains at once; the page hears of them together."""
-
-TRIED = 400
-"""Maps that each robot is tried in which the kernel trains."""
 
 MAPS_SEED = 44_000
 """Seed of the maps that robots are tried in; no training and no experiment uses them."""
@@ -67,18 +65,8 @@ class Preset:
     settings: QLearningSettings
 
 
-class Cancelled(Exception):
-    """Raised when the reader has cancelled a training."""
-
-
-class QLearningLab(anywidget.AnyWidget):
-    """Set reward, exploration and learning; train, watch, cancel; drive new maps; compare; download the weights.
-
-    Attributes
-    ----------
-    trainings : list of TrainingResult
-        The last trainings in the kernel, one for each robot. Trainings in the page stay there.
-    """
+class QLearningLab(KernelTraining):
+    """Set reward, exploration and learning; train, watch, cancel; drive new maps; compare; download the weights."""
 
     _esm = front_end(
         "simulator",
@@ -91,102 +79,62 @@ class QLearningLab(anywidget.AnyWidget):
         "learning/dqn",
         "learning/worker",
         "learning/training_panel",
+        "learning/kernel_panel",
         "q_learning_lab",
     )
     _css = style_sheet("maps", "learning/training_panel", "q_learning_lab")
-    data = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, data: dict[str, Any]) -> None:
-        super().__init__(data=data)
-        self.trainings: list[TrainingResult] = []
-        self._cancelled = threading.Event()
-        self._thread: threading.Thread | None = None
-        self.on_msg(self._answer)
-
-    def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
-        """Answer the page, which asks whether a kernel is there, for a training, or for its end."""
-        asked = message.get("ask")
-        if asked == "kernel":
-            self.send({"kernel": True})
-        elif asked == "cancel":
-            self._cancelled.set()
-        elif asked == "train":
-            self._cancelled.set()  # a training that still runs
-            if self._thread is not None:
-                self._thread.join()
-            self._cancelled.clear()
-            self._thread = threading.Thread(
-                target=self._run, args=(message,), daemon=True
-            )
-            self._thread.start()  # apart, so that a cancellation is heard
-
-    def _run(self, message: dict[str, Any]) -> None:
-        """Train the robots of a request, and send each of them to the page."""
-        run = {"run": message["run"]}
-        try:
-            settings = QLearningSettings.from_page(message["settings"])
-            robots = check_integer("robots", message["robots"], at_least=1)
-            self.send(run | {"ended": self._train(settings, robots, run)})
-        except Cancelled:
-            pass  # the page knows
-        except Exception as error:
-            self.send(run | {"error": f"{type(error).__name__}: {error}"})
-
-    def _train(
-        self, settings: QLearningSettings, robots: int, run: dict[str, Any]
-    ) -> str:
-        """Train robots one after the other, and return a sentence with their results."""
+    def train(self, request: dict[str, Any], report: Report) -> str:
+        """Train robots, a few at a time, and return a sentence with their results."""
+        settings = QLearningSettings.from_page(request["settings"])
+        robots = check_integer("robots", request["robots"], at_least=1)
         worlds = random_worlds(
             TRIED, settings.obstacles, settings.moving, seed=MAPS_SEED, starts=STARTS, targets=TARGETS,
         )  # fmt: skip
-        self.trainings, rates = [], []
+        trainings: list[TrainingResult] = []
+        rates: list[float] = []
         total = robots * settings.episodes
         for first in range(0, robots, TOGETHER):
             before = first * settings.episodes
-            seeds = range(
-                settings.seed + first, settings.seed + min(first + TOGETHER, robots)
-            )
+            together = min(TOGETHER, robots - first)
+
             training = train(
                 settings.method,
-                seeds,
+                range(settings.seed + first, settings.seed + first + together),
                 settings.episodes,
                 task=settings.task(),
                 hidden=settings.hidden,
-                progress=self._teller(run, before, total),
+                progress=_progress(report, before, total),
                 **settings.hyperparameters(),
             )
-            self.trainings += [training[k] for k in range(len(seeds))]
+            trainings += [training[k] for k in range(together)]
             for policy, arrived in zip(
                 training.policies, training.successes, strict=True
             ):
-                drives = navigate(policy, worlds, settings.speed, settings.max_steps)
-                rates.append(100 * float(drives.success.mean()))
-                last = 100 * float(arrived[-100:].mean())
-                live = {"at": len(rates), "last": last, "maps": rates[-1]}
-                done = before + len(seeds) * settings.episodes
-                self.send(run | {"done": done, "total": total, "live": live})
-        mean = sum(rates) / robots
-        if robots == 1:
-            return f"One robot crosses {mean:.1f} % of {TRIED} new maps."
-        low, high = bootstrap_interval(rates)
-        return (
-            f"{robots} robots cross {mean:.1f} % of {TRIED} new maps on average, "
-            f"95 % interval {low:.1f} to {high:.1f}; the worst {min(rates):.1f} %."
-        )
+                rates += success_rates(
+                    [policy],
+                    worlds,
+                    speed=settings.speed,
+                    max_steps=settings.max_steps,
+                )
+                report(
+                    before + together * settings.episodes,
+                    total,
+                    at=len(rates),
+                    last=100 * float(arrived[-100:].mean()),
+                    maps=rates[-1],
+                )
+        self.trainings = trainings
+        return sentence_on_rates(rates, TRIED)
 
-    def _teller(self, run: dict[str, Any], before: int, of_all: int) -> Progress:
-        """A callback that tells the page now and then how many episodes are done, and ends a cancelled training."""
-        told = 0
 
-        def progress(done: int, total: int) -> None:
-            nonlocal told
-            if self._cancelled.is_set():
-                raise Cancelled
-            if done >= told + EPISODES_A_MESSAGE:
-                told = done
-                self.send(run | {"done": before + done, "total": of_all})
+def _progress(report: Report, before: int, of_all: int) -> Progress:
+    """A callback of a training that begins when ``before`` of ``of_all`` episodes are done."""
 
-        return progress
+    def progress(done: int, total: int) -> None:
+        report(before + done, of_all)
+
+    return progress
 
 
 def q_learning_lab(

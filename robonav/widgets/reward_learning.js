@@ -2,6 +2,9 @@
 
 const HEAT_CELL = 2; // metres
 const HEAT_SHADES = 5; // on either side of 0
+const PYTHON_METHODS = { nirl: "NIRL", apprenticeship: "apprenticeship learning", relative_entropy: "relative entropy", scirl: "SCIRL" };
+const METHOD_NAMES = Object.values(PYTHON_METHODS);
+const NO_DECISION = "Your drives hold no decision to learn from: drive some maps with obstacles in the playground first.";
 const ACTION_NAMES = ROBOT.actions.slice(0, 5);
 
 /** The job: a reward and a policy from decisions, or with `reward` a policy alone. */
@@ -116,24 +119,29 @@ function render({ model, el }) {
     { name: "arrived", label: "arrived (%)", low: 0, high: 100, colour: PALETTE.ORANGE },
   ].map((line) => ({ ...line, text: (value) => (line.high ? value.toFixed(0) : value.toPrecision(2)) }));
 
+  /** Shows a reward that was learned in the page or in Python, and lets its robot drive. */
+  const learned = (result, title, name) => {
+    found = result;
+    keepRobot({ name: `${title}, ${names()[chosen]}`, network: found.network, encoder: settings.encoder });
+    paint(found.theta);
+    list(found.theta);
+    elsewhere.hidden = false;
+    for (const each of [weights, reward]) each.disabled = false;
+    trials({ obstacles: settings.obstacles, moving: settings.moving, speed: settings.speed }, { network: found.network, encoder: settings.encoder }, name);
+  };
+
   const learn = trainingPanel({
     source, action: "Learn the reward", unit: "iteration", total: () => settings.iterations, lines,
     begin: () => {
       if (complain.textContent) return complain.textContent;
       trial?.cancel();
       const { inputs, actions } = decisions(chosen);
-      if (actions.length === 0) return "Your drives hold no decision to learn from: drive some maps with obstacles in the playground first.";
+      if (actions.length === 0) return NO_DECISION;
       return { job: rewardJob, argument: { inputs, actions, settings, seed: settings.seed, reward: null } };
     },
     live: (news) => paint(news.at(-1).theta),
     done: (result) => {
-      found = result;
-      keepRobot({ name: `NIRL, seed ${settings.seed}, ${names()[chosen]}`, network: found.network, encoder: settings.encoder });
-      paint(found.theta);
-      list(found.theta);
-      elsewhere.hidden = false;
-      for (const each of [weights, reward]) each.disabled = false;
-      trials({ obstacles: settings.obstacles, moving: settings.moving, speed: settings.speed }, { network: found.network, encoder: settings.encoder }, "your robot");
+      learned({ ...result, method: "nirl" }, `NIRL, seed ${settings.seed}`, "your robot");
       return `The policy of iteration ${found.iteration} matches the expert best and is kept.`;
     },
   });
@@ -149,7 +157,7 @@ function render({ model, el }) {
       trials(second, { network: result.network, encoder: settings.encoder }, "the new robot");
     },
   });
-  const weights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl.safetensors", weightsFile({ network: found.network, encoder: settings.encoder, method: "nirl" })) }, "Download the policy");
+  const weights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl.safetensors", weightsFile({ network: found.network, encoder: settings.encoder, method: found.method })) }, "Download the policy");
   const reward = h("button", { type: "button", disabled: true, click: () => saveFile("my-reward.npz", npz({ reward_weights: { descr: "<f8", shape: [5, found.theta.length / 5], values: [...found.theta] } })) }, "Download the reward");
 
   const ready = sets.map(({ inputs, actions }) => {
@@ -166,6 +174,31 @@ function render({ model, el }) {
     if (found) paint(found.theta);
   } });
 
+  const [robots, python] = [numberOfRobots(), { method: 0, asked: 0, hidden: settings.hidden }];
+  const kernel = kernelPanel({
+    model, title: "The same settings in Python: four methods, several robots", unit: "iteration", total: () => settings.iterations, lines: lines.slice(1),
+    controls: [
+      choice({ label: "method", options: METHOD_NAMES, change: (index) => (python.method = index) }).element, robots.element,
+      slider({ label: "hidden units", count: 20, value: python.hidden - 1, text: (at) => String(at + 1), change: (at) => (python.hidden = at + 1) }).element,
+    ],
+    request: () => {
+      if (complain.textContent) return complain.textContent;
+      const drives = keptDrives();
+      if (!ready[chosen] && own().actions.length === 0) return NO_DECISION;
+      python.asked = python.method;
+      return {
+        method: Object.keys(PYTHON_METHODS)[python.asked], robots: robots.value(), set: chosen,
+        drives: ready[chosen] ? null : base64Of(demonstrationsFile(drives)),
+        settings: { iterations: settings.iterations, obstacles: settings.obstacles, inverseTemperature: settings.inverseTemperature, seed: settings.seed, hidden: python.hidden },
+      };
+    },
+    done: ({ sentence, theta, policy }) => {
+      const name = METHOD_NAMES[python.asked];
+      learned({ theta, network: networks(policy.network)(), method: Object.keys(PYTHON_METHODS)[python.asked].replace("_", "-") }, `${name} in Python, seed ${settings.seed}`, `${name} in Python, the best of the robots`);
+      return sentence;
+    },
+  });
+
   const elsewhere = h("div", { hidden: true });
   el.classList.add("robonav");
   el.replaceChildren(
@@ -180,7 +213,7 @@ function render({ model, el }) {
         h("p", { class: "legend" }, h("span", { style: `--mark: ${PALETTE.BLUE}` }, "it likes to do this here"), h("span", { style: `--mark: ${PALETTE.VERMILION}` }, "it fears to do this here"))),
       h("div", { class: "grow" }, results, h("details", {}, h("summary", {}, "The weights of the reward"), table))),
     h("div", { class: "row tools" }, weights, reward),
-    elsewhere);
+    elsewhere, kernel.element);
   elsewhere.append(
     h("fieldset", { class: "inspector" }, h("legend", {}, "The same reward somewhere else"),
       number("standing obstacles", second.obstacles, { least: 0, most: 40 }, (value) => (second = { ...second, obstacles: value })),
@@ -192,6 +225,7 @@ function render({ model, el }) {
     forget();
     learn.cancel();
     again.cancel();
+    kernel.cancel();
     trial?.cancel();
   };
 }

@@ -2,20 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
-import anywidget
 import numpy as np
-import traitlets
 
 from robonav.lfd.demonstrations import Demonstrations
+from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.policy import NetworkPolicy
-from robonav.nirl import expert_transitions
-from robonav.robot import Worlds
-from robonav.validation import check_integer
+from robonav.nirl import (
+    METHODS,
+    IRLResult,
+    ReplaySGD,
+    RobotTask,
+    balanced_accuracy,
+    expert_transitions,
+    greedy_actions,
+    learn,
+)
+from robonav.nirl.policy_improvement import Improved
+from robonav.nirl.transitions import Floats, Transitions
+from robonav.robot import Worlds, random_worlds
+from robonav.validation import check_integer, check_one_of
 
+from .kernel_training import (
+    TRIED,
+    KernelTraining,
+    Report,
+    sentence_on_rates,
+    success_rates,
+)
 from .shared import front_end, packed, style_sheet
-from .simulator import page_policy, page_world
+from .simulator import page_demonstrations, page_policy, page_world
 
 FILES = (
     "simulator",
@@ -30,16 +49,122 @@ FILES = (
     "kept_robots",
     "learning/worker",
     "learning/training_panel",
+    "learning/kernel_panel",
     "reward_learning",
 )
 
 
-class RewardLearning(anywidget.AnyWidget):
-    """Learn a reward from demonstrations by NIRL, see it as a map, and train a robot with it in other worlds."""
+@dataclass(frozen=True)
+class WatchedSGD(ReplaySGD):
+    """The improvement of the policy, watched: ``watch(network, episodes)`` is called after each.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate
+    >>> from robonav.nirl import learn
+    >>> from robonav.robot import random_worlds
+    >>> from robonav.widgets.reward_learning import WatchedSGD
+    >>> arrived = []
+    >>> improver = WatchedSGD(watch=lambda network, episodes: arrived.append(episodes.arrived.mean()))
+    >>> demonstrations = demonstrate(random_worlds(2, 20, seed=3))
+    >>> result = learn(demonstrations, iterations=3, improver=improver)
+    >>> len(arrived)
+    3
+    """
+
+    watch: Callable[[Network, Transitions], None] = lambda _network, _episodes: None
+
+    def __call__(
+        self,
+        network: Network,
+        episodes: Sequence[Transitions],
+        weights: Floats,
+        fraction: float,
+        rng: np.random.Generator,
+    ) -> Improved:
+        improved = super().__call__(network, episodes, weights, fraction, rng)
+        self.watch(improved.network, episodes[-1])
+        return improved
+
+
+class RewardLearning(KernelTraining):
+    """Learn a reward from demonstrations, see it as a map, and train a robot with it in other worlds.
+
+    In the page the method is NIRL. With a kernel, Python learns by any of the four methods, several robots in turn.
+    """
 
     _esm = front_end(*FILES)
     _css = style_sheet("maps", "drives", "robot_playground", "learning/training_panel")
-    data = traitlets.Dict().tag(sync=True)
+
+    def __init__(
+        self, data: dict[str, Any], demonstrations: Sequence[Demonstrations]
+    ) -> None:
+        super().__init__(data)
+        self._demonstrations = demonstrations
+
+    def train(self, request: dict[str, Any], report: Report) -> dict[str, Any]:
+        """Learn rewards and policies, and return the ones that predict the demonstrations best."""
+        settings = request["settings"]
+        method = check_one_of("method", request["method"], METHODS)
+        robots = check_integer("robots", request["robots"], at_least=1)
+        iterations = check_integer("iterations", settings["iterations"], at_least=1)
+        seed = check_integer("seed", settings["seed"], at_least=0)
+        demonstrations = (
+            self._demonstrations[request["set"]]
+            if request["drives"] is None
+            else page_demonstrations(request["drives"])
+        )
+        obstacles = check_integer("obstacles", settings["obstacles"], at_least=0)
+        task = RobotTask(obstacles=obstacles)
+        expert = expert_transitions(demonstrations, task.encoder)
+        worlds = random_worlds(TRIED, obstacles, seed=self.data["seed"])
+        results: list[IRLResult] = []
+        rates: list[float] = []
+        for robot in range(robots):
+            watch = _watcher(expert, report, robot * iterations, robots * iterations)
+            results.append(
+                learn(
+                    demonstrations,
+                    method,
+                    seed + robot,
+                    task=task,
+                    improver=WatchedSGD(watch=watch),
+                    iterations=iterations,
+                    hidden=check_integer("hidden", settings["hidden"], at_least=1),
+                    inverse_temperature=settings["inverseTemperature"],
+                )
+            )
+            rates += success_rates([results[-1].policy], worlds)
+            report((robot + 1) * iterations, robots * iterations)
+        self.trainings = results
+        best = max(results, key=lambda result: result.history.balanced[result.chosen])
+        return {
+            "sentence": sentence_on_rates(rates, TRIED),
+            "theta": best.reward_weights.ravel().tolist(),
+            "policy": page_policy(best.policy),
+            "iteration": best.chosen,
+        }
+
+
+def _watcher(
+    expert: Transitions, report: Report, before: int, total: int
+) -> Callable[[Network, Transitions], None]:
+    """A function that reports the latest policy of a robot, after the ``before`` iterations of earlier robots."""
+    done = 0
+
+    def watch(network: Network, episodes: Transitions) -> None:
+        nonlocal done
+        done += 1
+        predicted = greedy_actions(network, expert.inputs)
+        report(
+            before + done,
+            total,
+            at=done,
+            balanced=100 * balanced_accuracy(predicted, expert.actions),
+            arrived=100 * float(episodes.arrived.mean()),
+        )
+
+    return watch
 
 
 def reward_learning(
@@ -98,11 +223,12 @@ def reward_learning(
         {"name": name, **page_policy(policy)} for name, policy in policies.items()
     ]
     return RewardLearning(
-        data={
+        {
             "sets": sets,
             "world": page_world(world),
             "policies": [{"name": "straight on", "rule": "straight"}, *networks],
             "maps": check_integer("maps", maps, at_least=1),
             "seed": check_integer("seed", seed, at_least=0),
-        }
+        },
+        list(demonstrations.values()),
     )

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import base64
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
+from robonav.lfd import Demonstrations, load_demonstrations
 from robonav.networks.policy import NetworkPolicy
 from robonav.robot import Worlds
 from robonav.robot._fast import CIRCLE
@@ -52,3 +56,11 @@ def page_policy(policy: NetworkPolicy) -> dict[str, Any]:
         },
         "temperature": policy.temperature,
     }
+
+
+def page_demonstrations(text: str) -> Demonstrations:
+    """Read demonstrations that the page sent: the file that it would download, as base 64."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "drives.npz"
+        path.write_bytes(base64.b64decode(text))
+        return load_demonstrations(path)

@@ -156,11 +156,13 @@ function trainer({ model, choices, live }) {
     if (message.live) {
       bar.value = message.done / message.total;
       note.textContent = `${message.done} of ${message.total}`;
-      live(curvesOf(message.live));
+      live(curvesOf(message.live.at(-1)));
     }
-    if (message.ended) note.textContent = message.ended === "done" ? "Trained." : "Cancelled.";
-    if (message.error) note.textContent = message.error;
-    if (message.ended || message.error) running(false);
+    const end = message.ended ?? message.error ?? (message.cancelled ? "Cancelled." : "");
+    if (end) {
+      note.textContent = end;
+      running(false);
+    }
   });
   try {
     model.send({ ask: "kernel" });

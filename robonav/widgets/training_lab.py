@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import threading
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-import anywidget
 import numpy as np
-import traitlets
 from numpy.typing import ArrayLike
 
 from robonav.validation import check_array
 
+from .kernel_training import KernelTraining, Report
 from .shared import front_end, packed, style_sheet
-
-PAUSE = 0.05  # seconds between two messages to the page
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,53 +37,27 @@ Trainer = Callable[[tuple[str, ...]], Iterator[tuple[int, int, Curves]]]
 """``train(choices)`` trains in small parts and yields the number of finished steps, of all steps, and the curves."""
 
 
-class TrainingLab(anywidget.AnyWidget):
+class TrainingLab(KernelTraining):
     """Choose settings, step through a training, and keep one run to compare. With a kernel, train, watch and cancel."""
 
     _esm = front_end("training_lab")
     _css = style_sheet("training_lab")
-    data = traitlets.Dict().tag(sync=True)
 
     def __init__(self, data: dict[str, Any], train: Trainer | None) -> None:
-        super().__init__(data=data)
+        super().__init__(data)
         self._train = train
-        self._cancelled = threading.Event()
-        self._thread: threading.Thread | None = None
-        self.on_msg(self._answer)
 
-    def _answer(self, _widget: Any, message: dict[str, Any], _buffers: Any) -> None:
-        """Answer the page, which asks whether a kernel is there, for a training, or for its end."""
-        asked = message.get("ask")
-        if asked == "kernel":
-            self.send({"kernel": self._train is not None})
-        elif asked == "cancel":
-            self._cancelled.set()
-        elif (
-            asked == "train"
-            and self._train is not None
-            and (self._thread is None or not self._thread.is_alive())
-        ):
-            self._cancelled.clear()
-            choices = tuple(str(choice) for choice in message["choices"])
-            self._thread = threading.Thread(
-                target=self._run, args=(self._train, choices), daemon=True
-            )
-            self._thread.start()  # in a thread of its own, so that the kernel can receive a cancellation
+    def uses_kernel(self) -> bool:
+        return self._train is not None
 
-    def _run(self, train: Trainer, choices: tuple[str, ...]) -> None:
-        """Train, and send the curves to the page."""
-        told = 0.0
-        try:
-            for done, total, curves in train(choices):
-                if self._cancelled.is_set():
-                    self.send({"ended": "cancelled"})
-                    return
-                if done == total or time.monotonic() - told > PAUSE:
-                    told = time.monotonic()
-                    self.send({"done": done, "total": total, "live": _packed(curves)})
-            self.send({"ended": "done"})
-        except Exception as error:
-            self.send({"error": f"{type(error).__name__}: {error}"})
+    def train(self, request: dict[str, Any], report: Report) -> str:
+        """Train with the chosen settings."""
+        assert self._train is not None
+        choices = tuple(str(choice) for choice in request["choices"])
+        for done, total, curves in self._train(choices):
+            due = report.due(done, total)
+            report(done, total, **(_packed(curves) if due else {}))
+        return "Trained."
 
 
 def training_lab(

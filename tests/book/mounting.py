@@ -15,14 +15,14 @@ MOUNT = """async ([module, style, data, asked]) => {
   document.head.appendChild(document.createElement("style")).textContent = style;
   const place = document.querySelector("article").appendChild(document.createElement("div"));
   place.id = "mounted";
-  window.hear = () => {};
+  const listeners = [];
   const silent = () => { throw new Error("no kernel"); };
-  const hear = (answers) => answers.forEach((answer) => window.hear(answer));
+  const hear = (answers) => answers.forEach((answer) => listeners.forEach((listen) => listen(answer)));
   const ask = (message) => window.askPython(message).then(hear);
   if (asked) setInterval(() => ask({}), 100);  // what Python says unasked
   const model = {
     get: (name) => (name === "_esm" ? module : data),
-    on: (_, listener) => { window.hear = listener; },
+    on: (_, listener) => { listeners.push(listener); },
     send: asked ? ask : silent,
   };
   page.default.render({ model, el: place });

@@ -127,7 +127,7 @@ def test_ways_are_found(kernel, chosen):
 def test_a_run_is_trained(kernel, rate):
     asker, (*_, trainings) = kernel
     answers = asker.ask(trainings, {"ask": "train", "choices": [rate]}, "ended")
-    assert answers[-1] == {"ended": "done"}
+    assert answers[-1] == {"run": 0, "ended": "Trained."}
     assert answers[-2]["done"] == answers[-2]["total"] == 3
     asker.ask(trainings, {"ask": "kernel"}, "kernel")  # it is still listening
 
@@ -142,7 +142,8 @@ def test_robots_learn_from_a_reward(kernel):
     settings = QLearningSettings(episodes=20, obstacles=4).for_page()
     question = {"ask": "train", "run": 7, "settings": settings, "robots": 2}
     *told, last = asker.ask(lab, question, "ended")
-    assert [answer["live"]["at"] for answer in told if "live" in answer] == [1, 2]
+    live = [item for answer in told for item in answer.get("live", ())]
+    assert [item["at"] for item in live] == [1, 2]
     assert told[-1]["done"] == told[-1]["total"] == 40
     assert last["run"] == 7
     assert last["ended"].startswith("2 robots cross ")

@@ -15,8 +15,8 @@ function liveCurve({ name, label, colour = PALETTE.BLUE, low = 0, high = null, t
   let [points, old, total] = [[], [], 1];
 
   const draw = () => {
-    const values = [...points, ...old].map(([, y]) => y);
-    const [least, most] = [low ?? Math.min(...values), high ?? Math.max(1e-12, ...values)];
+    const values = points.length + old.length ? [...points, ...old].map(([, y]) => y) : [0, 1];
+    const [least, most] = [low ?? Math.min(...values), high ?? Math.max(...values, low === null ? -Infinity : 1e-12)];
     const end = Math.max(total, ...old.slice(-1).map(([x]) => x));
     const place = ([x, y]) => `${(left + ((right - left) * x) / end).toFixed(1)} ${(bottom - ((bottom - top) * (y - least)) / (most - least || 1)).toFixed(1)}`;
     const path = (series) => {
@@ -41,7 +41,11 @@ function liveCurve({ name, label, colour = PALETTE.BLUE, low = 0, high = null, t
       draw();
     },
     add: (news) => {
-      for (const item of news) if (item[name] !== undefined && item[name] !== null) points.push([item.at, item[name]]);
+      for (const item of news) {
+        if (item[name] === undefined || item[name] === null) continue;
+        if (points.length > 0 && item.at < points.at(-1)[0]) [points, old] = [[], points]; // the next robot begins
+        points.push([item.at, item[name]]);
+      }
       draw();
     },
     now: () => points.at(-1)?.[1],

@@ -221,3 +221,70 @@ def test_walks_reach_the_page(grid):
     lab = grid_lab({"map": grid}, {}, {("map",): {"learning": shown}})
     assert lab.data["runs"][0][0]["walks"] == [[7, 3, 0], [7]]
     assert json.dumps(lab.data)
+
+
+LEARN = {
+    "ask": "train",
+    "run": 3,
+    "text": "S . G",
+    "learner": "Q-learning",
+    "settings": {
+        "episodes": 40, "learning_rate": 0.5, "epsilon": 0.1, "discount": 1, "slip": 0, "seed": 2,
+    },
+}  # fmt: skip
+
+
+def answers_of(lab, message):
+    answers = []
+    lab.send = answers.append
+    lab._answer(lab, message, [])
+    lab._thread.join(timeout=60)
+    return answers
+
+
+@pytest.fixture
+def learning_lab():
+    grid = mdp.GridWorld(MAP, step_reward=-1)
+    runs = {("map",): {"sweeps": solved(grid)}}
+    return grid_lab({"map": grid}, {}, runs, learners={"Q-learning": mdp.q_learning})
+
+
+def test_a_method_learns_on_a_map_of_the_reader(learning_lab):
+    *told, last = answers_of(learning_lab, LEARN)
+    env = mdp.GridWorld("S . G", step_reward=-1).environment()
+    expected = mdp.q_learning(
+        env, 40, discount=1.0, learning_rate=0.5, epsilon=0.1, max_steps=500, seed=2
+    )
+    live = [item for answer in told for item in answer["live"]]
+    assert [item["at"] for item in live] == list(range(1, 41))
+    means = [expected.returns[max(0, k - 20) : k].mean() for k in range(1, 41)]
+    np.testing.assert_allclose([item["earned"] for item in live], means)
+    assert told[-1]["done"] == told[-1]["total"] == 40
+    (learned,) = learning_lab.trainings
+    np.testing.assert_array_equal(learned.q, expected.q)
+    assert last["run"] == 3
+    assert last["ended"]["grid"]["rows"] == ["S.G"]
+    (replayed,) = last["ended"]["run"]
+    assert replayed["name"] == "Q-learning"
+    assert replayed["said"][0] == "before the first episode"
+    assert replayed["said"][-1].startswith("after episode 40, with a return of ")
+    assert last["ended"]["sentence"] == (
+        "The greedy policy ends 100 of 100 episodes within 500 steps; their mean return is -1."
+    )
+
+
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [
+        ({"text": "S ? G"}, "ValueError: text must use symbols of the legend"),
+        ({"learner": "none"}, "ValueError: learner must be"),
+        (
+            {"settings": LEARN["settings"] | {"discount": 2}},
+            "ValueError: discount must",
+        ),
+    ],
+)
+def test_what_cannot_be_learned_gets_one_sentence(learning_lab, change, error):
+    (answer,) = answers_of(learning_lab, LEARN | change)
+    assert answer["run"] == 3
+    assert answer["error"].startswith(error)

@@ -85,8 +85,8 @@ def test_a_training_is_told_bit_by_bit():
     )
     assert answers[0] == {"kernel": True}
     assert [(answer["done"], answer["total"]) for answer in answers[1:-1]][-1] == (5, 5)
-    assert answers[-2]["live"]["cost"]["steps"]["shape"] == [5]
-    assert answers[-1] == {"ended": "done"}
+    assert answers[-2]["live"][-1]["cost"]["steps"]["shape"] == [5]
+    assert answers[-1] == {"run": 0, "ended": "Trained."}
 
 
 def test_a_training_is_cancelled_where_it_stands():
@@ -101,19 +101,17 @@ def test_a_training_is_cancelled_where_it_stands():
     widget = lab(endless)
     answers = []
     widget.send = answers.append
-    widget._answer(widget, {"ask": "train", "choices": ["1", "2"]}, [])
+    train = {"ask": "train", "choices": ["1", "2"]}
+    widget._answer(widget, train, [])
     assert going.wait(60)
     first = widget._thread
-    widget._answer(widget, {"ask": "train", "choices": ["1", "2"]}, [])  # one is enough
-    assert widget._thread is first
-    widget._answer(widget, {"ask": "cancel"}, [])
+    widget._answer(widget, train | {"run": 1}, [])  # the second replaces the first
     heard.set()
     first.join(timeout=60)
-    assert answers == [{"ended": "cancelled"}]
-    widget._answer(widget, {"ask": "train", "choices": ["1", "2"]}, [])
-    assert widget._thread is not first
+    assert {"run": 0, "cancelled": True} in answers
     widget._answer(widget, {"ask": "cancel"}, [])
     widget._thread.join(timeout=60)
+    assert answers[-1] == {"run": 1, "cancelled": True}
 
 
 def test_what_fails_in_a_training_is_said():
@@ -122,7 +120,7 @@ def test_what_fails_in_a_training_is_said():
         raise ValueError("rate must be positive")
 
     answers = answers_of(lab(fails), {"ask": "train", "choices": ["1", "2"]})
-    assert answers[-1] == {"error": "ValueError: rate must be positive"}
+    assert answers[-1] == {"run": 0, "error": "ValueError: rate must be positive"}
 
 
 def test_without_a_trainer_nothing_is_trained():
