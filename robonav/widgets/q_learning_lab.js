@@ -418,10 +418,12 @@ function render({ model, el }) {
 
   const kernel = severalRobots({ model, form });
 
+  panel.element.firstElementChild.after(setting, note); // below Train, which must not move away from under a finger
+
   el.classList.add("robonav", "q-learning-lab");
   el.replaceChildren(
     ...(presets.length > 0 ? faults(presets, first, form, tell) : []), form.element,
-    h("div", { class: "row tools" }, count.element, button("The thesis's settings", thesis), button("The book's settings", first)), setting, note,
+    h("div", { class: "row tools" }, count.element, button("The thesis's settings", thesis), button("The book's settings", first)),
     panel.element,
     h("div", { class: "row" }, map.element, h("div", { class: "grow" }, small.element, results.element, h("div", { class: "row tools" }, save))),
     kernel.element);

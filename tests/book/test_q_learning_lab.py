@@ -171,6 +171,19 @@ def test_a_wrong_number_gets_one_sentence(view, title, label, value, sentence):
     expect(field).to_have_attribute("aria-invalid", "false")
 
 
+def test_train_is_pressed_while_a_number_is_typed(view):
+    lab = mounted_alone(view, q_learning_lab("robot"))
+    for label in (
+        "obstacles that stand still",
+        "obstacles that move",
+        "speed of the robot (m/s)",
+    ):
+        lab.get_by_label(label).fill("3")
+    lab.get_by_label("episodes", exact=True).fill("30")
+    lab.get_by_role("button", name="Train", exact=True).click()
+    expect(said(lab)).to_have_text(CROSSES)
+
+
 def test_a_fault_is_watched_and_cured(view):
     lab = mounted_alone(view, q_learning_lab(presets=[PAYS_FOR_SAFETY]))
     expect(lab.get_by_text(PAYS_FOR_SAFETY.watch)).to_be_visible()
