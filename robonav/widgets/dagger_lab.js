@@ -105,7 +105,11 @@ function render({ model, el }) {
     [base, corrected, robots, episode, map] = [index, [], [], null, -1];
     stage.hidden = true;
     showTable();
+    tell();
   } });
+
+  const about = h("p", { class: "about" });
+  const tell = () => (about.textContent = `The robot learns from ${BASES[base]}, ${dataset().flatMap(effective).length} steps in all, ${count()} of them corrections.`);
 
   // Driving
   const board = mapCanvas({ tabindex: 0, role: "application" });
@@ -146,6 +150,7 @@ function render({ model, el }) {
   const finish = () => {
     const kept = episode.corrections();
     if (kept.steps.length) corrected.push(kept);
+    tell();
   };
   /** One second: the robot's, or the reflex's while the reader steers. */
   const tick = () => {
@@ -205,8 +210,9 @@ function render({ model, el }) {
   const stage = h("div", { class: "stage", hidden: true }, board.canvas, told, h("div", { class: "row tools" }, play, back, ask, next), wheel);
 
   el.classList.add("robonav", "imitation", "dagger-lab");
-  el.replaceChildren(h("div", { class: "row" }, first.element), panel.element, table.element, stage);
+  el.replaceChildren(h("div", { class: "row" }, first.element), about, panel.element, table.element, stage);
   showTable();
+  tell();
   return () => {
     panel.cancel();
     pause();

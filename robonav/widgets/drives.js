@@ -109,6 +109,7 @@ export function drivesList() {
       return;
     }
     asked = true;
+    said.textContent = "This deletes every drive that is listed here.";
     clear.textContent = "Press again to delete them all";
   }, blur: () => {
     asked = false;

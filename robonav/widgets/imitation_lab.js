@@ -5,6 +5,7 @@ const HIDDEN = [1, 2, 4, 8, 16, 32];
 const DECAYS = [0, 0.01, 0.03, 0.1, 0.3, 1, 3, 10];
 const ITERATIONS = [1, 3, 10, 30, 100, 300, 1000];
 const OBSTACLES = [10, 20, 30];
+const FEW = 25; // of the expert's drives, as on the page
 const MOST_ROBOTS = 6; // of the reader's, that stay in the table
 
 function render({ model, el }) {
@@ -22,31 +23,39 @@ function render({ model, el }) {
   const mine = () => keptDrives().filter(({ outcome }) => outcome === "arrived");
   const drives = () => [() => mine(), () => experts, () => [...mine(), ...experts]][settings.source]();
   const about = h("p", { class: "about" });
-  const source = choice({ label: "learn from", options: SOURCES, change: (index) => { settings.source = index; settings.count = Infinity; refresh(); } });
+  const source = choice({ label: "learn from", options: SOURCES, change: (index) => { settings.source = index; settings.count = index === 1 ? FEW : Infinity; refresh(); } });
   const place = h("div", {});
-  const refresh = () => {
+  /** What the robot will learn from, how, and what then. */
+  const tell = () => {
     const [own, kept, all] = [mine(), keptDrives(), drives()];
+    if (own.length === 0 && settings.source !== 1) {
+      about.replaceChildren("You have no drive yet that arrived. Drive a few maps in the ", h("a", { href: playground }, "playground"), ", or learn from the expert's drives.");
+      return;
+    }
+    const { count, hidden, regularisation, iterations, seed, obstacles } = settings;
+    const steps = all.slice(0, count).flatMap(effective).length;
+    const lost = settings.source === 1 ? 0 : kept.length - own.length;
+    about.textContent = `${count} ${count === 1 ? "drive" : "drives"}, ${steps} steps to learn from: steps with something in range. `
+      + (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out. ` : "")
+      + `A network with ${hidden} hidden ${hidden === 1 ? "unit" : "units"} learns them in at most ${iterations} ${iterations === 1 ? "iteration" : "iterations"}, with λ = ${regularisation} and first weights from seed ${seed}. `
+      + `Then it drives ${trial.maps} maps with ${obstacles} obstacles.`;
+  };
+  const refresh = () => {
+    const all = drives();
     settings.count = Math.max(1, Math.min(settings.count, all.length));
     const count = slider({
       label: "drives to learn from", count: Math.max(1, all.length), value: settings.count - 1, text: (at) => (all.length ? `${at + 1} of ${all.length}` : "none"),
       change: (at) => { settings.count = at + 1; tell(); },
     });
     place.replaceChildren(count.element);
-    const tell = () => {
-      const steps = all.slice(0, settings.count).flatMap(effective).length;
-      about.replaceChildren(...(own.length === 0 && settings.source !== 1
-        ? ["You have no drive yet that arrived. Drive a few maps in the ", h("a", { href: playground }, "playground"), ", or learn from the expert's drives."]
-        : [`${all.length ? settings.count : "No"} ${settings.count === 1 ? "drive" : "drives"}, ${steps} steps to learn from: steps with something in range.`,
-          ...(settings.source !== 1 && kept.length > own.length ? [` ${kept.length - own.length} of your drives did not arrive and ${kept.length - own.length === 1 ? "is" : "are"} left out.`] : [])]));
-    };
     tell();
   };
-  const list = (label, options, key, text = String) => choice({ label, options: options.map(text), value: options.indexOf(settings[key]), change: (index) => { settings[key] = options[index]; if (key === "obstacles") otherMaps(); } });
+  const list = (label, options, key, text = String) => choice({ label, options: options.map(text), value: options.indexOf(settings[key]), change: (index) => { settings[key] = options[index]; if (key === "obstacles") otherMaps(); tell(); } });
   const controls = [
     list("hidden units", HIDDEN, "hidden"), list("regularisation λ", DECAYS, "regularisation"), list("iterations of L-BFGS", ITERATIONS, "iterations"),
     list("obstacles in the new maps", OBSTACLES, "obstacles"),
   ];
-  const seeds = slider({ label: "first weights drawn with seed", count: 10, text: String, change: (at) => (settings.seed = at) });
+  const seeds = slider({ label: "first weights drawn with seed", count: 10, text: String, change: (at) => { settings.seed = at; tell(); } });
 
   // What comes out
   const table = ranking();
@@ -140,7 +149,7 @@ function render({ model, el }) {
   } });
 
   settings.source = mine().length ? 0 : 1;
-  settings.count = settings.source === 0 ? Infinity : 25;
+  settings.count = settings.source === 0 ? Infinity : FEW;
   source.move(settings.source);
   refresh();
   showTable();

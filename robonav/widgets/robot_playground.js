@@ -225,7 +225,7 @@ function render({ model, el }) {
     policy = index;
     who.move(index);
     picture.replaceChildren(...(pictures[index] ? [pictures[index].element] : []));
-    play.hidden = mine();
+    play.disabled = mine();
     pause();
     refresh();
     if (mine()) board.canvas.focus();
@@ -244,7 +244,10 @@ function render({ model, el }) {
     mineKept.say(`Map ${number}. Press an arrow key, or a button below the map. While nothing is near, the robot goes on by itself; then it waits for you.`);
     pick(policies.length);
   };
-  const coast = h("input", { type: "checkbox", checked: true, change: () => coasting() && wake() });
+  const coast = h("input", { type: "checkbox", checked: true, change: () => {
+    mineKept.say(coast.checked ? "The robot goes on by itself while nothing is near." : "The robot waits for your key in every second.");
+    if (coasting()) wake();
+  } });
   const fast = choice({ label: "speed", options: speeds.map((speed) => `${speed} m/s`), value: speeds.indexOf(2), change: (index) => { drive.speed = speeds[index]; refresh(); } });
   const rate = slider({ label: "steps a second", count: PACES.length, value: pace, text: (step) => String(PACES[step]), change: (step) => (pace = step) });
   const add = (circle) => () => {

@@ -25,6 +25,14 @@ FRAMES = """() => new Promise((done) => {
   requestAnimationFrame(tick);
 })"""
 
+LEARNING = {
+    "book/policy-learning": (
+        ".imitation-lab",
+        "L-BFGS, 300 iterations on 25 drives, and 200 new maps for each of three robots",
+        3,
+    ),
+    "book/nnql": (".q-learning-lab", "NNQL, 300 episodes and 100 new maps", 5),
+}
 LEARN = """(lab) => new Promise((done) => {
   const [began, status] = [performance.now(), lab.querySelector(".training .status")];
   let [last, longest] = [began, 0];
@@ -67,11 +75,11 @@ def frames_a_second(address: str) -> tuple[float, float]:
     return 1000 * len(gaps) / sum(gaps), 1000 / gaps[int(0.99 * len(gaps))]
 
 
-def learning(address: str) -> tuple[float, float]:
-    """Seconds of 300 episodes of NNQL and 100 new maps, and the longest the page meanwhile answers nothing, in ms."""
+def learning(address: str, page: str, lab: str) -> tuple[float, float]:
+    """Seconds that a lab takes to learn and drive, and the longest the page meanwhile answers nothing, in ms."""
     with chromium(viewport=DESKTOP) as context, visiting(context) as visit:
-        visit.open(f"{address}/book/nnql.html")
-        seconds, silence = visit.page.locator(".q-learning-lab").evaluate(LEARN)
+        visit.open(f"{address}/{page}.html")
+        seconds, silence = visit.page.locator(lab).evaluate(LEARN)
         return seconds, silence
 
 
@@ -100,12 +108,13 @@ def main() -> None:
             print(
                 f"playground, 30 obstacles: {mean:.0f} frames a second, 99 in 100 at {slowest:.0f} or more"
             )
-        if "book/nnql" in listed:
-            seconds, silence = learning(address)
-            print(
-                f"NNQL, 300 episodes and 100 new maps: {seconds:.1f} s of 5; "
-                f"the page answers after {silence:.0f} ms of 100 at most"
-            )
+        for page, (lab, what, limit) in LEARNING.items():
+            if page in listed:
+                seconds, silence = learning(address, page, lab)
+                print(
+                    f"{what}: {seconds:.1f} s of {limit}; "
+                    f"the page answers after {silence:.0f} ms of 100 at most"
+                )
     whole = sum(path.stat().st_size for path in SITE.rglob("*") if path.is_file())
     print(f"whole site: {whole / 1e6:.1f} MB of {WHOLE_SITE / 1e6:.0f}")
 

@@ -130,7 +130,7 @@ def test_drives_that_collided_are_left_out(view, site, widget, tmp_path):
     expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
     expect(lab.locator(".about")).to_have_text(
         re.compile(
-            r"^1 drive, \d+ steps .* 1 of your drives did not arrive and is left out\.$"
+            r"^1 drive, \d+ steps .* 1 of your drives did not arrive and is left out\. A network"
         )
     )
 
