@@ -2,20 +2,21 @@
 
 const [CHOICES, SPEED, MOST_STEPS] = [5, 2, 500];
 const ENCODER = { sensors: [1, 2, 3, 4, 5, 6, 7, 8, 9], walls: false, target: "sine-cosine" };
+const INPUTS = ENCODER.sensors.length + 3; // with sine and cosine of the target's sector, and whether it is seen
 const STRAIGHT = { name: "always straight on", rule: "straight" };
 
 // ---- What is learned from -------------------------------------------------------------------------------------------
 
 /**
- * The expert's drives, driven again from the actions in each of the first worlds of a seed.
+ * The expert's drives from one to before another, driven again from their actions in the worlds of a seed.
  * @param {{seed: number, obstacles: number, actions: string[]}} expert a digit a step
  * @returns {RecordedDrive[]}
  */
-export function replayed({ seed, obstacles, actions }) {
-  const worlds = randomWorlds(actions.length, { seed, obstacles });
-  return worlds.map((world, i) => {
+export function replayed({ seed, obstacles, actions }, from = 0, to = actions.length) {
+  return worldKeysOf(to, seed).slice(from).map((key, i) => {
+    const world = drawWorld(key, { obstacles });
     const drive = makeDrive(world, SPEED);
-    for (const action of actions[i]) drive.go(Number(action), false);
+    for (const action of actions[from + i]) drive.go(Number(action), false);
     return { world, speed: SPEED, steps: drive.steps, outcome: drive.outcome };
   });
 }

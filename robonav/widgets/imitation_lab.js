@@ -10,7 +10,11 @@ const MOST_ROBOTS = 6; // of the reader's, that stay in the table
 
 function render({ model, el }) {
   const { expert, book, trial, playground } = model.get("data");
-  const experts = replayed(expert);
+  const replays = []; // of the expert's drives, as many as were needed so far
+  const experts = (count) => {
+    if (replays.length < count) replays.push(...replayed(expert, replays.length, count));
+    return replays.slice(0, count);
+  };
   const rivals = [{ ...book, name: "the book's robot" }, STRAIGHT];
   let settings = { source: 0, count: 1, hidden: 8, regularisation: 0.1, iterations: 300, seed: 0, obstacles: 10 };
   let robots = []; // {name, outcomes, colour, policy}: the reader's, the latest first
@@ -21,19 +25,23 @@ function render({ model, el }) {
 
   // What is learned from
   const mine = () => keptDrives().filter(({ outcome }) => outcome === "arrived");
-  const drives = () => [() => mine(), () => experts, () => [...mine(), ...experts]][settings.source]();
+  const total = () => (settings.source === 1 ? 0 : mine().length) + (settings.source === 0 ? 0 : expert.actions.length);
+  const chosen = () => {
+    const own = settings.source === 1 ? [] : mine().slice(0, settings.count);
+    return settings.source === 0 ? own : [...own, ...experts(Math.min(settings.count, total()) - own.length)];
+  };
   const about = h("p", { class: "about" });
   const source = choice({ label: "learn from", options: SOURCES, change: (index) => { settings.source = index; settings.count = index === 1 ? FEW : Infinity; refresh(); } });
   const place = h("div", {});
   /** What the robot will learn from, how, and what then. */
   const tell = () => {
-    const [own, kept, all] = [mine(), keptDrives(), drives()];
+    const [own, kept] = [mine(), keptDrives()];
     if (own.length === 0 && settings.source !== 1) {
       about.replaceChildren("You have no drive yet that arrived. Drive a few maps in the ", h("a", { href: playground }, "playground"), ", or learn from the expert's drives.");
       return;
     }
     const { count, hidden, regularisation, iterations, seed, obstacles } = settings;
-    const steps = all.slice(0, count).flatMap(effective).length;
+    const steps = chosen().flatMap(effective).length;
     const lost = settings.source === 1 ? 0 : kept.length - own.length;
     about.textContent = `${count} ${count === 1 ? "drive" : "drives"}, ${steps} steps to learn from: steps with something in range. `
       + (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out. ` : "")
@@ -41,10 +49,10 @@ function render({ model, el }) {
       + `Then it drives ${trial.maps} maps with ${obstacles} obstacles.`;
   };
   const refresh = () => {
-    const all = drives();
-    settings.count = Math.max(1, Math.min(settings.count, all.length));
+    const all = total();
+    settings.count = Math.max(1, Math.min(settings.count, all));
     const count = slider({
-      label: "drives to learn from", count: Math.max(1, all.length), value: settings.count - 1, text: (at) => (all.length ? `${at + 1} of ${all.length}` : "none"),
+      label: "drives to learn from", count: Math.max(1, all), value: settings.count - 1, text: (at) => (all ? `${at + 1} of ${all}` : "none"),
       change: (at) => { settings.count = at + 1; tell(); },
     });
     place.replaceChildren(count.element);
@@ -86,7 +94,7 @@ function render({ model, el }) {
     now = { name, outcomes: [], colour: PALETTE.BLUE, encoder, made };
     const { hidden, seed, regularisation, iterations } = settings;
     return { job: imitate, argument: {
-      examples, network, sizes: [encode(ENCODER, sense(experts[0].world, startPose(experts[0].world))).length, hidden, CHOICES], seed, regularisation, iterations, encoder, rivals: known ? [] : rivals, trial: inMaps(),
+      examples, network, sizes: [INPUTS, hidden, CHOICES], seed, regularisation, iterations, encoder, rivals: known ? [] : rivals, trial: inMaps(),
     } };
   };
   const named = () => {
@@ -106,9 +114,9 @@ function render({ model, el }) {
         brought = null;
         return task(file);
       }
-      const chosen = drives().slice(0, settings.count);
-      const examples = examplesFrom(chosen);
-      if (examples.m === 0) return chosen.length ? "These drives have no step with something in range: nothing to learn from." : "There is nothing to learn from: drive a few maps in the playground, or choose the expert's drives.";
+      const learned = chosen();
+      const examples = examplesFrom(learned);
+      if (examples.m === 0) return learned.length ? "These drives have no step with something in range: nothing to learn from." : "There is nothing to learn from: drive a few maps in the playground, or choose the expert's drives.";
       const { source: from, count, hidden, regularisation, iterations, seed } = settings;
       return task({ name: named(), examples, made: { source: SOURCES[from], drives: count, hidden, regularisation, iterations, seed } });
     },
