@@ -1,26 +1,24 @@
 """The multilayer perceptron: its passes, its training and its use as a policy (sections 3.3 and 3.4)."""
 
-from .costs import (
-    CROSS_ENTROPY,
-    SQUARED_ERROR,
-    Objective,
-    cross_entropy_cost,
-    squared_error,
-    squared_error_cost,
-)
+from .costs import CROSS_ENTROPY, SQUARED_ERROR, Objective
 from .multilayer_perceptron import (
     Gradient,
     Network,
     backpropagate,
+    batch_gradient_descent,
+    cross_entropy_cost,
     cross_entropy_gradient,
     descend,
     propagate,
     random_network,
     sigmoid,
     sigmoid_slope,
+    squared_error,
+    squared_error_cost,
     squared_error_gradient,
-    stacked,
+    stochastic_gradient_descent,
 )
+from .network_stack import NetworkStack, stacked
 from .optimisers import fit, gradient_descent, lbfgs, one_hot
 from .policy import NetworkPolicy
 from .training_history import TrainingHistory, accuracy
@@ -37,6 +35,7 @@ __all__ = [
     "Gradient",
     "Network",
     "NetworkPolicy",
+    "NetworkStack",
     "Objective",
     "TrainingHistory",
     "Weights",
@@ -44,6 +43,7 @@ __all__ = [
     "action_probabilities",
     "backpropagate",
     "backpropagate_by_units",
+    "batch_gradient_descent",
     "cross_entropy_cost",
     "cross_entropy_gradient",
     "descend",
@@ -62,4 +62,5 @@ __all__ = [
     "squared_error_cost",
     "squared_error_gradient",
     "stacked",
+    "stochastic_gradient_descent",
 ]

@@ -9,7 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array, check_real, checks
+from robonav.validation import (
+    check_array,
+    check_generator,
+    check_integer,
+    check_real,
+    checks,
+)
 
 Array = NDArray[np.float64]
 
@@ -54,6 +60,60 @@ def checked_layers(
     return kept_weights, kept_biases
 
 
+def keep_layers(network: Any, *, stacked: bool = False) -> None:
+    """Check the arrays of a network that is being made, and let it hold copies of them.
+
+    Raises
+    ------
+    ValueError
+        As :func:`checked_layers` says, or if they are a stack of networks and ``stacked`` does not allow one.
+    """
+    weights, biases = checked_layers(network.weights, network.biases)
+    if weights[0].ndim > 2 and not stacked:
+        raise ValueError(
+            f"weights[0] must have shape (outputs, inputs), got {weights[0].shape}; "
+            "NetworkStack holds several networks"
+        )
+    object.__setattr__(network, "weights", weights)
+    object.__setattr__(network, "biases", biases)
+
+
+def checked_inputs(x: ArrayLike, units: int) -> Array:
+    """Return inputs (..., units) of a network as an array of float."""
+    inputs = check_array("x", x)
+    if inputs.ndim == 0 or inputs.shape[-1] != units:
+        raise ValueError(
+            f"x must hold {units} inputs along its last axis, got shape {inputs.shape}"
+        )
+    return inputs
+
+
+def _checked_sizes(name: str, sizes: Any) -> list[int]:
+    units = [check_integer(name, size, at_least=1) for size in sizes]
+    if len(units) < 2:
+        raise ValueError(
+            f"sizes must name at least an input and an output layer, got {units}"
+        )
+    return units
+
+
+checked_random = checks(
+    {
+        "sizes": _checked_sizes,
+        "seed": check_generator,
+        "spread": partial(check_real, at_least=0),
+    }
+)
+"""Decorate a function of (sizes, seed, spread) so that its arguments are checked before it runs."""
+
+
+def check_single(network: Any) -> None:
+    """Raise ValueError if a network is a stack of several."""
+    stack = network.weights[0].shape[:-2]
+    if stack:
+        raise ValueError(f"network must be a single one, got a stack of shape {stack}")
+
+
 def _copied(name: str, value: ArrayLike) -> Array:
     """Copy the caller's array, so that later changes to it do not change the network."""
     array = check_array(name, value).copy()
@@ -82,10 +142,7 @@ def checked_examples(network: Any, x: ArrayLike, y: ArrayLike) -> tuple[Array, A
     ValueError
         If a shape does not fit, there is no example, or a label lies outside [0, 1].
     """
-    if network.stack:
-        raise ValueError(
-            f"network must be a single one, got a stack of shape {network.stack}"
-        )
+    check_single(network)
     inputs = check_array("x", x, shape=("m", network.sizes[0]))
     labels = check_array("y", y, shape=(len(inputs), network.sizes[-1]))
     if len(inputs) == 0:

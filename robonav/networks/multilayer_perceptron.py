@@ -1,15 +1,27 @@
-"""The multilayer perceptron by hand: forward pass, backpropagation, gradient descent (sections 3.3 and 3.4).
+"""The multilayer perceptron from random weights to trained ones, by hand in NumPy (sections 3.3 and 3.4).
 
-In the notation of the thesis, layer l has s_l units with activations a(l). The weights W(l) and the biases b(l) lead
-to layer l + 1. Python counts from 0, so that ``weights[0]`` is W(1) and ``a[0]`` is a(1) = x. Examples are rows: with
-m examples, a(l) is (m, s_l) and stands on the left of the transposed weights. One step of learning is
+A network learns the exclusive or of two bits in three lines:
 
-1. forward: ``a, z = propagate(weights, biases, x)``;
-2. error of the output layer, the derivative of the cost by z: ``delta = a[-1] - y`` for the cross-entropy;
-3. backward: ``backpropagate(weights, a, delta)`` sums the gradient over the examples;
-4. downhill: ``descend(network, gradient, gradient_step)``.
+>>> x, y = np.array([[0, 0], [0, 1], [1, 0], [1, 1]]), np.array([[0], [1], [1], [0]])
+>>> network = random_network((2, 4, 1), seed=0)
+>>> network = batch_gradient_descent(network, x, y, gradient_step=5, iterations=1000)
+>>> network.forward(x).round(1).tolist()
+[[0.0], [1.0], [1.0], [0.0]]
 
-:func:`robonav.networks.gradient_descent` repeats these steps.
+Read the file from top to bottom, as the network learns:
+
+1. a :class:`Network` is its weights and biases, and :func:`random_network` draws the first ones;
+2. forward: :func:`propagate` computes the activations of every layer from the input;
+3. cost: :func:`squared_error_cost` or :func:`cross_entropy_cost` says how wrong the outputs are;
+4. backward: :func:`backpropagate` carries the errors of the output layer back, which gives the gradient of the cost;
+5. downhill: :func:`descend` takes one step against the gradient;
+6. the loop: :func:`batch_gradient_descent` repeats 2 to 5 with all examples in each step, and
+   :func:`stochastic_gradient_descent` with a few of them.
+
+Layer l has s_l units with activations a(l). The weights W(l) and the biases b(l) lead to layer l + 1. Python counts
+from 0, so that ``weights[0]`` is W(1) and ``a[0]`` is a(1) = x. Examples are rows: with m examples, a(l) is (m, s_l)
+and stands on the left of the transposed weights. The numbers of equations are those of the thesis. The page "A neural
+network by hand" of the book derives them in the same order.
 """
 
 from __future__ import annotations
@@ -24,12 +36,126 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit
 
-from robonav.validation import check_array, check_generator, check_integer, check_real
-
-from ._checks import checked, checked_layers
-from ._fast.stacks import propagate_stack
+from ._checks import checked, checked_inputs, checked_random, keep_layers
 
 Array = NDArray[np.float64]
+
+# 1. The network
+
+
+@dataclass(frozen=True, eq=False)
+class Network:
+    """A fully connected network with sigmoid units.
+
+    ``weights[l][i, j]`` joins unit ``j`` of layer ``l`` to unit ``i`` of the next layer. (Eq. (3.18) writes the bias as
+    column 0 of the same matrix.) The arrays cannot be changed: a step of learning makes a new network.
+    :class:`robonav.networks.NetworkStack` holds many networks of one shape.
+
+    Parameters
+    ----------
+    weights : tuple of (s[l + 1], s[l]) arrays
+        One for each layer but the last.
+    biases : tuple of (s[l + 1],) arrays
+        One for each layer but the last.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit each other, or a number is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import Network
+    >>> network = Network((np.ones((1, 2)),), (np.zeros(1),))
+    >>> network.sizes, network.logits([3.0, 4.0])
+    ((2, 1), array([7.]))
+    """
+
+    weights: tuple[Array, ...]
+    biases: tuple[Array, ...]
+
+    def __post_init__(self) -> None:
+        keep_layers(self)
+
+    @property
+    def sizes(self) -> tuple[int, ...]:
+        """Units of each layer, without bias units: (11, 8, 5)."""
+        return (
+            self.weights[0].shape[-1],
+            *(weight.shape[-2] for weight in self.weights),
+        )
+
+    def forward(self, x: ArrayLike) -> Array:
+        """Outputs h(x) of the network, Eq. (3.2): (..., m, s[-1]) numbers between 0 and 1."""
+        return self.activations(x)[-1]  # Eq. (3.2)
+
+    def decide(self, x: ArrayLike) -> NDArray[np.intp]:
+        """Return the largest output unit (..., m) for each input, compared before the sigmoid rounds to 1."""
+        return self.logits(x).argmax(axis=-1)
+
+    def activations(self, x: ArrayLike) -> list[Array]:
+        """Return the activations of every layer, the input (s[0],) or (..., m, s[0]) first and the output last."""
+        return self._propagate(x)[0]
+
+    def logits(self, x: ArrayLike) -> Array:
+        """Return the weighted sums z (..., m, s[-1]) of the output layer, before its sigmoid."""
+        return self._propagate(x)[1]
+
+    def _propagate(self, x: ArrayLike) -> tuple[list[Array], Array]:
+        inputs = checked_inputs(x, self.sizes[0])
+        if inputs.ndim > 1:
+            return propagate(self.weights, self.biases, inputs)
+        a, z = propagate(self.weights, self.biases, inputs[None])  # a batch of one
+        return [layer[0] for layer in a], z[0]
+
+
+@checked_random
+def random_network(
+    sizes: Sequence[int],
+    *,
+    seed: int | np.random.Generator,
+    spread: float | None = None,
+) -> Network:
+    """Draw a network with small random weights and biases.
+
+    Hidden units that start with equal weights stay equal. Random numbers make them differ.
+
+    Parameters
+    ----------
+    sizes : sequence of int
+        Units of each layer, without bias units; at least two layers.
+    seed : int or Generator
+        Of the random numbers.
+    spread : float, optional
+        Weights and biases are uniform in [-spread, spread]. By default it is sqrt(6 / (inputs + outputs)) of each
+        layer (Glorot and Bengio 2010). With 0 all hidden units are equal.
+
+    Returns
+    -------
+    Network
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two layers, a layer is empty, or ``spread`` is negative.
+
+    Examples
+    --------
+    >>> from robonav.networks import random_network
+    >>> random_network((11, 8, 5), seed=0).sizes
+    (11, 8, 5)
+    """
+    rng = np.random.default_rng(seed)
+    weights, biases = [], []
+    for inputs, outputs in pairwise(sizes):
+        bound = math.sqrt(6 / (inputs + outputs)) if spread is None else spread
+        weights.append(rng.uniform(-bound, bound, (outputs, inputs)))
+        biases.append(rng.uniform(-bound, bound, outputs))
+    return Network(tuple(weights), tuple(biases))
+
+
+# 2. The forward pass
 
 
 def sigmoid(z: Array) -> Array:
@@ -120,6 +246,101 @@ def propagate(
         z = a[-1] @ W.T + b  # Eq. (3.3): z(l+1) = W(l) a(l) + b(l)
         a.append(f(z))  # a(l+1) = f(z(l+1))
     return a, z
+
+
+# 3. The cost
+
+
+def squared_error(output: Array, label: Array) -> Array:
+    """Squared-error cost of one example, Eq. (3.6).
+
+    Parameters
+    ----------
+    output, label : (..., K) arrays
+        Outputs of the network, and what they should have been.
+
+    Returns
+    -------
+    (...) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import squared_error
+    >>> float(squared_error(np.array([0.5, 1.0]), np.array([1.0, 1.0])))
+    0.125
+    """
+    cost: Array = ((output - label) ** 2).sum(axis=-1) / 2  # Eq. (3.6)
+    return cost
+
+
+def squared_weights(network: Network) -> float:
+    """Return the sum of all squared weights; the biases are left out."""
+    return float(sum((weight**2).sum() for weight in network.weights))
+
+
+@checked
+def squared_error_cost(
+    network: Network, x: Array, y: Array, *, regularisation: float = 0.0
+) -> float:
+    """Mean squared-error cost with weight decay, Eq. (3.7).
+
+    Parameters
+    ----------
+    network : Network
+        A single network.
+    x : (m, s[0]) array
+        Inputs.
+    y : (m, s[-1]) array
+        Labels in [0, 1].
+    regularisation : float
+        lambda, at least 0. It acts on the weights, never on the biases.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ValueError
+        If a shape does not fit, there is no example, or a label lies outside [0, 1].
+
+    Examples
+    --------
+    >>> from robonav.networks import random_network, squared_error_cost
+    >>> network = random_network((2, 1), seed=0, spread=0)  # its output is 1/2
+    >>> squared_error_cost(network, [[0, 0], [1, 1]], [[0], [1]])
+    0.125
+    """
+    error = squared_error(network.forward(x), y).mean()
+    return float(error + regularisation / 2 * squared_weights(network))  # Eq. (3.7)
+
+
+@checked
+def cross_entropy_cost(
+    network: Network, x: Array, y: Array, *, regularisation: float = 0.0
+) -> float:
+    """Mean cross-entropy cost with weight decay, Eq. (3.22).
+
+    Parameters and errors are those of :func:`squared_error_cost`.
+
+    Examples
+    --------
+    >>> from robonav.networks import cross_entropy_cost, random_network
+    >>> network = random_network((2, 1), seed=0, spread=0)  # its output is 1/2
+    >>> round(cross_entropy_cost(network, [[0, 0], [1, 1]], [[0], [1]]), 6)
+    0.693147
+    """
+    # Where z > 37, the output p = 1 / (1 + exp(-z)) rounds to 1, and log(1 - p) fails.
+    # But -y log p - (1 - y) log(1 - p) is log(1 + exp(z)) - y z, and logaddexp(0, z)
+    # computes log(exp(0) + exp(z)) for a z of any size.
+    z = network.logits(x)
+    error = (np.logaddexp(0, z) - y * z).sum()
+    decay = regularisation / 2 * squared_weights(network)
+    return float((error + decay) / len(x))  # Eq. (3.22)
+
+
+# 4. The backward pass
 
 
 @dataclass(frozen=True, eq=False)
@@ -263,6 +484,9 @@ def cross_entropy_gradient(
     return mean_gradient(network, total, len(x), decay=regularisation / len(x))
 
 
+# 5. A step, and 6. the loops
+
+
 def descend(network: Network, gradient: Gradient, gradient_step: float) -> Network:
     """One step of gradient descent, Eqs. (3.8) and (3.28).
 
@@ -295,188 +519,111 @@ def descend(network: Network, gradient: Gradient, gradient_step: float) -> Netwo
     return Network(tuple(weights), tuple(biases))
 
 
-@dataclass(frozen=True, eq=False)
-class Network:
-    """A fully connected network with sigmoid units, or a stack of networks of one shape.
-
-    The weights of layer ``l`` carry its activations to layer ``l + 1``, as in the thesis: ``weights[0]`` is
-    :math:`W^{(1)}`, and entry ``[i, j]`` joins unit ``j`` to unit ``i`` of the next layer. (Eq. (3.18) writes the bias
-    as column 0 of the same matrix.) Leading dimensions, the same for every array, stack networks: over seeds, or over
-    the iterations of a training.
-
-    Parameters
-    ----------
-    weights : tuple of (..., s[l + 1], s[l]) arrays
-        One for each layer but the last.
-    biases : tuple of (..., s[l + 1]) arrays
-        One for each layer but the last.
-
-    Raises
-    ------
-    ValueError
-        If the shapes do not fit each other, or a number is not finite.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.networks import Network
-    >>> network = Network((np.ones((1, 2)),), (np.zeros(1),))
-    >>> network.sizes, network.logits([3.0, 4.0])
-    ((2, 1), array([7.]))
-    """
-
-    weights: tuple[Array, ...]
-    biases: tuple[Array, ...]
-
-    def __post_init__(self) -> None:
-        weights, biases = checked_layers(self.weights, self.biases)
-        object.__setattr__(self, "weights", weights)
-        object.__setattr__(self, "biases", biases)
-
-    @property
-    def sizes(self) -> tuple[int, ...]:
-        """Units of each layer, without bias units: (11, 8, 5)."""
-        return (
-            self.weights[0].shape[-1],
-            *(weight.shape[-2] for weight in self.weights),
-        )
-
-    @property
-    def stack(self) -> tuple[int, ...]:
-        """The leading dimensions; () for a single network."""
-        return self.weights[0].shape[:-2]
-
-    def __getitem__(self, index: Any) -> Network:
-        """Some of a stack of networks, indexed over its leading dimensions."""
-        if not self.stack:
-            raise TypeError("a single network has no stack to index")
-        return Network(
-            tuple(weight[index] for weight in self.weights),
-            tuple(bias[index] for bias in self.biases),
-        )
-
-    def activations(self, x: ArrayLike) -> list[Array]:
-        """Return the activations of every layer, the input first and the output last.
-
-        Parameters
-        ----------
-        x : (s[0],), (m, s[0]) or (..., m, s[0]) array
-            Inputs. Leading dimensions broadcast with the stack.
-        """
-        return self._propagate(x)[0]
-
-    def logits(self, x: ArrayLike) -> Array:
-        """Return the weighted sums z (..., m, s[-1]) of the output layer, before its sigmoid."""
-        return self._propagate(x)[1]
-
-    def forward(self, x: ArrayLike) -> Array:
-        """Outputs h(x) of the network, Eq. (3.2): (..., m, s[-1]) numbers between 0 and 1."""
-        return self.activations(x)[-1]  # Eq. (3.2)
-
-    def decide(self, x: ArrayLike) -> NDArray[np.intp]:
-        """Return the largest output unit (..., m) for each input, compared before the sigmoid rounds to 1."""
-        return self.logits(x).argmax(axis=-1)
-
-    def _propagate(self, x: ArrayLike) -> tuple[list[Array], Array]:
-        inputs = check_array("x", x)
-        if inputs.ndim == 0 or inputs.shape[-1] != self.sizes[0]:
-            raise ValueError(
-                f"x must hold {self.sizes[0]} inputs along its last axis, got shape {inputs.shape}"
-            )
-        forward = propagate_stack if self.stack else propagate
-        if inputs.ndim > 1:
-            return forward(self.weights, self.biases, inputs)
-        a, z = forward(self.weights, self.biases, inputs[None])  # a batch of one
-        return [layer[..., 0, :] for layer in a], z[..., 0, :]
-
-
-def random_network(
-    sizes: Sequence[int],
+@checked
+def batch_gradient_descent(
+    network: Network,
+    x: Array,
+    y: Array,
     *,
-    seed: int | np.random.Generator,
-    spread: float | None = None,
+    gradient_step: float,
+    iterations: int,
+    regularisation: float = 0.0,
+    cost_gradient: Callable[..., Gradient] = squared_error_gradient,
+    after_step: Callable[[Network], None] | None = None,
 ) -> Network:
-    """Draw a network with small random weights and biases.
+    """Batch gradient descent, Eq. (3.16): every step uses all examples.
 
-    Hidden units that start with equal weights stay equal. Random numbers make them differ.
+    :func:`robonav.networks.gradient_descent` does the same and keeps the history of the cost.
 
     Parameters
     ----------
-    sizes : sequence of int
-        Units of each layer, without bias units; at least two layers.
+    network : Network
+        Where to start.
+    x, y : (m, s[0]) and (m, s[-1]) arrays
+        Inputs, and labels in [0, 1].
+    gradient_step : float
+        alpha. With too large a step the cost rises or jumps.
+    iterations : int
+        Steps to take.
+    regularisation : float
+        lambda, at least 0.
+    cost_gradient : callable
+        ``squared_error_gradient`` or ``cross_entropy_gradient``.
+    after_step : callable, optional
+        Called with the network after every step.
+
+    Returns
+    -------
+    Network
+        The trained one.
+
+    Raises
+    ------
+    ValueError
+        If shapes do not fit, a label lies outside [0, 1], or the weights grow beyond all bounds.
+
+    Examples
+    --------
+    >>> from robonav.networks import batch_gradient_descent, random_network, squared_error_cost
+    >>> from robonav.networks.toy_datasets import disc
+    >>> (x, y), start = disc(50, seed=0), random_network((2, 4, 1), seed=0)
+    >>> trained = batch_gradient_descent(start, x, y, gradient_step=1, iterations=20)
+    >>> squared_error_cost(trained, x, y) < squared_error_cost(start, x, y)
+    True
+    """
+    for _ in range(iterations):
+        gradient = cost_gradient(network, x, y, regularisation=regularisation)
+        network = descend(network, gradient, gradient_step)  # Eq. (3.16)
+        if after_step is not None:
+            after_step(network)
+    return network
+
+
+@checked
+def stochastic_gradient_descent(
+    network: Network,
+    x: Array,
+    y: Array,
+    *,
+    gradient_step: float,
+    epochs: int,
+    batch_size: int,
+    seed: int | np.random.Generator,
+    cost_gradient: Callable[..., Gradient] = squared_error_gradient,
+) -> Network:
+    """Stochastic gradient descent: every step uses the next ``batch_size`` examples in a random order.
+
+    An epoch goes through all examples once. Steps are cheaper than those of :func:`batch_gradient_descent`, whose
+    parameters and errors are the same, and their directions are right only on average.
+
+    Parameters
+    ----------
+    epochs : int
+        How often to go through the examples.
+    batch_size : int
+        Examples in each step; the last step of an epoch may have fewer.
     seed : int or Generator
-        Of the random numbers.
-    spread : float, optional
-        Weights and biases are uniform in [-spread, spread]. By default it is sqrt(6 / (inputs + outputs)) of each
-        layer (Glorot and Bengio 2010). With 0 all hidden units are equal.
+        Of the random orders.
 
     Returns
     -------
     Network
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than two layers, a layer is empty, or ``spread`` is negative.
+        The trained one.
 
     Examples
     --------
-    >>> from robonav.networks import random_network
-    >>> random_network((11, 8, 5), seed=0).sizes
-    (11, 8, 5)
+    >>> from robonav.networks import random_network, squared_error_cost, stochastic_gradient_descent
+    >>> from robonav.networks.toy_datasets import disc
+    >>> (x, y), start = disc(50, seed=0), random_network((2, 4, 1), seed=0)
+    >>> trained = stochastic_gradient_descent(start, x, y, gradient_step=1, epochs=5, batch_size=10, seed=0)
+    >>> squared_error_cost(trained, x, y) < squared_error_cost(start, x, y)
+    True
     """
-    units = [check_integer("sizes", size, at_least=1) for size in sizes]
-    if len(units) < 2:
-        raise ValueError(
-            f"sizes must name at least an input and an output layer, got {units}"
-        )
-    rng = check_generator("seed", seed)
-    weights, biases = [], []
-    for inputs, outputs in pairwise(units):
-        bound = (
-            math.sqrt(6 / (inputs + outputs))
-            if spread is None
-            else check_real("spread", spread, at_least=0)
-        )
-        weights.append(rng.uniform(-bound, bound, (outputs, inputs)))
-        biases.append(rng.uniform(-bound, bound, outputs))
-    return Network(tuple(weights), tuple(biases))
-
-
-def stacked(networks: Sequence[Network]) -> Network:
-    """Stack networks of one shape along a new first dimension.
-
-    Parameters
-    ----------
-    networks : sequence of Network
-
-    Returns
-    -------
-    Network
-
-    Raises
-    ------
-    ValueError
-        If there is no network, or they differ in shape.
-
-    Examples
-    --------
-    >>> from robonav.networks import random_network, stacked
-    >>> stacked([random_network((2, 1), seed=seed) for seed in range(3)]).stack
-    (3,)
-    """
-    if (
-        not networks
-        or len({(network.stack, network.sizes) for network in networks}) != 1
-    ):
-        raise ValueError("networks must be at least one, all of the same sizes")
-    return Network(
-        tuple(
-            np.stack(layers)
-            for layers in zip(*(network.weights for network in networks), strict=True)
-        ),
-        tuple(
-            np.stack(layers)
-            for layers in zip(*(network.biases for network in networks), strict=True)
-        ),
-    )
+    rng = np.random.default_rng(seed)
+    for _ in range(epochs):
+        order = rng.permutation(len(x))
+        for first in range(0, len(x), batch_size):
+            batch = order[first : first + batch_size]
+            gradient = cost_gradient(network, x[batch], y[batch])
+            network = descend(network, gradient, gradient_step)
+    return network

@@ -1,8 +1,8 @@
-"""Training a network: batch gradient descent (section 3.3.1), and L-BFGS with torch (section 3.4.3)."""
+"""Training with a history: batch gradient descent (section 3.3.1), and L-BFGS with torch (section 3.4.3)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,8 +12,13 @@ from robonav.validation import check_array, check_integer, check_positive, check
 
 from ._checks import checked_examples
 from .costs import SQUARED_ERROR, Objective
-from .multilayer_perceptron import Array, Network, descend, random_network
-from .training_history import Iterate, TrainingHistory, accuracy, run_optimiser
+from .multilayer_perceptron import (
+    Array,
+    Network,
+    batch_gradient_descent,
+    random_network,
+)
+from .training_history import Recorder, TrainingHistory, accuracy
 
 MOST_ITERATIONS = 100_000  # these take minutes; a larger number is a slip of the pen
 
@@ -52,38 +57,6 @@ def one_hot(actions: ArrayLike, count: int) -> Array:
     return np.eye(width)[indices]
 
 
-def gradient_descent_iterates(
-    network: Network,
-    x: Array,
-    y: Array,
-    *,
-    gradient_step: float,
-    iterations: int,
-    regularisation: float,
-    objective: Objective,
-) -> Iterator[Iterate]:
-    """Batch gradient descent, Eq. (3.16).
-
-    Each iteration uses all examples for one step against the gradient. Parameters are those of
-    :func:`gradient_descent`.
-
-    Yields
-    ------
-    Iterate
-        The first is the network as it came.
-    """
-
-    def measured() -> Iterate:
-        cost = objective.cost(network, x, y, regularisation=regularisation)
-        return Iterate(network, cost, accuracy(network, x, y))
-
-    yield measured()
-    for _ in range(iterations):
-        gradient = objective.gradient(network, x, y, regularisation=regularisation)
-        network = descend(network, gradient, gradient_step)  # Eq. (3.16)
-        yield measured()
-
-
 def gradient_descent(
     network: Network,
     x: ArrayLike,
@@ -96,7 +69,7 @@ def gradient_descent(
     record: bool = False,
     progress: Progress | None = None,
 ) -> TrainingHistory:
-    """Train a network by batch gradient descent, see :func:`gradient_descent_iterates`.
+    """Train a network by :func:`batch_gradient_descent`, and keep the history of the training.
 
     Parameters
     ----------
@@ -140,11 +113,18 @@ def gradient_descent(
     inputs, labels = checked_examples(network, x, y)
     step = check_positive("gradient_step", gradient_step)
     count = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
-    iterates = gradient_descent_iterates(
-        network, inputs, labels, gradient_step=step, iterations=count,
-        regularisation=regularisation, objective=objective,
+    recorder = Recorder(count, record=record, progress=progress)
+
+    def keep(network: Network) -> None:
+        cost = objective.cost(network, inputs, labels, regularisation=regularisation)
+        recorder.add(network, cost, accuracy(network, inputs, labels))
+
+    keep(network)
+    batch_gradient_descent(
+        network, inputs, labels, gradient_step=step, iterations=count, regularisation=regularisation,
+        cost_gradient=objective.gradient, after_step=keep,
     )  # fmt: skip
-    return run_optimiser(iterates, count, record=record, progress=progress)
+    return recorder.history()
 
 
 def lbfgs(
@@ -179,10 +159,12 @@ def lbfgs(
     count = check_integer("iterations", iterations, at_least=0, at_most=MOST_ITERATIONS)
     from .torch_lbfgs import lbfgs_iterates  # loads torch, which planning does not need
 
-    iterates = lbfgs_iterates(
+    recorder = Recorder(count, record=record, progress=progress)
+    for iterate in lbfgs_iterates(
         network, inputs, labels, regularisation=decay, iterations=count
-    )
-    return run_optimiser(iterates, count, record=record, progress=progress)
+    ):
+        recorder.add(*iterate)
+    return recorder.history()
 
 
 def fit(

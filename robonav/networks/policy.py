@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.robot import Encoder, Sensing
 from robonav.validation import check_real
 
+from ._checks import check_single
 from .multilayer_perceptron import Network
 
 
@@ -48,10 +49,10 @@ class NetworkPolicy:
 
     def __post_init__(self) -> None:
         check_real("temperature", self.temperature, at_least=0)
-        if self.network.stack or self.network.sizes[0] != self.encoder.size:
+        check_single(self.network)
+        if self.network.sizes[0] != self.encoder.size:
             raise ValueError(
-                f"network must be a single one with {self.encoder.size} inputs, as its encoder gives, "
-                f"got sizes {self.network.sizes} and stack {self.network.stack}"
+                f"network must have {self.encoder.size} inputs, as its encoder gives, got sizes {self.network.sizes}"
             )
 
     def logits(self, sensing: Sensing) -> NDArray[np.float64]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -12,7 +11,8 @@ from numpy.typing import ArrayLike
 from robonav.progress import Progress
 
 from ._checks import checked_examples
-from .multilayer_perceptron import Array, Network, stacked
+from .multilayer_perceptron import Array, Network
+from .network_stack import NetworkStack, stacked
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +27,7 @@ class TrainingHistory:
         Cost of the training examples.
     accuracies : (iterations + 1,) array
         Fraction of the training examples whose largest output is the labelled one.
-    networks : Network, optional
+    networks : NetworkStack, optional
         A stack (iterations + 1,) of the networks of every iteration, if recorded.
 
     Examples
@@ -42,7 +42,7 @@ class TrainingHistory:
     network: Network
     costs: Array
     accuracies: Array
-    networks: Network | None = None
+    networks: NetworkStack | None = None
 
     @property
     def iterations(self) -> int:
@@ -58,28 +58,45 @@ class Iterate(NamedTuple):
     accuracy: float
 
 
-def run_optimiser(
-    iterates: Iterator[Iterate],
-    iterations: int,
-    *,
-    record: bool,
-    progress: Progress | None,
-) -> TrainingHistory:
-    """Run an optimiser, given as an iterator over its iterates, and keep the history."""
-    costs, accuracies, networks = [], [], []
-    for done, iterate in enumerate(iterates):
-        costs.append(iterate.cost)
-        accuracies.append(iterate.accuracy)
-        if record:
-            networks.append(iterate.network)
-        if progress is not None:
-            progress(done, iterations)
-    return TrainingHistory(
-        iterate.network,
-        np.array(costs),
-        np.array(accuracies),
-        stacked(networks) if record else None,
-    )
+class Recorder:
+    """Keeps the history of a training while it runs.
+
+    Parameters
+    ----------
+    iterations : int
+        How many there will be, at most.
+    record : bool
+        Whether to keep the network of every iteration.
+    progress : callable, optional
+        Called as ``progress(done, iterations)``.
+    """
+
+    def __init__(
+        self, iterations: int, *, record: bool, progress: Progress | None
+    ) -> None:
+        self.iterations, self.record, self.progress = iterations, record, progress
+        self._costs: list[float] = []
+        self._accuracies: list[float] = []
+        self._networks: list[Network] = []  # of every iteration, or of the last
+
+    def add(self, network: Network, cost: float, accuracy: float) -> None:
+        """Keep an iteration; the first is the network as it came."""
+        if not self.record:
+            self._networks.clear()
+        self._networks.append(network)
+        self._costs.append(cost)
+        self._accuracies.append(accuracy)
+        if self.progress is not None:
+            self.progress(len(self._costs) - 1, self.iterations)
+
+    def history(self) -> TrainingHistory:
+        """Return what was kept."""
+        return TrainingHistory(
+            self._networks[-1],
+            np.array(self._costs),
+            np.array(self._accuracies),
+            stacked(self._networks) if self.record else None,
+        )
 
 
 def accuracy(network: Network, x: ArrayLike, y: ArrayLike) -> float:

@@ -18,6 +18,7 @@ from robonav.robot.encoding import Encoder
 from robonav.validation import check_real
 
 from .multilayer_perceptron import Array, Network
+from .network_stack import network_of
 
 FORMAT = "robonav weights 1"
 
@@ -195,7 +196,7 @@ def _network(tensors: dict[str, Array]) -> Network:
     if set(names) != set(tensors):
         raise ValueError(f"its tensors are {', '.join(sorted(tensors))}")
     arrays = [tensors[name] for name in names]
-    return Network(tuple(arrays[: len(layers)]), tuple(arrays[len(layers) :]))
+    return network_of(arrays[: len(layers)], arrays[len(layers) :])
 
 
 def _about(name: str, note: str | None) -> dict[str, Any]:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.networks.multilayer_perceptron import Network, random_network, stacked
+from robonav.networks.multilayer_perceptron import Network, random_network
+from robonav.networks.network_stack import NetworkStack, stacked
 from robonav.progress import Progress
 
 from ._arguments import checked
@@ -32,7 +33,7 @@ class History:
 
     Attributes
     ----------
-    networks : Network
+    networks : NetworkStack
         Stack (n + 1,).
     weights : (n, A, k + 1) array
         theta of every iteration, of length 1 at most.
@@ -57,7 +58,7 @@ class History:
     (True, 2)
     """
 
-    networks: Network
+    networks: NetworkStack
     weights: Floats
     margins: Floats
     costs: Floats

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.networks.multilayer_perceptron import Network, random_network, stacked
+from robonav.networks.multilayer_perceptron import Network, random_network
+from robonav.networks.network_stack import NetworkStack, stacked
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import OUTCOMES, Encoder
@@ -49,7 +50,7 @@ class TrainingResult:
         "nnql", "online", "nfq" or "dqn".
     seeds : (S,) tuple of int
         The seeds.
-    network : Network
+    network : NetworkStack
         Stack (S,) of the trained networks.
     encoder : Encoder
         Turns what is sensed into the networks' inputs.
@@ -61,7 +62,7 @@ class TrainingResult:
         Sums of the rewards of these decisions.
     settings : dict
         Settings of the method, by name.
-    history : Network or None
+    history : NetworkStack or None
         Stack (S, E + 1) of the networks after 0, 1, ... E episodes, if recorded.
     paths : tuple or None
         For each seed, for each episode, poses (steps + 1, 3), if recorded.
@@ -76,14 +77,14 @@ class TrainingResult:
 
     method: str
     seeds: tuple[int, ...]
-    network: Network
+    network: NetworkStack
     encoder: Encoder
     outcomes: NDArray[np.str_]
     steps: NDArray[np.int64]
     decisions: NDArray[np.int64]
     returns: Array
     settings: dict[str, Any]
-    history: Network | None = None
+    history: NetworkStack | None = None
     paths: tuple[tuple[Array, ...], ...] | None = None
 
     def __getitem__(self, row: int) -> TrainingResult:
@@ -287,12 +288,12 @@ def _result(
     )
 
 
-def weight_changes(history: Network, *, absolute: bool = False) -> Array:
+def weight_changes(history: NetworkStack, *, absolute: bool = False) -> Array:
     """How much the weights of each layer changed in each episode, summed over the layer, biases included (Fig. 4.3).
 
     Parameters
     ----------
-    history : Network
+    history : NetworkStack
         Stack (S, E + 1), see :class:`TrainingResult`.
     absolute : bool
         Sum absolute instead of signed changes, which can cancel.

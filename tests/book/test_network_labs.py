@@ -162,7 +162,7 @@ def test_time_moves_by_button_keyboard_and_play(labs, which):
 def test_the_robots_network_answers_as_python_does(labs):
     lab = labs[1]
     data = held(lab, "situations")
-    stack = networks.Network(
+    stack = networks.NetworkStack(
         tuple(unpacked(weight) for weight in data["networks"]["weights"]),
         tuple(unpacked(bias) for bias in data["networks"]["biases"]),
     )

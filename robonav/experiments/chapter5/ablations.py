@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from robonav.networks import Network, NetworkPolicy
+from robonav.networks import NetworkPolicy
 from robonav.nirl import (
     ZERO_TERMINAL_VALUES,
     IRLResult,
@@ -87,11 +87,7 @@ def ablation(case: Case, seed: int, scale: str) -> Numbers:
 
 def policy_at(learned: IRLResult, k: int) -> NetworkPolicy:
     """Return the policy of a run after iteration k."""
-    stack = learned.history.networks
-    network = Network(
-        tuple(w[k] for w in stack.weights), tuple(b[k] for b in stack.biases)
-    )
-    return replace(learned.policy, network=network)
+    return replace(learned.policy, network=learned.history.networks[k])
 
 
 def best_by_navigation(learned: IRLResult, worlds: Worlds) -> int:

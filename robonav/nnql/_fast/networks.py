@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.networks.multilayer_perceptron import Network
+from robonav.networks.network_stack import NetworkStack
 
 from . import kernels
 
@@ -22,7 +22,7 @@ class BatchedNetworks:
         A stack (S,) of networks.
     """
 
-    def __init__(self, network: Network) -> None:
+    def __init__(self, network: NetworkStack) -> None:
         self._parameters, self._outputs = packed(network), network.sizes[-1]
 
     def logits(self, rows: Rows, x: Array) -> Array:
@@ -87,7 +87,7 @@ class BatchedNetworks:
         self._parameters[rows] = parameters
 
 
-def packed(network: Network) -> Array:
+def packed(network: NetworkStack) -> Array:
     """A stack (S,) of networks as rows (S, P): w1 (n, H), b1 (H,), w2 (H, A), b2 (A,), one after the other.
 
     The weights are transposed, with the unit they come from first, so that inner loops run along memory.
@@ -97,7 +97,7 @@ def packed(network: Network) -> Array:
     return np.concatenate([part.reshape(len(part), -1) for part in parts], axis=1)
 
 
-def unpacked(parameters: Array, sizes: tuple[int, ...]) -> Network:
+def unpacked(parameters: Array, sizes: tuple[int, ...]) -> NetworkStack:
     """The inverse of :func:`packed`: a stack (...) of networks with ``sizes`` n, H, A from rows (..., P)."""
     n, h, a = sizes
     stack = parameters.shape[:-1]
@@ -106,4 +106,4 @@ def unpacked(parameters: Array, sizes: tuple[int, ...]) -> Network:
         w1.reshape(*stack, n, h).swapaxes(-1, -2),
         w2.reshape(*stack, h, a).swapaxes(-1, -2),
     )
-    return Network(weights, (b1, b2))
+    return NetworkStack(weights, (b1, b2))

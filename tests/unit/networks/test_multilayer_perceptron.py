@@ -9,12 +9,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robonav.networks import (
+    CROSS_ENTROPY,
     Network,
+    batch_gradient_descent,
+    descend,
+    gradient_descent,
     propagate,
     random_network,
     sigmoid,
     sigmoid_slope,
+    squared_error_gradient,
     stacked,
+    stochastic_gradient_descent,
 )
 from robonav.networks._fast.stacks import propagate_stack
 
@@ -171,6 +177,11 @@ def test_random_weights_are_the_seeds_own_and_within_the_spread():
         ),
         ([np.ones((2, 3))], [np.ones(3)], r"biases\[0\] must have shape \(2,\)"),
         (
+            [np.ones((4, 2, 3))],
+            [np.ones((4, 2))],
+            "NetworkStack holds several networks",
+        ),
+        (
             [np.array([[np.nan]])],
             [np.ones(1)],
             r"weights\[0\] must hold finite numbers",
@@ -186,11 +197,62 @@ def test_wrong_arguments_get_a_sentence():
     network = random_network((3, 2), seed=0)
     with pytest.raises(ValueError, match="x must hold 3 inputs along its last axis"):
         network.forward(np.ones((3, 2)))
-    with pytest.raises(TypeError, match="no stack"):
-        network[0]
     with pytest.raises(ValueError, match="at least an input and an output layer"):
         random_network((3,), seed=0)
     with pytest.raises(ValueError, match="spread must be at least 0"):
         random_network((3, 2), seed=0, spread=-1)
     with pytest.raises(ValueError, match="all of the same sizes"):
         stacked([network, random_network((3, 3), seed=0)])
+
+
+def same(one: Network, other: Network) -> None:
+    for a, b in zip(
+        (*one.weights, *one.biases), (*other.weights, *other.biases), strict=True
+    ):
+        np.testing.assert_array_equal(a, b)
+
+
+@pytest.fixture
+def examples():
+    rng = np.random.default_rng(0)
+    return rng.normal(size=(7, 3)), rng.random((7, 2))
+
+
+def test_the_loop_takes_the_steps_of_the_recorded_training_to_the_bit(examples):
+    start = random_network((3, 4, 2), seed=1)
+    passed: list[Network] = []
+    trained = batch_gradient_descent(
+        start, *examples, gradient_step=0.5, iterations=6, regularisation=0.1,
+        cost_gradient=CROSS_ENTROPY.gradient, after_step=passed.append,
+    )  # fmt: skip
+    recorded = gradient_descent(
+        start, *examples, gradient_step=0.5, iterations=6, regularisation=0.1,
+        objective=CROSS_ENTROPY, record=True,
+    )  # fmt: skip
+    same(trained, recorded.network)
+    same(stacked([start, *passed]), recorded.networks)
+
+
+def test_stochastic_descent_goes_once_through_the_examples_in_an_epoch(examples):
+    x, y = examples
+    start = expected = random_network((3, 4, 2), seed=1)
+    trained = stochastic_gradient_descent(
+        start, x, y, gradient_step=0.5, epochs=2, batch_size=3, seed=8
+    )
+    rng = np.random.default_rng(8)
+    for _ in range(2):
+        order = rng.permutation(7)
+        for batch in (order[:3], order[3:6], order[6:]):
+            gradient = squared_error_gradient(expected, x[batch], y[batch])
+            expected = descend(expected, gradient, 0.5)
+    same(trained, expected)
+
+
+def test_the_loops_refuse_examples_that_do_not_fit(examples):
+    x, y = examples
+    for loop, options in (
+        (batch_gradient_descent, {"iterations": 1}),
+        (stochastic_gradient_descent, {"epochs": 1, "batch_size": 2, "seed": 0}),
+    ):
+        with pytest.raises(ValueError, match="x must"):
+            loop(random_network((2, 2), seed=0), x, y, gradient_step=1, **options)

@@ -7,7 +7,8 @@ import pytest
 from safetensors.numpy import save_file
 
 from robonav import __version__
-from robonav.networks.multilayer_perceptron import random_network, stacked
+from robonav.networks.multilayer_perceptron import random_network
+from robonav.networks.network_stack import stacked
 from robonav.networks.weights import Weights, load_weights, save_weights
 from robonav.robot import NNQL_SENSORS, Encoder
 

@@ -6,8 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from robonav.networks.costs import cross_entropy_cost
-from robonav.networks.multilayer_perceptron import Network, random_network
+from robonav.networks.multilayer_perceptron import (
+    Network,
+    cross_entropy_cost,
+    random_network,
+)
 from robonav.nirl import (
     METHODS,
     NEUTRAL_TERMINAL_VALUES,

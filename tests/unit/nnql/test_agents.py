@@ -9,8 +9,8 @@ from robonav.networks.multilayer_perceptron import (
     Network,
     cross_entropy_gradient,
     random_network,
-    stacked,
 )
+from robonav.networks.network_stack import stacked
 from robonav.nnql._fast.agents import (
     Agent,
     Decisions,

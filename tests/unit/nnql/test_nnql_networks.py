@@ -7,8 +7,8 @@ from robonav.networks.multilayer_perceptron import (
     Network,
     cross_entropy_gradient,
     random_network,
-    stacked,
 )
+from robonav.networks.network_stack import stacked
 from robonav.nnql import cross_entropy
 from robonav.nnql._fast.networks import BatchedNetworks, packed, unpacked
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from robonav.networks.multilayer_perceptron import random_network, stacked
+from robonav.networks.multilayer_perceptron import random_network
+from robonav.networks.network_stack import stacked
 from robonav.nnql import NavigationTask, reward
 from robonav.nnql._fast.agents import Agent
 from robonav.nnql._fast.networks import BatchedNetworks

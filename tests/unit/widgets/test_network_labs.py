@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from robonav.networks import toy_datasets
-from robonav.networks.multilayer_perceptron import Network, random_network, stacked
+from robonav.networks.multilayer_perceptron import Network, random_network
+from robonav.networks.network_stack import stacked
 from robonav.networks.optimisers import fit, gradient_descent
 from robonav.robot import Encoder, lfd_state, random_worlds, sense
 from robonav.widgets.boundary_lab import boundary_lab

@@ -1,0 +1,125 @@
+"""Many networks of one shape in one object: over seeds, or over the iterations of a training."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._checks import checked_inputs, keep_layers
+from ._fast.stacks import propagate_stack
+from .multilayer_perceptron import Array, Network
+
+
+@dataclass(frozen=True, eq=False)
+class NetworkStack(Network):
+    """A stack of networks of one shape.
+
+    Leading dimensions, the same for every array, stack the networks. An index over them gives one network, or a smaller
+    stack. Inputs have the stack's dimensions before their own, or go to all its networks.
+
+    Parameters
+    ----------
+    weights : tuple of (..., s[l + 1], s[l]) arrays
+        One for each layer but the last.
+    biases : tuple of (..., s[l + 1]) arrays
+        One for each layer but the last.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit each other, or a number is not finite.
+
+    Examples
+    --------
+    >>> from robonav.networks import random_network, stacked
+    >>> networks = stacked([random_network((2, 1), seed=seed) for seed in range(3)])
+    >>> networks.forward([[0, 1], [1, 0]]).shape
+    (3, 2, 1)
+    >>> networks[0].forward([[0, 1], [1, 0]]).shape
+    (2, 1)
+    """
+
+    def __post_init__(self) -> None:
+        keep_layers(self, stacked=True)
+
+    @property
+    def stack(self) -> tuple[int, ...]:
+        """The leading dimensions."""
+        return self.weights[0].shape[:-2]
+
+    def __getitem__(self, index: Any) -> Any:
+        """One :class:`Network`, or a smaller stack, by an index over the leading dimensions."""
+        return network_of(
+            [weight[index] for weight in self.weights],
+            [bias[index] for bias in self.biases],
+        )
+
+    def _propagate(self, x: ArrayLike) -> tuple[list[Array], Array]:
+        inputs = checked_inputs(x, self.sizes[0])
+        if inputs.ndim > 1:
+            return propagate_stack(self.weights, self.biases, inputs)
+        a, z = propagate_stack(self.weights, self.biases, inputs[None])
+        return [layer[..., 0, :] for layer in a], z[..., 0, :]
+
+
+def network_of(weights: Sequence[Array], biases: Sequence[Array]) -> Network:
+    """Make a network of the arrays of one, or a stack of those of several.
+
+    Parameters
+    ----------
+    weights, biases : sequences of arrays
+        As :class:`Network` or :class:`NetworkStack` takes them.
+
+    Returns
+    -------
+    Network
+        A :class:`NetworkStack` where there are leading dimensions.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks.network_stack import network_of
+    >>> type(network_of([np.ones((5, 1, 2))], [np.ones((5, 1))])).__name__
+    'NetworkStack'
+    """
+    one = not weights or np.ndim(weights[0]) <= 2
+    return (Network if one else NetworkStack)(tuple(weights), tuple(biases))
+
+
+def stacked(networks: Sequence[Network]) -> NetworkStack:
+    """Stack networks of one shape along a new first dimension.
+
+    Parameters
+    ----------
+    networks : sequence of Network
+
+    Returns
+    -------
+    NetworkStack
+
+    Raises
+    ------
+    ValueError
+        If there is no network, or they differ in shape.
+
+    Examples
+    --------
+    >>> from robonav.networks import random_network, stacked
+    >>> stacked([random_network((2, 1), seed=seed) for seed in range(3)]).stack
+    (3,)
+    """
+    shapes = {tuple(weight.shape for weight in each.weights) for each in networks}
+    if len(shapes) != 1:
+        raise ValueError("networks must be at least one, all of the same sizes")
+    return NetworkStack(
+        tuple(
+            np.stack(w) for w in zip(*(each.weights for each in networks), strict=True)
+        ),
+        tuple(
+            np.stack(b) for b in zip(*(each.biases for each in networks), strict=True)
+        ),
+    )
