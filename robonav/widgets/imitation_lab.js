@@ -6,6 +6,8 @@ const DECAYS = [0, 0.01, 0.03, 0.1, 0.3, 1, 3, 10];
 const ITERATIONS = [1, 3, 10, 30, 100, 300, 1000];
 const OBSTACLES = [10, 20, 30];
 const FEW = 25; // of the expert's drives, as on the page
+const NO_STEP = "These drives have no step with something in range: nothing to learn from.";
+const NO_DRIVE = "There is nothing to learn from: drive a few maps in the playground, or choose the expert's drives.";
 const MOST_ROBOTS = 6; // of the reader's, that stay in the table
 
 function render({ model, el }) {
@@ -116,7 +118,7 @@ function render({ model, el }) {
       }
       const learned = chosen();
       const examples = examplesFrom(learned);
-      if (examples.m === 0) return learned.length ? "These drives have no step with something in range: nothing to learn from." : "There is nothing to learn from: drive a few maps in the playground, or choose the expert's drives.";
+      if (examples.m === 0) return learned.length ? NO_STEP : NO_DRIVE;
       const { source: from, count, hidden, regularisation, iterations, seed } = settings;
       return task({ name: named(), examples, made: { source: SOURCES[from], drives: count, hidden, regularisation, iterations, seed } });
     },
@@ -136,7 +138,36 @@ function render({ model, el }) {
       showTable();
     },
   });
+  const several = numberOfRobots();
+  let best = null; // the robot of Python with the least cost
+  const tryBest = h("button", { type: "button", disabled: true, click: () => tryNetwork(best.network, best.encoder, best.name, { source: "Python" }) }, "Let the best robot of Python drive in the page");
+  const kernel = kernelPanel({
+    model, title: "The same settings in Python: several robots", unit: "iterations", total: () => settings.iterations, controls: [several.element, tryBest],
+    lines: [
+      { name: "cost", label: "mean cost J" },
+      { name: "agreement", label: "mean agreement (%)", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
+    ],
+    request: () => {
+      const learnedFrom = chosen();
+      if (learnedFrom.flatMap(effective).length === 0) return learnedFrom.length ? NO_STEP : NO_DRIVE;
+      const { hidden, regularisation, iterations, seed, obstacles } = settings;
+      return { robots: several.value(), drives: base64Of(demonstrationsFile(learnedFrom)), settings: { hidden, regularisation, iterations, seed, obstacles } };
+    },
+    done: ({ sentence, policy }) => {
+      best = { ...policy, name: "trained in Python" };
+      tryBest.disabled = false;
+      return sentence;
+    },
+  });
+
   const note = h("span", { role: "status" });
+  /** Lets a network that was not trained in the page drive the new maps. */
+  const tryNetwork = (network, encoder, name, made) => {
+    brought = { name: `robot ${robots.length + 1}: ${name}`, network: networks(network)(), encoder, made };
+    note.textContent = "";
+    panel.cancel();
+    panel.start();
+  };
   const download = h("button", { type: "button", disabled: true, click: () => {
     const [{ policy, made }] = robots;
     saveFile("my-robot.safetensors", weightsFile({ ...policy, method: "lfd" }, made));
@@ -146,10 +177,7 @@ function render({ model, el }) {
     if (!file) return;
     try {
       const { network, encoder } = weightsFromFile(await file.arrayBuffer());
-      brought = { name: `robot ${robots.length + 1}: ${file.name}`, network: networks(network)(), encoder, made: { file: file.name } };
-      note.textContent = "";
-      panel.cancel();
-      panel.start();
+      tryNetwork(network, encoder, file.name, { file: file.name });
     } catch (error) {
       note.textContent = error.message;
     }
@@ -168,13 +196,14 @@ function render({ model, el }) {
     h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element),
     panel.element, table.element, view.element,
     h("div", { class: "row tools" }, download, h("label", { class: "file" }, h("span", {}, "try weights from a file (safetensors)"), upload), note),
-    kept.element, kept.said);
+    kept.element, kept.said, kernel.element);
   const unwatch = watchDrives(() => {
     if (settings.source === 1 && mine().length === 1 && robots.length === 0) source.move((settings.source = 0));
     refresh();
   });
   return () => {
     panel.cancel();
+    kernel.cancel();
     view.end();
     kept.end();
     unwatch();

@@ -2,32 +2,102 @@
 
 from __future__ import annotations
 
-import anywidget
-import traitlets
+from collections.abc import Iterator, Sequence
+from itertools import zip_longest
+from typing import Any
 
-from robonav.lfd import demonstrate
+import numpy as np
+
+from robonav.lfd import demonstrate, labelled_states
+from robonav.lfd.demonstrations import LEARNED
+from robonav.networks import random_network
 from robonav.networks.policy import NetworkPolicy
+from robonav.networks.training_history import Iterate
 from robonav.progress import Progress
-from robonav.robot import random_worlds
-from robonav.validation import check_instance, check_integer
+from robonav.robot import Encoder, random_worlds
+from robonav.validation import check_instance, check_integer, check_real
 
+from .kernel_training import (
+    TRIED,
+    KernelTraining,
+    Report,
+    sentence_on_rates,
+    success_rates,
+)
 from .shared import front_end, style_sheet
-from .simulator import page_policy
+from .simulator import page_demonstrations, page_policy
 
 OBSTACLES = 10
 
 
-class ImitationLab(anywidget.AnyWidget):
-    """Choose demonstrations, train, watch the robot in new maps, compare it, and download its weights."""
+class ImitationLab(KernelTraining):
+    """Choose demonstrations, train, watch the robot in new maps, compare it, and download its weights.
+
+    With a kernel, Python trains several robots on the same demonstrations.
+    """
 
     _esm = front_end(
         "simulator", "maps", "episode", "files",
         "learning/random", "learning/worlds", "learning/network", "learning/lbfgs",
         "learning/nnql", "learning/worker", "learning/training_panel",
-        "drives", "imitation", "imitation_lab",
+        "learning/kernel_panel", "drives", "imitation", "imitation_lab",
     )  # fmt: skip
     _css = style_sheet("maps", "drives", "learning/training_panel", "imitation")
-    data = traitlets.Dict().tag(sync=True)
+
+    def train(self, request: dict[str, Any], report: Report) -> dict[str, Any]:
+        """Train robots side by side by L-BFGS, and return the one with the least cost."""
+        # It loads torch, which a page without a training does not need.
+        from robonav.networks.torch_lbfgs import lbfgs_iterates
+
+        settings = request["settings"]
+        robots = check_integer("robots", request["robots"], at_least=1)
+        iterations = check_integer("iterations", settings["iterations"], at_least=1)
+        hidden = check_integer("hidden", settings["hidden"], at_least=1)
+        seed = check_integer("seed", settings["seed"], at_least=0)
+        decay = check_real("regularisation", settings["regularisation"], at_least=0)
+        worlds = random_worlds(
+            TRIED, settings["obstacles"], seed=self.data["trial"]["seed"]
+        )
+        x, y = labelled_states(page_demonstrations(request["drives"]))
+        trainings = [
+            lbfgs_iterates(
+                random_network((Encoder().size, hidden, LEARNED), seed=seed + robot),
+                x,
+                y,
+                regularisation=decay,
+                iterations=iterations,
+            )
+            for robot in range(robots)
+        ]
+        total = iterations + robots
+        for done, iterates in enumerate(_side_by_side(trainings)):
+            report(
+                done,
+                total,
+                at=done,
+                cost=float(np.mean([iterate.cost for iterate in iterates])),
+                agreement=100
+                * float(np.mean([iterate.accuracy for iterate in iterates])),
+            )
+        policies = [NetworkPolicy(iterate.network, Encoder()) for iterate in iterates]
+        rates: list[float] = []
+        for policy in policies:
+            rates += success_rates([policy], worlds)
+            report(iterations + len(rates), total)
+        self.trainings = policies
+        best = policies[int(np.argmin([iterate.cost for iterate in iterates]))]
+        return {
+            "sentence": sentence_on_rates(rates, TRIED),
+            "policy": page_policy(best),
+        }
+
+
+def _side_by_side(trainings: Sequence[Iterator[Iterate]]) -> Iterator[list[Iterate]]:
+    """The iterates of several trainings, one of each; a training that has ended stays at its last."""
+    latest: list[Iterate] = []
+    for iterates in zip_longest(*trainings):
+        latest = [iterate or latest[robot] for robot, iterate in enumerate(iterates)]
+        yield latest
 
 
 def imitation_lab(
@@ -88,7 +158,7 @@ def imitation_lab(
         "".join(map(str, driven.actions[driven.trajectory == i])) for i in range(count)
     ]
     return ImitationLab(
-        data={
+        {
             "expert": {"seed": expert_seed, "obstacles": OBSTACLES, "actions": actions},
             "book": page_policy(policy),
             "trial": {"seed": test_seed, "maps": tested},

@@ -1,10 +1,12 @@
 """The imitation lab: the expert's drives, learning and driving in the page as in Python."""
 
+import base64
+
 import numpy as np
 import pytest
 
 from robonav.benchmark.policies import method
-from robonav.lfd import demonstrate, labelled_states, learn_policy
+from robonav.lfd import demonstrate, labelled_states, learn_policy, save_demonstrations
 from robonav.networks import NetworkPolicy, fit
 from robonav.robot import navigate, random_worlds, straight
 from robonav.widgets.imitation_lab import ImitationLab, imitation_lab
@@ -13,7 +15,7 @@ from robonav.widgets.simulator import page_policy
 FILES = (
     "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
     "learning/network", "learning/lbfgs", "learning/nnql", "learning/worker",
-    "learning/training_panel", "drives", "imitation", "imitation_lab",
+    "learning/training_panel", "learning/kernel_panel", "drives", "imitation", "imitation_lab",
 )  # fmt: skip
 IMITATE = """
 const { expert, trial, seeds, iterations, count, book } = data;
@@ -130,3 +132,61 @@ def test_the_answers_on_the_page_are_true(shown):
     assert all_of_them[1].success.mean() > 0.95
     always_ahead = navigate(straight, unseen)
     assert trained(3, 1.0)[1].outcome.tolist() == always_ahead.outcome.tolist()
+
+
+def answers_of(lab, message):
+    answers = []
+    lab.send = answers.append
+    lab._answer(lab, message, [])
+    lab._thread.join(timeout=120)
+    return answers
+
+
+@pytest.fixture
+def request_of_page(shown, tmp_path):
+    """What the page asks the kernel for: two robots, on the demonstrations as the page sends them."""
+    path = tmp_path / "drives.npz"
+    save_demonstrations(path, shown)
+    return {
+        "ask": "train",
+        "run": 1,
+        "robots": 2,
+        "drives": base64.b64encode(path.read_bytes()).decode(),
+        "settings": {
+            "hidden": 8, "regularisation": 1, "iterations": 30, "seed": 3, "obstacles": 10,
+        },
+    }  # fmt: skip
+
+
+def test_the_kernel_trains_robots_as_learn_policy_does(lab, shown, request_of_page):
+    *told, last = answers_of(lab, request_of_page)
+    x, y = labelled_states(shown)
+    histories = [fit(x, y, iterations=30, seed=3 + k) for k in range(2)]
+    live = [item for answer in told for item in answer.get("live", ())]
+    assert [item["at"] for item in live] == list(range(31))
+    np.testing.assert_allclose(
+        [item["cost"] for item in live],
+        np.mean([history.costs for history in histories], axis=0),
+    )
+    assert told[-1]["done"] == told[-1]["total"] == 32
+    expected = [learn_policy(shown, iterations=30, seed=3 + k) for k in range(2)]
+    for got, want in zip(lab.trainings, expected, strict=True):
+        for mine, theirs in zip(got.network.weights, want.network.weights, strict=True):
+            np.testing.assert_array_equal(mine, theirs)
+    assert last["ended"]["sentence"].startswith("2 robots cross ")
+    best = expected[int(np.argmin([history.costs[-1] for history in histories]))]
+    assert last["ended"]["policy"] == page_policy(best)
+
+
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [
+        ({"robots": 0}, "ValueError: robots must be"),
+        ({"drives": ""}, "ValueError: drives.npz is damaged"),
+    ],
+)
+def test_what_the_kernel_cannot_train_gets_one_sentence(
+    lab, request_of_page, change, error
+):
+    (answer,) = answers_of(lab, request_of_page | change)
+    assert answer["error"].startswith(error)
