@@ -1,9 +1,9 @@
 # Exercise 2.2: Improvement where actions tie. 4 points, warm-up, about 10 minutes.
 # Check it with: robonav check 2.2
-"""Policy improvement that takes any best action can go round in circles when two actions are equally good: each sweep
-swaps them for one another, and "the policy did not change" never comes true. Write an improvement step that keeps
-the action in hand unless another one is better by *more than* a tolerance. Where it does change, it takes the best
-action, the one with the lowest index if several are best.
+"""If two actions are equally good, policy improvement that takes any best action may exchange them in every sweep. The
+policy then never stays the same, and policy iteration never stops. Write an improvement step that keeps the current
+action unless another one is better by *more than* a tolerance. Where it changes the action, it takes the best one, and
+the one with the lowest index if several are best.
 """
 
 import numpy as np
@@ -16,8 +16,8 @@ def improve(q: NDArray[np.float64], policy: NDArray[np.int64], tolerance: float)
     Parameters
     ----------
     q : (S, A), value of each action in each state.
-    policy : (S,), the action in hand in each state.
-    tolerance : least gain that is worth a change, not counted itself; at least 0.
+    policy : (S,), the current action in each state.
+    tolerance : the gain that an action must exceed to replace the current one; at least 0.
 
     Returns
     -------

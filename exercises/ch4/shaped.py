@@ -1,4 +1,4 @@
-# Exercise 4.2: Advice that does not mislead. 4 points, warm-up, about 15 minutes.
+# Exercise 4.2: Reward shaping with a potential. 4 points, warm-up, about 15 minutes.
 # Check it with: robonav check 4.2
 """A reward like the chapter's can be exploited: if every step away from an obstacle is rewarded, a robot may go to and
 fro in front of it. Ng, Harada and Russell (1999) found the additional rewards that leave the optimal policy unchanged.
@@ -17,7 +17,7 @@ def shaped(
     ended: bool,
     discount: float,
 ) -> NDArray[np.float64]:
-    """The rewards with the advice added.
+    """The shaped rewards of an episode.
 
     Parameters
     ----------

@@ -13,20 +13,20 @@ from numpy.typing import NDArray
 
 
 def accuracies(
-    shown: NDArray[np.int64],
-    chosen: NDArray[np.int64],
+    expert_actions: NDArray[np.int64],
+    policy_actions: NDArray[np.int64],
     number: int,
 ) -> NDArray[np.float64]:
     """Plain accuracy and agreement beyond chance.
 
     Parameters
     ----------
-    shown : (N,), the expert's actions, 0 to ``number`` - 1; one at least.
-    chosen : (N,), the policy's actions in the same states.
-    number : of actions there are; neither need take them all.
+    expert_actions : (N,), the expert's actions, 0 to ``number`` - 1; at least one.
+    policy_actions : (N,), the policy's actions in the same states.
+    number : number of actions; some may never occur.
 
     Returns
     -------
-    (2,), the plain accuracy, and the agreement beyond chance; this is 0 where chance alone would agree in every step.
+    (2,), the plain accuracy, and the agreement beyond chance; this is 0 if c is 1.
     """
     raise NotImplementedError("accuracies is yours to write")

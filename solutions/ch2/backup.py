@@ -1,10 +1,10 @@
 """In the chapter a reward belongs to a state and an action, and a terminal state is one that returns to itself. Here
-the reward is paid for the transition, $r(s, a, s')$, and terminal states are marked: nothing follows them, whatever
-the value table says. Write the Bellman backup for this case,
+the reward belongs to the transition, $r(s, a, s')$, and terminal states are marked. The episode ends in a terminal
+state, so its entry in the value table must be ignored. Write the Bellman backup for this case,
 
 $$Q(s, a) = \\sum_{s'} P(s' \\mid s, a) \\left(r(s, a, s') + \\gamma V(s')\\right),$$
 
-with $V(s') = 0$ where $s'$ is terminal, and $Q(s, \\cdot) = 0$ where $s$ itself is.
+with $V(s') = 0$ where $s'$ is terminal, and $Q(s, \\cdot) = 0$ where $s$ itself is terminal.
 """
 
 import numpy as np
@@ -25,8 +25,8 @@ def backup(
     transitions : (A, S, S), probability of each next state after an action in a state.
     rewards : (A, S, S), reward of each transition.
     discount : discount factor in [0, 1].
-    values : (S,), values of the states; those of terminal states are to be ignored.
-    terminal : (S,), whether nothing follows a state.
+    values : (S,), values of the states; ignore those of terminal states.
+    terminal : (S,), whether a state is terminal.
 
     Returns
     -------

@@ -1,6 +1,6 @@
-"""A robot with a battery plans to the end of its charge. Every action uses up a whole number of units, at least one;
-an action that needs more than is left cannot be taken, and when none can be taken the run is over. Nothing is
-discounted: the horizon is finite, but it is the charge that counts down, not the time. Compute the largest expected
+"""A robot plans until its battery is empty. Every action uses a whole number of units of charge, at least one. An
+action that needs more units than are left is not possible, and the episode ends when no action is possible. Rewards
+are not discounted. The horizon is finite, but the charge counts down instead of the time. Compute the largest expected
 sum of rewards from every state with every charge.
 """
 
@@ -18,7 +18,7 @@ def battery(
     transitions : (A, S, S), probability of each next state after an action in a state.
     rewards : (S, A), reward of each action in each state.
     costs : (A,), units of charge that each action uses, at least 1.
-    charge : a full battery's units C.
+    charge : units C of a full battery.
 
     Returns
     -------

@@ -1,8 +1,8 @@
-"""An evening's project: R-max (Brafman and Tennenholtz, 2002), learning that explores because it is optimistic. From
-the steps seen so far, estimate a model by counting; believe it only for the pairs of state and action that were
-tried often enough, and take every other pair to be as good as anything could be, worth $r_{max} / (1 - \\gamma)$.
-Then plan in this model to the end. Whoever acts greedily on the result goes where the model is not known yet, until
-it is.
+"""A project for an evening: R-max (Brafman and Tennenholtz, 2002), a method that explores because it is optimistic.
+Estimate a model by counting the steps recorded so far. Use the estimate only for pairs of state and action that were
+tried a given number of times. Every other pair gets the largest possible value, $r_{max} / (1 - \\gamma)$. Then compute
+the optimal action values of this model. A robot that acts greedily on them explores the unknown pairs until all pairs
+that it can reach are known.
 """
 
 import numpy as np
@@ -14,26 +14,26 @@ def explorer(
     rewards: NDArray[np.float64],
     terminated: NDArray[np.bool_],
     size: tuple[int, int],
-    enough: int,
-    most: float,
+    known_after: int,
+    largest_reward: float,
     discount: float,
 ) -> NDArray[np.float64]:
     """Action values of the optimistic model.
 
     Parameters
     ----------
-    steps : (N, 3), state, action and next state of each step seen.
+    steps : (N, 3), state, action and next state of each recorded step.
     rewards : (N,), its reward.
-    terminated : (N,), whether the episode ended with it; nothing follows then.
+    terminated : (N,), whether the episode ended with it; the next state then counts nothing.
     size : numbers of states S and of actions A.
-    enough : tries after which a pair counts as known, at least 1.
-    most : the largest reward there is.
+    known_after : number of tries after which a pair is known, at least 1.
+    largest_reward : the largest possible reward.
     discount : discount factor in [0, 1).
 
     Returns
     -------
-    (S, A), values of the pairs in the model, exact to 1e-8: the mean of what was seen for known pairs,
-    ``most / (1 - discount)`` for the others.
+    (S, A), optimal values of the pairs in the model, exact to 1e-8. The reward of a known pair is the mean of its
+    recorded rewards; the value of an unknown pair is ``largest_reward / (1 - discount)``.
     """
     ### BEGIN SOLUTION
     states, actions = size
@@ -45,12 +45,13 @@ def explorer(
         earned[state, action] += reward
         if not last:
             led[state, action, following] += 1
-    known = tries >= enough
+    known = tries >= known_after
     mean = earned / np.maximum(tries, 1)
     led /= np.maximum(tries, 1)[:, :, None]
-    q = np.full(size, most / (1 - discount))
+    largest = largest_reward / (1 - discount)
+    q = np.full(size, largest)
     while True:
-        new = np.where(known, mean + discount * led @ q.max(axis=1), most / (1 - discount))
+        new = np.where(known, mean + discount * led @ q.max(axis=1), largest)
         if np.abs(new - q).max() <= 1e-9 * (1 - discount):
             return new
         q = new

@@ -1,7 +1,7 @@
-"""Monte Carlo prediction averages the returns that followed a state. Taken at its first visit in each episode only,
-the returns of different episodes are independent, and their mean is unbiased. Write first-visit prediction from
-recorded episodes; say for each state how many episodes visited it, too, and leave the value of an unvisited one at
-zero.
+"""Monte Carlo prediction averages the returns after visits to a state. First-visit prediction uses only the first visit
+in each episode. These returns come from different episodes, so they are independent, and their mean is unbiased. Write
+first-visit prediction from recorded episodes. Also return for each state the number of episodes that visited it. The
+value of a state that no episode visited is zero.
 """
 
 import numpy as np
@@ -15,8 +15,8 @@ def first_visits(
 
     Parameters
     ----------
-    states : for each episode the states it went through, in order; the last one, where nothing was done, is left out.
-    rewards : for each episode the reward on leaving each of these states.
+    states : for each episode its states in order, without the last one, in which no action was taken.
+    rewards : for each episode the reward of the step from each of these states.
     discount : discount factor in [0, 1].
     size : number of states S.
 

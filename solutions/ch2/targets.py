@@ -1,7 +1,8 @@
-"""Q-learning, SARSA and expected SARSA differ in one number: what they take the next state to be worth. Compute the
-three targets $r + \\gamma \\cdot (\\text{worth of } s')$ for a batch of recorded steps, with nothing to come after
-the last step of an episode. Expected SARSA takes the mean over the $\\varepsilon$-greedy policy: with probability
-$\\varepsilon$ any of the $A$ actions, each alike, otherwise a best one, all best ones alike.
+"""Q-learning, SARSA and expected SARSA differ only in the value that they use for the next state. Compute the three
+targets $r + \\gamma \\cdot (\\text{value of } s')$ for a batch of recorded steps. After the last step of an episode
+this value is 0. Expected SARSA uses the mean over the $\\varepsilon$-greedy policy. With probability $\\varepsilon$
+this policy takes any of the $A$ actions, each with the same probability. Otherwise it takes a best action, and each
+best action with the same probability.
 """
 
 import numpy as np
@@ -21,9 +22,9 @@ def targets(
 
     Parameters
     ----------
-    q : (S, A), action values so far.
+    q : (S, A), current action values.
     rewards : (N,), reward of each step.
-    next_states, next_actions : (N,), the state each step led to and the action taken there.
+    next_states, next_actions : (N,), the next state of each step, and the action taken there.
     terminated : (N,), whether the episode ended with the step.
     discount, epsilon : discount factor and exploration, both in [0, 1].
 

@@ -1,7 +1,7 @@
-"""A robot's sensor drops out now and then, and once in a while it lies. Follow the belief over a whole run: in each
-step the robot moves, then reads its sensor. A reading of $-1$ stands for none at all: the belief is then only what
-the move makes of it. A reading that cannot be where the belief says the robot may be, so that Bayes' rule would
-divide by zero, is a lie: treat it as none.
+"""A robot's sensor sometimes gives no reading, and sometimes a wrong one. Compute the belief over a whole episode. In
+each step the robot moves, and then reads its sensor. A reading of $-1$ means that there is none: the belief is then the
+prediction from the move. If a reading has probability zero in all states that the belief allows, Bayes' rule would
+divide by zero. Such a reading is wrong: ignore it.
 """
 
 import numpy as np
@@ -15,15 +15,15 @@ def track(
     actions: NDArray[np.int64],
     readings: NDArray[np.int64],
 ) -> NDArray[np.float64]:
-    """The belief after a run.
+    """The belief after an episode.
 
     Parameters
     ----------
     belief : (S,), probability of each state before the first step.
     transitions : (A, S, S), probability of each next state after an action in a state.
-    observations : (A, S, O), probability of each reading in the state that an action led to.
+    observations : (A, S, O), probability of each reading in the state after an action.
     actions : (T,), the action of each step.
-    readings : (T,), what was read after each step, -1 for nothing.
+    readings : (T,), the reading after each step, -1 for none.
 
     Returns
     -------

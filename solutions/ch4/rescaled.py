@@ -26,7 +26,7 @@ def rescaled(
     ----------
     outputs, next_outputs : (N, A), the network's answers in [0, 1] before and after each step.
     actions, rewards : (N,), action and reward of each step.
-    ended : (N,), whether the episode ended with it: what follows is then worth exactly 0 as a Q-value.
+    ended : (N,), whether the episode ended with it: the Q-value of the next state is then exactly 0.
     bounds : the least and the greatest reward.
     discount : discount factor in [0, 1).
     learning_rate : learning rate of Q-learning in [0, 1].

@@ -15,7 +15,7 @@ def shaped(
     ended: bool,
     discount: float,
 ) -> NDArray[np.float64]:
-    """The rewards with the advice added.
+    """The shaped rewards of an episode.
 
     Parameters
     ----------

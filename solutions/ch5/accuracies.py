@@ -11,24 +11,25 @@ from numpy.typing import NDArray
 
 
 def accuracies(
-    shown: NDArray[np.int64],
-    chosen: NDArray[np.int64],
+    expert_actions: NDArray[np.int64],
+    policy_actions: NDArray[np.int64],
     number: int,
 ) -> NDArray[np.float64]:
     """Plain accuracy and agreement beyond chance.
 
     Parameters
     ----------
-    shown : (N,), the expert's actions, 0 to ``number`` - 1; one at least.
-    chosen : (N,), the policy's actions in the same states.
-    number : of actions there are; neither need take them all.
+    expert_actions : (N,), the expert's actions, 0 to ``number`` - 1; at least one.
+    policy_actions : (N,), the policy's actions in the same states.
+    number : number of actions; some may never occur.
 
     Returns
     -------
-    (2,), the plain accuracy, and the agreement beyond chance; this is 0 where chance alone would agree in every step.
+    (2,), the plain accuracy, and the agreement beyond chance; this is 0 if c is 1.
     """
     ### BEGIN SOLUTION
-    plain = (shown == chosen).mean()
-    chance = np.bincount(shown, minlength=number) @ np.bincount(chosen, minlength=number) / len(shown) ** 2
-    return np.array([plain, (plain - chance) / (1 - chance) if chance < 1 else 0.0])
+    plain = (expert_actions == policy_actions).mean()
+    p, q = (np.bincount(taken, minlength=number) / len(taken) for taken in (expert_actions, policy_actions))
+    expected = p @ q
+    return np.array([plain, (plain - expected) / (1 - expected) if expected < 1 else 0.0])
     ### END SOLUTION

@@ -18,16 +18,22 @@ def process(rng, states=5, actions=3):
 
 @pytest.mark.part("2.1", points=2)
 def test_backup_in_random_worlds(answer, rng):
-    """Agrees with the definition in random decision processes without an end."""
+    """Agrees with the definition in random decision processes without terminal states."""
     for _ in range(10):
         transitions, _ = process(rng)
         rewards, values = rng.normal(size=transitions.shape), rng.normal(size=5)
-        answer.agrees(transitions, rewards, rng.uniform(0.3, 0.95), values, np.zeros(5, dtype=bool))
+        answer.agrees(
+            transitions,
+            rewards,
+            rng.uniform(0.3, 0.95),
+            values,
+            np.zeros(5, dtype=bool),
+        )
 
 
 @pytest.mark.part("2.1", points=1)
 def test_backup_into_the_end(answer, rng):
-    """Counts nothing after a terminal state, and nothing in one."""
+    """Gives terminal states the value 0, also as next states."""
     for _ in range(10):
         transitions, _ = process(rng, states=6, actions=2)
         rewards, values = rng.normal(size=transitions.shape), rng.normal(size=6)
@@ -36,11 +42,17 @@ def test_backup_into_the_end(answer, rng):
 
 @pytest.mark.part("2.1", points=1)
 def test_backup_without_a_future(answer, rng):
-    """With a discount of 0 only the next reward counts; with 1 all that follows."""
+    """Uses only the next reward with a discount of 0, and all later values in full with 1."""
     for discount in (0.0, 1.0):
         transitions, _ = process(rng, states=4, actions=4)
         terminal = np.array([False, True, False, False])
-        answer.agrees(transitions, rng.normal(size=transitions.shape), discount, rng.normal(size=4), terminal)
+        answer.agrees(
+            transitions,
+            rng.normal(size=transitions.shape),
+            discount,
+            rng.normal(size=4),
+            terminal,
+        )
 
 
 @pytest.mark.part("2.2", points=1)
@@ -53,16 +65,20 @@ def test_improve_where_one_is_best(answer, rng):
 
 @pytest.mark.part("2.2", points=2)
 def test_improve_where_actions_tie(answer, rng):
-    """Keeps the action in hand where none is better; takes the first of several that are."""
+    """Keeps the current action where none is better; takes the first of several that are."""
     for _ in range(10):
-        answer.agrees(rng.integers(3, size=(12, 5)).astype(float), rng.integers(5, size=12), 0.0)
+        answer.agrees(
+            rng.integers(3, size=(12, 5)).astype(float), rng.integers(5, size=12), 0.0
+        )
 
 
 @pytest.mark.part("2.2", points=1)
 def test_improve_within_the_tolerance(answer, rng):
     """Does not change for a gain of the tolerance or less."""
     for _ in range(10):
-        answer.agrees(rng.integers(6, size=(12, 4)).astype(float), rng.integers(4, size=12), 2.0)
+        answer.agrees(
+            rng.integers(6, size=(12, 4)).astype(float), rng.integers(4, size=12), 2.0
+        )
 
 
 @pytest.mark.part("2.3", points=2)
@@ -70,12 +86,16 @@ def test_bounds_of_random_sweeps(answer, rng):
     """Agrees with the definition on two successive value tables."""
     for _ in range(10):
         previous = rng.normal(size=6)
-        answer.agrees(previous, previous + rng.normal(rng.normal(), 1, size=6), rng.uniform(0.3, 0.95))
+        answer.agrees(
+            previous,
+            previous + rng.normal(rng.normal(), 1, size=6),
+            rng.uniform(0.3, 0.95),
+        )
 
 
 @pytest.mark.part("2.3", points=2)
 def test_bounds_enclose_the_optimum(answer, rng):
-    """The optimal values lie between the bounds, after every sweep of value iteration."""
+    """Has the optimal values between the bounds, after every sweep of value iteration."""
     for _ in range(3):
         (transitions, rewards), discount = process(rng), 0.8
 
@@ -88,18 +108,29 @@ def test_bounds_enclose_the_optimum(answer, rng):
         previous, values = np.zeros(5), sweep(np.zeros(5))
         for _ in range(4):
             lower, upper = answer.agrees(previous, values, discount)
-            enclosed = np.all(np.asarray(lower) <= optimum + 1e-6) and np.all(optimum <= np.asarray(upper) + 1e-6)
+            enclosed = np.all(np.asarray(lower) <= optimum + 1e-6) and np.all(
+                optimum <= np.asarray(upper) + 1e-6
+            )
             answer.check(enclosed, "the optimal values lie outside of the bounds")
             previous, values = values, sweep(values)
 
 
 def a_run(rng, states, readings, length, *, certain=False):
     """A belief, a world, and what happened in it; ``certain`` leaves each state some readings that it cannot give."""
-    transitions, observations = chances(rng, 2, states, states), chances(rng, 2, states, readings)
+    transitions, observations = (
+        chances(rng, 2, states, states),
+        chances(rng, 2, states, readings),
+    )
     if not certain:
         observations = 0.5 * observations + 0.5 / readings
     belief = rng.random(states)
-    return belief / belief.sum(), transitions, observations, rng.integers(2, size=length), length
+    return (
+        belief / belief.sum(),
+        transitions,
+        observations,
+        rng.integers(2, size=length),
+        length,
+    )
 
 
 @pytest.mark.part("2.4", points=2)
@@ -112,7 +143,7 @@ def test_track_one_step(answer, rng):
 
 @pytest.mark.part("2.4", points=2)
 def test_track_through_gaps(answer, rng):
-    """Follows the belief through readings that are missing."""
+    """Predicts from the moves where readings are missing."""
     for _ in range(10):
         *world, length = a_run(rng, 4, 3, 8)
         answer.agrees(*world, rng.integers(-1, 3, size=length))
@@ -120,9 +151,11 @@ def test_track_through_gaps(answer, rng):
 
 @pytest.mark.part("2.4", points=1)
 def test_track_through_lies(answer, rng):
-    """Takes a reading that cannot be for none."""
+    """Ignores a reading that is impossible."""
     for last in (False, True) * 5:
-        belief, transitions, observations, actions, length = a_run(rng, 4, 6, 6, certain=True)
+        belief, transitions, observations, actions, length = a_run(
+            rng, 4, 6, 6, certain=True
+        )
         readings = rng.integers(-1, 6, size=length)
         if last:  # a reading that no state gives
             observations[:, :, 5] = 0
@@ -133,11 +166,14 @@ def test_track_through_lies(answer, rng):
 
 @pytest.mark.part("2.4", points=1)
 def test_track_stays_a_belief(answer, rng):
-    """Ends with probabilities that sum to one, and with the belief itself after no step at all."""
+    """Returns probabilities that sum to one, and the given belief after zero steps."""
     for length in (0, 30):
         *world, length = a_run(rng, 5, 3, length)
         belief = answer.array(*world, rng.integers(-1, 3, size=length), shape=(5,))
-        answer.check(abs(belief.sum() - 1) < 1e-4 and bool((belief >= 0).all()), "this is no belief")
+        answer.check(
+            abs(belief.sum() - 1) < 1e-4 and bool((belief >= 0).all()),
+            "this is no belief",
+        )
     *world, _ = a_run(rng, 5, 3, 0)
     answer.agrees(*world, np.zeros(0, dtype=int))
 
@@ -163,7 +199,7 @@ def test_targets_of_random_steps(answer, rng):
 
 @pytest.mark.part("2.5", points=1)
 def test_targets_where_actions_tie(answer, rng):
-    """Shares the greedy choice among all best actions."""
+    """Gives all best actions the same probability."""
     for _ in range(10):
         q = rng.integers(2, size=(5, 4)).astype(float)
         answer.agrees(q, *batch(rng, q), 0.9, 0.3)
@@ -171,7 +207,7 @@ def test_targets_where_actions_tie(answer, rng):
 
 @pytest.mark.part("2.5", points=1)
 def test_targets_at_the_extremes(answer, rng):
-    """Without exploration expected SARSA is Q-learning; with nothing but exploration it takes the mean."""
+    """Makes expected SARSA equal to Q-learning for epsilon 0, and takes the mean of all actions for epsilon 1."""
     for epsilon in (0.0, 1.0):
         q = rng.normal(size=(5, 3))
         answer.agrees(q, *batch(rng, q), 0.9, epsilon)
@@ -201,7 +237,7 @@ def test_first_visits_of_many_episodes(answer, rng):
 
 @pytest.mark.part("2.6", points=1)
 def test_first_visits_of_nothing(answer, rng):
-    """Leaves unvisited states at zero, though nothing is discounted."""
+    """Returns zero for unvisited states, also without discounting."""
     states, rewards = wander(rng, 3, 4, 6)
     answer.agrees(states, rewards, 1.0, 7)
     answer.agrees([], [], 0.9, 3)
@@ -209,14 +245,14 @@ def test_first_visits_of_nothing(answer, rng):
 
 @pytest.mark.part("2.7", points=2)
 def test_battery_of_unit_costs(answer, rng):
-    """Where every action costs one unit, charge and time are the same."""
+    """Agrees with planning for a number of steps where every action uses one unit."""
     for _ in range(5):
         answer.agrees(*process(rng), np.ones(3, dtype=int), 6)
 
 
 @pytest.mark.part("2.7", points=3)
 def test_battery_of_random_costs(answer, rng):
-    """Plans with actions of different costs, rewards of either sign, and charges that no action can use."""
+    """Plans with actions of different costs, rewards of both signs, and charges with which no action is possible."""
     for _ in range(10):
         transitions, rewards = process(rng, states=4)
         answer.agrees(transitions, rewards - 0.5, rng.integers(2, 5, size=3), 9)
@@ -224,15 +260,22 @@ def test_battery_of_random_costs(answer, rng):
 
 @pytest.mark.part("2.7", points=1)
 def test_battery_empty(answer, rng):
-    """With no charge nothing can be earned."""
+    """Returns zero for an empty battery."""
     answer.agrees(*process(rng, states=3, actions=2), np.array([1, 2]), 0)
     answer.agrees(*process(rng, states=3, actions=2), np.array([3, 4]), 2)
 
 
 def seen(rng, states, actions, steps):
     """Steps of a robot that wandered, their rewards and ends."""
-    visited = np.stack([rng.integers(n, size=steps) for n in (states, actions, states)], axis=1)
-    return visited, rng.integers(-2, 3, size=steps).astype(float), rng.random(steps) < 0.2, (states, actions)
+    visited = np.stack(
+        [rng.integers(n, size=steps) for n in (states, actions, states)], axis=1
+    )
+    return (
+        visited,
+        rng.integers(-2, 3, size=steps).astype(float),
+        rng.random(steps) < 0.2,
+        (states, actions),
+    )
 
 
 @pytest.mark.part("2.8", points=5)
@@ -244,26 +287,45 @@ def test_explorer_after_many_steps(answer, rng):
 
 @pytest.mark.part("2.8", points=2)
 def test_explorer_that_knows_all(answer, rng):
-    """Plans in the estimated model alone where every pair was tried often enough."""
+    """Plans in the estimated model if all pairs are known."""
     for _ in range(3):
         steps, rewards, terminated, size = seen(rng, 3, 2, 30)
-        everywhere = np.array([[s, a, rng.integers(3)] for s in range(3) for a in range(2)])
-        steps, rewards = np.concatenate([steps, everywhere]), np.concatenate([rewards, np.ones(6)])
-        answer.agrees(steps, rewards, np.concatenate([terminated, np.zeros(6, dtype=bool)]), size, 1, 2.0, 0.9)
+        everywhere = np.array(
+            [[s, a, rng.integers(3)] for s in range(3) for a in range(2)]
+        )
+        steps, rewards = (
+            np.concatenate([steps, everywhere]),
+            np.concatenate([rewards, np.ones(6)]),
+        )
+        answer.agrees(
+            steps,
+            rewards,
+            np.concatenate([terminated, np.zeros(6, dtype=bool)]),
+            size,
+            1,
+            2.0,
+            0.9,
+        )
 
 
 @pytest.mark.part("2.8", points=2)
 def test_explorer_on_the_border(answer, rng):
-    """A pair tried exactly often enough is known, one short of it is not."""
+    """Takes a pair for known after exactly the given number of tries, and not one try earlier."""
     for tries in (1, 2, 3):
         steps = np.tile([[0, 0, 1]], (tries, 1))
         answer.agrees(
-            steps, rng.integers(-2, 2, size=tries).astype(float), np.zeros(tries, dtype=bool), (2, 1), 2, 1.0, 0.5
+            steps,
+            rng.integers(-2, 2, size=tries).astype(float),
+            np.zeros(tries, dtype=bool),
+            (2, 1),
+            2,
+            1.0,
+            0.5,
         )
 
 
 @pytest.mark.part("2.8", points=1)
 def test_explorer_that_has_seen_nothing(answer, rng):
-    """Expects the best of everything before its first step."""
+    """Gives all pairs the largest possible value before the first step."""
     nothing = np.zeros((0, 3), dtype=int), np.zeros(0), np.zeros(0, dtype=bool)
     answer.agrees(*nothing, (3, 2), 1, 1.5, 0.75)

@@ -15,15 +15,19 @@ def some(rng, *shape):
 def test_explore_what_is_allowed(answer, rng):
     """Agrees with Eq. (4.7) among the actions that are allowed."""
     for _ in range(6):
-        answer.agrees(rng.normal(size=(5, 4)), rng.uniform(0.3, 2, size=5), some(rng, 5, 4))
+        answer.agrees(
+            rng.normal(size=(5, 4)), rng.uniform(0.3, 2, size=5), some(rng, 5, 4)
+        )
 
 
 @pytest.mark.part("4.1", points=1)
 def test_explore_at_temperature_zero(answer, rng):
-    """Takes a best allowed action at temperature zero, all best ones alike."""
+    """Takes a best allowed action at temperature zero, and each best one with the same probability."""
     for _ in range(6):
         answer.agrees(
-            rng.integers(-2, 1, size=(8, 4)).astype(float), rng.integers(2, size=8).astype(float), some(rng, 8, 4)
+            rng.integers(-2, 1, size=(8, 4)).astype(float),
+            rng.integers(2, size=8).astype(float),
+            some(rng, 8, 4),
         )
 
 
@@ -31,38 +35,64 @@ def test_explore_at_temperature_zero(answer, rng):
 def test_explore_without_overflow(answer, rng):
     """Stays finite with large values and low temperatures."""
     for _ in range(6):
-        answer.agrees(rng.uniform(-5000, 5000, size=(5, 4)), rng.uniform(0.001, 1, size=5), some(rng, 5, 4))
+        answer.agrees(
+            rng.uniform(-5000, 5000, size=(5, 4)),
+            rng.uniform(0.001, 1, size=5),
+            some(rng, 5, 4),
+        )
 
 
 @pytest.mark.part("4.2", points=2)
 def test_shaped_episodes(answer, rng):
     """Agrees with the definition on episodes that ended."""
     for steps in (1, 2, 5, 9):
-        answer.agrees(rng.normal(size=steps), rng.normal(size=steps + 1), True, rng.uniform(0.3, 0.95))
+        answer.agrees(
+            rng.normal(size=steps),
+            rng.normal(size=steps + 1),
+            True,
+            rng.uniform(0.3, 0.95),
+        )
 
 
 @pytest.mark.part("4.2", points=1)
 def test_shaped_episodes_cut_off(answer, rng):
     """Keeps the last state's potential where the episode was only cut off."""
     for steps in (0, 1, 6):
-        answer.agrees(rng.normal(size=steps), rng.normal(size=steps + 1), False, rng.uniform(0.3, 0.95))
+        answer.agrees(
+            rng.normal(size=steps),
+            rng.normal(size=steps + 1),
+            False,
+            rng.uniform(0.3, 0.95),
+        )
 
 
 @pytest.mark.part("4.2", points=1)
 def test_shaped_rewards_cancel(answer, rng):
-    """Changes an episode's return by the potential of its start alone."""
+    """Changes the return of an episode only by the potential of its first state."""
     for discount in (0.0, 0.7, 1.0):
         rewards, potentials = rng.normal(size=6), rng.normal(size=7)
-        new = np.asarray(answer.agrees(rewards, potentials, True, discount), dtype=float)
+        new = np.asarray(
+            answer.agrees(rewards, potentials, True, discount), dtype=float
+        )
         gained = ((new - rewards) * discount ** np.arange(6)).sum()
-        answer.check(abs(gained + potentials[0]) < 1e-4, "the additions do not cancel over the episode")
+        answer.check(
+            abs(gained + potentials[0]) < 1e-4,
+            "the additions do not cancel over the episode",
+        )
 
 
 def steps(rng, n=6, actions=4, *, bold=False):
     """The network's answers and what happened; ``bold`` rewards leave their bounds."""
     rewards = rng.uniform(-6, 6, size=n) if bold else rng.uniform(-1, 0.5, size=n)
     chosen = rng.integers(actions, size=n)
-    return rng.random((n, actions)), chosen, rewards, rng.random((n, actions)), rng.random(n) < 0.4, (-1.0, 0.5)
+    return (
+        rng.random((n, actions)),
+        chosen,
+        rewards,
+        rng.random((n, actions)),
+        rng.random(n) < 0.4,
+        (-1.0, 0.5),
+    )
 
 
 @pytest.mark.part("4.3", points=3)
@@ -74,10 +104,19 @@ def test_rescaled_targets(answer, rng):
 
 @pytest.mark.part("4.3", points=1)
 def test_rescaled_targets_at_the_ends(answer, rng):
-    """Takes 0 for the worth of nothing to come, not the least value there is."""
+    """Uses the Q-value 0 after the last step of an episode, not the smallest possible Q-value."""
     for _ in range(5):
         outputs, actions, rewards, following, _, bounds = steps(rng)
-        answer.agrees(outputs, actions, rewards, following, np.ones(6, dtype=bool), bounds, 0.8, 0.5)
+        answer.agrees(
+            outputs,
+            actions,
+            rewards,
+            following,
+            np.ones(6, dtype=bool),
+            bounds,
+            0.8,
+            0.5,
+        )
 
 
 @pytest.mark.part("4.3", points=1)
@@ -88,7 +127,11 @@ def test_rescaled_targets_beyond_the_bounds(answer, rng):
 
 
 def episode(rng, length, features=3, actions=2):
-    return rng.normal(size=(length + 1, features)), rng.integers(actions, size=length), rng.normal(size=length)
+    return (
+        rng.normal(size=(length + 1, features)),
+        rng.integers(actions, size=length),
+        rng.normal(size=length),
+    )
 
 
 @pytest.mark.part("4.4", points=2)
@@ -108,7 +151,7 @@ def test_accumulated_over_an_episode(answer, rng):
 
 @pytest.mark.part("4.4", points=2)
 def test_accumulated_to_the_end(answer, rng):
-    """Expects nothing after the last step of an episode that ended, though its value would be high."""
+    """Uses only the reward for the last step of an episode that ended, although its last state has a large value."""
     for _ in range(4):
         features, actions, _ = episode(rng, 6)
         answer.agrees(np.abs(features), actions, np.ones(6), True, 2, 1.0, 0.1)
@@ -118,19 +161,26 @@ def records(rng, n=30, k=3, actions=3):
     """Recorded steps; with n > 10 every action is taken."""
     chosen = np.concatenate([np.arange(actions), rng.integers(actions, size=n)])[:n]
     outcomes = rng.choice([0, 0, 0, 1, -1], size=n)
-    return rng.normal(size=(n, k)), chosen, rng.uniform(0, 0.3, size=n), rng.normal(size=(n, k)), outcomes, actions
+    return (
+        rng.normal(size=(n, k)),
+        chosen,
+        rng.uniform(0, 0.3, size=n),
+        rng.normal(size=(n, k)),
+        outcomes,
+        actions,
+    )
 
 
 @pytest.mark.part("4.5", points=3)
 def test_fitted_once(answer, rng):
-    """Fits the costs in the first iteration, the worst where the robot failed."""
+    """Fits the costs in the first iteration, and the target 1 where the robot failed."""
     for _ in range(4):
         answer.agrees(*records(rng), 0.9, rng.uniform(0.5, 2), 1)
 
 
 @pytest.mark.part("4.5", points=5)
 def test_fitted_again_and_again(answer, rng):
-    """Computes targets anew in each iteration, from the best action of the next state."""
+    """Computes new targets in each iteration, from the best action of the next state."""
     for iterations in (2, 3, 10):
         for _ in range(2):
             answer.agrees(*records(rng), 0.9, 0.8, iterations)
@@ -153,14 +203,24 @@ def test_changes_of_random_weights(answer, rng):
 
 @pytest.mark.part("4.6", points=1)
 def test_changes_that_cancel(answer, rng):
-    """Tells changes that cancel from none."""
+    """Distinguishes changes that cancel from no change."""
     change = rng.normal(size=(3, 4))
-    answer.agrees(np.vstack([np.zeros(8), np.hstack([change, -change]), np.hstack([change, -change])[-1:]]))
+    answer.agrees(
+        np.vstack(
+            [
+                np.zeros(8),
+                np.hstack([change, -change]),
+                np.hstack([change, -change])[-1:],
+            ]
+        )
+    )
 
 
 def careers(rng, seeds, episodes):
     """Seeds that learn, some sooner than others."""
-    chance = np.clip(np.linspace(0, 1, episodes) + rng.normal(0, 0.3, size=(seeds, 1)), 0, 1)
+    chance = np.clip(
+        np.linspace(0, 1, episodes) + rng.normal(0, 0.3, size=(seeds, 1)), 0, 1
+    )
     return rng.random((seeds, episodes)) < chance
 
 

@@ -17,14 +17,16 @@ def test_expectations_of_one_trajectory(answer, rng):
 
 @pytest.mark.part("5.1", points=2)
 def test_expectations_of_many_trajectories(answer, rng):
-    """Lets every trajectory count alike, however long."""
+    """Gives every trajectory the same weight, whatever its length."""
     for _ in range(5):
-        answer.agrees(trajectories(rng, rng.integers(1, 9, size=4)), rng.uniform(0.3, 0.95))
+        answer.agrees(
+            trajectories(rng, rng.integers(1, 9, size=4)), rng.uniform(0.3, 0.95)
+        )
 
 
 @pytest.mark.part("5.1", points=1)
 def test_expectations_at_the_extremes(answer, rng):
-    """Takes the first step alone with a discount of 0, and the plain mean with 1; a constant stays itself."""
+    """Uses only the first step with a discount of 0, and the plain mean with 1. A feature that is always 1 stays 1."""
     for discount in (0.0, 1.0):
         answer.agrees(trajectories(rng, [3, 6]), discount)
     answer.agrees([np.ones((4, 2)), np.ones((1, 2))], 0.9)
@@ -47,13 +49,17 @@ def test_intended_on_a_slippery_road(answer, rng):
 
 @pytest.mark.part("5.2", points=1)
 def test_intended_with_zeros(answer, rng):
-    """Copes with actions that never slip, and with some that nobody means."""
+    """Allows actions that never slip, and actions that the expert never means."""
     slip = np.array([[0.6, 0.4, 0.0], [0.0, 1.0, 0.0], [0.0, 0.3, 0.7]])
     for _ in range(5):
         states = rng.integers(4, size=12)
-        done = np.where(states % 2 == 0, rng.integers(0, 2, size=12), rng.integers(1, 3, size=12))
+        done = np.where(
+            states % 2 == 0, rng.integers(0, 2, size=12), rng.integers(1, 3, size=12)
+        )
         answer.agrees(states, done, slip, np.array([0.3, 0.4, 0.3]), 6)
-    answer.agrees(np.array([1, 1]), np.array([1, 1]), slip, np.array([0.5, 0.0, 0.5]), 2)
+    answer.agrees(
+        np.array([1, 1]), np.array([1, 1]), slip, np.array([0.5, 0.0, 0.5]), 2
+    )
 
 
 @pytest.mark.part("5.2", points=1)
@@ -61,31 +67,52 @@ def test_intended_over_a_long_time(answer, rng):
     """Stays right when a state was seen thousands of times."""
     slip = slippery(rng, 3)
     for meant in range(3):
-        answer.agrees(np.zeros(4000, dtype=int), rng.choice(3, p=slip[meant], size=4000), slip, np.full(3, 1 / 3), 1)
+        answer.agrees(
+            np.zeros(4000, dtype=int),
+            rng.choice(3, p=slip[meant], size=4000),
+            slip,
+            np.full(3, 1 / 3),
+            1,
+        )
 
 
 @pytest.mark.part("5.3", points=2)
 def test_projected_between(answer, rng):
     """Finds the nearest point where it lies between the mixture and the new policy."""
     for _ in range(8):
-        mixture, found, scale = rng.normal(size=4), rng.normal(size=4), rng.uniform(0.2, 5, size=4)
+        mixture, found, scale = (
+            rng.normal(size=4),
+            rng.normal(size=4),
+            rng.uniform(0.2, 5, size=4),
+        )
         aside = rng.normal(size=4)
         along = (found - mixture) / scale
         aside = (aside - aside @ along / (along @ along) * along) * scale
-        answer.agrees(mixture, found, mixture + rng.uniform(0.1, 0.9) * (found - mixture) + aside, scale)
+        answer.agrees(
+            mixture,
+            found,
+            mixture + rng.uniform(0.1, 0.9) * (found - mixture) + aside,
+            scale,
+        )
 
 
 @pytest.mark.part("5.3", points=1)
 def test_projected_beyond(answer, rng):
     """Stays on the segment where the expert lies beyond either end."""
     for _ in range(8):
-        mixture, found, scale = rng.normal(size=3), rng.normal(size=3), rng.uniform(0.2, 5, size=3)
-        answer.agrees(mixture, found, mixture + rng.choice([-1.5, 2.5]) * (found - mixture), scale)
+        mixture, found, scale = (
+            rng.normal(size=3),
+            rng.normal(size=3),
+            rng.uniform(0.2, 5, size=3),
+        )
+        answer.agrees(
+            mixture, found, mixture + rng.choice([-1.5, 2.5]) * (found - mixture), scale
+        )
 
 
 @pytest.mark.part("5.3", points=1)
 def test_projected_onto_itself(answer, rng):
-    """Moves nothing where the new policy is the mixture itself."""
+    """Leaves the mixture unchanged where the new policy equals it."""
     mixture = rng.normal(size=4)
     answer.agrees(mixture, mixture, rng.normal(size=4), rng.uniform(0.5, 2, size=4))
 
@@ -108,7 +135,7 @@ def game(answer, rng, policies, features):
 
 @pytest.mark.part("5.4", points=3)
 def test_margin_over_one_policy(answer, rng):
-    """Puts all weight on the feature in which a single policy falls short by most."""
+    """Gives all weight to the feature in which the expert exceeds a single policy by most."""
     for _ in range(3):
         game(answer, rng, 1, 4)
 
@@ -122,16 +149,20 @@ def test_margin_over_many_policies(answer, rng):
 
 @pytest.mark.part("5.5", points=3)
 def test_reweighted_samples(answer, rng):
-    """Agrees with the definition where few weights are cut off."""
+    """Agrees with the definition where few weights are clipped."""
     for _ in range(6):
-        answer.agrees(rng.normal(size=20), rng.normal(size=20), rng.normal(size=(20, 3)), 3.0)
+        answer.agrees(
+            rng.normal(size=20), rng.normal(size=20), rng.normal(size=(20, 3)), 3.0
+        )
 
 
 @pytest.mark.part("5.5", points=1)
 def test_reweighted_samples_without_a_cut(answer, rng):
-    """Is the plain estimate where nothing is cut off, and the mean where all weights are alike."""
+    """Returns the plain estimate where no weight is clipped, and the mean where all weights are equal."""
     for _ in range(3):
-        answer.agrees(rng.normal(size=12), rng.normal(size=12), rng.normal(size=(12, 2)), 1000.0)
+        answer.agrees(
+            rng.normal(size=12), rng.normal(size=12), rng.normal(size=(12, 2)), 1000.0
+        )
     log_p = rng.normal(size=9)
     answer.agrees(log_p, log_p - 2, rng.normal(size=(9, 2)), 1.0)
 
@@ -140,21 +171,30 @@ def test_reweighted_samples_without_a_cut(answer, rng):
 def test_reweighted_samples_far_from_zero(answer, rng):
     """Stays finite where the logarithms are in the thousands."""
     for shift in (-4000.0, 3000.0):
-        answer.agrees(shift + rng.normal(size=15), 2 * shift + rng.normal(size=15), rng.normal(size=(15, 3)), 2.0)
+        answer.agrees(
+            shift + rng.normal(size=15),
+            2 * shift + rng.normal(size=15),
+            rng.normal(size=(15, 3)),
+            2.0,
+        )
 
 
 @pytest.mark.part("5.6", points=2)
 def test_accuracies_of_random_policies(answer, rng):
-    """Agrees with the definition on policies that are right more often than not."""
+    """Agrees with the definition on policies that usually agree with the expert."""
     for _ in range(8):
-        shown = np.concatenate([np.arange(4), rng.choice(4, p=[0.7, 0.1, 0.1, 0.1], size=20)])
-        answer.agrees(shown, np.where(rng.random(24) < 0.6, shown, rng.integers(4, size=24)), 4)
+        expert = np.concatenate(
+            [np.arange(4), rng.choice(4, p=[0.7, 0.1, 0.1, 0.1], size=20)]
+        )
+        answer.agrees(
+            expert, np.where(rng.random(24) < 0.6, expert, rng.integers(4, size=24)), 4
+        )
 
 
 @pytest.mark.part("5.6", points=1)
 def test_accuracies_of_always_forward(answer, rng):
-    """Unmasks a policy that always goes forward, even where the expert does, too; some actions neither takes."""
+    """Returns zero for a policy that always goes forward, also where some actions never occur."""
     for _ in range(4):
-        shown = np.concatenate([[0, 2], rng.choice([0, 0, 0, 2, 3], size=15)])
-        answer.agrees(shown, np.zeros(17, dtype=int), 6)
+        expert = np.concatenate([[0, 2], rng.choice([0, 0, 0, 2, 3], size=15)])
+        answer.agrees(expert, np.zeros(17, dtype=int), 6)
     answer.agrees(np.zeros(9, dtype=int), np.zeros(9, dtype=int), 3)

@@ -8,6 +8,6 @@ def backup(transitions, rewards, discount, values, terminal):
         for a in range(actions):
             for t in range(states):
                 if not terminal[s]:
-                    worth = 0.0 if terminal[t] else values[t]
-                    q[s][a] += transitions[a, s, t] * (rewards[a, s, t] + discount * worth)
+                    value = 0.0 if terminal[t] else values[t]
+                    q[s][a] += transitions[a, s, t] * (rewards[a, s, t] + discount * value)
     return q

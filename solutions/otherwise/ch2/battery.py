@@ -1,4 +1,4 @@
-"""2.7 by asking, from the top, what each charge and state is worth."""
+"""2.7 by recursion from the full charge, with a cache."""
 
 from functools import cache
 
@@ -7,13 +7,13 @@ def battery(transitions, rewards, costs, charge):
     actions, states, _ = transitions.shape
 
     @cache
-    def worth(left, state):
+    def value(left, state):
         best = None
         for a in range(actions):
             if costs[a] <= left:
-                following = sum(transitions[a, state, t] * worth(left - int(costs[a]), t) for t in range(states))
+                following = sum(transitions[a, state, t] * value(left - int(costs[a]), t) for t in range(states))
                 q = rewards[state, a] + following
                 best = q if best is None else max(best, q)
         return 0.0 if best is None else best
 
-    return [[worth(left, state) for state in range(states)] for left in range(charge + 1)]
+    return [[value(left, state) for state in range(states)] for left in range(charge + 1)]

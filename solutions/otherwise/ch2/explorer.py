@@ -3,13 +3,13 @@
 import numpy as np
 
 
-def explorer(steps, rewards, terminated, size, enough, most, discount):
+def explorer(steps, rewards, terminated, size, known_after, largest_reward, discount):
     states, actions = size
-    best = most / (1 - discount)
+    best = largest_reward / (1 - discount)
     model = {}
     for (s, a, t), reward, last in zip(steps.tolist(), rewards, terminated):
         model.setdefault((s, a), []).append((reward, None if last else t))
-    model = {pair: seen for pair, seen in model.items() if len(seen) >= enough}
+    model = {pair: seen for pair, seen in model.items() if len(seen) >= known_after}
 
     def backup(values):
         q = [[best] * actions for _ in range(states)]

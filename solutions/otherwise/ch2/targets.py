@@ -4,10 +4,10 @@
 def targets(q, rewards, next_states, next_actions, terminated, discount, epsilon):
     rows = [[], [], []]
     for reward, state, action, last in zip(rewards, next_states, next_actions, terminated):
-        worth = q[state].tolist()
-        best = [a for a, w in enumerate(worth) if w == max(worth)]
-        policy = [epsilon / len(worth) + (1 - epsilon) / len(best) * (a in best) for a in range(len(worth))]
-        following = max(worth), worth[action], sum(p * w for p, w in zip(policy, worth))
+        values = q[state].tolist()
+        best = [a for a, w in enumerate(values) if w == max(values)]
+        policy = [epsilon / len(values) + (1 - epsilon) / len(best) * (a in best) for a in range(len(values))]
+        following = max(values), values[action], sum(p * w for p, w in zip(policy, values))
         for row, value in zip(rows, following):
             row.append(reward + (0 if last else discount * value))
     return rows

@@ -4,21 +4,21 @@ import numpy as np
 
 
 def no_discount(transitions, rewards, discount, values, terminal):
-    """What comes after the next step counts less by the discount factor."""
+    """Multiply the value of the next state by the discount factor."""
     q = np.einsum("ast,ast->sa", transitions, rewards + np.where(terminal, 0.0, values))
     q[terminal] = 0.0
     return q
 
 
 def on_from_the_end(transitions, rewards, discount, values, terminal):
-    """Nothing follows a terminal state: its entry in the value table does not count."""
+    """The episode ends in a terminal state: ignore its entry in the value table."""
     q = np.einsum("ast,ast->sa", transitions, rewards + discount * values)
     q[terminal] = 0.0
     return q
 
 
 def acts_at_the_end(transitions, rewards, discount, values, terminal):
-    """In a terminal state itself no action earns anything any more."""
+    """In a terminal state every action has the value 0."""
     return np.einsum("ast,ast->sa", transitions, rewards + discount * np.where(terminal, 0.0, values))
 
 
@@ -30,7 +30,7 @@ def actions_first(transitions, rewards, discount, values, terminal):
 
 
 def unweighted_rewards(transitions, rewards, discount, values, terminal):
-    """A reward of a transition counts as often as the transition happens: weight it by its probability."""
+    """Multiply the reward of each transition by the probability of the transition."""
     q = rewards.mean(axis=2).T + discount * np.einsum("ast,t->sa", transitions, np.where(terminal, 0.0, values))
     q[terminal] = 0.0
     return q

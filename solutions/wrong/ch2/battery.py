@@ -4,7 +4,7 @@ import numpy as np
 
 
 def counts_steps(transitions, rewards, costs, charge):
-    """This counts steps: an action that costs more units leaves fewer behind."""
+    """This counts steps. Subtract the units that each action uses."""
     values = np.zeros((charge + 1, transitions.shape[1]))
     for left in range(1, charge + 1):
         possible = [a for a, cost in enumerate(costs) if cost <= left]
@@ -14,7 +14,7 @@ def counts_steps(transitions, rewards, costs, charge):
 
 
 def runs_dry(transitions, rewards, costs, charge):
-    """An action that needs more than is left cannot be taken."""
+    """An action that needs more units than are left is not possible."""
     values = np.zeros((charge + 1, transitions.shape[1]))
     for left in range(1, charge + 1):
         q = [rewards[:, a] + transitions[a] @ values[max(left - cost, 0)] for a, cost in enumerate(costs)]
@@ -23,7 +23,7 @@ def runs_dry(transitions, rewards, costs, charge):
 
 
 def may_stop(transitions, rewards, costs, charge):
-    """The robot cannot choose to stop: where every possible action costs it reward, it must still take one."""
+    """The robot cannot choose to stop: it must take a possible action even if all of them have negative rewards."""
     values = np.zeros((charge + 1, transitions.shape[1]))
     for left in range(1, charge + 1):
         q = [rewards[:, a] + transitions[a] @ values[left - cost] for a, cost in enumerate(costs) if cost <= left]
@@ -32,7 +32,7 @@ def may_stop(transitions, rewards, costs, charge):
 
 
 def keeps_the_last_unit(transitions, rewards, costs, charge):
-    """An action that needs exactly what is left can still be taken."""
+    """An action that needs exactly the units that are left is still possible."""
     values = np.zeros((charge + 1, transitions.shape[1]))
     for left in range(1, charge + 1):
         possible = [a for a, cost in enumerate(costs) if cost < left]
@@ -42,7 +42,7 @@ def keeps_the_last_unit(transitions, rewards, costs, charge):
 
 
 def full_first(transitions, rewards, costs, charge):
-    """Row c is for c units left: an empty battery comes first."""
+    """Row c is for c units left, so the first row is for an empty battery."""
     values = np.zeros((charge + 1, transitions.shape[1]))
     for left in range(1, charge + 1):
         possible = [a for a, cost in enumerate(costs) if cost <= left]

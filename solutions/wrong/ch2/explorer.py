@@ -19,33 +19,35 @@ def _plan(steps, rewards, terminated, size, discount, known, otherwise, stop=Fal
     return q
 
 
-def on_from_the_end(steps, rewards, terminated, size, enough, most, discount):
-    """After a step that ended an episode nothing follows, though the state it led to has a value."""
-    best = most / (1 - discount)
-    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries >= enough, best, stop=True)
+def on_from_the_end(steps, rewards, terminated, size, known_after, largest_reward, discount):
+    """If a step ended its episode, do not add the value of the state that it led to."""
+    best = largest_reward / (1 - discount)
+    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries >= known_after, best, stop=True)
 
 
-def pessimist(steps, rewards, terminated, size, enough, most, discount):
-    """A pair that is not known yet is taken to be as good as anything could be; at zero it would never be tried."""
-    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries >= enough, 0.0)
+def pessimist(steps, rewards, terminated, size, known_after, largest_reward, discount):
+    """An unknown pair has the largest possible value. With the value 0 it would never be tried."""
+    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries >= known_after, 0.0)
 
 
-def once_the_best(steps, rewards, terminated, size, enough, most, discount):
-    """As good as anything could be is the largest reward in every step for ever: a geometric series."""
-    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries >= enough, most)
+def once_the_best(steps, rewards, terminated, size, known_after, largest_reward, discount):
+    """The largest possible value is that of the largest reward in every step: a geometric series."""
+    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries >= known_after, largest_reward)
 
 
-def one_try_more(steps, rewards, terminated, size, enough, most, discount):
-    """A pair is known when it was tried ``enough`` times, not only when more often."""
-    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries > enough, most / (1 - discount))
+def one_try_more(steps, rewards, terminated, size, known_after, largest_reward, discount):
+    """A pair is known when it was tried ``known_after`` times; it need not be tried more often."""
+    return _plan(
+        steps, rewards, terminated, size, discount, lambda tries: tries > known_after, largest_reward / (1 - discount)
+    )
 
 
-def believes_at_once(steps, rewards, terminated, size, enough, most, discount):
-    """One try is not enough to believe in: a pair counts as known after ``enough`` of them."""
-    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries > 0, most / (1 - discount))
+def believes_at_once(steps, rewards, terminated, size, known_after, largest_reward, discount):
+    """One try is not sufficient: a pair is known after ``known_after`` tries."""
+    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries > 0, largest_reward / (1 - discount))
 
 
-def sums_rewards(steps, rewards, terminated, size, enough, most, discount):
-    """The model's reward is the mean of those seen, not their sum."""
-    best = most / (1 - discount)
-    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries >= enough, best, total=True)
+def sums_rewards(steps, rewards, terminated, size, known_after, largest_reward, discount):
+    """The model's reward is the mean of the recorded rewards, not their sum."""
+    best = largest_reward / (1 - discount)
+    return _plan(steps, rewards, terminated, size, discount, lambda tries: tries >= known_after, best, total=True)

@@ -8,14 +8,14 @@ def _likelihood(observations, action, reading):
 
 
 def not_normalised(belief, transitions, observations, actions, readings):
-    """A belief sums to one: divide by the probability of the reading."""
+    """A belief must sum to one: divide by the probability of the reading."""
     for action, reading in zip(actions, readings):
         belief = (belief @ transitions[action]) * _likelihood(observations, action, reading)
     return belief
 
 
 def reads_first(belief, transitions, observations, actions, readings):
-    """The robot moves first and reads then: the reading says something about the state after the move."""
+    """The robot first moves and then reads its sensor: the reading depends on the state after the move."""
     for action, reading in zip(actions, readings):
         joint = belief * _likelihood(observations, action, reading)
         belief = (joint / joint.sum() if joint.sum() > 0 else belief) @ transitions[action]
@@ -23,7 +23,7 @@ def reads_first(belief, transitions, observations, actions, readings):
 
 
 def backwards(belief, transitions, observations, actions, readings):
-    """The sum runs over the state before the move, the first of the two; this is Eq. (2.18) as printed, a slip."""
+    """Sum over the state before the move. Eq. (2.18), as printed, has the two states exchanged."""
     for action, reading in zip(actions, readings):
         moved = transitions[action] @ belief
         joint = moved * _likelihood(observations, action, reading)
@@ -32,7 +32,7 @@ def backwards(belief, transitions, observations, actions, readings):
 
 
 def last_symbol(belief, transitions, observations, actions, readings):
-    """A reading of -1 is none at all; as an index it would be the last reading there is."""
+    """A reading of -1 means that there is none. As an index, -1 selects the last reading."""
     for action, reading in zip(actions, readings):
         moved = belief @ transitions[action]
         joint = moved * observations[action, :, reading]
@@ -41,7 +41,7 @@ def last_symbol(belief, transitions, observations, actions, readings):
 
 
 def starts_anew(belief, transitions, observations, actions, readings):
-    """After an impossible reading the belief is what the move made of it, not even over all states."""
+    """After an impossible reading keep the prediction from the move. Do not make the belief uniform."""
     for action, reading in zip(actions, readings):
         joint = (belief @ transitions[action]) * _likelihood(observations, action, reading)
         belief = joint / joint.sum() if joint.sum() > 0 else np.full(len(belief), 1 / len(belief))

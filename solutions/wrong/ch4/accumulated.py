@@ -30,7 +30,7 @@ def newest_alone(*arguments):
 
 
 def fresh_targets(*arguments):
-    """The targets stay as they were computed; computing them anew is the idea of fitted Q iteration."""
+    """Keep the targets as they were computed. Fitted Q iteration would compute them again."""
     return _weights(*arguments, fresh=True)
 
 
@@ -45,10 +45,10 @@ def at_the_end(*arguments):
 
 
 def all_at_once(*arguments):
-    """Each pair moves the weights at once, and the next one sees them moved."""
+    """Each pair changes the weights immediately, and the next pair uses the changed weights."""
     return _weights(*arguments, at_once=True)
 
 
 def on_from_the_end(*arguments):
-    """Nothing follows the last step if the episode ended."""
+    """If the episode ended, the last step has no next state: its target is only the reward."""
     return _weights(*arguments, end=False)

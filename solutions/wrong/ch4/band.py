@@ -9,13 +9,13 @@ def _counts(successes, block):
 
 
 def spread_of_seeds(successes, block, draws):
-    """This is where single seeds lie, not how well their mean is known: resample the mean."""
+    """This is the spread of single seeds. Resample the seeds, and take the mean of each resample."""
     counts = _counts(successes, block)
     return counts.mean(axis=0), np.percentile(counts, [2.5, 97.5], axis=0)
 
 
 def same_for_all_blocks(successes, block, draws):
-    """Every block has an interval of its own: average each resample over its seeds only."""
+    """Compute an interval for every block: take the mean of each resample over its seeds only."""
     counts = _counts(successes, block)
     ends = np.percentile(counts[draws].mean(axis=(1, 2)), [2.5, 97.5])
     return counts.mean(axis=0), np.repeat(ends[:, None], counts.shape[1], axis=1)

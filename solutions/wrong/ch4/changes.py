@@ -9,7 +9,7 @@ def _measures(change, absolute=None):
 
 
 def backwards(weights):
-    """A change is what the weights are after the episode less what they were before."""
+    """Subtract the weights before the episode from those after it, not the other way round."""
     return _measures(-np.diff(weights, axis=0))
 
 
@@ -19,7 +19,7 @@ def since_the_start(weights):
 
 
 def absolute_too_late(weights):
-    """Take the absolute value of each change before adding them up: of the sum it is too late."""
+    """Take the absolute value of each change before you add them, not of their sum."""
     change = np.diff(weights, axis=0)
     return _measures(change, np.abs(change.sum(axis=1)))
 
@@ -30,6 +30,6 @@ def absolute_weights(weights):
 
 
 def largest_rise(weights):
-    """The largest change may be a fall: take the absolute values before the maximum."""
+    """The largest change may be negative: take the absolute values before the maximum."""
     change = np.diff(weights, axis=0)
     return np.column_stack([change.sum(axis=1), np.abs(change).sum(axis=1), change.max(axis=1)])

@@ -21,25 +21,25 @@ def overflows(q, temperature, allowed):
 
 
 def all_allowed(q, temperature, allowed):
-    """An action that is not allowed has no probability."""
+    """An action that is not allowed must have the probability 0."""
     return _shares(q, temperature, np.ones_like(allowed))
 
 
 def forbidden_at_zero(q, temperature, allowed):
-    """A value of zero does not keep an action from being taken: it may be the best. Its share itself must be zero."""
+    """An action with the value 0 can still be taken. Set the probability of an action that is not allowed to 0."""
     return _shares(np.where(allowed, q, 0.0), temperature, np.ones_like(allowed))
 
 
 def first_of_the_best(q, temperature, allowed):
-    """At temperature zero all best actions share the choice evenly."""
+    """At temperature zero all best actions have the same probability."""
     return _shares(q, temperature, allowed, ties=False)
 
 
 def not_normalised_again(q, temperature, allowed):
-    """When actions drop out, the others must be scaled to sum to one again."""
+    """When some actions are not allowed, scale the probabilities of the others so that they sum to one."""
     return np.where(allowed, _shares(q, temperature, np.ones_like(allowed)), 0.0)
 
 
 def multiplies(q, temperature, allowed):
-    """The values are divided by the temperature: a low one makes differences large."""
+    """Divide the values by the temperature: a low temperature makes differences large."""
     return _shares(q, temperature, allowed, hot=True)

@@ -31,7 +31,7 @@ def takes_the_most(*arguments):
 
 
 def on_from_the_goal(*arguments):
-    """Nothing follows when the goal is reached."""
+    """When the goal is reached, the target is only the cost of the step."""
     return _weights(*arguments, goal=False)
 
 
@@ -41,20 +41,20 @@ def forgives_failure(*arguments):
 
 
 def failure_on_top(*arguments):
-    """Failing is worth exactly 1; the step's own cost does not come on top."""
+    """The target of a failure is exactly 1: do not add the cost of the step."""
     return _weights(*arguments, adds=True)
 
 
 def penalty_for_each(*arguments):
-    """The penalty counts once, not once for each step: the squares are summed, not averaged."""
+    """Add the penalty once, not once for each step: the squared errors are summed, not averaged."""
     return _weights(*arguments, mean=True)
 
 
 def same_action_again(*arguments):
-    """The best action of the next state counts, not the one that was taken in this."""
+    """Use the best action of the next state, not the action that was taken in the current one."""
     return _weights(*arguments, own=True)
 
 
 def only_once(*arguments):
-    """Compute the targets anew in each iteration, from the weights of the one before."""
+    """Compute the targets again in each iteration, with the weights of the previous one."""
     return _weights(*arguments, once=True)

@@ -17,22 +17,22 @@ def _targets(outputs, actions, rewards, next_outputs, ended, bounds, discount, l
 
 
 def as_they_are(*arguments):
-    """An output is no Q-value yet: 0 stands for the least there can be, 1 for the greatest."""
+    """An output is not a Q-value: 0 stands for the smallest possible Q-value, and 1 for the largest."""
     return _targets(*arguments, scale=False)
 
 
 def one_reward(*arguments):
-    """The bounds on the Q-values are those of the rewards divided by 1 - discount: rewards add up."""
+    """Divide the bounds of the rewards by 1 - discount to get the bounds of the Q-values, which are sums of rewards."""
     return _targets(*arguments, horizon=False)
 
 
 def on_from_the_end(*arguments):
-    """Nothing follows the last step of an episode."""
+    """The last step of an episode has no next state: use 0 for its value."""
     return _targets(*arguments, end=False)
 
 
 def worst_at_the_end(*arguments):
-    """Nothing to come is worth 0 as a Q-value, which is not the 0 of the network's scale."""
+    """After the end the Q-value is 0. This is not the 0 of the network's scale."""
     return _targets(*arguments, zero=False)
 
 
@@ -42,5 +42,5 @@ def all_the_way(*arguments):
 
 
 def not_clipped(*arguments):
-    """Targets stay between 0 and 1, even when a reward was out of its bounds."""
+    """Clip the targets to the range from 0 to 1: a reward may be out of its bounds."""
     return _targets(*arguments, clip=False)

@@ -3,51 +3,55 @@
 import numpy as np
 
 
-def _beyond(plain, chance):
-    return [plain, (plain - chance) / (1 - chance) if chance < 1 else 0.0]
+def _beyond(plain, expected):
+    return [plain, (plain - expected) / (1 - expected) if expected < 1 else 0.0]
 
 
-def _plain(shown, chosen):
-    return float((shown == chosen).mean())
+def _plain(expert_actions, policy_actions):
+    return float((expert_actions == policy_actions).mean())
 
 
 def _shares(actions, number):
     return np.bincount(actions, minlength=number) / len(actions)
 
 
-def plain_twice(shown, chosen, number):
-    """This is the plain accuracy again: take off what chance agrees in."""
-    return [_plain(shown, chosen)] * 2
+def plain_twice(expert_actions, policy_actions, number):
+    """This is the plain accuracy again: subtract the agreement expected by chance."""
+    return [_plain(expert_actions, policy_actions)] * 2
 
 
-def chances_alike(shown, chosen, number):
-    """Chance does not take all actions alike: it keeps the expert's shares and the policy's."""
-    return _beyond(_plain(shown, chosen), 1 / number)
+def equal_frequencies(expert_actions, policy_actions, number):
+    """The actions are not equally frequent: use the frequencies of the expert and of the policy."""
+    return _beyond(_plain(expert_actions, policy_actions), 1 / number)
 
 
-def shares_of_the_expert_alone(shown, chosen, number):
-    """The policy has shares of its own: chance agrees in an action as often as the two shares together say."""
-    return _beyond(_plain(shown, chosen), float((_shares(shown, number) ** 2).sum()))
+def shares_of_the_expert_alone(expert_actions, policy_actions, number):
+    """Multiply the expert's frequency of each action by the policy's frequency, and add the products."""
+    return _beyond(_plain(expert_actions, policy_actions), float((_shares(expert_actions, number) ** 2).sum()))
 
 
-def not_stretched(shown, chosen, number):
-    """Divide by what chance leaves to agree in, so that a policy that does as the expert gets one."""
-    plain = _plain(shown, chosen)
-    return [plain, plain - float(_shares(shown, number) @ _shares(chosen, number))]
+def not_stretched(expert_actions, policy_actions, number):
+    """Divide by 1 - c, so that the result is 1 for a policy that always agrees."""
+    plain = _plain(expert_actions, policy_actions)
+    return [plain, plain - float(_shares(expert_actions, number) @ _shares(policy_actions, number))]
 
 
-def balanced(shown, chosen, number):
-    """This is the chapter's balanced accuracy; here chance is to be taken off."""
-    recalls = [(chosen[shown == a] == a).mean() for a in range(number) if (shown == a).any()]
-    return [_plain(shown, chosen), float(np.mean(recalls))]
+def balanced(expert_actions, policy_actions, number):
+    """This is the balanced accuracy of the chapter. Subtract the agreement expected by chance instead."""
+    recalls = [(policy_actions[expert_actions == a] == a).mean() for a in range(number) if (expert_actions == a).any()]
+    return [_plain(expert_actions, policy_actions), float(np.mean(recalls))]
 
 
-def beyond_first(shown, chosen, number):
+def beyond_first(expert_actions, policy_actions, number):
     """The plain accuracy comes first."""
-    return _beyond(_plain(shown, chosen), float(_shares(shown, number) @ _shares(chosen, number)))[::-1]
+    return _beyond(
+        _plain(expert_actions, policy_actions), float(_shares(expert_actions, number) @ _shares(policy_actions, number))
+    )[::-1]
 
 
-def in_percent(shown, chosen, number):
-    """Give both as fractions, one for all."""
-    found = _beyond(_plain(shown, chosen), float(_shares(shown, number) @ _shares(chosen, number)))
+def in_percent(expert_actions, policy_actions, number):
+    """Return both as fractions from 0 to 1, not in per cent."""
+    found = _beyond(
+        _plain(expert_actions, policy_actions), float(_shares(expert_actions, number) @ _shares(policy_actions, number))
+    )
     return [100 * part for part in found]

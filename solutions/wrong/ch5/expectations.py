@@ -4,28 +4,28 @@ import numpy as np
 
 
 def sums(trajectories, discount):
-    """Divide the weights of each trajectory by their sum: a feature that is always 1 must come out as 1."""
+    """Divide the weights of each trajectory by their sum: a feature that is always 1 must have the expectation 1."""
     return np.mean([discount ** np.arange(len(f)) @ f for f in trajectories], axis=0)
 
 
 def endless(trajectories, discount):
-    """A trajectory ends: the sum of its weights is that of its own steps, not of a series without end."""
+    """A trajectory is finite: divide by the sum of its own weights, not by the sum of the infinite series."""
     return np.mean([(1 - discount) * (discount ** np.arange(len(f)) @ f) for f in trajectories], axis=0)
 
 
 def pooled(trajectories, discount):
-    """Every trajectory counts alike, however long it is: take the mean in each first."""
+    """Give every trajectory the same weight: first take the mean within each trajectory."""
     weights = [discount ** np.arange(len(f)) for f in trajectories]
     return sum(w @ f for w, f in zip(weights, trajectories)) / sum(w.sum() for w in weights)
 
 
 def no_discount(trajectories, discount):
-    """Later steps count less, by the discount to the power of their number."""
+    """Later steps have smaller weights: the discount to the power of the step's number."""
     return np.mean([f.mean(axis=0) for f in trajectories], axis=0)
 
 
 def from_the_end(trajectories, discount):
-    """The first step has the weight 1; the later ones count less."""
+    """The first step has the weight 1, and not the discount."""
     means = []
     for features in trajectories:
         weights = discount ** np.arange(len(features))[::-1]
@@ -34,7 +34,7 @@ def from_the_end(trajectories, discount):
 
 
 def one_long_trajectory(trajectories, discount):
-    """Discounting starts anew with each trajectory."""
+    """Start the discounting again with each trajectory."""
     features = np.concatenate(trajectories)
     weights = discount ** np.arange(len(features))
     return weights @ features / weights.sum()

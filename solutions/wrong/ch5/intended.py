@@ -14,7 +14,7 @@ def _meant(states, done, slip, prior, size, *, unseen=-1, use_prior=True, turned
 
 
 def most_frequent(states, done, slip, prior, size):
-    """This is what was done most often; what was meant may be another action, if that one slips."""
+    """This is the action that was done most often. The intended action may be another one, because actions slip."""
     meant = np.full(size, -1)
     for state in np.unique(states):
         meant[state] = np.bincount(done[states == state], minlength=len(prior)).argmax()
@@ -22,27 +22,27 @@ def most_frequent(states, done, slip, prior, size):
 
 
 def no_prior(*arguments):
-    """Multiply by the prior: of two actions that explain what was done alike, the expert means the usual one."""
+    """Multiply by the prior: of two actions with equal likelihood, the one with the larger prior is more probable."""
     return _meant(*arguments, use_prior=False)
 
 
 def prior_each_time(*arguments):
-    """The prior counts once for a state, not once for each time it was seen."""
+    """Multiply by the prior once for each state, not once for each step."""
     return _meant(*arguments, prior_each=True)
 
 
 def turned_around(*arguments):
-    """A row of the slip matrix is what was meant, a column what was done."""
+    """A row of the slip matrix is the intended action, and a column the action that was done."""
     return _meant(*arguments, turned=True)
 
 
 def first_action_unseen(*arguments):
-    """A state that was never seen has no action: answer with -1."""
+    """Return -1 for a state that was never seen."""
     return _meant(*arguments, unseen=0)
 
 
 def products(states, done, slip, prior, size):
-    """A product of many probabilities is zero for a computer: add up their logarithms."""
+    """A product of many probabilities underflows to zero: add their logarithms."""
     meant = np.full(size, -1)
     for state in np.unique(states):
         meant[state] = np.argmax(prior * slip[:, done[states == state]].prod(axis=1))

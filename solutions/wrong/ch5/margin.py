@@ -9,22 +9,22 @@ def _onto_the_simplex(theta):
 
 
 def against_the_mean(expert, found):
-    """This is best against the average policy; the margin is that over the policy it is hardest to tell from."""
+    """This is the best answer for the average policy. The margin is the smallest difference over all policies."""
     return np.eye(len(expert))[np.argmax(expert - found.mean(axis=0))]
 
 
 def difference_of_means(expert, found):
-    """The direction from the policies to the expert is not the answer: solve for the worst policy, not the average."""
+    """The direction from the mean policy to the expert does not maximise the smallest difference."""
     return _onto_the_simplex(expert - found.mean(axis=0))
 
 
 def all_alike(expert, found):
-    """Equal weights tell nobody from the expert: put the weight where all the policies fall short."""
+    """Equal weights do not separate the policies from the expert: weight features in which it exceeds them all."""
     return np.full(len(expert), 1 / len(expert))
 
 
 def signs_swapped(expert, found):
-    """The expert is to be better than the policies, not worse."""
+    """The expert must have larger values than the policies, not smaller ones."""
     payoff = found - expert
     theta, losses, total = np.full(len(expert), 1 / len(expert)), np.zeros(len(found)), np.zeros(len(expert))
     for _ in range(300):
@@ -35,5 +35,5 @@ def signs_swapped(expert, found):
 
 
 def last_policy_alone(expert, found):
-    """All policies found so far count, not only the last."""
+    """Use all policies found so far, not only the last one."""
     return np.eye(len(expert))[np.argmax(expert - found[-1])]

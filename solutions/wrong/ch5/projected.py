@@ -14,7 +14,7 @@ def _moved(mixture, found, expert, scale, *, clip=True, scaled=True, units=True,
 
 
 def off_the_segment(mixture, found, expert, scale):
-    """A mixture lies between the two: the share stays within 0 and 1."""
+    """The mixture lies on the segment between the two points: clip the share to the range from 0 to 1."""
     return _moved(mixture, found, expert, scale, clip=False)
 
 
@@ -24,22 +24,22 @@ def own_units(mixture, found, expert, scale):
 
 
 def scaled_answer(mixture, found, expert, scale):
-    """The new mixture is asked for in the features' own units; the scale is for distances alone."""
+    """Return the new mixture in the features' own units: use the scale for distances only."""
     return _moved(mixture, found, expert, scale, units=False)
 
 
 def share_of_the_old(mixture, found, expert, scale):
-    """The share asked for is the new policy's, not what is left of the old mixture."""
+    """Return the share of the new policy, not that of the old mixture."""
     return _moved(mixture, found, expert, scale, share_of_new=False)
 
 
 def multiplied(mixture, found, expert, scale):
-    """Features are divided by their scale, not multiplied."""
+    """Divide the features by their scale; do not multiply them."""
     return _moved(mixture, found, expert, 1 / scale)
 
 
 def nothing_by_nothing(mixture, found, expert, scale):
-    """Where the new policy is the mixture itself, nothing divided by nothing is no number: the share is 0."""
+    """If the new policy equals the mixture, the division is 0 by 0. Return a share of 0."""
     with np.errstate(all="ignore"):
         along, to_expert = (found - mixture) / scale, (expert - mixture) / scale
         share = np.clip(along @ to_expert / (along @ along), 0.0, 1.0)

@@ -12,7 +12,7 @@ def _estimate(ratio, features, most, *, again=True, cut=True):
 
 
 def overflows(log_p, log_q, features, most):
-    """The ratios are too large or too small for a computer: subtract the largest logarithm first, it cancels."""
+    """The ratios overflow or underflow: first subtract the largest logarithm, which cancels later."""
     with np.errstate(all="ignore"):
         weights = np.exp(log_p) / np.exp(log_q)
         weights = np.minimum(weights / weights.mean(), most)
@@ -21,12 +21,12 @@ def overflows(log_p, log_q, features, most):
 
 
 def no_cut(log_p, log_q, features, most):
-    """Lower the weights that are larger than the most allowed."""
+    """Clip the weights that are larger than the limit."""
     return _estimate(log_p - log_q, features, most, cut=False)
 
 
 def dropped(log_p, log_q, features, most):
-    """A sample whose weight is too large still counts, with the most allowed."""
+    """Keep samples whose weight is too large, with the limit as their weight."""
     weights = np.exp(log_p - log_q - (log_p - log_q).max())
     weights = np.where(weights <= most * weights.mean(), weights, 0.0)
     weights = weights / weights.sum()
@@ -34,22 +34,22 @@ def dropped(log_p, log_q, features, most):
 
 
 def not_scaled_again(log_p, log_q, features, most):
-    """After the cut the weights no longer have the mean one: scale them to sum to one."""
+    """After clipping, the mean of the weights is no longer one: scale them to sum to one."""
     return _estimate(log_p - log_q, features, most, again=False)
 
 
 def upside_down(log_p, log_q, features, most):
-    """The samples are of q and stand for p: a sample weighs p / q."""
+    """The samples come from q, and the expectation is under p: the weight of a sample is p / q."""
     return _estimate(log_q - log_p, features, most)
 
 
 def equal_weights(log_p, log_q, features, most):
-    """Samples that p prefers to q must count more."""
+    """Samples that are more probable under p than under q must have larger weights."""
     return features.mean(axis=0), float(len(features))
 
 
 def size_before_the_cut(log_p, log_q, features, most):
-    """The effective sample size is that of the weights that are used, after the cut."""
+    """Compute the effective sample size from the final weights, after clipping."""
     estimate, _ = _estimate(log_p - log_q, features, most)
     _, size = _estimate(log_p - log_q, features, most, cut=False)
     return estimate, size
