@@ -10,7 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def improve(q: NDArray[np.float64], policy: NDArray[np.int64], tolerance: float) -> NDArray[np.int64]:
+def improve(
+    q: NDArray[np.float64],
+    policy: NDArray[np.int64],
+    tolerance: float,
+) -> NDArray[np.int64]:
     """The improved policy.
 
     Parameters

@@ -9,7 +9,10 @@ from numpy.typing import NDArray
 
 
 def battery(
-    transitions: NDArray[np.float64], rewards: NDArray[np.float64], costs: NDArray[np.int64], charge: int
+    transitions: NDArray[np.float64],
+    rewards: NDArray[np.float64],
+    costs: NDArray[np.int64],
+    charge: int,
 ) -> NDArray[np.float64]:
     """Optimal values by charge and state.
 
