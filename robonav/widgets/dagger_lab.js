@@ -88,6 +88,7 @@ function render({ model, el }) {
     },
     done: (network) => {
       robots = [{ ...now, policy: { network, encoder: ENCODER } }, ...robots];
+      keepRobot({ name: `DAgger, ${now.name}`, network, encoder: ENCODER });
       now = null;
       showTable();
       choose();

@@ -17,8 +17,8 @@ class DaggerLab(anywidget.AnyWidget):
     _esm = front_end(
         "simulator", "maps", "episode", "files",
         "learning/random", "learning/worlds", "learning/network", "learning/lbfgs",
-        "learning/astar", "learning/nnql", "learning/worker", "learning/training_panel",
-        "drives", "imitation", "dagger_lab",
+        "learning/astar", "learning/trials", "learning/worker", "learning/training_panel",
+        "drives", "kept_robots", "imitation", "dagger_lab",
     )  # fmt: skip
     _css = style_sheet(
         "maps", "drives", "learning/training_panel", "imitation", "dagger_lab"

@@ -125,6 +125,7 @@ function render({ model, el }) {
     live,
     done: (network) => {
       robots = [{ ...now, policy: { network, encoder: now.encoder } }, ...robots].slice(0, MOST_ROBOTS);
+      keepRobot({ name: now.name, network, encoder: now.encoder });
       now = null;
       download.disabled = false;
       showTable();

@@ -39,8 +39,8 @@ class ImitationLab(KernelTraining):
     _esm = front_end(
         "simulator", "maps", "episode", "files",
         "learning/random", "learning/worlds", "learning/network", "learning/lbfgs",
-        "learning/nnql", "learning/worker", "learning/training_panel",
-        "learning/kernel_panel", "drives", "imitation", "imitation_lab",
+        "learning/trials", "learning/worker", "learning/training_panel",
+        "learning/kernel_panel", "drives", "kept_robots", "imitation", "imitation_lab",
     )  # fmt: skip
     _css = style_sheet("maps", "drives", "learning/training_panel", "imitation")
 

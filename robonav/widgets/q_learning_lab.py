@@ -76,10 +76,12 @@ class QLearningLab(KernelTraining):
         "learning/network",
         "learning/worlds",
         "learning/nnql",
+        "learning/trials",
         "learning/dqn",
         "learning/worker",
         "learning/training_panel",
         "learning/kernel_panel",
+        "kept_robots",
         "q_learning_lab",
     )
     _css = style_sheet("maps", "learning/training_panel", "q_learning_lab")

@@ -280,11 +280,16 @@ const TARGETS = {
   "sine-cosine": (region) => [Math.sin((region - 1) * ROBOT.sector), Math.cos((region - 1) * ROBOT.sector)],
 };
 
-/** What a network reads. @param {Encoder} encoder @param {Sensing} sensing */
-export function encode({ sensors, walls, target }, sensing) {
-  const degrees = sensors.map((sensor) => degreeOfDanger(sensing.ranges[sensor - 1]) / 7);
+/**
+ * What a network reads. With `raw`, the degrees of danger and the sector are the numbers of Eq. (4.5) as they are.
+ * @param {Encoder & {raw?: boolean}} encoder
+ * @param {Sensing} sensing
+ */
+export function encode({ sensors, walls, target, raw = false }, sensing) {
+  const degrees = sensors.map((sensor) => degreeOfDanger(sensing.ranges[sensor - 1]));
   const flags = walls ? sensors.map((sensor) => (sensing.walls[sensor - 1] ? 1 : 0)) : [];
-  return [...degrees, ...TARGETS[target](sensing.region), sensing.seen ? 1 : 0, ...flags];
+  const sector = raw ? [sensing.region] : TARGETS[target](sensing.region);
+  return [...(raw ? degrees : degrees.map((degree) => degree / 7)), ...sector, sensing.seen ? 1 : 0, ...flags];
 }
 
 /** The rule that turns to the side with more room. @param {Sensing} sensing */

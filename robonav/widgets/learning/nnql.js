@@ -96,13 +96,8 @@ const NNQL_SENSORS = [1, 2, 3, 4, 7, 8, 9];
 /** What the network reads, as an encoder. @param {LearningSettings} settings */
 export const encoderOf = ({ inputs }) => ({ sensors: NNQL_SENSORS, walls: true, target: inputs === "raw" ? "number" : inputs, raw: inputs === "raw" });
 
-/** The network's inputs; raw: the numbers of Eq. (4.5) as they are, up to 7 and 9. @param {Encoder & {raw?: boolean}} encoder */
-export function inputsFor(encoder, sensing) {
-  const inputs = Float64Array.from(encode(encoder, sensing));
-  if (!encoder.raw) return inputs;
-  const dangers = encoder.sensors.length;
-  return inputs.map((value, j) => Math.round(j < dangers ? 7 * value : j === dangers ? 9 * value : value));
-}
+/** The network's inputs. @param {Encoder} encoder */
+export const inputsFor = (encoder, sensing) => Float64Array.from(encode(encoder, sensing));
 
 /** The network that training starts from, drawn as robonav.nnql.q_network draws it. @param {LearningSettings} settings */
 export function firstNetwork({ inputs, hidden, seed }) {
@@ -203,37 +198,4 @@ export function* neuralQLearning(settings, { watch = () => {} } = {}) {
     } // 17 to 20
     yield { episode, world: first, path, outcome: outcome === "running" ? "out of steps" : outcome, changes: weightChanges(before, network), network };
   }
-}
-
-// ---- Driving with what was learned ----------------------------------------------------------------------------------
-
-/**
- * One episode of a policy in a world, Algorithm 9.
- * @param {{rule?: string, network?: Network, encoder?: Encoder, temperature?: number}} policy
- */
-export function driveWith(policy, first, { speed, maxSteps }) {
-  let [world, pose, outcome] = [first, startPose(first), "running"];
-  const poses = [pose];
-  for (let step = 0; step < maxSteps && outcome === "running"; step += 1) {
-    const sensing = sense(world, pose);
-    let action = reflex(sensing, speed);
-    if (action < 0 && policy.rule) action = RULES[policy.rule](sensing);
-    else if (action < 0) {
-      const { z } = propagate(policy.network, inputsFor(policy.encoder, sensing));
-      const noise = gumbel(world.key, step);
-      action = largest(policy.temperature > 0 ? z.map((sum, a) => sum + policy.temperature * noise(a)) : z);
-    }
-    ({ world, pose, outcome } = advance(world, pose, step, action, speed));
-    poses.push(pose);
-  }
-  return { poses, outcome: outcome === "running" ? "out of steps" : outcome };
-}
-
-/** Wilson's 95 % interval of a rate, in [0, 1] (Wilson 1927). */
-export function wilsonInterval(successes, n) {
-  const z = 1.959963984540054;
-  const [rate, spread] = [successes / n, (z * z) / n];
-  const middle = (rate + spread / 2) / (1 + spread);
-  const half = (z / (1 + spread)) * Math.sqrt((rate * (1 - rate)) / n + spread / (4 * n));
-  return [Math.max(0, middle - half), Math.min(1, middle + half)];
 }

@@ -10,8 +10,8 @@ from robonav.widgets.simulator import page_world
 
 FILES = (
     "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
-    "learning/network", "learning/lbfgs", "learning/astar", "learning/nnql",
-    "learning/worker", "learning/training_panel", "drives", "imitation", "dagger_lab",
+    "learning/network", "learning/lbfgs", "learning/astar", "learning/trials",
+    "learning/worker", "learning/training_panel", "drives", "kept_robots", "imitation", "dagger_lab",
 )  # fmt: skip
 
 

@@ -14,8 +14,8 @@ from robonav.widgets.simulator import page_policy
 
 FILES = (
     "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
-    "learning/network", "learning/lbfgs", "learning/nnql", "learning/worker",
-    "learning/training_panel", "learning/kernel_panel", "drives", "imitation", "imitation_lab",
+    "learning/network", "learning/lbfgs", "learning/trials", "learning/worker",
+    "learning/training_panel", "learning/kernel_panel", "drives", "kept_robots", "imitation", "imitation_lab",
 )  # fmt: skip
 IMITATE = """
 const { expert, trial, seeds, iterations, count, book } = data;

@@ -34,6 +34,7 @@ FILES = (
     "learning/network",
     "learning/worlds",
     "learning/nnql",
+    "learning/trials",
     "learning/dqn",
 )
 
