@@ -53,9 +53,9 @@ def nirl(
     inverse_temperature : float
         eta of the Boltzmann policy, Eq. (5.10), over the network's outputs. These lie between 0 and 1.
     reward_update : RewardUpdate
-        Line 5: :class:`SubgradientMaxMargin`, or :class:`LeastSquaresReward` to follow the thesis literally.
+        Line 5: :class:`SubgradientMaxMargin`, or :class:`LeastSquaresReward` for the objective that the thesis prints.
     improver : Improver
-        Lines 9 and 10: :class:`ReplaySGD`, or :class:`SingleGradientStep` to follow the thesis literally.
+        Lines 9 and 10: :class:`ReplaySGD`, or :class:`SingleGradientStep`. The thesis leaves the number of steps open.
     score : callable
         Measures how well a policy predicts the demonstrations: :func:`balanced_accuracy`, or the thesis's
         :func:`accuracy`.

@@ -354,7 +354,9 @@ def compiled_sarsa_descent(
 
 @dataclass(frozen=True)
 class SingleGradientStep:
-    """NIRL as the thesis has it: one gradient step in each iteration, on the decisions of this iteration alone.
+    """One gradient step in each iteration of NIRL, on the decisions of this iteration alone.
+
+    The thesis does not say how many steps an iteration makes. This is the smallest number.
 
     Targets are those of Eq. (5.16), clipped into [0, 1]. After the last decision of an episode the future value is 0.
 
