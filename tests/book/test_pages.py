@@ -8,9 +8,16 @@ from pathlib import Path
 import pytest
 from browser import DESKTOP, PHONE, ROOT, Visit
 from check_site import faults
+from measure import (
+    LARGEST_PAGE,
+    LARGEST_SITE,
+    TRAININGS,
+    Training,
+    weight,
+    weight_of_site,
+)
 
 PICTURES = ROOT / "_build" / "widgets"  # kept, to look at after the tests
-LARGEST_PAGE, LARGEST_SITE = 5e6, 60e6  # bytes; a page without what all pages share
 BROKEN = """() => ({
   formulas: [...document.querySelectorAll("mjx-merror")].map((node) => node.textContent),
   cut: [...document.querySelectorAll("div.math, div.math mjx-container")]
@@ -107,18 +114,16 @@ def test_a_notebook_is_saved_by_its_button(
 
 
 def test_page_is_light(site: Path, page_name: str) -> None:
-    built = site / f"{page_name}.html"
-    images = {
-        tag for tag in site.glob("_images/*") if tag.name in built.read_text("utf-8")
-    }
-    assert (
-        built.stat().st_size + sum(image.stat().st_size for image in images)
-        <= LARGEST_PAGE
-    )
+    assert weight(page_name) <= LARGEST_PAGE
 
 
 def test_site_is_light(site: Path) -> None:
-    assert (
-        sum(path.stat().st_size for path in site.rglob("*") if path.is_file())
-        <= LARGEST_SITE
-    )
+    assert weight_of_site() <= LARGEST_SITE
+
+
+@pytest.mark.parametrize("training", TRAININGS, ids=lambda training: training.page)
+def test_trainings_that_are_measured_are_on_their_pages(
+    visit: Visit, http: str, training: Training
+) -> None:
+    visit.open(f"{http}/{training.page}.html")
+    assert training.button(visit.page).is_enabled()
