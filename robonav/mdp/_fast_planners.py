@@ -1,6 +1,8 @@
 """Compiled twins of the planners: each sweep is one pass over the model, in the kernels of ``_fast``.
 
-A twin is called as its algorithm in ``dynamic_programming`` or ``asynchronous`` is, and gives the same numbers.
+A twin is called as its algorithm in ``dynamic_programming`` or ``asynchronous`` is. On sparse models it gives the same
+numbers. On dense ones NumPy adds the terms of an expected value in another order, and the numbers are the same within
+rounding.
 """
 
 from __future__ import annotations

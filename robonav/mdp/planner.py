@@ -4,7 +4,8 @@ The decorator :func:`planner` turns an algorithm into the function that users ca
 
 1. checks the arguments;
 2. fills in the default of ``start``;
-3. runs the compiled twin of the algorithm from ``_fast_planners`` where there is one, which gives the same numbers;
+3. runs the compiled twin of the algorithm from ``_fast_planners`` where there is one. It gives the same numbers, bit
+   for bit on sparse models and within rounding on dense ones;
 4. warns if the algorithm did not converge;
 5. drops the history of the values unless ``record`` is true, and otherwise adds the greedy policy of each of its rows.
 
