@@ -1,7 +1,7 @@
 // A learned reward in the reader's hands: where it is high, what each weight says, and what a robot does that follows it.
 
 const CHOICES = 5; // the actions that are learned
-const STEPS = 200; // seconds after which a drive is given up
+const STEPS = 200; // seconds after which an episode is given up
 const DEPTHS = [1, 2];
 const PATIENCE = 5; // seconds of reflexes that looking ahead follows, until the next decision
 const CELLS = 44; // of the picture of the reward, a side
@@ -44,10 +44,10 @@ const unit = (r, scale) => (scale > 0 ? (Math.min(Math.max(r / scale, -1), 1) + 
 // ---- Following it ---------------------------------------------------------------------------------------------------
 
 /**
- * What each action is worth, `depth` decisions ahead: (1 - gamma) r + gamma times the best that follows, in [0, 1]; a collision
- * is worth 0, an arrival 1, and what lies farther ahead 1/2.
+ * The value of each action, `depth` decisions ahead: (1 - gamma) r + gamma times the largest value that follows, in [0, 1]. The value
+ * of a collision is 0, that of an arrival is 1, and that of a state farther ahead is 1/2.
  */
-export function worths(plan, { world, pose, step, sensing }, depth) {
+export function valuesAhead(plan, { world, pose, step, sensing }, depth) {
   const r = rewardsOf(plan.theta, encode(plan.encoder, sensing));
   if (depth === 1 && plan.depth === 1) return r;
   return r.map((reward, action) => {
@@ -63,20 +63,20 @@ export function worths(plan, { world, pose, step, sensing }, depth) {
       now = { ...advance(now.world, now.pose, now.step, own, plan.speed), step: now.step + 1 };
     }
     const ended = { arrived: 1, collided: 0 }[now.outcome];
-    const rest = ended ?? (now.sensing && depth > 1 ? Math.max(...worths(plan, now, depth - 1)) : 0.5);
+    const rest = ended ?? (now.sensing && depth > 1 ? Math.max(...valuesAhead(plan, now, depth - 1)) : 0.5);
     return (1 - plan.discount) * unit(reward, plan.scale) + plan.discount * rest;
   });
 }
 
-/** A whole drive: every pose, and how it ended. */
-export function drive(plan, first) {
+/** A whole episode: every pose, and how it ended. */
+export function episodeOf(plan, first) {
   let now = { world: first, pose: startPose(first), step: 0, outcome: "running" };
   const poses = [now.pose];
   const worlds = [now.world];
   while (now.outcome === "running" && now.step < STEPS) {
     const sensing = sense(now.world, now.pose);
     const own = reflex(sensing, plan.speed);
-    const action = own < 0 ? largest(worths(plan, { ...now, sensing }, plan.depth)) : own;
+    const action = own < 0 ? largest(valuesAhead(plan, { ...now, sensing }, plan.depth)) : own;
     now = { ...advance(now.world, now.pose, now.step, action, plan.speed), step: now.step + 1 };
     poses.push(now.pose);
     worlds.push(now.world);
@@ -124,7 +124,7 @@ function render({ model, el }) {
   const data = model.get("data");
   const { encoder, features, discount, speed, worlds, others } = data;
   const learned = [...unpack(data.theta).values];
-  const shown = { inputs: unpack(data.inputs).values, actions: unpack(data.actions).values, width: features.length - 1 };
+  const expert = { inputs: unpack(data.inputs).values, actions: unpack(data.actions).values, width: features.length - 1 };
   const kinds = features.map(({ kind }) => kind);
   const strongest = Math.max(...learned.map(Math.abs));
   let [theta, world, depth, picked, frame, coloured] = [[...learned], worlds[0].world, DEPTHS[0], [CHOICES, 0], 0, 0];
@@ -174,12 +174,12 @@ function render({ model, el }) {
     weights.show(theta, strongest, picked);
   }
 
-  /** Another reward, map or depth: drive anew, and count in the other maps. */
+  /** Another reward, map or depth: run the episode again, and count in the other maps. */
   function changed() {
-    const { scale, agreement } = judged(theta, shown);
+    const { scale, agreement } = judged(theta, expert);
     plan = { theta, encoder, discount, speed, depth, scale };
-    now = drive(plan, world);
-    before = drive({ ...plan, theta: learned, scale: judged(learned, shown).scale }, world);
+    now = episodeOf(plan, world);
+    before = episodeOf({ ...plan, theta: learned, scale: judged(learned, expert).scale }, world);
     weights.show(theta, strongest, picked);
     time?.stop();
     time = player({
@@ -196,10 +196,10 @@ function render({ model, el }) {
   function count(agreement) {
     clearTimeout(timer);
     const tally = { arrived: 0, collided: 0, running: 0 };
-    const agreed = `The reward's best action is the expert's in ${(100 * agreement).toFixed(1)} % of ${shown.actions.length} decisions.`;
+    const agreed = `The reward's best action is the expert's in ${(100 * agreement).toFixed(1)} % of ${expert.actions.length} decisions.`;
     let done = 0;
     const some = () => {
-      tally[drive(plan, others[done]).outcome] += 1;
+      tally[episodeOf(plan, others[done]).outcome] += 1;
       done += 1;
       if (done < others.length) timer = setTimeout(some, 0);
       else score.textContent = `${agreed} Of ${done} other maps the robot arrives in ${tally.arrived}, collides in ${tally.collided} and gets lost in ${tally.running}.`;

@@ -32,7 +32,7 @@ export default explorable({
       return [
         `Accuracy: ${number(one.accuracy)} against ${number(other.accuracy)}. Kept: ${better("accuracy")}.`,
         `Balanced accuracy: ${number(one.balanced)} against ${number(other.balanced)}. Kept: ${better("balanced")}.`, "",
-        "Balanced accuracy is the mean over the actions of the share that is predicted, so a policy with only one action has one over their number.",
+        "Balanced accuracy is the mean of the shares predicted for each action. A policy that always takes the same action predicts one action fully and the others never.",
       ].join("\n");
     };
   },

@@ -10,7 +10,7 @@ export function agreement({ right }, { counts, safe }, measure, kept) {
 
 export default explorable({
   controls: () => ({
-    measure: segments({ label: "what is counted", options: [["pairs", "agreement"], ["balanced", "agreement, each action alike"], ["success", "success in new maps"]], value: "pairs" }),
+    measure: segments({ label: "what is counted", options: [["pairs", "agreement"], ["balanced", "balanced agreement"], ["success", "success in new maps"]], value: "pairs" }),
     kept: range({ label: "safe steps that count", from: 0, to: 1, step: 0.05, value: 0, text: (share) => `${Math.round(100 * share)} %` }),
   }),
   draw({ given, stage }) {
@@ -29,8 +29,8 @@ export default explorable({
       chart.put(given.policies.map(({ name }, k) => `${name} ${number(100 * shares[k], 1)} per cent`).join(", "), ...shapes);
       const pairs = given.counts.reduce((sum, value) => sum + value, 0);
       const steps = {
-        pairs: kept > 0 ? `Counted: ${pairs} steps near obstacles, and ${number(kept * given.safe, 0)} of ${given.safe} safe steps, in which everybody goes on to the target.` : `Counted: ${pairs} steps near obstacles. In ${given.counts[0]} of them the expert goes straight on.`,
-        balanced: "Counted: agreement for each of the five actions, and the mean of the five.",
+        pairs: kept > 0 ? `Counted: ${pairs} steps near obstacles, and ${number(kept * given.safe, 0)} of ${given.safe} safe steps, in which all policies go on to the target.` : `Counted: ${pairs} steps near obstacles. In ${given.counts[0]} of them the expert goes straight on.`,
+        balanced: "Counted: the mean of the agreement for each of the five actions.",
         success: `Counted: how many of ${given.maps} new maps are reached.`,
       };
       return steps[measure];

@@ -19,7 +19,7 @@ from .registry import asks
 @asks(
     "How far ahead does a discount look?",
     "The near charger gives 4 after 2 steps, the far one 10 after 8 steps. "
-    "From which discount on is the far one worth the walk?",
+    "From which discount on does the far one give the larger return?",
     guesses=["from 0.4", "from 0.6", "from 0.86", "from 0.99"],
 )
 def discounted_return(
@@ -34,7 +34,7 @@ def discounted_return(
         "near": near.tolist(),
         "far": far.tolist(),
         "equal": equal,
-        "worth": returns[0],
+        "value": returns[0],
     }
 
 
@@ -95,7 +95,7 @@ def evaluate_improve(discount: float = 0.9) -> dict[str, Any]:
 @asks(
     "Two starts approach each other",
     "Value iteration runs twice, from values of 0 and from values of 20. The discount is 0.9. "
-    "After how many sweeps do the two differ by at most a hundredth of that?",
+    "After how many sweeps is their difference at most a hundredth of the first difference?",
     guesses=["10", "22", "44", "never"],
     files=("model",),
 )
@@ -209,9 +209,9 @@ def best_while_exploring(model: mdp.FiniteMDP, epsilon: float) -> NDArray[np.flo
 
 @asks(
     "A belief in a corridor of your own",
-    "This corridor has two doors and seven walls, and the robot knows nothing but the plan. "
-    "What tells it more about its place?",
-    guesses=["to see a door", "to see a wall", "both the same"],
+    "This corridor has two doors and seven walls, and the robot knows only its plan. "
+    "Which observation tells it more about its position?",
+    guesses=["a door", "a wall", "both the same"],
     files=("belief",),
 )
 def own_corridor(cells: str = ".D....D..") -> dict[str, Any]:

@@ -61,7 +61,7 @@ def neuron_line(points: int = 40) -> dict[str, Any]:
 
 @asks(
     "Backpropagation, a number at a time",
-    "The first weight is 1. You raise it to 8, so that the hidden unit is very sure. "
+    "The first weight is 1. You raise it to 8, so that the output of the hidden unit is close to 1. "
     "What happens to the gradient of this weight?",
     guesses=["it grows eightfold", "it stays", "it nearly vanishes"],
 )
@@ -191,7 +191,7 @@ def wilson_interval() -> dict[str, Any]:
 @asks(
     "Errors that add up",
     "A policy errs once in 100 decisions on the expert's path. An error takes it off the path, "
-    "where it errs in 90 of 100 decisions. How many errors are to be expected in 100 decisions?",
+    "where it errs in 90 of 100 decisions. How many errors do you expect in 100 decisions?",
     guesses=["1", "5", "about 20", "90"],
 )
 def compounding_errors() -> dict[str, Any]:
@@ -201,8 +201,8 @@ def compounding_errors() -> dict[str, Any]:
 
 @asks(
     "Sectors as numbers",
-    "The target moves on by one sector, all around the robot. "
-    "For which encoding is the largest jump of the network's inputs the smallest?",
+    "The target moves around the robot, one sector at a time. "
+    "For which encoding is the largest change of the network's inputs smallest?",
     guesses=["1 to 9", "−4 to 4", "one-hot", "sine and cosine"],
     files=("simulator",),
 )

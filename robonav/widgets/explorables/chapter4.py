@@ -35,8 +35,9 @@ def one_q_update() -> dict[str, Any]:
 
 
 @asks(
-    "One pair moves everything",
-    "A network learns that action 1 is worth 1 in state A. It never sees state B. Do the values in state B change?",
+    "One pair changes all values",
+    "A network learns the value 1 for action 1 in state A. It is not trained on state B. "
+    "Do the values in state B change?",
     guesses=["no", "yes, those of action 1", "yes, those of all actions"],
     files=LEARNING,
 )
@@ -92,7 +93,7 @@ def work_of_an_episode() -> dict[str, Any]:
 
 @asks(
     "The maximum of guesses",
-    "Ten actions are all worth 0. Their values are estimated with errors of standard deviation 0.2. "
+    "Ten actions all have the value 0. Their values are estimated with errors of standard deviation 0.2. "
     "What is the largest estimate, on average?",
     guesses=["0", "0.1", "0.3", "0.6"],
 )
@@ -107,8 +108,8 @@ def overestimation() -> dict[str, Any]:
 
 
 @asks(
-    "How many trainings tell two methods apart?",
-    "One method is better by one percentage point, and single trainings scatter by two. "
+    "How many trainings distinguish two methods?",
+    "One method is better by one percentage point. Single trainings have a standard deviation of two points. "
     "With four trainings of each, how often does the better method have the higher mean?",
     guesses=["51 %", "76 %", "90 %", "99 %"],
 )
@@ -121,7 +122,7 @@ def seeds_to_tell_apart() -> dict[str, Any]:
 @asks(
     "Circle, or go to the target?",
     "Keeping a distance from an obstacle pays 0.1 a second, for as long as the robot likes. "
-    "The target is 20 seconds away and pays 1. The discount is 0.9. Which is worth more?",
+    "The target is 20 seconds away and pays 1. The discount is 0.9. Which has the larger return?",
     guesses=["the target", "the circle"],
 )
 def circle_or_target() -> dict[str, Any]:
@@ -130,9 +131,9 @@ def circle_or_target() -> dict[str, Any]:
 
 
 @asks(
-    "How long does a value remember?",
+    "How many targets does a value remember?",
     "A Q-value is updated twenty times with a learning rate of 0.8. "
-    "The mean of how many targets would be as reliable?",
+    "It is as reliable as the mean of how many targets?",
     guesses=["20", "8", "1 or 2"],
 )
 def weight_of_targets() -> dict[str, Any]:
@@ -142,8 +143,8 @@ def weight_of_targets() -> dict[str, Any]:
 
 @asks(
     "Values that do not fit",
-    "The best action earns 0.6 in every step, the others 0.5, 0.4, 0.2 and 0 in the first. The discount is 0.9, "
-    "and targets above 1 are clipped. How many of the five actions can the network tell apart?",
+    "The rewards of five actions are 0.6, 0.5, 0.4, 0.2 and 0, and afterwards the best action is always taken. "
+    "The discount is 0.9, and targets above 1 are clipped. How many of the actions can the network distinguish?",
     guesses=["all", "three", "none"],
     files=LEARNING,
 )

@@ -39,7 +39,7 @@ TARGETS = {
 @asks(
     "Copy the actions, or take the reward along?",
     "An expert walks to the target on the right. Then the target moves to the top left. "
-    "A pupil who copied the actions goes on as before. In how many of the 41 cells is its action still the best one?",
+    "A learner has copied the actions. In how many of the 41 cells is its action still the best one?",
     guesses=["in all", "in about two thirds", "in about a third", "in none"],
     files=("grid",),
 )
@@ -145,9 +145,9 @@ def soft_maximum_of_three() -> dict[str, Any]:
 
 
 @asks(
-    "Turn the reward until the expert leads",
-    "Each grey point is what a policy collects, and the orange one is the expert. A reward is a direction. "
-    "In which direction is the expert's lead over the best of the others widest?",
+    "Turn the reward until the margin is largest",
+    "The grey points are the feature expectations of policies, and the orange one is the expert's. "
+    "A reward is a direction. In which direction is the expert's margin over the best of the others largest?",
     guesses=[
         "towards the expert from the origin",
         "away from the nearest point of the others' hull",
@@ -170,7 +170,7 @@ def widest_margin() -> dict[str, Any]:
 @asks(
     "Projection, step by step",
     "The apprentice may take any policy on the circle. "
-    "It asks for the best one in the direction of the expert, and mixes. "
+    "In each step it adds the best policy in the direction of the expert to its mixture. "
     "How many policies does it need until the mixture is within 0.1 of the expert?",
     guesses=["1", "3", "6", "more than 12"],
 )
@@ -209,8 +209,8 @@ def accuracy_or_balance() -> dict[str, Any]:
 
 @asks(
     "A few samples carry all the weight",
-    "Fifty random walks of twenty steps stand for all that could happen. With θ = 1, each step to the right "
-    "multiplies the weight of a walk by e. As many samples of equal weight as how many are left of the fifty?",
+    "Fifty random walks of twenty steps are samples of all trajectories. With θ = 1, each step to the right "
+    "multiplies the weight of a walk by e. To how many samples of equal weight do the fifty correspond?",
     guesses=["about 50", "about 25", "about 7", "none"],
 )
 def weights_of_samples() -> dict[str, Any]:
@@ -221,10 +221,10 @@ def weights_of_samples() -> dict[str, Any]:
 
 
 @asks(
-    "What an end is worth",
+    "The value of an end",
     "Each step gives a reward of 0.3, after scaling to the range from 0 to 1, and an end counts as 0. "
-    "Will a robot that maximises its value look for the end?",
-    guesses=["yes", "no, it puts the end off", "it does not care"],
+    "Will a robot that maximises its return try to end the episode?",
+    guesses=["yes", "no, it delays the end", "it does not care"],
 )
 def value_of_an_end() -> dict[str, Any]:
     """Nothing but the discount of the chapter."""

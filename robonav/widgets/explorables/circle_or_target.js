@@ -16,14 +16,14 @@ export default explorable({
       const { circle, target } = bothReturns(state);
       const far = Array.from({ length: 40 }, (_, k) => [k + 1, bothReturns({ ...state, seconds: k + 1 }).target]);
       chart.put(
-        `Going to the target returns ${target.toFixed(2)}, circling ${circle.toFixed(2)}`,
+        `Going to the target has the return ${target.toFixed(2)}, circling ${circle.toFixed(2)}`,
         chart.line(far, { stroke: PALETTE.BLUE }), chart.line([[1, Math.min(circle, 2)], [40, Math.min(circle, 2)]], { stroke: PALETTE.VERMILION }),
         svg("circle", { cx: chart.X(state.seconds), cy: chart.Y(target), r: 6, fill: PALETTE.BLUE }),
       );
       return [
         `Target: 1 · γ^${state.seconds - 1} = ${number(target, 3)}. Circle: ${number(state.circling)} / (1 − γ) = ${number(circle, 3)}.`, "",
-        circle > target ? "Circling returns more: a robot that maximises its return never arrives." : "Going to the target returns more.",
-        "A larger discount makes the target count more, and the circle as well.",
+        circle > target ? "Circling has the larger return: a robot that maximises its return never arrives." : "Going to the target has the larger return.",
+        "A larger discount increases both returns.",
       ].join("\n");
     };
   },

@@ -45,7 +45,7 @@ export default explorable({
   controls: ({ begin }) => ({
     epsilon: range({ label: "exploring ε", from: 0, to: 0.5, step: 0.05, value: 0, text: (value) => value.toFixed(2) }),
     episodes: range({ label: "episodes", from: 0, to: EPISODES, step: 50, value: 200 }),
-    again: press({ label: "Learn again with new luck", act: (state) => (state.seed += 1) }),
+    again: press({ label: "Learn again with another seed", act: (state) => (state.seed += 1) }),
   }),
   start: () => ({ seed: 1 }),
   draw({ given, stage }) {
@@ -68,7 +68,7 @@ export default explorable({
       const best = given.best[Math.round(epsilon / 0.05)];
       return [
         ...methods.map((name, k) => `${name} walks ${walks[k] ?? "nowhere yet"}.`),
-        `For a robot that explores with ε = ${epsilon.toFixed(2)} it is truly best to walk ${said(best.rows)}: it expects a return of ${number(best.value, 1)}.`,
+        `For a robot that explores with ε = ${epsilon.toFixed(2)} the best path leads ${said(best.rows)}, with an expected return of ${number(best.value, 1)}.`,
       ].join("\n");
     };
   },

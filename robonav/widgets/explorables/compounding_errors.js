@@ -25,7 +25,7 @@ export default explorable({
   }),
   draw({ stage }) {
     const chart = plot({ x: [0, MOST], y: [0, 100], xLabel: "decisions T", yLabel: "expected errors" });
-    stage.append(h("figure", {}, chart.element, legend([PALETTE.BLUE, "cloned"], [PALETTE.GREEN, "if it erred equally seldom everywhere"])));
+    stage.append(h("figure", {}, chart.element, legend([PALETTE.BLUE, "cloned"], [PALETTE.GREEN, "if it erred as rarely everywhere"])));
     return (state) => {
       const { error, decisions } = state;
       const cloned = expectedErrors(state, MOST);
@@ -35,7 +35,7 @@ export default explorable({
       chart.put("Expected errors against decisions", svg("line", at), chart.line(points(even), { stroke: PALETTE.GREEN }), chart.line(points(cloned), { stroke: PALETTE.BLUE }));
       return [
         `In ${decisions} decisions: ${number(cloned[decisions - 1], 1)} errors expected.`,
-        `If it erred in ${percent(error)} of all states alike: ${number(even[decisions - 1], 1)}.`,
+        `If it erred in ${percent(error)} of its decisions in all states: ${number(even[decisions - 1], 1)}.`,
       ].join("\n");
     };
   },

@@ -43,8 +43,8 @@ export default explorable({
       const close = bound.findIndex((size) => size <= 0.01 * gaps[0]);
       return [
         `After ${sweep} sweeps: blue ${number(blue[sweep][0])}, orange ${number(orange[sweep][0])} in state 0.`,
-        `Largest difference over both states: ${number(gaps[sweep], 3)}. Promised: at most ${number(bound[sweep], 3)}.`, "",
-        close < 0 ? `The promise does not reach a hundredth of the first difference within ${SWEEPS} sweeps.` : `From sweep ${close} on, a hundredth of the first difference is promised.`,
+        `Largest difference over both states: ${number(gaps[sweep], 3)}. The bound is ${number(bound[sweep], 3)}.`, "",
+        close < 0 ? `The bound does not fall to a hundredth of the first difference within ${SWEEPS} sweeps.` : `From sweep ${close} on, the bound is at most a hundredth of the first difference.`,
       ].join("\n");
     };
   },

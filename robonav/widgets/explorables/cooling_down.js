@@ -24,7 +24,7 @@ export default explorable({
       );
       return [
         `Temperature in episode ${episode + 1}: ${number(at(episode), 3)}.`, `The best action is taken in ${(100 * now).toFixed(1)} % of the decisions.`, "",
-        "What counts is the lead over the temperature. Q-values lie between 0 and 1, so a temperature of 0.9 makes all actions nearly equally likely.",
+        "The probability depends on the lead divided by the temperature. Q-values lie between 0 and 1, so a temperature of 0.9 makes all actions nearly equally likely.",
       ].join("\n");
     };
   },

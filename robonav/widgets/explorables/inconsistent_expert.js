@@ -34,7 +34,7 @@ export default explorable({
       );
       return [
         `With equally likely actions: ${chosen(likelihood)}.`, `With the actions' own frequencies as prior: ${chosen(joint)}.`, "",
-        "P(s | a) is the part of an action's demonstrations that was made in this state. A rare action that was made only here has a large one.",
+        "P(s | a) is the share of an action's demonstrations that were made in this state. It is large for a rare action that was taken only here.",
       ].join("\n");
     };
   },

@@ -16,12 +16,12 @@ export function trainedOn(packed, states, { action, target, steps }) {
 
 export default explorable({
   controls: () => ({
-    action: segments({ label: "the action taught, in state A", options: [0, 1, 2].map((a) => [a, String(a + 1)]), value: 0 }),
+    action: segments({ label: "the action trained, in state A", options: [0, 1, 2].map((a) => [a, String(a + 1)]), value: 0 }),
     target: range({ label: "its target", from: 0, to: 1, step: 0.05, value: 0.9, text: (value) => value.toFixed(2) }),
     steps: range({ label: "steps of gradient descent", from: 0, to: 100, value: 2 }),
   }),
   draw({ given, stage }) {
-    const charts = ["A, which is taught", "B, which is never seen"].map((name) => ({ name, chart: plot({ x: [0, 3], y: [0, 1], xLabel: `state ${name}`, yLabel: "Q-value", xTicks: [], height: 190 }) }));
+    const charts = ["A, which is trained", "B, which is not trained"].map((name) => ({ name, chart: plot({ x: [0, 3], y: [0, 1], xLabel: `state ${name}`, yLabel: "Q-value", xTicks: [], height: 190 }) }));
     stage.append(h("figure", {}, ...charts.map(({ chart }) => chart.element), legend([PALETTE.GREY, "before"], [PALETTE.BLUE, "after"])));
     return (state) => {
       const { before, after } = trainedOn(given.network, given.states, state);

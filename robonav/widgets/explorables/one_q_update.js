@@ -26,7 +26,7 @@ export default explorable({
       return [
         `Updated value of ${ROBOT.actions[taken]}: ${number(updated[taken], 3)}.`,
         `The network learns: ${[...learned].map((value) => number(value)).join(", ")}.`, "",
-        moved ? `The targets of ${moved} other actions differ from their values, so the network has to change them too.` : "The targets of the other actions are their values: nothing pulls at them directly.",
+        moved ? `The targets of ${moved} other actions differ from their values, so the network has to change them too.` : "The targets of the other actions equal their values.",
       ].join("\n");
     };
   },

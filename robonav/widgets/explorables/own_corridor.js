@@ -40,10 +40,10 @@ export default explorable({
       slip: range({ label: "a move fails in", from: 0, to: 0.5, step: 0.05, value: 0.1, text: (value) => `${Math.round(100 * value)} %` }),
     };
   },
-  start: ({ cells }) => ({ cells, belief: new Array(cells.length).fill(1 / cells.length), said: "It knows the plan, and not its place.", likelihood: null }),
+  start: ({ cells }) => ({ cells, belief: new Array(cells.length).fill(1 / cells.length), said: "It knows the plan, but not its position.", likelihood: null }),
   draw({ stage, act }) {
     const holder = h("div", { role: "group", tabindex: 0, "data-keys": "3", "aria-label": "The corridor. The key of a cell's number puts a door there or takes it away." });
-    const told = "Touch a cell, or press the key of its number, to put a door there or to take it away. The robot then knows nothing again.";
+    const told = "Touch a cell, or press the key of its number, to put a door there or to take it away. The robot's belief is then uniform again.";
     stage.append(h("figure", {}, holder, h("p", { class: "told" }, told)));
     const turned = (cells, place) => [...cells].map((letter, k) => (k === place ? (letter === "D" ? "." : "D") : letter)).join("");
     const touched = (place) => act((state) => {
@@ -60,13 +60,13 @@ export default explorable({
         holder.replaceChildren(picture.element);
       }
       picture.show({ belief, likelihood, prior: null }, null);
-      const chance = (door) => seen(cells, door, accuracy).reduce((sum, share, s) => sum + share * belief[s], 0);
+      const probability = (door) => seen(cells, door, accuracy).reduce((sum, share, s) => sum + share * belief[s], 0);
       const after = (door) => number(entropy(weighed(belief, seen(cells, door, accuracy))));
       return [
         `${said} Likeliest cell: ${largest(belief)}, with ${number(100 * Math.max(...belief), 1)} %.`,
-        `Uncertainty: ${number(entropy(belief))} bits (0 when the cell is known, ${number(Math.log2(cells.length))} when nothing is).`, "",
-        `It expects a door with ${number(100 * chance(true), 0)} %; after one it would have ${after(true)} bits left, after a wall ${after(false)}.`,
-        `A move brings it on with ${Math.round(100 * (1 - slip))} %.`,
+        `Uncertainty: ${number(entropy(belief))} bits (0 when the cell is known, ${number(Math.log2(cells.length))} when no cell is excluded).`, "",
+        `The probability of a door is ${number(100 * probability(true), 0)} %. A door would leave ${after(true)} bits, and a wall ${after(false)}.`,
+        `A move succeeds with probability ${Math.round(100 * (1 - slip))} %.`,
       ].join("\n");
     };
   },

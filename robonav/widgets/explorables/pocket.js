@@ -25,7 +25,7 @@ export function episodeInPocket(world, speed = 2) {
 
 export default explorable({
   controls: () => ({
-    depth: range({ label: "the pocket is deep", from: 0, to: 20, value: 2, text: (value) => `${value} m` }),
+    depth: range({ label: "depth of the pocket", from: 0, to: 20, value: 2, text: (value) => `${value} m` }),
     width: range({ label: "and wide", from: 8, to: 24, step: 2, value: 12, text: (value) => `${value} m` }),
   }),
   draw({ given, stage }) {

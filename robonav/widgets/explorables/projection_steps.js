@@ -50,8 +50,8 @@ export default explorable({
       const near = distances.findIndex((distance) => distance <= 0.1);
       return [
         `Distance of the mixture to the expert: ${number(distances[policies], 3)}.`,
-        near < 0 ? "It will not come within 0.1: the expert collects what no mixture of these policies can." : policies >= near ? "It is within 0.1." : "It is not yet within 0.1.", "",
-        "Each policy is the best one for the latest reward. The mixture moves to the nearest point on the way to it.",
+        near < 0 ? "It will not come within 0.1, because no mixture of these policies is so close to the expert." : policies >= near ? "It is within 0.1." : "It is not yet within 0.1.", "",
+        "Each new policy is the best one for the latest reward. The mixture moves towards it, to the point nearest to the expert.",
       ].join("\n");
     };
   },

@@ -11,24 +11,24 @@ function bare(element) {
 export default explorable({
   controls: ({ grounds }) => ({
     target: segments({ label: "the target stands", options: grounds.map(({ name }, k) => [k, name]), value: 0 }),
-    pupil: segments({ label: "the pupil took along", options: [["copied", "the actions"], ["reward", "the reward"]], value: "copied" }),
+    learner: segments({ label: "the learner has", options: [["copied", "the actions"], ["reward", "the reward"]], value: "copied" }),
   }),
   draw({ given: { grounds }, stage }) {
-    const pictures = grounds.map(({ layout }) => gridPicture({ layout, name: "what the pupil does" }));
+    const pictures = grounds.map(({ layout }) => gridPicture({ layout, name: "the learner's policy" }));
     const clear = pictures.map(({ element }) => bare(element));
     const holder = h("figure", {});
     stage.append(holder);
-    return ({ target, pupil }) => {
+    return ({ target, learner }) => {
       const ground = grounds[target];
-      const { policy, values } = ground[pupil];
-      pictures[target].show({ values, policy, said: pupil, walk: [] }, 2.5, ground.start);
+      const { policy, values } = ground[learner];
+      pictures[target].show({ values, policy, said: learner, walk: [] }, 2.5, ground.start);
       clear[target]();
       holder.replaceChildren(pictures[target].element);
       return [
         `The copied action is still the best one in ${ground.still} of ${ground.cells} cells.`,
         `Value of the start with the copied actions: ${number(ground.copied.values[ground.start])}.`,
         `With the best actions for the same reward: ${number(ground.reward.values[ground.start])}.`, "",
-        "The reward says what each kind of ground is like. The target's place is part of the ground, so the reward goes along with it.",
+        "The reward gives a number to each kind of ground, and the target is one of the kinds. So the reward stays correct when the target moves.",
       ].join("\n");
     };
   },

@@ -13,7 +13,7 @@ export default explorable({
   controls: () => ({
     seeds: range({ label: "trainings of each method", from: 1, to: 64, value: 1 }),
     difference: range({ label: "true difference, in points", from: 0, to: 5, step: 0.25, value: 1, text: (value) => value.toFixed(2) }),
-    scatter: range({ label: "scatter of single trainings", from: 0.5, to: 6, step: 0.25, value: 2, text: (value) => value.toFixed(2) }),
+    scatter: range({ label: "standard deviation of single trainings", from: 0.5, to: 6, step: 0.25, value: 2, text: (value) => value.toFixed(2) }),
   }),
   draw({ given: { x, cdf }, stage }) {
     const chart = plot({ x: [0, 64], y: [0.5, 1], xLabel: "trainings of each method", yLabel: "better one has the higher mean" });
@@ -27,7 +27,7 @@ export default explorable({
       );
       return [
         `The better method has the higher mean in ${(100 * right(seeds)).toFixed(0)} % of such comparisons.`,
-        `A 95 % interval of the difference is about ±${number(1.96 * scatter * Math.sqrt(2 / seeds), 1)} points wide.`, "",
+        `A 95 % interval of the difference is about ±${number(1.96 * scatter * Math.sqrt(2 / seeds), 1)} points.`, "",
         "Four times as many trainings halve the interval.",
       ].join("\n");
     };

@@ -28,7 +28,7 @@ export default explorable({
       return [
         `Hard maximum: ${number(highest)}. Soft maximum: ${number(now, 3)}.`,
         `It is larger by ${number(now - highest, 3)}; the most it can be larger is ${number(temperature * Math.log(3), 3)}, the temperature times log 3.`, "",
-        "The difference is the temperature times the entropy that the best random choice keeps, less what that choice gives up.",
+        "The soft maximum is the largest sum of expected value and temperature times entropy that a random choice can have.",
       ].join("\n");
     };
   },

@@ -24,7 +24,7 @@ export default explorable({
       return [
         `Marked: ${grid.where(marked)}.`, ...lines, "",
         `Against the policy at the start, ${differs(1)} values are higher and ${differs(-1)} lower.`,
-        loss < 5e-4 ? "No advantage is positive anywhere: this policy is optimal." : `Somewhere ${number(loss, 3)} is still lost.`,
+        loss < 5e-4 ? "No advantage is positive anywhere: this policy is optimal." : `The largest loss of value in a cell is ${number(loss, 3)}.`,
       ].join("\n");
     };
   },

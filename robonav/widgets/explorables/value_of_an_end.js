@@ -22,8 +22,8 @@ export default explorable({
         chart.line(values.map((value, n) => [n, value]), { stroke: PALETTE.BLUE }),
         ...values.map((value, n) => svg("circle", { cx: chart.X(n), cy: chart.Y(value), r: 4, fill: PALETTE.BLUE })),
       );
-      const wish = Math.abs(reward - end) < 1e-9 ? "It does not care when the episode ends." : reward > end ? "It puts the end off: every further step is worth more than the end." : "It looks for the end: the end is worth more than any further step.";
-      return [`Ending at once: ${number(values[0])}. After 5 steps: ${number(values[5])}. Never: ${number(reward)}.`, "", wish, "So what an end counts is part of the reward, although no feature describes it."].join("\n");
+      const wish = Math.abs(reward - end) < 1e-9 ? "All times of ending have the same value." : reward > end ? "It delays the end: every further step gives more than the end." : "It tries to end the episode: the end gives more than any further step.";
+      return [`Ending now: ${number(values[0])}. After 5 steps: ${number(values[5])}. Never: ${number(reward)}.`, "", wish, "So the value of an end is part of the reward, although no feature describes it."].join("\n");
     };
   },
 });

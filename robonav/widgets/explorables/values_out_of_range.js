@@ -1,6 +1,6 @@
 // Values that do not fit into outputs between 0 and 1: clipped or shifted, they become nearly equal.
 
-/** The values of actions with these first rewards, after each of which the best one is taken for ever, Eq. (2.11). */
+/** The values of actions with these first rewards, after each of which the best one is always taken, Eq. (2.11). */
 export const trueValues = (rewards, discount) => rewards.map((reward) => reward + (discount * Math.max(...rewards)) / (1 - discount));
 
 export default explorable({
@@ -27,7 +27,7 @@ export default explorable({
         `Rewards of the actions: ${rewards.join(", ")}.`,
         `True values: ${values.map((value) => number(value)).join(", ")}.`,
         `Targets: ${[...targets].map((value) => number(value)).join(", ")}.`, "",
-        kinds === 1 ? "The network can tell no two actions apart." : `The best action is ahead of the next one by ${number(sorted[0] - sorted[1], 3)}; the targets have ${kinds} different values.`,
+        kinds === 1 ? "The network cannot distinguish any two actions." : `The value of the best action exceeds the next one by ${number(sorted[0] - sorted[1], 3)}; the targets have ${kinds} different values.`,
       ].join("\n");
     };
   },

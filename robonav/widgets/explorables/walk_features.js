@@ -5,7 +5,7 @@ export const collected = (kinds, count, discount) =>
   kinds.reduce((sums, kind, t) => sums.map((sum, k) => sum + (k === kind ? discount ** t : 0)), new Array(count).fill(0));
 
 /** theta . mu, Eq. (5.4). */
-export const worthOf = (weights, mu) => weights.reduce((sum, weight, k) => sum + weight * mu[k], 0);
+export const returnOf = (weights, mu) => weights.reduce((sum, weight, k) => sum + weight * mu[k], 0);
 
 export default explorable({
   controls: ({ kinds, weights }) => ({
@@ -33,7 +33,7 @@ export default explorable({
     });
     return ({ discount, ...rewards }) => {
       const mus = walks.map((walk) => collected(walk.kinds, kinds.length, discount));
-      const values = mus.map((mu) => worthOf(kinds.map((name) => rewards[name]), mu));
+      const values = mus.map((mu) => returnOf(kinds.map((name) => rewards[name]), mu));
       const bar = (k, w) => svg("rect", {
         x: chart.X(2 * k + 0.3 + 0.7 * w), y: chart.Y(mus[w][k]), width: chart.X(0.6) - chart.X(0), height: chart.Y(0) - chart.Y(mus[w][k]), fill: [PALETTE.BLUE, PALETTE.ORANGE][w],
       });

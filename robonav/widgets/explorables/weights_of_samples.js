@@ -28,7 +28,7 @@ export default explorable({
       );
       return [
         `Weighted mean: ${number(mean)}. The expert's: ${number(expert)}. The gradient of the dual is their difference, ${number(expert - mean)}.`,
-        `As many samples as ${number(effectiveSamples(weights), 1)} of equal weight.`, "",
+        `The weighted samples correspond to ${number(effectiveSamples(weights), 1)} samples of equal weight.`, "",
         Math.max(...features) < expert ? `No sample goes to the right as often as the expert: the largest share is ${number(Math.max(...features))}. However large θ is, the weighted mean cannot reach the expert's.` : "Some samples go to the right at least as often as the expert.",
       ].join("\n");
     };

@@ -24,7 +24,7 @@ export default explorable({
   }),
   draw({ given: { others }, stage }) {
     const chart = plot({ x: [-3.5, 3.5], y: [-3.5, 3.5], xLabel: "feature 1", yLabel: "feature 2", width: 360, height: 360 });
-    stage.append(h("figure", {}, chart.element, legend([PALETTE.GREY, "other policies"], [PALETTE.ORANGE, "the expert"], [PALETTE.BLUE, "the reward, and where it is equal"])));
+    stage.append(h("figure", {}, chart.element, legend([PALETTE.GREY, "other policies"], [PALETTE.ORANGE, "the expert"], [PALETTE.BLUE, "the reward, and lines of equal return"])));
     return ({ degrees, x, y }) => {
       const expert = [x, y];
       const { lead, rival } = leadAt(expert, others, degrees);
@@ -37,15 +37,15 @@ export default explorable({
       };
       const dot = ([px, py], fill, r = 5) => svg("circle", { cx: chart.X(px), cy: chart.Y(py), r, fill });
       chart.put(
-        `The reward points to ${degrees} degrees; the expert leads by ${lead.toFixed(2)}`,
+        `The reward points to ${degrees} degrees; the expert's margin is ${lead.toFixed(2)}`,
         across(expert, "6 4"), across(others[rival], "2 4"),
         chart.line([[0, 0], [1.6 * c, 1.6 * s]], { stroke: PALETTE.BLUE, "stroke-width": 4 }),
         ...others.map((point) => dot(point, PALETTE.GREY)), dot(expert, PALETTE.ORANGE, 7),
       );
       return [
-        lead > 0 ? `The expert leads by ${number(lead, 3)}.` : `The expert does not lead: another policy collects ${number(-lead, 3)} more.`, "",
-        best.lead <= 0.0005 ? "In no direction does the expert lead: it lies among the others."
-          : lead > 0.99 * best.lead ? "There is hardly a wider lead than this." : `The widest lead of all directions is ${number(best.lead, 3)}.`,
+        lead > 0 ? `The expert's margin is ${number(lead, 3)}.` : `The expert has no margin: the return of another policy is larger by ${number(-lead, 3)}.`, "",
+        best.lead <= 0.0005 ? "The expert has a margin in no direction, because it lies inside the hull of the others."
+          : lead > 0.99 * best.lead ? "This is nearly the largest possible margin." : `The largest margin of all directions is ${number(best.lead, 3)}.`,
       ].join("\n");
     };
   },

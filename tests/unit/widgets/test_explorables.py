@@ -60,11 +60,11 @@ def test_returns(compute, discount):
     assert seen == pytest.approx(mdp.discounted_return(rewards, discount)[0], abs=1e-12)
 
 
-def test_both_chargers_are_worth_the_same_where_the_page_says():
+def test_both_chargers_have_equal_returns_where_the_page_says():
     given = explorable("discounted_return").data["given"]
     assert round(given["equal"], 3) == 0.858  # as the answer on the page says
     far = mdp.discounted_return(given["far"], given["equal"])[0]
-    assert far == pytest.approx(given["worth"], abs=1e-12)
+    assert far == pytest.approx(given["value"], abs=1e-12)
 
 
 GRIDS = ["turn_arrows", "bellman_backup", "evaluate_improve"]
@@ -323,15 +323,15 @@ def best_of_all_plans(pomdp, belief, steps):
     """Value of a belief with some steps to go, through every action and observation."""
     if steps == 0:
         return 0.0
-    worth = []
+    values = []
     for action, reward in enumerate(pomdp.expected_rewards(belief)):
-        chances = pomdp.observation_probabilities(belief, action)
+        probabilities = pomdp.observation_probabilities(belief, action)
         futures = [
             best_of_all_plans(pomdp, pomdp.update(belief, action, seen), steps - 1)
             for seen in range(2)
         ]
-        worth.append(reward + pomdp.mdp.discount * chances @ futures)
-    return max(worth)
+        values.append(reward + pomdp.mdp.discount * probabilities @ futures)
+    return max(values)
 
 
 def test_sensors_read_what_python_reads(compute):
@@ -562,13 +562,13 @@ def test_walks_collect_discounted_features(compute, discount):
     for walk in given["walks"]:
         body = """
         const mu = page.collected(data.kinds, 4, data.discount);
-        return { mu, worth: page.worthOf(given.weights, mu) };"""
+        return { mu, value: page.returnOf(given.weights, mu) };"""
         seen = compute("walk_features", body, kinds=walk["kinds"], discount=discount)
         features = np.eye(4)[walk["kinds"]]
         sums = nirl.discounted_feature_sums(features, [0] * len(features), discount)
         assert seen["mu"] == pytest.approx(sums[0], abs=1e-12)
-        worth = nirl.value_of_expectations(nirl.TRUE_WEIGHTS, sums[0])
-        assert seen["worth"] == pytest.approx(worth, abs=1e-12)
+        value = nirl.value_of_expectations(nirl.TRUE_WEIGHTS, sums[0])
+        assert seen["value"] == pytest.approx(value, abs=1e-12)
 
 
 def test_soft_maximum(compute):

@@ -85,7 +85,7 @@ def test_a_robot_that_looks_no_further_drives_as_in_python(page, shown, theta):
         return (add_constant(ENCODER(sensing)) @ theta.T).argmax(axis=1)
 
     expected = navigate(policy, worlds, SPEED, 200, record_paths=True)
-    body = """return data.worlds.map((world) => page.drive(data.plan, world))
+    body = """return data.worlds.map((world) => page.episodeOf(data.plan, world))
       .map(({ poses, outcome }) => ({ poses, outcome }));"""
     drives = page(
         body,
@@ -104,7 +104,7 @@ def test_a_robot_that_looks_no_further_drives_as_in_python(page, shown, theta):
         )
 
 
-def worths(theta, scale, simulator, depth):
+def values_ahead(theta, scale, simulator, depth):
     """The same by brute force: a copy of the simulator for each action."""
     sensing = simulator.sense()
     rewards = (add_constant(ENCODER(sensing)) @ theta.T)[0]
@@ -122,7 +122,7 @@ def worths(theta, scale, simulator, depth):
         rest = {ARRIVED: 1.0, COLLIDED: 0.0}.get(int(after.outcome[0]))
         if rest is None:
             rest = (
-                max(worths(theta, scale, after, depth - 1))
+                max(values_ahead(theta, scale, after, depth - 1))
                 if depth > 1 and asked
                 else 0.5
             )
@@ -137,7 +137,7 @@ def copy_of(simulator):
     return other
 
 
-def test_looking_ahead_is_worth_what_brute_force_says(page, shown, theta):
+def test_values_ahead_are_those_of_brute_force(page, shown, theta):
     worlds = random_worlds(12, 20, 6, seed=8)
     rng = np.random.default_rng(0)
     moments, expected = [], []
@@ -158,10 +158,10 @@ def test_looking_ahead_is_worth_what_brute_force_says(page, shown, theta):
         moments.append(
             {"world": page_world(here), "pose": pose, "step": int(simulator.steps[0])}
         )
-        expected.append(worths(theta, setting["scale"], simulator, 2))
+        expected.append(values_ahead(theta, setting["scale"], simulator, 2))
     assert len(moments) >= 4
     body = """return data.moments.map((moment) =>
-      page.worths(data.plan, { ...moment, sensing: page.sense(moment.world, moment.pose) }, 2));"""
+      page.valuesAhead(data.plan, { ...moment, sensing: page.sense(moment.world, moment.pose) }, 2));"""
     seen = page(body, {"plan": setting, "moments": moments})
     np.testing.assert_allclose(seen, expected, atol=1e-9)
 
