@@ -15,13 +15,13 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.validation import check_integer, check_one_of
 
 from ._fast import NO_REFLEX, OUT_OF_STEPS, RUNNING
-from .environment_settings import (
+from .environments import (
     NavigationSettings,
     Reward,
     arrival_or_collision,
+    observation_space,
     worlds_in,
 )
-from .environments import observation_space
 from .rollout import REFLEX, ReflexRule, undecided
 from .simulator import OUTCOMES, Sensing, Simulator, check_actions
 from .worlds import MOVING_SPEEDS, START, TARGET, Worlds

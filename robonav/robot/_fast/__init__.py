@@ -29,9 +29,9 @@ from .constants import (
 )
 from .drawing import draw_worlds, reachable
 from .geometry import micrometres, swept_clearance
-from .motion import drift, drift_world, slipped, step, wrap
+from .motion import drift, step
 from .random_numbers import DRIFTING, MAX_OBSTACLES, uniform
-from .sensing import reflexes, sense, sense_robot
+from .sensing import reflexes, sense
 from .threads import in_threads
 
 __all__ = [
@@ -56,16 +56,12 @@ __all__ = [
     "TURNS",
     "draw_worlds",
     "drift",
-    "drift_world",
     "in_threads",
     "micrometres",
     "reachable",
     "reflexes",
     "sense",
-    "sense_robot",
-    "slipped",
     "step",
     "swept_clearance",
     "uniform",
-    "wrap",
 ]

@@ -172,32 +172,15 @@ def _target_region(dx, dy, heading):
 
 
 @compiled
-def sense_robot(
-    kinds, shapes, centres, size, x, y, heading, target_x, target_y, key, step, noise, ranges, walls,
-):  # fmt: skip
-    """What one robot reads: fill in its ranges and walls (9,), return its target's region and whether it is seen.
-
-    ``noise`` is the standard deviation, in metres, of an error on every range that sees something.
-    """
-    rays = _sector_rays()
-    ranges[:] = SENSOR_RANGE
-    walls[:] = False
-    _sense_obstacles(kinds, shapes, centres, x, y, heading, rays, ranges)
-    _sense_borders(size, x, y, heading, rays, ranges, walls)
-    _read_out(key, step, noise, ranges, walls)
-    dx, dy = target_x - x, target_y - y
-    seen = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
-    return _target_region(dx, dy, heading), seen
-
-
-@compiled
 def sense(
     start, stop, robots, kinds, shapes, centres, size, poses, targets, keys, steps, noise, ranges, walls, region,
     seen,
 ):  # fmt: skip
     """What ``robots[start]`` to ``robots[stop - 1]`` read: ranges and walls (K, 9), target region and seen (K,).
 
-    ``robots`` (K,) are rows of the N worlds. Each reads what :func:`sense_robot` says; the rays are made only once.
+    ``robots`` (K,) are rows of the N worlds. Each reads what :func:`robonav.robot.environments.sense` says, and the
+    rays are made only once. ``noise`` is the standard deviation, in metres, of an error on every range that sees
+    something.
     """
     rays = _sector_rays()
     for j in range(start, stop):

@@ -90,7 +90,7 @@ def test_saturated_outputs_still_differ():
 
 
 def test_a_network_that_does_not_fit_is_refused():
-    with pytest.raises(ValueError, match="network must be a single one with 12 inputs"):
+    with pytest.raises(ValueError, match="network must have 12 inputs"):
         NetworkPolicy(random_network((11, 8, 5), seed=0))
 
 

@@ -12,7 +12,17 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 import robonav
-from robonav.robot import Action, make_world, neighbour_slip, random_worlds
+from robonav.robot import (
+    Action,
+    Simulator,
+    environments,
+    make_world,
+    neighbour_slip,
+    obstacle_tracks,
+    random_worlds,
+    sense,
+)
+from robonav.robot._fast import micrometres, swept_clearance
 from robonav.robot.environments import NavigationEnv, as_sensing
 from robonav.robot.vector_environment import NavigationVectorEnv
 
@@ -391,3 +401,98 @@ def test_the_array_of_ones_own_reflex_is_left_alone():
     for _ in range(4):
         *_, info = env.step(np.zeros(3, int))
     assert info["reflex"].tolist() == [0, 0, 0]
+
+
+def some_worlds(moving: int = 4):
+    """Worlds with circles and rectangles, and in each a pose: some beside obstacles and borders, some within them."""
+    worlds = random_worlds(1500, obstacles=16, moving=moving, seed=5)
+    rng = np.random.default_rng(6)
+    poses = np.column_stack(
+        [
+            rng.uniform(0, worlds.size, (len(worlds), 2)),
+            rng.uniform(-np.pi, np.pi, len(worlds)),
+        ]
+    )
+    poses[::5, rng.integers(2)] = rng.uniform(0, 3, len(poses[::5]))  # near a border
+    return worlds, poses
+
+
+def one_map(worlds, i):
+    return (
+        worlds.kinds[i], worlds.shapes[i], worlds.centres[i].copy(), worlds.headings[i].copy(), worlds.speeds[i],
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.4])
+def test_one_robot_senses_what_the_batch_senses_to_the_bit(noise):
+    worlds, poses = some_worlds()
+    expected = sense(worlds, poses, noise=noise)
+    assert expected.walls.any(), "no border in range"
+    assert (expected.ranges == 0).any(), "no robot in an obstacle"
+    for i, pose in enumerate(poses.tolist()):
+        ranges, walls = np.empty(9), np.empty(9, dtype=bool)
+        region, seen = environments.sense(
+            one_map(worlds, i), worlds.size, tuple(pose), tuple(worlds.targets[i].tolist()), noise, worlds.keys[i], 0,
+            ranges, walls,
+        )  # fmt: skip
+        np.testing.assert_array_equal(ranges, expected.ranges[i])
+        np.testing.assert_array_equal(walls, expected.walls[i])
+        assert region == expected.target_region[i]
+        assert seen == expected.target_seen[i]
+
+
+def test_obstacles_of_one_map_drift_as_in_the_batch_to_the_bit():
+    worlds, _ = some_worlds()
+    steps = 30
+    tracks = obstacle_tracks(worlds[:100], steps)
+    assert (abs(np.diff(tracks, axis=1)).max(axis=(0, 1, 3)) > 0).any()
+    for i in range(100):
+        obstacles = one_map(worlds, i)
+        for step in range(steps):
+            environments.drift(obstacles, worlds.size, worlds.keys[i], step)
+            np.testing.assert_array_equal(obstacles[2], tracks[i, step + 1])
+
+
+def test_clearance_of_one_step_is_the_compiled_one_to_the_bit():
+    worlds, poses = some_worlds()
+    ends = poses + np.random.default_rng(7).uniform(-4, 4, poses.shape)
+    collisions = 0
+    for i, (start, end) in enumerate(zip(poses.tolist(), ends.tolist(), strict=True)):
+        obstacles = one_map(worlds, i)
+        environments.drift(obstacles, worlds.size, worlds.keys[i], 0)
+        kinds, shapes, centres, _, _ = obstacles
+        expected = micrometres(
+            swept_clearance(
+                kinds, shapes, worlds.centres[i], centres, worlds.size, *start[:2], *end[:2], 1.001,
+            )
+        )  # fmt: skip
+        got = environments.least_clearance(
+            obstacles, worlds.centres[i], worlds.size, tuple(start), tuple(end)
+        )
+        assert min(got, 1.001) == expected
+        collisions += got < 1
+    assert 100 < collisions < 1400
+
+
+def test_one_action_slips_as_in_the_batch():
+    worlds, _ = some_worlds(moving=0)
+    slip = neighbour_slip(0.5)
+    for action in range(6):
+        simulator = Simulator(worlds, slip=slip)
+        executed = simulator.step(np.full(len(worlds), action))
+        slipped = [environments.slip_to(action, slip, key, 0) for key in worlds.keys]
+        np.testing.assert_array_equal(slipped, executed)
+    assert len(set(slipped)) == 1  # B never slips
+
+
+def test_turn_and_go_of_one_robot_is_that_of_the_batch_to_the_bit():
+    worlds, poses = some_worlds(moving=0)
+    simulator = Simulator(worlds, speed=1.7)
+    simulator.poses = poses.copy()
+    actions = np.random.default_rng(0).integers(6, size=len(worlds))
+    simulator.step(actions)
+    for pose, action, expected in zip(poses, actions, simulator.poses, strict=True):
+        distance = -1.7 if action == Action.B else 1.7
+        turn = environments.TURN_OF_ACTION[action]
+        got = environments.turn_and_go(tuple(pose.tolist()), turn, distance)
+        np.testing.assert_array_equal(got, expected)
