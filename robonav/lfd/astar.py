@@ -42,6 +42,8 @@ EIGHT_DIRECTIONS = [
     (right, up) for right in (-1, 0, 1) for up in (-1, 0, 1) if (right, up) != (0, 0)
 ]
 SMALLEST_CELL = 2e-3  # times the map's side; halving the cells makes four times as many
+LOWEST_SPEED = 1e-5  # times the map's side; slower robots take 100,000 steps and more
+MOVE = 1.0  # metres: slower robots turn at most once in this distance
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,11 +262,11 @@ def cell_of(world: Worlds, point: Point | Floats, cell: float) -> Index:
     return min(int(point[0] / cell), last), min(int(point[1] / cell), last)
 
 
-def step_clearance(world: Worlds, start: Point, end: Point, most: float) -> float:
-    """Return the distance that a step keeps from obstacles and borders, at most ``most``; 0 if it leaves the map."""
+def step_clearance(world: Worlds, start: Point, end: Point, limit: float) -> float:
+    """Return the distance that a step keeps from obstacles and borders, at most ``limit``; 0 if it leaves the map."""
     centres = world.centres[0]
     obstacles = world.kinds[0], world.shapes[0], centres, centres, world.size
-    return swept_clearance(*obstacles, *start, *end, most)
+    return swept_clearance(*obstacles, *start, *end, limit)
 
 
 def nearness(world: Worlds, point: Point, cell: float) -> float:
@@ -391,9 +393,10 @@ def plan(
     pose : (3,) array, optional
         x, y and heading at the start. By default the world's start, facing the target.
     cell : float, optional
-        Side in metres of the cells that tell nodes apart. A step that ends in the cell it began in, with its heading
-        unchanged, leads to a node that is closed already. Cells larger than ``speed`` can therefore hide a path. By
-        default 1 m, or ``speed`` if that is less.
+        Side in metres of the cells that tell nodes apart, by default 1 m. A move that ends in the cell it began in,
+        with its heading unchanged, leads to a node that is closed already. Cells larger than a move can therefore hide
+        a path. A move is one step. If ``speed`` is less than 1 m/s and less than ``cell``, a move is as many steps
+        straight on as cover the cell or 1 m, and the robot turns only at the start of a move.
     limit : int
         The most nodes to expand.
     record : bool
@@ -407,7 +410,7 @@ def plan(
     Warns
     -----
     UserWarning
-        If no path was found and ``cell`` is larger than ``speed``.
+        If no path was found and ``cell`` is larger than a move.
 
     Raises
     ------
@@ -427,24 +430,84 @@ def plan(
     _one_world(world)
     start = world.start_poses[0] if pose is None else _in_map("pose", pose, 3, world)
     speed = check_positive("speed", speed)
-    margin, cell = _lengths(world, margin, min(1.0, speed) if cell is None else cell)
+    check_real("speed", speed, at_least=LOWEST_SPEED * world.size)
+    margin, cell = _lengths(world, margin, MOVE if cell is None else cell)
     caution = check_real("caution", caution, at_least=0)
     limit = min(
         check_integer("limit", limit, at_least=1), _fast.HEADINGS * _nodes(world, cell)
     )
     visited = np.empty((limit if record else 0, 3))
+    steps = steps_in_move(speed, cell)
     found, poses, actions, expanded = _fast.search_actions(
-        *_map(world), start, world.targets[0], speed, margin, caution, cell, limit, record, visited,
+        *_map(world), start, world.targets[0], steps * speed, margin, caution, cell, limit, record, visited,
     )  # fmt: skip
-    if not found and cell > speed:
+    if not found and cell > steps * speed:
         warnings.warn(
-            f"plan found no path with cells of {cell:g} m and steps of {speed:g} m: a step that ends in the cell it "
-            "began in leads to no new node, so cell should be at most speed",
+            f"plan found no path with cells of {cell:g} m and moves of {steps * speed:g} m: a move that ends in the "
+            f"cell it began in leads to no new node, so cell should be at most {steps * speed:g}",
             stacklevel=2,
         )
+    poses, actions = as_single_steps(poses, actions, steps, world.targets[0])
     points, headings, length = poses[:, :2], poses[:, 2], speed * len(actions)
     seen = visited[:expanded] if record else None
     return Plan(found, points, headings, actions, length, expanded, seen)
+
+
+def steps_in_move(speed: float, cell: float) -> int:
+    """Return how many steps a robot goes straight on before it may turn again: as many as cover a cell, or 1 m.
+
+    Examples
+    --------
+    >>> from robonav.lfd.astar import steps_in_move
+    >>> steps_in_move(speed=2.0, cell=1.0), steps_in_move(speed=0.25, cell=1.0)
+    (1, 4)
+    """
+    return max(1, math.ceil(min(cell, MOVE) / speed))
+
+
+def as_single_steps(
+    poses: Floats, actions: NDArray[np.int64], steps: int, target: Floats
+) -> tuple[Floats, NDArray[np.int64]]:
+    """Return a path of moves, each of several steps, as a path of steps that ends where the robot arrives.
+
+    Parameters
+    ----------
+    poses : (M + 1, 3) array
+        x, y and heading before and after each move.
+    actions : (M,) array of int
+        The action that each move begins with. Its other steps go forward.
+    steps : int
+        Number of steps in a move.
+    target : (2,) array
+        x and y.
+
+    Returns
+    -------
+    poses : (K + 1, 3) array
+        x, y and heading before and after each step.
+    actions : (K,) array of int
+        The action of each step.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd.astar import as_single_steps
+    >>> poses = np.array([[5.0, 5.0, 0.0], [6.0, 5.0, 0.0], [7.0, 5.0, 0.0]])
+    >>> moved, actions = as_single_steps(poses, np.array([0, 0]), steps=2, target=np.array([9.9, 5]))
+    >>> moved[:, 0], actions
+    (array([5. , 5.5, 6. , 6.5, 7. ]), array([0, 0, 0, 0]))
+    """
+    if steps == 1:
+        return poses, actions
+    part = np.tile(np.arange(1, steps + 1) / steps, len(actions))[:, None]
+    before = np.repeat(poses[:-1, :2], steps, axis=0)
+    after = np.repeat(poses[1:], steps, axis=0)
+    after[:, :2] = before + part * (after[:, :2] - before)
+    turns = np.zeros((len(actions), steps), dtype=np.int64)
+    turns[:, 0] = actions
+    arrived = np.hypot(*(after[:, :2] - target).T) <= CLOSE_ENOUGH
+    last = int(arrived.argmax()) + 1 if arrived.any() else len(after)
+    return np.concatenate([poses[:1], after[:last]]), turns.ravel()[:last]
 
 
 def plan_on_grid(

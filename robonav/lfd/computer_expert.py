@@ -13,7 +13,7 @@ from robonav.robot.worlds import LARGEST_MAP
 from robonav.validation import check_instance, check_real
 
 from . import _fast
-from .astar import plan
+from .astar import MOVE, as_single_steps, plan, steps_in_move
 from .demonstrations import Actions, Demonstrations, record
 
 MARGIN = (
@@ -76,8 +76,8 @@ class ComputerExpert:
 
     Notes
     -----
-    The cells that tell poses apart are as large as a step. Smaller cells give shorter plans with more and smaller
-    turns, which are harder to learn from.
+    The cells that tell poses apart are as large as a step, and at least 1 m. Smaller cells give shorter plans with more
+    and smaller turns, which are harder to learn from.
 
     Examples
     --------
@@ -115,14 +115,17 @@ class ComputerExpert:
         world, pose = simulator.worlds, simulator.poses[robot].copy()
         target, centres = world.targets[robot].copy(), simulator.centres[robot].copy()
         obstacles = world.kinds[robot], world.shapes[robot], centres, world.size
-        speed = cell = simulator.speed
+        cell = max(simulator.speed, MOVE)
+        steps = steps_in_move(simulator.speed, cell)
+        move = steps * simulator.speed
         margins = np.arange(self.margin, COLLISION_DISTANCE, -MARGIN_STEP)
         for margin in np.append(margins, COLLISION_DISTANCE):
             found, poses, actions, _ = _fast.search_actions(
-                *obstacles, pose, target, speed, margin, self.caution, cell,
+                *obstacles, pose, target, move, margin, self.caution, cell,
                 LIMIT, False, _NOT_RECORDED,
             )  # fmt: skip
             if found:
+                poses, actions = as_single_steps(poses, actions, steps, target)
                 return FollowedPlan(poses, actions, target, centres)
         straight_on = np.zeros(1, dtype=np.int64)
         return FollowedPlan(pose[None], straight_on, target, centres)

@@ -49,7 +49,7 @@ class Action(IntEnum):
     TO_TARGET = 6  # in a safe state: turn to the target and go
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sensing:
     """What N robots sense; a policy decides for itself how to encode it.
 

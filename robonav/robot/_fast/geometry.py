@@ -102,8 +102,8 @@ def swept_distance(kind, shape, x0, y0, x1, y1):
 
 
 @compiled
-def swept_clearance(kinds, shapes, before, after, size, x0, y0, x1, y1, enough):
-    """Least distance to any obstacle (M of them) or border during one step; no more than ``enough`` is worked out.
+def swept_clearance(kinds, shapes, before, after, size, x0, y0, x1, y1, limit):
+    """Least distance to any obstacle (M of them) or border during one step, at most ``limit``.
 
     Obstacles go from ``before`` to ``after`` (M, 2) while the robot goes from (x0, y0) to (x1, y1), both straight and
     at constant speed: seen from the obstacle the robot goes along a segment.
@@ -113,7 +113,7 @@ def swept_clearance(kinds, shapes, before, after, size, x0, y0, x1, y1, enough):
         min(y1, size - y1),
         min(x0, size - x0),
         min(y0, size - y0),
-        enough,
+        limit,
     )
     for m in range(len(kinds)):
         if kinds[m] == NOTHING:

@@ -61,7 +61,7 @@ def drift_world(kinds, shapes, speeds, key, step, size, centres, headings):
 
 @compiled
 def slipped(action, slip, key, step):
-    """The action that comes of ``action`` when row ``action`` of ``slip`` says how likely each is."""
+    """Draw the action that the robot executes when it is told ``action``, from row ``action`` of ``slip``."""
     draw = uniform(key, SLIPPING, step, 0, 0)
     total = 0.0
     for other in range(slip.shape[1]):

@@ -320,10 +320,44 @@ def test_readable_searches_without_a_path():
     assert len(grid_astar(world, pose[:2], margin=2.0, cell=1.0)[1]) == 1
 
 
-def test_steps_shorter_than_a_metre():
+@pytest.mark.parametrize("speed", [0.5, 0.3, 0.1, 0.01])
+@pytest.mark.parametrize("cell", [None, 1.0])
+def test_steps_shorter_than_a_cell(speed, cell):
     """Poses of one heading in one cell are one node, so that a step which stays in its cell would lead nowhere."""
-    assert plan(random_worlds(1, 0, seed=1), speed=0.5).found
-    with pytest.warns(UserWarning, match="cell should be at most speed"):
-        assert not plan(random_worlds(1, 0, seed=1), speed=0.1, cell=1.0).found
+    empty = random_worlds(1, 0, seed=1)
+    made = plan(empty, speed=speed, cell=cell)
+    assert made.found
+    assert made.length == pytest.approx(speed * len(made.actions))
+    assert 1 < made.length < 1.01 * np.linalg.norm(empty.starts[0] - empty.targets[0])
+
+
+def test_slow_robots_find_their_way_between_obstacles():
+    for world in random_worlds(10, 15, seed=3):
+        made = plan(world, speed=0.1)
+        assert made.found
+        assert clearance(world, made.points) >= 2.0 - 1e-3
+
+
+def test_plan_of_a_slow_robot_is_what_it_does():
+    world = random_worlds(1, 20, seed=8)
+    made = plan(world, speed=0.15)
+    robot = Simulator(world, speed=0.15)
+    for k, action in enumerate(made.actions):
+        pose = np.array([*made.points[k], made.headings[k]])
+        assert robot.poses[0] == pytest.approx(pose, abs=1e-9)
+        assert robot.outcome[0] == 0
+        robot.step(np.array([action]))
+    assert robot.outcome[0] == 1
+
+
+def test_cells_larger_than_a_move_are_named_where_no_path_is_found():
+    with pytest.warns(UserWarning, match="cell should be at most 1"):
+        assert not plan(random_worlds(1, 0, seed=1), speed=0.1, cell=5.0).found
+    with pytest.raises(ValueError, match=r"speed must be at least 0\.001"):
+        plan(random_worlds(1, 0, seed=1), speed=1e-9)
+
+
+def test_smallest_cells():
     small = make_world(start=(5, 5), target=(15, 15), size=20)
-    assert plan(small, speed=0.1).found
+    assert plan(small, speed=0.1, cell=0.1).found
+    assert plan(random_worlds(1, 0, seed=1), speed=0.1, cell=0.2).found

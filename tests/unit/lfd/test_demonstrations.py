@@ -260,3 +260,13 @@ def test_a_world_without_a_way_is_named():
 def test_wrong_arguments_get_a_sentence(worlds, options, error, message):
     with pytest.raises(error, match=message):
         demonstrate(worlds, **options)
+
+
+def test_demonstrations_of_a_slow_robot():
+    """Its steps are shorter than the cells that tell poses apart."""
+    worlds = random_worlds(2, 6, seed=1, size=40, starts=((5, 5),), targets=((35, 35),))
+    slow = record(ComputerExpert(), worlds, speed=0.1, max_steps=2000)
+    assert slow.outcome.tolist() == ["arrived", "arrived"]
+    assert (
+        demonstrate(random_worlds(1, 5, seed=1), speed=0.1).outcome[0] == "out of steps"
+    )
