@@ -74,6 +74,7 @@ from .reward_free_mdp import RewardFreeMDP, Trajectories
 from .reward_update import (
     LeastSquaresReward,
     SubgradientMaxMargin,
+    expert_margin,
     feature_gap,
     inverse_frequency_weights,
 )
@@ -88,7 +89,7 @@ from .scirl import (
     structured_classification,
 )
 from .tasks import RobotTask, TabularTask, Task
-from .trainer import History, IRLResult, Trainer, train_under_reward
+from .training import History, IRLResult, Recorder, train_under_reward
 from .transitions import ENCODER, Transitions, expert_transitions
 
 __all__ = [
@@ -106,6 +107,7 @@ __all__ = [
     "LeastSquaresReward",
     "Margin",
     "MaximumCausalEntropy",
+    "Recorder",
     "Refined",
     "RelativeEntropy",
     "ReplaySGD",
@@ -116,7 +118,6 @@ __all__ = [
     "SubgradientMaxMargin",
     "TabularTask",
     "Task",
-    "Trainer",
     "Trajectories",
     "Transitions",
     "accuracy",
@@ -132,6 +133,7 @@ __all__ = [
     "dual",
     "dual_gradient",
     "empirical_expectations",
+    "expert_margin",
     "expert_transitions",
     "exploring_policy",
     "feature_expectations",

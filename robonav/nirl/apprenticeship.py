@@ -19,18 +19,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import nnls
 
-from robonav.networks.multilayer_perceptron import Network
+from robonav.networks.multilayer_perceptron import random_network
 from robonav.progress import Progress
 
 from ._arguments import checked
 from .feature_expectations import discounted_feature_sums, empirical_expectations
 from .features import state_action_features
-from .max_margin import maximum_margin
+from .max_margin import maximum_margin, project_to_unit_ball
 from .model_selection import Score, balanced_accuracy
-from .policy_improvement import ReplaySGD
+from .policy import exploring_policy
+from .policy_improvement import ReplaySGD, transition_rewards
 from .tasks import Task
-from .trainer import IRLResult, Trainer
-from .transitions import Transitions
+from .training import IRLResult, Recorder
+from .transitions import Transitions, concatenate
 
 Floats = NDArray[np.float64]
 
@@ -294,7 +295,7 @@ def from_initial_state(
 ) -> Floats:
     """Feature expectations discounted from the first decision of each episode.
 
-    This is Eq. (5.13). With the thesis's discount of 0.65, decisions after the first dozen hardly count.
+    Uses Eq. (5.13). With the thesis's discount of 0.65, decisions after the first dozen hardly count.
 
     Parameters
     ----------
@@ -376,7 +377,8 @@ def apprenticeship(
 ) -> IRLResult:
     """Apprenticeship learning (Abbeel and Ng 2004) without a model: a neural network learns the policy of each reward.
 
-    Steps 1 to 6 are those of :func:`apprenticeship_learning`. Feature expectations are estimated from episodes.
+    The numbers in the code are the steps of the paper, as in :func:`apprenticeship_learning`. Feature expectations are
+    estimated from episodes. The policies differ by one network, which goes on from one reward to the next.
 
     Parameters
     ----------
@@ -409,26 +411,26 @@ def apprenticeship(
     >>> len(apprenticeship(expert, task, n_rewards=2, iterations=4).history.costs)
     4
     """
-    rng = np.random.default_rng(seed)
-    trainer = Trainer(demonstrations, task, hidden, inverse_temperature, improver, rng)
+    rng, eta = np.random.default_rng(seed), inverse_temperature
+    n_actions, discount = task.n_actions, improver.discount
+    network = random_network((task.n_inputs, hidden, n_actions), seed=rng)
     per_reward = max(iterations // n_rewards, 1)
     total = n_rewards * per_reward
-
-    def mu(decisions: Transitions) -> Floats:
-        return expectations(decisions, task.n_actions, improver.discount)
-
-    def solve(weights: Floats) -> tuple[Network, Floats]:
-        theta = weights.reshape(task.n_actions, -1)
-        for _ in range(per_reward):
-            done = len(trainer.episodes)
-            trainer.improve(theta, fraction=(done - 1) / max(total - 1, 1))
-            episodes = trainer.rollout()
-            if progress is not None:
-                progress(done, total)
-        return trainer.network, mu(episodes)
-
-    first = trainer.network, mu(trainer.rollout())
-    apprenticeship_learning(
-        mu(demonstrations), solve, first, guess=guess, tolerance=0, iterations=n_rewards
-    )
-    return trainer.result(score)
+    record = Recorder(demonstrations, task, network, eta, total, progress)
+    mu_expert = expectations(demonstrations, n_actions, discount)
+    episodes = [task.rollout(exploring_policy(network, eta), rng)]
+    found = [expectations(episodes[0], n_actions, discount)]  # 1
+    for _ in range(n_rewards):
+        weights, distance = guess(mu_expert, found)  # 2
+        if distance <= 0:  # 3
+            break
+        theta = project_to_unit_ball(weights.reshape(n_actions, -1))
+        for _ in range(per_reward):  # 4
+            pairs = concatenate(episodes[-improver.replay :])
+            rewards = transition_rewards(theta, pairs)  # theta . f(s, a)
+            fraction = (len(episodes) - 1) / max(total - 1, 1)
+            network, cost = improver.descend(network, pairs, rewards, fraction, rng)
+            record.add(episodes[-1], theta, network, cost)
+            episodes.append(task.rollout(exploring_policy(network, eta), rng))
+        found.append(expectations(episodes[-1], n_actions, discount))  # 5, 6
+    return record.result(score)

@@ -16,7 +16,7 @@ from .refinement import Refined
 from .relative_entropy import relative_entropy
 from .scirl import scirl
 from .tasks import RobotTask
-from .trainer import IRLResult, train_under_reward
+from .training import IRLResult, train_under_reward
 from .transitions import Floats, Transitions, expert_transitions
 
 METHODS: dict[str, Callable[..., IRLResult]] = {

@@ -6,15 +6,18 @@ import math
 
 import numpy as np
 
+from robonav.networks.multilayer_perceptron import random_network
 from robonav.progress import Progress
 
 from ._arguments import checked
+from .max_margin import project_to_unit_ball
 from .model_selection import Score, balanced_accuracy
-from .policy_improvement import Improver, ReplaySGD
-from .reward_update import RewardUpdate, SubgradientMaxMargin
+from .policy import exploring_policy, neural_action_values
+from .policy_improvement import Improver, ReplaySGD, transition_rewards
+from .reward_update import RewardUpdate, SubgradientMaxMargin, expert_margin
 from .tasks import Task
-from .trainer import IRLResult, Trainer
-from .transitions import Transitions
+from .training import IRLResult, Recorder
+from .transitions import Transitions, concatenate
 
 
 @checked
@@ -85,22 +88,24 @@ def nirl(
     ((4, 43), np.True_)
     """
     rng = np.random.default_rng(seed)
-    # 1: a network with random weights
-    trainer = Trainer(demonstrations, task, hidden, inverse_temperature, improver, rng)
-    theta = np.zeros((task.n_actions, task.n_inputs + 1))
-    for iteration in range(1, iterations + 1):  # 2, 3, 11
-        trainer.rollout()  # 4: episodes with the current policy
-        theta = reward_update(  # 5: a reward under which the expert does better
-            demonstrations,
-            trainer.action_probabilities,
-            trainer.action_values,
-            theta,
-            iteration,
-        )
-        if trainer.margin(theta) <= tolerance:  # 6
+    network = random_network((task.n_inputs, hidden, task.n_actions), seed=rng)  # 1
+    record = Recorder(
+        demonstrations, task, network, inverse_temperature, iterations, progress
+    )
+    theta, episodes = np.zeros((task.n_actions, task.n_inputs + 1)), []
+    for i in range(1, iterations + 1):  # 2, 3, 11
+        policy = exploring_policy(network, inverse_temperature)
+        episodes.append(task.rollout(policy, rng))  # 4
+        q = neural_action_values(network, demonstrations.inputs)
+        pi = policy(demonstrations.inputs)  # what it would do in the expert's states
+        theta = reward_update(demonstrations, pi, q, theta, i)  # 5
+        reward = project_to_unit_ball(theta)
+        if expert_margin(demonstrations, pi, reward) <= tolerance:  # 6
             break  # 7, 8
-        fraction = (iteration - 1) / max(iterations - 1, 1)
-        trainer.improve(theta, fraction)  # 9, 10: SARSA targets and gradient steps
-        if progress is not None:
-            progress(iteration, iterations)
-    return trainer.result(score)
+        pairs = concatenate(episodes[-improver.replay :])
+        rewards = transition_rewards(reward, pairs)  # 9: theta . f(s, a)
+        fraction = (i - 1) / max(iterations - 1, 1)
+        # 9, 10: SARSA targets, Eq. (5.16), and descent on the cost, Eq. (5.15)
+        network, cost = improver.descend(network, pairs, rewards, fraction, rng)
+        record.add(episodes[-1], reward, network, cost)
+    return record.result(score)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +17,7 @@ from robonav.nnql.updates import descend
 from robonav.validation import check_integer, check_positive, check_real
 
 from .policy import neural_action_values
-from .transitions import Floats, Ints, Transitions, concatenate
+from .transitions import Floats, Ints, Transitions
 
 SURVIVAL_BONUS = (0.0, 1.0)
 """Terminal value 0 after a collision and 1 after any other end. It rewards survival, whatever the reward is."""
@@ -37,23 +36,41 @@ class Improved(NamedTuple):
 
 
 class Improver(Protocol):
-    """Lines 9 and 10 of NIRL: improve the network for a reward, with the episodes made so far."""
+    """Lines 9 and 10 of NIRL: SARSA targets for the rewards of decisions, and gradient steps towards them."""
 
-    def __call__(
+    @property
+    def replay(self) -> int:
+        """Number of latest iterations with whose decisions the network trains."""
+
+    def descend(
         self,
         network: Network,
-        episodes: Sequence[Transitions],
-        weights: Floats,
+        transitions: Transitions,
+        rewards: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        """The next network; ``fraction``, from 0 to 1, says how much of the training is over."""
+        """The network after its gradient steps.
+
+        Parameters
+        ----------
+        network : Network
+            The latest.
+        transitions : Transitions
+            M decisions of the last ``replay`` iterations.
+        rewards : (M,) array
+            Their rewards.
+        fraction : float
+            How much of the training is over, from 0 to 1.
+        rng : Generator
+            Of all random numbers.
+        """
 
 
 def transition_rewards(weights: ArrayLike, transitions: Transitions) -> Floats:
     """Rewards r(s_t, a_t) = theta . f(s_t, a_t) of transitions.
 
-    This is Eq. (5.2). By Eq. (5.5) only the block of the action taken is not zero, so the reward is theta_a . phi(s).
+    Uses Eq. (5.2). By Eq. (5.5) only the block of the action taken is not zero, so the reward is theta_a . phi(s).
 
     Parameters
     ----------
@@ -301,27 +318,25 @@ class ReplaySGD:
         for value in self.terminal_values:
             check_real("terminal_values", value, at_least=0, at_most=1)
 
-    def __call__(
+    def descend(
         self,
         network: Network,
-        episodes: Sequence[Transitions],
-        weights: Floats,
+        transitions: Transitions,
+        rewards: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
         """The network after ``n_samples`` steps of :func:`sarsa_descent`, by its compiled twin."""
-        recent = concatenate(episodes[-self.replay :])
-        if len(recent) == 0:
+        if len(transitions) == 0:
             return Improved(network, np.nan)
-        rewards = scale_to_unit_interval(transition_rewards(weights, recent))
-        ends = np.where(recent.collided[recent.trajectory], *self.terminal_values)
-        order = rng.integers(len(recent), size=self.n_samples)
+        collided = transitions.collided[transitions.trajectory]
+        order = rng.integers(len(transitions), size=self.n_samples)
         first, last = self.gradient_step
         return compiled_sarsa_descent(
             network,
-            recent,
-            (1 - self.discount) * rewards,
-            ends,
+            transitions,
+            (1 - self.discount) * scale_to_unit_interval(rewards),
+            np.where(collided, *self.terminal_values),
             order,
             learning_rate=self.learning_rate,
             discount=self.discount,
@@ -378,34 +393,31 @@ class SingleGradientStep:
     learning_rate: float = 0.8
     gradient_step: float = 0.4
     regularisation: float = 0.0
+    replay: ClassVar[int] = 1
 
-    def __call__(
+    def descend(
         self,
         network: Network,
-        episodes: Sequence[Transitions],
-        weights: Floats,
+        transitions: Transitions,
+        rewards: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
         """The network after one step against the gradient."""
-        latest = episodes[-1]
-        if len(latest) == 0:
+        if len(transitions) == 0:
             return Improved(network, np.nan)
-        rows, actions, following = (
-            np.arange(len(latest)),
-            latest.actions,
-            latest.next_index,
-        )
-        targets = neural_action_values(network, latest.inputs)
+        inputs, actions = transitions.inputs, transitions.actions
+        rows, following = np.arange(len(transitions)), transitions.next_index
+        targets = neural_action_values(network, inputs)
         q = targets[rows, actions]
         targets[rows, actions] = sarsa_targets(
             q,
-            rewards=transition_rewards(weights, latest),
+            rewards,
             next_q=np.where(following >= 0, q[following], 0.0),
             learning_rate=self.learning_rate,
             discount=self.discount,
         ).clip(0, 1)
         decay = {"regularisation": self.regularisation}
-        gradient = cross_entropy_gradient(network, latest.inputs, targets, **decay)
-        cost = policy_cost(network, latest.inputs, targets, **decay)
+        gradient = cross_entropy_gradient(network, inputs, targets, **decay)
+        cost = policy_cost(network, inputs, targets, **decay)
         return Improved(descend(network, gradient, self.gradient_step), cost)

@@ -81,7 +81,7 @@ def most_frequent(states: ArrayLike, actions: ArrayLike, n_actions: int) -> Refi
 def map_uniform_prior(states: ArrayLike, actions: ArrayLike, n_actions: int) -> Refined:
     """Give every state the action under which it is likeliest, argmax_a P(s | a).
 
-    This is Eq. (5.12) with a uniform prior P(a). The thesis says that it too gives the most frequent action. It does
+    Uses Eq. (5.12) with a uniform prior P(a). The thesis says that it too gives the most frequent action. It does
     not: an action demonstrated once here and nowhere else beats one demonstrated ten times here and a thousand times
     elsewhere.
 

@@ -21,7 +21,7 @@ from .feature_expectations import discounted_feature_sums
 from .features import state_action_features
 from .policy_improvement import ReplaySGD
 from .tasks import Task
-from .trainer import IRLResult, train_under_reward
+from .training import IRLResult, train_under_reward
 from .transitions import Transitions
 
 Floats = NDArray[np.float64]

@@ -114,6 +114,42 @@ def feature_gap(
     return (step_weights[:, None] * difference).T @ demonstrations.features
 
 
+def expert_margin(
+    demonstrations: Transitions, action_probabilities: Floats, theta: Floats
+) -> float:
+    """By how much a reward prefers the expert's decisions to a policy's: theta . gap, see :func:`feature_gap`.
+
+    All actions that the expert took have the same total weight.
+
+    Parameters
+    ----------
+    demonstrations : Transitions
+        M decisions of the expert.
+    action_probabilities : (M, A) array
+        pi(a | s_t) of the policy.
+    theta : (A, k + 1) array
+        Weights of the reward.
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import Transitions, expert_margin
+    >>> nothing = np.zeros(1, dtype=int)
+    >>> left = Transitions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> expert_margin(left, np.array([[0.5, 0.5]]), np.array([[1.0, 0.0], [0.0, 0.0]]))
+    1.0
+    """
+    step_weights = inverse_frequency_weights(
+        demonstrations.actions, action_probabilities.shape[1]
+    )
+    gap = feature_gap(demonstrations, action_probabilities, step_weights)
+    return float((theta * gap).sum())
+
+
 @dataclass(frozen=True)
 class SubgradientMaxMargin:
     """Maximum margin by subgradient steps, one for each new policy (Ratliff et al. 2006).

@@ -21,7 +21,7 @@ from .features import all_action_features, state_action_features
 from .policy_improvement import ReplaySGD
 from .reward_update import inverse_frequency_weights
 from .tasks import Task
-from .trainer import IRLResult, train_under_reward
+from .training import IRLResult, train_under_reward
 from .transitions import Transitions
 
 Floats = NDArray[np.float64]

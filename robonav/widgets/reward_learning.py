@@ -56,7 +56,7 @@ FILES = (
 
 @dataclass(frozen=True)
 class WatchedSGD(ReplaySGD):
-    """The improvement of the policy, watched: ``watch(network, episodes)`` is called after each.
+    """The improvement of the policy, watched: ``watch(network, transitions)`` is called after each.
 
     Examples
     --------
@@ -72,18 +72,18 @@ class WatchedSGD(ReplaySGD):
     3
     """
 
-    watch: Callable[[Network, Transitions], None] = lambda _network, _episodes: None
+    watch: Callable[[Network, Transitions], None] = lambda _network, _transitions: None
 
-    def __call__(
+    def descend(
         self,
         network: Network,
-        episodes: Sequence[Transitions],
-        weights: Floats,
+        transitions: Transitions,
+        rewards: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        improved = super().__call__(network, episodes, weights, fraction, rng)
-        self.watch(improved.network, episodes[-1])
+        improved = super().descend(network, transitions, rewards, fraction, rng)
+        self.watch(improved.network, transitions)
         return improved
 
 
@@ -121,7 +121,9 @@ class RewardLearning(KernelTraining):
         results: list[IRLResult] = []
         rates: list[float] = []
         for robot in range(robots):
-            watch = _watcher(expert, report, robot * iterations, robots * iterations)
+            watch = _watcher(
+                expert, task, report, robot * iterations, robots * iterations
+            )
             results.append(
                 learn(
                     demonstrations,
@@ -147,12 +149,12 @@ class RewardLearning(KernelTraining):
 
 
 def _watcher(
-    expert: Transitions, report: Report, before: int, total: int
+    expert: Transitions, task: RobotTask, report: Report, before: int, total: int
 ) -> Callable[[Network, Transitions], None]:
     """A function that reports the latest policy of a robot, after the ``before`` iterations of earlier robots."""
     done = 0
 
-    def watch(network: Network, episodes: Transitions) -> None:
+    def watch(network: Network, transitions: Transitions) -> None:
         nonlocal done
         done += 1
         predicted = greedy_actions(network, expert.inputs)
@@ -161,7 +163,7 @@ def _watcher(
             total,
             at=done,
             balanced=100 * balanced_accuracy(predicted, expert.actions),
-            arrived=100 * float(episodes.arrived.mean()),
+            arrived=100 * float(transitions.arrived[-task.n_episodes :].mean()),
         )
 
     return watch

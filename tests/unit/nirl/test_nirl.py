@@ -176,8 +176,9 @@ def test_it_finds_the_values_of_a_chain():
     improve = ReplaySGD(
         discount=0.5, learning_rate=1.0, gradient_step=(2.0, 2.0), n_samples=20_000
     )
-    network = improve(
-        random_network((3, 6, 1), seed=0), [steps], theta, 0.0, np.random.default_rng(0)
+    rewards = transition_rewards(theta, steps)
+    network = improve.descend(
+        random_network((3, 6, 1), seed=0), steps, rewards, 0.0, np.random.default_rng(0)
     ).network
     third = 0.5 * 1 + 0.5 * 1
     second = 0.5 * 0 + 0.5 * third
@@ -187,26 +188,35 @@ def test_it_finds_the_values_of_a_chain():
     )
 
 
-def test_only_the_last_drives_are_remembered():
-    old, new = made_up(seed=1), made_up(seed=2)
-    start = random_network((3, 5, 4), seed=0)
-    theta = RNG.normal(size=(4, 4))
-    improve = ReplaySGD(replay=1, n_samples=50)
-    both = improve(start, [old, new], theta, 0.0, np.random.default_rng(0)).network
-    alone = improve(start, [new], theta, 0.0, np.random.default_rng(0)).network
-    np.testing.assert_array_equal(both.weights[0], alone.weights[0])
+@pytest.mark.parametrize(
+    "improver", [ReplaySGD(replay=1, n_samples=50), ReplaySGD(replay=2, n_samples=50), SingleGradientStep()]
+)  # fmt: skip
+def test_network_trains_on_the_decisions_of_the_last_iterations(terrain, improver):
+    seen = []
+
+    class Watched:
+        replay = improver.replay
+
+        def descend(self, network, transitions, *rest):
+            seen.append(transitions)
+            return improver.descend(network, transitions, *rest)
+
+    task = TabularTask(terrain.task)
+    shown = task.demonstrate(terrain.expert, 5, seed=1)
+    found = nirl(shown, task, iterations=3, improver=Watched(), seed=0)
+    made = found.history.decisions
+    expected = [sum(made[max(k - improver.replay, 0) : k]) for k in (1, 2, 3)]
+    assert [len(transitions) for transitions in seen] == expected
 
 
 def test_the_step_to_the_letter_is_a_gradient_step():
     """With targets (5.16), cut to [0, 1], for the taken action, and no change asked of the others."""
     steps, theta = made_up(), RNG.normal(size=(4, 4))
     network = random_network((3, 5, 4), seed=1)
-    stepped, cost = SingleGradientStep(gradient_step=0.1)(
-        network, [steps], theta, 0.0, RNG
-    )
-    again, lower = SingleGradientStep(gradient_step=0.1)(
-        stepped, [steps], theta, 0.0, RNG
-    )
+    improver = SingleGradientStep(gradient_step=0.1)
+    rewards = transition_rewards(theta, steps)
+    stepped, cost = improver.descend(network, steps, rewards, 0.0, RNG)
+    again, lower = improver.descend(stepped, steps, rewards, 0.0, RNG)
     assert lower < cost
     outputs = network.forward(steps.inputs)
     q = outputs[np.arange(12), steps.actions]

@@ -15,16 +15,11 @@ from robonav.progress import Progress
 from ._arguments import checked
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, accuracy, balanced_accuracy
-from .policy import (
-    boltzmann_policy,
-    exploring_policy,
-    greedy_actions,
-    neural_action_values,
-)
-from .policy_improvement import Improver, ReplaySGD
-from .reward_update import feature_gap, inverse_frequency_weights
+from .policy import exploring_policy, greedy_actions
+from .policy_improvement import Improver, ReplaySGD, transition_rewards
+from .reward_update import expert_margin
 from .tasks import Task
-from .transitions import Floats, Transitions
+from .transitions import Floats, Transitions, concatenate
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,8 +110,8 @@ class IRLResult:
     network: Network
 
 
-class Trainer:
-    """A network that trains on a task, and the record of its iterations.
+class Recorder:
+    """The record of a training: it takes in each iteration, and makes the result at the end.
 
     Parameters
     ----------
@@ -124,108 +119,77 @@ class Trainer:
         M decisions of the expert. Every network is scored by how well it predicts them.
     task : Task
         The task on which the network trains.
-    hidden : int
-        Hidden units.
+    network : Network
+        The network before the first iteration.
     inverse_temperature : float
         eta of Eq. (5.10).
-    improver : Improver
-        Improves the network.
-    rng : Generator
-        Of all random numbers.
-
-    Attributes
-    ----------
-    network : Network
-        The latest.
-    action_values, action_probabilities : (M, A) array
-        Its outputs and its exploring policy in the expert's states.
-    episodes : list of Transitions
-        One entry for each rollout.
+    iterations : int
+        Iterations at most.
+    progress : callable, optional
+        Called as ``progress(done, iterations)`` after each iteration.
 
     Examples
     --------
     >>> import numpy as np
-    >>> from robonav.nirl import ReplaySGD, TabularTask, Trainer, accuracy, terrain
-    >>> task = TabularTask(terrain()[1])
+    >>> from robonav.networks import random_network
+    >>> from robonav.nirl import TabularTask, accuracy, terrain
+    >>> from robonav.nirl.training import Recorder
+    >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
     >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
-    >>> trainer = Trainer(expert, task, 5, 25.0, ReplaySGD(n_samples=10), np.random.default_rng(0))
-    >>> episodes = trainer.rollout()
-    >>> trainer.improve(np.zeros((4, 43)), fraction=0.0)
-    >>> len(trainer.result(accuracy).history.costs)
-    1
+    >>> recorder = Recorder(expert, task, network, inverse_temperature=25.0, iterations=1)
+    >>> recorder.add(expert, np.zeros((4, 43)), network, cost=0.7)
+    >>> recorder.result(accuracy).history.costs
+    array([0.7])
     """
 
     def __init__(
         self,
         demonstrations: Transitions,
         task: Task,
-        hidden: int,
+        network: Network,
         inverse_temperature: float,
-        improver: Improver,
-        rng: np.random.Generator,
+        iterations: int,
+        progress: Progress | None = None,
     ) -> None:
-        self.demonstrations, self.task = demonstrations, task
-        self.inverse_temperature, self.improver = inverse_temperature, improver
-        self.rng = rng
-        self.episodes: list[Transitions] = []
-        self._balance = inverse_frequency_weights(
-            demonstrations.actions, task.n_actions
-        )
-        self._networks: list[Network] = []
+        self._demonstrations, self._task = demonstrations, task
+        self._inverse_temperature = inverse_temperature
+        self._iterations, self._progress = iterations, progress
+        self._networks = [network]
+        self._episodes: list[Transitions] = []
         self._weights: list[Floats] = []
         self._margins: list[float] = []
         self._costs: list[float] = []
-        sizes = (task.n_inputs, hidden, task.n_actions)
-        self._adopt(random_network(sizes, seed=rng))
 
-    def _adopt(self, network: Network) -> None:
-        self.network = network
-        self.action_values = neural_action_values(network, self.demonstrations.inputs)
-        self.action_probabilities = boltzmann_policy(
-            self.action_values, self.inverse_temperature
-        )
+    def add(
+        self, episodes: Transitions, theta: Floats, network: Network, cost: float
+    ) -> None:
+        """Record an iteration: its episodes, its reward, the network after it, and the cost."""
+        policy = exploring_policy(self._networks[-1], self._inverse_temperature)
+        probabilities = policy(self._demonstrations.inputs)
+        self._margins.append(expert_margin(self._demonstrations, probabilities, theta))
+        self._episodes.append(episodes)
+        self._weights.append(theta)
         self._networks.append(network)
-
-    def rollout(self) -> Transitions:
-        """A few more episodes with the latest network, actions drawn from its exploring policy."""
-        policy = exploring_policy(self.network, self.inverse_temperature)
-        self.episodes.append(self.task.rollout(policy, self.rng))
-        return self.episodes[-1]
-
-    def margin(self, theta: Floats) -> float:
-        """By how much the reward theta, of length 1 at most, prefers the expert's decisions to the network's."""
-        gap = feature_gap(self.demonstrations, self.action_probabilities, self._balance)
-        return float((project_to_unit_ball(theta) * gap).sum())
-
-    def improve(self, theta: Floats, fraction: float) -> None:
-        """Improve the network for the reward theta; ``fraction`` (0 to 1) of the training is over."""
-        weights = project_to_unit_ball(theta)
-        margin = self.margin(theta)
-        network, cost = self.improver(
-            self.network, self.episodes, weights, fraction, self.rng
-        )
-        self._weights.append(weights)
-        self._margins.append(margin)
         self._costs.append(cost)
-        self._adopt(network)
+        if self._progress is not None:
+            self._progress(len(self._costs), self._iterations)
 
     def result(self, score: Score) -> IRLResult:
         """The network that predicts the demonstrations best, and the history."""
-        expert = self.demonstrations
+        expert = self._demonstrations
         predictions = [greedy_actions(net, expert.inputs) for net in self._networks]
         scores = [score(predicted, expert.actions) for predicted in predictions]
         chosen = int(np.argmax(scores))
-        n, shape = len(self._weights), (self.task.n_actions, expert.features.shape[1])
+        n, shape = len(self._weights), (self._task.n_actions, expert.features.shape[1])
         weights = np.array(self._weights).reshape(n, *shape)
-        episodes = self.episodes[:n]
         history = History(
             networks=stacked(self._networks),
             weights=weights,
             margins=np.array(self._margins),
             costs=np.array(self._costs),
-            arrived=np.array([part.arrived.mean() for part in episodes]),
-            collided=np.array([part.collided.mean() for part in episodes]),
-            decisions=np.array([len(part) for part in episodes], dtype=np.int64),
+            arrived=np.array([part.arrived.mean() for part in self._episodes]),
+            collided=np.array([part.collided.mean() for part in self._episodes]),
+            decisions=np.array([len(part) for part in self._episodes], dtype=np.int64),
             accuracies=np.array([accuracy(p, expert.actions) for p in predictions]),
             balanced=np.array(
                 [balanced_accuracy(p, expert.actions) for p in predictions]
@@ -234,7 +198,7 @@ class Trainer:
         network = self._networks[chosen]
         trained_for = weights[max(chosen - 1, 0)] if n else np.zeros(shape)
         return IRLResult(
-            self.task.greedy_policy(network), trained_for, history, chosen, network
+            self._task.greedy_policy(network), trained_for, history, chosen, network
         )
 
 
@@ -288,11 +252,19 @@ def train_under_reward(
     >>> train_under_reward(expert, task, np.zeros((4, 43)), iterations=2).policy.shape
     (42,)
     """
-    rng = np.random.default_rng(seed)
-    trainer = Trainer(demonstrations, task, hidden, inverse_temperature, improver, rng)
+    rng, theta = np.random.default_rng(seed), project_to_unit_ball(weights)
+    network = random_network((task.n_inputs, hidden, task.n_actions), seed=rng)
+    record = Recorder(
+        demonstrations, task, network, inverse_temperature, iterations, progress
+    )
+    episodes: list[Transitions] = []
     for iteration in range(iterations):
-        trainer.rollout()
-        trainer.improve(weights, fraction=iteration / max(iterations - 1, 1))
-        if progress is not None:
-            progress(iteration + 1, iterations)
-    return trainer.result(score)
+        episodes.append(
+            task.rollout(exploring_policy(network, inverse_temperature), rng)
+        )
+        pairs = concatenate(episodes[-improver.replay :])
+        rewards = transition_rewards(theta, pairs)  # theta . f(s, a)
+        fraction = iteration / max(iterations - 1, 1)
+        network, cost = improver.descend(network, pairs, rewards, fraction, rng)
+        record.add(episodes[-1], theta, network, cost)
+    return record.result(score)
