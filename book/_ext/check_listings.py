@@ -1,9 +1,9 @@
 """Check the code on the built pages: ``python book/_ext/check_listings.py [PAGE ...]``.
 
-A listing of the package's code has at most 40 lines of at most 88 columns, and shows neither imports nor input checks.
-Each numbered equation of a page is followed, on that page, by a listing whose comments carry its number. Equations that
-only introduce a symbol (``symbols.toml``) need no listing. A code cell of the page that is not folded has at most 88
-columns.
+A listing of the package's code has at most 40 lines of at most 88 columns. It shows no imports, no input checks and no
+warnings. Each numbered equation of a page is followed, on that page, by a listing whose comments carry its number.
+Equations that only introduce a symbol (``symbols.toml``) need no listing. A code cell of the page that is not folded
+has at most 88 columns.
 """
 
 from __future__ import annotations
@@ -23,7 +23,9 @@ from thesis_numbers import thesis_number
 ROOT = Path(__file__).resolve().parents[2]
 SITE = Path(os.environ.get("BOOK_SITE", ROOT / "_build" / "html"))
 IMPORT = re.compile(r"^\s*(?:from\s+\S+\s+import|import)\s", re.MULTILINE)
-INPUT_CHECK = re.compile(r"\bcheck_\w+\(")
+INPUT_CHECK = re.compile(
+    r"\bcheck_\w+\(|^\s*raise\s|\bisinstance\(|\w*warn\w*\(", re.MULTILINE
+)
 
 
 def wide_cells(html: str) -> Iterator[str]:
@@ -59,7 +61,7 @@ def faults(html: str) -> Iterator[str]:
         if IMPORT.search(text):
             yield f"{name} shows an import"
         if INPUT_CHECK.search(text):
-            yield f"{name} shows an input check"
+            yield f"{name} shows an input check or a warning"
         shown = citations.cited("equations", text)
         waiting = [number for number in waiting if citations.key(number) not in shown]
     for number in waiting:

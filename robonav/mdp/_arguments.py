@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import inspect
 import math
-from functools import partial
-from typing import Any
+from collections.abc import Callable
+from functools import partial, wraps
+from typing import Any, ParamSpec
 
+import numpy as np
 from numpy.typing import NDArray
 
 from robonav.validation import (
@@ -21,6 +24,8 @@ from robonav.validation import (
 )
 
 from .policies import as_distributions
+
+P = ParamSpec("P")
 
 count = partial(check_integer, at_least=1)
 not_negative = partial(check_integer, at_least=0)
@@ -86,3 +91,36 @@ def check_shapes(function: str, arguments: dict[str, Any]) -> None:
 
 checked = checks(RULES, check_shapes)
 """Decorate a function so that its arguments are checked by these rules before it runs."""
+
+
+def refuses_impossible(
+    message: str,
+) -> Callable[[Callable[P, NDArray[Any]]], Callable[P, NDArray[Any]]]:
+    """Decorate an update of a belief: ValueError where the evidence is impossible and Bayes' rule divides 0 by 0.
+
+    Parameters
+    ----------
+    message : str
+        What the error says; names of arguments in braces stand for their values.
+
+    Returns
+    -------
+    callable
+        The decorator.
+    """
+
+    def decorate(update: Callable[P, NDArray[Any]]) -> Callable[P, NDArray[Any]]:
+        signature = inspect.signature(update)
+
+        @wraps(update)
+        def updated(*args: P.args, **kwargs: P.kwargs) -> NDArray[Any]:
+            with np.errstate(invalid="ignore"):
+                posterior = update(*args, **kwargs)
+            if np.isnan(posterior).any():
+                arguments = signature.bind(*args, **kwargs).arguments
+                raise ValueError(message.format_map(arguments))
+            return posterior
+
+        return updated
+
+    return decorate

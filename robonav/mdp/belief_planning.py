@@ -6,17 +6,16 @@ Sondik 1973). Each linear function is an alpha vector: one value a state, and th
 
 from __future__ import annotations
 
-import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.errors import ConvergenceWarning
 from robonav.validation import check_array
 
 from ._arguments import checked
+from .convergence import warns_not_converged
 from .dynamic_programming import value_iteration
 from .policies import as_distributions
 from .pomdp import POMDP, SAME, BeliefMDP
@@ -35,6 +34,10 @@ class AlphaVectors:
         The action of each vector.
     iterations : int
         Number of backups of the whole set.
+    residual : float
+        Largest rise of a value in the last backup.
+    converged : bool
+        Whether it was as small as the tolerance asks for.
 
     Examples
     --------
@@ -47,6 +50,8 @@ class AlphaVectors:
     vectors: Floats
     actions: NDArray[np.int64]
     iterations: int = 0
+    residual: float = 0.0
+    converged: bool = True
 
     def value(self, belief: ArrayLike) -> Floats:
         """Value (...) of one belief (S,) or of many (..., S): the largest of the linear functions."""
@@ -142,7 +147,13 @@ def all_successors(pomdp: POMDP, belief: Floats) -> Floats:
     return np.concatenate([beliefs.successors(belief, a)[0] for a in actions])
 
 
+def largest_rise(pomdp: POMDP, tolerance: float) -> float:
+    """Rise of a value below which later rises add up to at most ``tolerance``, if they shrink by the discount."""
+    return tolerance * (1 - pomdp.mdp.discount)
+
+
 @checked
+@warns_not_converged(largest_rise)
 def point_based_value_iteration(
     pomdp: POMDP,
     beliefs: ArrayLike,
@@ -191,15 +202,14 @@ def point_based_value_iteration(
     19.37
     """
     points = as_points(pomdp, beliefs)
+    epsilon = largest_rise(pomdp, tolerance)
     found = worst_vectors(pomdp)  # one vector, below every value
     for iteration in range(1, max_iterations + 1):
         backed_up = backup(pomdp, points, found)
         found, rise = keep_best(points, found, backed_up, iteration)
-        if rise <= tolerance * (1 - pomdp.mdp.discount):
+        if rise <= epsilon:
             break
-    else:
-        _warn_still_rising(max_iterations, rise)
-    return found
+    return replace(found, residual=rise, converged=rise <= epsilon)
 
 
 def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
@@ -258,12 +268,3 @@ def best_at(points: Floats, vectors: Floats) -> NDArray[np.intp]:
     rounding = 16 * np.finfo(float).eps * abs(vectors).max()
     ties = values >= values.max(axis=1, keepdims=True) - rounding
     return np.where(ties, vectors.sum(axis=1), -np.inf).argmax(axis=1)
-
-
-def _warn_still_rising(backups: int, rise: float) -> None:
-    """ConvergenceWarning at the line that called."""
-    warnings.warn(
-        f"point_based_value_iteration stopped after {backups} backups with a value still rising by {rise:.3g}",
-        ConvergenceWarning,
-        stacklevel=4,
-    )

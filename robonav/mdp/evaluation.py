@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,11 +9,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.errors import ConvergenceWarning
 from robonav.validation import check_array
 
 from . import undiscounted
 from ._arguments import checked
+from .convergence import warns_not_converged
 from .linear_solver import solve
 from .models import FiniteMDP
 from .policies import as_distributions
@@ -33,6 +32,8 @@ class EvaluationResult:
         Number of sweeps.
     residual : float
         Largest change of a value in the last sweep.
+    converged : bool
+        Whether it was as small as the tolerance asks for.
     history : (iterations + 1, S) array or None
         The values before the first sweep and after each, if recorded.
 
@@ -48,6 +49,7 @@ class EvaluationResult:
     values: Floats
     iterations: int
     residual: float
+    converged: bool
     history: Floats | None = None
 
 
@@ -93,7 +95,23 @@ def policy_evaluation(
     return solve(identity - mdp.discount * transitions, rewards, near)  # Eq. (2.5)
 
 
+def evaluation_residual(mdp: FiniteMDP, tolerance: float) -> float:
+    """Change of a sweep below which all values are within ``tolerance`` of their limit."""
+    return (1 if mdp.discount == 1 else 2) * mdp.residual_for(tolerance)
+
+
+def least_gain(mdp: FiniteMDP, tolerance: float) -> float:
+    """Gain of an action that, taken forever, adds up to ``tolerance``; without discount 0."""
+    return tolerance * (1 - mdp.discount)
+
+
+def error_limit(mdp: FiniteMDP, tolerance: float) -> float:
+    """Bellman error below which the greedy policy loses at most ``tolerance``; without discount ``tolerance``."""
+    return tolerance * (1 if mdp.discount == 1 else (1 - mdp.discount) / 2)
+
+
 @checked
+@warns_not_converged(evaluation_residual)
 def iterative_policy_evaluation(
     mdp: FiniteMDP,
     policy: ArrayLike,
@@ -151,9 +169,9 @@ def iterative_policy_evaluation(
         residual = abs(values - previous).max()
         if residual <= epsilon:  # 8
             break
-    else:
-        warn_not_converged("iterative_policy_evaluation", iteration, residual, epsilon)
-    return EvaluationResult(values, iteration, float(residual), history.rows)
+    converged = bool(residual <= epsilon)
+    rows = history.rows
+    return EvaluationResult(values, iteration, float(residual), converged, rows)
 
 
 @checked
@@ -201,35 +219,8 @@ class History:
         return None if self._rows is None else np.stack(self._rows)
 
 
-def evaluation_residual(mdp: FiniteMDP, tolerance: float) -> float:
-    """Change of a sweep below which all values are within ``tolerance`` of their limit."""
-    return (1 if mdp.discount == 1 else 2) * mdp.residual_for(tolerance)
-
-
-def least_gain(mdp: FiniteMDP, tolerance: float) -> float:
-    """Gain of an action that, taken forever, adds up to ``tolerance``; without discount 0."""
-    return tolerance * (1 - mdp.discount)
-
-
-def error_limit(mdp: FiniteMDP, tolerance: float) -> float:
-    """Bellman error below which the greedy policy loses at most ``tolerance``; without discount ``tolerance``."""
-    return tolerance * (1 if mdp.discount == 1 else (1 - mdp.discount) / 2)
-
-
 def starting_values(name: str, mdp: FiniteMDP, given: ArrayLike | None) -> Floats:
     """A copy of the values to start from; zeros unless given."""
     if given is None:
         return np.zeros(mdp.n_states)
     return check_array(name, given, shape=(mdp.n_states,)).copy()
-
-
-def warn_not_converged(
-    name: str, iterations: int, residual: float, limit: float, *, stacklevel: int = 4
-) -> None:
-    """ConvergenceWarning at the line that called the planner ``name``."""
-    warnings.warn(
-        f"{name} gave up after {iterations} iterations: the last one still changed a value by {residual:.3g}, "
-        f"where {limit:.3g} was asked for",
-        ConvergenceWarning,
-        stacklevel=stacklevel,
-    )

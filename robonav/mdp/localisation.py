@@ -22,7 +22,7 @@ from robonav.validation import (
     check_real,
 )
 
-from ._arguments import checked
+from ._arguments import checked, refuses_impossible
 from .policies import SUM_TOLERANCE, as_distributions
 
 Floats = NDArray[np.float64]
@@ -304,26 +304,25 @@ class Localiser:
         """The belief (S,) after a move: all that a robot with no sensing has."""
         return self.as_belief(belief) @ self.transitions[self.as_action(action)]
 
+    @refuses_impossible(
+        "the ranges have probability zero in every pose that the belief holds possible"
+    )
     def correct(self, belief: ArrayLike, ranges: ArrayLike) -> Floats:
         """The belief (S,) after readings (n,).
 
         Raises
         ------
-        ValueError : if the readings are impossible in every pose held possible (only with no outliers).
+        ValueError
+            If the readings are impossible in every pose that the belief holds possible. This needs a sensor without
+            outliers.
         """
         before = self.as_belief(belief)
         possible = np.flatnonzero(before)
         predicted = self.predicted[possible]
         evidence = self.sensor.log_likelihood(predicted, self.as_ranges(ranges))
         log = np.log(before[possible]) + evidence
-        total = logsumexp(log)
-        if not np.isfinite(total):
-            raise ValueError(
-                "the ranges have probability zero in every pose that "
-                "the belief holds possible"
-            )
         corrected = np.zeros_like(before)
-        corrected[possible] = np.exp(log - total)
+        corrected[possible] = np.exp(log - logsumexp(log))
         return corrected / corrected.sum()
 
     def update(self, belief: ArrayLike, action: int, ranges: ArrayLike) -> Floats:

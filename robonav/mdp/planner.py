@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._arguments import checked
-from .evaluation import warn_not_converged
+from .convergence import warn_not_converged
 from .models import FiniteMDP
 from .solutions import Solution, greedy_policy
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import check_array, check_instance, check_integer
 
-from ._arguments import checked, require_type
+from ._arguments import checked, refuses_impossible, require_type
 from .models import FiniteMDP
 from .policies import SUM_TOLERANCE, as_distributions
 
@@ -149,6 +149,10 @@ class POMDP:
         b, a = self.as_belief(belief), self.as_action(action)
         return np.asarray(b @ self.mdp.transitions[a])
 
+    @refuses_impossible(
+        "observation must be possible: {observation} has probability zero "
+        "after action {action} from this belief"
+    )
     def update(self, belief: ArrayLike, action: int, observation: int) -> Floats:
         """Belief after an action and an observation, Eq. (2.18).
 
@@ -172,11 +176,6 @@ class POMDP:
         """
         predicted = self.predict(belief, action)  # sum over s of b(s) T(s, a, s')
         joint = self.likelihood(action, observation) * predicted
-        if joint.sum() == 0:
-            raise ValueError(
-                f"observation must be possible: {observation} has probability zero "
-                f"after action {action} from this belief"
-            )
         return joint / joint.sum()  # Eq. (2.18)
 
     def likelihood(self, action: int, observation: int) -> Floats:

@@ -23,6 +23,8 @@ from scipy.special import logsumexp, softmax
 
 from robonav.errors import ConvergenceWarning
 from robonav.mdp import policies
+from robonav.mdp.convergence import warns_not_converged
+from robonav.mdp.evaluation import evaluation_residual
 from robonav.mdp.models import FiniteMDP
 
 from ._arguments import checked
@@ -43,6 +45,12 @@ class SoftSolution:
         Action values Q.
     policy : (S, A) array
         The Boltzmann policy over ``q``.
+    iterations : int
+        Number of sweeps.
+    residual : float
+        Largest change of a value in the last sweep.
+    converged : bool
+        Whether it was as small as the tolerance asks for.
 
     Examples
     --------
@@ -55,6 +63,9 @@ class SoftSolution:
     values: Floats
     q: Floats
     policy: Floats
+    iterations: int
+    residual: float
+    converged: bool
 
 
 @checked
@@ -83,6 +94,7 @@ def soft_maximum(q: ArrayLike, temperature: float) -> Floats:
 
 
 @checked
+@warns_not_converged(evaluation_residual)
 def soft_value_iteration(
     mdp: FiniteMDP,
     *,
@@ -123,17 +135,17 @@ def soft_value_iteration(
     np.float64(15.39)
     """
     values = np.zeros(mdp.n_states)
-    for _ in range(max_iterations):
+    epsilon = evaluation_residual(mdp, tolerance)
+    for iteration in range(1, max_iterations + 1):
         before = values
         q = mdp.action_values(before)  # r(s, a) + gamma sum_s' T(s, a, s') V(s')
         values = soft_maximum(q, temperature)
-        change = abs(values - before).max()
-        if mdp.discount * change <= tolerance * (1 - mdp.discount):
+        residual = float(abs(values - before).max())
+        if residual <= epsilon:
             break
-    else:
-        _warn_not_settled(max_iterations, change)
     q = mdp.action_values(values)
-    return SoftSolution(values, q, policy=softmax(q / temperature, axis=1))
+    policy = softmax(q / temperature, axis=1)
+    return SoftSolution(values, q, policy, iteration, residual, residual <= epsilon)
 
 
 def occupancy_measure(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
@@ -314,15 +326,6 @@ def maximum_causal_entropy(
         dual_values=np.array([value for value, _ in trace]) - penalties,
         gaps=np.array([np.linalg.norm(gap) for _, gap in trace]),
         converged=_has_converged(found, tolerance),
-    )
-
-
-def _warn_not_settled(sweeps: int, change: float) -> None:
-    """ConvergenceWarning at the line that called :func:`soft_value_iteration`."""
-    warnings.warn(
-        f"soft_value_iteration gave up after {sweeps} sweeps: the last one still changed a value by {change:.3g}",
-        ConvergenceWarning,
-        stacklevel=4,
     )
 
 

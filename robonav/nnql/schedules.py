@@ -93,5 +93,5 @@ def geometric_schedule(schedule: Schedule, fraction: ArrayLike) -> Array:
     >>> geometric_schedule((0.8, 0.2), [0.0, 0.5, 1.0])
     array([0.8, 0.4, 0.2])
     """
-    start, end = schedule if isinstance(schedule, tuple) else (schedule, schedule)
+    start, end = np.broadcast_to(schedule, 2)  # one number stays
     return start * (end / start) ** np.asarray(fraction, dtype=float)

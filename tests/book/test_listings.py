@@ -27,6 +27,7 @@ def listing(code: str) -> str:
     )
 
 
+CHECK = "shows an input check or a warning"
 RIGHT = listing("def f(q):\n    return q.max()  # Eq. (2.9)")
 
 
@@ -57,7 +58,11 @@ def test_equation_of_the_page_itself_needs_no_listing() -> None:
         ("x" * 89, "has 89 columns"),
         ("def f():\n    from . import models", "shows an import"),
         ("    import numba\n", "shows an import"),
-        ("x = check_real('x', x)", "shows an input check"),
+        ("x = check_real('x', x)", CHECK),
+        ("def f(x):\n    if x < 0:\n        raise ValueError(x)", CHECK),
+        ("a = x if isinstance(x, tuple) else (x, x)", CHECK),
+        ("    _warn_not_settled(3)", CHECK),
+        ("warnings.warn('slow')", CHECK),
     ],
 )
 def test_listing_fault(code: str, fault: str) -> None:
@@ -65,7 +70,7 @@ def test_listing_fault(code: str, fault: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "code", ["x = 1\n" * 40, "x" * 88, "important = 1", "# import it"]
+    "code", ["x = 1\n" * 40, "x" * 88, "important = 1", "# import it", "# raise x"]
 )
 def test_listing_without_fault(code: str) -> None:
     assert list(faults(listing(code))) == []

@@ -278,7 +278,8 @@ def test_a_model_without_observations_is_refused(plan):
 def test_too_few_backups_warn_and_say_how_far_it_was():
     pomdp = tiger()
     with pytest.warns(
-        ConvergenceWarning, match="after 3 backups with a value still rising by"
+        ConvergenceWarning,
+        match="gave up after 3 iterations: the last one still changed a value by",
     ):
         point_based_value_iteration(pomdp, [[0.5, 0.5]], max_iterations=3)
 

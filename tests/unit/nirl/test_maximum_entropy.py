@@ -78,7 +78,7 @@ def test_no_policy_collects_more_reward_and_entropy():
 
 
 def test_a_budget_too_small_warns(scattered):
-    with pytest.warns(ConvergenceWarning, match="gave up after 3 sweeps"):
+    with pytest.warns(ConvergenceWarning, match="gave up after 3 iterations"):
         soft_value_iteration(
             scattered.task.with_reward(scattered.truth), max_iterations=3
         )
