@@ -487,8 +487,10 @@ def cross_entropy_gradient(
 # 5. A step, and 6. the loops
 
 
-def descend(network: Network, gradient: Gradient, gradient_step: float) -> Network:
-    """One step of gradient descent, Eqs. (3.8) and (3.28).
+def descend(
+    network: Network, gradient: Gradient, gradient_step: float | Array
+) -> Network:
+    """One step of gradient descent, Eqs. (3.8), (3.28) and (4.12).
 
     Parameters
     ----------
@@ -497,7 +499,7 @@ def descend(network: Network, gradient: Gradient, gradient_step: float) -> Netwo
     gradient : Gradient
         The derivatives of the cost by its weights and biases.
     gradient_step : float
-        alpha, which the thesis calls the learning rate.
+        alpha, which the thesis calls the learning rate; sigma in chapter 4.
 
     Returns
     -------
@@ -513,7 +515,7 @@ def descend(network: Network, gradient: Gradient, gradient_step: float) -> Netwo
     (array([[1.]]),)
     """
     pairs = zip(network.weights, gradient.weights, strict=True)
-    weights = [W - gradient_step * dW for W, dW in pairs]  # Eqs. (3.8) and (3.28)
+    weights = [W - gradient_step * dW for W, dW in pairs]  # Eqs. (3.8), (3.28), (4.12)
     pairs = zip(network.biases, gradient.biases, strict=True)
     biases = [b - gradient_step * db for b, db in pairs]
     return Network(tuple(weights), tuple(biases))

@@ -18,7 +18,7 @@ compiled = compiler(network)
 
 
 @compiled
-def descend(
+def sarsa_descent(
     w1,
     b1,
     w2,

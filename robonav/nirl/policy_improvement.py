@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 from robonav.networks.multilayer_perceptron import (
     Network,
     cross_entropy_gradient,
+    descend,
     sigmoid,
 )
-from robonav.nnql.updates import descend
 from robonav.validation import check_integer, check_positive, check_real
 
 from .policy import neural_action_values
@@ -360,7 +360,7 @@ def compiled_sarsa_descent(
 
     w1, w2 = (weight.T.copy(order="C") for weight in network.weights)
     b1, b2 = (bias.copy() for bias in network.biases)
-    cost = _fast.descend(
+    cost = _fast.sarsa_descent(
         w1, b1, w2, b2, transitions.inputs, transitions.actions, rewards,
         transitions.next_index, terminal_values, order, learning_rate, discount, gradient_step,
     )  # fmt: skip

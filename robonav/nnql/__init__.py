@@ -24,7 +24,6 @@ from .training import METHODS, TrainingResult, train, weight_changes
 from .updates import (
     clip,
     cross_entropy,
-    descend,
     network_error,
     q_targets,
     shift,
@@ -43,7 +42,6 @@ __all__ = [
     "clip",
     "collect_episode",
     "cross_entropy",
-    "descend",
     "double_dqn_targets",
     "dqn",
     "dqn_targets",

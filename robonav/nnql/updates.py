@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.networks.multilayer_perceptron import Gradient, Network, backpropagate
+from robonav.networks.multilayer_perceptron import Network, backpropagate, descend
 
 Array = NDArray[np.float64]
 
@@ -129,42 +129,6 @@ def cross_entropy(targets: ArrayLike, logits: ArrayLike) -> Array:
     """
     z = np.asarray(logits, dtype=float)
     return (np.logaddexp(0.0, z) - np.asarray(targets) * z).sum(axis=-1)  # Eq. (4.11)
-
-
-def descend(
-    network: Network, gradient: Gradient, gradient_step: float | Array
-) -> Network:
-    """One step of gradient descent on all weights and biases, Eq. (4.12).
-
-    Parameters
-    ----------
-    network : Network
-        Its weights W.
-    gradient : Gradient
-        The derivatives of the cost by these weights.
-    gradient_step : float
-        The thesis's sigma.
-
-    Returns
-    -------
-    Network
-        A new network.
-
-    Examples
-    --------
-    >>> from robonav.networks import Gradient, random_network
-    >>> from robonav.nnql import descend
-    >>> network = random_network((4, 8, 2), seed=0)
-    >>> same = Gradient(list(network.weights), list(network.biases))
-    >>> descend(network, same, 1.0).weights[0].any()
-    np.False_
-    """
-    weights = zip(network.weights, gradient.weights, strict=True)
-    biases = zip(network.biases, gradient.biases, strict=True)
-    return Network(
-        tuple(w - gradient_step * dw for w, dw in weights),  # Eq. (4.12)
-        tuple(b - gradient_step * db for b, db in biases),
-    )
 
 
 def stochastic_gradient_descent(

@@ -21,6 +21,7 @@ from robonav.nirl import (
     SubgradientMaxMargin,
     TabularTask,
     Transitions,
+    _fast,
     accuracy,
     all_action_features,
     balanced_accuracy,
@@ -38,7 +39,6 @@ from robonav.nirl import (
     train_under_reward,
     transition_rewards,
 )
-from robonav.nirl._fast import descend
 from robonav.nirl.policy_improvement import compiled_sarsa_descent
 
 RNG = np.random.default_rng(0)
@@ -140,7 +140,7 @@ def test_one_step_is_minus_rate_times_the_numerical_gradient(follows):
     target = q + 0.8 * (0.2 + 0.65 * following - q)
     w1, w2 = (np.ascontiguousarray(w.T) for w in network.weights)
     b1, b2 = (b.copy() for b in network.biases)
-    cost = descend(
+    cost = _fast.sarsa_descent(
         w1, b1, w2, b2, x, actions, rewards, after, ends, np.array([0]), 0.8, 0.65, 1e-4
     )
     assert cost == pytest.approx(cross_entropy(network, x[0], 2, target))
