@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SITE = Path(os.environ.get("BOOK_SITE", ROOT / "_build" / "html"))
 IMPORT = re.compile(r"^\s*(?:from\s+\S+\s+import|import)\s", re.MULTILINE)
 INPUT_CHECK = re.compile(
-    r"\bcheck_\w+\(|^\s*raise\s|\bisinstance\(|\w*warn\w*\(", re.MULTILINE
+    r"\bcheck_\w+\(|^\s*raise\s|\bisinstance\(|(?<![@\w])\w*warn\w*\(", re.MULTILINE
 )
 
 

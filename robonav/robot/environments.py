@@ -21,6 +21,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import wraps
 from typing import Any, ClassVar
 
 import gymnasium
@@ -440,6 +441,25 @@ def worlds_in(options: dict[str, Any] | None, number: int) -> Worlds | None:
 # 4. The environment
 
 
+Step = tuple[Observation, float, bool, bool, Info]
+
+
+def while_running(
+    step: Callable[[NavigationEnv, int], Step],
+) -> Callable[[NavigationEnv, int], Step]:
+    """Decorate ``step``: ValueError outside an episode, and for an action that does not exist."""
+
+    @wraps(step)
+    def checked(env: NavigationEnv, action: int) -> Step:
+        if env.outcome is None:
+            raise ValueError("step: call reset first")
+        if env.outcome != RUNNING:
+            raise ValueError("step: the episode has ended; call reset first")
+        return step(env, check_action(action))
+
+    return checked
+
+
 class NavigationEnv(gymnasium.Env):
     """A mobile robot has to reach a target in an unknown map without hitting anything (section 2.5).
 
@@ -613,15 +633,11 @@ class NavigationEnv(gymnasium.Env):
             self.render()
         return self._observation(), self._info(NO_REFLEX)
 
-    def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
+    @while_running
+    def step(self, action: int) -> Step:
         """Simulate one second."""
-        if self.outcome is None:
-            raise ValueError("step: call reset first")
-        if self.outcome != RUNNING:
-            raise ValueError("step: the episode has ended; call reset first")
-        action, settings = check_action(action), self.settings
-
         # The reflex comes first. It may replace the action: face the target and go, or step back.
+        settings = self.settings
         before, start, reflex = self.sensing, self.pose, NO_REFLEX
         if settings.reflex is not None:
             reflex = int(settings.reflex(before, settings.speed)[0])
