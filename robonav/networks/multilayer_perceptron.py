@@ -20,8 +20,9 @@ Read the file from top to bottom, as the network learns:
 
 Layer l has s_l units with activations a(l). The weights W(l) and the biases b(l) lead to layer l + 1. Python counts
 from 0, so that ``weights[0]`` is W(1) and ``a[0]`` is a(1) = x. Examples are rows: with m examples, a(l) is (m, s_l)
-and stands on the left of the transposed weights. The numbers of equations are those of the thesis. The page "A neural
-network by hand" of the book derives them in the same order.
+and stands on the left of the transposed weights. Functions marked ``@checked`` first check their arguments. The
+numbers of equations are those of the thesis. The book's page "A neural network, by hand" derives them in the same
+order.
 """
 
 from __future__ import annotations
@@ -161,7 +162,7 @@ def random_network(
 def sigmoid(z: Array) -> Array:
     """Sigmoid activation function, Eq. (3.4).
 
-    Its values lie between 0 and 1. (The thesis's text has ]-1, +1[, which is the range of tanh.)
+    Its values lie between 0 and 1.
 
     Parameters
     ----------
@@ -369,9 +370,9 @@ class Gradient:
 def backpropagate(weights: Sequence[Array], a: list[Array], delta: Array) -> Gradient:
     """Backpropagation with matrices, Eqs. (3.14), (3.15), (3.24), (3.25) and (3.26).
 
-    The errors of the output layer are carried back through the network, for all examples at once. The bias unit of a
-    hidden layer has no incoming weights and therefore no error (the thesis lets j start at 0 in the equation for the
-    hidden layer's errors).
+    The error delta(l) of a layer is the derivative of the cost by its weighted sums z(l). From the output layer on, the
+    chain rule gives the error of each layer from that of the next one, for all examples at once. The derivative by a
+    weight is the error of the unit that it leads to times the activation of the unit that it comes from.
 
     Parameters
     ----------
@@ -400,7 +401,7 @@ def backpropagate(weights: Sequence[Array], a: list[Array], delta: Array) -> Gra
     for layer in reversed(range(len(weights))):
         # By W(l): delta(l+1) a(l)^T; by b(l): delta(l+1); both summed over the examples.
         dW = delta.T @ a[layer]  # Eqs. (3.15), (3.25) and (3.26)
-        gradient.weights.insert(0, dW)
+        gradient.weights.insert(0, dW)  # in front of those of the later layers
         gradient.biases.insert(0, delta.sum(axis=0))
         if layer > 0:  # delta(l) = (W(l)^T delta(l+1)) * f'(z(l))
             back = delta @ weights[layer]
@@ -464,8 +465,8 @@ def cross_entropy_gradient(
 ) -> Gradient:
     """Gradient of the cross-entropy cost, from the output errors of Eq. (3.23).
 
-    The weights decay by lambda / m, which is the derivative of the cost. (The thesis writes lambda alone.) Parameters
-    and errors are those of :func:`squared_error_cost`.
+    The weights decay by lambda / m, which is the derivative of the cost. Parameters and errors are those of
+    :func:`squared_error_cost`.
 
     Returns
     -------

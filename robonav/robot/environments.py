@@ -8,12 +8,16 @@ The file holds the whole environment, from top to bottom:
 3. its reward and its settings, which draw the worlds (:class:`NavigationSettings`);
 4. the environment itself: :class:`NavigationEnv` with ``reset`` and ``step``, which call all these.
 
-Angles are in radians, counter-clockwise, distances in metres; the map reaches from (0, 0) to (size, size). numba
-compiles the functions marked ``@compiled``, which are plain Python. They treat one robot. The vector environment steps
-many in ``_fast``, and tests hold the two equal, bit for bit. From ``_fast`` come the constants, distances between
-simple shapes, and ``uniform`` and ``normal``: random numbers in [0, 1), and normal ones, which are a hash of the
-world's key, a purpose, the step and two counters. ``wrap`` keeps an angle in (-pi, pi]. ``micrometres`` rounds a
-distance, so that distances which are equal on paper are equal in what is decided on them.
+Angles are in radians, counter-clockwise, distances in metres. The map reaches from (0, 0) to (size, size).
+
+numba compiles the functions marked ``@compiled``, which are plain Python for one robot. The vector environment steps
+many robots in ``_fast``; tests hold the two equal, bit for bit. From ``_fast`` come
+
+- distances: ``swept_distance`` from a segment to a shape at the origin, ``box_entry`` along a line to a box,
+  ``reach_of``, the radius of the circle about a shape;
+- ``wrap``, which keeps an angle in (-pi, pi], and ``micrometres``, which rounds a distance, so that the last bit of a
+  sine decides nothing;
+- random numbers, ``uniform`` in [0, 1) and ``normal``: a hash of the world's key, a purpose, the step and a count.
 """
 
 from __future__ import annotations
@@ -71,6 +75,7 @@ from .worlds import (
 )
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 Pose = tuple[float, float, float]  # x, y and heading
 Obstacles = tuple[Array, Array, Array, Array, Array]
 """Of M obstacles: kinds (M,), shapes (M, 3), centres (M, 2), headings (M,) and speeds (M,).
@@ -80,7 +85,7 @@ A shape is a circle's radius, or half a rectangle's length, half its width, and 
 Observation = dict[str, Any]
 Info = dict[str, Any]
 
-TURN_OF_ACTION = TURNS.tolist()  # radians, to the left
+TURN_OF_ACTION = TURNS.tolist()  # 0, 30, 60, -30, -60 and 0 degrees, in radians
 NAME_OF_OUTCOME = OUTCOMES.tolist()
 
 compiled = compiler(constants, geometry, motion, random_numbers)
@@ -119,13 +124,13 @@ def drift(obstacles: Obstacles, size: float, key: Array, step: int) -> None:
             heading = math.pi * (2.0 * uniform(key, DRIFTING, step, m, 1) - 1.0)
         x = centres[m, 0] + speeds[m] * math.cos(heading)
         y = centres[m, 1] + speeds[m] * math.sin(heading)
-        least = reach_of(kinds[m], shapes[m, 0], shapes[m, 1])  # centre to border
-        most = size - least
-        if x < least or x > most:
-            x = 2.0 * (least if x < least else most) - x
+        reach = reach_of(kinds[m], shapes[m, 0], shapes[m, 1])
+        most = size - reach  # for its centre
+        if x < reach or x > most:
+            x = 2.0 * (reach if x < reach else most) - x
             heading = wrap(math.pi - heading)
-        if y < least or y > most:
-            y = 2.0 * (least if y < least else most) - y
+        if y < reach or y > most:
+            y = 2.0 * (reach if y < reach else most) - y
             heading = -heading
         centres[m, 0], centres[m, 1], headings[m] = x, y, heading
 
@@ -147,8 +152,9 @@ def least_clearance(
         ax, ay = x0 - centres_before[m, 0], y0 - centres_before[m, 1]
         bx, by = x1 - centres[m, 0], y1 - centres[m, 1]
         near = shapes[m, 0] + shapes[m, 1] + least
-        beside = min(ax, bx) > near or max(ax, bx) < -near
-        if kinds[m] == NOTHING or beside or min(ay, by) > near or max(ay, by) < -near:
+        far_in_x = min(ax, bx) > near or max(ax, bx) < -near
+        far_in_y = min(ay, by) > near or max(ay, by) < -near
+        if kinds[m] == NOTHING or far_in_x or far_in_y:
             continue
         least = min(least, swept_distance(kinds[m], shapes[m], ax, ay, bx, by))
     return micrometres(max(least, 0.0))
@@ -160,7 +166,7 @@ def least_clearance(
 @compiled
 def sense(
     obstacles: Obstacles, size: float, pose: Pose, target: tuple[float, float],
-    noise: float, key: Array, step: int, ranges: Array, walls: NDArray[np.bool_],
+    noise: float, key: Array, step: int, ranges: Array, walls: Flags,
 ) -> tuple[int, bool]:  # fmt: skip
     """Sense the least distance in each of nine sectors, and where the target is.
 
@@ -190,17 +196,24 @@ def sector_at(bearing: float) -> int:
 
 
 @compiled
-def see(
-    distance: float, k: int, wall: bool, ranges: Array, walls: NDArray[np.bool_]
-) -> None:
+def see(distance: float, k: int, wall: bool, ranges: Array, walls: Flags) -> None:
     """Keep the distance in sector ``k`` if nothing there is nearer."""
     if distance < ranges[k]:
         ranges[k], walls[k] = distance, wall
 
 
 @compiled
+def see_on_ray(
+    distance: float, k: int, wall: bool, ranges: Array, walls: Flags
+) -> None:
+    """See something on the ray between sectors ``k`` and ``k + 1``: both have it."""
+    see(distance, k, wall, ranges, walls)
+    see(distance, (k + 1) % SENSORS, wall, ranges, walls)
+
+
+@compiled
 def sense_obstacles(
-    obstacles: Obstacles, pose: Pose, ranges: Array, walls: NDArray[np.bool_]
+    obstacles: Obstacles, pose: Pose, ranges: Array, walls: Flags
 ) -> None:
     """See each obstacle at its nearest point, and where the rays between two sectors meet it.
 
@@ -236,7 +249,7 @@ def directions_of_rays() -> Array:
 
 @compiled
 def see_circle(
-    x: float, y: float, radius: float, rays: Array, ranges: Array, walls: NDArray[np.bool_],
+    x: float, y: float, radius: float, rays: Array, ranges: Array, walls: Flags,
 ) -> None:  # fmt: skip
     """See a circle whose centre is x ahead and y to the left."""
     distance = math.hypot(x, y) - radius
@@ -250,13 +263,12 @@ def see_circle(
         half_chord2 = radius * radius - across * across
         if along > 0.0 and half_chord2 >= 0.0:  # the ray meets it
             distance = along - math.sqrt(half_chord2)
-            see(distance, k, False, ranges, walls)
-            see(distance, (k + 1) % SENSORS, False, ranges, walls)
+            see_on_ray(distance, k, False, ranges, walls)
 
 
 @compiled
 def see_rectangle(
-    x: float, y: float, shape: Array, turned: float, rays: Array, ranges: Array, walls: NDArray[np.bool_],
+    x: float, y: float, shape: Array, turned: float, rays: Array, ranges: Array, walls: Flags,
 ) -> None:  # fmt: skip
     """See a rectangle whose centre is x ahead and y to the left, its length turned to the left."""
     half_length, half_width = shape[0], shape[1]
@@ -273,14 +285,11 @@ def see_rectangle(
         dx, dy = c * rays[k, 0] + s * rays[k, 1], c * rays[k, 1] - s * rays[k, 0]
         enter, leave = box_entry(px, py, dx, dy, half_length, half_width)
         if 0.0 <= enter <= leave:  # the ray meets it
-            see(enter, k, False, ranges, walls)
-            see(enter, (k + 1) % SENSORS, False, ranges, walls)
+            see_on_ray(enter, k, False, ranges, walls)
 
 
 @compiled
-def sense_borders(
-    size: float, pose: Pose, ranges: Array, walls: NDArray[np.bool_]
-) -> None:
+def sense_borders(size: float, pose: Pose, ranges: Array, walls: Flags) -> None:
     """See each border at its nearest point, and where the rays between two sectors leave the map."""
     x, y, heading = pose
     margin = min(x, size - x, y, size - y)
@@ -296,14 +305,13 @@ def sense_borders(
         (y, 0.0, -1.0),
         (size - y, 0.0, 1.0),
     ):
-        ahead = sector_at(math.atan2(c * ny - s * nx, c * nx + s * ny))
-        see(distance, ahead, True, ranges, walls)
+        k = sector_at(math.atan2(c * ny - s * nx, c * nx + s * ny))
+        see(distance, k, True, ranges, walls)
     rays, half = directions_of_rays(), size / 2
     for k in range(SENSORS):
         dx, dy = c * rays[k, 0] - s * rays[k, 1], s * rays[k, 0] + c * rays[k, 1]
         _, distance = box_entry(x - half, y - half, dx, dy, half, half)
-        see(distance, k, True, ranges, walls)
-        see(distance, (k + 1) % SENSORS, True, ranges, walls)
+        see_on_ray(distance, k, True, ranges, walls)
 
 
 # 3. The reward, and the settings, which draw the worlds
