@@ -77,8 +77,8 @@ from .worlds import (
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Pose = tuple[float, float, float]  # x, y and heading
-Obstacles = tuple[Array, Array, Array, Array, Array]
-"""Of M obstacles: kinds (M,), shapes (M, 3), centres (M, 2), headings (M,) and speeds (M,).
+Obstacles = tuple[Array, Array, Array]
+"""Of M obstacles: kinds (M,), shapes (M, 3) and centres (M, 2).
 
 A shape is a circle's radius, or half a rectangle's length, half its width, and the angle its length is turned by.
 """
@@ -113,9 +113,12 @@ def slip_to(action: int, slip: Array, key: Array, step: int) -> int:
 
 
 @compiled
-def drift(obstacles: Obstacles, size: float, key: Array, step: int) -> None:
+def drift(
+    obstacles: Obstacles, headings: Array, speeds: Array,
+    size: float, key: Array, step: int,
+) -> None:  # fmt: skip
     """Let moving obstacles go on for one second. Some turn at random, and borders reflect them."""
-    kinds, shapes, centres, headings, speeds = obstacles
+    kinds, shapes, centres = obstacles
     for m in range(len(kinds)):
         if kinds[m] == NOTHING or speeds[m] == 0.0:
             continue
@@ -144,7 +147,7 @@ def least_clearance(
     Obstacles go straight and evenly from ``centres_before`` to their centres, and the robot does too. So, seen from an
     obstacle, the robot goes straight along a segment. Exact below :data:`COLLISION_DISTANCE`.
     """
-    kinds, shapes, centres, _, _ = obstacles
+    kinds, shapes, centres = obstacles
     (x0, y0, _), (x1, y1, _) = start, end
     least = min(x0, x1, size - x0, size - x1, y0, y1, size - y0, size - y1)
     least = min(least, 2.0 * COLLISION_DISTANCE)  # more does not matter
@@ -220,7 +223,7 @@ def sense_obstacles(
     This is enough: seen from outside, the distance to a convex shape falls and then rises with the bearing. So its
     least distance in a sector is at its nearest point, if the sector holds it, or else on one of the sector's two rays.
     """
-    kinds, shapes, centres, _, _ = obstacles
+    kinds, shapes, centres = obstacles
     x, y, heading = pose
     c, s = math.cos(heading), math.sin(heading)
     rays = directions_of_rays()
@@ -249,7 +252,8 @@ def directions_of_rays() -> Array:
 
 @compiled
 def see_circle(
-    x: float, y: float, radius: float, rays: Array, ranges: Array, walls: Flags,
+    x: float, y: float, radius: float,
+    rays: Array, ranges: Array, walls: Flags,
 ) -> None:  # fmt: skip
     """See a circle whose centre is x ahead and y to the left."""
     distance = math.hypot(x, y) - radius
@@ -268,7 +272,8 @@ def see_circle(
 
 @compiled
 def see_rectangle(
-    x: float, y: float, shape: Array, turned: float, rays: Array, ranges: Array, walls: Flags,
+    x: float, y: float, shape: Array, turned: float,
+    rays: Array, ranges: Array, walls: Flags,
 ) -> None:  # fmt: skip
     """See a rectangle whose centre is x ahead and y to the left, its length turned to the left."""
     half_length, half_width = shape[0], shape[1]
@@ -626,10 +631,9 @@ class NavigationEnv(gymnasium.Env):
         # The map. A world is a batch of one; its row 0 is this one.
         self.world, self.size = world, world.size
         self.centres = world.centres[0].copy()  # obstacles move, the world stays
-        self.obstacles = (
-            world.kinds[0], world.shapes[0], self.centres, world.headings[0].copy(), world.speeds[0],
-        )  # fmt: skip
-        self.moving = world.speeds[0].any()
+        self.obstacles = world.kinds[0], world.shapes[0], self.centres
+        self.headings, self.speeds = world.headings[0].copy(), world.speeds[0]
+        self.moving = bool(self.speeds.any())
         self.key = world.keys[0]  # random numbers of the episode are a hash of it
 
         # The robot stands at the start and faces its target.
@@ -663,7 +667,9 @@ class NavigationEnv(gymnasium.Env):
         self.pose = turn_and_go(start, TURN_OF_ACTION[action], distance)
         centres_before = self.centres.copy()
         if self.moving:
-            drift(self.obstacles, self.size, self.key, self.steps)
+            drift(
+                self.obstacles, self.headings, self.speeds, self.size, self.key, self.steps
+            )  # fmt: skip
         self.steps += 1
 
         # What came of it: outcome, sensing, reward.

@@ -418,9 +418,7 @@ def some_worlds(moving: int = 4):
 
 
 def one_map(worlds, i):
-    return (
-        worlds.kinds[i], worlds.shapes[i], worlds.centres[i].copy(), worlds.headings[i].copy(), worlds.speeds[i],
-    )  # fmt: skip
+    return worlds.kinds[i], worlds.shapes[i], worlds.centres[i].copy()
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.4])
@@ -447,9 +445,11 @@ def test_obstacles_of_one_map_drift_as_in_the_batch_to_the_bit():
     tracks = obstacle_tracks(worlds[:100], steps)
     assert (abs(np.diff(tracks, axis=1)).max(axis=(0, 1, 3)) > 0).any()
     for i in range(100):
-        obstacles = one_map(worlds, i)
+        obstacles, headings = one_map(worlds, i), worlds.headings[i].copy()
         for step in range(steps):
-            environments.drift(obstacles, worlds.size, worlds.keys[i], step)
+            environments.drift(
+                obstacles, headings, worlds.speeds[i], worlds.size, worlds.keys[i], step
+            )
             np.testing.assert_array_equal(obstacles[2], tracks[i, step + 1])
 
 
@@ -458,9 +458,10 @@ def test_clearance_of_one_step_is_the_compiled_one_to_the_bit():
     ends = poses + np.random.default_rng(7).uniform(-4, 4, poses.shape)
     collisions = 0
     for i, (start, end) in enumerate(zip(poses.tolist(), ends.tolist(), strict=True)):
-        obstacles = one_map(worlds, i)
-        environments.drift(obstacles, worlds.size, worlds.keys[i], 0)
-        kinds, shapes, centres, _, _ = obstacles
+        obstacles = kinds, shapes, centres = one_map(worlds, i)
+        environments.drift(
+            obstacles, worlds.headings[i].copy(), worlds.speeds[i], worlds.size, worlds.keys[i], 0,
+        )  # fmt: skip
         expected = micrometres(
             swept_clearance(
                 kinds, shapes, worlds.centres[i], centres, worlds.size, *start[:2], *end[:2], 1.001,
