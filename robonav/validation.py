@@ -148,6 +148,15 @@ def check_instance(name: str, value: Any, kind: type) -> Any:
     return value
 
 
+def check_callable(name: str, value: Any, call: str) -> Any:
+    """Return ``value`` if it can be called. ``call`` says how, such as "policy(sensing, rng)"."""
+    if not callable(value):
+        raise TypeError(
+            f"{name} must be callable as {call}, got {type(value).__name__}"
+        )
+    return value
+
+
 def check_one_of(name: str, value: Any, choices: Iterable[Any]) -> Any:
     """Return ``value`` if it is one of the choices."""
     known = list(choices)

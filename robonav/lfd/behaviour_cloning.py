@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from robonav.networks.multilayer_perceptron import Array, random_network
@@ -9,11 +11,21 @@ from robonav.networks.optimisers import lbfgs, one_hot
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import Encoder
-from robonav.validation import check_instance, check_integer
+from robonav.validation import check_instance, check_integer, checks
 
 from .demonstrations import LEARNED, Demonstrations
 
+checked = checks(
+    {
+        "demonstrations": partial(check_instance, kind=Demonstrations),
+        "hidden": partial(check_integer, at_least=1),
+        "encoder": partial(check_instance, kind=Encoder),
+    }
+)
+"""Decorate a function of these arguments so that they are checked before it runs."""
 
+
+@checked
 def behaviour_cloning(
     demonstrations: Demonstrations,
     *,
@@ -27,13 +39,12 @@ def behaviour_cloning(
     """Policy learning from multiple demonstrations, Algorithm 3.
 
     This is behaviour cloning: a network is trained, by supervised learning, to answer each state in the demonstrations
-    with the expert's action. The numbers in the comments are the lines of
-    Algorithm 3.
+    with the expert's action. The numbers in the comments are the lines of Algorithm 3.
 
     Parameters
     ----------
     demonstrations, hidden, regularisation, iterations, seed, encoder, progress
-        As in :func:`learn_policy`, which checks them and calls this function.
+        As in :func:`learn_policy`.
 
     Returns
     -------
@@ -72,7 +83,7 @@ def learn_policy(
     encoder: Encoder | None = None,
     progress: Progress | None = None,
 ) -> NetworkPolicy:
-    """Learn a policy from demonstrations by :func:`behaviour_cloning`, after checks of the arguments.
+    """Learn a policy from demonstrations by :func:`behaviour_cloning`, whose options it takes without their names.
 
     Parameters
     ----------
@@ -112,12 +123,9 @@ def learn_policy(
     >>> len(navigate(policy, random_worlds(5, obstacles=10, seed=2)).outcome)
     5
     """
-    check_instance("demonstrations", demonstrations, Demonstrations)
-    if encoder is not None:
-        check_instance("encoder", encoder, Encoder)
     return behaviour_cloning(
         demonstrations,
-        hidden=check_integer("hidden", hidden, at_least=1),
+        hidden=hidden,
         regularisation=regularisation,
         iterations=iterations,
         seed=seed,
@@ -144,6 +152,16 @@ def stacked_pairs(
         States.
     A : (m, 5) array
         Actions, each a 1 among zeros.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate
+    >>> from robonav.lfd.behaviour_cloning import stacked_pairs
+    >>> from robonav.robot import Encoder, random_worlds
+    >>> demonstrations = demonstrate(random_worlds(2, obstacles=10, seed=1))
+    >>> S, A = stacked_pairs(demonstrations, Encoder())
+    >>> S.shape == (len(demonstrations.effective), 12), A.shape == (len(S), 5)
+    (True, True)
     """
     X, Y = [], []
     for number in range(len(demonstrations.worlds)):

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,15 @@ from numpy.typing import ArrayLike
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import Encoder, Policy, Sensing, Simulator, Worlds, drive
-from robonav.validation import check_array, check_generator, check_integer, check_real
+from robonav.validation import (
+    check_array,
+    check_callable,
+    check_generator,
+    check_instance,
+    check_integer,
+    check_real,
+    checks,
+)
 
 from .behaviour_cloning import learn_policy
 from .computer_expert import ComputerExpert
@@ -35,6 +44,25 @@ from .demonstrations import (
 )
 
 TEMPERATURE = 0.4
+
+
+def check_rounds(name: str, rounds: Sequence[Worlds]) -> Sequence[Worlds]:
+    """Return the batches of worlds of DAgger's rounds if they are that."""
+    for number, worlds in enumerate(check_instance(name, rounds, Sequence)):
+        check_instance(f"{name}[{number}]", worlds, Worlds)
+    return rounds
+
+
+checked = checks(
+    {
+        "rounds": check_rounds,
+        "policy": partial(check_callable, call="policy(sensing, rng)"),
+        "expert": partial(check_callable, call="expert(simulator, robots)"),
+        "temperature": partial(check_real, at_least=0),
+        "max_steps": partial(check_integer, at_least=1),
+    }
+)
+"""Decorate a function of these arguments so that they are checked before it runs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +95,7 @@ class DaggerResult:
         return self.policies[-1]
 
 
+@checked
 def dagger(
     demonstrations: Demonstrations,
     rounds: Sequence[Worlds],
@@ -211,6 +240,7 @@ def labelled_rollout(
     return by_trajectory(simulator, steps)
 
 
+@checked
 def collect_with_expert_labels(
     policy: Policy,
     worlds: Worlds,

@@ -21,7 +21,13 @@ from robonav.robot import (
     drive,
 )
 from robonav.robot.worlds import concatenate as concatenate_worlds
-from robonav.validation import check_array, check_integer, check_one_of, check_positive
+from robonav.validation import (
+    check_array,
+    check_callable,
+    check_integer,
+    check_one_of,
+    check_positive,
+)
 
 Floats = NDArray[np.float64]
 Actions = NDArray[np.int64]
@@ -151,7 +157,7 @@ class Demonstrations:
 
 
 Expert = Callable[[Simulator, Actions], Actions]
-"""``expert(simulator, asked)`` returns the actions (n,) that the robots ``asked`` (n,) should take now."""
+"""``expert(simulator, robots)`` returns the actions (n,) that the robots with these indices (n,) should take now."""
 
 
 def record(
@@ -203,6 +209,7 @@ def record(
     >>> record(ComputerExpert(), random_worlds(2, obstacles=10, seed=1)).outcome.tolist()
     ['arrived', 'arrived']
     """
+    check_callable("expert", expert, "expert(simulator, robots)")
     check_integer("max_steps", max_steps, at_least=1)
     simulator = Simulator(worlds, speed, slip=slip, max_steps=max_steps)
 

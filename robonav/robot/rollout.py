@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.progress import Progress
-from robonav.validation import check_generator
+from robonav.validation import check_callable, check_generator
 
 from ._fast import NO_REFLEX, RUNNING
 from .simulator import OUTCOMES, Reflex, Sensing, Simulator, check_actions
@@ -260,10 +260,7 @@ def navigate(
     >>> int(result.success.sum()), int(result.collision.sum())
     (97, 1)
     """
-    if not callable(policy):
-        raise TypeError(
-            f"policy must be callable as policy(sensing, rng), got {type(policy).__name__}"
-        )
+    check_callable("policy", policy, "policy(sensing, rng)")
     if reflex is not None and not callable(reflex):
         raise TypeError(
             f"reflex must be callable as reflex(sensing, speed), or None, got {reflex!r}"

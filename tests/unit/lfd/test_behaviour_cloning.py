@@ -104,6 +104,7 @@ def test_nothing_to_learn_from():
     [
         labelled_states,
         learn_policy,
+        behaviour_cloning,
         learn_neighbours,
         lambda demonstrations: dagger(demonstrations, []),
     ],
@@ -131,9 +132,10 @@ def test_only_demonstrations_are_learned_from(learn):
         ({"regularisation": -1}, ValueError, "regularisation must be at least 0"),
     ],
 )
-def test_wrong_arguments_get_a_sentence(demonstrations, options, error, message):
+@pytest.mark.parametrize("learn", [learn_policy, behaviour_cloning])
+def test_wrong_arguments_get_a_sentence(demonstrations, learn, options, error, message):
     with pytest.raises(error, match=message):
-        learn_policy(demonstrations, **options)
+        learn(demonstrations, **options)
 
 
 def test_wrong_types_at_the_other_doors(tmp_path):

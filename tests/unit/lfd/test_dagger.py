@@ -12,6 +12,7 @@ from robonav.lfd import (
     demonstrate,
     learn_neighbours,
     learn_policy,
+    record,
 )
 from robonav.lfd.dagger import round_seeds
 from robonav.networks import NetworkPolicy
@@ -283,3 +284,30 @@ def test_neighbours_beat_going_straight(demonstrations):
 def test_too_many_neighbours(demonstrations):
     with pytest.raises(ValueError, match="k must be at most"):
         learn_neighbours(demonstrations, k=10**6)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (
+            {"expert": 3},
+            r"expert must be callable as expert\(simulator, robots\), got int",
+        ),
+        ({"rounds": 3}, "rounds must be Sequence, got int"),
+        ({"rounds": ["x"]}, r"rounds\[0\] must be Worlds, got str"),
+        ({"temperature": "x"}, "temperature must be a number"),
+        ({"max_steps": 1.5}, "max_steps must be a whole number"),
+        ({"encoder": "x"}, "encoder must be Encoder, got str"),
+    ],
+)
+def test_wrong_arguments_of_dagger_get_a_sentence(demonstrations, options, message):
+    with pytest.raises(TypeError, match=message):
+        dagger(demonstrations, **{"rounds": [], **options})
+
+
+def test_what_cannot_be_called_is_refused():
+    worlds = random_worlds(1, 5, seed=1)
+    with pytest.raises(TypeError, match="expert must be callable"):
+        record(3, worlds)
+    with pytest.raises(TypeError, match="policy must be callable"):
+        collect_with_expert_labels(3, worlds)
