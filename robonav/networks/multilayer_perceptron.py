@@ -399,7 +399,7 @@ def backpropagate(weights: Sequence[Array], a: list[Array], delta: Array) -> Gra
     """
     gradient = Gradient([], [])
     for layer in reversed(range(len(weights))):
-        # By W(l): delta(l+1) a(l)^T; by b(l): delta(l+1); both summed over the examples.
+        # By W(l): delta(l+1) a(l)^T; by b(l): delta(l+1); summed over the examples.
         dW = delta.T @ a[layer]  # Eqs. (3.15), (3.25) and (3.26)
         gradient.weights.insert(0, dW)  # in front of those of the later layers
         gradient.biases.insert(0, delta.sum(axis=0))

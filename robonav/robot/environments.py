@@ -653,11 +653,11 @@ class NavigationEnv(gymnasium.Env):
         before, start, reflex = self.sensing, self.pose, NO_REFLEX
         if settings.reflex is not None:
             reflex = int(settings.reflex(before, settings.speed)[0])
-        if reflex == Action.TO_TARGET:
+        if reflex == Action.TO_TARGET:  # nothing is in range
             x, y, _ = start
             start = (x, y, math.atan2(self.target[1] - y, self.target[0] - x))
             action = Action.F
-        elif reflex != NO_REFLEX:
+        elif reflex != NO_REFLEX:  # it is blocked ahead
             action = reflex
         if settings.slip is not None:
             action = slip_to(action, settings.slip, self.key, self.steps)
@@ -681,6 +681,14 @@ class NavigationEnv(gymnasium.Env):
         if self.render_mode == "human":
             self.render()
         return self._observation(), reward, terminated, truncated, self._info(reflex)
+
+    def _allowed(self, action: Any) -> int:
+        """Return the action as a number 0 to 5, if the episode goes on; else raise an error."""
+        if self.outcome is None:
+            raise ValueError("step: call reset first")
+        if self.outcome != RUNNING:
+            raise ValueError("step: the episode has ended; call reset first")
+        return check_action(action)
 
     def _outcome(self, start: Pose, centres_before: Array) -> int:
         """How the episode stands; a collision anywhere along the way counts, not only where the robot stops."""
