@@ -21,20 +21,25 @@ export function* rewardJob({ inputs, actions, settings, seed, reward }) {
   }
 }
 
-/** The reward of each cell of a map for a robot that faces the target there; null inside things. */
-export function rewardMap(theta, world, settings, action) {
+/** The cells of a map, and what a robot that faces the target perceives in each; cells inside things are left out. */
+export function mapCells(world, { encoder }) {
   const cells = [];
   for (let y = HEAT_CELL / 2; y < world.size; y += HEAT_CELL) {
     for (let x = HEAT_CELL / 2; x < world.size; x += HEAT_CELL) {
       const pose = { x, y, heading: Math.atan2(world.target[1] - y, world.target[0] - x) };
       const sensing = sense(world, pose);
-      if (Math.min(...sensing.ranges) === 0) continue;
-      const input = encode(settings.encoder, sensing);
-      const rewards = ACTION_NAMES.map((_, a) => rewardAt(theta, input, a));
-      cells.push({ x, y, reward: action < 0 ? Math.max(...rewards) : rewards[action] });
+      if (Math.min(...sensing.ranges) > 0) cells.push({ x, y, input: encode(encoder, sensing) });
     }
   }
   return cells;
+}
+
+/** The reward of an action in each cell of a map, or with action -1 the largest of all actions. */
+export function rewardMap(theta, cells, action) {
+  return cells.map(({ x, y, input }) => {
+    const rewards = ACTION_NAMES.map((_, a) => rewardAt(theta, input, a));
+    return { x, y, reward: action < 0 ? Math.max(...rewards) : rewards[action] };
+  });
 }
 
 /** What stands in each column of theta. */
@@ -61,10 +66,12 @@ function render({ model, el }) {
 
   // What was learned, as a picture
   const board = mapCanvas({ role: "img" });
+  let places = null; // the map's cells, once there is a reward to draw
   const paint = (theta) => {
     board.begin(world.size);
     if (theta) {
-      const cells = rewardMap(theta, world, settings, shownAction);
+      places ??= mapCells(world, settings);
+      const cells = rewardMap(theta, places, shownAction);
       const sizes = cells.map(({ reward }) => Math.abs(reward)).sort((a, b) => a - b);
       const strongest = sizes[Math.floor(0.95 * sizes.length)] || 1;
       for (let shade = 1; shade <= HEAT_SHADES; shade += 1) {

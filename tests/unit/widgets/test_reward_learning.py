@@ -10,8 +10,8 @@ import pytest
 from robonav.lfd import demonstrate, save_demonstrations
 from robonav.nirl import learn
 from robonav.robot import random_worlds
-from robonav.widgets.reward_learning import reward_learning
-from robonav.widgets.simulator import page_demonstrations
+from robonav.widgets.reward_learning import FILES, reward_learning
+from robonav.widgets.simulator import page_demonstrations, page_world
 
 DEMONSTRATIONS = demonstrate(random_worlds(3, 20, seed=3))
 SETTINGS = {
@@ -92,3 +92,23 @@ def test_the_page_sends_drives_as_the_file_that_it_saves(sent):
 def test_what_cannot_be_trained_gets_one_sentence(widget, change, error):
     (answer,) = answers_of(widget, REQUEST | change)
     assert answer["error"].startswith(error)
+
+
+def test_the_map_draws_the_reward_of_what_the_robot_perceives(node):
+    theta = np.random.default_rng(0).normal(size=(5, 18))
+    world = random_worlds(1, 20, seed=4)
+    body = """const cells = page.mapCells(data.world, page.NIRL_SETTINGS);
+      const rewards = [0, 1, 2, 3, 4, -1].map((a) => page.rewardMap(data.theta, cells, a));
+      return {
+        inputs: cells.map(({ input }) => [...input]),
+        rewards: rewards.map((map) => map.map(({ reward }) => reward)),
+      };"""
+    got = node(
+        FILES, body, {"world": page_world(world), "theta": theta.ravel().tolist()}
+    )
+    inputs = np.array(got["inputs"])
+    assert inputs.shape[1] == 17
+    assert 1000 < len(inputs) < 2500  # cells inside obstacles are left out
+    expected = theta @ np.column_stack([inputs, np.ones(len(inputs))]).T
+    np.testing.assert_allclose(got["rewards"][:5], expected, atol=1e-12)
+    np.testing.assert_allclose(got["rewards"][5], expected.max(axis=0), atol=1e-12)
