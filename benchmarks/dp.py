@@ -92,7 +92,7 @@ def seconds(work: Callable[[], Any]) -> float:
 
 
 def best_by_turns(*works: Callable[[], Any]) -> list[float]:
-    """The least time of each, run by turns so that a busy machine slows all alike; a first round warms up."""
+    """The least time of each, run by turns so that a busy machine slows all equally; a first round warms up."""
     times = np.array([[seconds(work) for work in works] for _ in range(RUNS + 1)])
     return times[1:].min(axis=0).tolist()
 

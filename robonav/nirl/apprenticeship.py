@@ -330,7 +330,7 @@ def from_all_states(
 ) -> Floats:
     """Feature expectations discounted from every decision, and averaged over all decisions.
 
-    All parts of an episode then count alike.
+    All parts of an episode then have equal weight.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ SURVIVAL_BONUS = (0.0, 1.0)
 ZERO_TERMINAL_VALUES = (0.0, 0.0)
 """Terminal value 0 after every end. If no reward is negative, it also rewards survival: a longer episode earns more."""
 NEUTRAL_TERMINAL_VALUES = (0.5, 0.5)
-"""Terminal value 1/2 after every end: what the reward 1/2, the middle of [0, 1], would earn for ever. It rewards no
+"""Terminal value 1/2 after every end: what the reward 1/2, the middle of [0, 1], would earn forever. It rewards no
 end of an episode more than another."""
 
 

@@ -161,7 +161,7 @@ class SubgradientMaxMargin:
     Attributes
     ----------
     power : float
-        How much more rare actions count, see :func:`inverse_frequency_weights`. With 0 all decisions count alike, and
+        How much more rare actions count, see :func:`inverse_frequency_weights`. With 0 all decisions count equally, and
         the reward mainly says to go forward, since most decisions are that.
 
     Examples

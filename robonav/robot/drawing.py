@@ -1,4 +1,4 @@
-"""Worlds and robots as matplotlib artists: drawn alike by the environments, the plots and, in JavaScript, the pages."""
+"""Worlds and robots as matplotlib artists: the environments and plots use them, and the pages draw the same shapes."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ const MAPS_TO_CORRECT = 400;
 const LEARNING = { sizes: [12, 8, CHOICES], seed: 0, regularisation: 0.1, iterations: 300 };
 const [BACK, LONG] = [5, 120]; // seconds
 const [DRIVING_PACE, SLOWEST] = [12, 100]; // steps a second; milliseconds a step where the reader steers
-const BASES = ["one drive of the expert", "my drives"];
+const BASES = ["one demonstration of the expert", "my drives"];
 
 // ---- The episode ----------------------------------------------------------------------------------------------------
 
@@ -54,7 +54,7 @@ export function nextFailure(policy, from) {
 function render({ model, el }) {
   const { expert, book, trial } = model.get("data");
   const rivals = [{ ...book, name: "the book's robot" }, STRAIGHT];
-  const yardsticks = rivals.map((rival) => ({ name: rival.name, outcomes: [], colour: PALETTE.GREY }));
+  const baselines = rivals.map((rival) => ({ name: rival.name, outcomes: [], colour: PALETTE.GREY }));
   const experts = replayed(expert);
   let [base, corrected, robots, now] = [0, [], [], null];
   let [episode, map, hands, running, timer, planner] = [null, -1, false, false, null, computerExpert()];
@@ -65,16 +65,16 @@ function render({ model, el }) {
 
   // Learning
   const table = ranking();
-  const showTable = () => table.show([...(now ? [now] : []), ...robots, ...yardsticks.filter(({ outcomes }) => outcomes.length)], { ...trial, obstacles: 10 });
+  const showTable = () => table.show([...(now ? [now] : []), ...robots, ...baselines.filter(({ outcomes }) => outcomes.length)], { ...trial, obstacles: 10 });
   const panel = trainingPanel({
     source: model.get("_esm"), action: "Train", unit: "iterations", total: () => LEARNING.iterations,
     lines: [{ name: "cost", label: "cost J" }, { name: "agreement", label: "agreement (%)", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) }],
     begin: () => {
       const examples = examplesFrom(dataset());
-      if (examples.m === 0) return "There is nothing to learn from: drive a few maps in the playground, or begin with the expert's drive.";
-      const known = yardsticks.every(({ outcomes }) => outcomes.length === trial.maps);
-      if (!known) for (const each of yardsticks) each.outcomes = [];
-      const begun = base === 0 ? "one drive of the expert" : `${mine().length} of my drives`;
+      if (examples.m === 0) return "There is nothing to learn from: drive a few maps in the playground, or begin with the expert's demonstration.";
+      const known = baselines.every(({ outcomes }) => outcomes.length === trial.maps);
+      if (!known) for (const each of baselines) each.outcomes = [];
+      const begun = base === 0 ? "one demonstration of the expert" : `${mine().length} of my drives`;
       now = { name: `robot ${robots.length + 1}: ${begun}${count() ? `, ${count()} corrections` : ""}`, outcomes: [], colour: PALETTE.BLUE };
       return { job: imitate, argument: { ...LEARNING, examples, network: null, encoder: ENCODER, rivals: known ? [] : rivals, trial: { ...trial, obstacles: 10 } } };
     },
@@ -82,7 +82,7 @@ function render({ model, el }) {
       for (const { outcomes } of news) {
         if (!outcomes) continue;
         now.outcomes.push(outcomes[0]);
-        outcomes.slice(1).forEach((outcome, k) => yardsticks[k].outcomes.push(outcome));
+        outcomes.slice(1).forEach((outcome, k) => baselines[k].outcomes.push(outcome));
       }
       showTable();
     },
@@ -93,7 +93,7 @@ function render({ model, el }) {
       showTable();
       choose();
       const [last, before] = robots.map(({ outcomes }) => percent(rateOf(outcomes).rate));
-      return before === undefined ? `Your robot arrives in ${last} % of the new maps. Now watch it, and correct it.` : `It arrives in ${last} % of the new maps, before in ${before} %.`;
+      return before === undefined ? `Your robot arrives in ${last} % of the new maps. Now watch it, and correct it.` : `It arrives in ${last} % of the new maps. Before this training it arrived in ${before} %.`;
     },
     cancelled: () => {
       now = null;
@@ -135,7 +135,7 @@ function render({ model, el }) {
       arrived: own ? `Arrived, with ${own} ${own === 1 ? "correction" : "corrections"} of yours: they are kept. Correct another map, or train.` : "Arrived without you.",
       collided: `It collided. Go back ${BACK} seconds and take over.`,
     }[outcome];
-    const drives = hands ? (episode.asks() ? "You steer: it waits for your key." : "You steer: its reflex drives.") : running ? (episode.steps.length > LONG ? "It may be going in circles: take over." : "The robot drives. Press an arrow key to take over.") : "The robot will fail in this map. Press Drive, and take over before it does.";
+    const drives = hands ? (episode.asks() ? "You steer: the robot waits for your key." : "You steer, and the reflex moves the robot.") : running ? (episode.steps.length > LONG ? "It may be going in circles: take over." : "The robot drives. Press an arrow key to take over.") : "The robot will fail in this map. Press Drive, and take over before it does.";
     told.textContent = `Map ${map + 1}, ${episode.steps.length} s. ${hint || (ended ?? drives)}`;
     board.canvas.setAttribute("aria-label", told.textContent);
     play.textContent = running ? "Pause" : hands ? "Give it back" : "Drive";
@@ -197,7 +197,7 @@ function render({ model, el }) {
   const ask = h("button", { type: "button", click: () => {
     pause();
     const { world, pose } = episode.now();
-    show(episode.asks() ? `The computer expert would take ${ROBOT.actions[planner(world, pose, SPEED)]} here.` : "Its reflex decides here: nobody is asked.");
+    show(episode.asks() ? `The computer expert would take ${ROBOT.actions[planner(world, pose, SPEED)]} here.` : "The robot's reflex decides here, and not the policy.");
   } }, "Ask the expert");
   const choose = () => {
     pause();

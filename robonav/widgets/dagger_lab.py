@@ -33,7 +33,7 @@ def dagger_lab(
     maps: int = 200,
     test_seed: int = 2024,
 ) -> DaggerLab:
-    """Make a lab in which the reader corrects a robot that has learned from one drive.
+    """Make a lab in which the reader corrects a robot that has learned from one demonstration.
 
     Parameters
     ----------

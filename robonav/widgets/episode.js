@@ -9,7 +9,7 @@ const copyWorld = (world) => ({ ...world, start: [...world.start], target: [...w
 const between = (a, b, t) => a + (b - a) * t;
 const metres = (value) => Number(value.toFixed(1));
 
-/** What a policy of the list does in a drive: its action and, for a network, what it computed on the way. */
+/** What a policy of the list does in an episode: its action and, for a network, what it computed on the way. */
 export function driver(policy) {
   if (policy.rule) return ({ sensing }) => ({ action: RULES[policy.rule](sensing) });
   const network = networks(policy.network)();
@@ -18,49 +18,49 @@ export function driver(policy) {
 
 // ---- The episode: state and steps, no drawing -----------------------------------------------------------------------
 
-/** A drive that can be stepped, reset and edited. */
-export function makeDrive(first, speed) {
-  const drive = { base: copyWorld(first), speed };
-  drive.reset = () => {
-    Object.assign(drive, { world: copyWorld(drive.base), pose: startPose(drive.base), step: 0, outcome: "running", steps: [] });
-    drive.before = { pose: drive.pose, obstacles: drive.world.obstacles };
-    drive.path = [drive.pose];
-    drive.sensing = sense(drive.world, drive.pose);
+/** An episode that can be stepped, reset and edited. */
+export function makeEpisode(first, speed) {
+  const episode = { base: copyWorld(first), speed };
+  episode.reset = () => {
+    Object.assign(episode, { world: copyWorld(episode.base), pose: startPose(episode.base), step: 0, outcome: "running", steps: [] });
+    episode.before = { pose: episode.pose, obstacles: episode.world.obstacles };
+    episode.path = [episode.pose];
+    episode.sensing = sense(episode.world, episode.pose);
   };
   /** One step; `chosen` is the policy's action, which the reflexes may overrule. */
-  drive.go = (chosen, reflexes = true) => {
-    if (drive.outcome !== "running") return;
-    const own = reflexes ? reflex(drive.sensing, drive.speed) : -1;
+  episode.go = (chosen, reflexes = true) => {
+    if (episode.outcome !== "running") return;
+    const own = reflexes ? reflex(episode.sensing, episode.speed) : -1;
     const action = own < 0 ? chosen : own;
-    drive.steps.push({ pose: drive.pose, sensing: drive.sensing, action });
-    drive.before = { pose: drive.pose, obstacles: drive.world.obstacles };
-    const { world, pose, outcome } = advance(drive.world, drive.pose, drive.step, action, drive.speed);
-    Object.assign(drive, { world, pose, outcome, step: drive.step + 1 });
-    drive.path.push(pose);
-    drive.sensing = sense(world, pose);
+    episode.steps.push({ pose: episode.pose, sensing: episode.sensing, action });
+    episode.before = { pose: episode.pose, obstacles: episode.world.obstacles };
+    const { world, pose, outcome } = advance(episode.world, episode.pose, episode.step, action, episode.speed);
+    Object.assign(episode, { world, pose, outcome, step: episode.step + 1 });
+    episode.path.push(pose);
+    episode.sensing = sense(world, pose);
   };
   /** Change the world now and for the next start. */
-  drive.edit = (change) => {
-    change(drive.base);
-    if (drive.step === 0) drive.reset();
+  episode.edit = (change) => {
+    change(episode.base);
+    if (episode.step === 0) episode.reset();
     else {
-      change(drive.world);
-      drive.before = { pose: drive.pose, obstacles: drive.world.obstacles };
-      drive.sensing = sense(drive.world, drive.pose);
+      change(episode.world);
+      episode.before = { pose: episode.pose, obstacles: episode.world.obstacles };
+      episode.sensing = sense(episode.world, episode.pose);
     }
   };
-  drive.reset();
-  return drive;
+  episode.reset();
+  return episode;
 }
 
 // ---- The map ----------------------------------------------------------------------------------------------------------
 
-export function episodeMap({ drive, selected, grabbed, moved }) {
+export function episodeMap({ episode, selected, grabbed, moved }) {
   const board = mapCanvas({ tabindex: 0, role: "application" });
   const { canvas, place } = board;
 
   const thingAt = ([x, y]) => {
-    const { world, pose } = drive();
+    const { world, pose } = episode();
     if (Math.hypot(x - pose.x, y - pose.y) < 4) return "robot";
     if (Math.hypot(x - world.target[0], y - world.target[1]) < 4) return "target";
     const distances = world.obstacles.map((o) => Math.hypot(x - o.x, y - o.y) - Math.max(o.a, o.b, 2));
@@ -81,7 +81,7 @@ export function episodeMap({ drive, selected, grabbed, moved }) {
 
   /** The moment at part t of the way from the last step's beginning to now. */
   const draw = (t) => {
-    const { world, pose, before, path, sensing, outcome } = drive();
+    const { world, pose, before, path, sensing, outcome } = episode();
     const obstacles = world.obstacles.map((o, m) => {
       const old = before.obstacles[m] ?? o;
       return { ...o, x: between(old.x, o.x, t), y: between(old.y, o.y, t) };

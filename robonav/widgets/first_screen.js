@@ -10,17 +10,17 @@ function render({ model, el }) {
   let [map, t, last, frame, timer, tally] = [0, 1, 0, 0, 0, { arrived: 0, collided: 0 }];
   let [running, mine] = [!still, false];
   const world = () => drawWorld(keys[map % keys.length], { obstacles });
-  let drive = makeDrive(world(), speed);
+  let episode = makeEpisode(world(), speed);
   const status = h("p", { class: "status", role: "status" });
 
   const board = episodeMap({
-    drive: () => drive,
+    episode: () => episode,
     selected: () => null,
     grabbed: () => {},
     moved: (name, point) => {
       if (name === "robot") return;
-      const [x, y] = point.map((value) => clamp(value, 0, drive.world.size));
-      drive.edit((w) => (name === "target" ? (w.target = [x, y]) : Object.assign(w.obstacles[name], { x, y })));
+      const [x, y] = point.map((value) => clamp(value, 0, episode.world.size));
+      episode.edit((w) => (name === "target" ? (w.target = [x, y]) : Object.assign(w.obstacles[name], { x, y })));
       say();
       board.draw(t);
     },
@@ -28,18 +28,18 @@ function render({ model, el }) {
 
   function say() {
     const record = `${tally.arrived} arrived, ${tally.collided} collided.`;
-    const now = { arrived: "Arrived.", collided: "Collided.", running: mine ? "You steer. Each key or button is one second." : running ? about : "Stopped." }[drive.outcome];
+    const now = { arrived: "Arrived.", collided: "Collided.", running: mine ? "You steer. Each key or button is one second." : running ? about : "Stopped." }[episode.outcome];
     status.textContent = tally.arrived + tally.collided > 0 ? `${now} So far ${record}` : now;
-    board.canvas.setAttribute("aria-label", `Map with ${drive.world.obstacles.length} obstacles and a robot. ${status.textContent}`);
+    board.canvas.setAttribute("aria-label", `Map with ${episode.world.obstacles.length} obstacles and a robot. ${status.textContent}`);
     play.textContent = mine ? "Let the network steer" : running ? "Stop" : "Go on";
     wheel.hidden = !mine;
   }
   function step(chosen) {
     if (t < 1) t = 1;
-    drive.go(chosen);
+    episode.go(chosen);
     t = 0;
-    if (drive.outcome !== "running" && drive.steps.length > 0) {
-      tally[drive.outcome] += 1;
+    if (episode.outcome !== "running" && episode.steps.length > 0) {
+      tally[episode.outcome] += 1;
       clearTimeout(timer);
       timer = setTimeout(next, REST);
     }
@@ -48,7 +48,7 @@ function render({ model, el }) {
   }
   function next() {
     map += 1;
-    drive = makeDrive(world(), speed);
+    episode = makeEpisode(world(), speed);
     t = 1;
     say();
     board.draw(t);
@@ -58,9 +58,9 @@ function render({ model, el }) {
     frame = 0;
     t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * STEPS_A_SECOND);
     last = time;
-    if (t >= 1 && running && !mine && drive.outcome === "running") step(decide(drive).action);
+    if (t >= 1 && running && !mine && episode.outcome === "running") step(decide(episode).action);
     board.draw(t);
-    if (t < 1 || (running && !mine && drive.outcome === "running")) wake();
+    if (t < 1 || (running && !mine && episode.outcome === "running")) wake();
   }
   const wake = () => {
     if (frame) return;
@@ -69,7 +69,7 @@ function render({ model, el }) {
   };
   const take = (action) => {
     mine = true;
-    if (drive.outcome === "running") step(action);
+    if (episode.outcome === "running") step(action);
     else say();
   };
   const play = h("button", { type: "button", class: "main", click: () => {

@@ -8,16 +8,16 @@ const STRAIGHT = { name: "always straight on", rule: "straight" };
 // ---- What is learned from -------------------------------------------------------------------------------------------
 
 /**
- * The expert's drives from one to before another, driven again from their actions in the worlds of a seed.
+ * The expert's demonstrations from one to before another, replayed from their actions in the worlds of a seed.
  * @param {{seed: number, obstacles: number, actions: string[]}} expert a digit a step
  * @returns {RecordedDrive[]}
  */
 export function replayed({ seed, obstacles, actions }, from = 0, to = actions.length) {
   return worldKeysOf(to, seed).slice(from).map((key, i) => {
     const world = drawWorld(key, { obstacles });
-    const drive = makeDrive(world, SPEED);
-    for (const action of actions[from + i]) drive.go(Number(action), false);
-    return { world, speed: SPEED, steps: drive.steps, outcome: drive.outcome };
+    const episode = makeEpisode(world, SPEED);
+    for (const action of actions[from + i]) episode.go(Number(action), false);
+    return { world, speed: SPEED, steps: episode.steps, outcome: episode.outcome };
   });
 }
 
@@ -51,9 +51,9 @@ export function* imitate({ examples, network, sizes, seed, regularisation, itera
   const policies = [{ network: learned, encoder }, ...rivals.map((rival) => (rival.network ? { ...rival, network: networks(rival.network)() } : rival))]; // 8
   const worlds = randomWorlds(trial.maps, trial);
   for (let map = 0; map < trial.maps; map += 1) {
-    const drives = policies.map((policy) => driveWith(policy, worlds[map], { speed: SPEED, maxSteps: MOST_STEPS }));
-    const path = drives[0].poses.map(({ x, y }) => [x, y]);
-    yield { done: steps + map + 1, total, live: { map, path, outcomes: drives.map(({ outcome }) => outcome) } };
+    const episodes = policies.map((policy) => driveWith(policy, worlds[map], { speed: SPEED, maxSteps: MOST_STEPS }));
+    const path = episodes[0].poses.map(({ x, y }) => [x, y]);
+    yield { done: steps + map + 1, total, live: { map, path, outcomes: episodes.map(({ outcome }) => outcome) } };
   }
   return { sizes: learned.sizes, weights: learned.weights.map((part) => [...part]), biases: learned.biases.map((part) => [...part]) };
 }
@@ -87,7 +87,7 @@ function ranking() {
   const element = h("div", { class: "scroll", role: "region", "aria-label": "How often each robot arrives", tabindex: 0 }, h("table", { class: "results" }, caption, h("thead", {}, h("tr", {}, ...heads.map((text) => h("th", { scope: "col" }, text)))), body));
   const show = (robots, { maps, obstacles }) => {
     element.hidden = robots.length === 0;
-    caption.textContent = `The same ${maps} maps with ${obstacles} obstacles for every robot. Nobody has driven them before.`;
+    caption.textContent = `The same ${maps} maps with ${obstacles} obstacles for every robot. No demonstration was made in them.`;
     body.replaceChildren(...robots.map(({ name, outcomes, colour }) => {
       const found = rateOf(outcomes);
       const count = found.maps < maps ? ` (${found.maps} of ${maps} maps)` : "";
@@ -102,7 +102,7 @@ function ranking() {
 function viewer({ world, robots, maps }) {
   const board = mapCanvas({ role: "img" });
   const still = globalThis.matchMedia?.("(prefers-reduced-motion: reduce)").matches;
-  let [map, robot, drive, frame, began] = [0, 0, null, 0, 0];
+  let [map, robot, episode, frame, began] = [0, 0, null, 0, 0];
   const paint = (poses, colour) => {
     const first = world(map);
     board.begin(first.size);
@@ -118,9 +118,9 @@ function viewer({ world, robots, maps }) {
     const list = robots();
     robot = Math.min(robot, list.length - 1);
     if (robot < 0) return;
-    drive = driveWith(list[robot].policy, world(map), { speed: SPEED, maxSteps: MOST_STEPS });
-    paint(drive.poses, colours[drive.outcome]);
-    const said = `${list[robot].name}, map ${map + 1}: ${drive.outcome} after ${drive.poses.length - 1} s.`;
+    episode = driveWith(list[robot].policy, world(map), { speed: SPEED, maxSteps: MOST_STEPS });
+    paint(episode.poses, colours[episode.outcome]);
+    const said = `${list[robot].name}, map ${map + 1}: ${episode.outcome} after ${episode.poses.length - 1} s.`;
     told.textContent = said;
     board.canvas.setAttribute("aria-label", said);
   };
@@ -140,13 +140,13 @@ function viewer({ world, robots, maps }) {
     else go(next < 0 ? first : next);
   } }, "Next map where it fails");
   const watch = h("button", { type: "button", click: () => {
-    if (!drive) return;
+    if (!episode) return;
     cancelAnimationFrame(frame);
     began = performance.now();
     const step = (time) => {
-      const at = Math.min(drive.poses.length, 1 + Math.max(0, Math.floor((time - began) / 50)));
-      paint(drive.poses.slice(0, at), colours[drive.outcome]);
-      if (at < drive.poses.length) frame = requestAnimationFrame(step);
+      const at = Math.min(episode.poses.length, 1 + Math.max(0, Math.floor((time - began) / 50)));
+      paint(episode.poses.slice(0, at), colours[episode.outcome]);
+      if (at < episode.poses.length) frame = requestAnimationFrame(step);
     };
     if (still) load();
     else frame = requestAnimationFrame(step);

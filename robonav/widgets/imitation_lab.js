@@ -1,18 +1,18 @@
-// Imitation lab: a robot learns from the reader's drives, in the page, and drives maps that nobody has driven.
+// Imitation lab: a robot learns from the reader's drives, in the page, and is tested in new maps.
 
-const SOURCES = ["my drives", "the expert's drives", "both"];
+const SOURCES = ["my drives", "the expert's demonstrations", "both"];
 const HIDDEN = [1, 2, 4, 8, 16, 32];
 const DECAYS = [0, 0.01, 0.03, 0.1, 0.3, 1, 3, 10];
 const ITERATIONS = [1, 3, 10, 30, 100, 300, 1000];
 const OBSTACLES = [10, 20, 30];
-const FEW = 25; // of the expert's drives, as on the page
-const NO_STEP = "These drives have no step with something in range: nothing to learn from.";
-const NO_DRIVE = "There is nothing to learn from: drive a few maps in the playground, or choose the expert's drives.";
+const FEW = 25; // of the expert's demonstrations, as on the page
+const NO_STEP = "These demonstrations have no step with something in range, so there is nothing to learn from.";
+const NO_DRIVE = "There is nothing to learn from: drive a few maps in the playground, or choose the expert's demonstrations.";
 const MOST_ROBOTS = 6; // of the reader's, that stay in the table
 
 function render({ model, el }) {
   const { expert, book, trial, playground } = model.get("data");
-  const replays = []; // of the expert's drives, as many as were needed so far
+  const replays = []; // of the expert's demonstrations, as many as were needed so far
   const experts = (count) => {
     if (replays.length < count) replays.push(...replayed(expert, replays.length, count));
     return replays.slice(0, count);
@@ -20,7 +20,7 @@ function render({ model, el }) {
   const rivals = [{ ...book, name: "the book's robot" }, STRAIGHT];
   let settings = { source: 0, count: 1, hidden: 8, regularisation: 0.1, iterations: 300, seed: 0, obstacles: 10 };
   let robots = []; // {name, outcomes, colour, policy}: the reader's, the latest first
-  let yardsticks = rivals.map((rival) => ({ name: rival.name, outcomes: [], colour: PALETTE.GREY, policy: rival.network ? { ...rival, network: networks(rival.network)() } : rival }));
+  let baselines = rivals.map((rival) => ({ name: rival.name, outcomes: [], colour: PALETTE.GREY, policy: rival.network ? { ...rival, network: networks(rival.network)() } : rival }));
   let [worlds, now] = [null, null];
   const inMaps = () => ({ ...trial, obstacles: settings.obstacles });
   const world = (map) => (worlds ??= randomWorlds(trial.maps, inMaps()))[map];
@@ -39,22 +39,22 @@ function render({ model, el }) {
   const tell = () => {
     const [own, kept] = [mine(), keptDrives()];
     if (own.length === 0 && settings.source !== 1) {
-      about.replaceChildren("You have no drive yet that arrived. Drive a few maps in the ", h("a", { href: playground }, "playground"), ", or learn from the expert's drives.");
+      about.replaceChildren("None of your drives has arrived yet. Drive a few maps in the ", h("a", { href: playground }, "playground"), ", or learn from the expert's demonstrations.");
       return;
     }
     const { count, hidden, regularisation, iterations, seed, obstacles } = settings;
     const steps = chosen().flatMap(effective).length;
     const lost = settings.source === 1 ? 0 : kept.length - own.length;
-    about.textContent = `${count} ${count === 1 ? "drive" : "drives"}, ${steps} steps to learn from: steps with something in range. `
+    about.textContent = `${count} ${count === 1 ? "demonstration" : "demonstrations"} with ${steps} steps to learn from: steps with something in range. `
       + (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out. ` : "")
-      + `A network with ${hidden} hidden ${hidden === 1 ? "unit" : "units"} learns them in at most ${iterations} ${iterations === 1 ? "iteration" : "iterations"}, with λ = ${regularisation} and first weights from seed ${seed}. `
-      + `Then it drives ${trial.maps} maps with ${obstacles} obstacles.`;
+      + `A network with ${hidden} hidden ${hidden === 1 ? "unit" : "units"} learns them in at most ${iterations} ${iterations === 1 ? "iteration" : "iterations"}, with λ = ${regularisation} and initial weights from seed ${seed}. `
+      + `Then the robot is tested in ${trial.maps} new maps with ${obstacles} obstacles.`;
   };
   const refresh = () => {
     const all = total();
     settings.count = Math.max(1, Math.min(settings.count, all));
     const count = slider({
-      label: "drives to learn from", count: Math.max(1, all), value: settings.count - 1, text: (at) => (all ? `${at + 1} of ${all}` : "none"),
+      label: "demonstrations to learn from", count: Math.max(1, all), value: settings.count - 1, text: (at) => (all ? `${at + 1} of ${all}` : "none"),
       change: (at) => { settings.count = at + 1; tell(); },
     });
     place.replaceChildren(count.element);
@@ -65,17 +65,17 @@ function render({ model, el }) {
     list("hidden units", HIDDEN, "hidden"), list("regularisation λ", DECAYS, "regularisation"), list("iterations of L-BFGS", ITERATIONS, "iterations"),
     list("obstacles in the new maps", OBSTACLES, "obstacles"),
   ];
-  const seeds = slider({ label: "first weights drawn with seed", count: 10, text: String, change: (at) => { settings.seed = at; tell(); } });
+  const seeds = slider({ label: "initial weights drawn with seed", count: 10, text: String, change: (at) => { settings.seed = at; tell(); } });
 
   // What comes out
   const table = ranking();
-  const everybody = () => [...(now ? [now] : []), ...robots, ...yardsticks.filter(({ outcomes }) => outcomes.length)];
+  const everybody = () => [...(now ? [now] : []), ...robots, ...baselines.filter(({ outcomes }) => outcomes.length)];
   const showTable = () => table.show(everybody(), inMaps());
-  const view = viewer({ world, robots: () => [...robots, ...yardsticks.filter(({ outcomes }) => outcomes.length === trial.maps)], maps: trial.maps });
+  const view = viewer({ world, robots: () => [...robots, ...baselines.filter(({ outcomes }) => outcomes.length === trial.maps)], maps: trial.maps });
   const otherMaps = () => {
     panel.cancel();
     [robots, worlds] = [[], null];
-    for (const each of yardsticks) each.outcomes = [];
+    for (const each of baselines) each.outcomes = [];
     download.disabled = true;
     showTable();
     view.update();
@@ -84,15 +84,15 @@ function render({ model, el }) {
     const driven = news.filter(({ map }) => map !== undefined);
     for (const { outcomes } of driven) {
       now.outcomes.push(outcomes[0]);
-      outcomes.slice(1).forEach((outcome, k) => yardsticks[k].outcomes.push(outcome));
+      outcomes.slice(1).forEach((outcome, k) => baselines[k].outcomes.push(outcome));
     }
     if (driven.length === 0) return;
     view.flash(driven.at(-1).map, driven.at(-1).path);
     showTable();
   };
   const task = ({ name, network = null, encoder = ENCODER, examples = null, made = {} }) => {
-    const known = yardsticks.every(({ outcomes }) => outcomes.length === trial.maps);
-    if (!known) for (const each of yardsticks) each.outcomes = [];
+    const known = baselines.every(({ outcomes }) => outcomes.length === trial.maps);
+    if (!known) for (const each of baselines) each.outcomes = [];
     now = { name, outcomes: [], colour: PALETTE.BLUE, encoder, made };
     const { hidden, seed, regularisation, iterations } = settings;
     return { job: imitate, argument: {
@@ -100,7 +100,7 @@ function render({ model, el }) {
     } };
   };
   const named = () => {
-    const what = [`${settings.count} of my drives`, `${settings.count} of the expert's drives`, `${settings.count} drives of both`][settings.source];
+    const what = [`${settings.count} of my drives`, `${settings.count} of the expert's demonstrations`, `${settings.count} demonstrations of both`][settings.source];
     return `robot ${robots.length + 1}: ${what}, ${settings.hidden} hidden, λ ${settings.regularisation}`;
   };
   let brought = null; // a network from a file, to be tried
@@ -130,12 +130,12 @@ function render({ model, el }) {
       download.disabled = false;
       showTable();
       view.update();
-      const [own, straight] = [robots[0], yardsticks[1]].map(({ outcomes }) => percent(rateOf(outcomes).rate));
+      const [own, straight] = [robots[0], baselines[1]].map(({ outcomes }) => percent(rateOf(outcomes).rate));
       return `Your robot arrives in ${own} % of the maps, one that always goes straight on in ${straight} %.`;
     },
     cancelled: () => {
       now = null;
-      if (yardsticks.some(({ outcomes }) => outcomes.length < trial.maps)) for (const each of yardsticks) each.outcomes = [];
+      if (baselines.some(({ outcomes }) => outcomes.length < trial.maps)) for (const each of baselines) each.outcomes = [];
       showTable();
     },
   });

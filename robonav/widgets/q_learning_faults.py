@@ -1,6 +1,7 @@
-"""The ways in which a robot's learning goes wrong on the page *My robot circles*, each with its cure.
+"""The ways in which a robot's learning goes wrong on the page *My robot circles*, each with its remedy.
 
-Each has a seed with which the fault shows. With other seeds it shows more or less, as the page's tables say.
+Each fault is visible with the seed given here. With other seeds it is stronger or weaker: the page has
+tables.
 """
 
 from __future__ import annotations
@@ -40,13 +41,13 @@ FAULTS = (
     ),
     Preset(
         "reward: arrival and collision alone",
-        "The robot gets what we want it to want, and nothing else. Compare it with the robot that goes straight on.",
+        "Only arrival and collision are rewarded. Compare the robot with one that always goes straight on.",
         "The steps on the way are rewarded again.",
         QLearningSettings(rewards=ARRIVAL_AND_COLLISION, seed=0),
     ),
     Preset(
         "reward: evading must be moving away",
-        "Only getting farther from things is rewarded. Look at the paths in the new maps where the robot failed.",
+        "Evading is rewarded only where the robot moves away. Look at its paths in the new maps where it failed.",
         "Evading is rewarded again whenever nothing comes a metre nearer.",
         QLearningSettings(must_move_away=True, seed=6),
     ),
@@ -58,31 +59,31 @@ FAULTS = (
     ),
     Preset(
         "temperature: 0.03 throughout",
-        "This robot keeps its first idea. Try the seeds 4 and 6, and see how much the first idea decides.",
+        "The robot keeps the first actions that were rewarded. Try the seeds 4 and 6: how much do the robots differ?",
         "The temperature starts at 0.9 and falls to 0.1.",
         QLearningSettings(temperature=(0.03, 0.03), seed=6),
     ),
     Preset(
         "learning rate: 0.8 throughout",
-        "The last surprises decide what this robot knows. Does T = 0.4 help? Try other seeds: is every robot bad?",
+        "The last targets determine the values. Does T = 0.4 help? Try other seeds: do all robots fail?",
         "The learning rate falls to 0.1.",
         QLearningSettings(learning_rate=(0.8, 0.8), seed=0),
     ),
     Preset(
         "discount 0.9, Q shifted",
-        "Five values share the interval from 0 to 1, and much more has to fit into it. Does T = 0.4 help?",
+        "The outputs lie between 0 and 1, and with this discount the values are much larger. Does T = 0.4 help?",
         "The discount is 0.6.",
         QLearningSettings(discount=0.9, seed=9),
     ),
     Preset(
         "discount 0.9, Q clipped",
-        "All that is worth 1 or more becomes 1, so that good and better are the same. Does T = 0.4 help?",
+        "All targets above 1 become 1, so the network cannot tell which action is best. Does T = 0.4 help?",
         "The discount is 0.6, and the values are shifted.",
         QLearningSettings(discount=0.9, rescale="clip", seed=9),
     ),
     Preset(
         "no fault: half as much for evading",
-        "The rewards for evading are 0.3 and 0.2, half of what they were. How much does the robot lose?",
+        "The rewards for evading are 0.3 and 0.2, half of those in Table 4.1. How much does the robot lose?",
         "The rewards for evading are 0.6 and 0.4 again.",
         QLearningSettings(
             rewards=_rewards({STAYING_COZY: 0.3, STAYING_DANGEROUS: 0.2}), seed=0

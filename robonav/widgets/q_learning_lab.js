@@ -156,7 +156,7 @@ function contestants(network, settings, { book, temperatures }) {
 }
 
 /**
- * Learn, and then drive new maps: a job for the worker. Its steps say what happened in each episode, and in each map.
+ * Learn, and then test the robot in new maps: a job for the worker. Its steps say what happened in each episode, and in each map.
  * @param {{settings: LearningSettings, trial: {seed: number, maps: number, book: object, temperatures: Record<string, number>}}} job
  */
 export function* learnAndDrive({ settings, trial }) {
@@ -174,9 +174,9 @@ export function* learnAndDrive({ settings, trial }) {
   const { speed, maxSteps, obstacles, moving } = settings;
   for (let i = 0; i < trial.maps; i += 1) {
     const world = drawWorld(keys[i], { obstacles, moving, ...NNQL_ENDS });
-    const drives = policies.map(([, policy]) => driveWith(policy, world, { speed, maxSteps }));
-    const outcomes = Object.fromEntries(policies.map(([name], k) => [name, drives[k].outcome]));
-    yield { done: settings.episodes + i + 1, total, live: { drive: { world, path: drives[0].poses.map(({ x, y }) => [x, y]), outcome: drives[0].outcome, outcomes } } };
+    const found = policies.map(([, policy]) => driveWith(policy, world, { speed, maxSteps }));
+    const outcomes = Object.fromEntries(policies.map(([name], k) => [name, found[k].outcome]));
+    yield { done: settings.episodes + i + 1, total, live: { test: { world, path: found[0].poses.map(({ x, y }) => [x, y]), outcome: found[0].outcome, outcomes } } };
   }
   const { sizes, weights, biases } = network;
   return { sizes, weights: weights.map((part) => [...part]), biases: biases.map((part) => [...part]) };
@@ -246,35 +246,35 @@ function lookBack() {
   const board = mapCanvas({ role: "img", "aria-label": "Map" });
   const told = h("p", { class: "told" });
   const [controls, seconds] = [h("div", { class: "viewer" }), h("div", {})];
-  let [listTime, driveTime] = [null, null];
-  const stop = () => [listTime, driveTime].forEach((time) => time?.stop());
-  const show = (drive, sentence, second = drive.path.length - 1) => {
+  let [listTime, stepTime] = [null, null];
+  const stop = () => [listTime, stepTime].forEach((time) => time?.stop());
+  const show = (episode, sentence, second = episode.path.length - 1) => {
     told.textContent = sentence;
-    drawPath(board, drive, { second });
+    drawPath(board, episode, { second });
     board.canvas.setAttribute("aria-label", `Map with the path of the robot. ${sentence}`);
   };
   const hide = () => {
     stop();
     controls.replaceChildren();
   };
-  /** Opens a list of drives, at one of them. */
+  /** Opens a list of episodes, at one of them. */
   const open = (run, view, at = 0) => {
     stop();
-    const list = view === 0 ? run.episodes : run.drives.filter(({ outcome }) => (outcome === "arrived") === (view === 2));
+    const list = view === 0 ? run.episodes : run.tests.filter(({ outcome }) => (outcome === "arrived") === (view === 2));
     const name = view === 0 ? "episode" : "map";
     const text = (frame) => (list.length === 0 ? "none" : `${frame + 1} of ${list.length}, ${ENDINGS[list[frame].outcome]} after ${list[frame].path.length - 1} s`);
     const see = (frame) => {
-      driveTime?.stop();
+      stepTime?.stop();
       seconds.replaceChildren();
       if (list.length === 0) {
         told.textContent = `There are no ${VIEWS[view]}.`;
         return;
       }
-      const [drive, sentence] = [list[frame], `${name[0].toUpperCase()}${name.slice(1)} ${text(frame)}.`];
-      const last = drive.path.length - 1;
-      driveTime = player({ label: "second", count: last + 1, value: last, interval: 60, text: (second) => `${second} of ${last}`, change: (second) => show(drive, sentence, second) });
-      seconds.replaceChildren(driveTime.element);
-      show(drive, sentence);
+      const [episode, sentence] = [list[frame], `${name[0].toUpperCase()}${name.slice(1)} ${text(frame)}.`];
+      const last = episode.path.length - 1;
+      stepTime = player({ label: "second", count: last + 1, value: last, interval: 60, text: (second) => `${second} of ${last}`, change: (second) => show(episode, sentence, second) });
+      seconds.replaceChildren(stepTime.element);
+      show(episode, sentence);
     };
     const first = clamp(at, 0, Math.max(list.length - 1, 0));
     const which = choice({ label: "look at", options: VIEWS, value: view, change: (index) => open(run, index) });
@@ -349,7 +349,7 @@ function render({ model, el }) {
   const tell = (wrong = "") => {
     note.textContent = wrong;
     const changes = form.changes();
-    setting.textContent = `${changes.length > 0 ? `Changed: ${changes.join("; ")}.` : "Nothing is changed."} After its training the robot drives ${maps} new maps.`;
+    setting.textContent = `${changes.length > 0 ? `Changed: ${changes.join("; ")}.` : "Nothing is changed."} After its training the robot is tested in ${maps} new maps.`;
   };
   const form = settingsForm({ table, open, first, change: (wrong) => tell(wrong) });
   /** Other settings in the form, with the reader's own seed and number of episodes. */
@@ -363,7 +363,7 @@ function render({ model, el }) {
   const map = lookBack();
   const small = snapshots((at) => map.open(run, 0, at));
   const results = trialTable();
-  const count = choice({ label: "afterwards, drive", options: trial.numbers.map((number) => `${number} new maps`), change: (index) => {
+  const count = choice({ label: "afterwards, test in", options: trial.numbers.map((number) => `${number} new maps`), change: (index) => {
     maps = trial.numbers[index];
     tell();
   } });
@@ -374,12 +374,12 @@ function render({ model, el }) {
 
   const paint = () => {
     frame = 0;
-    const { episodes, drives, settings } = run;
+    const { episodes, tests, settings } = run;
     small.show(run);
-    results.show(drives.map(({ outcomes }) => outcomes), run.maps, before);
-    const latest = drives.at(-1) ?? episodes.at(-1);
+    results.show(tests.map(({ outcomes }) => outcomes), run.maps, before);
+    const latest = tests.at(-1) ?? episodes.at(-1);
     if (latest && panel.running()) {
-      map.show(latest, drives.length > 0 ? `New map ${drives.length} of ${run.maps}.` : `Episode ${episodes.length} of ${settings.episodes}, ${ENDINGS[latest.outcome]}.`);
+      map.show(latest, tests.length > 0 ? `New map ${tests.length} of ${run.maps}.` : `Episode ${episodes.length} of ${settings.episodes}, ${ENDINGS[latest.outcome]}.`);
     }
   };
   const ended = () => {
@@ -393,8 +393,8 @@ function render({ model, el }) {
     begin: () => {
       const wrong = form.wrong();
       if (wrong !== "") return wrong;
-      if (run?.network) [before] = trialRows(run.drives.map(({ outcomes }) => outcomes));
-      run = { settings: form.settings(), maps, episodes: [], drives: [], network: null };
+      if (run?.network) [before] = trialRows(run.tests.map(({ outcomes }) => outcomes));
+      run = { settings: form.settings(), maps, episodes: [], tests: [], network: null };
       map.hide();
       small.clear();
       results.show([], maps);
@@ -402,9 +402,9 @@ function render({ model, el }) {
       return { job: learnAndDrive, argument: { settings: run.settings, trial: { ...trial, maps } } };
     },
     live: (news) => {
-      for (const { episode, drive } of news) {
+      for (const { episode, test } of news) {
         if (episode) run.episodes.push(episode);
-        if (drive) run.drives.push(drive);
+        if (test) run.tests.push(test);
       }
       frame ||= requestAnimationFrame(paint);
     },
@@ -440,7 +440,7 @@ function render({ model, el }) {
   };
 }
 
-/** The network of a run, and what it reads; a network of raw inputs becomes one of scaled inputs, which drives alike. */
+/** The network of a run, and what it reads; a network of raw inputs becomes one of scaled inputs, which has the same outputs. */
 export function learned({ network, settings }) {
   const { sensors, walls, target, raw } = encoderOf(settings);
   const [inputs, scale] = [network.sizes[0], [...sensors.map(() => 7), 9]];
@@ -449,8 +449,8 @@ export function learned({ network, settings }) {
 }
 
 /** What came of a run, in one sentence. */
-function verdict({ drives }) {
-  const { n, arrived, rate, low, high } = trialRows(drives.map(({ outcomes }) => outcomes))[0];
+function verdict({ tests }) {
+  const { n, arrived, rate, low, high } = trialRows(tests.map(({ outcomes }) => outcomes))[0];
   return `Your robot crosses ${arrived} of ${n} new maps: ${rate.toFixed(1)} %, 95 % interval ${low.toFixed(1)} to ${high.toFixed(1)}.`;
 }
 

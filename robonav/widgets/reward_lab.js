@@ -5,7 +5,7 @@ const STEPS = 200; // seconds after which an episode is given up
 const DEPTHS = [1, 2];
 const PATIENCE = 5; // seconds of reflexes that looking ahead follows, until the next decision
 const CELLS = 44; // of the picture of the reward, a side
-const PUSHES = 41; // places of the slider, from -1 to 1 of the largest weight
+const PLACES = 41; // places of the slider, from -1 to 1 of the largest weight
 
 // ---- The reward -----------------------------------------------------------------------------------------------------
 
@@ -88,10 +88,10 @@ export function episodeOf(plan, first) {
 
 const TRIES = {
   "as it was learned": (theta) => theta,
-  "nothing matters: all weights 0": (theta) => theta.map(() => 0),
-  "no fear: dangers and walls 0": (theta, kinds) => theta.map((weight, i) => (["danger", "wall"].includes(kinds[i % kinds.length]) ? 0 : weight)),
-  "no target: its weights 0": (theta, kinds) => theta.map((weight, i) => (kinds[i % kinds.length] === "target" ? 0 : weight)),
-  "the opposite: all weights turned round": (theta) => theta.map((weight) => -weight),
+  "all weights 0": (theta) => theta.map(() => 0),
+  "weights of dangers and walls 0": (theta, kinds) => theta.map((weight, i) => (["danger", "wall"].includes(kinds[i % kinds.length]) ? 0 : weight)),
+  "weights of the target 0": (theta, kinds) => theta.map((weight, i) => (kinds[i % kinds.length] === "target" ? 0 : weight)),
+  "opposite sign of all weights": (theta) => theta.map((weight) => -weight),
 };
 
 /** The weights as a picture: a row an action, a column a feature. */
@@ -138,8 +138,8 @@ function render({ model, el }) {
   let time = null;
 
   const weights = weightPicture(features, (action, feature) => { picked = [action, feature]; inspect(); });
-  const push = slider({
-    label: "push this weight", count: PUSHES, value: 20, text: (step) => `${step >= 20 ? "+" : "−"}${(Math.abs(step - 20) / 20).toFixed(2)} of the largest`,
+  const slide = slider({
+    label: "change this weight", count: PLACES, value: 20, text: (step) => `${step >= 20 ? "+" : "−"}${(Math.abs(step - 20) / 20).toFixed(2)} of the largest`,
     change: (step) => {
       const by = ((step - 20) / 20) * strongest;
       const width = features.length;
@@ -150,14 +150,14 @@ function render({ model, el }) {
   });
   const which = choice({ label: "weight of", options: features.map(({ name }) => name), change: (index) => { picked = [picked[0], index]; inspect(); } });
   const whose = choice({ label: "for", options: [...ROBOT.actions.slice(0, CHOICES), "all actions"], value: CHOICES, change: (index) => { picked = [index, picked[1]]; inspect(); } });
-  const begin = () => TRIES[Object.keys(TRIES)[tried]](learned, kinds); // what pushes are added to
+  const begin = () => TRIES[Object.keys(TRIES)[tried]](learned, kinds); // what changes are added to
   const restart = () => {
     theta = [...begin()];
     inspect();
     changed();
   };
   const attempts = choice({ label: "begin with the reward", options: Object.keys(TRIES), change: (index) => { tried = index; restart(); } });
-  const back = h("button", { type: "button", click: restart }, "Take all pushes back");
+  const back = h("button", { type: "button", click: restart }, "Undo all changes");
   const where = choice({ label: "map", options: worlds.map(({ name }) => name), change: (index) => { world = worlds[index].world; changed(); } });
   const ahead = choice({ label: "looks ahead", options: DEPTHS.map((d) => `${d} decision${d > 1 ? "s" : ""}`), change: (index) => { depth = DEPTHS[index]; changed(); } });
 
@@ -170,7 +170,7 @@ function render({ model, el }) {
     const width = features.length;
     const at = (picked[0] === CHOICES ? 0 : picked[0]) * width + picked[1];
     const base = begin();
-    push.move(Math.max(0, Math.min(PUSHES - 1, Math.round(20 + (20 * (theta[at] - base[at])) / strongest))));
+    slide.move(Math.max(0, Math.min(PLACES - 1, Math.round(20 + (20 * (theta[at] - base[at])) / strongest))));
     weights.show(theta, strongest, picked);
   }
 
@@ -202,9 +202,9 @@ function render({ model, el }) {
       tally[episodeOf(plan, others[done]).outcome] += 1;
       done += 1;
       if (done < others.length) timer = setTimeout(some, 0);
-      else score.textContent = `${agreed} Of ${done} other maps the robot arrives in ${tally.arrived}, collides in ${tally.collided} and gets lost in ${tally.running}.`;
+      else score.textContent = `${agreed} Of ${done} other maps the robot arrives in ${tally.arrived}, collides in ${tally.collided} and does not arrive in time in ${tally.running}.`;
     };
-    score.textContent = `${agreed} Driving ${others.length} other maps …`;
+    score.textContent = `${agreed} Testing in ${others.length} other maps …`;
     timer = setTimeout(some, 300); // first what the eye is on
   }
 
@@ -251,12 +251,12 @@ function render({ model, el }) {
     h("div", { class: "row" },
       h("div", { class: "grow" }, board.canvas, place),
       h("div", { class: "grow side" },
-        h("p", { class: "label" }, "The weights: an action a row, a feature a column; touch one, or choose it below"),
+        h("p", { class: "label" }, "The weights, with a row for each action and a column for each feature. Touch one, or choose it below."),
         h("div", { class: "scroll" }, weights.element),
-        h("div", { class: "row" }, which.element, whose.element), push.element, h("div", {}, back),
+        h("div", { class: "row" }, which.element, whose.element), slide.element, h("div", {}, back),
         h("p", { class: "label" }, "The reward of each action here"), values, status, score,
         h("div", { class: "legend", "aria-hidden": "true" },
-          key(PALETTE.BLUE, "rewarded"), key(PALETTE.VERMILION, "punished"), key(PALETTE.INK, "the way with the reward as learned")))),
+          key(PALETTE.BLUE, "positive"), key(PALETTE.VERMILION, "negative"), key(PALETTE.INK, "the path with the reward as learned")))),
   );
   inspect();
   changed();

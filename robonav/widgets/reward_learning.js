@@ -1,4 +1,4 @@
-// Learn a reward from drives, look at it as a map, and train another robot for it. Needs learning/nirl.js and a training panel.
+// Learn a reward from demonstrations, look at it as a map, and train another robot for it. Needs learning/nirl.js and a training panel.
 
 const HEAT_CELL = 2; // metres
 const HEAT_SHADES = 5; // on either side of 0
@@ -84,7 +84,7 @@ function render({ model, el }) {
     world.obstacles.forEach((o) => board.obstacle(o));
     board.start(world.start);
     board.target(world.target);
-    board.canvas.setAttribute("aria-label", theta ? "Map of the learned reward: blue where the robot likes to take the action, red where it fears to" : "Map without a reward: nothing is learned yet");
+    board.canvas.setAttribute("aria-label", theta ? "Map of the learned reward: blue where the reward of the action is positive, red where it is negative" : "Map without a reward: nothing is learned yet");
   };
   const table = h("div", { class: "scroll" });
   const list = (theta) => {
@@ -122,7 +122,7 @@ function render({ model, el }) {
   let trial = null;
   const lines = [
     { name: "margin", label: "margin", low: null },
-    { name: "balanced", label: "expert matched (%)", low: 0, high: 100, colour: PALETTE.GREEN },
+    { name: "balanced", label: "balanced accuracy (%)", low: 0, high: 100, colour: PALETTE.GREEN },
     { name: "arrived", label: "arrived (%)", low: 0, high: 100, colour: PALETTE.ORANGE },
   ].map((line) => ({ ...line, text: (value) => (line.high ? value.toFixed(0) : value.toPrecision(2)) }));
 
@@ -149,7 +149,7 @@ function render({ model, el }) {
     live: (news) => paint(news.at(-1).theta),
     done: (result) => {
       learned({ ...result, method: "nirl" }, `NIRL, seed ${settings.seed}`, "your robot");
-      return `The policy of iteration ${found.iteration} matches the expert best and is kept.`;
+      return `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept.`;
     },
   });
   const again = trainingPanel({
@@ -211,13 +211,13 @@ function render({ model, el }) {
   el.replaceChildren(
     h("div", { class: "row" }, from.element,
       number("iterations", settings.iterations, { least: 1, most: 1000 }, (value) => (settings = { ...settings, iterations: value })),
-      number("obstacles in practice", settings.obstacles, { least: 0, most: 40 }, (value) => (settings = { ...settings, obstacles: value })),
+      number("obstacles in training", settings.obstacles, { least: 0, most: 40 }, (value) => (settings = { ...settings, obstacles: value })),
       number("inverse temperature η", settings.inverseTemperature, { step: 0.5, least: 0, most: 200 }, (value) => (settings = { ...settings, inverseTemperature: value })),
       number("seed", 0, { least: 0, most: 1e6 }, (value) => (settings = { ...settings, seed: value }))),
     complain, learn.element,
     h("div", { class: "row" },
       h("div", { class: "grow" }, board.canvas, action.element,
-        h("p", { class: "legend" }, h("span", { style: `--mark: ${PALETTE.BLUE}` }, "it likes to do this here"), h("span", { style: `--mark: ${PALETTE.VERMILION}` }, "it fears to do this here"))),
+        h("p", { class: "legend" }, h("span", { style: `--mark: ${PALETTE.BLUE}` }, "positive reward"), h("span", { style: `--mark: ${PALETTE.VERMILION}` }, "negative reward"))),
       h("div", { class: "grow" }, results, h("details", {}, h("summary", {}, "The weights of the reward"), table))),
     h("div", { class: "row tools" }, weights, reward),
     elsewhere, kernel.element);

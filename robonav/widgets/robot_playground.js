@@ -29,7 +29,7 @@ function readings() {
 }
 
 /** Fields that say and change where the chosen thing is: the keyboard's way to drag. */
-function inspector({ drive, selected, select, changed, removed }) {
+function inspector({ episode, selected, select, changed, removed }) {
   const list = h("select", { "aria-label": "Thing to change", change: () => select(list.value === "robot" || list.value === "target" ? list.value : Number(list.value)) });
   const fields = h("span", { class: "fields" });
   let shown = [];
@@ -39,7 +39,7 @@ function inspector({ drive, selected, select, changed, removed }) {
       if (Number.isFinite(input.valueAsNumber)) changed((world) => write(world, input.valueAsNumber));
       fill();
     } });
-    const fill = () => (input.value = metres(read(drive().world)));
+    const fill = () => (input.value = metres(read(episode().world)));
     shown.push(() => document.activeElement !== input && fill());
     return h("label", {}, h("span", {}, label), input);
   };
@@ -55,7 +55,7 @@ function inspector({ drive, selected, select, changed, removed }) {
   const update = () => shown.forEach((fill) => fill());
   /** The list of things, and the fields of the one that is chosen. */
   const show = () => {
-    const { obstacles } = drive().world;
+    const { obstacles } = episode().world;
     const name = selected();
     const options = [["robot", "robot (start)"], ["target", "target"], ...obstacles.map((o, m) => [String(m), `${o.circle ? "circle" : "rectangle"} ${m + 1}`])];
     list.replaceChildren(...options.map(([value, text]) => h("option", { value, selected: value === String(name) }, text)));
@@ -75,7 +75,7 @@ function render({ model, el }) {
   const { worlds, policies, speeds, training } = model.get("data");
   const names = [...policies.map(({ name }) => name), ME];
   const drivers = policies.map(driver);
-  let drive = makeDrive(worlds[0].world, 2);
+  let episode = makeEpisode(worlds[0].world, 2);
   let [policy, selected, pace, running, t, last, frame] = [0, "robot", 4, false, 1, 0, 0];
   let [mapNumber, alone] = [null, true]; // of the reader's maps; whether the reader alone has driven since the start
   const mine = () => policy === policies.length;
@@ -96,28 +96,28 @@ function render({ model, el }) {
     paint();
   };
   const board = episodeMap({
-    drive: () => drive, selected: () => selected, grabbed: choose,
+    episode: () => episode, selected: () => selected, grabbed: choose,
     moved: (name, point) => {
-      if (name !== "robot" || drive.step === 0) mapNumber = null;
-      const [px, py] = point.map((value) => clamp(value, 0, drive.world.size));
+      if (name !== "robot" || episode.step === 0) mapNumber = null;
+      const [px, py] = point.map((value) => clamp(value, 0, episode.world.size));
       if (name === "robot") {
-        if (drive.step > 0) return;
-        drive.edit((w) => (w.start = [px, py]));
-      } else if (name === "target") drive.edit((w) => (w.target = [px, py]));
-      else drive.edit((w) => Object.assign(w.obstacles[name], { x: px, y: py }));
+        if (episode.step > 0) return;
+        episode.edit((w) => (w.start = [px, py]));
+      } else if (name === "target") episode.edit((w) => (w.target = [px, py]));
+      else episode.edit((w) => Object.assign(w.obstacles[name], { x: px, y: py }));
       refresh();
     },
   });
   const inspect = inspector({
-    drive: () => drive, selected: () => selected, select: choose,
+    episode: () => episode, selected: () => selected, select: choose,
     changed: (act) => {
       mapNumber = null;
-      drive.edit(act);
+      episode.edit(act);
       refresh();
     },
     removed: (name) => {
       mapNumber = null;
-      drive.edit((w) => w.obstacles.splice(name, 1));
+      episode.edit((w) => w.obstacles.splice(name, 1));
       choose("robot");
       refresh();
     },
@@ -126,10 +126,10 @@ function render({ model, el }) {
   const paint = () => board.draw(t);
   /** Everything but the map, which is drawn for itself many times a second. */
   function refresh() {
-    const { sensing, outcome, step, speed } = drive;
+    const { sensing, outcome, step, speed } = episode;
     table.show(sensing);
     const own = reflex(sensing, speed);
-    const thought = mine() ? null : drivers[policy](drive);
+    const thought = mine() ? null : drivers[policy](episode);
     if (thought?.z) {
       values.replaceChildren(...[...thought.z].map((z, k) => h("span", { class: k === thought.action ? "chosen" : "" }, `${ROBOT.actions[k]} ${sigmoid(z).toFixed(2)}`)));
       pictures[policy].show(networks(policies[policy].network)(), thought.activations);
@@ -138,27 +138,27 @@ function render({ model, el }) {
       : thought ? `it takes ${ROBOT.actions[thought.action]}` : "it waits for your key";
     const ended = { arrived: `Arrived after ${step} s.`, collided: `Collided after ${step} s.` }[outcome];
     status.textContent = ended ?? `${step} s, target in sector ${sensing.region}${sensing.seen ? ", seen" : ""}; ${will}.`;
-    board.canvas.setAttribute("aria-label", `Map, ${drive.world.obstacles.length} obstacles. Robot at ${metres(drive.pose.x)}, ${metres(drive.pose.y)}. ${status.textContent}`);
-    save.disabled = drive.steps.length === 0;
+    board.canvas.setAttribute("aria-label", `Map, ${episode.world.obstacles.length} obstacles. Robot at ${metres(episode.pose.x)}, ${metres(episode.pose.y)}. ${status.textContent}`);
+    save.disabled = episode.steps.length === 0;
     inspect.update();
     paint();
   }
   /** Whether the reader drives and the reflex decides: nothing is near, or the robot is blocked. */
-  const coasting = () => mine() && coast.checked && drive.step > 0 && drive.outcome === "running" && reflex(drive.sensing, drive.speed) >= 0;
+  const coasting = () => mine() && coast.checked && episode.step > 0 && episode.outcome === "running" && reflex(episode.sensing, episode.speed) >= 0;
   const act = (chosen) => {
-    if (drive.outcome !== "running") return;
+    if (episode.outcome !== "running") return;
     if (t < 1) t = 1;
     alone &&= mine();
-    drive.go(chosen ?? 0);
+    episode.go(chosen ?? 0);
     t = running || mine() ? 0 : 1;
-    if (drive.outcome !== "running") {
+    if (episode.outcome !== "running") {
       pause();
       if (alone) keep();
     }
     refresh();
     if (t < 1) wake();
   };
-  const next = () => act(mine() ? 0 : drivers[policy](drive).action);
+  const next = () => act(mine() ? 0 : drivers[policy](episode).action);
   function tick(time) {
     frame = 0;
     t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * PACES[pace]);
@@ -178,14 +178,14 @@ function render({ model, el }) {
   };
   const play = h("button", { type: "button", class: "main", click: () => {
     if (running) return pause();
-    if (drive.outcome !== "running") begin();
+    if (episode.outcome !== "running") begin();
     running = true;
     play.textContent = "Pause";
     refresh();
     return wake();
   } }, "Drive");
   const begin = () => {
-    drive.reset();
+    episode.reset();
     alone = true;
   };
   const reset = () => {
@@ -195,7 +195,7 @@ function render({ model, el }) {
     refresh();
     inspect.show();
   };
-  const record = () => ({ world: drive.base, speed: drive.speed, steps: drive.steps, outcome: drive.outcome, map: mapNumber });
+  const record = () => ({ world: episode.base, speed: episode.speed, steps: episode.steps, outcome: episode.outcome, map: mapNumber });
   const save = h("button", { type: "button", click: () => saveFile("my-drive.npz", demonstrationsFile([record()])) }, "Download this drive");
   const mineKept = drivesList();
   const keep = () => {
@@ -232,7 +232,7 @@ function render({ model, el }) {
   };
   const who = choice({ label: "who drives", options: names, change: pick });
   const go = (world, number = null) => {
-    drive = makeDrive(world, drive.speed);
+    episode = makeEpisode(world, episode.speed);
     [selected, mapNumber] = ["robot", number];
     reset();
   };
@@ -248,12 +248,12 @@ function render({ model, el }) {
     mineKept.say(coast.checked ? "The robot goes on by itself while nothing is near." : "The robot waits for your key in every second.");
     if (coasting()) wake();
   } });
-  const fast = choice({ label: "speed", options: speeds.map((speed) => `${speed} m/s`), value: speeds.indexOf(2), change: (index) => { drive.speed = speeds[index]; refresh(); } });
+  const fast = choice({ label: "speed", options: speeds.map((speed) => `${speed} m/s`), value: speeds.indexOf(2), change: (index) => { episode.speed = speeds[index]; refresh(); } });
   const rate = slider({ label: "steps a second", count: PACES.length, value: pace, text: (step) => String(PACES[step]), change: (step) => (pace = step) });
   const add = (circle) => () => {
-    const { size } = drive.world;
-    drive.edit((w) => w.obstacles.push({ circle, x: size / 2, y: size / 2, a: 3, b: circle ? 0 : 2, turned: 0, speed: 0, heading: 0.7 }));
-    choose(drive.world.obstacles.length - 1);
+    const { size } = episode.world;
+    episode.edit((w) => w.obstacles.push({ circle, x: size / 2, y: size / 2, a: 3, b: circle ? 0 : 2, turned: 0, speed: 0, heading: 0.7 }));
+    choose(episode.world.obstacles.length - 1);
     refresh();
   };
   board.canvas.addEventListener("keydown", (event) => {
@@ -262,7 +262,7 @@ function render({ model, el }) {
     if (!mine()) pick(policies.length);
     if (coasting()) return;
     const action = event.shiftKey && event.key === "ArrowLeft" ? HARD_LEFT : event.shiftKey && event.key === "ArrowRight" ? HARD_RIGHT : KEYS[event.key];
-    if (drive.outcome === "running") act(action);
+    if (episode.outcome === "running") act(action);
   });
   const wheel = h("div", { class: "wheel", role: "group", "aria-label": "Drive yourself, a step at a time" },
     ...[["L60", 2], ["L30", 1], ["F", 0], ["R30", 3], ["R60", 4], ["B", 5]].map(([name, action]) =>

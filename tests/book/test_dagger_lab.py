@@ -75,7 +75,7 @@ def test_corrections_by_hand_raise_the_rate(lab):
         lab.get_by_role("button", name="Next map where it fails").click()
     lab.get_by_role("button", name="Train").click()
     said = lab.locator(".training .status")
-    expect(said).to_contain_text(f"of the new maps, before in {before:.1f} %")
+    expect(said).to_contain_text(f"Before this training it arrived in {before:.1f} %.")
     after = float(re.search(r"arrives in ([\d.]+) %", said.inner_text())[1])
     assert after > before + 20
     expect(lab.locator("tbody tr").first).to_contain_text(
@@ -91,7 +91,7 @@ def test_without_drives_one_sentence_and_cancel(lab):
     )
     expect(lab.locator(".stage")).to_be_hidden()
     lab.get_by_label("the robot first learns from").select_option(
-        "one drive of the expert"
+        "one demonstration of the expert"
     )
     lab.get_by_role("button", name="Train").press("Enter")
     lab.get_by_role("button", name=re.compile("Cancel|Train")).press("Enter")

@@ -71,7 +71,7 @@ def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
         assert "Arrived" in drive_map(lab, keys_of(good_drive(number)))
     lab = opened(view, site, widget)
     expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
-    expect(lab.locator(".about")).to_contain_text("5 drives, ")
+    expect(lab.locator(".about")).to_contain_text("5 demonstrations with ")
     train(lab)
     found = rates(lab)
     assert found["always straight on"] == pytest.approx(
@@ -101,15 +101,19 @@ def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
 def test_without_drives_the_page_says_so_and_offers_the_experts(view, site, widget):
     lab = opened(view, site, widget)
     expect(lab.get_by_label("learn from", exact=True)).to_have_value(
-        "the expert's drives"
+        "the expert's demonstrations"
     )
     lab.get_by_label("learn from", exact=True).select_option("my drives")
-    expect(lab.locator(".about")).to_contain_text("You have no drive yet that arrived.")
+    expect(lab.locator(".about")).to_contain_text(
+        "None of your drives has arrived yet."
+    )
     link = lab.locator(".about").get_by_role("link", name="playground")
     expect(link).to_have_attribute("href", "playground.html")
     lab.get_by_role("button", name="Train").click()
     expect(said(lab)).to_contain_text("There is nothing to learn from")
-    lab.get_by_label("learn from", exact=True).select_option("the expert's drives")
+    lab.get_by_label("learn from", exact=True).select_option(
+        "the expert's demonstrations"
+    )
     lab.get_by_label("iterations of L-BFGS").select_option("30")
     train(lab)
     assert rates(lab)["robot 1"] > 80
@@ -130,7 +134,7 @@ def test_drives_that_collided_are_left_out(view, site, widget, tmp_path):
     expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
     expect(lab.locator(".about")).to_have_text(
         re.compile(
-            r"^1 drive, \d+ steps .* 1 of your drives did not arrive and is left out\. A network"
+            r"^1 demonstration with \d+ steps .* 1 of your drives did not arrive and is left out\. A network"
         )
     )
 

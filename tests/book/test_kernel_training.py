@@ -128,7 +128,9 @@ def test_a_method_learns_on_a_map_of_ones_own(view, http):
 def test_robots_imitate_and_the_best_drives_in_the_page(view, http):
     widget = imitation()
     lab = mounted(view, http, widget, kernel=True)
-    lab.get_by_label("learn from", exact=True).select_option("the expert's drives")
+    lab.get_by_label("learn from", exact=True).select_option(
+        "the expert's demonstrations"
+    )
     best = panel(lab).get_by_role("button", name="Let the best robot of Python drive")
     expect(best).to_be_disabled()
     train(lab, "4 robots cross ")

@@ -61,6 +61,6 @@ def test_the_learned_reward_drives_better_than_its_opposite(page):
 
     learned = arrivals()
     lab.get_by_label("begin with the reward").select_option(
-        "the opposite: all weights turned round"
+        "opposite sign of all weights"
     )
     assert arrivals() < learned

@@ -88,7 +88,7 @@ def test_a_robot_learns_from_nothing_and_crosses_new_maps(view):
     )
     grey = lab.locator(".curves path[stroke-opacity]")
     assert [path.get_attribute("d") for path in grey.all()] == [""] * 3
-    lab.get_by_label("afterwards, drive").select_option("200 new maps")
+    lab.get_by_label("afterwards, test in").select_option("200 new maps")
     group(lab, "Robot and maps")
     lab.get_by_label("seed of the random numbers").fill("1")
     assert train(lab)[1] == 200

@@ -59,12 +59,13 @@ def shows(lab: Locator, theta: np.ndarray, world: str) -> None:
     )
     counted = [int((there.outcome == end).sum()) for end in verbs]
     expect(score).to_contain_text(
-        f"Of 10 other maps the robot arrives in {counted[0]}, collides in {counted[1]} and gets lost in {counted[2]}."
+        f"Of 10 other maps the robot arrives in {counted[0]}, collides in {counted[1]} "
+        f"and does not arrive in time in {counted[2]}."
     )
 
 
 def push(lab: Locator, step: int) -> None:
-    lab.get_by_label("push this weight", exact=True).and_(
+    lab.get_by_label("change this weight", exact=True).and_(
         lab.locator("input")
     ).evaluate(
         "(input, step) => { input.value = step; input.dispatchEvent(new Event('input')); }",
@@ -81,33 +82,33 @@ def test_rewards_drive_as_in_python(lab):
     fearless = THETA.copy()
     fearless[:, danger] = fearless[:, walls] = 0
     for attempt, theta in (
-        ("nothing matters: all weights 0", 0 * THETA),
-        ("no fear: dangers and walls 0", fearless),
-        ("the opposite: all weights turned round", -THETA),
+        ("all weights 0", 0 * THETA),
+        ("weights of dangers and walls 0", fearless),
+        ("opposite sign of all weights", -THETA),
     ):
         choose(lab, "begin with the reward", attempt)
         shows(lab, theta, "another")
 
 
-def test_weights_are_pushed_one_by_one_and_for_all_actions(lab):
+def test_weights_are_changed_one_by_one_and_for_all_actions(lab):
     strongest = abs(THETA).max()
     choose(lab, "weight of", "danger in sector 1")
     choose(lab, "for", "F")
     push(lab, 40)
-    pushed = THETA.copy()
-    pushed[0, 0] += strongest
-    shows(lab, pushed, "one")
+    changed = THETA.copy()
+    changed[0, 0] += strongest
+    shows(lab, changed, "one")
     choose(lab, "weight of", "constant")
     choose(lab, "for", "L60")
     push(lab, 30)
-    pushed[2, -1] += strongest / 2
-    shows(lab, pushed, "one")
+    changed[2, -1] += strongest / 2
+    shows(lab, changed, "one")
     choose(lab, "for", "all actions")
     choose(lab, "weight of", "target ahead")
     push(lab, 0)
-    pushed[:, len(ENCODER.sensors) + 1] -= strongest
-    shows(lab, pushed, "one")
-    lab.get_by_role("button", name="Take all pushes back").click()
+    changed[:, len(ENCODER.sensors) + 1] -= strongest
+    shows(lab, changed, "one")
+    lab.get_by_role("button", name="Undo all changes").click()
     shows(lab, THETA, "one")
 
 

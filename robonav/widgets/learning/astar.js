@@ -128,7 +128,7 @@ export function expertPlan(world, pose, speed) {
   return { found: false, poses: [pose], actions: [0], expanded: 0 };
 }
 
-/** An expert for one drive: it follows its plan, and plans again where the robot has left it, as robonav.lfd.ComputerExpert. */
+/** An expert for one episode: it follows its plan, and plans again where the robot has left it, as robonav.lfd.ComputerExpert. */
 export function computerExpert() {
   let [plan, done] = [null, 0];
   return (world, pose, speed) => {
@@ -140,7 +140,7 @@ export function computerExpert() {
   };
 }
 
-/** The expert's drive through a world, as robonav.lfd.demonstrate. @param {World} first @returns {RecordedDrive} */
+/** The expert's demonstration in a world, as robonav.lfd.demonstrate. @param {World} first @returns {RecordedDrive} */
 export function expertDrive(first, speed = 2, maxSteps = 500) {
   const [expert, steps] = [computerExpert(), []];
   let [world, pose, outcome] = [first, startPose(first), "running"];

@@ -40,12 +40,12 @@ def test_examples_are_the_effective_pairs(demonstrations):
 
 def test_learning_beats_going_straight(policy):
     unseen = random_worlds(200, 10, seed=42)
-    learned, yardstick = (
+    learned, baseline = (
         navigate(policy, unseen).success.mean(),
         navigate(straight, unseen).success.mean(),
     )
     assert learned > 0.9
-    assert learned > yardstick + 0.3
+    assert learned > baseline + 0.3
 
 
 def test_a_policy_learned_twice_with_one_seed_is_equal(demonstrations, policy):

@@ -106,14 +106,14 @@ def test_qmdp_listens_for_another_reason_and_promises_too_much():
     optimist = qmdp(pomdp)
     assert optimist.value([0.5, 0.5]) == pytest.approx(
         10 / 0.05 - 1 - 10, abs=1e-4
-    )  # 10 for ever, but for one listen
+    )  # 10 forever, except for one listen
     exact = point_based_value_iteration(pomdp, spread_beliefs(pomdp, [0.5, 0.5], 40))
     beliefs = np.stack([np.linspace(0, 1, 21), 1 - np.linspace(0, 1, 21)], axis=1)
     assert (optimist.value(beliefs) > exact.value(beliefs)).all()
 
 
 def test_qmdp_never_pays_for_a_look():
-    """Waiting costs nothing and, so it believes, tells as much as the sign: QMDP waits for ever."""
+    """Waiting costs nothing and, so it believes, tells as much as the sign: QMDP waits forever."""
     pomdp = fork()
     doubt = [0.5, 0.5, 0.0]
     assert qmdp(pomdp).action(doubt) == 0

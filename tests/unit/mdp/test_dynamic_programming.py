@@ -41,7 +41,7 @@ each_planner = pytest.mark.parametrize("planner", PLANNERS)
 
 
 def sampled(seed, *, sparse=None, discount=None):
-    """A random model of random size, many of its rewards and probabilities alike, so that actions often tie."""
+    """A random model of random size, many of its rewards and probabilities equal, so that actions often tie."""
     rng = np.random.default_rng(seed)
     states, actions, successors = (
         rng.integers(1, 12),
@@ -216,7 +216,7 @@ def test_the_bound_is_needed():
     patient, epsilon = (
         FiniteMDP([[[1.0]]], [[1.0]], 0.99),
         0.05,
-    )  # 1 a step for ever: worth 100
+    )  # 1 a step forever: a value of 100
     as_printed = value_iteration(patient, epsilon / patient.residual_for(1))
     assert as_printed.residual <= epsilon
     assert 100 - as_printed.values[0] > 90 * epsilon
@@ -245,7 +245,7 @@ def test_policy_iteration_ends_where_actions_tie(discount, tolerance):
 
 
 def two_ways_round(stay, go, back, discount):
-    """State 0 pays ``stay`` for ever, or ``go`` on to state 1, which pays ``back`` and returns."""
+    """State 0 pays ``stay`` forever, or ``go`` on to state 1, which pays ``back`` and returns."""
     return FiniteMDP(
         [[[1, 0], [1, 0]], [[0, 1], [1, 0]]], [[stay, go], [back, back]], discount
     )
@@ -303,7 +303,7 @@ def test_planners_agree_on_a_slippery_grid_without_discount():
 
 @each_planner
 def test_without_discount_a_free_wait_beats_a_bad_end(planner):
-    """The end at hand costs 1: best is to wait for ever, which no proper policy does. Beyond it a goal pays."""
+    """The end at hand costs 1: best is to wait forever, which no proper policy does. Beyond it a goal pays."""
     mdp = GridWorld(". . X . G").mdp(1.0)
     solution = planner(mdp)
     np.testing.assert_array_equal(solution.values, [0, 0, 0, 1, 0])
@@ -329,7 +329,7 @@ def test_policy_iteration_leaves_a_bad_end_it_was_started_on():
 def test_without_discount_no_policy_of_all_does_better(seed):
     """Small models with free waits, costs, and prizes and fines at the end, all their policies tried out.
 
-    A policy that pays for ever has no value and is passed over.
+    A policy that pays forever has no value and is passed over.
     """
     rng = np.random.default_rng(seed)
     transitions = rng.multinomial(2, np.full(5, 0.2), (2, 5)) / 2

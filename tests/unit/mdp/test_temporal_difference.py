@@ -53,7 +53,7 @@ class Corridor(gym.Env):
 
 
 class Ladder(gym.Env):
-    """One state that pays 1 a step for ever, cut off after 3 steps."""
+    """One state that pays 1 a step forever, cut off after 3 steps."""
 
     observation_space, action_space = spaces.Discrete(1), spaces.Discrete(1)
 
@@ -243,7 +243,7 @@ def test_exploring_follows_its_schedule_over_episodes(learn):
 
 @pytest.mark.parametrize("learn", [sarsa, expected_sarsa])
 def test_sarsa_tends_to_the_plan_where_exploring_fades(learn):
-    """Singh et al. (2000): greedy in the limit, and every pair tried for ever."""
+    """Singh et al. (2000): greedy in the limit, and every pair tried infinitely often."""
     fork = FiniteMDP(
         [[[0, 1, 0], [0, 0, 1], [0, 0, 1]]] * 2, [[0, 0], [10, 0], [0, 0]], 0.9
     )

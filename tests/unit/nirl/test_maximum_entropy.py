@@ -56,21 +56,23 @@ def test_one_state_in_closed_form():
 def test_no_policy_collects_more_reward_and_entropy():
     """An optimiser over all stochastic policies, scored by a linear system, comes to the soft values and no further."""
     rng = np.random.default_rng(0)
-    transitions, rewards, heat = (
+    transitions, rewards, temperature = (
         rng.dirichlet(np.ones(3), (2, 3)),
         rng.normal(size=(3, 2)),
         0.7,
     )
-    soft = soft_value_iteration(FiniteMDP(transitions, rewards, 0.8), temperature=heat)
+    soft = soft_value_iteration(
+        FiniteMDP(transitions, rewards, 0.8), temperature=temperature
+    )
 
-    def worth(logits):
+    def value(logits):
         policy = softmax(logits.reshape(3, 2), axis=1)
-        gained = (policy * (rewards - heat * np.log(policy))).sum(axis=1)
+        gained = (policy * (rewards - temperature * np.log(policy))).sum(axis=1)
         return np.linalg.solve(
             np.eye(3) - 0.8 * np.einsum("sa,ast->st", policy, transitions), gained
         )[0]
 
-    found = minimize(lambda logits: -worth(logits), rng.normal(size=6))
+    found = minimize(lambda logits: -value(logits), rng.normal(size=6))
     assert -found.fun == pytest.approx(soft.values[0], abs=1e-6)
     np.testing.assert_allclose(
         softmax(found.x.reshape(3, 2), axis=1), soft.policy, atol=1e-3
@@ -142,7 +144,7 @@ def test_gradient_of_the_log_likelihood_is_the_gap(terrain):
 def test_it_matches_the_features_of_a_soft_expert(terrain):
     """A soft driver's weights are found again, but for the one direction in which every policy earns the same.
 
-    One unit for every step and 1 / (1 - gamma) on arrival is worth 1 / (1 - gamma) whatever is done.
+    One unit for every step and 1 / (1 - gamma) on arrival add up to 1 / (1 - gamma) for every policy.
     """
     task = terrain.task
     driver = soft_value_iteration(task.with_reward(terrain.truth)).policy

@@ -44,17 +44,17 @@ from robonav.nirl.policy_improvement import compiled_sarsa_descent
 RNG = np.random.default_rng(0)
 
 
-def made_up(decisions=12, inputs=3, actions=4, drives=3, seed=0):
+def made_up(decisions=12, inputs=3, actions=4, trajectories=3, seed=0):
     """Transitions with random contents."""
     rng = np.random.default_rng(seed)
-    trajectory = np.sort(rng.integers(drives, size=decisions))
+    trajectory = np.sort(rng.integers(trajectories, size=decisions))
     return Transitions(
         rng.normal(size=(decisions, inputs)),
         rng.integers(actions, size=decisions),
         trajectory,
         np.arange(decisions),
-        np.arange(drives) % 2 == 1,
-        np.arange(drives) % 2 == 0,
+        np.arange(trajectories) % 2 == 1,
+        np.arange(trajectories) % 2 == 0,
     )
 
 
@@ -162,7 +162,7 @@ def test_one_step_is_minus_rate_times_the_numerical_gradient(follows):
 
 
 def test_it_finds_the_values_of_a_chain():
-    """Three decisions in a row with rewards 1, 0, 1 (in [0, 1]) and then the best for ever: y = (1 - gamma) Q."""
+    """Three decisions in a row with rewards 1, 0, 1 (in [0, 1]) and then the best forever: y = (1 - gamma) Q."""
     inputs = np.eye(3)
     steps = Transitions(
         inputs,
@@ -280,17 +280,18 @@ def test_neural_action_values_are_the_outputs_of_the_network():
 
 
 def test_contrast_is_the_gradient_of_the_margin():
-    shown, theta = made_up(), RNG.normal(size=(4, 4))
+    demonstrations, theta = made_up(), RNG.normal(size=(4, 4))
     action_probabilities = RNG.dirichlet(np.ones(4), 12)
-    weights = inverse_frequency_weights(shown.actions, 4)
+    weights = inverse_frequency_weights(demonstrations.actions, 4)
 
     def margin(t):
-        r = shown.features @ t.T
+        r = demonstrations.features @ t.T
         return weights @ (
-            r[np.arange(12), shown.actions] - (action_probabilities * r).sum(axis=1)
+            r[np.arange(12), demonstrations.actions]
+            - (action_probabilities * r).sum(axis=1)
         )
 
-    slope = feature_gap(shown, action_probabilities, weights)
+    slope = feature_gap(demonstrations, action_probabilities, weights)
     for index in np.ndindex(4, 4):
         step = np.zeros((4, 4))
         step[index] = 1e-5
@@ -300,10 +301,12 @@ def test_contrast_is_the_gradient_of_the_margin():
 
 
 def test_nothing_to_learn_from_an_expert_one_already_equals():
-    shown = made_up()
+    demonstrations = made_up()
     np.testing.assert_allclose(
         feature_gap(
-            shown, np.eye(4)[shown.actions], inverse_frequency_weights(shown.actions, 4)
+            demonstrations,
+            np.eye(4)[demonstrations.actions],
+            inverse_frequency_weights(demonstrations.actions, 4),
         ),
         0,
         atol=1e-15,
@@ -319,17 +322,21 @@ def test_balance_makes_actions_count_alike():
 
 def test_equation_514_finds_the_least_squares_fit():
     """Without a constraint that binds, it is what numpy's least squares finds: the learner's own values, explained."""
-    shown = made_up(decisions=40)
+    demonstrations = made_up(decisions=40)
     values = np.full((40, 4), 0.01) + 0.001 * RNG.random((40, 4))
     theta = LeastSquaresReward(discount=0.65, regularisation=0.0, iterations=20_000)(
-        shown, values, values, np.zeros((4, 4)), 1
+        demonstrations, values, values, np.zeros((4, 4)), 1
     )
     mu = discounted_feature_sums(
-        all_action_features(shown.features, 4)[np.arange(40), shown.actions],
-        shown.trajectory,
+        all_action_features(demonstrations.features, 4)[
+            np.arange(40), demonstrations.actions
+        ],
+        demonstrations.trajectory,
         0.65,
     )
-    fitted, *_ = np.linalg.lstsq(mu, values[np.arange(40), shown.actions], rcond=None)
+    fitted, *_ = np.linalg.lstsq(
+        mu, values[np.arange(40), demonstrations.actions], rcond=None
+    )
     np.testing.assert_allclose(mu @ theta.ravel(), mu @ fitted, atol=1e-4)
     assert np.linalg.norm(theta) <= 1
 
@@ -339,25 +346,25 @@ def test_equation_514_finds_the_least_squares_fit():
 
 def test_plain_accuracy_likes_one_action_for_everything():
     """The trap: three quarters go forward. Balanced accuracy knows better."""
-    shown = np.array([0] * 75 + [1] * 10 + [2] * 5 + [3] * 10)
+    expert = np.array([0] * 75 + [1] * 10 + [2] * 5 + [3] * 10)
     forward = np.zeros(100, int)
-    careful = shown.copy()
+    careful = expert.copy()
     careful[:35] = 1
-    assert accuracy(forward, shown) == 0.75 > accuracy(careful, shown)
-    assert balanced_accuracy(forward, shown) == pytest.approx(0.25)
-    assert balanced_accuracy(careful, shown) == pytest.approx((40 / 75 + 3) / 4)
+    assert accuracy(forward, expert) == 0.75 > accuracy(careful, expert)
+    assert balanced_accuracy(forward, expert) == pytest.approx(0.25)
+    assert balanced_accuracy(careful, expert) == pytest.approx((40 / 75 + 3) / 4)
 
 
 # -- the whole algorithm, where the truth is known ---------------------------------------------------------------------
 
 
 def learn(case):
-    course = TabularTask(case.task, max_steps=30)
-    shown = course.demonstrate(case.expert, 100, seed=1)
+    tabular = TabularTask(case.task, max_steps=30)
+    demonstrations = tabular.demonstrate(case.expert, 100, seed=1)
     improve = ReplaySGD(discount=case.task.discount, n_samples=8000)
     return nirl(
-        shown,
-        course,
+        demonstrations,
+        tabular,
         iterations=150,
         hidden=30,
         improver=improve,
@@ -389,13 +396,13 @@ def test_nirl_on_random_rewards(scattered):
 
 
 def test_without_a_reward_nothing_is_learned(terrain):
-    """The control: all rewards alike and neutral ends leave every action alike, whatever is practised."""
-    course = TabularTask(terrain.task, max_steps=30)
-    shown = course.demonstrate(terrain.expert, 20, seed=1)
+    """The control: equal rewards and neutral terminal values leave all actions equal, whatever the training."""
+    tabular = TabularTask(terrain.task, max_steps=30)
+    demonstrations = tabular.demonstrate(terrain.expert, 20, seed=1)
     nothing = np.zeros((4, terrain.task.n_states + 1))
     found = train_under_reward(
-        shown,
-        course,
+        demonstrations,
+        tabular,
         nothing,
         iterations=20,
         improver=ReplaySGD(terminal_values=NEUTRAL_TERMINAL_VALUES),
@@ -407,34 +414,40 @@ def test_without_a_reward_nothing_is_learned(terrain):
 
 @pytest.mark.slow
 def test_the_true_reward_makes_an_expert(terrain):
-    """The solver alone: expected rewards of each cell and action given, practice finds a policy as good."""
+    """The solver alone: expected rewards of each cell and action given, training finds a policy as good."""
     task = terrain.task
     theta = np.zeros((4, task.n_states + 1))
     theta[:, :-1] = (task.features @ terrain.truth).T
-    course = TabularTask(task, max_steps=30)
-    shown = course.demonstrate(terrain.expert, 20, seed=1)
+    tabular = TabularTask(task, max_steps=30)
+    demonstrations = tabular.demonstrate(terrain.expert, 20, seed=1)
     improve = ReplaySGD(discount=task.discount, terminal_values=(0.5, 0.5))
     found = train_under_reward(
-        shown, course, theta, iterations=150, hidden=30, improver=improve, seed=0
+        demonstrations,
+        tabular,
+        theta,
+        iterations=150,
+        hidden=30,
+        improver=improve,
+        seed=0,
     )
     assert terrain.loss(greedy(terrain, found)) < 0.15
 
 
 def test_it_ends_when_the_margin_is_small(terrain):
-    course = TabularTask(terrain.task)
-    shown = course.demonstrate(terrain.expert, 5, seed=1)
-    found = nirl(shown, course, iterations=50, tolerance=1e9, seed=0)
+    tabular = TabularTask(terrain.task)
+    demonstrations = tabular.demonstrate(terrain.expert, 5, seed=1)
+    found = nirl(demonstrations, tabular, iterations=50, tolerance=1e9, seed=0)
     assert len(found.history.margins) == 0
     assert found.chosen == 0
 
 
 def test_the_same_seed_gives_the_same_numbers(terrain):
-    course = TabularTask(terrain.task)
-    shown = course.demonstrate(terrain.expert, 5, seed=1)
+    tabular = TabularTask(terrain.task)
+    demonstrations = tabular.demonstrate(terrain.expert, 5, seed=1)
     one, same, other = (
         nirl(
-            shown,
-            course,
+            demonstrations,
+            tabular,
             iterations=3,
             improver=ReplaySGD(terminal_values=ZERO_TERMINAL_VALUES),
             seed=s,
@@ -446,17 +459,21 @@ def test_the_same_seed_gives_the_same_numbers(terrain):
 
 
 def test_nothing_shown_gets_a_sentence(terrain):
-    course = TabularTask(terrain.task)
-    shown = course.demonstrate(terrain.expert, 5, seed=1)
+    tabular = TabularTask(terrain.task)
+    demonstrations = tabular.demonstrate(terrain.expert, 5, seed=1)
     with pytest.raises(
         ValueError,
         match="demonstrations must hold at least one decision of the expert, got none",
     ):
-        nirl(made_up(decisions=0, drives=1), course, seed=0)
+        nirl(made_up(decisions=0, trajectories=1), tabular, seed=0)
     with pytest.raises(
         ValueError, match="actions must lie between 0 and 3, got 7 to 7"
     ):
-        nirl(shown.with_actions(np.full(len(shown), 7)), course, seed=0)
+        nirl(
+            demonstrations.with_actions(np.full(len(demonstrations), 7)),
+            tabular,
+            seed=0,
+        )
     with pytest.raises(
         ValueError, match="actions must hold at least one decision, got none"
     ):

@@ -1,4 +1,4 @@
-"""The methods of Table 5.2 on the robot: what is kept of a drive, errors, and that they run and repeat."""
+"""The methods of Table 5.2 on the robot: what is kept of an episode, errors, and that they run and repeat."""
 
 from dataclasses import replace
 
@@ -34,7 +34,7 @@ from robonav.nirl.tasks import collect
 from robonav.robot import Simulator, navigate, random_worlds
 
 SMALL = {"improver": ReplaySGD(n_samples=500), "iterations": 3}
-COURSE = RobotTask(n_episodes=3, obstacles=10)
+TASK = RobotTask(n_episodes=3, obstacles=10)
 
 
 @pytest.fixture(scope="module")
@@ -47,8 +47,8 @@ def always(action):
 
 
 @pytest.mark.parametrize("action", [0, 1])
-def test_a_practice_drive_is_a_drive(action):
-    """The same policy ends alike in practice and in ``navigate``."""
+def test_a_training_episode_is_an_episode_of_navigate(action):
+    """The same policy ends in the same way in training and in ``navigate``."""
     worlds = random_worlds(40, 20, seed=3)
     driven = navigate(
         lambda sensing, rng: np.full(len(sensing), action), worlds, max_steps=200
@@ -68,28 +68,28 @@ def test_a_practice_drive_is_a_drive(action):
     np.testing.assert_array_less(steps.times, driven.steps[steps.trajectory])
 
 
-def test_experts_and_learners_are_seen_alike(demonstrations):
+def test_experts_and_learners_are_recorded_in_the_same_way(demonstrations):
     """An expert's decisions are its effective pairs, with the seconds at which they were made."""
-    shown = expert_transitions(demonstrations)
+    transitions = expert_transitions(demonstrations)
     pairs = demonstrations.effective
-    np.testing.assert_array_equal(shown.actions, pairs.actions)
-    np.testing.assert_array_equal(shown.inputs, ENCODER(pairs.sensing))
-    first = np.searchsorted(demonstrations.trajectory, shown.trajectory)
+    np.testing.assert_array_equal(transitions.actions, pairs.actions)
+    np.testing.assert_array_equal(transitions.inputs, ENCODER(pairs.sensing))
+    first = np.searchsorted(demonstrations.trajectory, transitions.trajectory)
     np.testing.assert_array_equal(
-        demonstrations.poses[first + shown.times], pairs.poses
+        demonstrations.poses[first + transitions.times], pairs.poses
     )
-    assert shown.arrived.all()
+    assert transitions.arrived.all()
 
 
 def test_segments_stop_after_their_horizon(demonstrations):
-    shown = expert_transitions(demonstrations)
-    found = segment_features(shown, LEARNED, 0.65, 3)
-    block = state_action_features(shown.features, shown.actions, LEARNED)
-    for t in range(len(shown) - 3):
+    transitions = expert_transitions(demonstrations)
+    found = segment_features(transitions, LEARNED, 0.65, 3)
+    block = state_action_features(transitions.features, transitions.actions, LEARNED)
+    for t in range(len(transitions) - 3):
         inside = [
             block[t + k] * 0.65**k
             for k in range(3)
-            if shown.trajectory[t + k] == shown.trajectory[t]
+            if transitions.trajectory[t + k] == transitions.trajectory[t]
         ]
         np.testing.assert_allclose(found[t], sum(inside), atol=1e-9)
 
@@ -105,16 +105,16 @@ def test_random_segments_begin_where_the_expert_decided(demonstrations):
 
 @pytest.mark.parametrize("estimate", [lstd_estimate, heuristic_estimate])
 def test_expectations_of_the_experts_actions_are_known(demonstrations, estimate):
-    shown = expert_transitions(demonstrations)
-    mu = estimate(shown, LEARNED, 0.65)
-    assert mu.shape == (len(shown), LEARNED, LEARNED * (ENCODER.size + 1))
+    transitions = expert_transitions(demonstrations)
+    mu = estimate(transitions, LEARNED, 0.65)
+    assert mu.shape == (len(transitions), LEARNED, LEARNED * (ENCODER.size + 1))
     assert np.isfinite(mu).all()
 
 
 def test_two_kinds_of_expectations(demonstrations):
-    shown = expert_transitions(demonstrations)
+    transitions = expert_transitions(demonstrations)
     start, everywhere = (
-        f(shown, LEARNED, 0.65) for f in (from_initial_state, from_all_states)
+        f(transitions, LEARNED, 0.65) for f in (from_initial_state, from_all_states)
     )
     constants = (np.arange(1, LEARNED + 1) * (ENCODER.size + 1)) - 1
     assert start[constants].sum() == pytest.approx(
@@ -125,7 +125,7 @@ def test_two_kinds_of_expectations(demonstrations):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_every_method_learns_and_repeats(demonstrations, method):
-    settings = dict(SMALL, task=COURSE) | (
+    settings = dict(SMALL, task=TASK) | (
         {"n_rewards": 3} if method == "apprenticeship" else {}
     )
     one, same = (learn(demonstrations, method, seed=1, **settings) for _ in range(2))
@@ -143,7 +143,7 @@ def test_every_method_learns_and_repeats(demonstrations, method):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_one_trajectory_is_enough(demonstrations, method):
-    settings = dict(SMALL, task=COURSE) | (
+    settings = dict(SMALL, task=TASK) | (
         {"n_rewards": 3} if method == "apprenticeship" else {}
     )
     learned = learn(
@@ -158,7 +158,7 @@ def test_algorithm_10_to_the_letter_runs(demonstrations):
         "improver": SingleGradientStep(),
         "score": accuracy,
     }
-    learned = learn(demonstrations, seed=0, task=COURSE, iterations=3, **to_the_letter)
+    learned = learn(demonstrations, seed=0, task=TASK, iterations=3, **to_the_letter)
     assert (
         learned.history.accuracies[learned.chosen] == learned.history.accuracies.max()
     )
@@ -168,7 +168,7 @@ def test_algorithm_10_to_the_letter_runs(demonstrations):
 @pytest.mark.parametrize("expectations", [from_initial_state, from_all_states])
 def test_an_apprentice_by_the_widest_margin(demonstrations, expectations):
     learned = learn(
-        demonstrations, "apprenticeship", seed=0, task=COURSE, guess=max_margin_guess, n_rewards=2,
+        demonstrations, "apprenticeship", seed=0, task=TASK, guess=max_margin_guess, n_rewards=2,
         expectations=expectations, **(SMALL | {"iterations": 4}),
     )  # fmt: skip
     assert len(learned.history.costs) == 4
@@ -181,7 +181,7 @@ def test_an_apprentice_by_the_widest_margin(demonstrations, expectations):
 @pytest.mark.parametrize("method", METHODS)
 def test_an_action_never_shown(demonstrations, method):
     lefts = demonstrations[~np.isin(demonstrations.actions, [3, 4])]
-    settings = dict(SMALL, task=COURSE) | (
+    settings = dict(SMALL, task=TASK) | (
         {"n_rewards": 3} if method == "apprenticeship" else {}
     )
     learned = learn(lefts, method, seed=0, **settings)
@@ -235,12 +235,12 @@ def test_refinement_makes_demonstrations_consistent(demonstrations):
 def test_a_reward_can_be_taken_elsewhere(demonstrations):
     theta = np.zeros((LEARNED, ENCODER.size + 1))
     learned = learn_under_reward(
-        demonstrations, theta, task=replace(COURSE, speed=1.0), seed=0, iterations=2
+        demonstrations, theta, task=replace(TASK, speed=1.0), seed=0, iterations=2
     )
     assert (learned.reward_weights == 0).all()
     neutral = ReplaySGD(terminal_values=NEUTRAL_TERMINAL_VALUES, n_samples=2000)
     idle = learn_under_reward(
-        demonstrations, theta, task=COURSE, seed=0, iterations=2, improver=neutral
+        demonstrations, theta, task=TASK, seed=0, iterations=2, improver=neutral
     )
     outputs = idle.history.networks[-1].forward(
         expert_transitions(demonstrations).inputs

@@ -86,7 +86,7 @@ def test_an_interrupted_training_ends_as_one_that_was_not(method, tmp_path):
         method, seeds=3, episodes=13, checkpoint=path, checkpoint_interval=4,
         progress=lambda done, total: counted.append((done, total)), **SMALL[method],
     )  # fmt: skip
-    assert counted[0][0] >= 3 * 4  # it did not begin anew
+    assert counted[0][0] >= 3 * 4  # it did not begin again
     assert counted[-1] == (39, 39)
     for row in range(3):
         same(resumed, whole, row, row)

@@ -33,7 +33,7 @@ const get = () => {
   return localStorage;
 };
 Object.defineProperty(globalThis, "localStorage", { get });
-const drive = page.makeDrive(page.ownMap(3), 2);
+const drive = page.makeEpisode(page.ownMap(3), 2);
 while (drive.outcome === "running") drive.go(0);
 const record = { world: drive.base, speed: 2, steps: drive.steps, outcome: drive.outcome, map: 3 };
 """

@@ -32,7 +32,7 @@ def test_a_drive_saved_by_the_page_is_a_demonstration(
 ):
     world = random_worlds(1, obstacles, moving, seed=4)
     body = """
-      const drive = page.makeDrive(data, 2.5);
+      const drive = page.makeEpisode(data, 2.5);
       while (drive.outcome === "running" && drive.step < 300) drive.go(page.freerSide(drive.sensing));
     """
     (tmp_path / "drive.npz").write_bytes(
@@ -48,7 +48,7 @@ def test_a_drive_saved_by_the_page_is_a_demonstration(
 
 def test_an_edited_world_is_driven_and_saved_as_edited(page, tmp_path):
     body = """
-      const drive = page.makeDrive(data, 2);
+      const drive = page.makeEpisode(data, 2);
       const own = { circle: true, x: 50, y: 50, a: 5, b: 0, turned: 0, speed: 0, heading: 0 };
       drive.edit((world) => world.obstacles.push(own));
       drive.go(0);
