@@ -45,7 +45,7 @@ def measured(work: Callable[[], Any]) -> Point:
     return {"seconds": min(seconds), "MiB": memory}
 
 
-def drives(worlds: int, obstacles: int) -> Callable[[], Any]:
+def rollouts(worlds: int, obstacles: int) -> Callable[[], Any]:
     """A number of robots go straight on through their worlds."""
     drawn = random_worlds(worlds, obstacles, seed=0)
     return lambda: navigate(straight, drawn)
@@ -60,8 +60,8 @@ def planning(side: int) -> Callable[[], Any]:
 def growth() -> dict[str, list[Point]]:
     """Sizes, with seconds and memory of each."""
     work: dict[str, dict[int, Callable[[], Any]]] = {
-        "obstacles, 4096 worlds": {n: drives(4096, n) for n in OBSTACLES},
-        "worlds, 20 obstacles": {n: drives(n, 20) for n in WORLDS},
+        "obstacles, 4096 worlds": {n: rollouts(4096, n) for n in OBSTACLES},
+        "worlds, 20 obstacles": {n: rollouts(n, 20) for n in WORLDS},
         f"seeds of NNQL, {EPISODES} episodes": {
             n: lambda n=n: train("nnql", seeds=n, episodes=EPISODES) for n in SEEDS
         },

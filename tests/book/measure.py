@@ -101,13 +101,13 @@ class Training:
 
 
 IMITATION = Training(
-    "book/policy-learning", ".imitation-lab", "Train", 300, "L-BFGS, 300 iterations on 25 drives", 1.0,
+    "book/policy-learning", ".imitation-lab", "Train", 300, "L-BFGS, 300 iterations on 25 demonstrations", 1.0,
 )  # fmt: skip
 MAPS_DRIVEN = 2.0  # seconds for 200 maps, by one robot
 TRAININGS = (
     IMITATION,
     Training("book/nnql", ".q-learning-lab", "Train", 300, "NNQL, 300 episodes of one robot", 5.0),
-    Training("book/nirl", ".robonav", "Learn the reward", 140, "NIRL, 140 iterations on 30 drives", 10.0),
+    Training("book/nirl", ".robonav", "Learn the reward", 140, "NIRL, 140 iterations on 30 demonstrations", 10.0),
 )  # fmt: skip
 
 

@@ -66,9 +66,11 @@ def test_shortest_ways_end_where_the_robot_arrives():
 
 
 def test_an_entry_is_navigate():
-    drives = navigate(turn_to_clearer_side, board_worlds("20 obstacles", 2, 20), seed=2)
+    episodes = navigate(
+        turn_to_clearer_side, board_worlds("20 obstacles", 2, 20), seed=2
+    )
     numbers = evaluate_on_board("freer-side", "20 obstacles", 2, 20)
-    assert numbers["success"] == 100 * drives.success.mean()
+    assert numbers["success"] == 100 * episodes.success.mean()
     assert sum(
         numbers[key] for key in ("success", "collision", "out of steps")
     ) == pytest.approx(100)

@@ -120,7 +120,7 @@ def test_a_cluster_gives_the_same_bytes(tmp_path, alone):
 
 @pytest.mark.parametrize("name", REAL[1:])
 def test_the_first_seeds_are_those_of_the_committed_results(name, alone):
-    """What does not hang on the number of drives comes out again on this machine, but for the last digits."""
+    """What does not depend on the number of episodes is the same on this machine, except for the last digits."""
     known = experiment(name)
     quick, committed = read_results(known, alone), read_results(known)
     for case in range(len(known.cases)):

@@ -22,8 +22,8 @@ RATES = {
     "collision",
     "out of steps",
     "SPL",
-}  # per cent of drives
-DRIVES = {"leaderboard": 20, "figure-5.10": 20}  # of a quick run; of all others 100
+}  # per cent of episodes
+EPISODES = {"leaderboard": 20, "figure-5.10": 20}  # of a quick run; of all others 100
 
 
 def settled(settings):
@@ -53,18 +53,18 @@ def test_committed_results_are_of_the_code_as_it_is(name):
     )
 
 
-def foretold(values, runs, drives):
-    """Where the mean of so many other runs falls, all but certainly, if runs are about normal.
+def foretold(values, runs, episodes):
+    """The interval in which the mean of other runs lies almost surely, if runs are about normal.
 
-    Drives are the number behind a rate: few of them scatter a rate more than the committed runs show. What never varied
-    may vary by a hundredth.
+    ``episodes`` is the number behind a rate: with few of them a rate varies more than in the committed runs. What never
+    varied may vary by a hundredth.
     """
     mean = np.mean(values)
     deviation = max(np.std(values, ddof=1), 0.01 * abs(mean))
     variance = deviation**2
-    if drives:
-        chance = (drives * mean / 100 + 2) / (drives + 4)
-        variance += 1e4 * chance * (1 - chance) / drives
+    if episodes:
+        probability = (episodes * mean / 100 + 2) / (episodes + 4)
+        variance += 1e4 * probability * (1 - probability) / episodes
     reach = stats.t.ppf(1 - CHANCE / 2, len(values) - 1) * math.sqrt(
         variance / runs + deviation**2 / len(values)
     )
@@ -78,7 +78,7 @@ def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_pa
     """All of an experiment, run again on this machine, with this code."""
     known = experiment(name)
     quick, committed = reproduce(known, tmp_path, jobs=1), read_results(known)
-    drives = DRIVES.get(name, 100)
+    episodes = EPISODES.get(name, 100)
     for case, settings in enumerate(known.cases):
         for metric in quick.metrics(case):
             again, values = (
@@ -87,10 +87,10 @@ def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_pa
             assert again.shape[1:] == values.shape[1:], (settings, metric)
             if values.ndim > 1:  # a curve, by its mean
                 again, values = again.mean(axis=1), values.mean(axis=1)
-            if len(values) == 1:  # nothing is left to chance
+            if len(values) == 1:  # nothing is random
                 assert again == pytest.approx(values, rel=1e-3), (settings, metric)
                 continue
-            low, high = foretold(values, len(again), drives if metric in RATES else 0)
+            low, high = foretold(values, len(again), episodes if metric in RATES else 0)
             assert low <= again.mean() <= high, (settings, metric, values.mean())
 
 

@@ -1,4 +1,4 @@
-"""The page's simulator against Python's: the same drives, step by step."""
+"""The page's simulator against Python's: the same episodes, step by step."""
 
 import base64
 
@@ -31,7 +31,7 @@ const { policy, worlds, speed, steps } = data;
 const network = policy.network ? page.networks(policy.network)() : null;
 const ask = (seen, { key }, step) => page.consult({ ...policy, network }, seen, page.gumbel(key, step)).action;
 const choose = policy.rule ? page.RULES[policy.rule] : ask;
-const drives = worlds.map((first) => {
+const episodes = worlds.map((first) => {
   let [world, pose, outcome] = [first, page.startPose(first), "running"];
   const path = [[pose.x, pose.y, pose.heading]];
   for (let step = 0; step < steps && outcome === "running"; step += 1) {
@@ -42,10 +42,10 @@ const drives = worlds.map((first) => {
   }
   return { path, outcome };
 });
-const poses = Float64Array.from(drives.flatMap(({ path }) => path.flat()));
+const poses = Float64Array.from(episodes.flatMap(({ path }) => path.flat()));
 return {
-  outcomes: drives.map(({ outcome }) => outcome),
-  lengths: drives.map(({ path }) => path.length),
+  outcomes: episodes.map(({ outcome }) => outcome),
+  lengths: episodes.map(({ path }) => path.length),
   poses: Buffer.from(poses.buffer).toString("base64"),
 };
 """
@@ -80,8 +80,8 @@ def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(
     node, thousand, rule, policy, speed
 ):
     worlds, shown = thousand
-    drives = navigate(policy, worlds, speed, 100, record_paths=True)
-    same(node, shown, {"rule": rule}, speed, 100, drives.paths, drives.outcome)
+    episodes = navigate(policy, worlds, speed, 100, record_paths=True)
+    same(node, shown, {"rule": rule}, speed, 100, episodes.paths, episodes.outcome)
 
 
 @pytest.mark.parametrize(("target", "policy"), [*policies()])
@@ -89,23 +89,23 @@ def test_networks_drive_in_the_page_as_in_python(node, target, policy):
     worlds = concatenate(
         [random_worlds(60, 15, seed=33), random_worlds(40, 8, 8, seed=34)]
     )
-    drives = navigate(policy, worlds, 2.5, 200, record_paths=True)
-    same(node, worlds, page_policy(policy), 2.5, 200, drives.paths, drives.outcome)
+    episodes = navigate(policy, worlds, 2.5, 200, record_paths=True)
+    same(node, worlds, page_policy(policy), 2.5, 200, episodes.paths, episodes.outcome)
 
 
 def same(node, worlds, packed, speed, steps, paths, outcomes):
     """The page drives these paths, pose by pose."""
     shown = worlds if isinstance(worlds, list) else [page_world(w) for w in worlds]
-    drives = node(
+    episodes = node(
         "simulator",
         DRIVE,
         {"worlds": shown, "policy": packed, "speed": speed, "steps": steps},
     )
-    assert drives["outcomes"] == [
+    assert episodes["outcomes"] == [
         end.replace("out of steps", "running") for end in outcomes
     ]
-    assert drives["lengths"] == [len(path) for path in paths]
-    driven = np.frombuffer(base64.b64decode(drives["poses"])).reshape(-1, 3)
+    assert episodes["lengths"] == [len(path) for path in paths]
+    driven = np.frombuffer(base64.b64decode(episodes["poses"])).reshape(-1, 3)
     np.testing.assert_allclose(driven, np.concatenate(paths), rtol=0, atol=1e-9)
 
 
@@ -130,7 +130,7 @@ class Seeded:
         )
 
     def drive(self):
-        """The paths and outcomes of all drives."""
+        """The paths and outcomes of all episodes."""
         simulator = self.simulator
         n = len(simulator)
         poses, ended = [simulator.poses.copy()], np.zeros(n, dtype=int)
@@ -193,8 +193,8 @@ def test_shipped_policies_drive_a_thousand_worlds_in_the_page_as_in_python(
     if policy.temperature > 0:
         paths, outcomes = Seeded(policy, worlds, 2.0, 100).drive()
     else:
-        drives = navigate(policy, worlds, 2.0, 100, record_paths=True)
-        paths, outcomes = drives.paths, drives.outcome
+        episodes = navigate(policy, worlds, 2.0, 100, record_paths=True)
+        paths, outcomes = episodes.paths, episodes.outcome
     same(node, shown, page_policy(policy), 2.0, 100, paths, outcomes)
 
 
