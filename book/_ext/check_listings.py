@@ -3,7 +3,7 @@
 A listing of the package's code has at most 40 lines of at most 88 columns. It shows no imports, no input checks and no
 warnings. Each numbered equation of a page is followed, on that page, by a listing whose comments carry its number.
 Equations that only introduce a symbol (``symbols.toml``) need no listing. A code cell of the page that is not folded
-has at most 88 columns.
+has at most 88 columns, and so has an exercise's file.
 """
 
 from __future__ import annotations
@@ -37,6 +37,17 @@ def wide_cells(html: str) -> Iterator[str]:
                 for line in code.get_text().splitlines():
                     if len(line) > citations.MOST_COLUMNS:
                         yield f"code cell {number} has {len(line)} columns: {line}"
+
+
+def wide_stubs(html: str) -> Iterator[str]:
+    """Yield one sentence for each line of an exercise's file that is too wide. Imports may be shown there."""
+    soup = BeautifulSoup(html, "html.parser")
+    for caption in soup.select("div.literal-block-wrapper > div.code-block-caption"):
+        name = caption.select_one("span.caption-text").get_text()
+        if name.startswith("exercises/"):
+            for line in caption.parent.select_one("pre").get_text().splitlines():
+                if len(line) > citations.MOST_COLUMNS:
+                    yield f"{name} has {len(line)} columns: {line}"
 
 
 def faults(html: str) -> Iterator[str]:
@@ -74,6 +85,10 @@ def _number(anchor: str) -> str | None:
     return thesis_number(re.sub(r"-(\d+)$", r".\1", label))
 
 
+def _all_faults(html: str) -> list[str]:
+    return [*faults(html), *wide_cells(html), *wide_stubs(html)]
+
+
 def main() -> None:
     """Print the faults of the named pages, or of all pages. Exit with 1 if there are any."""
     names = sys.argv[1:] or pages(
@@ -82,7 +97,7 @@ def main() -> None:
     found = []
     for name in names:
         html = (SITE / f"{name}.html").read_text("utf-8")
-        found += [f"{name}: {fault}" for fault in (*faults(html), *wide_cells(html))]
+        found += [f"{name}: {fault}" for fault in _all_faults(html)]
     print("\n".join(found))
     sys.exit(bool(found))
 

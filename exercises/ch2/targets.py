@@ -1,10 +1,12 @@
-# Exercise 2.5: Three targets for the same step. 5 points, exercise, about 20 minutes.
+# Exercise 2.5: Three targets for the same step.
+# 5 points, exercise, about 20 minutes.
 # Check it with: robonav check 2.5
-"""Q-learning, SARSA and expected SARSA differ only in the value that they use for the next state. Compute the three
-targets $r + \\gamma \\cdot (\\text{value of } s')$ for a batch of recorded steps. After the last step of an episode
-this value is 0. Expected SARSA uses the mean over the $\\varepsilon$-greedy policy. With probability $\\varepsilon$
-this policy takes any of the $A$ actions, each with the same probability. Otherwise it takes a best action, and each
-best action with the same probability.
+"""Q-learning, SARSA and expected SARSA differ only in the value that they use for the
+next state. Compute the three targets $r + \\gamma \\cdot (\\text{value of } s')$ for a
+batch of recorded steps. After the last step of an episode this value is 0. Expected
+SARSA uses the mean over the $\\varepsilon$-greedy policy. With probability
+$\\varepsilon$ this policy takes any of the $A$ actions, each with the same probability.
+Otherwise it takes a best action, and each best action with the same probability.
 """
 
 import numpy as np
@@ -26,12 +28,14 @@ def targets(
     ----------
     q : (S, A), current action values.
     rewards : (N,), reward of each step.
-    next_states, next_actions : (N,), the next state of each step, and the action taken there.
+    next_states, next_actions : (N,), the next state of each step, and the action taken
+        there.
     terminated : (N,), whether the episode ended with the step.
     discount, epsilon : discount factor and exploration, both in [0, 1].
 
     Returns
     -------
-    (3, N), the targets of Q-learning in the first row, of SARSA in the second, of expected SARSA in the third.
+    (3, N), the targets of Q-learning in the first row, of SARSA in the second, of
+    expected SARSA in the third.
     """
     raise NotImplementedError("targets is yours to write")

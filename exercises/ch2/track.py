@@ -1,9 +1,11 @@
-# Exercise 2.4: A belief with missing and wrong readings. 6 points, exercise, about 30 minutes.
+# Exercise 2.4: A belief with missing and wrong readings.
+# 6 points, exercise, about 30 minutes.
 # Check it with: robonav check 2.4
-"""A robot's sensor sometimes gives no reading, and sometimes a wrong one. Compute the belief over a whole episode. In
-each step the robot moves, and then reads its sensor. A reading of $-1$ means that there is none: the belief is then the
-prediction from the move. If a reading has probability zero in all states that the belief allows, Bayes' rule would
-divide by zero. Such a reading is wrong: ignore it.
+"""A robot's sensor sometimes gives no reading, and sometimes a wrong one. Compute the
+belief over a whole episode. In each step the robot moves, and then reads its sensor. A
+reading of $-1$ means that there is none: the belief is then the prediction from the
+move. If a reading has probability zero in all states that the belief allows, Bayes'
+rule would divide by zero. Such a reading is wrong: ignore it.
 """
 
 import numpy as np

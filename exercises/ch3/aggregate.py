@@ -1,10 +1,13 @@
-# Exercise 3.6: Dataset aggregation with limited memory. 6 points, exercise, about 30 minutes.
+# Exercise 3.6: Dataset aggregation with limited memory.
+# 6 points, exercise, about 30 minutes.
 # Check it with: robonav check 3.6
-"""In DAgger the learner acts, the expert labels the states that the learner visits, and the learner is trained on all
-data aggregated so far. Write the aggregation for a robot with limited memory. Three rules apply. The expert does not
-label every state: a label of $-1$ means that there is none, and such a state is not added. If a state is visited that
-is in the data already, its newest label replaces the older one, and the pair counts as the newest. If there are more
-pairs than fit into the memory, the oldest are removed.
+"""In DAgger the learner acts, the expert labels the states that the learner visits, and
+the learner is trained on all data aggregated so far. Write the aggregation for a robot
+with limited memory. Three rules apply. The expert does not label every state: a label
+of $-1$ means that there is none, and such a state is not added. If a state is visited
+that is in the data already, its newest label replaces the older one, and the pair
+counts as the newest. If there are more pairs than fit into the memory, the oldest are
+removed.
 """
 
 import numpy as np
@@ -24,7 +27,8 @@ def aggregate(
     ----------
     states : (N, k), the states in the data, oldest first, all different.
     labels : (N,), the expert's action in each of them.
-    visited : (M, k), the states that the learner visited, in order; a state may occur more than once.
+    visited : (M, k), the states that the learner visited, in order; a state may occur
+        more than once.
     advice : (M,), the expert's label for each of them: an action, or -1 for none.
     capacity : the largest number of pairs to keep, at least 1.
 

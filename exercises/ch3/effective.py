@@ -1,9 +1,12 @@
-# Exercise 3.5: Effective pairs without repetitions. 3 points, warm-up, about 15 minutes.
+# Exercise 3.5: Effective pairs without repetitions.
+# 3 points, warm-up, about 15 minutes.
 # Check it with: robonav check 3.5
-"""In most steps of a demonstration nothing is in range, and the robot goes to its target by reflex. The chapter keeps
-only the *effective* pairs, those in which a sensor detects something. Here, repetitions are removed as well. A robot
-that follows a wall, for example, has the same state and action many times in a row. First select the effective pairs.
-Then, of several effective pairs in a row with equal state and action, keep only the first.
+"""In most steps of a demonstration nothing is in range, and the robot goes to its
+target by reflex. The chapter keeps only the *effective* pairs, those in which a sensor
+detects something. Here, repetitions are removed as well. A robot that follows a wall,
+for example, has the same state and action many times in a row. First select the
+effective pairs. Then, of several effective pairs in a row with equal state and action,
+keep only the first.
 """
 
 import numpy as np
@@ -18,7 +21,8 @@ def effective(
 
     Parameters
     ----------
-    states : (T, 11), states of one demonstration as in Eq. (3.17): nine degrees of danger, then region and target seen.
+    states : (T, 11), states of one demonstration as in Eq. (3.17): nine degrees of
+        danger, then region and target seen.
     actions : (T,), the action taken in each state.
 
     Returns

@@ -1,14 +1,17 @@
-# Exercise 3.3: Backpropagation with a softmax. 8 points, exercise, about 60 minutes.
+# Exercise 3.3: Backpropagation with a softmax.
+# 8 points, exercise, about 60 minutes.
 # Check it with: robonav check 3.3
-"""Write backpropagation through the network of exercise 3.1. It has one or more hidden layers with the hyperbolic
-tangent and a softmax in the last layer. Its cost is the mean cross-entropy with weight decay on all weights but the
-biases,
+"""Write backpropagation through the network of exercise 3.1. It has one or more hidden
+layers with the hyperbolic tangent and a softmax in the last layer. Its cost is the mean
+cross-entropy with weight decay on all weights but the biases,
 
-$$J = -\\frac{1}{m} \\sum_{i=1}^{m} \\log p_{y_i}(x_i) + \\frac{\\lambda}{2 m} \\sum_l \\lVert W^{(l)} \\rVert^2.$$
+$$J = -\\frac{1}{m} \\sum_{i=1}^{m} \\log p_{y_i}(x_i)
++ \\frac{\\lambda}{2 m} \\sum_l \\lVert W^{(l)} \\rVert^2.$$
 
-Two things differ from the chapter. The derivative of a hidden unit is $1 - h^2$. And the weight decay has the factor
-$\\lambda / m$ that follows from the cost, where the thesis's Eq. (3.27) has $\\lambda$. You can check your answer:
-change one weight a little, and compare the change of the cost with your derivative.
+Two things differ from the chapter. The derivative of a hidden unit is $1 - h^2$. And
+the weight decay has the factor $\\lambda / m$ that follows from the cost, where the
+thesis's Eq. (3.27) has $\\lambda$. You can check your answer: change one weight a
+little, and compare the change of the cost with your derivative.
 """
 
 import numpy as np
@@ -25,7 +28,8 @@ def gradients(
 
     Parameters
     ----------
-    weights : one array for each layer, (units, units before + 1), with the bias in column 0; two layers or more.
+    weights : one array for each layer, (units, units before + 1), with the bias in
+        column 0; two layers or more.
     inputs : (M, n), one state in each row, without the bias unit.
     labels : (M,), the index of the correct output for each state.
     decay : lambda in the cost, at least 0.

@@ -1,8 +1,11 @@
-# Exercise 4.1: A numerically stable Boltzmann policy. 5 points, exercise, about 25 minutes.
+# Exercise 4.1: A numerically stable Boltzmann policy.
+# 5 points, exercise, about 25 minutes.
 # Check it with: robonav check 4.1
-"""Extend the softmax policy of Eq. (4.7). Some actions may not be allowed, and have probability zero. The temperature
-falls over time, differently for each robot, and in the end it is exactly zero. Eq. (4.8) then divides the probability
-equally among the best allowed actions. Q-values in the thousands at a temperature of a thousandth must not overflow.
+"""Extend the softmax policy of Eq. (4.7). Some actions may not be allowed, and have
+probability zero. The temperature falls over time, differently for each robot, and in
+the end it is exactly zero. Eq. (4.8) then divides the probability equally among the
+best allowed actions. Q-values in the thousands at a temperature of a thousandth must
+not overflow.
 """
 
 import numpy as np

@@ -1,11 +1,14 @@
-# Exercise 4.3: Q-values on a network's scale. 5 points, exercise, about 30 minutes.
+# Exercise 4.3: Q-values on a network's scale.
+# 5 points, exercise, about 30 minutes.
 # Check it with: robonav check 4.3
-"""A network with sigmoid outputs has values between 0 and 1, and Q-values can be larger or smaller. The chapter clips
-them, or shifts and divides each row. There is a third method. If rewards lie between $r_{min}$ and $r_{max}$, every
-Q-value lies in $[r_{min}, r_{max}] / (1 - \\gamma)$. Interpret the network's outputs as values on this scale, from 0
-for the smallest to 1 for the largest. Make the Q-learning step of Eq. (4.9) on the scale of the Q-values, for the
-action taken alone, and return the targets on the network's scale. Clip targets that lie outside because a reward was
-out of its bounds.
+"""A network with sigmoid outputs has values between 0 and 1, and Q-values can be larger
+or smaller. The chapter clips them, or shifts and divides each row. There is a third
+method. If rewards lie between $r_{min}$ and $r_{max}$, every Q-value lies in
+$[r_{min}, r_{max}] / (1 - \\gamma)$. Interpret the network's outputs as values on this
+scale, from 0 for the smallest to 1 for the largest. Make the Q-learning step of Eq.
+(4.9) on the scale of the Q-values, for the action taken alone, and return the targets
+on the network's scale. Clip targets that lie outside because a reward was out of its
+bounds.
 """
 
 import numpy as np
@@ -26,9 +29,11 @@ def rescaled(
 
     Parameters
     ----------
-    outputs, next_outputs : (N, A), the network's answers in [0, 1] before and after each step.
+    outputs, next_outputs : (N, A), the network's answers in [0, 1] before and after
+        each step.
     actions, rewards : (N,), action and reward of each step.
-    ended : (N,), whether the episode ended with it: the Q-value of the next state is then exactly 0.
+    ended : (N,), whether the episode ended with it: the Q-value of the next state is
+        then exactly 0.
     bounds : the least and the greatest reward.
     discount : discount factor in [0, 1).
     learning_rate : learning rate of Q-learning in [0, 1].

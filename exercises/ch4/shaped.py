@@ -1,10 +1,13 @@
-# Exercise 4.2: Reward shaping with a potential. 4 points, warm-up, about 15 minutes.
+# Exercise 4.2: Reward shaping with a potential.
+# 4 points, warm-up, about 15 minutes.
 # Check it with: robonav check 4.2
-"""A reward like the chapter's can be exploited: if every step away from an obstacle is rewarded, a robot may go to and
-fro in front of it. Ng, Harada and Russell (1999) found the additional rewards that leave the optimal policy unchanged.
-Give every state a potential $\\Phi(s)$, and add $\\gamma \\Phi(s') - \\Phi(s)$ to the reward of each step. The
-potential after the last step counts as zero. Over a whole episode the additions cancel except for that of the first
-state, so the optimal policy remains optimal. Shape the rewards of an episode.
+"""A reward like the chapter's can be exploited: if every step away from an obstacle is
+rewarded, a robot may go to and fro in front of it. Ng, Harada and Russell (1999) found
+the additional rewards that leave the optimal policy unchanged. Give every state a
+potential $\\Phi(s)$, and add $\\gamma \\Phi(s') - \\Phi(s)$ to the reward of each step.
+The potential after the last step counts as zero. Over a whole episode the additions
+cancel except for that of the first state, so the optimal policy remains optimal. Shape
+the rewards of an episode.
 """
 
 import numpy as np
@@ -23,7 +26,8 @@ def shaped(
     ----------
     rewards : (T,), reward of each step.
     potentials : (T + 1,), potential of the state before each step, and after the last.
-    ended : whether the episode ended with the last step; if it was only cut off, the last state keeps its potential.
+    ended : whether the episode ended with the last step; if it was only cut off, the
+        last state keeps its potential.
     discount : discount factor in [0, 1].
 
     Returns

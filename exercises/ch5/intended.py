@@ -1,10 +1,12 @@
-# Exercise 5.2: What the expert meant. 5 points, exercise, about 30 minutes.
+# Exercise 5.2: What the expert meant.
+# 5 points, exercise, about 30 minutes.
 # Check it with: robonav check 5.2
-"""On a slippery road the expert's actions are not always the intended ones. The chapter's Eq. (5.12) takes the most
-frequent action in a state. If the probabilities of slips are known, there is a better estimate. From
-$P(\\text{done} \\mid \\text{meant})$ and a prior over the intended actions, find for each state the intended action
-that is most probable, given all actions done there. A state may occur a thousand times: the product of a thousand
-probabilities is zero in floating-point arithmetic.
+"""On a slippery road the expert's actions are not always the intended ones. The
+chapter's Eq. (5.12) takes the most frequent action in a state. If the probabilities of
+slips are known, there is a better estimate. From $P(\\text{done} \\mid \\text{meant})$
+and a prior over the intended actions, find for each state the intended action that is
+most probable, given all actions done there. A state may occur a thousand times: the
+product of a thousand probabilities is zero in floating-point arithmetic.
 """
 
 import numpy as np
@@ -23,13 +25,14 @@ def intended(
     Parameters
     ----------
     states, done : (N,), state and action of each step that was recorded.
-    slip : (A, A), probability that an action (column) is done when one (row) was meant; may hold zeros.
+    slip : (A, A), probability that an action (column) is done when one (row) was meant;
+        may hold zeros.
     prior : (A,), probability that the expert means each action; may hold zeros.
     size : number of states S.
 
     Returns
     -------
-    (S,), the action most likely meant, the lowest index among equals, and -1 for a state that was never seen. What was
-    done in a state could always have been meant.
+    (S,), the action most likely meant, the lowest index among equals, and -1 for a
+    state that was never seen. What was done in a state could always have been meant.
     """
     raise NotImplementedError("intended is yours to write")

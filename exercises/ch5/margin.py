@@ -1,12 +1,15 @@
-# Exercise 5.4: Max margin as a game. 10 points, project, about 120 minutes.
+# Exercise 5.4: Max margin as a game.
+# 10 points, project, about 120 minutes.
 # Check it with: robonav check 5.4
-"""A larger project: maximum margin with weights that are easy to interpret. Among all rewards $r = \\theta \\cdot
-f$ whose weights are not negative and sum to one, find one with the largest margin between the expert and the
-policies found so far: the $\\theta$ for which the smallest $\\theta \\cdot (\\mu_E - \\mu_j)$ over the policies $j$
-is largest. This is a game of two players, in which one chooses the weights and the other a policy. It can be solved
-by an algorithm in which both players learn, such as multiplicative weights, or by a linear program that you write
-yourself. There may be several best $\\theta$; any of them is correct. The margin may be smaller than the best one
-by a hundredth of the largest absolute number in the differences.
+"""A larger project: maximum margin with weights that are easy to interpret. Among all
+rewards $r = \\theta \\cdot f$ whose weights are not negative and sum to one, find one
+with the largest margin between the expert and the policies found so far: the $\\theta$
+for which the smallest $\\theta \\cdot (\\mu_E - \\mu_j)$ over the policies $j$ is
+largest. This is a game of two players, in which one chooses the weights and the other a
+policy. It can be solved by an algorithm in which both players learn, such as
+multiplicative weights, or by a linear program that you write yourself. There may be
+several best $\\theta$; any of them is correct. The margin may be smaller than the best
+one by a hundredth of the largest absolute number in the differences.
 """
 
 import numpy as np

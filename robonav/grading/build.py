@@ -170,8 +170,9 @@ def _generated(course: Course) -> Iterator[Path]:
 
 def _heading(exercise: Exercise) -> str:
     return (
-        f"# Exercise {exercise.id}: {exercise.title}. {exercise.points} points, {exercise.difficulty}, "
-        f"about {exercise.minutes} minutes.\n# Check it with: robonav check {exercise.id}"
+        f"# Exercise {exercise.id}: {exercise.title}.\n"
+        f"# {exercise.points} points, {exercise.difficulty}, about {exercise.minutes} minutes.\n"
+        f"# Check it with: robonav check {exercise.id}"
     )
 
 

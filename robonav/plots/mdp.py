@@ -147,14 +147,14 @@ def _draw_arrows(
     axes: Axes, grid: GridWorld, policy: NDArray, *, up: float, ink: str
 ) -> None:
     """Draw an arrow for each action that the policy takes, starting ``up`` from the upper edge of its cell."""
-    chances = policy if policy.ndim == 2 else np.eye(len(STEPS))[policy]
+    probabilities = policy if policy.ndim == 2 else np.eye(len(STEPS))[policy]
     for state in np.flatnonzero(~grid.terminal):
         row, column = grid.cells[state]
-        sure = chances[state].max() > 0.99
-        for (down, right), chance in zip(STEPS, chances[state], strict=True):
-            if chance < 0.01:
+        sure = probabilities[state].max() > 0.99
+        for (down, right), probability in zip(STEPS, probabilities[state], strict=True):
+            if probability < 0.01:
                 continue
-            reach = 0.24 if sure else 0.08 + 0.2 * chance
+            reach = 0.24 if sure else 0.08 + 0.2 * probability
             tail = 0.24 if sure else 0.0
             axes.add_patch(
                 FancyArrowPatch(

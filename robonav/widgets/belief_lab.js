@@ -41,7 +41,7 @@ function render({ model, el }) {
     drawing.show(now, reveal.checked ? now.place : null);
     undo.disabled = history.length === 1;
     const best = largest(now.belief);
-    const seen = pomdp.kinds === 1 ? "sensed nothing, as always" : `saw a ${["wall", "door"][now.observation]} (chance ${(100 * now.probability).toFixed(1)} %)`;
+    const seen = pomdp.kinds === 1 ? "sensed nothing, as always" : `saw a ${["wall", "door"][now.observation]} (probability ${(100 * now.probability).toFixed(1)} %)`;
     const what = history.length === 1
       ? "Step 0: the robot knows the plan, not its place."
       : `Step ${history.length - 1}: the robot ${SAID[now.action]} and ${seen}.`;

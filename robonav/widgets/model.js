@@ -1,24 +1,24 @@
 // A small decision process in the page, and the sums over it that planners make.
 
 /**
- * @typedef {{states: number, actions: number, chances: (state: number, action: number) => number[][], reward: (state: number, action: number) => number}} Model
- *   chances: the states that may follow, each with its probability
+ * @typedef {{states: number, actions: number, probabilities: (state: number, action: number) => number[][], reward: (state: number, action: number) => number}} Model
+ *   probabilities: the states that may follow, each with its probability
  */
 
 /** The model as Python's `page_model` packs it. @returns {Model} */
 export function modelOf({ transitions, rewards }) {
   const [{ shape: [actions, states], values }, { values: means }] = [unpack(transitions), unpack(rewards)];
-  const chances = Array.from({ length: actions }, (_, a) =>
+  const probabilities = Array.from({ length: actions }, (_, a) =>
     Array.from({ length: states }, (__, s) => {
       const row = values.subarray((a * states + s) * states, (a * states + s + 1) * states);
       return [...row].map((p, next) => [next, p]).filter(([, p]) => p > 0);
     }));
-  return { states, actions, chances: (s, a) => chances[a][s], reward: (s, a) => means[s * actions + a] };
+  return { states, actions, probabilities: (s, a) => probabilities[a][s], reward: (s, a) => means[s * actions + a] };
 }
 
 /** Eq. (2.15): the mean reward, and the discounted mean of the values that may follow. @param {Model} model */
 export const actionValue = (model, discount, values, s, a) =>
-  model.reward(s, a) + discount * model.chances(s, a).reduce((sum, [next, p]) => sum + p * values[next], 0);
+  model.reward(s, a) + discount * model.probabilities(s, a).reduce((sum, [next, p]) => sum + p * values[next], 0);
 
 /** The values of all actions in a state. @param {Model} model */
 export const actionValues = (model, discount, values, s) =>

@@ -1,6 +1,7 @@
-"""A robot plans until its battery is empty. Every action uses a whole number of units of charge, at least one. An
-action that needs more units than are left is not possible, and the episode ends when no action is possible. Rewards
-are not discounted. The horizon is finite, but the charge counts down instead of the time. Compute the largest expected
+"""A robot plans until its battery is empty. Every action uses a whole number of units
+of charge, at least one. An action that needs more units than are left is not possible,
+and the episode ends when no action is possible. Rewards are not discounted. The horizon
+is finite, but the charge counts down instead of the time. Compute the largest expected
 sum of rewards from every state with every charge.
 """
 
@@ -32,6 +33,12 @@ def battery(
     for left in range(1, charge + 1):
         possible = [a for a, cost in enumerate(costs) if cost <= left]
         if possible:
-            values[left] = np.max([rewards[:, a] + transitions[a] @ values[left - costs[a]] for a in possible], axis=0)
+            values[left] = np.max(
+                [
+                    rewards[:, a] + transitions[a] @ values[left - costs[a]]
+                    for a in possible
+                ],
+                axis=0,
+            )
     return values
     ### END SOLUTION

@@ -1,8 +1,10 @@
-"""In the chapter value iteration stops when the largest change of a value is small. MacQueen (1966) used the smallest
-change as well. If one sweep changes every value by at least $m$ and at most $M$, then all later sweeps together change
-them by at least $\\frac{\\gamma}{1 - \\gamma} m$ and at most $\\frac{\\gamma}{1 - \\gamma} M$. Write a function
-that computes a lower and an upper bound on the optimal values from two successive value tables. If all values change
-by nearly the same amount, the bounds are close to each other long before the values have converged.
+"""In the chapter value iteration stops when the largest change of a value is small.
+MacQueen (1966) used the smallest change as well. If one sweep changes every value by at
+least $m$ and at most $M$, then all later sweeps together change them by at least
+$\\frac{\\gamma}{1 - \\gamma} m$ and at most $\\frac{\\gamma}{1 - \\gamma} M$. Write a
+function that computes a lower and an upper bound on the optimal values from two
+successive value tables. If all values change by nearly the same amount, the bounds are
+close to each other long before the values have converged.
 """
 
 import numpy as np

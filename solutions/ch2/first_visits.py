@@ -1,7 +1,8 @@
-"""Monte Carlo prediction averages the returns after visits to a state. First-visit prediction uses only the first visit
-in each episode. These returns come from different episodes, so they are independent, and their mean is unbiased. Write
-first-visit prediction from recorded episodes. Also return for each state the number of episodes that visited it. The
-value of a state that no episode visited is zero.
+"""Monte Carlo prediction averages the returns after visits to a state. First-visit
+prediction uses only the first visit in each episode. These returns come from different
+episodes, so they are independent, and their mean is unbiased. Write first-visit
+prediction from recorded episodes. Also return for each state the number of episodes
+that visited it. The value of a state that no episode visited is zero.
 """
 
 import numpy as np
@@ -15,14 +16,16 @@ def first_visits(
 
     Parameters
     ----------
-    states : for each episode its states in order, without the last one, in which no action was taken.
+    states : for each episode its states in order, without the last one, in which no
+        action was taken.
     rewards : for each episode the reward of the step from each of these states.
     discount : discount factor in [0, 1].
     size : number of states S.
 
     Returns
     -------
-    (S,) mean discounted return from the first visit on, and (S,) number of episodes that visited the state.
+    (S,) mean discounted return from the first visit on, and (S,) number of episodes
+    that visited the state.
     """
     ### BEGIN SOLUTION
     total, count = np.zeros(size), np.zeros(size, dtype=np.int64)
@@ -30,7 +33,9 @@ def first_visits(
         following, first = 0.0, {}
         for state, reward in zip(reversed(visited), reversed(earned)):
             following = reward + discount * following
-            first[state] = following  # going backward, the last one written is the first visit
+            first[state] = (
+                following  # going backward, the last one written is the first visit
+            )
         for state, value in first.items():
             total[state] += value
             count[state] += 1

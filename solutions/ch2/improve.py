@@ -1,7 +1,8 @@
-"""If two actions are equally good, policy improvement that takes any best action may exchange them in every sweep. The
-policy then never stays the same, and policy iteration never stops. Write an improvement step that keeps the current
-action unless another one is better by *more than* a tolerance. Where it changes the action, it takes the best one, and
-the one with the lowest index if several are best.
+"""If two actions are equally good, policy improvement that takes any best action may
+exchange them in every sweep. The policy then never stays the same, and policy iteration
+never stops. Write an improvement step that keeps the current action unless another one
+is better by *more than* a tolerance. Where it changes the action, it takes the best
+one, and the one with the lowest index if several are best.
 """
 
 import numpy as np
@@ -19,7 +20,8 @@ def improve(
     ----------
     q : (S, A), value of each action in each state.
     policy : (S,), the current action in each state.
-    tolerance : the gain that an action must exceed to replace the current one; at least 0.
+    tolerance : the gain that an action must exceed to replace the current one; at least
+        0.
 
     Returns
     -------

@@ -1,8 +1,10 @@
-"""After each step the chapter's NNQL trains on all pairs of the episode so far, with the targets computed when each
-pair was new (Algorithm 8). Follow one recorded episode with a learner that is simple enough to check by hand. It
-is linear, $Q(s, a) = w_a \\cdot \\phi(s)$, with initial weights of zero. After each step compute the target of the new
-pair: the reward plus the discounted largest value of the next state under the present weights. Then go once through
-all pairs so far, oldest first, and change each pair's $w_a$ by
+"""After each step the chapter's NNQL trains on all pairs of the episode so far, with
+the targets computed when each pair was new (Algorithm 8). Follow one recorded episode
+with a learner that is simple enough to check by hand. It is linear,
+$Q(s, a) = w_a \\cdot \\phi(s)$, with initial weights of zero. After each step compute
+the target of the new pair: the reward plus the discounted largest value of the next
+state under the present weights. Then go once through all pairs so far, oldest first,
+and change each pair's $w_a$ by
 $\\sigma \\, (\\text{target} - w_a \\cdot \\phi(s)) \\, \\phi(s)$.
 """
 
@@ -23,7 +25,8 @@ def accumulated(
 
     Parameters
     ----------
-    features : (T + 1, k), features of each state before a step, and of the one after the last.
+    features : (T + 1, k), features of each state before a step, and of the one after
+        the last.
     actions, rewards : (T,), action and reward of each step.
     ended : whether nothing follows the last step.
     number : of actions A.
@@ -39,7 +42,9 @@ def accumulated(
     targets: list[float] = []
     for t, reward in enumerate(rewards):
         last = ended and t == len(rewards) - 1
-        targets.append(reward + (0.0 if last else discount * (weights @ features[t + 1]).max()))
+        targets.append(
+            reward + (0.0 if last else discount * (weights @ features[t + 1]).max())
+        )
         for target, action, phi in zip(targets, actions, features):
             weights[action] += gradient_step * (target - weights[action] @ phi) * phi
     return weights

@@ -1,8 +1,10 @@
-"""A learning curve from one seed proves little. Compute the curve of Figure 4.6 from many seeds, with its band. Count
-each seed's successes in every block of a given number of episodes. Then compute the mean over the seeds, and a 95 %
-interval of this mean by the bootstrap. You are given which seeds to draw for each resample. Draw *seeds*, not episodes,
-because the episodes of one seed depend on each other. The interval ends at the 2.5th and the 97.5th percentile of the
-resamples' means, as `numpy.percentile` computes them.
+"""A learning curve from one seed proves little. Compute the curve of Figure 4.6 from
+many seeds, with its band. Count each seed's successes in every block of a given number
+of episodes. Then compute the mean over the seeds, and a 95 % interval of this mean by
+the bootstrap. You are given which seeds to draw for each resample. Draw *seeds*, not
+episodes, because the episodes of one seed depend on each other. The interval ends at
+the 2.5th and the 97.5th percentile of the resamples' means, as `numpy.percentile`
+computes them.
 """
 
 import numpy as np
@@ -28,7 +30,11 @@ def band(
     """
     ### BEGIN SOLUTION
     blocks = successes.shape[1] // block
-    counts = successes[:, : blocks * block].reshape(len(successes), blocks, block).sum(axis=2)
+    counts = (
+        successes[:, : blocks * block]
+        .reshape(len(successes), blocks, block)
+        .sum(axis=2)
+    )
     resampled = counts[draws].mean(axis=1)
     return counts.mean(axis=0), np.percentile(resampled, [2.5, 97.5], axis=0)
     ### END SOLUTION

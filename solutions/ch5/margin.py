@@ -1,10 +1,12 @@
-"""A larger project: maximum margin with weights that are easy to interpret. Among all rewards $r = \\theta \\cdot
-f$ whose weights are not negative and sum to one, find one with the largest margin between the expert and the
-policies found so far: the $\\theta$ for which the smallest $\\theta \\cdot (\\mu_E - \\mu_j)$ over the policies $j$
-is largest. This is a game of two players, in which one chooses the weights and the other a policy. It can be solved
-by an algorithm in which both players learn, such as multiplicative weights, or by a linear program that you write
-yourself. There may be several best $\\theta$; any of them is correct. The margin may be smaller than the best one
-by a hundredth of the largest absolute number in the differences.
+"""A larger project: maximum margin with weights that are easy to interpret. Among all
+rewards $r = \\theta \\cdot f$ whose weights are not negative and sum to one, find one
+with the largest margin between the expert and the policies found so far: the $\\theta$
+for which the smallest $\\theta \\cdot (\\mu_E - \\mu_j)$ over the policies $j$ is
+largest. This is a game of two players, in which one chooses the weights and the other a
+policy. It can be solved by an algorithm in which both players learn, such as
+multiplicative weights, or by a linear program that you write yourself. There may be
+several best $\\theta$; any of them is correct. The margin may be smaller than the best
+one by a hundredth of the largest absolute number in the differences.
 """
 
 import numpy as np
@@ -35,7 +37,8 @@ def margin(
     for _ in range(1500):
         gain, loss = against @ payoff, payoff @ theta
         gains, losses, total = gains + gain, losses + loss, total + theta
-        # The last round counts twice, as a guess at the next: with it the mean comes near the solution much sooner.
+        # The last round counts twice, as a guess at the next: with it the mean comes
+        # near the solution much sooner.
         theta = np.exp(0.5 * (gains + gain - (gains + gain).max()))
         theta /= theta.sum()
         against = np.exp(-0.5 * (losses + loss - (losses + loss).min()))

@@ -21,7 +21,7 @@ PLANS = {
 }
 ACTIONS = {"← Left": 0, "Right →": 1, "Stay and sense": 2}
 STATUS = re.compile(
-    r"saw a (?P<seen>wall|door) \(chance (?P<chance>[\d.]+) %\)|sensed nothing|knows the plan",
+    r"saw a (?P<seen>wall|door) \(probability (?P<probability>[\d.]+) %\)|sensed nothing|knows the plan",
     re.DOTALL,
 )
 KNOWN = re.compile(
@@ -109,8 +109,12 @@ def test_every_click_is_believed_as_python_would(
         seen = STATUS.search(status(lab, step))
         assert seen is not None
         observation = ["wall", "door"].index(seen["seen"])
-        chance = pomdp.observation_probabilities(belief, ACTIONS[button])[observation]
-        assert float(seen["chance"]) == pytest.approx(100 * chance, abs=0.0501)
+        probability = pomdp.observation_probabilities(belief, ACTIONS[button])[
+            observation
+        ]
+        assert float(seen["probability"]) == pytest.approx(
+            100 * probability, abs=0.0501
+        )
         belief = pomdp.update(belief, ACTIONS[button], observation)
         assert_same(lab, step, belief)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from check_listings import faults, wide_cells
+from check_listings import faults, wide_cells, wide_stubs
 
 
 def test_listings_of_page(page_name: str, site: Path) -> None:
@@ -14,6 +14,10 @@ def test_listings_of_page(page_name: str, site: Path) -> None:
 
 def test_code_cells_of_page(page_name: str, site: Path) -> None:
     assert list(wide_cells((site / f"{page_name}.html").read_text("utf-8"))) == []
+
+
+def test_exercises_of_page(page_name: str, site: Path) -> None:
+    assert list(wide_stubs((site / f"{page_name}.html").read_text("utf-8"))) == []
 
 
 def equation(number: str) -> str:
@@ -93,3 +97,17 @@ def test_wide_code_cell() -> None:
 @pytest.mark.parametrize("page", [cell("x" * 88), folded("x" * 89)])
 def test_code_cell_without_fault(page: str) -> None:
     assert list(wide_cells(page)) == []
+
+
+def stub(code: str) -> str:
+    return (
+        '<div class="literal-block-wrapper"><div class="code-block-caption">'
+        '<span class="caption-text">exercises/ch2/f.py</span></div>'
+        f'<div class="highlight-python"><pre>{code}</pre></div></div>'
+    )
+
+
+def test_wide_stub() -> None:
+    page = stub("import numpy\n" + "y" * 88) + stub("y" * 89)
+    found = f"exercises/ch2/f.py has 89 columns: {'y' * 89}"
+    assert list(wide_stubs(page)) == [found]

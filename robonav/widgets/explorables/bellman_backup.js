@@ -2,7 +2,7 @@
 
 /** The sum of an action value, as it is worked out by hand. */
 function written(model, discount, values, s, a) {
-  const terms = model.chances(s, a).map(([next, p]) => `${number(p, 1)} · ${number(values[next])}`);
+  const terms = model.probabilities(s, a).map(([next, p]) => `${number(p, 1)} · ${number(values[next])}`);
   return `${WORDS[a]}: ${number(model.reward(s, a))} + ${discount} (${terms.join(" + ")}) = ${number(actionValue(model, discount, values, s, a))}`;
 }
 

@@ -9,5 +9,7 @@ def backup(transitions, rewards, discount, values, terminal):
             for t in range(states):
                 if not terminal[s]:
                     value = 0.0 if terminal[t] else values[t]
-                    q[s][a] += transitions[a, s, t] * (rewards[a, s, t] + discount * value)
+                    q[s][a] += transitions[a, s, t] * (
+                        rewards[a, s, t] + discount * value
+                    )
     return q

@@ -11,9 +11,14 @@ def battery(transitions, rewards, costs, charge):
         best = None
         for a in range(actions):
             if costs[a] <= left:
-                following = sum(transitions[a, state, t] * value(left - int(costs[a]), t) for t in range(states))
+                following = sum(
+                    transitions[a, state, t] * value(left - int(costs[a]), t)
+                    for t in range(states)
+                )
                 q = rewards[state, a] + following
                 best = q if best is None else max(best, q)
         return 0.0 if best is None else best
 
-    return [[value(left, state) for state in range(states)] for left in range(charge + 1)]
+    return [
+        [value(left, state) for state in range(states)] for left in range(charge + 1)
+    ]

@@ -14,7 +14,9 @@ def explorer(steps, rewards, terminated, size, known_after, largest_reward, disc
     def backup(values):
         q = [[best] * actions for _ in range(states)]
         for (s, a), seen in model.items():
-            q[s][a] = sum(r + (0 if t is None else discount * values[t]) for r, t in seen) / len(seen)
+            q[s][a] = sum(
+                r + (0 if t is None else discount * values[t]) for r, t in seen
+            ) / len(seen)
         return np.array(q)
 
     policy = np.zeros(states, dtype=int)
@@ -28,7 +30,9 @@ def explorer(steps, rewards, terminated, size, known_after, largest_reward, disc
                     if t is not None:
                         matrix[s, t] -= discount / len(seen)
         q = backup(np.linalg.solve(matrix, right))
-        improved = np.where(q.max(axis=1) > q[range(states), policy] + 1e-9, q.argmax(axis=1), policy)
+        improved = np.where(
+            q.max(axis=1) > q[range(states), policy] + 1e-9, q.argmax(axis=1), policy
+        )
         if (improved == policy).all():
             return q
         policy = improved

@@ -8,7 +8,9 @@ def first_visits(states, rewards, discount, size):
         for visited, earned in zip(states, rewards):
             if state in visited:
                 first = visited.index(state)
-                returns.append(sum(discount**k * r for k, r in enumerate(earned[first:])))
+                returns.append(
+                    sum(discount**k * r for k, r in enumerate(earned[first:]))
+                )
         values.append(sum(returns) / len(returns) if returns else 0)
         counts.append(len(returns))
     return values, counts

@@ -9,4 +9,6 @@ def effective(states, actions):
         pair = (state, action)
         if max(state[:9]) > 0 and (not kept or kept[-1] != pair):
             kept.append(pair)
-    return np.array([state for state, _ in kept], dtype=int).reshape(-1, 11), [action for _, action in kept]
+    return np.array([state for state, _ in kept], dtype=int).reshape(-1, 11), [
+        action for _, action in kept
+    ]

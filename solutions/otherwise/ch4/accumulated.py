@@ -16,5 +16,7 @@ def accumulated(features, actions, rewards, ended, number, discount, gradient_st
         memory.append((rows[t], int(actions[t]), rewards[t] + discount * following))
         for phi, action, target in memory:
             error = target - q(action, phi)
-            weights[action] = [w + gradient_step * error * x for w, x in zip(weights[action], phi)]
+            weights[action] = [
+                w + gradient_step * error * x for w, x in zip(weights[action], phi)
+            ]
     return weights

@@ -10,6 +10,9 @@ def explore(q, temperature, allowed):
         if t == 0:
             shares = [float(yes and value == best) for value, yes in zip(row, may)]
         else:
-            shares = [math.exp((value - best) / t) if yes else 0.0 for value, yes in zip(row, may)]
+            shares = [
+                math.exp((value - best) / t) if yes else 0.0
+                for value, yes in zip(row, may)
+            ]
         answer.append([share / sum(shares) for share in shares])
     return answer

@@ -15,7 +15,11 @@ def margin(expert, found):
     basis = list(range(n, n + k))
     while (tableau[k, :-1] < -1e-12).any():
         enter = int(np.argmax(tableau[k, :-1] < -1e-12))
-        ratios = [(tableau[i, -1] / tableau[i, enter], basis[i], i) for i in range(k) if tableau[i, enter] > 1e-12]
+        ratios = [
+            (tableau[i, -1] / tableau[i, enter], basis[i], i)
+            for i in range(k)
+            if tableau[i, enter] > 1e-12
+        ]
         leave = min(ratios)[2]
         tableau[leave] /= tableau[leave, enter]
         for i in range(k + 1):

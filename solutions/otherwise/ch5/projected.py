@@ -5,7 +5,10 @@ import numpy as np
 
 def projected(mixture, found, expert, scale):
     def away(share):  # the slope of the squared distance
-        return float(((found - mixture) / scale) @ ((mixture + share * (found - mixture) - expert) / scale))
+        return float(
+            ((found - mixture) / scale)
+            @ ((mixture + share * (found - mixture) - expert) / scale)
+        )
 
     if np.array_equal(mixture, found) or away(0.0) >= 0:
         share = 0.0

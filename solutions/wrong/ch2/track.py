@@ -4,13 +4,19 @@ import numpy as np
 
 
 def _likelihood(observations, action, reading):
-    return observations[action, :, reading] if reading >= 0 else np.ones(observations.shape[1])
+    return (
+        observations[action, :, reading]
+        if reading >= 0
+        else np.ones(observations.shape[1])
+    )
 
 
 def not_normalised(belief, transitions, observations, actions, readings):
     """A belief must sum to one: divide by the probability of the reading."""
     for action, reading in zip(actions, readings):
-        belief = (belief @ transitions[action]) * _likelihood(observations, action, reading)
+        belief = (belief @ transitions[action]) * _likelihood(
+            observations, action, reading
+        )
     return belief
 
 
@@ -18,7 +24,9 @@ def reads_first(belief, transitions, observations, actions, readings):
     """The robot first moves and then reads its sensor: the reading depends on the state after the move."""
     for action, reading in zip(actions, readings):
         joint = belief * _likelihood(observations, action, reading)
-        belief = (joint / joint.sum() if joint.sum() > 0 else belief) @ transitions[action]
+        belief = (joint / joint.sum() if joint.sum() > 0 else belief) @ transitions[
+            action
+        ]
     return belief
 
 
@@ -43,6 +51,12 @@ def last_symbol(belief, transitions, observations, actions, readings):
 def starts_anew(belief, transitions, observations, actions, readings):
     """After an impossible reading keep the prediction from the move. Do not make the belief uniform."""
     for action, reading in zip(actions, readings):
-        joint = (belief @ transitions[action]) * _likelihood(observations, action, reading)
-        belief = joint / joint.sum() if joint.sum() > 0 else np.full(len(belief), 1 / len(belief))
+        joint = (belief @ transitions[action]) * _likelihood(
+            observations, action, reading
+        )
+        belief = (
+            joint / joint.sum()
+            if joint.sum() > 0
+            else np.full(len(belief), 1 / len(belief))
+        )
     return belief

@@ -4,13 +4,27 @@ import numpy as np
 
 
 def _gathered(
-    states, labels, visited, advice, capacity, *, renew=True, replace=True, heed=True, oldest=True, unique=True
+    states,
+    labels,
+    visited,
+    advice,
+    capacity,
+    *,
+    renew=True,
+    replace=True,
+    heed=True,
+    oldest=True,
+    unique=True,
 ):
-    kept = [(tuple(state), label) for state, label in zip(states.tolist(), labels.tolist())]
+    kept = [
+        (tuple(state), label) for state, label in zip(states.tolist(), labels.tolist())
+    ]
     for state, label in zip(map(tuple, visited.tolist()), advice.tolist()):
         if heed and label < 0:
             continue
-        places = [n for n, (known, _) in enumerate(kept) if known == state] if unique else []
+        places = (
+            [n for n, (known, _) in enumerate(kept) if known == state] if unique else []
+        )
         if places and not replace:
             continue
         if places and not renew:
@@ -20,9 +34,9 @@ def _gathered(
             del kept[place]
         kept.append((state, label))
     kept = kept[-capacity:] if oldest else kept[:capacity]
-    return np.array([s for s, _ in kept], dtype=int).reshape(-1, states.shape[1]), np.array(
-        [n for _, n in kept], dtype=int
-    )
+    return np.array([s for s, _ in kept], dtype=int).reshape(
+        -1, states.shape[1]
+    ), np.array([n for _, n in kept], dtype=int)
 
 
 def only_the_new(states, labels, visited, advice, capacity):

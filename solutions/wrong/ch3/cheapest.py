@@ -3,7 +3,18 @@
 import heapq
 
 
-def _search(blocked, start, goal, turn_cost, *, corners=False, diagonal=2**0.5, clockwise=False, greedy=0.0, wide=1):
+def _search(
+    blocked,
+    start,
+    goal,
+    turn_cost,
+    *,
+    corners=False,
+    diagonal=2**0.5,
+    clockwise=False,
+    greedy=0.0,
+    wide=1,
+):
     moves = [(0, 1), (1, 1), (1, 0), (1, -1), (0, -1), (-1, -1), (-1, 0), (-1, 1)]
     if clockwise:
         moves = [(-row, column) for row, column in moves]
@@ -27,7 +38,12 @@ def _search(blocked, start, goal, turn_cost, *, corners=False, diagonal=2**0.5, 
         options = [((row, column, (heading + turn) % 8), turn_cost) for turn in (1, -1)]
         beside = corners or (free(row + down, column) and free(row, column + right))
         if free(row + down, column + right) and beside:
-            options.append(((row + down, column + right, heading), diagonal if down and right else 1.0))
+            options.append(
+                (
+                    (row + down, column + right, heading),
+                    diagonal if down and right else 1.0,
+                )
+            )
         for node, step in options:
             heapq.heappush(waiting, (cost + step + ahead(*node[:2]), cost + step, node))
     return float("inf")

@@ -3,11 +3,27 @@
 import numpy as np
 
 
-def _encoded(ranges, bearing, distance, reach, *, scale=None, strict=True, shift=0.5, turn=1, first=1, over=False):
-    borders = np.array([3, 7, 11, 15, 20, 25, 30]) * ((reach if scale is None else scale) / 30)
+def _encoded(
+    ranges,
+    bearing,
+    distance,
+    reach,
+    *,
+    scale=None,
+    strict=True,
+    shift=0.5,
+    turn=1,
+    first=1,
+    over=False,
+):
+    borders = np.array([3, 7, 11, 15, 20, 25, 30]) * (
+        (reach if scale is None else scale) / 30
+    )
     below = ranges[:, :, None] < borders if strict else ranges[:, :, None] <= borders
     region = np.floor(turn * bearing / np.radians(40) + shift).astype(int) % 9 + first
-    return np.column_stack([below.sum(axis=2), region, distance < reach if over else distance <= reach]).astype(int)
+    return np.column_stack(
+        [below.sum(axis=2), region, distance < reach if over else distance <= reach]
+    ).astype(int)
 
 
 def in_centimetres(ranges, bearing, distance, reach):

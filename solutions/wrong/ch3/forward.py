@@ -19,7 +19,9 @@ def _softmax(z):
 
 def no_bias(weights, inputs):
     """Column 0 holds the biases: add them. They are the weights of a unit that is always one."""
-    return _softmax(_z([np.hstack([0 * layer[:, :1], layer[:, 1:]]) for layer in weights], inputs))
+    return _softmax(
+        _z([np.hstack([0 * layer[:, :1], layer[:, 1:]]) for layer in weights], inputs)
+    )
 
 
 def bias_last(weights, inputs):

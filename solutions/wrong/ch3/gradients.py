@@ -3,7 +3,16 @@
 import numpy as np
 
 
-def _slopes(weights, inputs, labels, decay, slope_of=lambda a: 1 - a**2, mean=True, bias=False, per_example=True):
+def _slopes(
+    weights,
+    inputs,
+    labels,
+    decay,
+    slope_of=lambda a: 1 - a**2,
+    mean=True,
+    bias=False,
+    per_example=True,
+):
     activations = [inputs]
     for layer in weights[:-1]:
         activations.append(np.tanh(layer[:, 0] + activations[-1] @ layer[:, 1:].T))
@@ -14,7 +23,9 @@ def _slopes(weights, inputs, labels, decay, slope_of=lambda a: 1 - a**2, mean=Tr
     slopes, m = [], len(inputs)
     for layer, a in zip(weights[::-1], activations[::-1]):
         slope = np.column_stack([delta.sum(axis=0), delta.T @ a]) / (m if mean else 1)
-        slope[:, 0 if bias else 1 :] += decay / (m if per_example else 1) * layer[:, 0 if bias else 1 :]
+        slope[:, 0 if bias else 1 :] += (
+            decay / (m if per_example else 1) * layer[:, 0 if bias else 1 :]
+        )
         slopes.insert(0, slope)
         delta = delta @ layer[:, 1:] * slope_of(a)
     return slopes

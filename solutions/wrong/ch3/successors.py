@@ -12,13 +12,24 @@ def _expanded(pose, speed, turn_cost, centres, radii, size, margin, *, signs=1, 
         going = heading if first else pose[2]
         way = speed * np.array([np.cos(going), np.sin(going)])
         end = start + way
-        along = np.clip((centres - start) @ way / speed**2, 0, 1) if whole else np.ones(len(centres))
+        along = (
+            np.clip((centres - start) @ way / speed**2, 0, 1)
+            if whole
+            else np.ones(len(centres))
+        )
         gaps = np.hypot(*(centres - start - along[:, None] * way).T) - radii
         room = margin if keep else 0.0
         inside = min(*start, *end) >= room and max(*start, *end) <= size - room
         if np.all(gaps >= room) and (inside or not border):
             heading = (heading + np.pi) % (2 * np.pi) - np.pi if wrap else heading
-            rows.append([action, *end, heading, speed + turn_cost * (turn if signed else abs(turn))])
+            rows.append(
+                [
+                    action,
+                    *end,
+                    heading,
+                    speed + turn_cost * (turn if signed else abs(turn)),
+                ]
+            )
     return np.array(rows).reshape(-1, 5)
 
 

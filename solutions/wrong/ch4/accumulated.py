@@ -9,7 +9,9 @@ def _weights(features, actions, rewards, ended, number, discount, gradient_step,
 
     def target(t):
         last = end and ended and t == steps - 1
-        return rewards[t] + (0.0 if last else discount * (weights @ features[t + 1]).max())
+        return rewards[t] + (
+            0.0 if last else discount * (weights @ features[t + 1]).max()
+        )
 
     for t in range(steps):
         targets.append(target(t))
@@ -20,7 +22,11 @@ def _weights(features, actions, rewards, ended, number, discount, gradient_step,
             targets = [target(k) for k in range(t + 1)]
         old = weights.copy() if at_once else weights
         for k in seen if oldest else seen[::-1]:
-            weights[actions[k]] += gradient_step * (targets[k] - old[actions[k]] @ features[k]) * features[k]
+            weights[actions[k]] += (
+                gradient_step
+                * (targets[k] - old[actions[k]] @ features[k])
+                * features[k]
+            )
     return weights
 
 

@@ -5,7 +5,11 @@ import numpy as np
 
 def _counts(successes, block):
     blocks = successes.shape[1] // block
-    return successes[:, : blocks * block].reshape(len(successes), blocks, block).sum(axis=2)
+    return (
+        successes[:, : blocks * block]
+        .reshape(len(successes), blocks, block)
+        .sum(axis=2)
+    )
 
 
 def spread_of_seeds(successes, block, draws):
@@ -24,23 +28,35 @@ def same_for_all_blocks(successes, block, draws):
 def fractions(successes, block, draws):
     """Count the successes in a block; do not divide by its length."""
     counts = _counts(successes, block) / block
-    return counts.mean(axis=0), np.percentile(counts[draws].mean(axis=1), [2.5, 97.5], axis=0)
+    return counts.mean(axis=0), np.percentile(
+        counts[draws].mean(axis=1), [2.5, 97.5], axis=0
+    )
 
 
 def sums_over_seeds(successes, block, draws):
     """Take the mean over the seeds, not their sum."""
     counts = _counts(successes, block)
-    return counts.sum(axis=0), np.percentile(counts[draws].sum(axis=1), [2.5, 97.5], axis=0)
+    return counts.sum(axis=0), np.percentile(
+        counts[draws].sum(axis=1), [2.5, 97.5], axis=0
+    )
 
 
 def wide_as_ninety(successes, block, draws):
     """A 95 % interval leaves out 2.5 % at either end."""
     counts = _counts(successes, block)
-    return counts.mean(axis=0), np.percentile(counts[draws].mean(axis=1), [5, 95], axis=0)
+    return counts.mean(axis=0), np.percentile(
+        counts[draws].mean(axis=1), [5, 95], axis=0
+    )
 
 
 def strides(successes, block, draws):
     """A block is made of episodes that follow one another."""
     blocks = successes.shape[1] // block
-    counts = successes[:, : blocks * block].reshape(len(successes), block, blocks).sum(axis=1)
-    return counts.mean(axis=0), np.percentile(counts[draws].mean(axis=1), [2.5, 97.5], axis=0)
+    counts = (
+        successes[:, : blocks * block]
+        .reshape(len(successes), block, blocks)
+        .sum(axis=1)
+    )
+    return counts.mean(axis=0), np.percentile(
+        counts[draws].mean(axis=1), [2.5, 97.5], axis=0
+    )

@@ -26,10 +26,14 @@ def absolute_too_late(weights):
 
 def absolute_weights(weights):
     """Take the absolute value of the changes, not the change of the absolute values."""
-    return _measures(np.diff(weights, axis=0), np.abs(np.diff(np.abs(weights), axis=0)).sum(axis=1))
+    return _measures(
+        np.diff(weights, axis=0), np.abs(np.diff(np.abs(weights), axis=0)).sum(axis=1)
+    )
 
 
 def largest_rise(weights):
     """The largest change may be negative: take the absolute values before the maximum."""
     change = np.diff(weights, axis=0)
-    return np.column_stack([change.sum(axis=1), np.abs(change).sum(axis=1), change.max(axis=1)])
+    return np.column_stack(
+        [change.sum(axis=1), np.abs(change).sum(axis=1), change.max(axis=1)]
+    )

@@ -8,8 +8,14 @@ def _shares(q, temperature, allowed, *, ties=True, hot=False):
     below = values - values.max(axis=1, keepdims=True)
     cold = temperature == 0
     with np.errstate(all="ignore"):
-        shares = np.exp(below * temperature[:, None] if hot else below / np.where(cold, 1.0, temperature)[:, None])
-    shares[cold] = below[cold] == 0 if ties else np.eye(q.shape[1])[below[cold].argmax(axis=1)]
+        shares = np.exp(
+            below * temperature[:, None]
+            if hot
+            else below / np.where(cold, 1.0, temperature)[:, None]
+        )
+    shares[cold] = (
+        below[cold] == 0 if ties else np.eye(q.shape[1])[below[cold].argmax(axis=1)]
+    )
     return shares / shares.sum(axis=1, keepdims=True)
 
 

@@ -20,7 +20,9 @@ def _weights(features, actions, costs, next_features, outcomes, number, discount
         for action in range(number):
             x, y = features[actions == action], targets[actions == action]
             penalty = ridge * (max(len(x), 1) if mean else 1)
-            new[action] = np.linalg.solve(x.T @ x + penalty * np.eye(x.shape[1]), x.T @ y)
+            new[action] = np.linalg.solve(
+                x.T @ x + penalty * np.eye(x.shape[1]), x.T @ y
+            )
         weights = new
     return weights
 

@@ -5,13 +5,19 @@ import numpy as np
 
 def _targets(outputs, actions, rewards, next_outputs, ended, bounds, discount, learning_rate, *, scale=True,
              horizon=True, end=True, clip=True, whole=False, zero=True):  # fmt: skip
-    least, greatest = (bound / (1 - discount if horizon else 1) for bound in bounds) if scale else (0.0, 1.0)
+    least, greatest = (
+        (bound / (1 - discount if horizon else 1) for bound in bounds)
+        if scale
+        else (0.0, 1.0)
+    )
     taken = np.arange(len(actions)), actions
     q = least + (greatest - least) * outputs
     nothing = 0.0 if zero else least
     after = least + (greatest - least) * next_outputs.max(axis=1)
     following = np.where(ended, nothing, after) if end else after
-    q[taken] += (1.0 if whole else learning_rate) * (rewards + discount * following - q[taken])
+    q[taken] += (1.0 if whole else learning_rate) * (
+        rewards + discount * following - q[taken]
+    )
     targets = (q - least) / (greatest - least)
     return targets.clip(0.0, 1.0) if clip else targets
 

@@ -16,17 +16,23 @@ def ends_when_cut_off(rewards, potentials, ended, discount):
 
 def no_discount(rewards, potentials, ended, discount):
     """Discount the potential of the next state. Otherwise the additions do not cancel."""
-    following = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])[: len(rewards)]
+    following = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])[
+        : len(rewards)
+    ]
     return rewards + following - potentials[:-1]
 
 
 def other_way_round(rewards, potentials, ended, discount):
     """A step to a larger potential must have a larger reward, not a smaller one."""
-    following = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])[: len(rewards)]
+    following = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])[
+        : len(rewards)
+    ]
     return rewards - discount * following + potentials[:-1]
 
 
 def next_potential_alone(rewards, potentials, ended, discount):
     """Also subtract the potential of the state before the step. Otherwise staying at a large one is rewarded."""
-    following = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])[: len(rewards)]
+    following = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])[
+        : len(rewards)
+    ]
     return rewards + discount * following

@@ -27,31 +27,44 @@ def equal_frequencies(expert_actions, policy_actions, number):
 
 def shares_of_the_expert_alone(expert_actions, policy_actions, number):
     """Multiply the expert's frequency of each action by the policy's frequency, and add the products."""
-    return _beyond(_plain(expert_actions, policy_actions), float((_shares(expert_actions, number) ** 2).sum()))
+    return _beyond(
+        _plain(expert_actions, policy_actions),
+        float((_shares(expert_actions, number) ** 2).sum()),
+    )
 
 
 def not_stretched(expert_actions, policy_actions, number):
     """Divide by 1 - c, so that the result is 1 for a policy that always agrees."""
     plain = _plain(expert_actions, policy_actions)
-    return [plain, plain - float(_shares(expert_actions, number) @ _shares(policy_actions, number))]
+    return [
+        plain,
+        plain
+        - float(_shares(expert_actions, number) @ _shares(policy_actions, number)),
+    ]
 
 
 def balanced(expert_actions, policy_actions, number):
     """This is the balanced accuracy of the chapter. Subtract the agreement expected by chance instead."""
-    recalls = [(policy_actions[expert_actions == a] == a).mean() for a in range(number) if (expert_actions == a).any()]
+    recalls = [
+        (policy_actions[expert_actions == a] == a).mean()
+        for a in range(number)
+        if (expert_actions == a).any()
+    ]
     return [_plain(expert_actions, policy_actions), float(np.mean(recalls))]
 
 
 def beyond_first(expert_actions, policy_actions, number):
     """The plain accuracy comes first."""
     return _beyond(
-        _plain(expert_actions, policy_actions), float(_shares(expert_actions, number) @ _shares(policy_actions, number))
+        _plain(expert_actions, policy_actions),
+        float(_shares(expert_actions, number) @ _shares(policy_actions, number)),
     )[::-1]
 
 
 def in_percent(expert_actions, policy_actions, number):
     """Return both as fractions from 0 to 1, not in per cent."""
     found = _beyond(
-        _plain(expert_actions, policy_actions), float(_shares(expert_actions, number) @ _shares(policy_actions, number))
+        _plain(expert_actions, policy_actions),
+        float(_shares(expert_actions, number) @ _shares(policy_actions, number)),
     )
     return [100 * part for part in found]

@@ -10,13 +10,18 @@ def sums(trajectories, discount):
 
 def endless(trajectories, discount):
     """A trajectory is finite: divide by the sum of its own weights, not by the sum of the infinite series."""
-    return np.mean([(1 - discount) * (discount ** np.arange(len(f)) @ f) for f in trajectories], axis=0)
+    return np.mean(
+        [(1 - discount) * (discount ** np.arange(len(f)) @ f) for f in trajectories],
+        axis=0,
+    )
 
 
 def pooled(trajectories, discount):
     """Give every trajectory the same weight: first take the mean within each trajectory."""
     weights = [discount ** np.arange(len(f)) for f in trajectories]
-    return sum(w @ f for w, f in zip(weights, trajectories)) / sum(w.sum() for w in weights)
+    return sum(w @ f for w, f in zip(weights, trajectories)) / sum(
+        w.sum() for w in weights
+    )
 
 
 def no_discount(trajectories, discount):

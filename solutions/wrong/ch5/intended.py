@@ -3,13 +3,29 @@
 import numpy as np
 
 
-def _meant(states, done, slip, prior, size, *, unseen=-1, use_prior=True, turned=False, prior_each=False):
+def _meant(
+    states,
+    done,
+    slip,
+    prior,
+    size,
+    *,
+    unseen=-1,
+    use_prior=True,
+    turned=False,
+    prior_each=False,
+):
     with np.errstate(divide="ignore"):
-        log_slip, log_prior = np.log(slip.T if turned else slip), np.log(prior if use_prior else np.ones_like(prior))
+        log_slip, log_prior = (
+            np.log(slip.T if turned else slip),
+            np.log(prior if use_prior else np.ones_like(prior)),
+        )
     meant = np.full(size, unseen)
     for state in np.unique(states):
         seen = done[states == state]
-        meant[state] = np.argmax(log_prior * (len(seen) if prior_each else 1) + log_slip[:, seen].sum(axis=1))
+        meant[state] = np.argmax(
+            log_prior * (len(seen) if prior_each else 1) + log_slip[:, seen].sum(axis=1)
+        )
     return meant
 
 

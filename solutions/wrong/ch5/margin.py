@@ -5,7 +5,9 @@ import numpy as np
 
 def _onto_the_simplex(theta):
     theta = np.maximum(theta, 0.0)
-    return theta / theta.sum() if theta.sum() > 0 else np.full(len(theta), 1 / len(theta))
+    return (
+        theta / theta.sum() if theta.sum() > 0 else np.full(len(theta), 1 / len(theta))
+    )
 
 
 def against_the_mean(expert, found):
@@ -26,7 +28,11 @@ def all_alike(expert, found):
 def signs_swapped(expert, found):
     """The expert must have larger values than the policies, not smaller ones."""
     payoff = found - expert
-    theta, losses, total = np.full(len(expert), 1 / len(expert)), np.zeros(len(found)), np.zeros(len(expert))
+    theta, losses, total = (
+        np.full(len(expert), 1 / len(expert)),
+        np.zeros(len(found)),
+        np.zeros(len(expert)),
+    )
     for _ in range(300):
         losses += payoff @ theta
         theta = np.eye(len(expert))[np.argmax(payoff[np.argmin(losses)])]

@@ -3,7 +3,17 @@
 import numpy as np
 
 
-def _moved(mixture, found, expert, scale, *, clip=True, scaled=True, units=True, share_of_new=True):
+def _moved(
+    mixture,
+    found,
+    expert,
+    scale,
+    *,
+    clip=True,
+    scaled=True,
+    units=True,
+    share_of_new=True,
+):
     divide = scale if scaled else np.ones_like(scale)
     along, to_expert = (found - mixture) / divide, (expert - mixture) / divide
     length = along @ along

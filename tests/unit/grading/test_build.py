@@ -70,6 +70,8 @@ def test_every_stub_has_a_signature_with_types_and_says_its_shapes(exercise):
     assert all(f"{argument.arg}" in said for argument in function.args.args)
     assert len(ast.get_docstring(ast.parse(text))) > 150
     assert "SOLUTION" not in text
+    too_wide = [line for line in text.splitlines() if len(line) > 88]
+    assert [line for line in too_wide if not line.startswith("$$")] == []
 
 
 def test_the_manifest_has_six_exercises_a_chapter_of_every_kind():
