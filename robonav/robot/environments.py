@@ -648,7 +648,7 @@ class NavigationEnv(gymnasium.Env):
     @while_running
     def step(self, action: int) -> Step:
         """Simulate one second."""
-        # The reflex comes first. It may replace the action: face the target and go, or step back.
+        # The reflex comes first. It may replace the action.
         settings = self.settings
         before, start, reflex = self.sensing, self.pose, NO_REFLEX
         if settings.reflex is not None:
@@ -681,14 +681,6 @@ class NavigationEnv(gymnasium.Env):
         if self.render_mode == "human":
             self.render()
         return self._observation(), reward, terminated, truncated, self._info(reflex)
-
-    def _allowed(self, action: Any) -> int:
-        """Return the action as a number 0 to 5, if the episode goes on; else raise an error."""
-        if self.outcome is None:
-            raise ValueError("step: call reset first")
-        if self.outcome != RUNNING:
-            raise ValueError("step: the episode has ended; call reset first")
-        return check_action(action)
 
     def _outcome(self, start: Pose, centres_before: Array) -> int:
         """How the episode stands; a collision anywhere along the way counts, not only where the robot stops."""
