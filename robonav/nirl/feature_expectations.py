@@ -41,7 +41,8 @@ def action_values(mdp: RewardFreeMDP, policy: ArrayLike, weights: ArrayLike) -> 
     """
     rewarded = mdp.with_reward(weights)
     values = policy_evaluation(rewarded, policy)
-    return rewarded.action_values(values)  # Eq. (5.1)
+    next_values = rewarded.expected_next_values(values)  # sum_s' T(s, a, s') V(s')
+    return rewarded.rewards + rewarded.discount * next_values  # Eq. (5.1)
 
 
 def feature_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.networks.multilayer_perceptron import Network, sigmoid
-from robonav.nnql.schedules import softmax_policy
 
 from ._arguments import checked
 
@@ -77,7 +76,9 @@ def boltzmann_policy(action_values: ArrayLike, inverse_temperature: float) -> Fl
     array([0.028, 0.028, 0.943])
     """
     scaled = inverse_temperature * np.asarray(action_values)
-    return softmax_policy(scaled, temperature=1.0)  # Eq. (5.10)
+    largest = scaled.max(axis=-1, keepdims=True)  # it cancels; no exponential overflows
+    weights = np.exp(scaled - largest)
+    return weights / weights.sum(axis=-1, keepdims=True)  # Eq. (5.10)
 
 
 def greedy_actions(network: Network, inputs: Floats) -> NDArray[np.intp]:

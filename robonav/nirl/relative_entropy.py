@@ -8,6 +8,7 @@ the baseline, importance weights correct for it.
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
 from scipy.special import logsumexp, softmax
+
+from robonav.errors import ConvergenceWarning
 
 from ._arguments import checked
 from .feature_expectations import discounted_feature_sums
@@ -38,10 +41,13 @@ class RelativeEntropy:
     dual : float
         The maximum of :func:`dual`.
     gap : (K,) array
-        Features of the expert minus the weighted mean of the samples' features; each entry is within the slack.
+        Features of the expert minus the weighted mean of the samples' features. At the maximum each entry is within the
+        slack, unless its weight has reached its largest absolute value.
     effective_samples : float
         Kish's effective sample size: the number of equally weighted samples with the same variance. If it is small, the
         estimate depends on a few trajectories.
+    converged : bool
+        Whether L-BFGS has found the maximum, to its precision.
 
     Examples
     --------
@@ -55,6 +61,7 @@ class RelativeEntropy:
     dual: float
     gap: Floats
     effective_samples: float
+    converged: bool
 
 
 @checked
@@ -228,6 +235,11 @@ def relative_entropy_weights(
     ValueError
         If there is no sample, or shapes do not fit.
 
+    Warns
+    -----
+    ConvergenceWarning
+        If L-BFGS ended before it found the maximum.
+
     Examples
     --------
     >>> from robonav.nirl import relative_entropy_weights
@@ -259,7 +271,20 @@ def relative_entropy_weights(
     theta = up - down
     w = importance_weights(theta, features, log_ratios)
     value = dual(theta, mu, features, log_ratios, eps)
-    return RelativeEntropy(theta, value, mu - w @ features, float(1 / (w**2).sum()))
+    gap, effective_samples = mu - w @ features, float(1 / (w**2).sum())
+    return RelativeEntropy(theta, value, gap, effective_samples, _has_converged(found))
+
+
+def _has_converged(found: Any) -> bool:
+    """Whether L-BFGS found the maximum; a warning if it did not."""
+    if not found.success:
+        warnings.warn(
+            f"relative_entropy_weights ended after {found.nit} iterations without the maximum of the dual: "
+            f"{found.message}",
+            ConvergenceWarning,
+            stacklevel=4,
+        )
+    return bool(found.success)
 
 
 def segment_features(

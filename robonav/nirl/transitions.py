@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,7 +19,8 @@ ENCODER = Encoder(NNQL_SENSORS, walls=True)
 """phi(s) of section 5.4.1: seven degrees of danger, the target's sector as sine and cosine, target seen, wall flags."""
 
 
-class RobotStates(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class RobotStates:
     """Where the robot was at each of M decisions, so that a simulator can start there.
 
     Attributes

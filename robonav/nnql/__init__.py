@@ -8,6 +8,7 @@ from .dqn import (
     select_action,
     values_taken,
 )
+from .network_environment import network_environment
 from .nfq import collect_episode, nfq, nfq_targets, rprop_fit
 from .nnql import navigate_greedily, nnql, online
 from .reward import (
@@ -48,6 +49,7 @@ __all__ = [
     "geometric_schedule",
     "greedy_policy",
     "navigate_greedily",
+    "network_environment",
     "network_error",
     "nfq",
     "nfq_targets",

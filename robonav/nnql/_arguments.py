@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import gymnasium
 import numpy as np
 
 from robonav.networks.multilayer_perceptron import Network
@@ -18,6 +17,8 @@ from robonav.validation import (
     check_real,
     checks,
 )
+
+from .network_environment import network_environment
 
 Schedule = float | tuple[float, float]
 """A number, or a pair: its value in the first episode and in the last."""
@@ -55,7 +56,7 @@ def _fraction(name: str, value: Any) -> float:
 
 
 RULES: dict[str, Rule] = {
-    "env": lambda name, value: check_instance(name, value, gymnasium.Env),
+    "env": lambda _, value: network_environment(value),
     "network": lambda name, value: check_instance(name, value, Network),
     "q": check_array,
     "episodes": _count,

@@ -15,7 +15,8 @@ of 300 episodes makes about ten thousand, and each is a few numbers.
 
 from __future__ import annotations
 
-from typing import NamedTuple, SupportsFloat
+from dataclasses import dataclass
+from typing import SupportsFloat
 
 import gymnasium
 import numpy as np
@@ -52,7 +53,8 @@ def dqn(
     Parameters
     ----------
     env : gymnasium.Env
-        An environment with discrete actions, whose observations are the network's inputs.
+        An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the
+        network's inputs.
     network : Network
         The network to start from, with one output for each action, see :func:`q_network`.
     episodes : int
@@ -270,7 +272,8 @@ def double_dqn_targets(
         return batch.rewards + discount * (~batch.terminal * next_values)
 
 
-class Transitions(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Transitions:
     """m transitions as tensors; the first axis runs over the transitions.
 
     Attributes

@@ -46,7 +46,8 @@ def nfq(
     Parameters
     ----------
     env : gymnasium.Env
-        An environment with discrete actions, whose observations are the network's inputs.
+        An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the
+        network's inputs.
     network : Network
         The network to start from, with one output for each action, see :func:`q_network`.
     episodes : int

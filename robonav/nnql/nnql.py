@@ -38,7 +38,8 @@ def nnql(
     Parameters
     ----------
     env : gymnasium.Env
-        An environment with discrete actions, whose observations are the network's inputs.
+        An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the
+        network's inputs.
     network : Network
         The network to start from, with one output for each action, see :func:`q_network`.
     episodes : int
@@ -95,8 +96,8 @@ def nnql(
                 q = q_targets(
                     q, action, float(reward), next_value, alpha, discount
                 )  # 13
-                inputs.append(state)  # 15
                 targets.append(RESCALE[rescale](q))  # 14, 15
+                inputs.append(state)  # 15
                 network = stochastic_gradient_descent(
                     network, inputs, targets, sigma, passes, tolerance
                 )  # 16  Eqs. (4.11) and (4.12)
@@ -126,7 +127,8 @@ def online(
     Parameters
     ----------
     env : gymnasium.Env
-        An environment with discrete actions, whose observations are the network's inputs.
+        An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the
+        network's inputs.
     network : Network
         The network to start from, with one output for each action, see :func:`q_network`.
     episodes : int
@@ -190,12 +192,16 @@ def navigate_greedily(
 ) -> tuple[float, dict[str, Any]]:
     """Navigation with a trained network, Algorithm 9: one episode of its greedy policy.
 
-    The largest output is chosen before the sigmoid, because two large Q-values both round to 1.
+    Step 1 of the algorithm is to load the weights: here they are the argument ``network``. Steps 4 and 12 count the
+    steps, and nothing reads the count. Gymnasium makes steps 6 to 9 at the end of each action: it returns the state,
+    and says whether the episode has ended. The loop asks for this in its condition. Step 11 is Eq. (4.8); it compares
+    the outputs before the sigmoid, because two large Q-values both round to 1.
 
     Parameters
     ----------
     env : gymnasium.Env
-        An environment with discrete actions, whose observations are the network's inputs.
+        An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the
+        network's inputs.
     network : Network
         A trained network.
     seed : int
@@ -216,10 +222,10 @@ def navigate_greedily(
     >>> info["outcome"]
     'collided'
     """
-    state, _ = env.reset(seed=seed)  # 2, 3
+    state, info = env.reset(seed=seed)  # 2, 3
     total, done = 0.0, False
-    while not done:  # 5
-        action = network.logits(state).argmax()  # 10, 11  Eq. (4.8)
-        state, reward, terminated, truncated, info = env.step(action)  # 6, 11
-        total, done = total + float(reward), terminated or truncated  # 7, 8
+    while not done:  # 5 to 9
+        q = network.logits(state)  # 10
+        state, reward, terminated, truncated, info = env.step(q.argmax())  # 11
+        total, done = total + float(reward), terminated or truncated
     return total, info

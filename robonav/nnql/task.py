@@ -189,8 +189,7 @@ def q_network(env: gymnasium.Env, *, hidden: int = 8, seed: int) -> Network:
     Parameters
     ----------
     env : gymnasium.Env
-        With a ``Box`` of one dimension as observations and a ``Discrete`` action space. Gymnasium's
-        ``FlattenObservation`` makes such observations from others.
+        An environment with discrete actions; :func:`network_environment` says how many numbers its observations have.
     hidden : int
         Units of the hidden layer.
     seed : int
@@ -208,13 +207,7 @@ def q_network(env: gymnasium.Env, *, hidden: int = 8, seed: int) -> Network:
     >>> q_network(gymnasium.make("CartPole-v1"), seed=0).sizes
     (4, 8, 2)
     """
-    states, actions = env.observation_space, env.action_space
-    if not isinstance(states, gymnasium.spaces.Box) or len(states.shape) != 1:
-        raise ValueError(
-            f"env must have observations in a Box of one dimension, got {states}; "
-            "gymnasium.wrappers.FlattenObservation makes them"
-        )
-    if not isinstance(actions, gymnasium.spaces.Discrete):
-        raise ValueError(f"env must have a Discrete action space, got {actions}")
-    sizes = (states.shape[0], hidden, int(actions.n))
+    spaces = env.observation_space, env.action_space
+    states, actions = (gymnasium.spaces.flatdim(space) for space in spaces)
+    sizes = (states, hidden, actions)
     return random_network(sizes, seed=make_rng(seed, INITIAL))

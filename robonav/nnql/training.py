@@ -17,7 +17,12 @@ from robonav.networks.network_stack import NetworkStack, stacked
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import OUTCOMES, Encoder
-from robonav.validation import check_argument, check_integer, check_one_of
+from robonav.validation import (
+    check_argument,
+    check_instance,
+    check_integer,
+    check_one_of,
+)
 
 from ._arguments import RULES
 from ._fast.agents import make_agent
@@ -178,7 +183,9 @@ def train(
     ((2, 3), 2)
     """
     settings = method_settings(check_one_of("method", method, METHODS), settings)
-    task, seeds = task or NavigationTask(), check_seeds(seeds)
+    task = NavigationTask() if task is None else task
+    check_instance("task", task, NavigationTask)
+    seeds = check_seeds(seeds)
     check_integer("episodes", episodes, at_least=1)
     check_integer("checkpoint_interval", checkpoint_interval, at_least=1)
     sizes = (task.encoder.size, check_integer("hidden", hidden, at_least=1), ACTIONS)

@@ -1,4 +1,6 @@
-"""One loop that lets robots act: sense, ask the reflex, ask the policy, move (Algorithm 9 with any policy).
+"""One loop that lets robots act: sense, ask the reflex, ask the policy, move.
+
+It is the batched twin of :func:`robonav.nnql.navigate_greedily`, Algorithm 9, and takes any policy.
 
 :func:`drive` is that loop. :func:`navigate`, demonstrations, DAgger, Q-learning and the episodes of inverse
 reinforcement learning stand on it.

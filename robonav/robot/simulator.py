@@ -40,7 +40,7 @@ class Action(IntEnum):
     (<Action.L60: 2>, 2)
     """
 
-    F = 0  # Eq. (4.4)
+    F = 0  # Eq. (4.4): A = {F, L30, L60, R30, R60, B}
     L30 = 1
     L60 = 2
     R30 = 3

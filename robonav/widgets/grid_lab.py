@@ -35,7 +35,7 @@ GREEDY_EPISODES = 100
 """Episodes with the learned greedy policy."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Replay:
     """The steps of one method on a grid, as F frames.
 

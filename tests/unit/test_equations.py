@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import citations
@@ -31,6 +32,21 @@ def faults_of(package: Path, source: str, about: str, folder: str = "mdp") -> li
     """The faults about one equation or algorithm that a source text leaves or makes."""
     (package / folder / "models.py").write_text(source)
     return [fault for fault in citations.faults(package) if fault.startswith(about)]
+
+
+def test_only_first_lines_say_what_an_equation_is() -> None:
+    """Below its first line a docstring says which equations a function uses."""
+    second = [
+        item.name
+        for item in citations.documented()
+        if re.search(r"\b[Tt]h(is|ese)\s+(is|are)\s+Eqs?\.", rest_of(item.docstring))
+    ]
+    assert second == []
+
+
+def rest_of(docstring: str) -> str:
+    """A docstring without its first line."""
+    return docstring.partition("\n")[2]
 
 
 DEFINED = '''

@@ -1,4 +1,7 @@
-"""The training loop of chapter 4 for S robots, one for each seed: Algorithm 8 with the agents of any method.
+"""The training loop of chapter 4 for S robots, one for each seed.
+
+With the agent of NNQL it is the twin of :func:`robonav.nnql.nnql`, Algorithm 8; other agents make it the twin of the
+chapter's other methods.
 
 All running robots take each step together. A robot whose episode has ended starts its next one at once. Its worlds and
 its random numbers depend on its seed and the number of the episode alone, so that its training does not depend on which

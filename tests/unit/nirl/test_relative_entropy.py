@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.optimize import approx_fprime
 
+from robonav.errors import ConvergenceWarning
 from robonav.mdp import policies
 from robonav.nirl import (
     dual,
@@ -121,6 +122,17 @@ def test_the_maximum_has_no_gradient_left():
         atol=1e-4,
     )
     assert 1 < learned.effective_samples <= 50
+
+
+def test_warning_when_l_bfgs_ended_before_the_maximum():
+    with pytest.warns(ConvergenceWarning, match="after 1 iterations without") as caught:
+        stopped = relative_entropy_weights(EXPERT, SAMPLES, RATIOS, iterations=1)
+    assert caught[0].filename == __file__
+    assert not stopped.converged
+    assert abs(stopped.gap).max() > 0.01  # the slack is 0
+    finished = relative_entropy_weights(EXPERT, SAMPLES, RATIOS)
+    assert finished.converged
+    assert abs(finished.gap).max() < 1e-3
 
 
 def test_slack_keeps_the_gap_within_bounds_and_weights_sparse():

@@ -10,6 +10,7 @@ from robonav.nnql import (
     NavigationTask,
     dqn,
     navigate_greedily,
+    network_environment,
     nfq,
     nnql,
     online,
@@ -151,7 +152,7 @@ def test_descent_stops_when_the_cost_settles():
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"env": None}, "env must be Env"),
+        ({"env": None}, "env must be a Gymnasium environment, got NoneType"),
         ({"network": None}, "network must be Network"),
         ({"episodes": 0}, "episodes must be at least 1"),
         ({"discount": 2}, "discount must be at least 0 and at most 1"),
@@ -166,8 +167,84 @@ def test_wrong_argument(wrong, message):
         nnql(**(right | wrong))
 
 
-def test_environment_without_network_inputs():
-    with pytest.raises(ValueError, match="env must have observations in a Box"):
-        q_network(Corridor(), seed=0)
-    with pytest.raises(ValueError, match="env must have a Discrete action space"):
+def test_environment_that_no_network_reads():
+    class Words(Corridor):
+        observation_space = gymnasium.spaces.Sequence(gymnasium.spaces.Discrete(5))
+
+    with pytest.raises(TypeError, match=r"observations of a fixed size, got Sequence"):
+        q_network(Words(), seed=0)
+    with pytest.raises(TypeError, match=r"env\.action_space must be discrete"):
         q_network(gymnasium.make("Pendulum-v1"), seed=0)
+
+
+class FromOne(gymnasium.Wrapper):
+    """The corridor with actions 1 and 2. Any other action is an error."""
+
+    def __init__(self):
+        super().__init__(gymnasium.wrappers.TimeLimit(Corridor(), 30))
+        self.action_space = gymnasium.spaces.Discrete(2, start=1)
+
+    def step(self, action):
+        assert self.action_space.contains(np.int64(action))
+        return super().step(action - 1)
+
+
+@pytest.mark.parametrize("method", METHODS.values())
+def test_actions_numbered_from_one(method):
+    """The environment gets its own numbers, and the networks are those of actions from 0."""
+    networks = [
+        method(env, q_network(env, seed=1), episodes=3, seed=1)
+        for env in (FromOne(), corridor())
+    ]
+    for one, other in zip(*(network.weights for network in networks), strict=True):
+        np.testing.assert_array_equal(one, other)
+    total, _ = navigate_greedily(FromOne(), networks[0], seed=0)
+    assert total == navigate_greedily(corridor(), networks[1], seed=0)[0]
+
+
+@pytest.mark.parametrize("method", METHODS.values())
+@pytest.mark.parametrize(
+    ("name", "inputs", "actions"),
+    [("robonav/Navigation-v0", 29, 6), ("FrozenLake-v1", 16, 4), ("Taxi-v4", 500, 6)],
+)
+def test_registered_environments_as_they_are(method, name, inputs, actions):
+    env = gymnasium.make(name, max_episode_steps=60)
+    start = q_network(env, seed=0)
+    assert (start.sizes[0], start.sizes[-1]) == (inputs, actions)
+    settings = {"batch_size": 4} if method is dqn else {}
+    if method is nfq:
+        settings = {"episodes_per_fit": 1}
+    trained = method(env, start, episodes=2, seed=0, **settings)
+    assert (trained.weights[0] != start.weights[0]).any()
+
+
+def test_bounded_observations_are_scaled():
+    env = network_environment(gymnasium.make("robonav/Navigation-v0"))
+    states = [env.reset(seed=0)[0], *(env.step(0)[0] for _ in range(40))]
+    assert env.observation_space.contains(states[0])
+    assert np.min(states) == 0
+    assert np.max(states) == 1
+    plain = gymnasium.make("CartPole-v1")
+    assert network_environment(plain) is plain
+
+    class Mixed(Corridor):
+        observation_space = gymnasium.spaces.Dict(
+            {
+                "bounded": gymnasium.spaces.Box(-2, 2, (1,)),
+                "free": gymnasium.spaces.Box(-np.inf, np.inf, (1,)),
+                "still": gymnasium.spaces.Box(3, 3, (1,)),
+            }
+        )
+
+        def reset(self, *, seed=None, options=None):
+            parts = {"bounded": 1.0, "free": 7.0, "still": 3.0}
+            return {key: np.full(1, x, np.float32) for key, x in parts.items()}, {}
+
+    assert network_environment(Mixed()).reset()[0].tolist() == [0.75, 7.0, 3.0]
+
+
+@pytest.mark.parametrize("task", [gymnasium.make("CartPole-v1"), 3, "navigation"])
+def test_task_of_another_type(task):
+    kind = type(task).__name__
+    with pytest.raises(TypeError, match=f"task must be NavigationTask, got {kind}"):
+        train("nnql", seeds=1, episodes=1, task=task)
