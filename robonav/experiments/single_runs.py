@@ -160,7 +160,7 @@ def panels(
 def shipped_policies(
     name: str, title: str, methods: Sequence[str], **case: str | float | int
 ) -> Experiment:
-    """Return the experiment of a figure of policies of the package, in four worlds each."""
+    """Return the experiment of a figure of policies of the package, in four worlds each (Figs. 4.5 and 5.9)."""
     cases = [
         {"method": one, "world": world, "speed": 2.0, **case}
         for one in methods
