@@ -53,7 +53,7 @@ def draw_network(
     inputs: Sequence[str] | None = None,
     outputs: Sequence[str] | None = None,
 ) -> None:
-    """Draw a network's units as circles and its weights as lines; bias units are marked +1 (Figs. 3.1 to 3.3, 4.1, 5.1).
+    """Draw a network: units as circles, weights as lines, bias units marked +1 (Figs. 3.1 to 3.3, 4.1, 5.1).
 
     Parameters
     ----------
