@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 
-def chances(rng, *shape):
+def probabilities(rng, *shape):
     """Probabilities along the last axis, about half of them zero."""
     weights = rng.random(shape) * (rng.random(shape) < 0.5)
     weights[..., 0] += 0.1
@@ -13,7 +13,7 @@ def chances(rng, *shape):
 
 def process(rng, states=5, actions=3):
     """A random decision process: transitions (A, S, S) and rewards (S, A)."""
-    return chances(rng, actions, states, states), rng.normal(size=(states, actions))
+    return probabilities(rng, actions, states, states), rng.normal(size=(states, actions))
 
 
 @pytest.mark.part("2.1", points=2)
@@ -118,8 +118,8 @@ def test_bounds_enclose_the_optimum(answer, rng):
 def a_run(rng, states, readings, length, *, certain=False):
     """A belief, a world, and what happened in it; ``certain`` leaves each state some readings that it cannot give."""
     transitions, observations = (
-        chances(rng, 2, states, states),
-        chances(rng, 2, states, readings),
+        probabilities(rng, 2, states, states),
+        probabilities(rng, 2, states, readings),
     )
     if not certain:
         observations = 0.5 * observations + 0.5 / readings

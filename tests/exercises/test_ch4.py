@@ -218,10 +218,10 @@ def test_changes_that_cancel(answer, rng):
 
 def careers(rng, seeds, episodes):
     """Seeds that learn, some sooner than others."""
-    chance = np.clip(
+    probability = np.clip(
         np.linspace(0, 1, episodes) + rng.normal(0, 0.3, size=(seeds, 1)), 0, 1
     )
-    return rng.random((seeds, episodes)) < chance
+    return rng.random((seeds, episodes)) < probability
 
 
 @pytest.mark.part("4.7", points=3)

@@ -230,10 +230,10 @@ def test_temperature(demonstrations):
     warm = NetworkPolicy(policy.network, policy.encoder, temperature=0.7)
     rng = np.random.default_rng(5)
     drawn = np.stack([warm(sensing, rng) for _ in range(4000)])
-    chances = np.exp((z - z.max(axis=1, keepdims=True)) / 0.7)
-    chances /= chances.sum(axis=1, keepdims=True)
+    probabilities = np.exp((z - z.max(axis=1, keepdims=True)) / 0.7)
+    probabilities /= probabilities.sum(axis=1, keepdims=True)
     counted = (drawn[:, :, None] == np.arange(5)).mean(axis=0)
-    assert np.abs(counted - chances).max() < 0.04
+    assert np.abs(counted - probabilities).max() < 0.04
     with pytest.raises(ValueError, match="temperature must be at least 0"):
         NetworkPolicy(policy.network, policy.encoder, temperature=-1)
 

@@ -162,9 +162,9 @@ def test_many_states_are_solved_to_rounding(discount, local):
         else rng.integers(0, states, (states, 3))
     )
     reached = np.clip(np.arange(states)[:, None] + away, 0, states - 1)
-    chances = rng.dirichlet(np.ones(3), states)
+    probabilities = rng.dirichlet(np.ones(3), states)
     transitions = sp.csr_array(
-        (chances.ravel(), (np.repeat(np.arange(states), 3), reached.ravel())),
+        (probabilities.ravel(), (np.repeat(np.arange(states), 3), reached.ravel())),
         (states, states),
     )
     mdp = FiniteMDP([transitions], rng.normal(size=(states, 1)), discount)

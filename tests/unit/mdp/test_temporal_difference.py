@@ -270,7 +270,7 @@ def test_sarsa_tends_to_the_plan_where_exploring_fades(learn):
 
 
 def best_while_exploring(mdp, epsilon, sweeps=5000):
-    """Action values of the best among the policies that act blindly with chance epsilon."""
+    """Action values of the best among the policies that take a random action with probability epsilon."""
     q = np.zeros((mdp.n_states, mdp.n_actions))
     for _ in range(sweeps):
         q = mdp.action_values((1 - epsilon) * q.max(axis=1) + epsilon * q.mean(axis=1))
@@ -328,7 +328,7 @@ def test_taxi_is_driven_optimally_from_every_start():
 
 
 def test_td_finds_the_random_walk_of_sutton_and_barto():
-    """Example 6.2: from the middle of five rooms, the chance to end on the right is 1/6 ... 5/6."""
+    """Example 6.2: from the middle of five rooms, the probability to end on the right is 1/6 ... 5/6."""
     predicted = td_prediction(
         Corridor(5),
         np.full((6, 2), 0.5),
