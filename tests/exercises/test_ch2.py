@@ -13,7 +13,9 @@ def probabilities(rng, *shape):
 
 def process(rng, states=5, actions=3):
     """A random decision process: transitions (A, S, S) and rewards (S, A)."""
-    return probabilities(rng, actions, states, states), rng.normal(size=(states, actions))
+    return probabilities(rng, actions, states, states), rng.normal(
+        size=(states, actions)
+    )
 
 
 @pytest.mark.part("2.1", points=2)
