@@ -407,17 +407,17 @@ def plan(
     Plan
         ``found`` is False if there is no path, or if none was found within ``limit`` nodes.
 
-    Warns
-    -----
-    UserWarning
-        If no path was found and ``cell`` is larger than a move.
-
     Raises
     ------
     TypeError
         If ``world`` is not Worlds, or an argument is not a number.
     ValueError
         If ``world`` is not a batch of one, if ``pose`` lies outside its map, or if an argument is out of bounds.
+
+    Warns
+    -----
+    UserWarning
+        If no path was found and ``cell`` is larger than a move.
 
     Examples
     --------

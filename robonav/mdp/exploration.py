@@ -26,6 +26,18 @@ def constant(value: float) -> Schedule:
 def linear_decay(start: float, end: float, over: int) -> Schedule:
     """Fall (or rise) in equal steps from ``start`` to ``end``, which is reached after ``over`` events and kept.
 
+    Parameters
+    ----------
+    start, end : float
+        The first rate and the last.
+    over : int
+        Number of events until the last rate is reached.
+
+    Returns
+    -------
+    callable
+        The rate of the n-th event, ``rate(n)``, counted from 0.
+
     Examples
     --------
     >>> from robonav.mdp import linear_decay
@@ -39,6 +51,18 @@ def linear_decay(start: float, end: float, over: int) -> Schedule:
 
 def exponential_decay(start: float, end: float, half_life: float) -> Schedule:
     """Move from ``start`` towards ``end``; the gap halves every ``half_life`` events.
+
+    Parameters
+    ----------
+    start, end : float
+        The first rate, and the one that the rates tend to.
+    half_life : float
+        Number of events in which the gap halves.
+
+    Returns
+    -------
+    callable
+        The rate of the n-th event, ``rate(n)``, counted from 0.
 
     Examples
     --------
@@ -57,6 +81,18 @@ def harmonic_decay(start: float = 1.0, half_life: float = 1.0) -> Schedule:
     The sum of the rates is infinite and the sum of their squares is finite, as the convergence of Q-learning requires
     (Watkins and Dayan 1992). With the defaults the rates are 1, 1/2, 1/3, ...: the plain average.
 
+    Parameters
+    ----------
+    start : float
+        The first rate.
+    half_life : float
+        Number of events after which the rate is half the first.
+
+    Returns
+    -------
+    callable
+        The rate of the n-th event, ``rate(n)``, counted from 0.
+
     Examples
     --------
     >>> from robonav.mdp import harmonic_decay
@@ -73,6 +109,16 @@ def polynomial_decay(power: float) -> Schedule:
 
     With a power of 1 the first, wrong targets weigh as much as the last ones, which slows learning down greatly for a
     discount near 1. Even-Dar and Mansour (2003) find that about 0.77 is best.
+
+    Parameters
+    ----------
+    power : float
+        Positive.
+
+    Returns
+    -------
+    callable
+        The rate of the n-th event, ``rate(n)``, counted from 0.
 
     Examples
     --------

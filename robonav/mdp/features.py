@@ -137,6 +137,16 @@ class Tiles:
 def with_bias(features: Features) -> Features:
     """Put f_0 = 1 before the features, so that the constant is a weight like the others.
 
+    Parameters
+    ----------
+    features : Features
+        Features without a constant.
+
+    Returns
+    -------
+    Features
+        The same with one more feature, which is 1 for every state and action.
+
     Examples
     --------
     >>> from robonav.mdp import OneHot, with_bias

@@ -378,8 +378,9 @@ def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
 
     Raises
     ------
-    ValueError : if the environment publishes no table or an incomplete one, does not keep to it, or may end an episode
-        in a state and go on from it another time, so that the state alone does not say what is to come.
+    ValueError
+        If the environment publishes no table or an incomplete one, or does not keep to it. Also if it may end an
+        episode in a state and go on from it another time, so that the state alone does not say what is to come.
     """
     bare = getattr(env, "unwrapped", env)
     table = getattr(bare, "P", None)

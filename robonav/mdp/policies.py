@@ -22,8 +22,10 @@ def as_deterministic_policy(
 
     Raises
     ------
-    TypeError : if it does not hold whole numbers.
-    ValueError : if it has another shape, or an action does not exist.
+    TypeError
+        If it does not hold whole numbers.
+    ValueError
+        If it has another shape, or an action does not exist.
     """
     check_array(name, policy, shape=(states,))
     if np.asarray(policy).dtype.kind not in "iu":
@@ -44,8 +46,10 @@ def as_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
 
     Raises
     ------
-    TypeError : if it is no array of numbers, or of one dimension and not of whole numbers.
-    ValueError : if its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
+    TypeError
+        If it is no array of numbers, or of one dimension and not of whole numbers.
+    ValueError
+        If its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
     """
     if check_array("policy", policy).ndim == 1:
         return as_deterministic_policy("policy", policy, states, actions)
@@ -70,7 +74,8 @@ def as_distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.flo
 
     Raises
     ------
-    TypeError, ValueError : if it is no array of numbers, its last axis is not S, or a row is no distribution.
+    TypeError, ValueError
+        If it is no array of numbers, its last axis is not S, or a row is no distribution.
     """
     given: NDArray[np.float64] = check_array(name, value)
     if given.ndim == 0 or given.shape[-1] != states:

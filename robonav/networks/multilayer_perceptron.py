@@ -323,7 +323,25 @@ def cross_entropy_cost(
 ) -> float:
     """Mean cross-entropy cost with weight decay, Eq. (3.22).
 
-    Parameters and errors are those of :func:`squared_error_cost`.
+    Parameters
+    ----------
+    network : Network
+        A single network.
+    x : (m, s[0]) array
+        Inputs.
+    y : (m, s[-1]) array
+        Labels in [0, 1].
+    regularisation : float
+        lambda, at least 0. It acts on the weights, never on the biases.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ValueError
+        If a shape does not fit, there is no example, or a label lies outside [0, 1].
 
     Examples
     --------
@@ -440,11 +458,25 @@ def squared_error_gradient(
 ) -> Gradient:
     """Gradient of the squared-error cost, from the output errors of Eq. (3.13).
 
-    Parameters and errors are those of :func:`squared_error_cost`.
+    Parameters
+    ----------
+    network : Network
+        A single network.
+    x : (m, s[0]) array
+        Inputs.
+    y : (m, s[-1]) array
+        Labels in [0, 1].
+    regularisation : float
+        lambda, at least 0. It acts on the weights, never on the biases.
 
     Returns
     -------
     Gradient
+
+    Raises
+    ------
+    ValueError
+        If a shape does not fit, there is no example, or a label lies outside [0, 1].
 
     Examples
     --------
@@ -465,12 +497,27 @@ def cross_entropy_gradient(
 ) -> Gradient:
     """Gradient of the cross-entropy cost, from the output errors of Eq. (3.23).
 
-    The weights decay by lambda / m, which is the derivative of the cost. Parameters and errors are those of
-    :func:`squared_error_cost`.
+    The weights decay by lambda / m, which is the derivative of the cost.
+
+    Parameters
+    ----------
+    network : Network
+        A single network.
+    x : (m, s[0]) array
+        Inputs.
+    y : (m, s[-1]) array
+        Labels in [0, 1].
+    regularisation : float
+        lambda, at least 0. It acts on the weights, never on the biases.
 
     Returns
     -------
     Gradient
+
+    Raises
+    ------
+    ValueError
+        If a shape does not fit, there is no example, or a label lies outside [0, 1].
 
     Examples
     --------
@@ -596,17 +643,27 @@ def stochastic_gradient_descent(
 ) -> Network:
     """Stochastic gradient descent: every step uses the next ``batch_size`` examples in a random order.
 
-    An epoch goes through all examples once. Steps are cheaper than those of :func:`batch_gradient_descent`, whose
-    parameters and errors are the same, and their directions are right only on average.
+    An epoch goes through all examples once. Steps are cheaper than those of :func:`batch_gradient_descent`, and
+    their directions are right only on average.
 
     Parameters
     ----------
+    network : Network
+        A single network.
+    x : (m, s[0]) array
+        Inputs.
+    y : (m, s[-1]) array
+        Labels in [0, 1].
+    gradient_step : float
+        Positive. Each step is the gradient times this number.
     epochs : int
         How often to go through the examples.
     batch_size : int
         Examples in each step; the last step of an epoch may have fewer.
     seed : int or Generator
         Of the random orders.
+    cost_gradient : callable
+        Computes the gradient of the cost from network, inputs and labels.
 
     Returns
     -------

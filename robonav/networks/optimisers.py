@@ -140,11 +140,32 @@ def lbfgs(
     """Train a network by L-BFGS (Liu and Nocedal 1989) on the cross-entropy cost.
 
     The thesis's fminunc belongs to the same quasi-Newton family. Training ends early where no step lowers the cost.
-    Parameters and errors are those of :func:`gradient_descent`.
+
+    Parameters
+    ----------
+    network : Network
+        The network to start from.
+    x : (m, s[0]) array
+        Inputs.
+    y : (m, s[-1]) array
+        Labels in [0, 1].
+    regularisation : float
+        lambda, at least 0.
+    iterations : int
+        Steps to take, at most 100,000.
+    record : bool
+        Whether to keep the network of every iteration.
+    progress : callable, optional
+        Called as ``progress(done, iterations)``.
 
     Returns
     -------
     TrainingHistory
+
+    Raises
+    ------
+    ValueError
+        If shapes do not fit, or an argument lies outside its range.
 
     Examples
     --------

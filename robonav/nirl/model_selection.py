@@ -25,6 +25,10 @@ def accuracy(predicted: ArrayLike, actions: ArrayLike) -> float:
     predicted, actions : (M,) array of int
         A policy's actions and the expert's.
 
+    Returns
+    -------
+    float
+
     Examples
     --------
     >>> from robonav.nirl import accuracy
@@ -44,6 +48,10 @@ def balanced_accuracy(predicted: ArrayLike, actions: ArrayLike) -> float:
     ----------
     predicted, actions : (M,) array of int
         A policy's actions and the expert's.
+
+    Returns
+    -------
+    float
 
     Examples
     --------

@@ -181,6 +181,10 @@ def policy_cost(
     regularisation : float
         lambda.
 
+    Returns
+    -------
+    float
+
     Examples
     --------
     >>> import numpy as np

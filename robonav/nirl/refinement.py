@@ -87,8 +87,12 @@ def map_uniform_prior(states: ArrayLike, actions: ArrayLike, n_actions: int) -> 
 
     Parameters
     ----------
-    states, actions, n_actions
-        As in :func:`most_frequent`.
+    states : (M, k) or (M,) array
+        Equal rows are equal states.
+    actions : (M,) array of int
+        Demonstrated actions.
+    n_actions : int
+        A.
 
     Returns
     -------

@@ -111,12 +111,20 @@ def dual(
 
     Parameters
     ----------
-    weights, samples, log_ratios
-        As in :func:`importance_weights`.
+    weights : (K,) array
+        theta.
     expert : (K,) array
-        mu_E.
+        mu_E, mean discounted features of the demonstrations.
+    samples : (N, K) array
+        f(tau), discounted features of N trajectories.
+    log_ratios : (N,) array
+        log U(tau) - log pi(tau), as in :func:`importance_weights`.
     slack : (K,) array
         eps, at least 0.
+
+    Returns
+    -------
+    float
 
     Examples
     --------
@@ -145,8 +153,16 @@ def dual_gradient(
 
     Parameters
     ----------
-    weights, expert, samples, log_ratios, slack
-        As in :func:`dual`.
+    weights : (K,) array
+        theta.
+    expert : (K,) array
+        mu_E, mean discounted features of the demonstrations.
+    samples : (N, K) array
+        f(tau), discounted features of N trajectories.
+    log_ratios : (N,) array
+        log U(tau) - log pi(tau), as in :func:`importance_weights`.
+    slack : (K,) array
+        eps, at least 0.
 
     Returns
     -------
@@ -216,8 +232,10 @@ def relative_entropy_weights(
     ----------
     expert : (K,) array
         mu_E, mean discounted features of the demonstrations.
-    samples, log_ratios
-        As in :func:`importance_weights`.
+    samples : (N, K) array
+        f(tau), discounted features of N trajectories.
+    log_ratios : (N,) array
+        log U(tau) - log pi(tau), as in :func:`importance_weights`.
     slack : (K,) array or float
         eps, at least 0. With 0 the weighted samples have exactly the expert's features.
     bound : float
@@ -350,6 +368,10 @@ def random_segments(
         Decisions of a segment at most.
     rng : Generator
         Source of all random numbers.
+
+    Returns
+    -------
+    Transitions
 
     Examples
     --------

@@ -243,6 +243,10 @@ def train_under_reward(
     progress : callable, optional
         Called as ``progress(done, iterations)``.
 
+    Returns
+    -------
+    IRLResult
+
     Examples
     --------
     >>> import numpy as np

@@ -58,6 +58,10 @@ def reflex_acted(info: dict[str, Any]) -> bool:
     info : dict
         What ``env.step`` returned last.
 
+    Returns
+    -------
+    bool
+
     Examples
     --------
     >>> from robonav.nnql import NavigationTask

@@ -61,6 +61,14 @@ def q_targets(
 def clip(q: Array) -> Array:
     """Move Q-values outside [0, 1] to the nearer end.
 
+    Parameters
+    ----------
+    q : (..., A) array
+
+    Returns
+    -------
+    (..., A) array
+
     Examples
     --------
     >>> import numpy as np
@@ -73,6 +81,14 @@ def clip(q: Array) -> Array:
 
 def shift(q: Array) -> Array:
     """Shift and divide the Q-values of a state (..., A) until all lie in [0, 1]; the order of the actions stays.
+
+    Parameters
+    ----------
+    q : (..., A) array
+
+    Returns
+    -------
+    (..., A) array
 
     Examples
     --------
@@ -92,6 +108,17 @@ RESCALE: dict[str, Callable[[Array], Array]] = {"clip": clip, "shift": shift}
 
 def network_error(targets: Array, q: Array) -> Array:
     """The network's error, Eq. (4.10): rescaled targets minus the network's outputs, (..., A).
+
+    Parameters
+    ----------
+    targets : (..., A) array
+        Rescaled Q-values.
+    q : (..., A) array
+        Outputs of the network.
+
+    Returns
+    -------
+    (..., A) array
 
     Examples
     --------

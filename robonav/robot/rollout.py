@@ -161,6 +161,11 @@ def follow_policy(policy: Policy, rng: np.random.Generator | int) -> Chooser:
     rng : numpy.random.Generator or int
         What the policy draws random numbers from.
 
+    Returns
+    -------
+    callable
+        ``choose(simulator, sensing, robots)`` returns the policy's actions.
+
     Examples
     --------
     >>> import numpy as np

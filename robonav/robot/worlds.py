@@ -426,8 +426,16 @@ def draw_worlds(
     ----------
     keys : (N, 2) array of 32-bit numbers
         One a world, see :func:`world_keys`.
-    obstacles, moving, starts, targets, moving_speeds, size
-        See :func:`random_worlds`.
+    obstacles : int
+        Obstacles that stand still, 0 or more.
+    moving : int
+        Obstacles that move, on top of them.
+    starts, targets : sequence of (x, y)
+        Points of which each world gets one at random.
+    moving_speeds : (float, float)
+        Least and greatest speed of moving obstacles, in m/s.
+    size : float
+        Side of the map in metres.
 
     Returns
     -------

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import ast
 import importlib
 import inspect
+import pkgutil
 from dataclasses import fields
+from pathlib import Path
 from typing import Any
 
 import gymnasium
 import pytest
 import typer.main
+from numpydoc.docscrape import NumpyDocString
+from numpydoc.validate import validate
 
 import robonav
 from robonav.cli import app
@@ -157,3 +162,44 @@ def without_example(package: str) -> list[str]:
 @pytest.mark.parametrize("package", PUBLIC)
 def test_every_public_name_has_an_example(package: str) -> None:
     assert without_example(package) == []
+
+
+# numpydoc's names for: a parameter not documented, one that does not exist, the wrong order of parameters, one without
+# a type, no section on what is returned, the wrong order of sections
+DOCSTRING_FAULTS = {"PR01", "PR02", "PR03", "PR04", "RT01", "GL07"}
+
+
+def public_functions() -> list[str]:
+    """The functions in ``__all__`` of every package that is not private."""
+    names: dict[Any, str] = {}
+    for module in pkgutil.walk_packages(robonav.__path__, "robonav."):
+        private = any(part.startswith("_") for part in module.name.split("."))
+        if private or not module.ispkg:
+            continue
+        here = importlib.import_module(module.name)
+        for name in getattr(here, "__all__", ()):
+            if inspect.isfunction(getattr(here, name)):
+                names.setdefault(getattr(here, name), f"{module.name}.{name}")
+    return sorted(names.values())
+
+
+@pytest.mark.parametrize("name", public_functions())
+def test_numpydoc_finds_no_fault_in(name: str) -> None:
+    faults = validate(name)["errors"]
+    assert [text for code, text in faults if code in DOCSTRING_FAULTS] == []
+
+
+def test_errors_and_warnings_are_explained_below_their_names() -> None:
+    """With ``ValueError : if ...`` on one line, numpydoc takes the explanation for a type."""
+    wrong = []
+    for path in sorted(Path(robonav.__file__).parent.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.FunctionDef | ast.ClassDef):
+                sections = NumpyDocString(ast.get_docstring(node) or "")
+                entries = [*sections["Raises"], *sections["Warns"]]
+                wrong += [
+                    f"{path.name}:{node.lineno} {entry.name} : {entry.type}"
+                    for entry in entries
+                    if entry.name or " if " in entry.type
+                ]
+    assert wrong == []

@@ -18,11 +18,16 @@ class Question:
 
     Attributes
     ----------
-    title : the idea in a few words.
-    question : to be answered before a control is moved.
-    guesses : answers to choose from; none for a question whose answer is a number.
-    files : JavaScript files of :mod:`robonav.widgets` that it uses besides its own.
-    given : computes what the page needs, with the package's functions.
+    title : str
+        The idea in a few words.
+    question : str
+        The question that the reader answers before moving a control.
+    guesses : sequence of str
+        Answers to choose from; none for a question whose answer is a number.
+    files : sequence of str
+        JavaScript files of :mod:`robonav.widgets` that it uses besides its own.
+    given : callable
+        Computes what the page needs, with the package's functions.
     """
 
     title: str
