@@ -26,8 +26,9 @@ export const decisionsOf = (steps, { encoder }) => ({
 
 /** Boltzmann policy, Eq. (5.10). @param {ArrayLike<number>} values */
 export function boltzmann(values, inverseTemperature) {
-  const largestValue = Math.max(...values.map((value) => inverseTemperature * value));
-  const weights = Array.from(values, (value) => Math.exp(inverseTemperature * value - largestValue));
+  let highest = -Infinity;
+  for (const value of values) highest = Math.max(highest, inverseTemperature * value);
+  const weights = Array.from(values, (value) => Math.exp(inverseTemperature * value - highest));
   const sum = weights.reduce((total, weight) => total + weight, 0);
   return weights.map((weight) => weight / sum);
 }
@@ -166,10 +167,30 @@ function sarsaDescent({ sizes: [width, units], weights: [w1, w2], biases: [b1, b
   return cost / order.length;
 }
 
-/** How well greedy actions predict the expert's, every action weighing the same. @param {Decisions} expert */
-export function balancedAccuracy(network, { inputs, actions }, weights) {
-  return inputs.reduce((sum, input, t) => sum + (largest(propagate(network, input).z) === actions[t] ? weights[t] : 0), 0);
+/** The outputs of a network with one hidden layer in many states, and the action whose sum is largest in each. */
+function answersIn({ sizes: [width, units, count], weights: [w1, w2], biases: [b1, b2] }, inputs) {
+  const hidden = new Float64Array(units);
+  const values = inputs.map(() => new Float64Array(count));
+  const greedy = inputs.map((input, t) => {
+    for (let i = 0; i < units; i += 1) {
+      let sum = b1[i];
+      for (let j = 0; j < width; j += 1) sum += w1[i * width + j] * input[j];
+      hidden[i] = 1 / (1 + Math.exp(-sum));
+    }
+    let [best, highest] = [0, -Infinity];
+    for (let a = 0; a < count; a += 1) {
+      let z = b2[a];
+      for (let i = 0; i < units; i += 1) z += w2[a * units + i] * hidden[i];
+      values[t][a] = 1 / (1 + Math.exp(-z));
+      if (z > highest) [best, highest] = [a, z];
+    }
+    return best;
+  });
+  return { values, greedy };
 }
+
+/** How well greedy actions predict the expert's, every action weighing the same. */
+const balancedAccuracy = (greedy, actions, weights) => greedy.reduce((sum, action, t) => sum + (action === actions[t] ? weights[t] : 0), 0);
 
 /**
  * Algorithm 10: yields what each iteration found, and returns the policy that predicts the expert best.
@@ -187,11 +208,12 @@ export function* nirl(expert, settings, seed, reward = null) {
   const balance = inverseFrequencyWeights(expert.actions, actions);
   const episodes = [];
   let theta = new Float64Array(actions * (width + 1));
-  let best = { network: flattened(network), theta, balanced: balancedAccuracy(network, expert, balance), iteration: 0 };
+  let answers = answersIn(network, expert.inputs);
+  let best = { network: flattened(network), theta, balanced: balancedAccuracy(answers.greedy, expert.actions, balance), iteration: 0 };
   for (let iteration = 1; iteration <= iterations; iteration += 1) { // 2, 3, 11
     const rollout = rolloutEpisodes(network, settings, rng); // 4
     episodes.push(rollout);
-    const probabilities = expert.inputs.map((input) => boltzmann(outputsOf(network, input), inverseTemperature));
+    const probabilities = answers.values.map((values) => boltzmann(values, inverseTemperature));
     const gap = featureGap(expert, probabilities, balance, actions);
     theta = reward ?? theta.map((value, k) => value + gap[k] / Math.sqrt(iteration)); // 5
     const weights = inUnitBall(theta);
@@ -205,7 +227,8 @@ export function* nirl(expert, settings, seed, reward = null) {
       const step = gradientStep[0] * (gradientStep[1] / gradientStep[0]) ** fraction;
       cost = sarsaDescent(network, recent, rewards.map((r) => (1 - discount) * r), order, settings, step); // 9, 10
     }
-    const balanced = balancedAccuracy(network, expert, balance);
+    answers = answersIn(network, expert.inputs);
+    const balanced = balancedAccuracy(answers.greedy, expert.actions, balance);
     if (balanced > best.balanced) best = { network: flattened(network), theta: weights, balanced, iteration };
     yield { iteration, iterations, margin, cost, balanced, arrived: rollout.arrived, collided: rollout.collided, theta: weights };
   }
