@@ -9,11 +9,14 @@ import numpy as np
 from robonav.validation import (
     Rule,
     check_array,
+    check_instance,
     check_integer,
     check_positive,
     check_real,
     checks,
 )
+
+from .transitions import Transitions
 
 
 def unit_interval(name: str, value: Any) -> float:
@@ -31,6 +34,30 @@ def count(name: str, value: Any) -> int:
     return check_integer(name, value, at_least=1)
 
 
+def learning_task(name: str, value: Any) -> Any:
+    """A task on which a policy makes episodes, see :class:`robonav.nirl.Task`."""
+    needed = ("n_inputs", "n_actions", "rollout", "greedy_policy")
+    if isinstance(value, type) or not all(hasattr(value, part) for part in needed):
+        raise TypeError(
+            f"{name} must be a task such as RobotTask() or TabularTask(mdp), got {type(value).__name__}"
+        )
+    return value
+
+
+def improver(name: str, value: Any) -> Any:
+    """What improves a network, see ``Improver``."""
+    if isinstance(value, type) or not hasattr(value, "descend"):
+        raise TypeError(f"{name} must be such as ReplaySGD(), got {value!r}")
+    return value
+
+
+def function(name: str, value: Any) -> Any:
+    """A callable."""
+    if not callable(value):
+        raise TypeError(f"{name} must be callable, got {type(value).__name__}")
+    return value
+
+
 def slack_of_features(name: str, value: Any) -> Any:
     """Numbers of at least 0."""
     slack = check_array(name, value)
@@ -41,10 +68,15 @@ def slack_of_features(name: str, value: Any) -> Any:
 
 RULES: dict[str, Rule] = {
     "bound": check_positive,
+    "demonstrations": lambda name, value: check_instance(name, value, Transitions),
     "discount": unit_interval,
+    "estimate": function,
+    "expectations": function,
     "gradient_step": check_positive,
+    "guess": function,
     "hidden": count,
     "horizon": count,
+    "improver": improver,
     "inverse_temperature": not_negative,
     "iterations": count,
     "max_iterations": count,
@@ -55,14 +87,17 @@ RULES: dict[str, Rule] = {
     "n_samples": count,
     "power": not_negative,
     "regularisation": not_negative,
+    "reward_update": function,
+    "score": function,
     "slack": slack_of_features,
+    "task": learning_task,
     "temperature": check_positive,
     "lstd_mu.regularisation": check_positive,
     "maximum_causal_entropy.tolerance": check_positive,
     "apprenticeship_learning.tolerance": not_negative,
     "soft_value_iteration.tolerance": check_positive,
 }
-"""The rule of each number: by the name of the argument, or by "function.argument"."""
+"""The rule of each argument: by the name of the argument, or by "function.argument"."""
 
 SHAPES: dict[str, dict[str, str]] = {
     "action_block": {"state_features": "M k", "actions": "M:int"},

@@ -189,7 +189,6 @@ def apprenticeship_learning(
     guess: RewardGuess = projection_guess,
     tolerance: float = 1e-3,
     iterations: int = 50,
-    progress: Progress | None = None,
 ) -> Apprenticeship:
     """Apprenticeship learning (Abbeel and Ng 2004, section 3); the numbers are the steps of the paper.
 
@@ -211,8 +210,6 @@ def apprenticeship_learning(
         epsilon: the algorithm ends when the expert is no farther than this from a mixture of the policies found.
     iterations : int
         Policies to find at most.
-    progress : callable, optional
-        Called as ``progress(done, iterations)``.
 
     Returns
     -------
@@ -244,8 +241,6 @@ def apprenticeship_learning(
         rewards.append(theta)
         policies.append(policy)
         found.append(np.asarray(mu, dtype=float))  # 6
-        if progress is not None:
-            progress(iteration + 1, iterations)
     return Apprenticeship(
         policies=tuple(policies),
         expectations=np.stack(found),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from robonav.lfd.demonstrations import Demonstrations
-from robonav.validation import check_one_of
+from robonav.validation import check_instance, check_one_of
 
 from .apprenticeship import apprenticeship
 from .nirl import nirl
@@ -76,7 +76,7 @@ def learn(
     (1,)
     """
     learner = METHODS[check_one_of("method", method, METHODS)]
-    task = task or RobotTask()
+    task = RobotTask() if task is None else check_instance("task", task, RobotTask)
     expert = robot_transitions(demonstrations, task, refine)
     return learner(expert, task, seed=seed, **settings)
 
@@ -134,6 +134,6 @@ def learn_under_reward(
     >>> learn_under_reward(demonstrations, np.zeros((5, 18)), iterations=2).reward_weights.any()
     np.False_
     """
-    task = task or RobotTask()
-    expert = expert_transitions(demonstrations, task.encoder)
+    task = RobotTask() if task is None else check_instance("task", task, RobotTask)
+    expert = robot_transitions(demonstrations, task)
     return train_under_reward(expert, task, weights, seed=seed, **settings)

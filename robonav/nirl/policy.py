@@ -53,9 +53,10 @@ def neural_action_values(network: Network, inputs: Floats) -> Floats:
 def boltzmann_policy(action_values: ArrayLike, inverse_temperature: float) -> Floats:
     """Probability of each action, in proportion to exp(eta Q(s, a)), Eq. (5.10).
 
-    At eta = 0 all actions are equally likely. The larger eta is, the more probable is the best action. This is the
-    softmax policy of chapter 4, Eq. (4.7), at the temperature 1 / eta; at eta = 0 this temperature would be infinite,
-    so eta multiplies the values instead. The sum in the denominator runs over the actions; the thesis names the action
+    At eta = 0 all actions are equally likely. The larger eta is, the more probable is the best action. It is the
+    softmax policy of chapter 4, Eq. (4.7), at the temperature 1 / eta, :func:`robonav.nnql.softmax_policy`; both
+    functions exist because the thesis numbers both equations. At eta = 0 this temperature would be infinite, so eta
+    multiplies the values instead. The sum in the denominator runs over the actions; the thesis names the action
     values of the state as its index.
 
     Parameters

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav.lfd.demonstrations import LEARNED, Demonstrations
 from robonav.robot import NNQL_SENSORS, Encoder, Worlds
-from robonav.validation import check_array
+from robonav.validation import check_array, check_instance
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -150,6 +150,7 @@ def expert_transitions(
     >>> len(expert_transitions(demonstrate(random_worlds(1, obstacles=20, seed=3)))) > 0
     True
     """
+    check_instance("demonstrations", demonstrations, Demonstrations)
     first = np.searchsorted(
         demonstrations.trajectory, np.arange(len(demonstrations.worlds))
     )

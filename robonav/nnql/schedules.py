@@ -15,7 +15,8 @@ def softmax_policy(q: ArrayLike, temperature: ArrayLike) -> Array:
     """The probabilities of the actions in a state, Eq. (4.7): a softmax, or Boltzmann, policy.
 
     The largest Q-value is subtracted first. This leaves the quotient as it is and keeps every exponential at 1 or
-    below.
+    below. Chapter 5 has the same policy with the inverse temperature eta = 1 / T in place of T, Eq. (5.10), in
+    :func:`robonav.nirl.boltzmann_policy`. Both functions exist because the thesis numbers both equations.
 
     Parameters
     ----------

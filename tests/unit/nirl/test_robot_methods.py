@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import gymnasium
 import numpy as np
 import pytest
 
@@ -201,6 +202,33 @@ def test_nothing_to_learn_from_gets_a_sentence(demonstrations, method):
         ValueError, match=rf"must hold an effective pair.*got none in {len(safe)} steps"
     ):
         learn(safe, method, seed=0)
+
+
+def test_arguments_of_another_type(demonstrations):
+    expert, task = expert_transitions(demonstrations), RobotTask()
+    for call, sentence in (
+        (lambda: learn([1]), "demonstrations must be Demonstrations, got list"),
+        (lambda: learn(demonstrations, task=4), "task must be RobotTask, got int"),
+        (
+            lambda: learn_under_reward([1], np.zeros((5, 18))),
+            "demonstrations must be Demonstrations, got list",
+        ),
+    ):
+        with pytest.raises(TypeError, match=sentence):
+            call()
+    for method in METHODS.values():
+        for arguments, sentence in (
+            ((demonstrations, task), "demonstrations must be Transitions, got Demonst"),
+            ((expert, gymnasium.make("CartPole-v1")), "task must be a task such as"),
+            ((expert, RobotTask), "task must be a task such as"),
+        ):
+            with pytest.raises(TypeError, match=sentence):
+                method(*arguments)
+        with pytest.raises(TypeError, match="improver must be such as ReplaySGD"):
+            method(expert, task, improver=3)
+        if method in (METHODS["nirl"], METHODS["apprenticeship"]):
+            with pytest.raises(TypeError, match="score must be callable, got str"):
+                method(expert, task, score="accuracy", iterations=1)
 
 
 def test_another_method_gets_a_sentence(demonstrations):
