@@ -26,7 +26,7 @@ def evaluate_baseline(case: Case, seed: int, scale: str) -> Numbers:
 EXPERIMENTS = (
     Experiment(
         name="baselines",
-        title="Policies that have learned nothing: straight on, and the rule of the clearer side",
+        title="Outcomes of two baselines: straight ahead, and turning to the clearer side",
         cases=[
             {"rule": rule, "standing": standing, "moving": moving, "speed": speed}
             for rule in BASELINES

@@ -35,7 +35,7 @@ def board(names: Sequence[str]) -> Experiment:
     sources = {name: str(Path(name).resolve()) for name in names if Path(name).suffix}
     return Experiment(
         name="leaderboard",
-        title="Methods on the same worlds, which none that ships was trained or tuned on",
+        title="Outcomes and SPL of the registered methods in the same unseen worlds",
         cases=[
             {"method": name, "setting": setting}
             for name in names

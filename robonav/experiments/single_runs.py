@@ -176,12 +176,12 @@ def shipped_policies(
 
 
 EXPERIMENTS = (
-    panels("figure-2.4", "Generalized policy iteration: between two lines", iteration_gaps,
+    panels("figure-2.4", "Gaps of evaluation and of improvement in generalised policy iteration, for three numbers of sweeps", iteration_gaps,
            [{"sweeps": sweeps} for sweeps in (1, 5, 1000)],
            plot=Plot("single_runs.plot_gaps")),
     panels(
         "figure-3.4",
-        "What modified and grid A* visit",
+        "Nodes that modified A* and grid A* expand",
         search,
         [{"planner": planner, "world": 0, "obstacles": 10} for planner in ("modified A*", "grid A*")],
     ),

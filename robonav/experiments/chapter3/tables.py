@@ -259,7 +259,7 @@ TABLE_3_3 = Experiment(
 )
 FIGURE_3_5 = Experiment(
     name="figure-3.5",
-    title="Modified A* beside grid A*: metres to the target, and nodes",
+    title="Modified A* and grid A*: metres to the target, and nodes expanded",
     cases=[
         {"target y": y, "obstacles": obstacles, "grid cell": cell}
         for y in (90, 40)
@@ -278,7 +278,7 @@ FIGURE_3_5 = Experiment(
 )
 FIGURE_3_6 = Experiment(
     name="figure-3.6",
-    title="What 25 demonstrations hold, by expert, and the success of the policy learned from them",
+    title="Content of 25 demonstrations by expert, and success of the policy learned from them",
     cases=[
         {"expert": expert}
         for expert in ("computer", "computer, slipping", "hand", "hand, slipping")
@@ -291,7 +291,7 @@ FIGURE_3_6 = Experiment(
 )
 FIGURE_3_7 = Experiment(
     name="figure-3.7",
-    title="The cost during training",
+    title="Cost during training, over iterations",
     cases=[
         {"expert": expert, "inputs": inputs}
         for expert, inputs in (
@@ -308,7 +308,7 @@ FIGURE_3_7 = Experiment(
 )
 FIGURE_3_8 = Experiment(
     name="figure-3.8",
-    title="Success in new maps: cloning, what came before and after it, and two baselines",
+    title="Success in new maps: nearest neighbours, behaviour cloning, DAgger, and two baselines",
     cases=[
         {"obstacles": obstacles, "method": name}
         for obstacles in (10, 20, 30)
@@ -329,7 +329,7 @@ FIGURE_3_8 = Experiment(
 )
 FIGURE_3_9 = Experiment(
     name="figure-3.9",
-    title="Learned paths beside planned ones: medians in metres",
+    title="Lengths of learned and of planned paths: medians in metres",
     cases=[
         {"obstacles": obstacles, "method": name}
         for obstacles in (10, 20)
@@ -346,7 +346,7 @@ FIGURE_3_9 = Experiment(
 )
 FIGURE_3_10 = Experiment(
     name="figure-3.10",
-    title="Among moving obstacles, for policies learned among standing ones",
+    title="Success with standing and moving obstacles: policies learned with standing ones, and baselines",
     cases=[
         {"standing": standing, "moving": moving, "method": name}
         for standing, moving in ((10, 5), (10, 10))
@@ -359,7 +359,7 @@ FIGURE_3_10 = Experiment(
 )
 ENCODINGS = Experiment(
     name="lfd-encodings",
-    title="Four encodings of the target's sector",
+    title="Success in new maps with four encodings of the target's sector",
     cases=[
         {"learner": learner, "obstacles": obstacles, "target": target}
         for learner in ("cloning", "DAgger, 1 round")
@@ -373,7 +373,7 @@ ENCODINGS = Experiment(
 )
 MARGINS = Experiment(
     name="lfd-margins",
-    title="How far the expert keeps from obstacles",
+    title="Success in new maps by the margin that the expert keeps from obstacles",
     cases=[
         {"obstacles": obstacles, "caution": caution, "margin": margin}
         for obstacles in (10, 20)

@@ -115,7 +115,7 @@ def vary(case: Case, seed: int, scale: str) -> Numbers:
 
 CIRCLES = Experiment(
     name="nnql-circles",
-    title="What makes a robot circle: one choice at a time",
+    title="Outcomes of NNQL with one choice changed at a time: reward, temperature, encoding, rescaling, discount",
     cases=[
         {"what": what, "choice": choice}
         for what, choices in VARIATIONS.items()

@@ -122,7 +122,7 @@ _SEEDS = {"quick": 2, "thesis": 50}
 
 TABLE_4_2 = Experiment(
     name="table-4.2",
-    title="Six speeds: NNQL trained at 2.5 m/s or at the same speed, and two baselines",
+    title="Success at six speeds: NNQL trained at 2.5 m/s or at the same speed, and two baselines",
     cases=[
         {"robot": name, "speed": speed}
         for name in ("nnql", SAME_SPEED, *BASELINES)
@@ -135,7 +135,7 @@ TABLE_4_2 = Experiment(
 )
 TABLE_4_3 = Experiment(
     name="table-4.3",
-    title="NNQL, online Q-learning, NFQ, DQN, and two baselines: success in new maps",
+    title="Success in new maps: NNQL, online Q-learning, NFQ, DQN, and two baselines",
     cases=[{"robot": name} for name in (*METHODS, *BASELINES)],
     run=compare,
     seeds=_SEEDS,
@@ -145,7 +145,7 @@ TABLE_4_3 = Experiment(
 )
 EQUAL_STEPS = Experiment(
     name="nnql-steps",
-    title="Table 4.3 with as many learning steps for each method as NNQL has",
+    title="Success in new maps: the methods of Table 4.3, each with as many learning steps as NNQL",
     cases=[{"robot": name} for name in METHODS],
     run=compare_with_equal_steps,
     seeds=_SEEDS,
@@ -154,7 +154,7 @@ EQUAL_STEPS = Experiment(
 )
 FIGURE_4_3 = Experiment(
     name="figure-4.3",
-    title="How much the weights change in each episode",
+    title="Changes of the weights in each episode",
     cases=[{"sum": "signed"}, {"sum": "absolute"}],
     run=weights_over_time,
     seeds={"quick": 1, "thesis": 4},
@@ -181,7 +181,7 @@ FIGURE_4_6 = Experiment(
 )
 FIGURE_4_7 = Experiment(
     name="figure-4.7",
-    title="Among moving obstacles: NNQL trained among standing ones, and two baselines",
+    title="Success with standing and moving obstacles: NNQL trained with standing ones, and two baselines",
     cases=[
         {"robot": name, "standing": standing, "moving": moving}
         for name in ("nnql", *BASELINES)
@@ -194,7 +194,7 @@ FIGURE_4_7 = Experiment(
 )
 TWENTY_OBSTACLES = Experiment(
     name="nnql-20-obstacles",
-    title="NNQL with 20 obstacles: the thesis's hyperparameters, decaying learning rates, and two baselines",
+    title="Success with 20 obstacles: NNQL with the thesis's hyperparameters, with decaying learning rates, and two baselines",
     cases=[
         {"robot": name, "episodes": episodes}
         for name in DENSE

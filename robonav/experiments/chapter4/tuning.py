@@ -161,7 +161,7 @@ _SHORTENED = "a fifth of the episodes"
 
 TUNING = Experiment(
     name="nnql-tuning",
-    title="Trials from which the hyperparameters of chapter 4's methods were chosen, as many for each",
+    title="Success of the trials that tuned the methods of chapter 4, equally many for each",
     cases=[
         _case(method, trial, trial_settings(method, trial))
         for method in METHODS
@@ -175,7 +175,7 @@ TUNING = Experiment(
 )
 FINALS = Experiment(
     name="nnql-finals",
-    title="The four best trials of each method once more, with other seeds",
+    title="Success of the four best trials of each method, trained again with other seeds",
     cases=finalists(),
     run=tune_again,
     seeds={"quick": 1, "thesis": 12},

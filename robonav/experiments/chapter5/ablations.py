@@ -120,7 +120,7 @@ def choose_policy(case: Case, seed: int, scale: str) -> Numbers:
 
 STEPS = Experiment(
     name="nirl-steps",
-    title="From Algorithm 10 as written to what works, one change at a time",
+    title="Success of NIRL after each change from Algorithm 10 as written",
     cases=[{"change": change} for change in CHANGES],
     run=ablation,
     seeds={"quick": 1, "thesis": 10},
@@ -129,7 +129,7 @@ STEPS = Experiment(
 )
 CHOICE = Experiment(
     name="nirl-choice",
-    title="Which of a run's policies to keep, with a learned reward and with none",
+    title="Success by the rule that chooses one policy of a run, with a learned reward and with none",
     cases=[
         {"reward": reward, "chosen by": choice}
         for reward in ("learned", "none")

@@ -133,7 +133,7 @@ COMPARED = [
 
 TABLE_5_1 = Experiment(
     name="table-5.1",
-    title="NIRL and cloning from computer and human experts: success in new maps by number of demonstrations",
+    title="Success in new maps by number of demonstrations: NIRL and cloning, from computer and human experts",
     cases=[
         {"method": method, "expert": expert, "demonstrations": n}
         for method in ("nirl", "cloning")
@@ -148,7 +148,7 @@ TABLE_5_1 = Experiment(
 )
 TABLE_5_2 = Experiment(
     name="table-5.2",
-    title="NIRL, apprenticeship learning, relative entropy, SCIRL, and what they have to beat: success in new maps",
+    title="Success in new maps: NIRL, apprenticeship learning, relative entropy, SCIRL, controls, cloning, and baselines",
     cases=COMPARED,
     run=compare,
     seeds={"quick": 2, "thesis": 25},
@@ -158,7 +158,7 @@ TABLE_5_2 = Experiment(
 )
 WITHOUT_BONUS = Experiment(
     name="nirl-controls",
-    title="Without a bonus at the end of an episode: each method's reward, no reward, and a random one",
+    title="Success without a bonus at the end of an episode: learned rewards, no reward, and a random reward",
     cases=_cases((*LEARNERS, *CONTROLS), DISCOUNT),
     run=compare_without_bonus,
     seeds={"quick": 1, "thesis": 10},
@@ -167,7 +167,7 @@ WITHOUT_BONUS = Experiment(
 )
 FIGURE_5_4 = Experiment(
     name="figure-5.4",
-    title="Samples and distinct states a trajectory, by number of demonstrations",
+    title="Samples and distinct states in a trajectory, by number of demonstrations",
     cases=[
         {"expert": expert, "demonstrations": n}
         for expert in ("computer", "human")
@@ -180,7 +180,7 @@ FIGURE_5_4 = Experiment(
 )
 FIGURE_5_7 = Experiment(
     name="figure-5.7",
-    title="The margin by which the reward prefers the expert, over iterations",
+    title="Margin by which the reward prefers the expert, over iterations",
     cases=[{"discount": discount} for discount in DISCOUNTS],
     run=partial(over_iterations, metrics=("margin",)),
     seeds={"quick": 2, "thesis": 10},
@@ -190,7 +190,7 @@ FIGURE_5_7 = Experiment(
 )
 FIGURE_5_8 = Experiment(
     name="figure-5.8",
-    title="The cost of the network, over iterations",
+    title="Cost of the network, over iterations",
     cases=[{"discount": discount} for discount in DISCOUNTS],
     run=partial(over_iterations, metrics=("cost",)),
     seeds={"quick": 2, "thesis": 10},
@@ -200,7 +200,7 @@ FIGURE_5_8 = Experiment(
 )
 FIGURE_5_11 = Experiment(
     name="figure-5.11",
-    title="How much the weights change in each iteration",
+    title="Changes of the weights in each iteration",
     cases=[{"discount": discount} for discount in DISCOUNTS],
     run=partial(over_iterations, metrics=("first layer", "second layer")),
     seeds={"quick": 2, "thesis": 10},
@@ -209,7 +209,7 @@ FIGURE_5_11 = Experiment(
 )
 FIGURE_5_10 = Experiment(
     name="figure-5.10",
-    title="Success by number of obstacles at three speeds, trained among 20 at 2 m/s; beside cloning and a baseline",
+    title="Success by number of obstacles at three speeds: NIRL and cloning, trained with 20 at 2 m/s, and a baseline",
     cases=[
         {"method": method, "speed": speed, "obstacles": obstacles}
         for method in ("nirl", "cloning", "freer-side")
@@ -223,7 +223,7 @@ FIGURE_5_10 = Experiment(
 )
 FIGURE_5_12 = Experiment(
     name="figure-5.12",
-    title="Standing and moving obstacles, trained among standing ones; beside cloning and two baselines",
+    title="Success with standing and moving obstacles: NIRL and cloning, trained with standing ones, and two baselines",
     cases=[
         {"method": method, "standing": standing, "moving": moving}
         for method in ("nirl", "cloning", *_BASELINES)

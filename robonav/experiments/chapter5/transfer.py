@@ -173,7 +173,7 @@ def refine(case: Case, seed: int, scale: str) -> Numbers:
 
 TRANSFER = Experiment(
     name="nirl-transfer",
-    title="Elsewhere: the old policy, or training under the learned reward; beside cloning, other rewards, a baseline",
+    title="Success in other conditions: the old policy, training under the learned and other rewards, cloning, and a baseline",
     cases=[
         {"obstacles": obstacles, "speed": speed, "strategy": strategy}
         for obstacles, speed in PLACES
@@ -196,7 +196,7 @@ TRANSFER = Experiment(
 )
 REFINEMENT = Experiment(
     name="nirl-refinement",
-    title="Experts that contradict themselves, and what MAP refinement repairs",
+    title="Success with experts that contradict themselves, with and without MAP refinement",
     cases=[
         {"expert": expert, "actions": refinement}
         for expert in ("computer", "human", "slipping")

@@ -108,7 +108,7 @@ def tune(case: Case, seed: int, scale: str) -> Numbers:
 
 TUNING = Experiment(
     name="nirl-tuning",
-    title="Trials from which the hyperparameters of chapter 5's methods were chosen, as many for each",
+    title="Success of the trials that tuned the methods of chapter 5, equally many for each",
     cases=[
         {
             "method": method,
