@@ -17,7 +17,7 @@ from .astar import MOVE, as_single_steps, plan, steps_in_move
 from .demonstrations import Actions, Demonstrations, record
 
 MARGIN = (
-    3.0  # metres that plans keep from obstacles: what is learned depends most on it
+    3.0  # metres that plans keep from obstacles; no setting changes the policy more
 )
 CAUTION = 2.0  # how much more a step costs near an obstacle, see `plan`
 MARGIN_STEP = 0.5  # metres by which the margin is reduced where it leaves no path

@@ -121,7 +121,7 @@ def path_clearance(world: Worlds, path: ArrayLike) -> Floats:
 
 
 class PathFollower:
-    """An expert that follows one path a robot: it heads for a point of the path a step and a half ahead.
+    """An expert that follows one path for each robot: it heads for a point of the path a step and a half ahead.
 
     This is pure pursuit (Coulter 1992) with five actions: the robot takes the action that brings it nearest to that
     point.
@@ -223,7 +223,7 @@ def demonstrate_by_hand(
     check_instance("worlds", worlds, Worlds)
     if len(check_instance("key_points", key_points, Sequence)) != len(worlds):
         raise ValueError(
-            f"key_points must be one set a world, {len(worlds)}, got {len(key_points)}"
+            f"key_points must be one set for each world, {len(worlds)}, got {len(key_points)}"
         )
     paths = [
         smooth_path(between_ends(world, points))

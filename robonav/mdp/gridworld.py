@@ -236,7 +236,7 @@ class GridWorld:
         given = np.asarray(numbers)
         if given.shape[-1:] != (self.n_states,):
             raise ValueError(
-                f"numbers must have shape (..., {self.n_states}), one a state, got {given.shape}"
+                f"numbers must have shape (..., {self.n_states}), one for each state, got {given.shape}"
             )
         laid_out = np.full(
             (*given.shape[:-1], *self.shape),

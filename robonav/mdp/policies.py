@@ -47,7 +47,7 @@ def as_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
     Raises
     ------
     TypeError
-        If it is no array of numbers, or of one dimension and not of whole numbers.
+        If the policy is not an array of numbers, or has one dimension but holds no whole numbers.
     ValueError
         If its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
     """
@@ -75,7 +75,7 @@ def as_distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.flo
     Raises
     ------
     TypeError, ValueError
-        If it is no array of numbers, its last axis is not S, or a row is no distribution.
+        If the value is not an array of numbers, its last axis is not S, or a row is not a distribution.
     """
     given: NDArray[np.float64] = check_array(name, value)
     if given.ndim == 0 or given.shape[-1] != states:

@@ -1,4 +1,4 @@
-"""What makes arrays a network, and what makes arrays its examples."""
+"""Checks of the arrays of a network and of its training examples."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ class NetworkPolicy:
     network : Network
         A single network, with as many inputs as the encoder gives and one output for each action.
     encoder : Encoder
-        How what is sensed becomes the network's inputs.
+        Turns what the robot senses into the network's inputs.
     temperature : float
         T of the distribution proportional to ``exp(z / T)`` that actions are drawn from, with z the logits. At 0 the
         policy takes the largest. A robot without memory can go round in circles; random actions end that.

@@ -1,4 +1,4 @@
-"""Trained networks in files: safetensors, with what made them, so that they can be made again."""
+"""Files of trained networks in the safetensors format. Each also holds the settings of its training."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FORMAT = "robonav weights 1"
 
 @dataclass(frozen=True, eq=False)
 class Weights:
-    """A trained network and what made it.
+    """A trained network and the settings of its training.
 
     Parameters
     ----------
@@ -34,13 +34,13 @@ class Weights:
     method : str
         How it was trained: ``"lfd"``, ``"nnql"``, ...
     encoder : Encoder
-        How what is sensed becomes the network's inputs.
+        Turns what the robot senses into the network's inputs.
     made : mapping
-        What else it takes to train it again (seed, number of demonstrations, ...), in types that JSON knows.
+        The other settings of its training (seed, number of demonstrations, ...), in types that JSON can hold.
     temperature : float
-        At which the policy draws its actions, see :class:`NetworkPolicy`.
+        The temperature at which the policy draws its actions, see :class:`NetworkPolicy`.
     version : str
-        Of robonav, when it was trained.
+        The version of robonav that trained it.
 
     Raises
     ------
@@ -76,21 +76,21 @@ class Weights:
 
 
 def save_weights(path: str | Path, weights: Weights) -> None:
-    """Write a safetensors file: tensors ``weights.1``, ``biases.1``, ... (as the thesis counts) and what made them.
+    """Write a safetensors file: tensors ``weights.1``, ``biases.1``, ... (layers count from 1) and the settings.
 
     The same weights give the same bytes.
 
     Parameters
     ----------
     path : path
-        Of the file, which appears whole or not at all.
+        Path of the file. An interrupted write leaves no file.
     weights : Weights
         What to write.
 
     Raises
     ------
     TypeError
-        If ``weights.made`` holds what JSON does not know.
+        If ``weights.made`` holds a value of a type that JSON cannot hold.
 
     Examples
     --------
@@ -124,14 +124,16 @@ def save_weights(path: str | Path, weights: Weights) -> None:
     try:
         note = json.dumps(about, sort_keys=True, allow_nan=False)
     except (TypeError, ValueError) as error:
-        raise TypeError(f"made must hold only what JSON knows: {error}") from None
+        raise TypeError(
+            f"made must hold only types that JSON can hold: {error}"
+        ) from None
     contiguous = {name: np.ascontiguousarray(array) for name, array in tensors.items()}
     with atomic.atomic_write(path) as file:
         file.write(save(contiguous, metadata={"robonav": note}))
 
 
 def load_weights(path: str | Path) -> Weights:
-    """Read what :func:`save_weights` wrote.
+    """Read a file that :func:`save_weights` wrote.
 
     Parameters
     ----------
@@ -147,7 +149,7 @@ def load_weights(path: str | Path) -> Weights:
     FileNotFoundError
         If there is no such file.
     ValueError
-        If it is no safetensors file, was not written by robonav, has another format, or does not hold a network.
+        If the file is not a safetensors file, was not written by robonav, has another format, or holds no network.
 
     Examples
     --------
@@ -190,7 +192,7 @@ def load_weights(path: str | Path) -> Weights:
 
 
 def _network(tensors: dict[str, Array]) -> Network:
-    """The network in numbered tensors; KeyError or ValueError if they are not one."""
+    """Return the network that numbered tensors hold; raise KeyError or ValueError if they hold none."""
     layers = range(1, len(tensors) // 2 + 1)
     names = [f"{kind}.{layer}" for kind in ("weights", "biases") for layer in layers]
     if set(names) != set(tensors):
@@ -200,7 +202,7 @@ def _network(tensors: dict[str, Array]) -> Network:
 
 
 def _about(name: str, note: str | None) -> dict[str, Any]:
-    """What made the weights, checked: one sentence for a foreign file, one for another version."""
+    """Return the checked settings of the training; raise ValueError if robonav did not write them in this format."""
     if note is None:
         raise ValueError(
             f"{name} was not written by robonav: it does not say what made it"

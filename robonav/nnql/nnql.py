@@ -53,7 +53,8 @@ def nnql(
     rescale : {"shift", "clip"}
         How Q-values are brought into [0, 1].
     passes, tolerance : int, float
-        Gradient descent goes through the pairs at most so often, and stops when the mean cost changes by less.
+        Gradient descent goes through the pairs at most ``passes`` times. It stops earlier when the mean cost changes by
+        less than ``tolerance`` from one pass to the next.
     seed : int
         Seed of the environment and of the exploration.
 
@@ -142,7 +143,8 @@ def online(
     rescale : {"shift", "clip"}
         How Q-values are brought into [0, 1].
     passes, tolerance : int, float
-        Gradient descent repeats the pair at most so often, and stops when its cost changes by less.
+        Gradient descent repeats the pair at most ``passes`` times. It stops earlier when the cost changes by less than
+        ``tolerance`` from one step to the next.
     seed : int
         Seed of the environment and of the exploration.
 

@@ -179,7 +179,7 @@ def stochastic_gradient_descent(
     gradient_step : float
         The thesis's sigma.
     passes : int
-        How often to go through the pairs at most.
+        The largest number of passes through the pairs.
     tolerance : float
         Stop when the mean cost changes by less from one pass to the next.
 

@@ -137,7 +137,7 @@ def picture(
     *,
     pixels: int = 480,
 ) -> NDArray[np.uint8]:
-    """What :func:`draw_moment` draws, as an image (pixels, pixels, 3)."""
+    """Return what :func:`draw_moment` draws as an image (pixels, pixels, 3)."""
     figure = Figure(
         figsize=(4.8, 4.8), dpi=pixels / 4.8, facecolor="white", layout="constrained"
     )

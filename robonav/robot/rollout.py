@@ -83,12 +83,12 @@ def drive(
     """Let the robots of a simulator act until none is running; one transition a simulated second.
 
     A robot leaves when its episode ends. Between two transitions the caller may end an episode
-    (:meth:`Simulator.stop`) or begin a new one (:meth:`Simulator.restart`); the loop goes on with whoever is running.
+    (:meth:`Simulator.stop`) or begin a new one (:meth:`Simulator.restart`); the loop then continues with all robots that are running.
 
     Parameters
     ----------
     simulator : Simulator
-        N robots, one a world.
+        N robots, one in each world.
     choose : callable
         ``choose(simulator, sensing, robots)`` returns the actions of those K ``robots`` whose reflex does not decide;
         :func:`follow_policy` makes one of a policy.
@@ -98,12 +98,12 @@ def drive(
     Yields
     ------
     Transition
-        Arrays of its own, which later seconds do not change.
+        Its arrays are copies, which later seconds do not change.
 
     Raises
     ------
     TypeError, ValueError
-        If the actions chosen are not whole numbers 0 to 5, one a robot.
+        If the actions chosen are not whole numbers 0 to 5, one for each robot.
 
     Examples
     --------
@@ -136,7 +136,7 @@ def drive(
 
 
 def valid_actions(choose: Chooser) -> Chooser:
-    """Return the same chooser, but one whose answer must be whole numbers 0 to 5, one a robot."""
+    """Return a chooser that also checks the actions: whole numbers 0 to 5, one for each robot."""
 
     def checked(
         simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
@@ -152,7 +152,7 @@ def undecided(sensing: Sensing, speed: float) -> NDArray[np.int64]:
 
 
 def follow_policy(policy: Policy, rng: np.random.Generator | int) -> Chooser:
-    """Let a policy, which looks at nothing but what the robots sense, choose in :func:`drive`.
+    """Return the chooser for :func:`drive` that asks a policy, which gets only what the robots sense.
 
     Parameters
     ----------
@@ -258,7 +258,7 @@ def navigate(
     Raises
     ------
     TypeError, ValueError
-        If the policy's actions are not whole numbers 0 to 5, one a robot, or if an argument is out of bounds.
+        If the policy's actions are not whole numbers 0 to 5, one for each robot, or if an argument is out of bounds.
 
     Examples
     --------
@@ -293,7 +293,7 @@ def navigate(
 def _by_robot(
     track: list[tuple[NDArray[np.int64], NDArray[np.float64]]], n: int
 ) -> tuple[NDArray[np.float64], ...]:
-    """The path of each of N robots from (robots, poses) of each second."""
+    """Return the path of each of N robots, from the robots and poses of each second."""
     owners = np.concatenate([owner for owner, _ in track])
     poses = np.concatenate([pose for _, pose in track])
     order = np.argsort(owners, kind="stable")

@@ -194,7 +194,7 @@ FIGURE_4_7 = Experiment(
 )
 TWENTY_OBSTACLES = Experiment(
     name="nnql-20-obstacles",
-    title="Success with 20 obstacles: NNQL with the thesis's hyperparameters, with decaying learning rates, and two baselines",
+    title="Success with 20 obstacles: NNQL with the thesis's and with decaying learning rates, and two baselines",
     cases=[
         {"robot": name, "episodes": episodes}
         for name in DENSE

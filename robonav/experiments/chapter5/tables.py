@@ -148,7 +148,7 @@ TABLE_5_1 = Experiment(
 )
 TABLE_5_2 = Experiment(
     name="table-5.2",
-    title="Success in new maps: NIRL, apprenticeship learning, relative entropy, SCIRL, controls, cloning, and baselines",
+    title="Success in new maps: NIRL, apprenticeship learning, relative entropy, SCIRL, cloning, and baselines",
     cases=COMPARED,
     run=compare,
     seeds={"quick": 2, "thesis": 25},

@@ -173,7 +173,7 @@ def refine(case: Case, seed: int, scale: str) -> Numbers:
 
 TRANSFER = Experiment(
     name="nirl-transfer",
-    title="Success in other conditions: the old policy, training under the learned and other rewards, cloning, and a baseline",
+    title="Success elsewhere: the old policy, training under the learned and other rewards, cloning, and a baseline",
     cases=[
         {"obstacles": obstacles, "speed": speed, "strategy": strategy}
         for obstacles, speed in PLACES

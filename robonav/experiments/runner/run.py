@@ -130,7 +130,7 @@ def _check_settings(scale: str, backend: str, scheduler: str | None, jobs: int) 
         )
     if jobs == 0:
         raise ValueError(
-            "jobs must be a number of processes, or -1 for one a core, got 0"
+            "jobs must be a number of processes, or -1 for one process for each core, got 0"
         )
 
 

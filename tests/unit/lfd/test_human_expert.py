@@ -117,7 +117,7 @@ def test_key_points_through_an_obstacle_are_an_error():
         demonstrate_by_hand(world, [np.empty((0, 2))])
     assert demonstrate_by_hand(world, [[(40, 65)]]).outcome[0] == "arrived"
     with pytest.raises(
-        ValueError, match="key_points must be one set a world, 1, got 2"
+        ValueError, match="key_points must be one set for each world, 1, got 2"
     ):
         demonstrate_by_hand(world, [[(40, 65)], [(40, 65)]])
     with pytest.raises(ValueError, match="must lead clear"):

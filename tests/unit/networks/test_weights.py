@@ -75,7 +75,7 @@ def test_a_temperature_that_is_none_is_refused(temperature):
 
 
 def test_what_json_does_not_know_is_refused_before_anything_is_written(tmp_path):
-    with pytest.raises(TypeError, match="made must hold only what JSON knows"):
+    with pytest.raises(TypeError, match="made must hold only types that JSON can hold"):
         save_weights(
             tmp_path / "w",
             Weights(
