@@ -176,7 +176,8 @@ def shipped_policies(
 
 
 EXPERIMENTS = (
-    panels("figure-2.4", "Gaps of evaluation and of improvement in generalised policy iteration, for three numbers of sweeps", iteration_gaps,
+    panels("figure-2.4", "Gaps of evaluation and of improvement in generalised policy iteration",
+           iteration_gaps,
            [{"sweeps": sweeps} for sweeps in (1, 5, 1000)],
            plot=Plot("single_runs.plot_gaps")),
     panels(

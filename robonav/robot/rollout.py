@@ -83,7 +83,8 @@ def drive(
     """Let the robots of a simulator act until none is running; one transition a simulated second.
 
     A robot leaves when its episode ends. Between two transitions the caller may end an episode
-    (:meth:`Simulator.stop`) or begin a new one (:meth:`Simulator.restart`); the loop then continues with all robots that are running.
+    (:meth:`Simulator.stop`) or begin a new one (:meth:`Simulator.restart`); the loop then
+    continues with all robots that are running.
 
     Parameters
     ----------
