@@ -61,7 +61,6 @@ def in_place_value_iteration(
     """
     epsilon = mdp.residual_for(tolerance)
     values = np.array(start)
-    history = [values.copy()]
     for iteration in range(1, max_iterations + 1):
         residual = 0.0
         for state in range(mdp.n_states):
@@ -69,12 +68,10 @@ def in_place_value_iteration(
             q = mdp.rewards[state] + mdp.discount * expected_next_values
             residual = max(residual, abs(q.max() - values[state]))
             values[state] = q.max()  # the states after this one use the new value
-        history.append(values.copy())
         if residual <= epsilon:
             break
     policy = greedy_policy(mdp, values, tolerance)
-    converged = residual <= epsilon
-    return Solution(values, policy, iteration, residual, converged, np.array(history))
+    return Solution(values, policy, iteration, residual, residual <= epsilon)
 
 
 @planner(start=first_values, limit=error_limit, compiled=True)

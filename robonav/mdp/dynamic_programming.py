@@ -4,11 +4,12 @@ A model has S states and A actions. Values V(s) are arrays (S,), policies arrays
 Q(s, a) arrays (S, A). So are the rewards r(s, a), and ``mdp.expected_next_values(values)``, the sums over s' of
 T(s, a, s') V(s').
 
-The decorator ``planner`` checks the arguments, fills in the default of ``start``, warns where a loop did not converge,
-and drops the history unless ``record`` is true. With ``compiled=True`` it runs a compiled twin of the function as
-written. Tests hold both equal: bit for bit on sparse models. On dense ones NumPy adds the terms of an expected value in
-another order, and both are equal within rounding. There rounding may also decide between two equally good actions, and
-modified policy iteration then evaluates another policy on its way; both results still keep the tolerance.
+The decorator ``planner`` checks the arguments, fills in the default of ``start``, and warns where a loop did not
+converge. With ``compiled=True`` it runs a compiled twin of the function as written, which also keeps the history where
+``record`` is true. Tests hold both equal: bit for bit on sparse models. On dense ones NumPy adds the terms of an
+expected value in another order, and both are equal within rounding. There rounding may also decide between two equally
+good actions, and modified policy iteration then evaluates another policy on its way; both results still keep the
+tolerance.
 """
 
 from __future__ import annotations
@@ -79,18 +80,15 @@ def value_iteration(
     """
     epsilon = mdp.residual_for(tolerance)
     values = np.asarray(start)  # 1 and 2
-    history = [values]
     for iteration in range(1, max_iterations + 1):  # 3: repeat
         previous = values
         q = mdp.rewards + mdp.discount * mdp.expected_next_values(previous)
-        values = q.max(axis=1)  # 4  Eq. (2.26)
-        history.append(values)  # 5
+        values = q.max(axis=1)  # 4 and 5  Eq. (2.26)
         residual = abs(values - previous).max()
         if residual <= epsilon:  # 6
             break
     policy = greedy_policy(mdp, values, tolerance)  # 7  Eq. (2.25)
-    converged = residual <= epsilon
-    return Solution(values, policy, iteration, residual, converged, np.array(history))
+    return Solution(values, policy, iteration, residual, residual <= epsilon)
 
 
 def improve(
@@ -251,9 +249,7 @@ def modified_policy_iteration(
     """
     epsilon = evaluation_residual(mdp, tolerance)
     values = np.asarray(start)
-    history = []
     for iteration in range(1, max_iterations + 1):
-        history.append(values)
         q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
         change = q.max(axis=1) - values
         policy, values = q.argmax(axis=1), q.max(axis=1)  # improve  Eqs. (2.25), (2.26)
@@ -268,5 +264,4 @@ def modified_policy_iteration(
     if converged and mdp.discount < 1:  # the middle of the bounds on the optimal values
         missing = mdp.discount / (1 - mdp.discount) * (change.min() + change.max()) / 2
         values = np.where(mdp.terminal, 0, values + missing)
-    history.append(values)
-    return Solution(values, policy, iteration, spread, converged, np.array(history))
+    return Solution(values, policy, iteration, spread, converged)

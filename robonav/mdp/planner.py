@@ -5,9 +5,11 @@ The decorator :func:`planner` turns an algorithm into the function that users ca
 1. checks the arguments;
 2. fills in the default of ``start``;
 3. runs the compiled twin of the algorithm from ``_fast_planners`` where there is one. It gives the same numbers, bit
-   for bit on sparse models and within rounding on dense ones;
+   for bit on sparse models and within rounding on dense ones, and keeps the values of each iteration if ``record`` is
+   true;
 4. warns if the algorithm did not converge;
-5. drops the history of the values unless ``record`` is true, and otherwise adds the greedy policy of each of its rows.
+5. adds the greedy policy of each row of the history if ``record`` is true, and otherwise drops the history of an
+   algorithm that has no twin.
 
 ``inspect.unwrap(planner)`` is the algorithm as written. It needs ``start``.
 """
