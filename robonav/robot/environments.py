@@ -1,12 +1,12 @@
 """``robonav/Navigation-v0``: the robot as a Gymnasium environment (section 2.5).
 
-The file holds the whole environment, from top to bottom:
+The file holds the whole environment. Read :class:`NavigationEnv` first: ``reset`` and ``step`` use what stands below.
 
-1. what happens in a second: the robot turns and goes (:func:`turn_and_go`), an uncertain action may become another
-   (:func:`slip_to`), obstacles move (:func:`drift`), the way may end at one of them (:func:`least_clearance`);
-2. what the robot senses then (:func:`sense`);
-3. its reward and its settings, which draw the worlds (:class:`NavigationSettings`);
-4. the environment itself: :class:`NavigationEnv` with ``reset`` and ``step``, which call all these.
+1. The reward of a step and the settings, which draw the worlds (:class:`NavigationSettings`).
+2. The environment itself, :class:`NavigationEnv`.
+3. What happens in a second: the robot turns and goes (:func:`turn_and_go`), an uncertain action may become another
+   (:func:`slip_to`), obstacles move (:func:`drift`), the way may end at one of them (:func:`least_clearance`).
+4. What the robot senses then (:func:`sense`).
 
 Angles are in radians, counter-clockwise, distances in metres. The map reaches from (0, 0) to (size, size).
 
@@ -91,235 +91,7 @@ NAME_OF_OUTCOME = OUTCOMES.tolist()
 compiled = compiler(constants, geometry, motion, random_numbers)
 
 
-# 1. One second
-
-
-def turn_and_go(pose: Pose, turn: float, distance: float) -> Pose:
-    """Turn by an angle, then go straight on."""
-    x, y, heading = pose
-    heading = wrap(heading + turn)
-    return x + distance * math.cos(heading), y + distance * math.sin(heading), heading
-
-
-@compiled
-def slip_to(action: int, slip: Array, key: Array, step: int) -> int:
-    """Draw the action that comes of ``action``, whose row of ``slip`` says how likely each is."""
-    draw, total = uniform(key, SLIPPING, step, 0, 0), 0.0
-    for other in range(slip.shape[1]):
-        total += slip[action, other]
-        if draw < total:
-            return other
-    return action
-
-
-@compiled
-def drift(
-    obstacles: Obstacles, headings: Array, speeds: Array,
-    size: float, key: Array, step: int,
-) -> None:  # fmt: skip
-    """Let moving obstacles go on for one second. Some turn at random, and borders reflect them."""
-    kinds, shapes, centres = obstacles
-    for m in range(len(kinds)):
-        if kinds[m] == NOTHING or speeds[m] == 0.0:
-            continue
-        heading = headings[m]
-        if uniform(key, DRIFTING, step, m, 0) < TURN_PROBABILITY:
-            heading = math.pi * (2.0 * uniform(key, DRIFTING, step, m, 1) - 1.0)
-        x = centres[m, 0] + speeds[m] * math.cos(heading)
-        y = centres[m, 1] + speeds[m] * math.sin(heading)
-        reach = reach_of(kinds[m], shapes[m, 0], shapes[m, 1])
-        most = size - reach  # for its centre
-        if x < reach or x > most:
-            x = 2.0 * (reach if x < reach else most) - x
-            heading = wrap(math.pi - heading)
-        if y < reach or y > most:
-            y = 2.0 * (reach if y < reach else most) - y
-            heading = -heading
-        centres[m, 0], centres[m, 1], headings[m] = x, y, heading
-
-
-@compiled
-def least_clearance(
-    obstacles: Obstacles, centres_before: Array, size: float, start: Pose, end: Pose
-) -> float:
-    """Least distance to an obstacle or border while the robot goes from ``start`` to ``end``.
-
-    Obstacles go straight and evenly from ``centres_before`` to their centres, and the robot does too. So, seen from an
-    obstacle, the robot goes straight along a segment. Exact below :data:`COLLISION_DISTANCE`.
-    """
-    kinds, shapes, centres = obstacles
-    (x0, y0, _), (x1, y1, _) = start, end
-    least = min(x0, x1, size - x0, size - x1, y0, y1, size - y0, size - y1)
-    least = min(least, 2.0 * COLLISION_DISTANCE)  # more does not matter
-    for m in range(len(kinds)):
-        ax, ay = x0 - centres_before[m, 0], y0 - centres_before[m, 1]
-        bx, by = x1 - centres[m, 0], y1 - centres[m, 1]
-        near = shapes[m, 0] + shapes[m, 1] + least
-        far_in_x = min(ax, bx) > near or max(ax, bx) < -near
-        far_in_y = min(ay, by) > near or max(ay, by) < -near
-        if kinds[m] == NOTHING or far_in_x or far_in_y:
-            continue
-        least = min(least, swept_distance(kinds[m], shapes[m], ax, ay, bx, by))
-    return micrometres(max(least, 0.0))
-
-
-# 2. What the robot senses
-
-
-@compiled
-def sense(
-    obstacles: Obstacles, size: float, pose: Pose, target: tuple[float, float],
-    noise: float, key: Array, step: int, ranges: Array, walls: Flags,
-) -> tuple[int, bool]:  # fmt: skip
-    """Sense the least distance in each of nine sectors, and where the target is.
-
-    Fills in ``ranges`` (9,) and ``walls`` (9,), whether the nearest thing is a border. Returns the target's sector, 1
-    to 9, and whether it is in range. ``noise`` is the standard deviation of the error of a range.
-    """
-    ranges[:], walls[:] = SENSOR_RANGE, False
-    sense_obstacles(obstacles, pose, ranges, walls)
-    sense_borders(size, pose, ranges, walls)
-    for k in range(SENSORS):
-        distance = micrometres(ranges[k])
-        if noise > 0.0 and distance < SENSOR_RANGE:
-            error = noise * normal(key, SENSING, step, k)
-            distance = micrometres(min(max(distance + error, 0.0), SENSOR_RANGE))
-        ranges[k], walls[k] = distance, walls[k] and distance < SENSOR_RANGE
-
-    dx, dy = target[0] - pose[0], target[1] - pose[1]
-    bearing = micrometres(math.atan2(dy, dx) - pose[2])
-    seen = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
-    return 1 + sector_at(bearing), seen
-
-
-@compiled
-def sector_at(bearing: float) -> int:
-    """Index 0 to 8 of the sector of 40 degrees that holds a bearing; 0 looks ahead, counter-clockwise."""
-    return math.floor(bearing / SECTOR + 0.5) % SENSORS
-
-
-@compiled
-def see(distance: float, k: int, wall: bool, ranges: Array, walls: Flags) -> None:
-    """Keep the distance in sector ``k`` if nothing there is nearer."""
-    if distance < ranges[k]:
-        ranges[k], walls[k] = distance, wall
-
-
-@compiled
-def see_on_ray(
-    distance: float, k: int, wall: bool, ranges: Array, walls: Flags
-) -> None:
-    """See something on the ray between sectors ``k`` and ``k + 1``: both have it."""
-    see(distance, k, wall, ranges, walls)
-    see(distance, (k + 1) % SENSORS, wall, ranges, walls)
-
-
-@compiled
-def sense_obstacles(
-    obstacles: Obstacles, pose: Pose, ranges: Array, walls: Flags
-) -> None:
-    """See each obstacle at its nearest point, and where the rays between two sectors meet it.
-
-    This is enough: seen from outside, the distance to a convex shape falls and then rises with the bearing. So its
-    least distance in a sector is at its nearest point, if the sector holds it, or else on one of the sector's two rays.
-    """
-    kinds, shapes, centres = obstacles
-    x, y, heading = pose
-    c, s = math.cos(heading), math.sin(heading)
-    rays = directions_of_rays()
-    for m in range(len(kinds)):
-        dx, dy = centres[m, 0] - x, centres[m, 1] - y
-        near = SENSOR_RANGE + shapes[m, 0] + shapes[m, 1]
-        if kinds[m] == NOTHING or dx * dx + dy * dy >= near * near:
-            continue
-        forward, left = c * dx + s * dy, c * dy - s * dx  # in the robot's frame
-        if kinds[m] == CIRCLE:
-            see_circle(forward, left, shapes[m, 0], rays, ranges, walls)
-        else:
-            turned = shapes[m, 2] - heading
-            see_rectangle(forward, left, shapes[m], turned, rays, ranges, walls)
-
-
-@compiled
-def directions_of_rays() -> Array:
-    """Directions (9, 2) in the robot's frame of the rays between sectors k and k + 1."""
-    rays = np.empty((SENSORS, 2))
-    for k in range(SENSORS):
-        rays[k, 0] = math.cos((k + 0.5) * SECTOR)
-        rays[k, 1] = math.sin((k + 0.5) * SECTOR)
-    return rays
-
-
-@compiled
-def see_circle(
-    x: float, y: float, radius: float,
-    rays: Array, ranges: Array, walls: Flags,
-) -> None:  # fmt: skip
-    """See a circle whose centre is x ahead and y to the left."""
-    distance = math.hypot(x, y) - radius
-    if distance <= 0.0:  # the robot is in it
-        ranges[:] = 0.0
-        return
-    see(distance, sector_at(math.atan2(y, x)), False, ranges, walls)
-    for k in range(SENSORS):
-        along = x * rays[k, 0] + y * rays[k, 1]
-        across = x * rays[k, 1] - y * rays[k, 0]
-        half_chord2 = radius * radius - across * across
-        if along > 0.0 and half_chord2 >= 0.0:  # the ray meets it
-            distance = along - math.sqrt(half_chord2)
-            see_on_ray(distance, k, False, ranges, walls)
-
-
-@compiled
-def see_rectangle(
-    x: float, y: float, shape: Array, turned: float,
-    rays: Array, ranges: Array, walls: Flags,
-) -> None:  # fmt: skip
-    """See a rectangle whose centre is x ahead and y to the left, its length turned to the left."""
-    half_length, half_width = shape[0], shape[1]
-    c, s = math.cos(turned), math.sin(turned)
-    px, py = -(c * x + s * y), -(c * y - s * x)  # the robot in the rectangle's frame
-    nx = min(max(px, -half_length), half_length) - px  # from it to the nearest point
-    ny = min(max(py, -half_width), half_width) - py
-    if nx == 0.0 and ny == 0.0:  # the robot is in it
-        ranges[:] = 0.0
-        return
-    nearest = sector_at(math.atan2(s * nx + c * ny, c * nx - s * ny))
-    see(math.hypot(nx, ny), nearest, False, ranges, walls)
-    for k in range(SENSORS):
-        dx, dy = c * rays[k, 0] + s * rays[k, 1], c * rays[k, 1] - s * rays[k, 0]
-        enter, leave = box_entry(px, py, dx, dy, half_length, half_width)
-        if 0.0 <= enter <= leave:  # the ray meets it
-            see_on_ray(enter, k, False, ranges, walls)
-
-
-@compiled
-def sense_borders(size: float, pose: Pose, ranges: Array, walls: Flags) -> None:
-    """See each border at its nearest point, and where the rays between two sectors leave the map."""
-    x, y, heading = pose
-    margin = min(x, size - x, y, size - y)
-    if margin >= SENSOR_RANGE:
-        return
-    if margin <= 0.0:  # the robot went through a border
-        ranges[:], walls[:] = 0.0, True
-        return
-    c, s = math.cos(heading), math.sin(heading)
-    for distance, nx, ny in (
-        (x, -1.0, 0.0),
-        (size - x, 1.0, 0.0),
-        (y, 0.0, -1.0),
-        (size - y, 0.0, 1.0),
-    ):
-        k = sector_at(math.atan2(c * ny - s * nx, c * nx + s * ny))
-        see(distance, k, True, ranges, walls)
-    rays, half = directions_of_rays(), size / 2
-    for k in range(SENSORS):
-        dx, dy = c * rays[k, 0] - s * rays[k, 1], s * rays[k, 0] + c * rays[k, 1]
-        _, distance = box_entry(x - half, y - half, dx, dy, half, half)
-        see_on_ray(distance, k, True, ranges, walls)
-
-
-# 3. The reward, and the settings, which draw the worlds
+# 1. The reward, and the settings, which draw the worlds
 
 
 Reward = Callable[[Sensing, Sensing, NDArray[np.int8]], ArrayLike]
@@ -451,7 +223,7 @@ def worlds_in(options: dict[str, Any] | None, number: int) -> Worlds | None:
     return given
 
 
-# 4. The environment
+# 2. The environment
 
 
 Step = tuple[Observation, float, bool, bool, Info]
@@ -783,3 +555,231 @@ def as_sensing(observation: dict[str, Any]) -> Sensing:
         np.atleast_1d(observation["target_region"]),
         np.atleast_1d(observation["target_seen"]).astype(bool),
     )
+
+
+# 3. One second
+
+
+def turn_and_go(pose: Pose, turn: float, distance: float) -> Pose:
+    """Turn by an angle, then go straight on."""
+    x, y, heading = pose
+    heading = wrap(heading + turn)
+    return x + distance * math.cos(heading), y + distance * math.sin(heading), heading
+
+
+@compiled
+def slip_to(action: int, slip: Array, key: Array, step: int) -> int:
+    """Draw the action that comes of ``action``, whose row of ``slip`` says how likely each is."""
+    draw, total = uniform(key, SLIPPING, step, 0, 0), 0.0
+    for other in range(slip.shape[1]):
+        total += slip[action, other]
+        if draw < total:
+            return other
+    return action
+
+
+@compiled
+def drift(
+    obstacles: Obstacles, headings: Array, speeds: Array,
+    size: float, key: Array, step: int,
+) -> None:  # fmt: skip
+    """Let moving obstacles go on for one second. Some turn at random, and borders reflect them."""
+    kinds, shapes, centres = obstacles
+    for m in range(len(kinds)):
+        if kinds[m] == NOTHING or speeds[m] == 0.0:
+            continue
+        heading = headings[m]
+        if uniform(key, DRIFTING, step, m, 0) < TURN_PROBABILITY:
+            heading = math.pi * (2.0 * uniform(key, DRIFTING, step, m, 1) - 1.0)
+        x = centres[m, 0] + speeds[m] * math.cos(heading)
+        y = centres[m, 1] + speeds[m] * math.sin(heading)
+        reach = reach_of(kinds[m], shapes[m, 0], shapes[m, 1])
+        most = size - reach  # for its centre
+        if x < reach or x > most:
+            x = 2.0 * (reach if x < reach else most) - x
+            heading = wrap(math.pi - heading)
+        if y < reach or y > most:
+            y = 2.0 * (reach if y < reach else most) - y
+            heading = -heading
+        centres[m, 0], centres[m, 1], headings[m] = x, y, heading
+
+
+@compiled
+def least_clearance(
+    obstacles: Obstacles, centres_before: Array, size: float, start: Pose, end: Pose
+) -> float:
+    """Least distance to an obstacle or border while the robot goes from ``start`` to ``end``.
+
+    Obstacles go straight and evenly from ``centres_before`` to their centres, and the robot does too. So, seen from an
+    obstacle, the robot goes straight along a segment. Exact below :data:`COLLISION_DISTANCE`.
+    """
+    kinds, shapes, centres = obstacles
+    (x0, y0, _), (x1, y1, _) = start, end
+    least = min(x0, x1, size - x0, size - x1, y0, y1, size - y0, size - y1)
+    least = min(least, 2.0 * COLLISION_DISTANCE)  # more does not matter
+    for m in range(len(kinds)):
+        ax, ay = x0 - centres_before[m, 0], y0 - centres_before[m, 1]
+        bx, by = x1 - centres[m, 0], y1 - centres[m, 1]
+        near = shapes[m, 0] + shapes[m, 1] + least
+        far_in_x = min(ax, bx) > near or max(ax, bx) < -near
+        far_in_y = min(ay, by) > near or max(ay, by) < -near
+        if kinds[m] == NOTHING or far_in_x or far_in_y:
+            continue
+        least = min(least, swept_distance(kinds[m], shapes[m], ax, ay, bx, by))
+    return micrometres(max(least, 0.0))
+
+
+# 4. What the robot senses
+
+
+@compiled
+def sense(
+    obstacles: Obstacles, size: float, pose: Pose, target: tuple[float, float],
+    noise: float, key: Array, step: int, ranges: Array, walls: Flags,
+) -> tuple[int, bool]:  # fmt: skip
+    """Sense the least distance in each of nine sectors, and where the target is.
+
+    Fills in ``ranges`` (9,) and ``walls`` (9,), whether the nearest thing is a border. Returns the target's sector, 1
+    to 9, and whether it is in range. ``noise`` is the standard deviation of the error of a range.
+    """
+    ranges[:], walls[:] = SENSOR_RANGE, False
+    sense_obstacles(obstacles, pose, ranges, walls)
+    sense_borders(size, pose, ranges, walls)
+    for k in range(SENSORS):
+        distance = micrometres(ranges[k])
+        if noise > 0.0 and distance < SENSOR_RANGE:
+            error = noise * normal(key, SENSING, step, k)
+            distance = micrometres(min(max(distance + error, 0.0), SENSOR_RANGE))
+        ranges[k], walls[k] = distance, walls[k] and distance < SENSOR_RANGE
+
+    dx, dy = target[0] - pose[0], target[1] - pose[1]
+    bearing = micrometres(math.atan2(dy, dx) - pose[2])
+    seen = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
+    return 1 + sector_at(bearing), seen
+
+
+@compiled
+def sector_at(bearing: float) -> int:
+    """Index 0 to 8 of the sector of 40 degrees that holds a bearing; 0 looks ahead, counter-clockwise."""
+    return math.floor(bearing / SECTOR + 0.5) % SENSORS
+
+
+@compiled
+def see(distance: float, k: int, wall: bool, ranges: Array, walls: Flags) -> None:
+    """Keep the distance in sector ``k`` if nothing there is nearer."""
+    if distance < ranges[k]:
+        ranges[k], walls[k] = distance, wall
+
+
+@compiled
+def see_on_ray(
+    distance: float, k: int, wall: bool, ranges: Array, walls: Flags
+) -> None:
+    """See something on the ray between sectors ``k`` and ``k + 1``: both have it."""
+    see(distance, k, wall, ranges, walls)
+    see(distance, (k + 1) % SENSORS, wall, ranges, walls)
+
+
+@compiled
+def sense_obstacles(
+    obstacles: Obstacles, pose: Pose, ranges: Array, walls: Flags
+) -> None:
+    """See each obstacle at its nearest point, and where the rays between two sectors meet it.
+
+    This is enough: seen from outside, the distance to a convex shape falls and then rises with the bearing. So its
+    least distance in a sector is at its nearest point, if the sector holds it, or else on one of the sector's two rays.
+    """
+    kinds, shapes, centres = obstacles
+    x, y, heading = pose
+    c, s = math.cos(heading), math.sin(heading)
+    rays = directions_of_rays()
+    for m in range(len(kinds)):
+        dx, dy = centres[m, 0] - x, centres[m, 1] - y
+        near = SENSOR_RANGE + shapes[m, 0] + shapes[m, 1]
+        if kinds[m] == NOTHING or dx * dx + dy * dy >= near * near:
+            continue
+        forward, left = c * dx + s * dy, c * dy - s * dx  # in the robot's frame
+        if kinds[m] == CIRCLE:
+            see_circle(forward, left, shapes[m, 0], rays, ranges, walls)
+        else:
+            turned = shapes[m, 2] - heading
+            see_rectangle(forward, left, shapes[m], turned, rays, ranges, walls)
+
+
+@compiled
+def directions_of_rays() -> Array:
+    """Directions (9, 2) in the robot's frame of the rays between sectors k and k + 1."""
+    rays = np.empty((SENSORS, 2))
+    for k in range(SENSORS):
+        rays[k, 0] = math.cos((k + 0.5) * SECTOR)
+        rays[k, 1] = math.sin((k + 0.5) * SECTOR)
+    return rays
+
+
+@compiled
+def see_circle(
+    x: float, y: float, radius: float,
+    rays: Array, ranges: Array, walls: Flags,
+) -> None:  # fmt: skip
+    """See a circle whose centre is x ahead and y to the left."""
+    distance = math.hypot(x, y) - radius
+    if distance <= 0.0:  # the robot is in it
+        ranges[:] = 0.0
+        return
+    see(distance, sector_at(math.atan2(y, x)), False, ranges, walls)
+    for k in range(SENSORS):
+        along = x * rays[k, 0] + y * rays[k, 1]
+        across = x * rays[k, 1] - y * rays[k, 0]
+        half_chord2 = radius * radius - across * across
+        if along > 0.0 and half_chord2 >= 0.0:  # the ray meets it
+            distance = along - math.sqrt(half_chord2)
+            see_on_ray(distance, k, False, ranges, walls)
+
+
+@compiled
+def see_rectangle(
+    x: float, y: float, shape: Array, turned: float,
+    rays: Array, ranges: Array, walls: Flags,
+) -> None:  # fmt: skip
+    """See a rectangle whose centre is x ahead and y to the left, its length turned to the left."""
+    half_length, half_width = shape[0], shape[1]
+    c, s = math.cos(turned), math.sin(turned)
+    px, py = -(c * x + s * y), -(c * y - s * x)  # the robot in the rectangle's frame
+    nx = min(max(px, -half_length), half_length) - px  # from it to the nearest point
+    ny = min(max(py, -half_width), half_width) - py
+    if nx == 0.0 and ny == 0.0:  # the robot is in it
+        ranges[:] = 0.0
+        return
+    nearest = sector_at(math.atan2(s * nx + c * ny, c * nx - s * ny))
+    see(math.hypot(nx, ny), nearest, False, ranges, walls)
+    for k in range(SENSORS):
+        dx, dy = c * rays[k, 0] + s * rays[k, 1], c * rays[k, 1] - s * rays[k, 0]
+        enter, leave = box_entry(px, py, dx, dy, half_length, half_width)
+        if 0.0 <= enter <= leave:  # the ray meets it
+            see_on_ray(enter, k, False, ranges, walls)
+
+
+@compiled
+def sense_borders(size: float, pose: Pose, ranges: Array, walls: Flags) -> None:
+    """See each border at its nearest point, and where the rays between two sectors leave the map."""
+    x, y, heading = pose
+    margin = min(x, size - x, y, size - y)
+    if margin >= SENSOR_RANGE:
+        return
+    if margin <= 0.0:  # the robot went through a border
+        ranges[:], walls[:] = 0.0, True
+        return
+    c, s = math.cos(heading), math.sin(heading)
+    for distance, nx, ny in (
+        (x, -1.0, 0.0),
+        (size - x, 1.0, 0.0),
+        (y, 0.0, -1.0),
+        (size - y, 0.0, 1.0),
+    ):
+        k = sector_at(math.atan2(c * ny - s * nx, c * nx + s * ny))
+        see(distance, k, True, ranges, walls)
+    rays, half = directions_of_rays(), size / 2
+    for k in range(SENSORS):
+        dx, dy = c * rays[k, 0] - s * rays[k, 1], s * rays[k, 0] + c * rays[k, 1]
+        _, distance = box_entry(x - half, y - half, dx, dy, half, half)
+        see_on_ray(distance, k, True, ranges, walls)
