@@ -218,6 +218,16 @@ def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
     For each action and observation, the known vectors, which are values of the next state s', are carried back to the
     present state s: g(s) = sum over s' of T(s, a, s') Z(o, s', a) alpha(s'). Each belief takes the best g for each
     observation.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.mdp import tiger
+    >>> from robonav.mdp.belief_planning import backup, worst_vectors
+    >>> pomdp = tiger()
+    >>> found = backup(pomdp, np.array([[0.5, 0.5]]), worst_vectors(pomdp))
+    >>> found.actions, found.vectors.round(1)
+    (array([0]), array([[-1901., -1901.]]))
     """
     mdp = pomdp.mdp
     candidates = np.empty((mdp.n_actions, *points.shape))

@@ -118,6 +118,17 @@ def improve(
         The best action of each state where it is strictly better, the action of ``policy`` elsewhere.
     gain : float
         The largest gain of any action.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.mdp import FiniteMDP, policy_evaluation
+    >>> from robonav.mdp.dynamic_programming import improve
+    >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
+    >>> policy = np.array([0])  # action 1 has the larger reward
+    >>> values = policy_evaluation(mdp, policy)
+    >>> improve(mdp, policy, values, mdp.action_values(values), tolerance=1e-9)
+    (array([1]), 1.0)
     """
     gains, limit = gains_and_limit(mdp, policy, values, q, tolerance)  # Q(s, a) - V(s)
     best = gains.max(axis=1)

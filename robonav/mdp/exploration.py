@@ -199,6 +199,13 @@ def epsilon_greedy_action(
     Returns
     -------
     int
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.mdp.exploration import epsilon_greedy_action
+    >>> epsilon_greedy_action([1.0, 3.0, 2.0], 0.0, np.random.default_rng(0))
+    1
     """
     if rng.random() < epsilon:
         return int(rng.random() * len(q))

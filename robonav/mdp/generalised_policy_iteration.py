@@ -125,7 +125,17 @@ def generalized_policy_iteration(
 
 
 def action_values(mdp: FiniteMDP, values: Floats) -> Floats:
-    """Action values (S, A) one step ahead; without discount at least 0 for staying in zero-reward states."""
+    """Action values (S, A) one step ahead; without discount at least 0 for staying in zero-reward states.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.mdp import FiniteMDP
+    >>> from robonav.mdp.generalised_policy_iteration import action_values
+    >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
+    >>> action_values(mdp, np.array([2.0]))
+    array([[1., 2.]])
+    """
     q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
     return clamp_undiscounted(mdp, q)
 

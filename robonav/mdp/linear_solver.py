@@ -17,6 +17,14 @@ def solve(equations: sp.csr_array, right: Floats, guess: Floats) -> Floats:
 
     Elimination fills the matrix where states lead anywhere. The Krylov method does not, and its residual shows how
     well it did. Where it fails, elimination is the last resort.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import scipy.sparse as sp
+    >>> from robonav.mdp.linear_solver import solve
+    >>> solve(sp.csr_array([[2.0, 0.0], [0.0, 4.0]]), np.array([2.0, 2.0]), np.zeros(2))
+    array([1. , 0.5])
     """
     if right.size <= DIRECT_SOLVE:
         return linalg.spsolve(equations.tocsc(), right) if right.size else right

@@ -228,6 +228,14 @@ class RangeSensor:
 
         A reading short of ``reach`` has a normal density about the prediction; ``reach`` itself, which stands for all
         that lies beyond, has the whole tail as its probability. The n sensors err independently.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.mdp import RangeSensor
+        >>> densities = np.exp(RangeSensor().log_likelihood([[3.0], [5.0]], [3.1]))
+        >>> densities.round(3)
+        array([0.513, 0.018])
         """
         seen = np.asarray(measured)
         error = (seen - np.asarray(predicted)) / self.deviation
@@ -301,7 +309,16 @@ class Localiser:
                 )
 
     def predict(self, belief: ArrayLike, action: int) -> Floats:
-        """The belief (S,) after a move: all that a robot with no sensing has."""
+        """The belief (S,) after a move: all that a robot with no sensing has.
+
+        Examples
+        --------
+        >>> from robonav.mdp import Localiser, PoseGrid, pose_transitions
+        >>> grid = PoseGrid([[True, True]], headings=1)
+        >>> localiser = Localiser(pose_transitions(grid, [(0.0, 1.0)]), [[5.0], [2.0]])
+        >>> localiser.predict([0.5, 0.5], action=0)
+        array([0., 1.])
+        """
         return self.as_belief(belief) @ self.transitions[self.as_action(action)]
 
     @refuses_impossible(
@@ -315,6 +332,14 @@ class Localiser:
         ValueError
             If the readings are impossible in every pose that the belief holds possible. This needs a sensor without
             outliers.
+
+        Examples
+        --------
+        >>> from robonav.mdp import Localiser, PoseGrid, pose_transitions
+        >>> grid = PoseGrid([[True, True]], headings=1)
+        >>> localiser = Localiser(pose_transitions(grid, [(0.0, 1.0)]), [[5.0], [2.0]])
+        >>> localiser.correct([0.5, 0.5], [2.0]).round(2)
+        array([0.01, 0.99])
         """
         before = self.as_belief(belief)
         possible = np.flatnonzero(before)
@@ -326,7 +351,16 @@ class Localiser:
         return corrected / corrected.sum()
 
     def update(self, belief: ArrayLike, action: int, ranges: ArrayLike) -> Floats:
-        """The belief (S,) after a move and the readings (n,) that follow it."""
+        """The belief (S,) after a move and the readings (n,) that follow it.
+
+        Examples
+        --------
+        >>> from robonav.mdp import Localiser, PoseGrid, pose_transitions
+        >>> grid = PoseGrid([[True, True]], headings=1)
+        >>> localiser = Localiser(pose_transitions(grid, [(0.0, 1.0)]), [[5.0], [2.0]])
+        >>> localiser.update([1.0, 0.0], action=0, ranges=[2.0])
+        array([0., 1.])
+        """
         return self.correct(self.predict(belief, action), ranges)
 
     def as_belief(self, belief: ArrayLike) -> Floats:

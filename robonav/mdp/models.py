@@ -181,6 +181,15 @@ class FiniteMDP:
         Returns
         -------
         (S, A) array
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.mdp import FiniteMDP
+        >>> mdp = FiniteMDP([[[0.5, 0.5], [0, 1]]], [[1], [0]], discount=0.9)
+        >>> mdp.expected_next_values(np.array([2.0, 4.0]))
+        array([[3.],
+               [4.]])
         """
         if self.is_sparse:
             by_action = self.by_action @ values
@@ -198,12 +207,28 @@ class FiniteMDP:
         Returns
         -------
         (S, A) array
+
+        Examples
+        --------
+        >>> from robonav.mdp import FiniteMDP
+        >>> mdp = FiniteMDP([[[0.5, 0.5], [0, 1]]], [[1], [0]], discount=0.9)
+        >>> mdp.action_values([2.0, 4.0])
+        array([[3.7],
+               [3.6]])
         """
         expected_next_values = self.expected_next_values(values)  # Eq. (2.11)
         return self.rewards + self.discount * expected_next_values  # Eq. (2.15)
 
     def greedy(self, values: ArrayLike) -> NDArray[np.intp]:
-        """Greedy policy (S,) with respect to ``values`` (S,), Eq. (2.25); of equal actions the first."""
+        """Greedy policy (S,) with respect to ``values`` (S,), Eq. (2.25); of equal actions the first.
+
+        Examples
+        --------
+        >>> from robonav.mdp import four_by_three, value_iteration
+        >>> mdp = four_by_three().mdp(discount=0.95)
+        >>> mdp.greedy(value_iteration(mdp).values)
+        array([1, 1, 1, 0, 0, 0, 0, 0, 3, 0, 3])
+        """
         return self.action_values(values).argmax(axis=1)  # Eq. (2.25)
 
     def induced_chain(
@@ -215,6 +240,15 @@ class FiniteMDP:
         ----------
         policy : (S,) array of ints or (S, A) array of probabilities
             A stochastic policy averages over its actions.
+
+        Examples
+        --------
+        >>> from robonav.mdp import FiniteMDP
+        >>> mdp = FiniteMDP([[[1, 0], [0, 1]], [[0, 1], [0, 1]]], [[0, 2], [0, 0]], discount=0.9)
+        >>> transitions, rewards = mdp.induced_chain([[0.5, 0.5], [1, 0]])
+        >>> transitions.toarray(), rewards
+        (array([[0.5, 0.5],
+               [0. , 1. ]]), array([1., 0.]))
         """
         pi = policies.as_policy(policy, self.n_states, self.n_actions)
         if pi.ndim == 1:
@@ -230,6 +264,12 @@ class FiniteMDP:
 
         It is tolerance (1 - gamma) / (2 gamma) (Puterman 2005, Theorem 6.3.1), and infinite for discount 0. Without
         discount there is no such bound; ``tolerance`` itself is returned.
+
+        Examples
+        --------
+        >>> from robonav.mdp import FiniteMDP
+        >>> round(FiniteMDP([[[1]]], [[0]], discount=0.9).residual_for(0.18), 6)
+        0.01
         """
         if self.discount == 1:
             return tolerance

@@ -160,5 +160,11 @@ def optimal_values_of(action_values: ArrayLike) -> NDArray[np.float64]:
     Returns
     -------
     (...) array
+
+    Examples
+    --------
+    >>> from robonav.mdp.policies import optimal_values_of
+    >>> optimal_values_of([[1.0, 3.0], [0.5, 0.0]])
+    array([3. , 0.5])
     """
     return np.max(action_values, axis=-1)  # Eq. (2.10)

@@ -145,7 +145,14 @@ class POMDP:
         return np.full(self.mdp.n_states, 1 / self.mdp.n_states)
 
     def predict(self, belief: ArrayLike, action: int) -> Floats:
-        """Belief (S,) after an action, before anything is observed: sum over s of b(s) T(s, a, .)."""
+        """Belief (S,) after an action, before anything is observed: sum over s of b(s) T(s, a, .).
+
+        Examples
+        --------
+        >>> from robonav.mdp import tiger
+        >>> tiger().predict([0.8, 0.2], action=1)  # a door was opened: a new round begins
+        array([0.5, 0.5])
+        """
         b, a = self.as_belief(belief), self.as_action(action)
         return np.asarray(b @ self.mdp.transitions[a])
 
@@ -173,6 +180,12 @@ class POMDP:
         ValueError
             If the belief is not a distribution over S states, an index does not exist, or the observation has
             probability zero.
+
+        Examples
+        --------
+        >>> from robonav.mdp import tiger
+        >>> tiger(accuracy=0.85).update([0.5, 0.5], action=0, observation=0)
+        array([0.85, 0.15])
         """
         predicted = self.predict(belief, action)  # sum over s of b(s) T(s, a, s')
         joint = self.likelihood(action, observation) * predicted
@@ -185,12 +198,26 @@ class POMDP:
         return self.observations[self.as_action(action), :, seen]
 
     def observation_probabilities(self, belief: ArrayLike, action: int) -> Floats:
-        """Probability (O,) of each observation after an action, Eq. (2.20)."""
+        """Probability (O,) of each observation after an action, Eq. (2.20).
+
+        Examples
+        --------
+        >>> from robonav.mdp import tiger
+        >>> tiger(accuracy=0.85).observation_probabilities([1.0, 0.0], action=0)
+        array([0.85, 0.15])
+        """
         predicted = self.predict(belief, action)  # sum over s of b(s) T(s, a, s')
         return predicted @ self.observations[self.as_action(action)]  # Eq. (2.20)
 
     def expected_rewards(self, belief: ArrayLike) -> Floats:
-        """Expected reward (A,) of each action, r(a | b), Eq. (2.21)."""
+        """Expected reward (A,) of each action, r(a | b), Eq. (2.21).
+
+        Examples
+        --------
+        >>> from robonav.mdp import tiger
+        >>> tiger().expected_rewards([0.5, 0.5])
+        array([ -1., -45., -45.])
+        """
         return self.as_belief(belief) @ self.mdp.rewards  # Eq. (2.21)
 
     def as_belief(self, belief: ArrayLike) -> Floats:
@@ -239,7 +266,16 @@ class BeliefMDP:
         return self.pomdp.mdp.discount
 
     def successors(self, belief: ArrayLike, action: int) -> tuple[Floats, Floats]:
-        """Beliefs (K, S) that can follow, and their probabilities (K,); two observations may lead to the same one."""
+        """Beliefs (K, S) that can follow, and their probabilities (K,); two observations may lead to the same one.
+
+        Examples
+        --------
+        >>> from robonav.mdp import BeliefMDP, tiger
+        >>> beliefs, probabilities = BeliefMDP(tiger()).successors([0.5, 0.5], action=0)
+        >>> beliefs.round(2), probabilities
+        (array([[0.85, 0.15],
+               [0.15, 0.85]]), array([0.5, 0.5]))
+        """
         predicted = self.pomdp.predict(belief, action)
         likelihoods = self.pomdp.observations[self.pomdp.as_action(action)].T  # (O, S')
         found: list[tuple[Floats, float]] = []
@@ -254,13 +290,27 @@ class BeliefMDP:
         return np.stack([b for b, _ in found]), np.array([p for _, p in found])
 
     def transition(self, belief: ArrayLike, action: int, successor: ArrayLike) -> float:
-        """Probability tau(b, a, b') that the belief ``successor`` follows, Eq. (2.22)."""
+        """Probability tau(b, a, b') that the belief ``successor`` follows, Eq. (2.22).
+
+        Examples
+        --------
+        >>> from robonav.mdp import BeliefMDP, tiger
+        >>> BeliefMDP(tiger()).transition([0.5, 0.5], action=0, successor=[0.85, 0.15])
+        0.5
+        """
         beliefs, probabilities = self.successors(belief, action)
         wanted = self.pomdp.as_vector("successor", successor)
         same = (abs(beliefs - wanted) <= SAME).all(axis=1)
         return float(probabilities[same].sum())  # Eq. (2.22)
 
     def reward(self, belief: ArrayLike, action: int) -> float:
-        """Expected reward r(b, a) of an action at a belief, Eq. (2.23)."""
+        """Expected reward r(b, a) of an action at a belief, Eq. (2.23).
+
+        Examples
+        --------
+        >>> from robonav.mdp import BeliefMDP, tiger
+        >>> BeliefMDP(tiger()).reward([0.5, 0.5], action=0)
+        -1.0
+        """
         b, a = self.pomdp.as_belief(belief), self.pomdp.as_action(action)
         return float((b @ self.pomdp.mdp.rewards)[a])  # Eq. (2.23)
