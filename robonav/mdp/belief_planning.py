@@ -54,12 +54,26 @@ class AlphaVectors:
     converged: bool = True
 
     def value(self, belief: ArrayLike) -> Floats:
-        """Value (...) of one belief (S,) or of many (..., S): the largest of the linear functions."""
+        """Value (...) of one belief (S,) or of many (..., S): the largest of the linear functions.
+
+        Examples
+        --------
+        >>> from robonav.mdp import qmdp, tiger
+        >>> qmdp(tiger()).value([[0.5, 0.5], [0.0, 1.0]]).round(1)
+        array([189., 200.])
+        """
         b = as_distributions("belief", belief, self.vectors.shape[1])
         return (b @ self.vectors.T).max(axis=-1)
 
     def action(self, belief: ArrayLike) -> int:
-        """Action of the vector that is largest at a belief (S,)."""
+        """Action of the vector that is largest at a belief (S,).
+
+        Examples
+        --------
+        >>> from robonav.mdp import qmdp, tiger
+        >>> qmdp(tiger()).action([0.0, 1.0])
+        1
+        """
         check_array("belief", belief, shape=("S",))
         b = as_distributions("belief", belief, self.vectors.shape[1])
         return int(self.actions[(self.vectors @ b).argmax()])

@@ -121,7 +121,14 @@ class Tiles:
         return np.outer(np.arange(self.tilings), odd) % self.tilings / self.tilings
 
     def active(self, state: ArrayLike) -> NDArray[np.int64]:
-        """Number of the tile that holds the state in each tiling: (tilings,)."""
+        """Number of the tile that holds the state in each tiling: (tilings,).
+
+        Examples
+        --------
+        >>> from robonav.mdp import Tiles
+        >>> Tiles(low=[0.0], high=[1.0], tiles=[4], tilings=2, n_actions=1).active([0.3])
+        array([1, 6])
+        """
         low, high = np.asarray(self.low), np.asarray(self.high)
         inside = np.clip(same_shape("state", state, low.shape), low, high)
         place = (inside - low) / (high - low) * self.tiles  # in tiles

@@ -215,6 +215,14 @@ def suboptimality(
         Largest error of a value.
     losses : (n,) array
         Largest loss of value under the policy, in any state.
+
+    Examples
+    --------
+    >>> from robonav.mdp import FiniteMDP
+    >>> from robonav.mdp.generalised_policy_iteration import suboptimality
+    >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
+    >>> suboptimality(mdp, [[0.0], [2.0]], [[0], [1]], best=[2.0])
+    (array([2., 0.]), array([2., 0.]))
     """
     optimum = check_array("best", best, shape=(mdp.n_states,))
     values = check_array("history", history, shape=("n", mdp.n_states))

@@ -208,7 +208,14 @@ class GridWorld:
         return reached, probabilities
 
     def mdp(self, discount: float) -> FiniteMDP:
-        """Sparse model of the grid; a step out of a terminal state leads back to it, with reward 0."""
+        """Sparse model of the grid; a step out of a terminal state leads back to it, with reward 0.
+
+        Examples
+        --------
+        >>> from robonav.mdp import GridWorld
+        >>> GridWorld("S G").mdp(discount=0.9)
+        FiniteMDP(2 states, 4 actions, discount 0.9, sparse)
+        """
         reached, probabilities = self.outcomes
         rewards = (probabilities * self.cell_rewards[reached]).sum(axis=2)
         rewards[self.terminal] = 0
@@ -321,6 +328,14 @@ class GridEnvironment(gym.Env[Any, Any]):
         -------
         state, reward, terminated, truncated, info : int, float, bool, bool, dict
             As in Gymnasium; ``truncated`` is always False, and ``info["probability"]`` is that of the outcome.
+
+        Examples
+        --------
+        >>> from robonav.mdp import GridWorld
+        >>> env = GridWorld("S G").environment()
+        >>> state, info = env.reset(seed=0)
+        >>> env.step(1)[:4]  # to the right, onto the goal
+        (1, 1.0, True, False)
         """
         taken = as_action(action)
         outcome = self._draw(self.P[self.state][taken])  # Eq. (2.1)

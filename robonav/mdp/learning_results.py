@@ -118,6 +118,17 @@ class LinearControlResult:
     history: NDArray[np.float64] | None = None
 
     def q(self, states: Iterable[Any]) -> NDArray[np.float64]:
-        """Action values (k, A) of k states, Eq. (4.3)."""
+        """Action values (k, A) of k states, Eq. (4.3).
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.mdp import LinearControlResult, OneHot
+        >>> none = np.zeros(0)
+        >>> result = LinearControlResult(np.array([0.5, 0.0, 0.25, 1.0]), OneHot(2, 2), none, none)
+        >>> result.q([0, 1])
+        array([[0.5 , 0.25],
+               [0.  , 1.  ]])
+        """
         features = np.stack([self.features(state) for state in states])
         return features @ self.weights  # Eq. (4.3)

@@ -91,7 +91,14 @@ class PoseGrid:
         return np.repeat(self.free.ravel(), self.headings)
 
     def uniform(self) -> Floats:
-        """The belief (S,) of a robot that only knows the map."""
+        """The belief (S,) of a robot that only knows the map.
+
+        Examples
+        --------
+        >>> from robonav.mdp import PoseGrid
+        >>> PoseGrid([[True, False]], headings=2).uniform()
+        array([0.5, 0.5, 0. , 0. ])
+        """
         return self.possible / self.possible.sum()
 
     def around(self, poses: ArrayLike) -> sp.csr_array:
@@ -99,6 +106,12 @@ class PoseGrid:
 
         Where one of the eight corners is not free, or off the map, its share goes to the others; a pose with no free
         corner gets an empty row.
+
+        Examples
+        --------
+        >>> from robonav.mdp import PoseGrid
+        >>> PoseGrid([[True, True]], headings=1).around([[0.75, 0.5, 0.0]]).toarray()
+        array([[0.75, 0.25]])
         """
         given = check_array("poses", poses, shape=("N", 3))
         rows, columns = self.free.shape

@@ -105,6 +105,13 @@ class FiniteMDP:
         ------
         ValueError
             If the environment has no such table.
+
+        Examples
+        --------
+        >>> import gymnasium
+        >>> from robonav.mdp import FiniteMDP
+        >>> FiniteMDP.from_gymnasium(gymnasium.make("FrozenLake-v1"), discount=0.9)
+        FiniteMDP(16 states, 4 actions, discount 0.9, sparse)
         """
         return cls(*tabulate(env), discount)
 
@@ -148,7 +155,15 @@ class FiniteMDP:
         return with_small_indices(self.by_action[order])
 
     def transitions_from(self, state: int) -> sp.csr_array:
-        """Transitions T(s, a, s') from one state s, (A, S'): one row an action."""
+        """Transitions T(s, a, s') from one state s, (A, S'): one row an action.
+
+        Examples
+        --------
+        >>> from robonav.mdp import FiniteMDP
+        >>> mdp = FiniteMDP([[[0.5, 0.5], [0, 1]]], [[1], [0]], discount=0.9)
+        >>> mdp.transitions_from(0).toarray()
+        array([[0.5, 0.5]])
+        """
         return self.rows[state * self.n_actions : (state + 1) * self.n_actions]
 
     def likeliest_predecessors(self) -> sp.csr_array:

@@ -141,7 +141,14 @@ class POMDP:
         return f"POMDP({self.mdp!r}, {self.observations.shape[2]} observations)"
 
     def uniform(self) -> Floats:
-        """The belief (S,) in which all states are equally likely."""
+        """The belief (S,) in which all states are equally likely.
+
+        Examples
+        --------
+        >>> from robonav.mdp import tiger
+        >>> tiger().uniform()
+        array([0.5, 0.5])
+        """
         return np.full(self.mdp.n_states, 1 / self.mdp.n_states)
 
     def predict(self, belief: ArrayLike, action: int) -> Floats:
@@ -192,7 +199,14 @@ class POMDP:
         return joint / joint.sum()  # Eq. (2.18)
 
     def likelihood(self, action: int, observation: int) -> Floats:
-        """Probability Z(o, s', a) of an observation in each state s', (S',)."""
+        """Probability Z(o, s', a) of an observation in each state s', (S',).
+
+        Examples
+        --------
+        >>> from robonav.mdp import tiger
+        >>> tiger(accuracy=0.85).likelihood(action=0, observation=0)
+        array([0.85, 0.15])
+        """
         last = self.observations.shape[2] - 1
         seen = check_integer("observation", observation, at_least=0, at_most=last)
         return self.observations[self.as_action(action), :, seen]
