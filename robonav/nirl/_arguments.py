@@ -71,7 +71,7 @@ RULES: dict[str, Rule] = {
     "demonstrations": lambda name, value: check_instance(name, value, Transitions),
     "discount": unit_interval,
     "estimate": function,
-    "expectations": function,
+    "apprenticeship.expectations": function,
     "gradient_step": check_positive,
     "guess": function,
     "hidden": count,

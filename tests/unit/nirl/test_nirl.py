@@ -494,12 +494,15 @@ def test_settings_out_of_bounds_get_a_sentence(setting):
         ReplaySGD(**setting)
 
 
+@pytest.mark.filterwarnings(
+    # the expert never errs, so that no reward makes random segments like its own
+    "ignore:relative_entropy_weights ended:robonav.errors.ConvergenceWarning"
+)
 @pytest.mark.parametrize("method", ["apprenticeship", "relative_entropy", "scirl"])
 def test_baselines_run_on_a_finite_mdp(terrain, method):
     task = TabularTask(terrain.task)
     expert = task.demonstrate(terrain.expert, 20, seed=1)
-    options = {"n_samples": 200} if method == "relative_entropy" else {}
-    found = METHODS[method](expert, task, iterations=14, seed=0, **options)
+    found = METHODS[method](expert, task, iterations=14, seed=0)
     assert found.policy.shape == (terrain.task.n_states,)
     assert found.reward_weights.shape == (4, terrain.task.n_states + 1)
 
