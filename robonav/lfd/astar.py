@@ -247,7 +247,15 @@ def modified_astar(
 def five_steps(
     current: Node, start_heading: float, speed: float
 ) -> Iterator[tuple[int, int, Point]]:
-    """Yield what each of the five actions leads to: the action, the turns (0 to 11) and the point afterwards."""
+    """Yield what each of the five actions leads to: the action, the turns (0 to 11) and the point afterwards.
+
+    Examples
+    --------
+    >>> from robonav.lfd.astar import Node, five_steps
+    >>> start = Node(index=(0, 0, 0), point=(0.5, 0.5), G=0.0, H=9.0)
+    >>> [(action, turns) for action, turns, point in five_steps(start, 0.0, 2.0)]
+    [(0, 0), (1, 1), (2, 2), (3, 11), (4, 10)]
+    """
     for action, turn in enumerate(ACTION_TURNS.tolist()):
         turns = (current.index[2] + turn) % HEADINGS
         heading = start_heading + math.radians(30.0 * turns)

@@ -20,7 +20,15 @@ from numpy.typing import ArrayLike
 
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
-from robonav.robot import Encoder, Policy, Sensing, Simulator, Worlds, drive
+from robonav.robot import (
+    Encoder,
+    Policy,
+    Sensing,
+    Simulator,
+    Transition,
+    Worlds,
+    drive,
+)
 from robonav.validation import (
     check_array,
     check_callable,
@@ -38,7 +46,6 @@ from .demonstrations import (
     Actions,
     Demonstrations,
     Expert,
-    Step,
     by_trajectory,
     concatenate,
 )
@@ -233,10 +240,10 @@ def labelled_rollout(
         expert_acts = coin.random(len(robots)) < beta
         return np.where(expert_acts, labels[robots], policy(sensing, rng))
 
-    steps: list[Step] = []
+    steps: list[Transition] = []
     for step in drive(simulator, mixture):
         recorded = np.where(step.asked, labels[step.robots], step.actions)
-        steps.append((step.robots, step.sensing, recorded, step.poses))
+        steps.append(replace(step, actions=recorded))
     return by_trajectory(simulator, steps)
 
 

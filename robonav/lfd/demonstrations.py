@@ -17,6 +17,7 @@ from robonav.robot import (
     Reflex,
     Sensing,
     Simulator,
+    Transition,
     Worlds,
     drive,
 )
@@ -31,9 +32,6 @@ from robonav.validation import (
 
 Floats = NDArray[np.float64]
 Actions = NDArray[np.int64]
-
-Step = tuple[Actions, Sensing, Actions, Floats]
-"""One second of K robots: their indices (K,), what they sensed, their actions (K,), their poses (K, 3) before it."""
 
 LEARNED = 5  # number of actions that a policy learns: F, L30, L60, R30, R60
 MAX_STEPS = 500
@@ -216,11 +214,10 @@ def record(
     def choose(simulator: Simulator, sensing: Sensing, robots: Actions) -> Actions:
         return expert(simulator, robots)
 
-    steps: list[Step] = []
+    steps: list[Transition] = []
     for step in drive(simulator, choose, reflex=reflex):
         executed = np.where(step.asked, step.executed, step.actions)  # reflexes stay
-        actions = step.actions if intended else executed
-        steps.append((step.robots, step.sensing, actions, step.poses))
+        steps.append(step if intended else replace(step, actions=executed))
         if progress is not None:
             progress(len(worlds) - len(step.robots), len(worlds))
     return by_trajectory(simulator, steps)
@@ -298,23 +295,41 @@ def actions_from_poses(before: Floats, after: Floats) -> Actions:
     return np.where(went_back, Action.B, actions)
 
 
-def by_trajectory(simulator: Simulator, steps: list[Step]) -> Demonstrations:
-    """Return recorded steps as demonstrations: sorted by robot, and for each robot by time."""
-    nothing = (
-        np.empty(0, np.int64),
-        Sensing.empty(0),
-        np.empty(0, np.int64),
-        np.empty((0, 3)),
-    )
-    robots, sensing, actions, poses = zip(nothing, *steps, strict=True)
-    trajectory = np.concatenate(robots)
+def by_trajectory(simulator: Simulator, steps: list[Transition]) -> Demonstrations:
+    """Return recorded steps as demonstrations: sorted by robot, and for each robot by time.
+
+    Parameters
+    ----------
+    simulator : Simulator
+        The simulator after its last step.
+    steps : list of Transition
+        All steps, in the order of time. Their ``actions`` are those to be learned.
+
+    Returns
+    -------
+    Demonstrations
+
+    Examples
+    --------
+    >>> from robonav.lfd.demonstrations import by_trajectory
+    >>> from robonav.robot import Simulator, drive, follow_policy, random_worlds, straight
+    >>> simulator = Simulator(random_worlds(2, obstacles=0, seed=1))
+    >>> steps = list(drive(simulator, follow_policy(straight, rng=0)))
+    >>> by_trajectory(simulator, steps).lengths
+    array([56, 56])
+    """
+    none = np.empty(0, np.int64)
+    trajectory = np.concatenate([none, *(step.robots for step in steps)])
+    sensing = _stacked([Sensing.empty(0), *(step.sensing for step in steps)])
+    actions = np.concatenate([none, *(step.actions for step in steps)])
+    poses = np.concatenate([np.empty((0, 3)), *(step.poses for step in steps)])
     order = np.argsort(trajectory, kind="stable")
     return Demonstrations(
         worlds=simulator.worlds,
         trajectory=trajectory[order],
-        sensing=_stacked(sensing)[order],
-        actions=np.concatenate(actions)[order],
-        poses=np.concatenate(poses)[order],
+        sensing=sensing[order],
+        actions=actions[order],
+        poses=poses[order],
         speed=simulator.speed,
         outcome=OUTCOMES[simulator.outcome],
     )

@@ -81,6 +81,13 @@ def spline_through(points: Floats, spacing: float) -> Floats:
 
     The parameter of the spline grows by the square root of the distance from point to point. This centripetal
     parametrisation (Lee 1989) keeps the curve from swinging out where a short piece follows a long one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd.human_expert import spline_through
+    >>> spline_through(np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), spacing=0.5)[:, 0]
+    array([0. , 0.5, 1. , 1.5, 2. ])
     """
     gaps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     knots = np.concatenate([[0], np.cumsum(np.sqrt(gaps))])
