@@ -27,7 +27,7 @@ from robonav.robot import (
     Simulator,
     Transition,
     Worlds,
-    drive,
+    run_episodes,
 )
 from robonav.validation import (
     check_array,
@@ -241,7 +241,7 @@ def labelled_rollout(
         return np.where(expert_acts, labels[robots], policy(sensing, rng))
 
     steps: list[Transition] = []
-    for step in drive(simulator, mixture):
+    for step in run_episodes(simulator, mixture):
         recorded = np.where(step.asked, labels[step.robots], step.actions)
         steps.append(replace(step, actions=recorded))
     return by_trajectory(simulator, steps)

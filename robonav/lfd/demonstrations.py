@@ -19,7 +19,7 @@ from robonav.robot import (
     Simulator,
     Transition,
     Worlds,
-    drive,
+    run_episodes,
 )
 from robonav.robot.worlds import concatenate as concatenate_worlds
 from robonav.validation import (
@@ -215,7 +215,7 @@ def record(
         return expert(simulator, robots)
 
     steps: list[Transition] = []
-    for step in drive(simulator, choose, reflex=reflex):
+    for step in run_episodes(simulator, choose, reflex=reflex):
         executed = np.where(step.asked, step.executed, step.actions)  # reflexes stay
         steps.append(step if intended else replace(step, actions=executed))
         if progress is not None:
@@ -312,9 +312,9 @@ def by_trajectory(simulator: Simulator, steps: list[Transition]) -> Demonstratio
     Examples
     --------
     >>> from robonav.lfd.demonstrations import by_trajectory
-    >>> from robonav.robot import Simulator, drive, follow_policy, random_worlds, straight
+    >>> from robonav.robot import Simulator, run_episodes, follow_policy, random_worlds, straight
     >>> simulator = Simulator(random_worlds(2, obstacles=0, seed=1))
-    >>> steps = list(drive(simulator, follow_policy(straight, rng=0)))
+    >>> steps = list(run_episodes(simulator, follow_policy(straight, rng=0)))
     >>> by_trajectory(simulator, steps).lengths
     array([56, 56])
     """

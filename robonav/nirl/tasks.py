@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.lfd.demonstrations import LEARNED
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.policy import NetworkPolicy, sample_actions
-from robonav.robot import Encoder, Sensing, Simulator, drive, random_worlds
+from robonav.robot import Encoder, Sensing, Simulator, random_worlds, run_episodes
 from robonav.robot._fast import ARRIVED, COLLIDED
 from robonav.validation import check_integer, check_positive
 
@@ -154,7 +154,7 @@ def collect(
         made[robots] += 1
         return actions
 
-    for _ in drive(simulator, choose):
+    for _ in run_episodes(simulator, choose):
         if n_decisions is not None:
             simulator.stop(np.flatnonzero(made >= n_decisions))
     return _by_episode(rows, encoder.size, simulator.outcome)

@@ -17,9 +17,9 @@ from .rollout import (
     Navigation,
     Policy,
     Transition,
-    drive,
     follow_policy,
     navigate,
+    run_episodes,
 )
 from .simulator import (
     OUTCOMES,
@@ -65,7 +65,6 @@ __all__ = [
     "concatenate",
     "degree_of_danger",
     "draw_worlds",
-    "drive",
     "follow_policy",
     "format_world",
     "lfd_state",
@@ -77,6 +76,7 @@ __all__ = [
     "obstacle_tracks",
     "parse_world",
     "random_worlds",
+    "run_episodes",
     "save_worlds",
     "sense",
     "straight",

@@ -2,7 +2,7 @@
 
 It is the batched twin of :func:`robonav.nnql.navigate_greedily`, Algorithm 9, and takes any policy.
 
-:func:`drive` is that loop. :func:`navigate`, demonstrations, DAgger, Q-learning and the episodes of inverse
+:func:`run_episodes` is that loop. :func:`navigate`, demonstrations, DAgger, Q-learning and the episodes of inverse
 reinforcement learning stand on it.
 """
 
@@ -60,9 +60,9 @@ class Transition:
 
     Examples
     --------
-    >>> from robonav.robot import Simulator, drive, follow_policy, random_worlds, straight
+    >>> from robonav.robot import Simulator, run_episodes, follow_policy, random_worlds, straight
     >>> simulator = Simulator(random_worlds(3, obstacles=10, seed=2))
-    >>> second = next(drive(simulator, follow_policy(straight, rng=0)))
+    >>> second = next(run_episodes(simulator, follow_policy(straight, rng=0)))
     >>> second.robots.tolist(), second.poses.shape, len(second.next_sensing)
     ([0, 1, 2], (3, 3), 3)
     """
@@ -77,7 +77,7 @@ class Transition:
     outcome: NDArray[np.int8]
 
 
-def drive(
+def run_episodes(
     simulator: Simulator, choose: Chooser, *, reflex: ReflexRule | None = REFLEX
 ) -> Iterator[Transition]:
     """Let the robots of a simulator act until none is running; one transition a simulated second.
@@ -108,9 +108,9 @@ def drive(
 
     Examples
     --------
-    >>> from robonav.robot import Simulator, drive, follow_policy, random_worlds, straight
+    >>> from robonav.robot import Simulator, run_episodes, follow_policy, random_worlds, straight
     >>> simulator = Simulator(random_worlds(3, obstacles=10, seed=2))
-    >>> seconds = list(drive(simulator, follow_policy(straight, rng=0)))
+    >>> seconds = list(run_episodes(simulator, follow_policy(straight, rng=0)))
     >>> seconds[0].robots.tolist(), seconds[-1].robots.tolist()
     ([0, 1, 2], [0])
     """
@@ -153,7 +153,7 @@ def undecided(sensing: Sensing, speed: float) -> NDArray[np.int64]:
 
 
 def follow_policy(policy: Policy, rng: np.random.Generator | int) -> Chooser:
-    """Return the chooser for :func:`drive` that asks a policy, which gets only what the robots sense.
+    """Return the chooser for :func:`run_episodes` that asks a policy, which gets only what the robots sense.
 
     Parameters
     ----------
@@ -277,7 +277,7 @@ def navigate(
     simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
     n, ended = len(worlds), 0
     track: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
-    for second in drive(simulator, choose, reflex=reflex):
+    for second in run_episodes(simulator, choose, reflex=reflex):
         if record_paths:
             track.append((second.robots, second.poses))
         ended += int((second.outcome != RUNNING).sum())

@@ -16,7 +16,7 @@ import numpy as np
 
 from robonav.networks.policy import sample_actions
 from robonav.progress import Progress
-from robonav.robot import Sensing, Simulator, Transition, Worlds, drive
+from robonav.robot import Sensing, Simulator, Transition, Worlds, run_episodes
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 
 from ..schedules import Schedule, geometric_schedule, softmax_policy
@@ -101,7 +101,7 @@ class Trainer:
 
     def run(self, progress: Progress | None = None) -> None:
         """Continue until every robot has finished its episodes."""
-        for step in drive(self.simulator, self._choose, reflex=self.task.reflex):
+        for step in run_episodes(self.simulator, self._choose, reflex=self.task.reflex):
             if step.asked.any():
                 self._learn(step)
             if self.statistics.record:

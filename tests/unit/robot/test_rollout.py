@@ -12,11 +12,11 @@ from robonav.robot import (
     REFLEX,
     Action,
     Simulator,
-    drive,
     follow_policy,
     navigate,
     neighbour_slip,
     random_worlds,
+    run_episodes,
     turn_to_clearer_side,
 )
 
@@ -50,7 +50,7 @@ def test_transitions_against_a_plain_loop(settings):
     worlds = random_worlds(1, 20, 5, seed=3)
     plain = by_hand(worlds, 7, max_steps=60, **settings)
     simulator = Simulator(worlds, max_steps=60, **settings)
-    found = list(drive(simulator, follow_policy(at_random, 7)))
+    found = list(run_episodes(simulator, follow_policy(at_random, 7)))
     assert len(found) == len(plain)
     for second, (sensing, action, reflex, pose, outcome) in zip(
         found, plain, strict=True
@@ -71,7 +71,7 @@ def test_transitions_against_a_plain_loop(settings):
 def test_robots_leave_when_their_episodes_end():
     simulator = Simulator(random_worlds(50, 20, seed=1), max_steps=80)
     left = np.arange(50)
-    for second in drive(simulator, follow_policy(turn_to_clearer_side, 0)):
+    for second in run_episodes(simulator, follow_policy(turn_to_clearer_side, 0)):
         np.testing.assert_array_equal(second.robots, left)
         left = left[second.outcome == 0]
     assert len(left) == 0
@@ -90,7 +90,7 @@ def test_choosers_are_asked_about_robots_without_a_reflex():
         np.testing.assert_array_equal(sensing.ranges, simulator.sense(robots).ranges)
         return np.zeros(len(robots), int)
 
-    seconds = list(drive(simulator, choose))
+    seconds = list(run_episodes(simulator, choose))
     expected = [s.robots[s.asked] for s in seconds if s.asked.any()]
     assert len(asked) == len(expected)
     for ours, theirs in zip(asked, expected, strict=True):
@@ -101,7 +101,7 @@ def test_choosers_are_asked_about_robots_without_a_reflex():
 def test_executed_actions_are_those_after_slips():
     simulator = Simulator(random_worlds(200, 20, seed=4), slip=SLIP, max_steps=40)
     commanded, done = [], []
-    for second in drive(simulator, follow_policy(at_random, 1), reflex=None):
+    for second in run_episodes(simulator, follow_policy(at_random, 1), reflex=None):
         turned = simulator.poses[second.robots, 2] - second.poses[:, 2]
         degrees = np.rint(np.degrees(turned)).astype(int) % 360
         np.testing.assert_array_equal(
@@ -117,7 +117,7 @@ def test_episodes_may_be_stopped_and_begun_between_seconds():
     worlds = random_worlds(6, 20, seed=5)
     simulator = Simulator(worlds[:3], max_steps=500)
     restarted, paths = False, {}
-    for second in drive(simulator, follow_policy(turn_to_clearer_side, 0)):
+    for second in run_episodes(simulator, follow_policy(turn_to_clearer_side, 0)):
         for robot, pose in zip(second.robots, second.poses, strict=True):
             paths.setdefault((int(robot), restarted), []).append(pose)
         if not restarted and simulator.steps[0] == 5:
@@ -135,7 +135,7 @@ def test_episodes_may_be_stopped_and_begun_between_seconds():
 
 def test_stopping_an_episode_that_has_ended_changes_nothing():
     simulator = Simulator(random_worlds(20, 20, seed=1), max_steps=80)
-    for _ in drive(simulator, follow_policy(turn_to_clearer_side, 0)):
+    for _ in run_episodes(simulator, follow_policy(turn_to_clearer_side, 0)):
         pass
     before = simulator.outcome.copy()
     simulator.stop(np.arange(20))
