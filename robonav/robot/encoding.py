@@ -61,6 +61,12 @@ def as_number(region: ArrayLike) -> Floats:
     """Encode the target's sector as the thesis does: its number 1 to 9, divided by 9; (N, 1).
 
     Sectors 9 and 1 are neighbours, but their numbers are far apart.
+
+    Examples
+    --------
+    >>> from robonav.robot.encoding import as_number
+    >>> as_number([1, 5, 6, 9]).round(2).ravel()
+    array([0.11, 0.56, 0.67, 1.  ])
     """
     return np.asarray(region, dtype=float)[:, None] / SENSORS
 
@@ -69,13 +75,26 @@ def as_signed(region: ArrayLike) -> Floats:
     """Encode the target's sector by counting from ahead, left positive: -4 to 4, divided by 4; (N, 1).
 
     The jump from 4 to -4 lies behind the robot.
+
+    Examples
+    --------
+    >>> from robonav.robot.encoding import as_signed
+    >>> as_signed([1, 5, 6, 9]).ravel()
+    array([ 0.  ,  1.  , -1.  , -0.25])
     """
     turn = np.asarray(region, dtype=float)[:, None] - 1
     return np.where(turn > SENSORS // 2, turn - SENSORS, turn) / (SENSORS // 2)
 
 
 def as_one_hot(region: ArrayLike) -> Floats:
-    """Encode the target's sector with one input for each sector: (N, 9)."""
+    """Encode the target's sector with one input for each sector: (N, 9).
+
+    Examples
+    --------
+    >>> from robonav.robot.encoding import as_one_hot
+    >>> as_one_hot([1, 5, 6, 9]).argmax(axis=1)
+    array([0, 4, 5, 8])
+    """
     rows: Floats = np.eye(SENSORS)[np.asarray(region) - 1]
     return rows
 
@@ -84,6 +103,13 @@ def as_sine_cosine(region: ArrayLike) -> Floats:
     """Encode the target's sector by the sine and cosine of its centre's angle to the heading: (N, 2).
 
     This encoding has no jump.
+
+    Examples
+    --------
+    >>> from robonav.robot.encoding import as_sine_cosine
+    >>> as_sine_cosine([1, 2]).round(2)
+    array([[0.  , 1.  ],
+           [0.64, 0.77]])
     """
     angle = (np.asarray(region, dtype=float) - 1) * SECTOR
     return np.column_stack([np.sin(angle), np.cos(angle)])
