@@ -70,6 +70,7 @@ function render({ model, el }) {
     source: model.get("_esm"), action: "Train", unit: "iterations", total: () => LEARNING.iterations,
     lines: [{ name: "cost", label: "cost J" }, { name: "agreement", label: "agreement (%)", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) }],
     begin: () => {
+      finish();
       const examples = examplesFrom(dataset());
       if (examples.m === 0) return "There is nothing to learn from: drive a few maps in the playground, or begin with the expert's demonstration.";
       const known = baselines.every(({ outcomes }) => outcomes.length === trial.maps);
@@ -148,7 +149,10 @@ function render({ model, el }) {
     clearTimeout(timer);
     running = false;
   };
+  let saved = null; // the episode whose corrections are kept already
   const finish = () => {
+    if (episode === null || saved === episode) return;
+    saved = episode;
     const kept = episode.corrections();
     if (kept.steps.length) corrected.push(kept);
     tell();
@@ -201,6 +205,7 @@ function render({ model, el }) {
   } }, "Ask the expert");
   const choose = () => {
     pause();
+    finish();
     const found = nextFailure(robots[0].policy, map + 1);
     stage.hidden = found === null;
     if (!found) return;

@@ -28,7 +28,7 @@ class LeaderboardRow(anywidget.AnyWidget):
 def leaderboard_row(
     rates: Mapping[str, Sequence[float]],
     *,
-    playground: str = "policy-learning.html",
+    playground: str = "policy-learning.html#train-a-robot-on-your-own-drives",
     worlds: int = WORLDS,
 ) -> LeaderboardRow:
     """Make the widget that tries the reader's robot.

@@ -33,7 +33,7 @@ def robot_playground(
     policies: Mapping[str, NetworkPolicy] | None = None,
     *,
     speeds: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0),
-    training: str = "policy-learning.html",
+    training: str = "policy-learning.html#train-a-robot-on-your-own-drives",
 ) -> RobotPlayground:
     """Make a playground with some worlds and networks. The two baselines and the reader can always steer.
 

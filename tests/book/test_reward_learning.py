@@ -23,6 +23,12 @@ SLOW = 240_000  # milliseconds: a training on a busy machine
 DRIVES = demonstrate(random_worlds(6, 20, seed=3))
 
 
+EMPTIED = """() => {
+  localStorage.clear();
+  window.dispatchEvent(new StorageEvent("storage", { key: null }));
+}"""  # other tests in the same browser keep drives and robots
+
+
 @pytest.fixture(params=["desktop", "phone"])
 def lab(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Locator]:
     """The widget alone on a page."""
@@ -34,7 +40,9 @@ def lab(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Loc
         maps=100,
         seed=55_000,
     )
-    yield mounted(visit, http, widget)
+    found = mounted(visit, http, widget)
+    visit.page.evaluate(EMPTIED)
+    yield found
     assert visit.errors == []
     assert visit.page.evaluate(
         "document.documentElement.scrollWidth <= window.innerWidth"

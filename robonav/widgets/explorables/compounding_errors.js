@@ -21,7 +21,7 @@ export default explorable({
     error: range({ label: "errs on the expert's path", from: 0, to: 0.1, step: 0.01, value: 0.01, text: percent }),
     off: range({ label: "errs off the path", from: 0, to: 1, step: 0.05, value: 0.9, text: percent }),
     back: range({ label: "a right decision leads back", from: 0, to: 1, step: 0.05, value: 0.2, text: percent }),
-    decisions: range({ label: "decisions", from: 10, to: MOST, step: 10, value: 100 }),
+    decisions: range({ label: "decisions", from: 10, to: MOST, step: 10, value: 20 }),
   }),
   draw({ stage }) {
     const chart = plot({ x: [0, MOST], y: [0, 100], xLabel: "decisions T", yLabel: "expected errors" });

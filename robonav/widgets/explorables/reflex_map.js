@@ -20,7 +20,7 @@ export function decisions(world, { sight, speed }) {
 
 export default explorable({
   controls: ({ worlds }) => ({
-    map: segments({ label: "obstacles", options: worlds.map(({ obstacles }, k) => [k, String(obstacles.length)]), value: 1 }),
+    map: segments({ label: "obstacles", options: worlds.map(({ obstacles }, k) => [k, String(obstacles.length)]), value: 2 }),
     sight: segments({ label: "the sensors see", options: [2, 4, 6, 8, 10].map((metres) => [metres, `${metres} m`]), value: 10 }),
     speed: range({ label: "speed", from: 1, to: 8, value: 2, text: (value) => `${value} m/s` }),
   }),

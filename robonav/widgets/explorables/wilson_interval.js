@@ -14,7 +14,7 @@ const COUNTS = [8, 20, 50, 100, 200, 500, 1000];
 
 export default explorable({
   controls: () => ({
-    maps: segments({ label: "new maps", options: COUNTS, value: 8 }),
+    maps: segments({ label: "new maps", options: COUNTS, value: COUNTS[1] }),
     share: range({ label: "reached", from: 0, to: 1, step: 0.01, value: 0.99, text: (share) => `${Math.round(100 * share)} %` }),
   }),
   draw({ stage }) {
