@@ -285,17 +285,20 @@ function lookBack() {
   return { element: h("div", { class: "grow" }, board.canvas, told, controls), show, open, hide };
 }
 
+const WAITING = "an episode that is still to come";
+
 /** Eight episodes of a run as small maps, as in Fig. 4.2. */
 function snapshots(pick) {
   const all = FIG_42.map((share) => {
     const small = mapCanvas({ "aria-hidden": "true" });
     const title = h("span", {}, " ");
     const one = { share, small, title, at: -1 };
-    one.element = h("button", { type: "button", disabled: true, click: () => pick(one.at) }, small.canvas, title);
+    one.element = h("button", { type: "button", disabled: true, "aria-label": WAITING, click: () => pick(one.at) }, small.canvas, title);
     return one;
   });
   const clear = () => all.forEach((one) => {
     one.at = -1;
+    set(one.element, { "aria-label": WAITING });
     one.element.disabled = true;
   });
   const show = ({ episodes, settings }) => all.forEach((one) => {
@@ -303,6 +306,7 @@ function snapshots(pick) {
     if (!episodes[at] || one.at === at) return;
     drawPath(one.small, episodes[at], { dots: false });
     one.title.textContent = `${at + 1}: ${ENDINGS[episodes[at].outcome]}`;
+    set(one.element, { "aria-label": `Look at episode ${one.title.textContent}` });
     one.element.disabled = false;
     one.at = at;
   });
