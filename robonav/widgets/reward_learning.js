@@ -122,7 +122,7 @@ function render({ model, el }) {
   let trial = null;
   const lines = [
     { name: "margin", label: "margin", low: null },
-    { name: "balanced", label: "balanced accuracy (%)", low: 0, high: 100, colour: PALETTE.GREEN },
+    { name: "balanced", label: "bal. accuracy (%)", low: 0, high: 100, colour: PALETTE.GREEN },
     { name: "arrived", label: "arrived (%)", low: 0, high: 100, colour: PALETTE.ORANGE },
   ].map((line) => ({ ...line, text: (value) => (line.high ? value.toFixed(0) : value.toPrecision(2)) }));
 
