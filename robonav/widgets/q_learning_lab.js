@@ -306,7 +306,7 @@ function snapshots(pick) {
     if (!episodes[at] || one.at === at) return;
     drawPath(one.small, episodes[at], { dots: false });
     one.title.textContent = `${at + 1}: ${ENDINGS[episodes[at].outcome]}`;
-    set(one.element, { "aria-label": `Look at episode ${one.title.textContent}` });
+    one.element.removeAttribute("aria-label"); // from here on its text names it
     one.element.disabled = false;
     one.at = at;
   });
