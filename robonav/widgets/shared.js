@@ -79,6 +79,14 @@ export function propagate({ sizes, weights, biases }, x) {
   return { activations, z };
 }
 
+/** Probabilities in proportion to the exponentials of scores; the largest is subtracted first, so that none overflows. */
+export function softmax(scores) {
+  const highest = scores.reduce((most, score) => Math.max(most, score), -Infinity);
+  const weights = Array.from(scores, (score) => Math.exp(score - highest));
+  const sum = weights.reduce((total, weight) => total + weight, 0);
+  return weights.map((weight) => weight / sum);
+}
+
 /** The place of the largest value, the first of equals. */
 export const largest = (values) => values.reduce((best, value, i) => (value > values[best] ? i : best), 0);
 

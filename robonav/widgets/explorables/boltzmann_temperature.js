@@ -1,12 +1,7 @@
 // Three action values, and the probabilities that a Boltzmann policy gives them.
 
 /** Eq. (5.10). */
-export function boltzmannPolicy(values, eta) {
-  const highest = Math.max(...values);
-  const weights = values.map((value) => Math.exp(eta * (value - highest)));
-  const sum = weights.reduce((total, weight) => total + weight, 0);
-  return weights.map((weight) => weight / sum);
-}
+export const boltzmannPolicy = (values, eta) => softmax(values.map((value) => eta * value));
 
 export default explorable({
   controls: ({ values }) => ({

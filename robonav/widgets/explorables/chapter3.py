@@ -182,6 +182,7 @@ def agreement_and_success(maps: int = 500) -> dict[str, Any]:
     "How many maps make a test?",
     "A policy reaches its target in 8 of 8 new maps. How low may its true success rate be?",
     guesses=["99 %", "95 %", "90 %", "below 70 %"],
+    files=("learning/trials",),
 )
 def wilson_interval() -> dict[str, Any]:
     """Nothing: the page computes the intervals."""

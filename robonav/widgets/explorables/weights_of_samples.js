@@ -1,12 +1,7 @@
 // Importance weights of fifty samples under a growing theta.
 
 /** Weights in proportion to exp(theta f), which sum to 1. */
-export function sampleWeights(features, theta) {
-  const highest = Math.max(...features.map((feature) => theta * feature));
-  const weights = features.map((feature) => Math.exp(theta * feature - highest));
-  const sum = weights.reduce((total, weight) => total + weight, 0);
-  return weights.map((weight) => weight / sum);
-}
+export const sampleWeights = (features, theta) => softmax(features.map((feature) => theta * feature));
 
 /** How many equally weighted samples would be as good: 1 over the sum of squares. */
 export const effectiveSamples = (weights) => 1 / weights.reduce((sum, weight) => sum + weight * weight, 0);

@@ -1,15 +1,5 @@
 // How much a number of test maps says: Wilson's interval.
 
-const Z = 1.959963984540054; // 95 %
-
-/** Wilson's interval of a share of successes. */
-export function wilson(successes, count) {
-  const share = successes / count;
-  const middle = (share + Z ** 2 / (2 * count)) / (1 + Z ** 2 / count);
-  const half = (Z / (1 + Z ** 2 / count)) * Math.sqrt((share * (1 - share)) / count + Z ** 2 / (4 * count ** 2));
-  return [Math.max(0, middle - half), Math.min(1, middle + half)];
-}
-
 const COUNTS = [8, 20, 50, 100, 200, 500, 1000];
 
 export default explorable({
@@ -24,7 +14,7 @@ export default explorable({
       const reached = Math.round(share * maps);
       const shapes = COUNTS.flatMap((count, k) => {
         const successes = Math.round(share * count);
-        const [low, high] = wilson(successes, count);
+        const [low, high] = wilsonInterval(successes, count);
         const y = chart.Y(COUNTS.length - 0.5 - k);
         const mine = count === maps;
         return [
@@ -33,7 +23,7 @@ export default explorable({
           svg("circle", { cx: chart.X((100 * successes) / count), cy: y, r: mine ? 6 : 4, fill: mine ? PALETTE.BLUE : PALETTE.INK }),
         ];
       });
-      const [low, high] = wilson(reached, maps);
+      const [low, high] = wilsonInterval(reached, maps);
       chart.put(`Intervals of the success rate for ${COUNTS.join(", ")} maps`, ...shapes);
       return [
         `${reached} of ${maps} maps reached.`,

@@ -25,13 +25,7 @@ export const decisionsOf = (steps, { encoder }) => ({
 });
 
 /** Boltzmann policy, Eq. (5.10). @param {ArrayLike<number>} values */
-export function boltzmann(values, inverseTemperature) {
-  let highest = -Infinity;
-  for (const value of values) highest = Math.max(highest, inverseTemperature * value);
-  const weights = Array.from(values, (value) => Math.exp(inverseTemperature * value - highest));
-  const sum = weights.reduce((total, weight) => total + weight, 0);
-  return weights.map((weight) => weight / sum);
-}
+export const boltzmann = (values, inverseTemperature) => softmax(values.map((value) => inverseTemperature * value));
 
 const outputsOf = (network, input) => propagate(network, input).activations.at(-1);
 

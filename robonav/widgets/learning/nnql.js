@@ -70,9 +70,7 @@ export const geometricSchedule = ([start, end], fraction) => start * (end / star
 /** The probabilities of the actions, Eq. (4.7). */
 export function softmaxPolicy(q, temperature) {
   const best = Math.max(...q);
-  const weights = Array.from(q, (value) => Math.exp((value - best) / temperature));
-  const sum = weights.reduce((total, weight) => total + weight, 0);
-  return weights.map((weight) => weight / sum);
+  return softmax(q.map((value) => (value - best) / temperature));
 }
 
 /** Q-values after one update of the action taken, Eq. (4.9). */

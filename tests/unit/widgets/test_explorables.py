@@ -683,7 +683,7 @@ def test_agreement_counts_as_in_python(compute):
 def test_intervals_are_wilsons(compute, reached, maps):
     seen = compute(
         "wilson_interval",
-        "return page.wilson(data.reached, data.maps);",
+        "return page.wilsonInterval(data.reached, data.maps);",
         reached=reached,
         maps=maps,
     )
