@@ -23,13 +23,13 @@ from .kernel_training import KernelTraining, Report
 from .shared import front_end, packed, spread_out, style_sheet
 
 FRAMES = 25
-"""About so many frames show a training on the reader's map."""
+"""Approximate number of frames that show a training on the reader's map."""
 
 MOST_STEPS = 500
-"""An episode on the reader's map is cut off after so many steps, because a goal may be out of reach."""
+"""Steps after which an episode on the reader's map is cut off, because a goal may be out of reach."""
 
 WINDOW = 20
-"""The live curve is the mean return of so many latest episodes, because single returns vary too much to be read."""
+"""Number of latest episodes whose mean return the live curve shows, because single returns vary too much."""
 
 GREEDY_EPISODES = 100
 """Episodes with the learned greedy policy."""

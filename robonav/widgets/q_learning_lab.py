@@ -162,7 +162,7 @@ def q_learning_lab(
     Raises
     ------
     ValueError
-        If there is no group of such a name.
+        If a name is not that of a group.
 
     Examples
     --------

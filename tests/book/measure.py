@@ -93,7 +93,7 @@ class Training:
         return lab.get_by_role("button", name=self.action, exact=True)
 
     def times(self, address: str, runs: int = 1) -> list[Times]:
-        """Train so many times on the page, as it was opened."""
+        """Train ``runs`` times on the page, which is opened once."""
         with chromium(viewport=DESKTOP) as context, visiting(context) as visit:
             visit.open(f"{address}/{self.page}.html")
             button = self.button(visit.page)
