@@ -212,7 +212,7 @@ def test_learners_and_their_walks_are_pythons(visit, site):
             "record": True,
         }
         learned = learn(cliff.environment(), 50, **options)
-        said = f"after episode 50, which collected {learned.returns[49]:.0f}"
+        said = f"after episode 50, with a return of {learned.returns[49]:.0f}"
         expect(lab.locator("figure .told").nth(which)).to_have_text(said)
         values, arrows = shown(lab, which)
         q = learned.history[50][~cliff.terminal]
