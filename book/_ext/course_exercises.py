@@ -1,4 +1,8 @@
-"""The exercises on a page: the directive ``{course-exercises}``, with a chapter such as ``ch2``.
+"""The exercises: the directives ``{course-exercises}`` and ``{exercises}``.
+
+``{course-exercises} ch2`` shows all exercises of a chapter. ``{exercises}`` lists the exercises that belong to the page
+it stands on, or to the page that it names, with difficulty and time; each entry is a link. The manifest
+``tests/exercises/manifest.toml`` says which page an exercise belongs to.
 
 Each exercise shows its question and the file that students fill in, from ``exercises/``. The instructors' build,
 ``make book SOLUTIONS=1``, also has its solution and the known mistakes with their hints in a folded section. No other
@@ -42,7 +46,10 @@ class CourseExercises(SphinxDirective):
         stub = course.stubs / exercise.file
         self.env.note_dependency(str(stub))
         key = f"exercise-{exercise.id.replace('.', '-')}"
-        about = f"{exercise.difficulty}, about {exercise.minutes} minutes, {exercise.points} points"
+        about = (
+            f"{exercise.difficulty}, about {exercise.minutes} minutes, {exercise.points} points; "
+            f"belongs to the page {{doc}}`{exercise.page}`"
+        )
         source = stub.read_text()
         asked = f"*{about[0].upper()}{about[1:]}.*\n\n{question(source)}"
         parts = [
@@ -79,7 +86,29 @@ class CourseExercises(SphinxDirective):
         )
 
 
+class PageExercises(SphinxDirective):
+    """The directive ``{exercises}``: a list of the exercises that belong to a page."""
+
+    optional_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        course = Course.around()
+        here = self.env.docname.rpartition("/")[2]
+        page = self.arguments[0] if self.arguments else here
+        self.env.note_dependency(str(course.tests / "manifest.toml"))
+        listed = [
+            f"- {{ref}}`{exercise.id} {exercise.title} <exercise-{exercise.id.replace('.', '-')}>`: "
+            f"{exercise.difficulty}, about {exercise.minutes} minutes"
+            for exercise in course.exercises.values()
+            if exercise.page == page
+        ]
+        if not listed:
+            raise self.error(f"no exercise in the manifest belongs to the page {page}")
+        return self.parse_text_to_nodes("\n".join(listed))
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     app.add_config_value("course_solutions", os.environ.get("SOLUTIONS") == "1", "env")
     app.add_directive("course-exercises", CourseExercises)
+    app.add_directive("exercises", PageExercises)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -25,6 +25,7 @@ class Exercise:
     points: int
     difficulty: str
     minutes: int
+    page: str
 
     def __post_init__(self) -> None:
         check_integer(f"points of exercise {self.id}", self.points, at_least=1)
