@@ -25,6 +25,7 @@ from check_site import pages
 from docutils import nodes
 from quiz import VERDICTS, marks
 from release import first_cell
+from result_role import with_results
 from sphinx.application import Sphinx
 from thesis_numbers import thesis_number
 
@@ -158,6 +159,7 @@ def plain(markdown: str) -> str:
         (ROLE, plain_role),
         (TARGET, ""),
     ]
+    markdown = with_results(markdown)
     for pattern, replacement in steps:
         markdown = pattern.sub(replacement, markdown)
     return markdown
