@@ -1,10 +1,11 @@
 """Numbers that the page of reproduction quotes are those of the committed results."""
 
+import re
 from pathlib import Path
 
 import pytest
 
-from robonav.experiments import read_results
+from robonav.experiments import names, read_results
 from robonav.experiments.runner.report import short
 
 BOOK = Path(__file__).parents[3] / "book"
@@ -53,3 +54,39 @@ def test_what_a_row_quotes_is_what_was_measured(row, name, metric, wanted, which
         else f"{getattr(summary, form):.1f}"
     )
     assert shown in line
+
+
+@pytest.mark.skipif(not PAGE, reason="the book is not here")
+def test_page_counts_its_verdicts():
+    """The opening sentence says how many claims hold; the tables have a verdict for each claim."""
+    given = re.findall(r"^\| [^|]+ \| \*\*([a-z ]+)\*\*", PAGE, re.M)
+    kinds = (
+        "holds",
+        "holds in part",
+        "does not hold",
+        "not tested",
+        "cannot be decided",
+    )
+    assert set(given) == set(kinds)
+    all_of_them, hold, part, no, untested, open_ones = (
+        len(given),
+        *(given.count(kind) for kind in kinds),
+    )
+    assert (
+        f"Of the {all_of_them} claims below, {hold} hold, {part} hold in part, {no} do not hold, "
+        f"{untested} are not tested and {open_ones} cannot be decided."
+    ) in " ".join(PAGE.split())
+
+
+@pytest.mark.skipif(not PAGE, reason="the book is not here")
+def test_every_experiment_has_its_place():
+    """Each experiment but the labs' and the leaderboard's has one section on the pages of reproduction."""
+    places = re.findall(
+        r"^\(result-(.+)\)=$",
+        "".join(page.read_text() for page in sorted(BOOK.glob("reproduction*.md"))),
+        re.M,
+    )
+    assert len(places) == len(set(places))
+    elsewhere = {"leaderboard", "lab-lfd", "lab-nnql", "lab-nirl"}
+    assert set(places) == set(names()) - elsewhere
+    assert set(re.findall(r"<result-([\w.-]+)>", PAGE)) <= set(places)
