@@ -10,6 +10,7 @@ from matplotlib.patches import Rectangle
 from numpy.typing import ArrayLike
 
 from robonav import style
+from robonav.mdp import Tiles
 
 COLOURS: dict[str, str] = {
     "Q-learning": style.VERMILION,
@@ -183,3 +184,48 @@ def plot_estimates(
         )
     axes.set_xticks(places, names)
     axes.legend()
+
+
+def draw_tiles(axes: Axes, tiles: Tiles, states: ArrayLike) -> None:
+    """Draw the tilings of a plane in different colours, some states, and the tiles that hold the first of them.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    tiles : Tiles
+        Tilings of a state of two coordinates.
+    states : (N, 2) array
+        The states to mark.
+    """
+    points = np.asarray(states, dtype=float)
+    low, high = np.asarray(tiles.low), np.asarray(tiles.high)
+    side = (high - low) / tiles.tiles
+    active = np.unravel_index(tiles.active(points[0]), tiles.shape)
+    for tiling, shift in enumerate(tiles.shifts):
+        colour = colour_of("", tiling)
+        corner = low - shift * side
+        for column in range(tiles.tiles[0] + 1):
+            for row in range(tiles.tiles[1] + 1):
+                on = (column, row) == (active[1][tiling], active[2][tiling])
+                axes.add_patch(
+                    Rectangle(
+                        tuple(corner + side * (column, row)),
+                        *side,
+                        facecolor=colour if on else "none",
+                        alpha=0.3 if on else 0.6,
+                        edgecolor=colour,
+                        linewidth=1.2,
+                    )
+                )
+    axes.plot(*points.T, "o", color=style.INK, markersize=5)
+    for number, (x, y) in enumerate(points):
+        axes.annotate(
+            "ABCDEFGH"[number], (x, y), xytext=(4, 4), textcoords="offset points"
+        )
+    edge = 0.02 * (high - low)
+    axes.set(
+        xlim=(low[0] - edge[0], high[0] + edge[0]),
+        ylim=(low[1] - edge[1], high[1] + edge[1]),
+    )
+    axes.grid(False)

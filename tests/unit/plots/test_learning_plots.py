@@ -5,7 +5,14 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from robonav.plots.learning import COLOURS, draw_walks, plot_estimates, plot_runs
+from robonav.mdp import Tiles
+from robonav.plots.learning import (
+    COLOURS,
+    draw_tiles,
+    draw_walks,
+    plot_estimates,
+    plot_runs,
+)
 
 
 @pytest.fixture
@@ -55,3 +62,11 @@ def test_estimates_stand_beside_the_truth(axes):
     assert [line.get_label() for line in axes.lines] == ["true", "after 1"]
     np.testing.assert_allclose(axes.lines[1].get_ydata(), [0.5, 0.6])
     assert [tick.get_text() for tick in axes.get_xticklabels()] == ["A", "B"]
+
+
+def test_tiles_that_hold_the_first_state_are_filled(axes):
+    tiles = Tiles(low=(0, 0), high=(4, 4), tiles=(4, 4), tilings=2, n_actions=1)
+    draw_tiles(axes, tiles, [(1.3, 2.2), (1.7, 2.6)])
+    filled = [patch for patch in axes.patches if patch.get_facecolor()[3] > 0]
+    assert len(axes.patches) == 2 * 5 * 5
+    assert [patch.get_xy() for patch in filled] == [(1.0, 2.0), (0.5, 1.5)]
