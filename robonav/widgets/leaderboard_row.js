@@ -43,7 +43,14 @@ function render({ model, el }) {
     if (found.length === 0) which.append(h("option", {}, "none yet"));
     remove.disabled = which.selectedIndex >= keptRobots().length || found.length === 0;
   };
-  const sets = choice({ label: "worlds of each setting", options: [`${worlds} (about ten seconds)`, `${worlds * seeds.length} (all)`], change: () => {} });
+  const about = h("p", { class: "about" });
+  /** The seeds of the worlds that are chosen: the first set, or all. */
+  const seedsChosen = () => (sets.element.querySelector("select").selectedIndex === 0 ? seeds.slice(0, 1) : seeds);
+  const tell = () => {
+    const per = worlds * seedsChosen().length;
+    about.textContent = `${settings.length} settings with ${per.toLocaleString("en")} worlds each: the robot drives ${(per * settings.length).toLocaleString("en")} episodes.`;
+  };
+  const sets = choice({ label: "worlds of each setting", options: [`${worlds} (the first set)`, `${worlds * seeds.length} (all sets)`], change: tell });
   const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights of a robot", change: async () => {
     const [file] = upload.files;
     if (!file) return;
@@ -70,7 +77,7 @@ function render({ model, el }) {
     begin: () => {
       const robot = robots()[which.selectedIndex];
       if (!robot) return "There is no robot yet: train one on a page of chapter 3, 4 or 5, or choose a file of weights.";
-      const chosen = sets.element.querySelector("select").selectedIndex === 0 ? seeds.slice(0, 1) : seeds;
+      const chosen = seedsChosen();
       each = worlds * chosen.length;
       head.textContent = robot.name;
       show(settings.map(() => 0), 0);
@@ -91,9 +98,10 @@ function render({ model, el }) {
   el.replaceChildren(
     h("div", { class: "row tools" }, h("label", {}, h("span", {}, "robot"), which), sets.element, remove,
       h("label", { class: "file" }, h("span", {}, "or weights from a file"), upload)),
-    note, panel.element, table,
+    about, note, panel.element, table,
     h("p", {}, h("a", { href: playground }, "Train a robot of your own")));
   fill();
+  tell();
   return () => {
     forget();
     panel.cancel();

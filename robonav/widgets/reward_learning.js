@@ -66,6 +66,7 @@ function render({ model, el }) {
 
   // What was learned, as a picture
   const board = mapCanvas({ role: "img" });
+  const drawn = h("p", { class: "label" });
   let places = null; // the map's cells, once there is a reward to draw
   const paint = (theta) => {
     board.begin(world.size);
@@ -84,6 +85,8 @@ function render({ model, el }) {
     world.obstacles.forEach((o) => board.obstacle(o));
     board.start(world.start);
     board.target(world.target);
+    const of = shownAction < 0 ? "the largest reward of the five actions" : `the reward of the action ${ACTION_NAMES[shownAction]}`;
+    drawn.textContent = theta ? `The colours show ${of}, for a robot there that faces the target.` : `Once a reward is learned, colours will show ${of}.`;
     board.canvas.setAttribute("aria-label", theta ? "Map of the learned reward: blue where the reward of the action is positive, red where it is negative" : "Map without a reward: nothing is learned yet");
   };
   const table = h("div", { class: "scroll" });
@@ -174,11 +177,25 @@ function render({ model, el }) {
   const own = () => decisionsOf(keptDrives().flatMap(effective), settings);
   const decisions = (index) => ready[index] ?? own();
   const names = () => [...sets.map(({ name }) => name), `my own drives (${keptDrives().length})`];
-  const from = choice({ label: "demonstrations", options: names(), change: (index) => (chosen = index) });
-  const forget = watchDrives(() => (from.element.querySelector("option:last-child").textContent = names().at(-1)));
+  const from = choice({ label: "demonstrations", options: names(), change: (index) => {
+    chosen = index;
+    tell();
+  } });
+  const about = h("p", { class: "about" });
+  /** What the chosen demonstrations hold. */
+  const tell = () => {
+    const drives = sets[chosen]?.drives ?? keptDrives().length;
+    const count = decisions(chosen).actions.length;
+    about.textContent = count === 0 ? NO_DECISION
+      : `${drives} ${drives === 1 ? "drive" : "drives"} with ${count} ${count === 1 ? "decision" : "decisions"} to learn from: steps with something in range.`;
+  };
+  const forget = watchDrives(() => {
+    from.element.querySelector("option:last-child").textContent = names().at(-1);
+    tell();
+  });
   const action = choice({ label: "reward of the action", options: [...ACTION_NAMES, "best of the five"], value: 0, change: (index) => {
     shownAction = index < ACTION_NAMES.length ? index : -1;
-    if (found) paint(found.theta);
+    paint(found?.theta);
   } });
 
   const [robots, python] = [numberOfRobots(), { method: 0, asked: 0, hidden: settings.hidden }];
@@ -214,9 +231,9 @@ function render({ model, el }) {
       number("obstacles in training", settings.obstacles, { least: 0, most: 40 }, (value) => (settings = { ...settings, obstacles: value })),
       number("inverse temperature η", settings.inverseTemperature, { step: 0.5, least: 0, most: 200 }, (value) => (settings = { ...settings, inverseTemperature: value })),
       number("seed", 0, { least: 0, most: 1e6 }, (value) => (settings = { ...settings, seed: value }))),
-    complain, learn.element,
+    about, complain, learn.element,
     h("div", { class: "row" },
-      h("div", { class: "grow" }, board.canvas, action.element,
+      h("div", { class: "grow" }, board.canvas, drawn, action.element,
         h("p", { class: "legend" }, h("span", { style: `--mark: ${PALETTE.BLUE}` }, "positive reward"), h("span", { style: `--mark: ${PALETTE.VERMILION}` }, "negative reward"))),
       h("div", { class: "grow" }, results, h("details", {}, h("summary", {}, "The weights of the reward"), table))),
     h("div", { class: "row tools" }, weights, reward),
@@ -228,6 +245,7 @@ function render({ model, el }) {
       number("speed (m/s)", second.speed, { step: 0.5, least: 1, most: 4 }, (value) => (second = { ...second, speed: value }))),
     again.element);
   paint(null);
+  tell();
   return () => {
     forget();
     learn.cancel();
