@@ -8,7 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.progress import Progress
-from robonav.robot import COLLISION_DISTANCE, Simulator, Worlds
+from robonav.robot import (
+    COLLISION_DISTANCE,
+    REFLEX,
+    ReflexRule,
+    Simulator,
+    Worlds,
+)
 from robonav.robot.worlds import LARGEST_MAP
 from robonav.validation import check_instance, check_real
 
@@ -138,6 +144,7 @@ def demonstrate(
     margin: float = MARGIN,
     caution: float = CAUTION,
     slip: ArrayLike | None = None,
+    reflex: ReflexRule | None = REFLEX,
     progress: Progress | None = None,
 ) -> Demonstrations:
     """Record demonstrations by the computer expert, one in each of D worlds.
@@ -155,6 +162,8 @@ def demonstrate(
         How far plans keep from obstacles and borders, see :class:`ComputerExpert`.
     slip : (6, 6) array, optional
         Probabilities that action a (row) turns into another one (Fig. 5.5). The actions executed are recorded.
+    reflex : callable, optional
+        What the robot does before the expert is asked, see :class:`robonav.robot.Reflex`.
     progress : callable, optional
         Called as ``progress(worlds done, D)``.
 
@@ -184,6 +193,7 @@ def demonstrate(
         worlds,
         speed=speed,
         slip=slip,
+        reflex=reflex,
         progress=progress,
     )
     failed = (recorded.outcome != "arrived") & ~worlds.speeds.any(axis=1)

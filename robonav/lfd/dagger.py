@@ -21,8 +21,10 @@ from numpy.typing import ArrayLike
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import (
+    REFLEX,
     Encoder,
     Policy,
+    ReflexRule,
     Sensing,
     Simulator,
     Transition,
@@ -115,6 +117,7 @@ def dagger(
     seed: int | ArrayLike = 0,
     encoder: Encoder | None = None,
     temperature: float = TEMPERATURE,
+    reflex: ReflexRule | None = REFLEX,
     max_steps: int = MAX_STEPS,
     progress: Progress | None = None,
 ) -> DaggerResult:
@@ -143,6 +146,8 @@ def dagger(
     temperature : float
         Temperature of the policies, see :class:`NetworkPolicy`. At 0 a policy without memory can go round in circles;
         actions drawn at random lead out of them.
+    reflex : callable, optional
+        What the robot does before expert or learner is asked, see :class:`robonav.robot.Reflex`.
     max_steps : int
         Seconds after which an episode is stopped. Without a limit, a robot that goes round in circles would fill the
         dataset with copies of a few states.
@@ -183,7 +188,8 @@ def dagger(
         simulator = Simulator(worlds, demonstrations.speed, max_steps=max_steps)
         rng = np.random.default_rng(seeds[i].episodes)
         # Roll out the mixture, and label the states visited with the expert's actions.
-        visited = labelled_rollout(simulator, policies[-1], expert, betas[i], rng)
+        learner, beta = policies[-1], betas[i]
+        visited = labelled_rollout(simulator, learner, expert, beta, rng, reflex=reflex)
         datasets.append(concatenate([datasets[-1], visited]))  # aggregate
         policies.append(train(datasets[-1], seeds[i].weights))  # train
         if progress is not None:
@@ -197,6 +203,8 @@ def labelled_rollout(
     expert: Expert,
     beta: float,
     rng: np.random.Generator,
+    *,
+    reflex: ReflexRule | None = REFLEX,
 ) -> Demonstrations:
     """Roll out the mixture of expert and learner, and label each state visited with the expert's action.
 
@@ -214,6 +222,8 @@ def labelled_rollout(
         Probability that a robot takes the expert's action.
     rng : Generator
         For the learner's random numbers.
+    reflex : callable, optional
+        What the robot does before expert or learner is asked.
 
     Returns
     -------
@@ -241,7 +251,7 @@ def labelled_rollout(
         return np.where(expert_acts, labels[robots], policy(sensing, rng))
 
     steps: list[Transition] = []
-    for step in run_episodes(simulator, mixture):
+    for step in run_episodes(simulator, mixture, reflex=reflex):
         recorded = np.where(step.asked, labels[step.robots], step.actions)
         steps.append(replace(step, actions=recorded))
     return by_trajectory(simulator, steps)

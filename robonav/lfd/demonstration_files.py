@@ -9,7 +9,8 @@ array              shape        content
 format             ()           the text ``robonav demonstrations 1``
 speed              ()           m/s
 trajectory         (K,)         whole number: the trajectory that each step belongs to, from 0, ascending
-actions            (K,)         whole number: 0 F, 1 L30, 2 L60, 3 R30, 4 R60, 5 B, 6 turn to the target and go
+actions            (K,)         whole number: 0 F, 1 L30, 2 L60, 3 R30, 4 R60, 5 B, 6 turn to the target and go,
+                                7 turn to the middle of the target's sector and go
 poses              (K, 3)       x, y in metres and heading in radians, before each action
 ranges             (K, 9)       metres, 10 if nothing is in range; column 0 is ahead, then counter-clockwise
 walls              (K, 9)       true or false: whether the range is that of the map's border

@@ -14,7 +14,7 @@ from robonav.robot import (
     OUTCOMES,
     REFLEX,
     Action,
-    Reflex,
+    ReflexRule,
     Sensing,
     Simulator,
     Transition,
@@ -52,7 +52,7 @@ class Demonstrations:
     sensing : Sensing
         K rows: what the robot sensed before each action.
     actions : (K,) array of int
-        The actions taken; ``Action.TO_TARGET`` and ``Action.B`` where the robot's reflex acted.
+        The actions taken; ``Action.TO_TARGET``, ``Action.TO_SECTOR`` or ``Action.B`` where the robot's reflex acted.
     poses : (K, 3) array
         x, y and heading before each action.
     speed : float
@@ -165,7 +165,7 @@ def record(
     speed: float = 2.0,
     slip: ArrayLike | None = None,
     intended: bool = False,
-    reflex: Reflex | None = REFLEX,
+    reflex: ReflexRule | None = REFLEX,
     max_steps: int = MAX_STEPS,
     progress: Progress | None = None,
 ) -> Demonstrations:

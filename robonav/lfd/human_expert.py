@@ -15,7 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
 from robonav.progress import Progress
-from robonav.robot import COLLISION_DISTANCE, Simulator, Worlds, clearance
+from robonav.robot import (
+    COLLISION_DISTANCE,
+    REFLEX,
+    ReflexRule,
+    Simulator,
+    Worlds,
+    clearance,
+)
 from robonav.robot._fast import TURNS
 from robonav.validation import (
     check_array,
@@ -186,6 +193,7 @@ def demonstrate_by_hand(
     *,
     speed: float = 2.0,
     slip: ArrayLike | None = None,
+    reflex: ReflexRule | None = REFLEX,
     progress: Progress | None = None,
 ) -> Demonstrations:
     """Record demonstrations by a human expert: in each of D worlds the robot follows a path through key points.
@@ -203,6 +211,8 @@ def demonstrate_by_hand(
     speed : float
         Of the robots, in m/s.
     slip : (6, 6) array, optional
+        As in :func:`demonstrate`.
+    reflex : callable, optional
         As in :func:`demonstrate`.
     progress : callable, optional
         Called as ``progress(worlds done, D)``.
@@ -245,7 +255,12 @@ def demonstrate_by_hand(
                 f"than {COLLISION_DISTANCE:g} m to one"
             )
     return record(
-        PathFollower(paths), worlds, speed=speed, slip=slip, progress=progress
+        PathFollower(paths),
+        worlds,
+        speed=speed,
+        slip=slip,
+        reflex=reflex,
+        progress=progress,
     )
 
 

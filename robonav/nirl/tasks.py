@@ -11,7 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.lfd.demonstrations import LEARNED
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.policy import NetworkPolicy, sample_actions
-from robonav.robot import Encoder, Sensing, Simulator, random_worlds, run_episodes
+from robonav.robot import (
+    REFLEX,
+    Encoder,
+    ReflexRule,
+    Sensing,
+    Simulator,
+    random_worlds,
+    run_episodes,
+)
 from robonav.robot._fast import ARRIVED, COLLIDED
 from robonav.validation import check_integer, check_positive
 
@@ -74,6 +82,8 @@ class RobotTask:
         Seconds after which an episode ends.
     encoder : Encoder
         phi.
+    reflex : callable, optional
+        What the robot does before the policy is asked, see :class:`robonav.robot.Reflex`.
 
     Examples
     --------
@@ -91,6 +101,7 @@ class RobotTask:
     speed: float = 2.0
     max_steps: int = 200
     encoder: Encoder = ENCODER
+    reflex: ReflexRule | None = REFLEX
 
     def __post_init__(self) -> None:
         check_integer("n_episodes", self.n_episodes, at_least=1)
@@ -115,7 +126,7 @@ class RobotTask:
         """``n_episodes`` episodes, each in a new map."""
         worlds = random_worlds(self.n_episodes, self.obstacles, self.moving, seed=rng)
         simulator = Simulator(worlds, self.speed, max_steps=self.max_steps)
-        return collect(simulator, policy, self.encoder, rng)
+        return collect(simulator, policy, self.encoder, rng, reflex=self.reflex)
 
     def rollout_from(
         self,
@@ -132,7 +143,9 @@ class RobotTask:
         worlds = states.worlds[demonstrations.trajectory[index]]
         simulator = Simulator(worlds, states.speed, max_steps=self.max_steps)
         simulator.poses = np.ascontiguousarray(states.poses[index], dtype=float)
-        return collect(simulator, policy, self.encoder, rng, n_decisions=n_decisions)
+        return collect(
+            simulator, policy, self.encoder, rng, reflex=self.reflex, n_decisions=n_decisions
+        )  # fmt: skip
 
 
 def collect(
@@ -141,6 +154,7 @@ def collect(
     encoder: Encoder,
     rng: np.random.Generator,
     *,
+    reflex: ReflexRule | None = REFLEX,
     n_decisions: int | None = None,
 ) -> Transitions:
     """Run the robots of a simulator with a policy, for ``n_decisions`` decisions each at most."""
@@ -154,7 +168,7 @@ def collect(
         made[robots] += 1
         return actions
 
-    for _ in run_episodes(simulator, choose):
+    for _ in run_episodes(simulator, choose, reflex=reflex):
         if n_decisions is not None:
             simulator.stop(np.flatnonzero(made >= n_decisions))
     return _by_episode(rows, encoder.size, simulator.outcome)

@@ -267,9 +267,10 @@ class NavigationEnv(gymnasium.Env):
     | 4      | R60    | 60 degrees right    | speed    |
     | 5      | B      | none                | -speed   |
 
-    The reflex comes first. If nothing is in sensor range, the robot turns to its target and goes forward (6). If all
-    five sectors ahead are blocked, it steps back (5). In both cases it ignores the action given, and
-    ``info["reflex"]`` names what it did instead.
+    The reflex comes first. If nothing is in sensor range, the robot turns to its target and goes forward (6), or, with
+    ``reflex=Reflex("sector")``, it turns to the middle of the target's sector (7). If all five sectors ahead are
+    blocked, it steps back (5). In all these cases it ignores the action given, and ``info["reflex"]`` names what it did
+    instead.
 
     ## Observation space
 
@@ -338,7 +339,7 @@ class NavigationEnv(gymnasium.Env):
     reward : callable
         ``reward(before, after, outcome) -> (N,)`` rewards of N robots, see ``Reward``.
     reflex : callable, optional
-        What the robot does before the action given counts; None turns it off.
+        What the robot does before the action given counts, see :class:`Reflex`; None turns it off.
     max_episode_steps : int, optional
         Limit of the environment itself. By default it has none and leaves the limit to Gymnasium's wrapper.
     render_mode : {"human", "rgb_array"}, optional
@@ -425,9 +426,8 @@ class NavigationEnv(gymnasium.Env):
         before, start, reflex = self.sensing, self.pose, NO_REFLEX
         if settings.reflex is not None:
             reflex = int(settings.reflex(before, settings.speed)[0])
-        if reflex == Action.TO_TARGET:  # nothing is in range
-            x, y, _ = start
-            start = (x, y, math.atan2(self.target[1] - y, self.target[0] - x))
+        if reflex in (Action.TO_TARGET, Action.TO_SECTOR):  # nothing is in range
+            start = self._facing_target(reflex)
             action = Action.F
         elif reflex != NO_REFLEX:  # it is blocked ahead
             action = reflex
@@ -453,6 +453,14 @@ class NavigationEnv(gymnasium.Env):
         if self.render_mode == "human":
             self.render()
         return self._observation(), reward, terminated, truncated, self._info(reflex)
+
+    def _facing_target(self, reflex: int) -> Pose:
+        """The robot's pose after it has turned to its target, or to the middle of the sector that holds it."""
+        x, y, heading = self.pose
+        if reflex == Action.TO_TARGET:
+            return x, y, math.atan2(self.target[1] - y, self.target[0] - x)
+        sectors = int(self.sensing.target_region[0]) - 1  # from the one ahead
+        return x, y, wrap(heading + SECTOR * sectors)
 
     def _outcome(self, start: Pose, centres_before: Array) -> int:
         """How the episode stands; a collision anywhere along the way counts, not only where the robot stops."""

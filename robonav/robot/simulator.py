@@ -13,6 +13,7 @@ from robonav.validation import (
     check_array,
     check_instance,
     check_integer,
+    check_one_of,
     check_positive,
     check_real,
 )
@@ -31,7 +32,7 @@ NEVER = 2**19  # steps; the random numbers of a world count no further
 class Action(IntEnum):
     """Actions of a step, Eq. (4.4): F forward, L and R turn left and right by so many degrees, B steps back.
 
-    A policy chooses among the first five, or all six. TO_TARGET belongs to the reflex alone.
+    A policy chooses among the first five, or all six. TO_TARGET and TO_SECTOR belong to the reflex alone.
 
     Examples
     --------
@@ -47,6 +48,11 @@ class Action(IntEnum):
     R60 = 4
     B = 5
     TO_TARGET = 6  # in a safe state: turn to the target and go
+    TO_SECTOR = 7  # in a safe state: turn to the middle of the target's sector and go
+
+
+DIRECTIONS = {"exact": Action.TO_TARGET, "sector": Action.TO_SECTOR}
+"""What the reflex does in a safe state, by what it knows of the direction of the target."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,18 +125,41 @@ class Reflex:
     ahead read less than one step plus the collision distance, it steps back. Elsewhere the policy decides. Algorithms 8
     and 9 both use it.
 
+    Attributes
+    ----------
+    direction : {"exact", "sector"}
+        What the robot knows of the direction of its target in a safe state. "exact": it turns to the target itself.
+        "sector": it knows only which sector the target lies in, as section 3.6 says, and turns to the middle of that
+        sector. The target then lies in the sector ahead, so the robot goes straight on until the target has left that
+        sector.
+
+    Raises
+    ------
+    ValueError
+        If the direction is another one.
+
     Examples
     --------
     >>> from robonav.robot import Reflex, make_world, sense
     >>> world = make_world(circles=[(58, 50, 2)])
     >>> [int(Reflex()(sense(world, [pose]), speed=2.0)[0]) for pose in [(50, 50, 0), (20, 20, 0)]]
     [-1, 6]
+    >>> int(Reflex("sector")(sense(world, [(20, 20, 0)]), speed=2.0)[0])
+    7
     """
 
+    direction: str = "exact"
+
+    def __post_init__(self) -> None:
+        check_one_of("direction", self.direction, DIRECTIONS)
+
     def __call__(self, sensing: Sensing, speed: float) -> NDArray[np.int64]:
-        """Return ``Action.TO_TARGET``, ``Action.B``, or -1 (``NO_REFLEX``) where the policy decides, (N,)."""
+        """Return ``TO_TARGET`` or ``TO_SECTOR``, ``B``, or -1 (``NO_REFLEX``) where the policy decides, (N,)."""
         commands = np.empty(len(sensing), dtype=np.int64)
-        _fast.in_threads(_fast.reflexes, len(sensing), sensing.ranges, speed, commands)
+        to_target = int(DIRECTIONS[self.direction])
+        _fast.in_threads(
+            _fast.reflexes, len(sensing), sensing.ranges, speed, to_target, commands
+        )
         return commands
 
 
@@ -303,7 +332,7 @@ class Simulator:
         Raises
         ------
         ValueError
-            If the commands are not K whole numbers 0 to 6.
+            If the commands are not K whole numbers 0 to 7.
         """
         rows = self._rows(robots)
         fits = (
@@ -311,9 +340,9 @@ class Simulator:
             and commands.dtype == np.int64
             and commands.shape == rows.shape
         )
-        if not fits or (commands.astype(np.uint64) > Action.TO_TARGET).any():
+        if not fits or (commands.astype(np.uint64) > Action.TO_SECTOR).any():
             raise ValueError(
-                f"commands must be an array of {len(rows)} whole numbers 0 to 6, got {commands!r}"
+                f"commands must be an array of {len(rows)} whole numbers 0 to 7, got {commands!r}"
             )
         w = self.worlds
         executed = commands.copy() if len(self.slip) else commands

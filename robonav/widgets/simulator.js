@@ -15,10 +15,11 @@ export const ROBOT = {
   range: 10,
   collision: 1,
   arrival: 3,
-  actions: ["F", "L30", "L60", "R30", "R60", "B", "to the target"],
-  turns: [0, 30, 60, -30, -60, 0, 0].map((degrees) => (degrees * Math.PI) / 180),
+  actions: ["F", "L30", "L60", "R30", "R60", "B", "to the target", "to the target's sector"],
+  turns: [0, 30, 60, -30, -60, 0].map((degrees) => (degrees * Math.PI) / 180),
   backward: 5,
   toTarget: 6,
+  toSector: 7,
   dangerBorders: [3, 7, 11, 15, 20, 25, 30].map((border) => (border * 10) / 30),
 };
 const [DRIFTING, SENSING, SLIPPING, CHOOSING, ITEMS, TURN_PROBABILITY] = [2, 3, 4, 5, 1024, 0.1];
@@ -102,6 +103,9 @@ export function sweptClearance(world, before, x0, y0, x1, y1) {
 
 const modulo = (value, by) => ((value % by) + by) % by;
 const sectorOf = (forward, left) => modulo(Math.floor(Math.atan2(left, forward) / ROBOT.sector + 0.5), ROBOT.sensors);
+/** Number 1 to 9 of the sector that holds a target (dx, dy) away from the robot. */
+const targetRegion = (dx, dy, heading) =>
+  1 + modulo(Math.floor(micrometres(Math.atan2(dy, dx) - heading) / ROBOT.sector + 0.5), ROBOT.sensors);
 const RAYS = Array.from({ length: ROBOT.sensors }, (_, k) => [
   Math.cos((k + 0.5) * ROBOT.sector),
   Math.sin((k + 0.5) * ROBOT.sector),
@@ -190,11 +194,10 @@ export function sense(world, pose, noise = 0, step = 0) {
     return micrometres(clamp(distance + noise * normal(world.key, SENSING, step, k), 0, ROBOT.range));
   });
   const [tx, ty] = [world.target[0] - pose.x, world.target[1] - pose.y];
-  const bearing = micrometres(Math.atan2(ty, tx) - pose.heading);
   return {
     ranges: rounded,
     walls: walls.map((wall, k) => wall && rounded[k] < ROBOT.range),
-    region: 1 + modulo(Math.floor(bearing / ROBOT.sector + 0.5), ROBOT.sensors),
+    region: targetRegion(tx, ty, pose.heading),
     seen: micrometres(Math.hypot(tx, ty)) <= ROBOT.range,
   };
 }
@@ -202,9 +205,14 @@ export function sense(world, pose, noise = 0, step = 0) {
 /** Table 3.1: 0, nothing near, to 7, collision. */
 export const degreeOfDanger = (distance) => ROBOT.dangerBorders.filter((border) => distance < border).length;
 
-/** What the robot does by itself, or -1: ask the policy. */
-export function reflex({ ranges }, speed) {
-  if (ranges.every((distance) => distance >= ROBOT.range)) return ROBOT.toTarget;
+/**
+ * What the robot does by itself, or -1: ask the policy.
+ * @param {Sensing} sensing
+ * @param {number} speed
+ * @param {"exact" | "sector"} direction what it knows of the direction of the target where nothing is in range
+ */
+export function reflex({ ranges }, speed, direction = "exact") {
+  if (ranges.every((distance) => distance >= ROBOT.range)) return direction === "exact" ? ROBOT.toTarget : ROBOT.toSector;
   return [0, 1, 2, 7, 8].every((k) => ranges[k] < speed + ROBOT.collision) ? ROBOT.backward : -1;
 }
 
@@ -251,6 +259,13 @@ function slipped(action, slip, key, step) {
   return action;
 }
 
+/** The heading of a robot that turns to its target: to the target itself, or to the middle of the target's sector. */
+function turnedToTarget(command, { x, y, heading }, target) {
+  const [dx, dy] = [target[0] - x, target[1] - y];
+  if (command === ROBOT.toTarget) return Math.atan2(dy, dx);
+  return wrap(heading + ROBOT.sector * (targetRegion(dx, dy, heading) - 1));
+}
+
 /**
  * One second: turn, go; obstacles drift.
  * @param {number[][] | null} slip how likely each action turns into another
@@ -258,9 +273,10 @@ function slipped(action, slip, key, step) {
  */
 export function advance(world, pose, step, command, speed, slip = null) {
   let { heading } = pose;
-  const straight = command === ROBOT.toTarget ? 0 : command;
+  const turnsToTarget = command === ROBOT.toTarget || command === ROBOT.toSector;
+  const straight = turnsToTarget ? 0 : command;
   const action = slip ? slipped(straight, slip, world.key, step) : straight;
-  if (command === ROBOT.toTarget) heading = Math.atan2(world.target[1] - pose.y, world.target[0] - pose.x);
+  if (turnsToTarget) heading = turnedToTarget(command, pose, world.target);
   heading = wrap(heading + ROBOT.turns[action]);
   const length = action === ROBOT.backward ? -speed : speed;
   const next = { x: pose.x + length * Math.cos(heading), y: pose.y + length * Math.sin(heading), heading };

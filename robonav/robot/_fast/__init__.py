@@ -24,6 +24,7 @@ from .constants import (
     SENSOR_RANGE,
     SENSORS,
     SPARE,
+    TO_SECTOR,
     TO_TARGET,
     TURNS,
 )
@@ -52,6 +53,7 @@ __all__ = [
     "SENSORS",
     "SENSOR_RANGE",
     "SPARE",
+    "TO_SECTOR",
     "TO_TARGET",
     "TURNS",
     "draw_worlds",

@@ -13,10 +13,9 @@ SECTOR = math.radians(40)
 SENSOR_RANGE = 10.0  # d_bou
 COLLISION_DISTANCE = 1.0  # d_col: degree of danger 7
 ARRIVAL_DISTANCE = 3.0  # d_win
-BACKWARD, TO_TARGET = 5, 6
+BACKWARD, TO_TARGET, TO_SECTOR = 5, 6, 7
 NO_REFLEX = -1  # what the reflex answers where the policy decides
-# F, L30, L60, R30, R60, B, to the target
-TURNS = np.radians([0.0, 30.0, 60.0, -30.0, -60.0, 0.0, 0.0])
+TURNS = np.radians([0.0, 30.0, 60.0, -30.0, -60.0, 0.0])  # F, L30, L60, R30, R60, B
 
 TURN_PROBABILITY = (
     0.1  # a moving obstacle draws a new heading in about every tenth step

@@ -8,7 +8,7 @@ import numpy as np
 
 from robonav.compilation import compiler
 
-from . import constants, geometry, random_numbers
+from . import constants, geometry, random_numbers, sensing
 from .constants import (
     ARRIVAL_DISTANCE,
     ARRIVED,
@@ -18,14 +18,17 @@ from .constants import (
     NOTHING,
     OUT_OF_STEPS,
     RUNNING,
+    SECTOR,
+    TO_SECTOR,
     TO_TARGET,
     TURN_PROBABILITY,
     TURNS,
 )
 from .geometry import micrometres, reach_of, swept_clearance
 from .random_numbers import DRIFTING, SLIPPING, uniform
+from .sensing import target_region
 
-compiled = compiler(constants, geometry, random_numbers)
+compiled = compiler(constants, geometry, random_numbers, sensing)
 
 
 @compiled
@@ -36,6 +39,14 @@ def wrap(angle):
     if angle <= -math.pi:
         return angle + 2.0 * math.pi
     return angle
+
+
+@compiled
+def turned_to_target(command, heading, dx, dy):
+    """The heading of a robot that turns to a target (dx, dy) away: to the target itself, or to its sector's middle."""
+    if command == TO_TARGET:
+        return math.atan2(dy, dx)
+    return wrap(heading + SECTOR * (target_region(dx, dy, heading) - 1))
 
 
 @compiled
@@ -104,8 +115,10 @@ def step(
             continue
         x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
         action = actions[j]
-        if action == TO_TARGET:
-            heading = math.atan2(targets[i, 1] - y, targets[i, 0] - x)
+        if action in (TO_TARGET, TO_SECTOR):
+            heading = turned_to_target(
+                action, heading, targets[i, 0] - x, targets[i, 1] - y
+            )
             action = 0
         if slip.shape[0] > 0:
             other = slipped(action, slip, keys[i], steps[i])

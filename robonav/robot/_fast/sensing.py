@@ -18,7 +18,6 @@ from .constants import (
     SECTOR,
     SENSOR_RANGE,
     SENSORS,
-    TO_TARGET,
 )
 from .geometry import box_entry, micrometres
 from .random_numbers import SENSING, normal
@@ -165,7 +164,7 @@ def _read_out(key, step, noise, ranges, walls):
 
 
 @compiled
-def _target_region(dx, dy, heading):
+def target_region(dx, dy, heading):
     """Number 1 to 9 of the sector that holds a target (dx, dy) away from the robot."""
     bearing = math.atan2(dy, dx) - heading
     return 1 + math.floor(micrometres(bearing) / SECTOR + 0.5) % SENSORS
@@ -195,12 +194,12 @@ def sense(
         _read_out(keys[i], steps[i], noise, ranges[j], walls[j])
         dx, dy = targets[i, 0] - x, targets[i, 1] - y
         seen[j] = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
-        region[j] = _target_region(dx, dy, heading)
+        region[j] = target_region(dx, dy, heading)
 
 
 @compiled
-def reflexes(start, stop, ranges, speed, commands):
-    """Compute the actions of the reflex: to the target if safe, back if blocked ahead, else the policy decides."""
+def reflexes(start, stop, ranges, speed, to_target, commands):
+    """Compute the actions of the reflex: ``to_target`` if safe, back if blocked ahead, else the policy decides."""
     for i in range(start, stop):
         least = SENSOR_RANGE
         for k in range(SENSORS):
@@ -209,5 +208,5 @@ def reflexes(start, stop, ranges, speed, commands):
         for k in (0, 1, 2, 7, 8):
             blocked = blocked and ranges[i, k] < speed + COLLISION_DISTANCE
         commands[i] = (
-            TO_TARGET if least >= SENSOR_RANGE else BACKWARD if blocked else NO_REFLEX
+            to_target if least >= SENSOR_RANGE else BACKWARD if blocked else NO_REFLEX
         )

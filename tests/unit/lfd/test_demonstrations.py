@@ -3,17 +3,27 @@
 import numpy as np
 import pytest
 
-from robonav.lfd import ComputerExpert, Demonstrations, demonstrate, record
+from robonav.lfd import (
+    ComputerExpert,
+    Demonstrations,
+    demonstrate,
+    demonstrate_by_hand,
+    record,
+    sketch,
+)
+from robonav.lfd.dagger import labelled_rollout
 from robonav.lfd.demonstrations import actions_from_poses
 from robonav.robot import (
     REFLEX,
     Action,
+    Reflex,
     Simulator,
     concatenate,
     make_world,
     neighbour_slip,
     random_worlds,
     sense,
+    straight,
 )
 
 
@@ -191,7 +201,7 @@ def test_inconsistent_demonstrations_are_errors(demonstrations):
         ),
         (
             {"actions": demonstrations.actions + 5},
-            "demonstrations: actions must lie in 0..6, got",
+            "demonstrations: actions must lie in 0..7, got",
         ),
         (
             {"trajectory": demonstrations.trajectory[::-1]},
@@ -270,3 +280,25 @@ def test_demonstrations_of_a_slow_robot():
     assert (
         demonstrate(random_worlds(1, 5, seed=1), speed=0.1).outcome[0] == "out of steps"
     )
+
+
+def test_demonstrations_are_recorded_with_the_reflex_that_is_given():
+    worlds = random_worlds(3, 10, seed=7)
+    for direction, to_target in (
+        ("exact", Action.TO_TARGET),
+        ("sector", Action.TO_SECTOR),
+    ):
+        reflex = Reflex(direction)
+        by_hand = demonstrate_by_hand(worlds, sketch(worlds, seed=1), reflex=reflex)
+        computer = demonstrate(worlds, reflex=reflex)
+        labelled = labelled_rollout(
+            Simulator(worlds, max_steps=100),
+            straight,
+            ComputerExpert(),
+            0.0,
+            np.random.default_rng(0),
+            reflex=reflex,
+        )
+        for recorded in (by_hand, computer, labelled):
+            in_safe_states = np.unique(recorded.actions[recorded.sensing.safe])
+            np.testing.assert_array_equal(in_safe_states, [to_target])

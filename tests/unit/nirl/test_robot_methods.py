@@ -32,7 +32,7 @@ from robonav.nirl import (
 )
 from robonav.nirl.learning import robot_transitions
 from robonav.nirl.tasks import collect
-from robonav.robot import Simulator, navigate, random_worlds
+from robonav.robot import Reflex, Simulator, navigate, random_worlds
 
 SMALL = {"improver": ReplaySGD(n_samples=500), "iterations": 3}
 TASK = RobotTask(n_episodes=3, obstacles=10)
@@ -274,3 +274,17 @@ def test_a_reward_can_be_taken_elsewhere(demonstrations):
         expert_transitions(demonstrations).inputs
     )
     assert abs(outputs - 0.5).mean() < 0.1
+
+
+def test_episodes_of_a_task_have_its_reflex():
+    rolled = {
+        direction: RobotTask(3, reflex=Reflex(direction)).rollout(
+            lambda inputs: np.full((len(inputs), 5), 0.2), np.random.default_rng(0)
+        )
+        for direction in ("exact", "sector")
+    }
+    none = RobotTask(3, reflex=None).rollout(
+        lambda inputs: np.full((len(inputs), 5), 0.2), np.random.default_rng(0)
+    )
+    assert len(rolled["exact"].times) != len(rolled["sector"].times)
+    np.testing.assert_array_equal(none.times[:10], np.arange(10))  # asked every second

@@ -14,6 +14,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 import robonav
 from robonav.robot import (
     Action,
+    Reflex,
     Simulator,
     environments,
     make_world,
@@ -73,6 +74,12 @@ def equal(one, other):
         {"obstacles": 15, "moving": 3},
         {"obstacles": 25, "reflex": None, "noise": 0.3},
         {"obstacles": 10, "moving": 6, "slip": neighbour_slip(0.3), "speed": 3.3},
+        {
+            "obstacles": 10,
+            "moving": 6,
+            "slip": neighbour_slip(0.3),
+            "reflex": Reflex("sector"),
+        },
     ],
 )
 @pytest.mark.parametrize("limit", ["of the environment", "of the wrapper"])
@@ -207,6 +214,11 @@ def test_reflexes_are_reported_and_can_be_turned_off():
     env.reset(seed=0)
     *_, info = env.step(Action.R60)
     assert info["reflex"] == Action.TO_TARGET
+    np.testing.assert_allclose(info["pose"][2], np.pi / 4)
+    env = NavigationEnv(obstacles=0, reflex=Reflex("sector"))
+    env.reset(seed=0)
+    *_, info = env.step(Action.R60)
+    assert info["reflex"] == Action.TO_SECTOR
     np.testing.assert_allclose(info["pose"][2], np.pi / 4)
     env = NavigationEnv(obstacles=0, reflex=None)
     env.reset(seed=0)

@@ -72,6 +72,45 @@ def test_to_the_target_turns_to_it_first():
     assert math.isclose(before - after, 2.0)
 
 
+@settings(max_examples=200, deadline=None)
+@given(
+    heading=st.floats(-math.pi, math.pi),
+    bearing=st.floats(-math.pi, math.pi),
+    speed=st.floats(0.5, 4),
+)
+def test_to_the_sector_turns_by_whole_sectors_so_that_the_target_lies_ahead(
+    heading, bearing, speed
+):
+    target = 50 + 40 * np.array([math.cos(bearing), math.sin(bearing)])
+    simulator = Simulator(make_world(target=tuple(target)), speed)
+    simulator.poses[0] = [50, 50, heading]
+    region = simulator.sense().target_region[0]
+    simulator.step(np.array([Action.TO_SECTOR]))
+    x, y, after = simulator.poses[0]
+    sectors = math.degrees(after - heading) / 40
+    assert math.isclose((sectors - region + 1 + 0.5) % 9, 0.5, abs_tol=1e-9)
+    apart = (bearing - after + math.pi) % (2 * math.pi) - math.pi
+    assert abs(apart) <= math.radians(20) + 2e-6
+    moved = 50 + speed * np.array([math.cos(after), math.sin(after)])
+    np.testing.assert_allclose([x, y], moved, atol=1e-12)
+
+
+def test_a_robot_that_knows_the_sector_goes_straight_on_until_the_target_leaves_it():
+    world = make_world(start=(10, 50), target=(90, 60))
+    simulator = Simulator(world, 1.0)
+    simulator.poses[0, 2] = 0.0  # the target lies 7 degrees to the left
+    regions, headings = [], []
+    for _ in range(75):
+        regions.append(simulator.sense().target_region[0])
+        simulator.step(Reflex("sector")(simulator.sense(), 1.0))
+        headings.append(math.degrees(simulator.poses[0, 2]))
+    turns = np.flatnonzero(np.diff(headings, prepend=0.0))
+    np.testing.assert_array_equal(turns, np.flatnonzero(np.array(regions) != 1))
+    assert regions[turns[0]] == 2
+    assert headings[turns[0]] == pytest.approx(40)
+    assert simulator.outcome[0] == RUNNING
+
+
 def test_clearance_of_a_step_agrees_with_shapely():
     rng = np.random.default_rng(3)
     for i, world in enumerate(random_worlds(400, obstacles=12, seed=12)):
@@ -242,6 +281,13 @@ def test_reflexes():
     nearly[8] = 3.0
     commands = Reflex()(sensing([free, near, blocked, nearly]), 2.0)
     np.testing.assert_array_equal(commands, [Action.TO_TARGET, -1, Action.B, -1])
+    commands = Reflex("sector")(sensing([free, near, blocked, nearly]), 2.0)
+    np.testing.assert_array_equal(commands, [Action.TO_SECTOR, -1, Action.B, -1])
+
+
+def test_an_unknown_direction_is_refused_with_a_sentence():
+    with pytest.raises(ValueError, match="direction must be one of exact, sector, got"):
+        Reflex("bearing")
 
 
 def test_without_reflexes_the_policy_decides_every_step():
@@ -389,7 +435,7 @@ def test_bad_policies_are_refused_with_a_sentence(policy, error, message):
 )
 def test_the_simulator_refuses_commands_it_does_not_know(commands):
     with pytest.raises(
-        ValueError, match="commands must be an array of 2 whole numbers 0 to 6"
+        ValueError, match="commands must be an array of 2 whole numbers 0 to 7"
     ):
         Simulator(random_worlds(2, seed=0)).step(commands)
 

@@ -27,7 +27,7 @@ from robonav.robot._fast import DRIFTING, RUNNING, uniform
 from robonav.widgets.simulator import CHOOSING, page_policy, page_world
 
 DRIVE = """
-const { policy, worlds, speed, steps } = data;
+const { policy, worlds, speed, steps, direction } = data;
 const network = policy.network ? page.networks(policy.network)() : null;
 const ask = (seen, { key }, step) => page.consult({ ...policy, network }, seen, page.gumbel(key, step)).action;
 const choose = policy.rule ? page.RULES[policy.rule] : ask;
@@ -36,7 +36,7 @@ const episodes = worlds.map((first) => {
   const path = [[pose.x, pose.y, pose.heading]];
   for (let step = 0; step < steps && outcome === "running"; step += 1) {
     const seen = page.sense(world, pose);
-    const own = page.reflex(seen, speed);
+    const own = page.reflex(seen, speed, direction);
     ({ world, pose, outcome } = page.advance(world, pose, step, own < 0 ? choose(seen, world, step) : own, speed));
     path.push([pose.x, pose.y, pose.heading]);
   }
@@ -84,6 +84,21 @@ def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(
     same(node, shown, {"rule": rule}, speed, 100, episodes.paths, episodes.outcome)
 
 
+@pytest.mark.parametrize(
+    ("rule", "policy"), [("straight", straight), ("freer-side", turn_to_clearer_side)]
+)
+def test_a_robot_that_knows_the_sector_drives_in_the_page_as_in_python(
+    node, thousand, rule, policy
+):
+    worlds, shown = thousand
+    reflex = Reflex("sector")
+    episodes = navigate(policy, worlds, 2.0, 100, record_paths=True, reflex=reflex)
+    outcomes = episodes.outcome
+    same(
+        node, shown, {"rule": rule}, 2.0, 100, episodes.paths, outcomes, direction=reflex.direction
+    )  # fmt: skip
+
+
 @pytest.mark.parametrize(("target", "policy"), [*policies()])
 def test_networks_drive_in_the_page_as_in_python(node, target, policy):
     worlds = concatenate(
@@ -93,13 +108,19 @@ def test_networks_drive_in_the_page_as_in_python(node, target, policy):
     same(node, worlds, page_policy(policy), 2.5, 200, episodes.paths, episodes.outcome)
 
 
-def same(node, worlds, packed, speed, steps, paths, outcomes):
+def same(node, worlds, packed, speed, steps, paths, outcomes, **direction):
     """The page drives these paths, pose by pose."""
     shown = worlds if isinstance(worlds, list) else [page_world(w) for w in worlds]
     episodes = node(
         "simulator",
         DRIVE,
-        {"worlds": shown, "policy": packed, "speed": speed, "steps": steps},
+        {
+            "worlds": shown,
+            "policy": packed,
+            "speed": speed,
+            "steps": steps,
+            **direction,
+        },
     )
     assert episodes["outcomes"] == [
         end.replace("out of steps", "running") for end in outcomes
