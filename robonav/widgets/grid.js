@@ -43,6 +43,7 @@ export function gridPicture({ layout, name, mark = () => {} }) {
   const cells = layout.cells.map((place, state) => {
     const [row, column] = place;
     const [x, y] = middle(place);
+    const letter = layout.rows[row][column];
     const box = svg("rect", {
       x: column * CELL, y: row * CELL, width: CELL, height: CELL, stroke: PALETTE.INK, "stroke-width": 0.8, class: "cell",
       click: () => mark(state),
@@ -56,8 +57,9 @@ export function gridPicture({ layout, name, mark = () => {} }) {
       base.append(svg("rect", { x: x - 26, y: y - 26, width: 52, height: 52, fill: "none", stroke: DARK, "stroke-width": 2, class: "still" }));
       set(text, { y: y + 6, "font-size": 18 });
       text.textContent = `${reward < 0 ? "−" : reward > 0 ? "+" : ""}${Math.abs(reward)}`;
-    } else if (layout.rows[row][column] !== ".") {
-      base.append(svg("text", { x: x - 25, y: y - 16, "font-size": 14, style: `fill: ${DARK}` }, layout.rows[row][column]));
+      if (/[A-Z]/.test(letter)) base.append(svg("text", { x: x - 22, y: y - 12, "font-size": 14, style: `fill: ${DARK}` }, letter));
+    } else if (letter !== ".") {
+      base.append(svg("text", { x: x - 25, y: y - 16, "font-size": 14, style: `fill: ${DARK}` }, letter));
     }
     return { box, arrow, text, fixed: ends.has(state) };
   });

@@ -11,7 +11,7 @@ import pytest
 import yaml
 from browser import DESKTOP, PHONE, ROOT, Visit, tap
 from mounting import mounted_alone
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, expect
 from test_accessibility import AXE, RUN
 
 from robonav.widgets.explorables import EXPLORABLES, explorable
@@ -116,13 +116,68 @@ def test_by_touch_on_a_phone(visit: Visit, name: str) -> None:
         reset(widget)
         with something_changes(widget, f"touching {part}"):
             touch(part)
-    guess = widget.locator(".guess")
-    if guess.count():
-        touch(guess.locator("label").first)
-        assert "try it" in guess.locator(".told").inner_text()
     width = visit.page.evaluate("document.documentElement.scrollWidth")
     assert width <= PHONE["width"]
     assert visit.errors == visit.external == []
+
+
+def move_something(widget: Locator) -> None:
+    """Use the first control there is."""
+    slider = widget.locator("input[type=range]")
+    if slider.count():
+        slider.first.press("ArrowRight")
+        slider.first.press("ArrowLeft")
+    elif widget.locator(SEGMENTS).count():
+        group = widget.locator(SEGMENTS).first
+        group.locator("input:checked").press("ArrowRight")
+    elif buttons(widget):
+        buttons(widget)[0].press("Enter")
+    else:
+        picture = widget.locator("[data-keys]").first
+        picture.press((picture.get_attribute("data-keys") or "").split()[0])
+
+
+@pytest.mark.parametrize("name", EXPLORABLES)
+def test_a_guess_is_judged_after_something_was_moved(visit: Visit, name: str) -> None:
+    """By keyboard, for every guess; what is said is in a live region, which screen readers speak."""
+    visit.page.set_viewport_size(PHONE)
+    asked = EXPLORABLES[name]
+    widget = mounted_alone(visit, explorable(name))
+    guess = widget.locator(".guess")
+    told, ask = guess.get_by_role("status"), guess.get_by_role("button")
+    guess.get_by_role("radio", name=asked.guesses[0], exact=True).press("Space")
+    assert "try it" in told.inner_text()
+    assert ask.is_disabled()
+    move_something(widget)
+    ask.press("Enter")
+    for number, own in enumerate(asked.guesses):
+        if number:
+            guess.locator("input:checked").press("ArrowRight")
+        verdict = "is right" if own == asked.right else "is not right"
+        assert told.inner_text().startswith(f"Your guess “{own}” {verdict}")
+        assert f"“{asked.right}”" in told.inner_text()
+        assert asked.because in told.inner_text()
+    assert visit.errors == []
+
+
+@pytest.mark.parametrize("name", ["turn_arrows", "pocket"])
+def test_opening_the_answer_judges_the_guess(
+    visit: Visit, site: Path, name: str
+) -> None:
+    visit.page.set_viewport_size(PHONE)
+    (page,) = [page for page in ROOT.glob("book/*.md") if asked_on(page, name=name)]
+    visit.open(f"{site.as_uri()}/book/{page.stem}.html")
+    asked = EXPLORABLES[name]
+    widget = visit.page.locator(".explorable", has_text=asked.question)
+    told = widget.locator(".guess").get_by_role("status")
+    summary = visit.page.locator(
+        f".cell:has(.explorable[aria-label='{asked.title}']) + details > summary"
+    )
+    summary.press("Enter")
+    expect(told).to_have_text(f"The answer is “{asked.right}”. {asked.because}")
+    wrong = next(own for own in asked.guesses if own != asked.right)
+    widget.get_by_role("radio", name=wrong, exact=True).check(force=True)
+    expect(told).to_contain_text("is not right")
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

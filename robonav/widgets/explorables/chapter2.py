@@ -18,14 +18,18 @@ from .registry import asks
 
 @asks(
     "How far ahead does a discount look?",
-    "The near charger gives 4 after 2 steps, the far one 10 after 8 steps. "
-    "From which discount on does the far one give the larger return?",
+    "The near charger gives a reward of 4 after 2 steps, and the far one gives 10 after 8 steps. "
+    "From which discount γ on has the far charger the larger return?",
     guesses=["from 0.4", "from 0.6", "from 0.86", "from 0.99"],
+    right="from 0.86",
+    because="The two returns are equal where γ⁶ = 0.4, that is at γ = 0.858, and a larger γ favours "
+    "the later reward.",
 )
 def discounted_return(
     soon: float = 4.0, soon_steps: int = 2, late: float = 10.0, late_steps: int = 8
 ) -> dict[str, Any]:
-    """Two ways with one reward each at their end, and the discount at which both returns are equal."""
+    """Two ways with one reward each at their end, and the discount at which both returns are "
+    "equal."""
     near, far = np.zeros(soon_steps), np.zeros(late_steps)
     near[-1], far[-1] = soon, late
     equal = (soon / late) ** (1 / (late_steps - soon_steps))
@@ -39,7 +43,8 @@ def discounted_return(
 
 
 def _grid(grid: mdp.GridWorld, discount: float) -> tuple[mdp.FiniteMDP, dict[str, Any]]:
-    """A grid's model, and what each explorable on a grid takes: picture, model, start and best values."""
+    """A grid's model, and what each explorable on a grid takes: picture, model, start and "
+    "best values."""
     model = grid.mdp(discount)
     best = mdp.policy_iteration(model)
     return model, {
@@ -53,9 +58,11 @@ def _grid(grid: mdp.GridWorld, discount: float) -> tuple[mdp.FiniteMDP, dict[str
 
 @asks(
     "Turn an arrow of a policy",
-    "One of the nine arrows below is not the best one. If you turn it, and leave all others, "
-    "in how many cells does the value rise?",
-    guesses=["in that cell only", "in two cells", "in five", "in all nine"],
+    "One of the nine arrows below is not optimal. "
+    "If you turn it and leave all others, in how many cells does the value rise?",
+    guesses=["in that cell only", "in two cells", "in five cells", "in all nine cells"],
+    right="in two cells",
+    because="Only the paths from its own cell and from the corner to its right lead through it.",
     files=("grid", "model", "explorables/marked_grid"),
 )
 def turn_arrows(discount: float = 0.95) -> dict[str, Any]:
@@ -66,9 +73,13 @@ def turn_arrows(discount: float = 0.95) -> dict[str, Any]:
 
 @asks(
     "One Bellman backup at a time",
-    "All values are 0. You may back up one cell at a time, in any order. "
+    "All values are 0. "
+    "You may back up one cell at a time, in any order. "
     "What is the smallest number of backups after which the start S has a value above 0?",
     guesses=["1", "3", "5", "9"],
+    right="5",
+    because="The start is five steps away from the good exit, and each backup carries the value one "
+    "cell further.",
     files=("grid", "model", "explorables/marked_grid"),
 )
 def bellman_backup(discount: float = 0.9) -> dict[str, Any]:
@@ -78,9 +89,13 @@ def bellman_backup(discount: float = 0.9) -> dict[str, Any]:
 
 @asks(
     "Evaluate and improve by hand",
-    "All arrows point up and all values are 0. You press: one sweep, improve, one sweep, improve, and so on. "
-    "How many improvements are needed until all arrows are optimal?",
+    "All arrows point up and all values are 0. "
+    "You press in turn: one sweep, improve, one sweep, improve, and so on. "
+    "After how many improvements are all arrows optimal?",
     guesses=["1", "2", "4", "more than 10"],
+    right="4",
+    because="Each sweep carries the rewards of the exits only one cell further, so the arrows of far "
+    "cells turn later.",
     files=("grid", "model"),
 )
 def evaluate_improve(discount: float = 0.9) -> dict[str, Any]:
@@ -93,10 +108,15 @@ def evaluate_improve(discount: float = 0.9) -> dict[str, Any]:
 
 
 @asks(
-    "Two starts approach each other",
-    "Value iteration runs twice, from values of 0 and from values of 20. The discount is 0.9. "
-    "After how many sweeps is their difference at most a hundredth of the first difference?",
+    "Two runs of value iteration approach each other",
+    "Value iteration runs twice, once from values of 0 and once from values of 20. "
+    "The discount is 0.9. "
+    "After how many sweeps is the largest difference between the two at most a hundredth of "
+    "the first one?",
     guesses=["10", "22", "44", "never"],
+    right="44",
+    because="Each sweep multiplies the largest difference by at most 0.9, and 0.9⁴⁴ is the first "
+    "power below 0.01.",
     files=("model",),
 )
 def contraction() -> dict[str, Any]:
@@ -117,14 +137,17 @@ RUNS, EPISODES = 20, 100
 
 
 @asks(
-    "How large a step?",
-    "TD(0) learns from the same walks with different step sizes. "
-    "Is the step size with the smallest error after 10 episodes also the best after 100?",
+    "How large should the learning rate be?",
+    "TD(0) learns from the same walks with different learning rates. "
+    "Is the learning rate with the smallest error after 10 episodes also the best one after 100?",
     guesses=[
-        "yes, the same",
+        "yes, the same one",
         "no, later a smaller one is better",
         "no, later a larger one is better",
     ],
+    right="no, later a smaller one is better",
+    because="At first the initial values are wrong, and a large learning rate forgets them sooner; "
+    "later the noise of the last walks matters, and a small one averages it out.",
 )
 def td_step_size() -> dict[str, Any]:
     """Walks through the five rooms, as letters of the rooms passed, and the true values."""
@@ -159,18 +182,22 @@ def cliff() -> mdp.GridWorld:
 
 @asks(
     "Exploring beside a cliff",
-    "Without exploring (ε\u00a0=\u00a00) both methods walk along the edge. "
-    "Which paths will they take with ε\u00a0=\u00a00.3?",
+    "Without exploring (ε\u00a0=\u00a00) both methods walk along the edge from S to G. "
+    "Which paths do they learn with ε\u00a0=\u00a00.3?",
     guesses=[
         "both stay at the edge",
         "SARSA keeps away, Q-learning stays",
         "both keep away",
         "Q-learning keeps away, SARSA stays",
     ],
+    right="SARSA keeps away, Q-learning stays",
+    because="SARSA's target contains the random steps, which may fall off the edge, while "
+    "Q-learning's target always takes the best next action.",
     files=("random_numbers", "grid"),
 )
 def cliff_exploration() -> dict[str, Any]:
-    """The cliff, and for each amount of exploring how far from its edge the best walk is, and what it expects."""
+    """The cliff, and for each amount of exploring how far from its edge the best walk is, "
+    "and what it expects."""
     grid = cliff()
     model, begin = grid.mdp(1.0), int(grid.start.argmax())
     best = []
@@ -197,7 +224,8 @@ def cliff_exploration() -> dict[str, Any]:
 
 
 def best_while_exploring(model: mdp.FiniteMDP, epsilon: float) -> NDArray[np.float64]:
-    """Action values of the best policy among those that take a random action with probability ``epsilon``."""
+    """Action values of the best policy among those that take a random action with "
+    "probability ``epsilon``."""
     q = np.zeros((model.n_states, model.n_actions))
     for _ in range(5000):
         values = (mdp.epsilon_greedy(q, epsilon) * q).sum(axis=1)
@@ -212,6 +240,9 @@ def best_while_exploring(model: mdp.FiniteMDP, epsilon: float) -> NDArray[np.flo
     "This corridor has two doors and seven walls, and the robot knows only its plan. "
     "Which observation tells it more about its position?",
     guesses=["a door", "a wall", "both the same"],
+    right="a door",
+    because="Only two cells explain a door, while seven explain a wall, so a door excludes more "
+    "cells.",
     files=("belief",),
 )
 def own_corridor(cells: str = ".D....D..") -> dict[str, Any]:
@@ -220,10 +251,14 @@ def own_corridor(cells: str = ".D....D..") -> dict[str, Any]:
 
 
 @asks(
-    "How sure is sure enough?",
-    "Listening is right in 85 of 100 cases. How many times more often must the tiger be heard on the left "
-    "before it is best to open the right door?",
+    "When is the belief sure enough?",
+    "Listening names the tiger's door correctly in 85 of 100 cases. There are eight steps to go. "
+    "How many more times must the tiger be heard on the left than on the right before it is "
+    "best to open the right door?",
     guesses=["once", "twice", "three times", "five times"],
+    right="twice",
+    because="Heard twice more often, the tiger is left with probability 0.970, just above the border "
+    "of 0.967; heard once more often, with 0.85, and a wrong door costs 100.",
 )
 def tiger_vectors(steps: int = 12) -> dict[str, Any]:
     """The alpha vectors of the tiger with 1 to some steps to go, for three accuracies."""

@@ -37,14 +37,20 @@ TARGETS = {
 
 
 @asks(
-    "Copy the actions, or take the reward along?",
-    "An expert walks to the target on the right. Then the target moves to the top left. "
-    "A learner has copied the actions. In how many of the 41 cells is its action still the best one?",
+    "Copy the actions, or learn the reward?",
+    "An expert walks to the target on the right. "
+    "Then the target moves to the top left. "
+    "A learner has copied the actions. "
+    "In how many of the 41 cells is its action still the best one?",
     guesses=["in all", "in about two thirds", "in about a third", "in none"],
+    right="in about a third",
+    because="The copied actions still lead to the old target, which is the right way from 13 of the "
+    "41 cells only.",
     files=("grid",),
 )
 def reward_transfer() -> dict[str, Any]:
-    """For each place of the target: the copied policy and the best one for the expert's reward, with their values."""
+    """For each place of the target: the copied policy and the best one for the expert's "
+    "reward, with their values."""
     copied = mdp.policy_iteration(
         _ground(TARGETS["where it was"])[1].with_reward(nirl.TRUE_WEIGHTS)
     ).policy
@@ -80,8 +86,11 @@ def reward_transfer() -> dict[str, Any]:
     "Which action did the expert mean?",
     "In one state the expert went forward 10 times and turned left once. "
     "Elsewhere it went forward 1,000 times and never turned left. "
-    "Which action does the maximum a posteriori choose if all actions are equally likely beforehand?",
-    guesses=["forward", "left", "both are equally good"],
+    "All actions are taken as equally likely beforehand. "
+    "Which action is then the most probable one (maximum a posteriori) in this state?",
+    guesses=["forward", "left", "both are equally probable"],
+    right="left",
+    because="Its only left turn was made in this state, but only 10 of its 1,010 forward steps were.",
 )
 def inconsistent_expert() -> dict[str, Any]:
     """Counts in the state that the reader changes; the page does the sums."""
@@ -90,10 +99,14 @@ def inconsistent_expert() -> dict[str, Any]:
 
 @asks(
     "Two walks, four features",
-    "The walk straight on is shorter than the walk round on the road. "
-    "Mud costs 1 a step, grass 0.3, road 0.05, and the target gives 3. "
-    "Does the road still win if the discount is 0.5?",
+    "A step costs 1 in mud, 0.3 on grass and 0.05 on the road, and the target gives 3. "
+    "With a discount of 0.9 the long walk on the road has a larger return than the short one "
+    "through the mud. "
+    "Does it still with a discount of 0.5?",
     guesses=["yes", "no"],
+    right="yes",
+    because="The mud comes early on the short walk, so a small discount gives it more weight, while "
+    "the target is far away on both.",
     files=("grid",),
 )
 def walk_features() -> dict[str, Any]:
@@ -136,8 +149,14 @@ def walk_features() -> dict[str, Any]:
 
 @asks(
     "A soft maximum",
-    "Three actions have the values 1, 1 and 0. Their hard maximum is 1. The soft maximum at temperature 1 is",
-    guesses=["below 1", "1", "above 1"],
+    "Three actions have the values 1, 1 and 0. "
+    "Their hard maximum is 1. "
+    "How large is their soft maximum at temperature 1, the logarithm of the sum of their "
+    "exponentials?",
+    guesses=["below 1", "exactly 1", "above 1"],
+    right="above 1",
+    because="It adds up the exponentials of all three values, so it is larger than any of them: ln(e "
+    "+ e + 1) = 1.86.",
 )
 def soft_maximum_of_three() -> dict[str, Any]:
     """Three values to be changed."""
@@ -146,13 +165,20 @@ def soft_maximum_of_three() -> dict[str, Any]:
 
 @asks(
     "Turn the reward until the margin is largest",
-    "The grey points are the feature expectations of policies, and the orange one is the expert's. "
-    "A reward is a direction. In which direction is the expert's margin over the best of the others largest?",
+    "The grey points are the feature expectations of some policies, and the orange one is the "
+    "expert's. "
+    "A reward is a direction. "
+    "Its margin is the expert's lead over the best of the others. "
+    "In which direction is the margin largest? "
+    "(The hull is the smallest polygon around the grey points.)",
     guesses=[
-        "towards the expert from the origin",
-        "away from the nearest point of the others' hull",
-        "along feature 1",
+        "from the origin to the expert",
+        "from the nearest point of the hull to the expert",
+        "from the mean of the others to the expert",
     ],
+    right="from the nearest point of the hull to the expert",
+    because="In this direction the margin is the whole distance from the hull to the expert, 0.91, "
+    "and no direction can give more.",
 )
 def widest_margin() -> dict[str, Any]:
     """The points of the page's figure, and the widest margin for the expert where it stands."""
@@ -169,10 +195,14 @@ def widest_margin() -> dict[str, Any]:
 
 @asks(
     "Projection, step by step",
-    "The apprentice may take any policy on the circle. "
-    "In each step it adds the best policy in the direction of the expert to its mixture. "
-    "How many policies does it need until the mixture is within 0.1 of the expert?",
+    "Each grey point is a policy. "
+    "In each step, the apprentice adds to its mixture the policy that lies furthest in the "
+    "direction from the mixture to the expert. "
+    "How many policies does it add until the mixture is within 0.1 of the expert?",
     guesses=["1", "3", "6", "more than 12"],
+    right="3",
+    because="The first policies overshoot to one side, each later one moves the mixture to the other "
+    "side, and the third brings it within 0.1.",
 )
 def projection_steps(policies: int = 12) -> dict[str, Any]:
     """Feature expectations of twelve policies on a circle, and an expert inside it."""
@@ -186,6 +216,9 @@ def projection_steps(policies: int = 12) -> dict[str, Any]:
     "Three actions have the values 0.6, 0.5 and 0.2. "
     "From which inverse temperature η on is the best one taken nine times in ten?",
     guesses=["η = 1", "η = 10", "η = 22", "never"],
+    right="η = 22",
+    because="The second value is lower by 0.1, and exp(22 · 0.1) = 9, so the second action is taken "
+    "once for every nine times of the best.",
 )
 def boltzmann_temperature() -> dict[str, Any]:
     """Three values to be changed, and the answer."""
@@ -197,21 +230,30 @@ def boltzmann_temperature() -> dict[str, Any]:
 
 @asks(
     "Which policy is kept?",
-    "A careful policy predicts seven in ten of the expert's decisions, whichever action the expert took. "
-    "Another one always goes forward. "
-    "The expert goes forward in 75 % of its decisions. Which of the two has the higher accuracy?",
-    guesses=["the careful one", "the one that always goes forward"],
+    "A careful policy predicts seven in ten of the expert's decisions, whichever action the "
+    "expert took. "
+    "A simple policy always goes forward. "
+    "The expert goes forward in 75 % of its decisions. "
+    "Which of the two has the higher accuracy?",
+    guesses=["the careful one", "the simple one"],
+    right="the simple one",
+    because="Always going forward is right in 75 % of the decisions, and the careful policy in 70 %.",
 )
 def accuracy_or_balance() -> dict[str, Any]:
-    """How many actions there are besides going forward, and how well the careful policy predicts."""
+    """How many actions there are besides going forward, and how well the careful policy "
+    "predicts."""
     return {"others": 4, "careful": 0.7}
 
 
 @asks(
     "A few samples carry all the weight",
-    "Fifty random walks of twenty steps are samples of all trajectories. With θ = 1, each step to the right "
-    "multiplies the weight of a walk by e. To how many samples of equal weight do the fifty correspond?",
-    guesses=["about 50", "about 25", "about 7", "none"],
+    "Fifty random walks of twenty steps are samples of all trajectories. "
+    "With θ = 1, each step to the right multiplies the weight of a walk by e. "
+    "The weighted mean of the fifty is as reliable as the mean of how many walks of equal weight?",
+    guesses=["about 50", "about 25", "about 7", "about 1"],
+    right="about 7",
+    because="Three more steps to the right multiply the weight of a walk by e³ = 20, so a few walks "
+    "have nearly all of it.",
 )
 def weights_of_samples() -> dict[str, Any]:
     """Features of fifty random walks: how many of twenty steps go to the right."""
@@ -222,9 +264,12 @@ def weights_of_samples() -> dict[str, Any]:
 
 @asks(
     "The value of an end",
-    "Each step gives a reward of 0.3, after scaling to the range from 0 to 1, and an end counts as 0. "
+    "Each step gives a reward of 0.3, after scaling to the range from 0 to 1, and the end of "
+    "the episode has the value 0. "
     "Will a robot that maximises its return try to end the episode?",
     guesses=["yes", "no, it delays the end", "it does not care"],
+    right="no, it delays the end",
+    because="Each further step gives 0.3, and the end gives 0.",
 )
 def value_of_an_end() -> dict[str, Any]:
     """Nothing but the discount of the chapter."""

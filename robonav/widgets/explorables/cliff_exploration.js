@@ -1,6 +1,6 @@
 // SARSA and Q-learning beside a cliff, learned in the page: the path depends on how much is explored.
 
-const [EPISODES, RATE, LONGEST] = [1500, 0.1, 200];
+const [EPISODES, RATE, LONGEST, ROBOTS] = [1500, 0.1, 200, 10];
 
 /** The update of one step: Eq. (2.30) for SARSA, Eq. (2.29) for Q-learning, which takes the best next action. */
 export function updated(q, { s, a, reward, next, nextAction, ended }, method, rate) {
@@ -34,6 +34,12 @@ export function learnOnCliff({ moves, rewards, ends, begin }, method, { epsilon,
   return q;
 }
 
+/** The mean of what ten robots learn, each with a seed of its own, so that the luck of one does not decide. */
+export function learnTogether(given, method, { epsilon, episodes, seed }) {
+  const all = Array.from({ length: ROBOTS }, (_, k) => learnOnCliff(given, method, { epsilon, episodes, seed: seed * ROBOTS + k }));
+  return all[0].map((row, s) => row.map((_, a) => all.reduce((sum, q) => sum + q[s][a], 0) / ROBOTS));
+}
+
 /** Where the best actions lead from the start. */
 export function greedyWalk({ moves, ends, begin }, q) {
   const walk = [begin];
@@ -43,9 +49,9 @@ export function greedyWalk({ moves, ends, begin }, q) {
 
 export default explorable({
   controls: ({ begin }) => ({
-    epsilon: range({ label: "exploring ε", from: 0, to: 0.5, step: 0.05, value: 0, text: (value) => value.toFixed(2) }),
-    episodes: range({ label: "episodes", from: 0, to: EPISODES, step: 50, value: 200 }),
-    again: press({ label: "Learn again with another seed", act: (state) => (state.seed += 1) }),
+    epsilon: range({ label: "random actions, ε", from: 0, to: 0.5, step: 0.05, value: 0, text: (value) => value.toFixed(2) }),
+    episodes: range({ label: "episodes", from: 0, to: EPISODES, step: 50, value: 1000 }),
+    again: press({ label: "Learn again with other seeds", act: (state) => (state.seed += 1) }),
   }),
   start: () => ({ seed: 1 }),
   draw({ given, stage }) {
@@ -58,16 +64,17 @@ export default explorable({
     const said = (rows) => ["along the edge", "one row away from the edge", "along the far wall"][rows] ?? `${rows} rows away`;
     return ({ epsilon, episodes, seed }) => {
       const walks = methods.map((method, k) => {
-        const q = learnOnCliff(given, method, { epsilon, episodes, seed });
+        const q = learnTogether(given, method, { epsilon, episodes, seed });
         const walk = greedyWalk(given, q);
         grids[k].show({ values: q.map((row) => Math.max(...row)), policy: q.map(largest), said: "learned values", walk }, 20, -1);
         const arrived = given.layout.rows[given.layout.cells[walk.at(-1)][0]][given.layout.cells[walk.at(-1)][1]] === "G";
-        captions[k].textContent = !arrived ? "When it stops exploring it does not reach G." : `When it stops exploring it takes ${walk.length - 1} steps.`;
+        captions[k].textContent = !arrived ? "Without exploring, this path does not reach G." : `Without exploring, this path takes ${walk.length - 1} steps.`;
         return arrived ? said(away(walk)) : null;
       });
       const best = given.best[Math.round(epsilon / 0.05)];
       return [
-        ...methods.map((name, k) => `${name} walks ${walks[k] ?? "nowhere yet"}.`),
+        ...methods.map((name, k) => walks[k] ? `${name} leads ${walks[k]}.` : `${name} does not lead to G yet.`),
+        `Values and paths are the mean of ${ROBOTS} robots after ${episodes} episodes each.`, "",
         `For a robot that explores with ε = ${epsilon.toFixed(2)} the best path leads ${said(best.rows)}, with an expected return of ${number(best.value, 1)}.`,
       ].join("\n");
     };

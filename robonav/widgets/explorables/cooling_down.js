@@ -5,8 +5,8 @@ export const bestTaken = (lead, temperature) => softmaxPolicy([lead, 0, 0, 0, 0]
 
 export default explorable({
   controls: ({ start, end, lead }) => ({
-    start: range({ label: "temperature at first", from: 0.05, to: 1.5, step: 0.05, value: start, text: (value) => value.toFixed(2) }),
-    end: range({ label: "temperature at last", from: 0.05, to: 1.5, step: 0.05, value: end, text: (value) => value.toFixed(2) }),
+    start: range({ label: "first temperature", from: 0.05, to: 1.5, step: 0.05, value: start, text: (value) => value.toFixed(2) }),
+    end: range({ label: "last temperature", from: 0.05, to: 1.5, step: 0.05, value: end, text: (value) => value.toFixed(2) }),
     lead: range({ label: "lead of the best action", from: 0, to: 0.5, step: 0.02, value: lead, text: (value) => value.toFixed(2) }),
     episode: range({ label: "episode", from: 0, to: 299, value: 0, text: (value) => String(value + 1) }),
   }),

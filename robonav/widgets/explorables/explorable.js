@@ -46,6 +46,52 @@ export const press = ({ label, act: change, off = () => false }) => ({ act }) =>
   return { element, show: (_, state) => (element.disabled = off(state)) };
 };
 
+// ---- The guess ------------------------------------------------------------------------------------------------------
+
+const TRY = "Now try it. Then ask whether your guess was right.";
+const TRIED = "Ask when you have seen enough.";
+
+/**
+ * What the reader guesses before moving anything, and what is said about it: nothing but "try it" until something was moved and
+ * the reader asks, or opens the answer below.
+ * @param {{guesses: string[], right: string, because: string}} data
+ */
+function guessing({ guesses, right, because }) {
+  let [guess, moved, judged] = [null, false, false];
+  const told = h("span", { class: "told", role: "status" });
+  const ask = h("button", { type: "button", click: () => judge() }, "Was my guess right?");
+  const say = () => {
+    ask.disabled = guess === null || !moved;
+    told.textContent = judged ? verdict() : guess === null ? "" : moved ? TRIED : TRY;
+  };
+  const verdict = () => {
+    if (guess === null) return `The answer is “${right}”. ${because}`;
+    return guess === right ? `Your guess “${guess}” is right. ${because}` : `Your guess “${guess}” is not right; “${right}” is. ${because}`;
+  };
+  const judge = () => {
+    judged = true;
+    say();
+  };
+  const options = segments({ label: "Your guess, before you try", options: guesses })({
+    put: (value) => {
+      guess = value;
+      say();
+    },
+  });
+  say();
+  const move = () => {
+    moved = true;
+    if (!judged) say();
+  };
+  return { element: h("div", { class: "row guess" }, options.element, ask, told), move, judge };
+}
+
+/** Calls back when the reader opens the answer, which a page folds directly below. */
+function whenAnswered(element, call) {
+  const folded = element.closest(".cell")?.nextElementSibling;
+  if (folded?.matches("details")) folded.addEventListener("toggle", () => folded.open && call());
+}
+
 // ---- The frame ------------------------------------------------------------------------------------------------------
 
 /**
@@ -58,12 +104,14 @@ export const press = ({ label, act: change, off = () => false }) => ({ act }) =>
  */
 export const explorable = ({ controls, start = () => ({}), draw }) => ({
   render({ model, el }) {
-    const { title, question, guesses, given } = model.get("data");
+    const { title, question, given, ...answers } = model.get("data");
+    const guess = guessing(answers);
     const stage = h("div", { class: "pictures" });
     const said = h("p", { class: "status grow", role: "status" });
     const act = (change) => {
       change(state);
       show();
+      guess.move();
     };
     const made = Object.entries(controls(given)).map(([name, make]) => [
       name, make({ put: (value) => act((now) => (now[name] = value)), act }),
@@ -76,20 +124,17 @@ export const explorable = ({ controls, start = () => ({}), draw }) => ({
       said.textContent = picture(state);
     };
     const reset = h("button", { type: "button", click: () => { state = first(); show(); } }, "Reset");
-    const told = h("span", { class: "told", role: "status" });
-    const guess = segments({ label: "Your guess, before you try", options: guesses })({
-      put: () => (told.textContent = "Now try it. The answer is folded below."),
-    });
     el.classList.add("robonav", "explorable");
     set(el, { role: "group", "aria-label": title });
     el.replaceChildren(
       h("p", { class: "title" }, title),
       h("p", { class: "question" }, question),
-      ...(guesses.length ? [h("div", { class: "row guess" }, guess.element, told)] : []),
+      guess.element,
       h("div", { class: "row" }, ...made.map(([, { element }]) => element), reset),
       h("div", { class: "row" }, stage, said),
     );
     show();
+    whenAnswered(el, guess.judge);
   },
 });
 

@@ -6,7 +6,7 @@ export const placeOf = ({ margins, cautions }, { margin, caution }) => cautions.
 export default explorable({
   controls: ({ margins, cautions }) => ({
     margin: range({ label: "margin", from: margins[0], to: margins.at(-1), step: margins[1] - margins[0], value: margins[0], text: (value) => `${value} m` }),
-    caution: segments({ label: "caution", options: cautions, value: 0 }),
+    caution: segments({ label: "caution (extra cost near obstacles)", options: cautions, value: 0 }),
   }),
   draw({ given, stage }) {
     const board = mapCanvas({ role: "img" });

@@ -2,15 +2,14 @@
 
 export default explorable({
   controls: () => ({
-    target: range({ label: "target of the action", from: -1, to: 2, step: 0.05, value: -0.4, text: (value) => number(value) }),
-    alpha: range({ label: "learning rate α", from: 0, to: 1, step: 0.05, value: 0.8, text: (value) => value.toFixed(2) }),
+    target: range({ label: "new target of the second action", from: -1, to: 2, step: 0.05, value: -0.4, text: (value) => number(value) }),
     how: segments({ label: "rescaled by", options: [["clip", "clipping"], ["shift", "shifting and dividing"]], value: "shift" }),
   }),
   draw({ given: { q, taken }, stage }) {
     const chart = plot({ x: [0, 5], y: [-1, 2], xLabel: "action", yLabel: "Q-value", xTicks: [] });
-    stage.append(h("figure", {}, chart.element, legend([PALETTE.GREY, "before"], [PALETTE.BLUE, "after the update"], [PALETTE.ORANGE, "rescaled: what the network learns"])));
-    return ({ target, alpha, how }) => {
-      const updated = qTargets(Float64Array.from(q), taken, target, 0, alpha, 0);
+    stage.append(h("figure", {}, chart.element, legend([PALETTE.GREY, "before"], [PALETTE.BLUE, "new targets"], [PALETTE.ORANGE, "rescaled targets, which the network learns"])));
+    return ({ target, how }) => {
+      const updated = qTargets(Float64Array.from(q), taken, target, 0, 1, 0);
       const learned = RESCALE[how](updated);
       const bar = (at, value, fill) => {
         const [top, bottom] = [chart.Y(Math.max(value, 0)), chart.Y(Math.min(value, 0))];
@@ -24,7 +23,7 @@ export default explorable({
       );
       const moved = q.filter((value, a) => a !== taken && Math.abs(learned[a] - value) > 1e-9).length;
       return [
-        `Updated value of ${ROBOT.actions[taken]}: ${number(updated[taken], 3)}.`,
+        `The new target of ${ROBOT.actions[taken]} is ${number(updated[taken])}.`,
         `The network learns: ${[...learned].map((value) => number(value)).join(", ")}.`, "",
         moved ? `The targets of ${moved} other actions differ from their values, so the network has to change them too.` : "The targets of the other actions equal their values.",
       ].join("\n");

@@ -26,7 +26,7 @@ export function episodeInPocket(world, speed = 2) {
 export default explorable({
   controls: () => ({
     depth: range({ label: "depth of the pocket", from: 0, to: 20, value: 2, text: (value) => `${value} m` }),
-    width: range({ label: "and wide", from: 8, to: 24, step: 2, value: 12, text: (value) => `${value} m` }),
+    width: range({ label: "width of the pocket", from: 8, to: 24, step: 2, value: 12, text: (value) => `${value} m` }),
   }),
   draw({ given, stage }) {
     const board = mapCanvas({ role: "img" });

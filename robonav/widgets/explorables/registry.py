@@ -23,7 +23,11 @@ class Question:
     question : str
         The question that the reader answers before moving a control.
     guesses : sequence of str
-        Answers to choose from; none for a question whose answer is a number.
+        Answers to choose from.
+    right : str
+        The guess that is right.
+    because : str
+        One sentence that says why.
     files : sequence of str
         JavaScript files of :mod:`robonav.widgets` that it uses besides its own.
     given : callable
@@ -33,6 +37,8 @@ class Question:
     title: str
     question: str
     guesses: Sequence[str]
+    right: str
+    because: str
     files: Sequence[str]
     given: Callable[..., dict[str, Any]]
 
@@ -52,12 +58,18 @@ EXPLORABLES: dict[str, Question] = {}
 
 
 def asks(
-    title: str, question: str, *, guesses: Sequence[str] = (), files: Sequence[str] = ()
+    title: str,
+    question: str,
+    *,
+    guesses: Sequence[str],
+    right: str,
+    because: str,
+    files: Sequence[str] = (),
 ) -> Callable[[Callable[..., dict[str, Any]]], Callable[..., dict[str, Any]]]:
     """Register the function below as the numbers of an explorable; see :class:`Question`."""
 
     def register(given: Callable[..., dict[str, Any]]) -> Callable[..., dict[str, Any]]:
-        asked = Question(title, question, guesses, files, given)
+        asked = Question(title, question, guesses, right, because, files, given)
         EXPLORABLES[asked.name] = asked
         return given
 
@@ -78,6 +90,8 @@ class Explorable(anywidget.AnyWidget):
                 "title": asked.title,
                 "question": asked.question,
                 "guesses": list(asked.guesses),
+                "right": asked.right,
+                "because": asked.because,
                 "given": given,
             }
         )

@@ -14,13 +14,17 @@ SIMULATOR = ("simulator", "maps")
 
 @asks(
     "Nine sensors that turn with the robot",
-    "The robot turns by 40° to the left, on the spot. What happens to its nine readings?",
+    "The robot turns by 40° to the left, on the spot. "
+    "What happens to its nine readings?",
     guesses=[
-        "nothing: it is where it was",
-        "those ahead change",
-        "each moves on to the sensor before it",
-        "all become new numbers",
+        "they stay, as the robot has not moved",
+        "only the readings ahead change",
+        "each moves to a neighbouring sensor",
+        "all nine become new numbers",
     ],
+    right="each moves to a neighbouring sensor",
+    because="A turn by 40° is a turn by exactly one sector, so each sensor now reads what its left "
+    "neighbour read before.",
     files=SIMULATOR,
 )
 def sensor_sectors() -> dict[str, Any]:
@@ -36,10 +40,13 @@ def sensor_sectors() -> dict[str, Any]:
 
 
 @asks(
-    "Who decides?",
-    "The map has 10 obstacles, and the robot sees 10 m far. "
-    "In what part of the free places does the policy decide, and not a reflex?",
+    "Policy or reflex: who decides?",
+    "The map has 10 obstacles, and the sensors have a range of 10 m. "
+    "In what share of the free places does the policy decide, and not a reflex?",
     guesses=["20 %", "40 %", "67 %", "90 %"],
+    right="67 %",
+    because="Each obstacle is sensed from 10 m away, and so is the border of the map, so most places "
+    "are not safe.",
     files=SIMULATOR,
 )
 def reflex_map(seed: int = 41) -> dict[str, Any]:
@@ -50,9 +57,12 @@ def reflex_map(seed: int = 41) -> dict[str, Any]:
 
 @asks(
     "Too fast for its sensors",
-    "The robot senses once a second and turns by 60° when something ahead is nearer than 10 m. "
+    "The robot senses once a second, and it turns by 60° when something ahead is nearer than 10 m. "
     "Up to which speed does it always get past the obstacle?",
     guesses=["2 m/s", "4 m/s", "6.5 m/s", "9 m/s"],
+    right="6.5 m/s",
+    because="At 7 m/s it moves 7 m between two measurements, so it may notice the obstacle only 3 m "
+    "ahead, which is too late.",
     files=SIMULATOR,
 )
 def speed_and_sight() -> dict[str, Any]:
@@ -63,9 +73,13 @@ def speed_and_sight() -> dict[str, Any]:
 
 @asks(
     "A pocket in the way",
-    "A pocket of 12 m width opens towards the robot, which turns to the side with more room and remembers nothing. "
+    "A pocket of 12 m width opens towards the robot, which turns to the side with more room "
+    "and remembers nothing. "
     "From which depth on does it no longer get out?",
     guesses=["4 m", "8 m", "16 m", "it always gets out"],
+    right="8 m",
+    because="From this depth on, first one side and then the other has more room, and the robot goes "
+    "to and fro.",
     files=SIMULATOR,
 )
 def pocket() -> dict[str, Any]:

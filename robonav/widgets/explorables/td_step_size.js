@@ -1,4 +1,4 @@
-// TD(0) on the walk through five rooms: how the step size trades bias for noise.
+// TD(0) on the walk through five rooms: a large learning rate forgets the start sooner, a small one averages out the noise.
 
 /** TD(0) over given walks, without a discount: the values after each walk, the start first. @param {number[][]} walks rooms passed, ends included */
 export function tdHistory(walks, alpha, prize, states) {
@@ -37,9 +37,9 @@ const EPISODES = 100;
 
 export default explorable({
   controls: () => ({
-    alpha: range({ label: "step size α", from: 0.01, to: 0.5, step: 0.01, value: 0.1, text: (value) => value.toFixed(2) }),
+    alpha: range({ label: "learning rate α", from: 0.01, to: 0.5, step: 0.01, value: 0.1, text: (value) => value.toFixed(2) }),
     episode: range({ label: "episodes", from: 0, to: EPISODES, value: 10 }),
-    run: range({ label: "run shown", from: 1, to: 20, value: 1 }),
+    run: range({ label: "run in the first picture", from: 1, to: 20, value: 1 }),
   }),
   draw({ given, stage }) {
     const { truth, prize } = given;

@@ -14,7 +14,7 @@ const ACTIONS = ["listen", "open left", "open right"];
 
 export default explorable({
   controls: ({ accuracies, plans }) => ({
-    more: range({ label: "heard more often on the left", from: -4, to: 4, value: 0, text: (value) => `${number(value, 0)} times` }),
+    more: range({ label: "heard more often on the left than on the right", from: -4, to: 4, value: 0, text: (value) => `${number(value, 0)} times` }),
     accuracy: segments({ label: "listening is right in", options: accuracies.map((share, k) => [k, `${Math.round(100 * share)} %`]), value: 1 }),
     steps: range({ label: "steps to go", from: 1, to: plans[0].length, value: 8 }),
   }),

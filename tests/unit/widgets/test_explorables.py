@@ -1,5 +1,7 @@
 """The numbers of the explorables' JavaScript against Python's."""
 
+import re
+
 import gymnasium as gym
 import numpy as np
 import pytest
@@ -46,6 +48,33 @@ def compute(node):
 def test_an_unknown_name_is_refused():
     with pytest.raises(ValueError, match=r"name must be one of .*discounted_return"):
         explorable("discount")
+
+
+@pytest.mark.parametrize("name", EXPLORABLES)
+def test_one_guess_is_right_for_a_reason_of_one_sentence(name):
+    asked = EXPLORABLES[name]
+    assert len(set(asked.guesses)) == len(asked.guesses) >= 2
+    assert asked.right in asked.guesses
+    assert asked.question.endswith(("?", ")"))
+    assert asked.because.endswith(".")
+    assert len(re.findall(r"[.?!](?=\s|$)", asked.because)) == 1
+    data = explorable(name).data
+    assert (data["right"], data["because"]) == (asked.right, asked.because)
+
+
+def test_neither_place_nor_length_gives_the_right_guess_away():
+    asked = [question for question in EXPLORABLES.values() if len(question.guesses) > 2]
+    places = [
+        question.guesses.index(question.right) / (len(question.guesses) - 1)
+        for question in asked
+    ]
+    assert 0.3 < np.mean(places) < 0.7
+    longest = [
+        len(question.right) == max(map(len, question.guesses))
+        and len(set(map(len, question.guesses))) > 1
+        for question in asked
+    ]
+    assert np.mean(longest) < 0.5
 
 
 @pytest.mark.parametrize("discount", [0.0, 0.5, 0.93, 1.0])
@@ -253,18 +282,24 @@ def test_every_update_beside_the_cliff_is_pythons(compute, method):
     np.testing.assert_allclose(seen["q"], q, atol=1e-9)
 
 
-def test_sarsa_keeps_away_from_the_cliff_when_it_explores(compute):
+def test_the_paths_beside_the_cliff_are_those_of_the_answer_for_every_seed(compute):
+    """With the page's 1000 episodes, at every exploration offered: Q-learning stays, SARSA keeps away."""
     body = """
     const rows = (method, epsilon, seed) => {
-      const q = page.learnOnCliff(given, method, { epsilon, episodes: 1000, seed });
+      const q = page.learnTogether(given, method, { epsilon, episodes: 1000, seed });
       const walk = page.greedyWalk(given, q);
+      if (!given.ends[walk.at(-1)]) return -1;
       return 2 - Math.min(...walk.map((s) => given.layout.cells[s][0]));
     };
-    const five = (method, epsilon) => [1, 2, 3, 4, 5].map((seed) => rows(method, epsilon, seed));
-    return ["Q-learning", "SARSA"].map((method) => [0, 0.3].map((epsilon) => five(method, epsilon)));"""
-    (q_still, q_wild), (sarsa_still, sarsa_wild) = compute("cliff_exploration", body)
-    assert {*q_still, *q_wild, *sarsa_still} == {0}
-    assert np.mean(sarsa_wild) > 1
+    const seeds = Array.from({ length: 25 }, (_, k) => k + 1);
+    return ["Q-learning", "SARSA"].map((method) =>
+      given.best.map((_, k) => seeds.map((seed) => rows(method, k * 0.05, seed))));"""
+    q_learning, sarsa = np.array(compute("cliff_exploration", body))
+    assert (q_learning == 0).all()
+    assert (sarsa[0] == 0).all()
+    assert (sarsa[1:] >= 1).all()
+    assert (sarsa[2] == 1).all()  # with 0.1 one row is enough, as the page says
+    assert (sarsa[8:] == 2).all()  # from 0.4 on along the far wall
 
 
 @pytest.mark.parametrize(("accuracy", "slip"), [(0.9, 0.1), (0.6, 0.5), (0.99, 0.0)])
