@@ -34,6 +34,15 @@ compiled = compiler(constants, geometry)
 
 
 @compiled
+def square_of(x, y, cell, cells):
+    """Return the number of the square that holds a point of the map.
+
+    A quotient may be rounded up to ``cells``, and a point may lie on the border: both are in the last column or row.
+    """
+    return min(int(x / cell), cells - 1) * cells + min(int(y / cell), cells - 1)
+
+
+@compiled
 def search_actions(
     kinds,
     shapes,
@@ -100,10 +109,7 @@ def search_actions(
     most = SENSOR_RANGE if caution > 0.0 else far_enough  # clearances are cut off here
     clear = np.full(cells * cells, -1.0)  # of each square; -1: not computed yet
 
-    start = (
-        min(int(pose[0] / cell), cells - 1) * cells
-        + min(int(pose[1] / cell), cells - 1)
-    ) * HEADINGS
+    start = square_of(pose[0], pose[1], cell, cells) * HEADINGS
     positions[start, 0], positions[start, 1], costs[start], parents[start] = (
         pose[0],
         pose[1],
@@ -135,12 +141,12 @@ def search_actions(
             x1, y1 = x + displacements[turned, 0], y + displacements[turned, 1]
             if not (0.0 < x1 < size and 0.0 < y1 < size):
                 continue
-            square = int(x1 / cell) * cells + int(y1 / cell)
+            square = square_of(x1, y1, cell, cells)
             neighbour = square * HEADINGS + turned
             if closed[neighbour] or costs[neighbour] <= costs[node] + speed:
                 continue
             if clear[square] < 0.0:
-                cx, cy = (int(x1 / cell) + 0.5) * cell, (int(y1 / cell) + 0.5) * cell
+                cx, cy = (square // cells + 0.5) * cell, (square % cells + 0.5) * cell
                 clear[square] = swept_clearance(
                     kinds, shapes, centres, centres, size, cx, cy, cx, cy, most
                 )
@@ -198,7 +204,7 @@ def _path(positions, parents, last, heading):
 
 @compiled
 def search_grid(
-    kinds, shapes, centres, size, start, target, margin, cell, record, visited
+    kinds, shapes, centres, size, origin, index, target, margin, cell, record, visited
 ):
     """A* on a grid in one world: the compiled twin of :func:`robonav.lfd.astar.grid_astar`.
 
@@ -208,8 +214,12 @@ def search_grid(
     ----------
     kinds, shapes, centres, size
         The obstacles (M of them) and the side of the map.
-    start, target : (2,) arrays
-        Where to start and where to go.
+    origin : (2,) array
+        The point of the grid in column 0 and row 0.
+    index : (int, int)
+        Column and row of the start.
+    target : (2,) array
+        Where to go.
     margin, cell : float
         See :func:`robonav.lfd.plan_on_grid`.
     record : bool
@@ -226,15 +236,19 @@ def search_grid(
     expanded : int
         Number of nodes expanded.
     """
-    west, south = start[0] % cell, start[1] % cell
-    columns, rows = int((size - west) / cell) + 1, int((size - south) / cell) + 1
+    west, south = origin[0], origin[1]
+    # A quotient may be rounded down; the start is a point of the grid in any case.
+    columns = max(int((size - west) / cell), index[0]) + 1
+    rows = max(int((size - south) / cell), index[1]) + 1
     costs = np.full(columns * rows, math.inf)  # G
     parents = np.empty(columns * rows, dtype=np.int32)
     closed = np.zeros(columns * rows, dtype=np.bool_)
 
-    first = int(start[0] / cell) * rows + int(start[1] / cell)
+    first = index[0] * rows + index[1]
     costs[first], parents[first] = 0.0, NONE
-    rest = math.hypot(target[0] - start[0], target[1] - start[1])
+    rest = math.hypot(
+        target[0] - (west + index[0] * cell), target[1] - (south + index[1] * cell)
+    )
     queue = [(rest, rest, first)]
     reached, expanded = NONE, 0
     while len(queue) > 0:

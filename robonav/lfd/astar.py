@@ -127,8 +127,8 @@ def grid_astar(
     >>> found, path[0].index, round(float(path[-1].G), 1)
     (True, (10, 10), 110.3)
     """
-    target, origin = world.targets[0], start % cell
-    first: Index = (int(start[0] / cell), int(start[1] / cell))
+    target = world.targets[0]
+    origin, first = grid_through(start, cell)
     point = grid_point(origin, first, cell)
     nodes = {first: Node(first, point, G=0.0, H=distance(point, target))}
     open_list = [nodes[first].priority]
@@ -154,6 +154,22 @@ def grid_astar(
                 nodes[neighbour] = Node(neighbour, point, G, H, current)
                 heapq.heappush(open_list, nodes[neighbour].priority)
     return False, [nodes[first]], len(closed_set)
+
+
+def grid_through(start: Floats, cell: float) -> tuple[Floats, tuple[int, int]]:
+    """Return the point (0, 0) of the grid that is laid through the start, and the index of the start.
+
+    The origin follows from the index. If each were rounded by itself, 48 m could be column 15 of cells of 3.2 m, and
+    lie 3.2 m from the grid's origin all the same: the start would be one column away from where it is.
+
+    Examples
+    --------
+    >>> from robonav.lfd.astar import grid_through
+    >>> grid_through(np.array([10.5, 12.0]), cell=1.0)
+    (array([0.5, 0. ]), (10, 12))
+    """
+    column, row = (int(x) for x in np.floor(start / cell))
+    return start - np.array([column, row]) * cell, (column, row)
 
 
 def grid_point(origin: Floats, index: Index, cell: float) -> Point:
@@ -564,8 +580,9 @@ def plan_on_grid(
     begin = world.starts[0] if start is None else _in_map("start", start, 2, world)
     margin, cell = _lengths(world, margin, cell)
     visited = np.empty((_nodes(world, cell) if record else 0, 2))
+    origin, index = grid_through(begin, cell)
     found, points, expanded = _fast.search_grid(
-        *_map(world), begin, world.targets[0], margin, cell, record, visited
+        *_map(world), origin, index, world.targets[0], margin, cell, record, visited
     )
     length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
     seen = visited[:expanded] if record else None

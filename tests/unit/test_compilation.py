@@ -1,5 +1,9 @@
 """Kernels that call kernels of other files are compiled again when those files change."""
 
+import os
+import subprocess
+import sys
+from pathlib import Path
 from types import ModuleType
 
 import pytest
@@ -36,3 +40,17 @@ def test_cache_key_of_a_used_file(cache_key):
 
 def test_kernel_of_its_own_file():
     assert compiler()(add_one)(2) == 3
+
+
+@pytest.mark.slow
+def test_no_index_leaves_its_array(tmp_path):
+    script = Path(__file__).with_name("compiled_on_random_inputs.py")
+    checked = os.environ | {
+        "NUMBA_BOUNDSCHECK": "1",
+        "NUMBA_CACHE_DIR": str(tmp_path),
+    }
+    run = subprocess.run(
+        [sys.executable, script], env=checked, capture_output=True, text=True
+    )
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.split()[-1] == "train"

@@ -309,6 +309,25 @@ def test_readable_and_compiled_astar_on_a_grid(cell):
         assert np.array_equal([node.point for node in path], made.points)
 
 
+@pytest.mark.parametrize("cell", [3.2, 3.0, 0.6, 0.2])
+def test_a_grid_begins_where_the_robot_starts(cell):
+    """48 / 3.2 is 15, and 48 % 3.2 is 3.2 all but a rounding error: the path began behind the wall."""
+    wall = make_world(rectangles=[(50, 50, 0.5, 100, 0)], target=(90.0, 90.0))
+    for start in ([48.0, 12.0], [36.0, 48.0], [0.6, 99.6], [48.0, 96.0]):
+        blocked = plan_on_grid(wall, cell=cell, margin=0.1, start=start)
+        assert not blocked.found
+        np.testing.assert_allclose(blocked.points, [start], atol=1e-9)
+        free = plan_on_grid(make_world(), cell=cell, margin=0.1, start=start)
+        assert free.found
+        np.testing.assert_allclose(free.points[0], start, atol=1e-9)
+
+
+@pytest.mark.parametrize("cell", [0.2, 0.7, 3.2])
+def test_a_start_on_the_last_line_of_the_grid_has_no_way(cell):
+    for start in ([100.0, 100.0], [100.0, 50.0], [50.0, 100.0]):
+        assert not plan_on_grid(make_world(), cell=cell, start=start).found
+
+
 def test_readable_searches_without_a_path():
     world = make_world(rectangles=[(50, 50, 6, 96, 0)])
     pose = world.start_poses[0]
