@@ -168,7 +168,7 @@ def grid_through(start: Floats, cell: float) -> tuple[Floats, tuple[int, int]]:
     >>> grid_through(np.array([10.5, 12.0]), cell=1.0)
     (array([0.5, 0. ]), (10, 12))
     """
-    column, row = (int(x) for x in np.floor(start / cell))
+    column, row = int(start[0] / cell), int(start[1] / cell)
     return start - np.array([column, row]) * cell, (column, row)
 
 
