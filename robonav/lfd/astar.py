@@ -156,7 +156,7 @@ def grid_astar(
     return False, [nodes[first]], len(closed_set)
 
 
-def grid_through(start: Floats, cell: float) -> tuple[Floats, tuple[int, int]]:
+def grid_through(start: Floats, cell: float) -> tuple[Floats, Index]:
     """Return the point (0, 0) of the grid that is laid through the start, and the index of the start.
 
     The origin follows from the index. If each were rounded by itself, 48 m could be column 15 of cells of 3.2 m, and
