@@ -179,7 +179,7 @@ def test_the_best_with_time_short_is_pythons(visit, site):
     lab.get_by_label("slip", exact=True).select_option("0.2")
     lab.get_by_label("cost of a step").select_option("0.04")
     track(lab).evaluate(
-        "(input) => { input.value = 11; input.dispatchEvent(new Event('input')); }"
+        "(input) => { input.value = 12; input.dispatchEvent(new Event('input')); }"
     )
     expect(lab.locator("figure .told")).to_have_text("12 steps to go")
     grid = mdp.four_by_three(slip=0.2, step_reward=-0.04)
