@@ -31,6 +31,7 @@ ONCE = {"quick": 1, "thesis": 1}
 SEED = 4_010  # the seed of the worlds
 EPISODES = 300
 TRAINING_SEED = 3  # the seed of the training that Fig. 4.2 shows
+MAX_STEPS = 500  # of an episode, unless a panel says otherwise
 EVERY = 4  # every fourth visited node is kept
 FAR = {"starts": ((10.0, 50.0), (50.0, 10.0)), "targets": ((90.0, 85.0), (50.0, 90.0))}
 
@@ -64,6 +65,7 @@ def navigation(case: Case, seed: int, scale: str) -> Numbers:
         method(str(case["method"])),
         world_of(case),
         float(case["speed"]),
+        int(case.get("steps", MAX_STEPS)),
         record_paths=True,
         seed=seed,
     )
@@ -157,21 +159,21 @@ def panels(
     )
 
 
-def shipped_policies(
-    name: str, title: str, methods: Sequence[str], **case: str | float | int
+def shipped_policy(
+    name: str, title: str, policy: str, worlds: int, **conditions: float
 ) -> Experiment:
-    """Return the experiment of a figure of policies of the package, in four worlds each (Figs. 4.5 and 5.9)."""
-    cases = [
-        {"method": one, "world": world, "speed": 2.0, **case}
-        for one in methods
-        for world in range(4)
+    """Return the experiment of a figure of a policy of the package in some worlds (Figs. 4.5 and 5.9)."""
+    cases: list[Case] = [
+        {"method": policy, "world": world, **conditions, "starts": "new"}
+        for world in range(worlds)
     ]
     return panels(
         name,
         title,
         navigation,
         cases,
-        methods={one: fingerprint(one) for one in methods},
+        Plot("single_runs.plot_paths", columns=2),
+        methods={policy: fingerprint(policy)},
     )
 
 
@@ -193,13 +195,13 @@ EXPERIMENTS = (
         [{"episode": number} for number in (1, 20, 50, 100, 150, 200, 250, 300)],
         learner=TRAINING_SEED,
     ),
-    shipped_policies("figure-4.5", "NNQL in new maps, from new starts to new targets", ["nnql"],
-                     obstacles=12, starts="new"),
+    shipped_policy("figure-4.5", "NNQL in six new maps, from new starts to new targets", "nnql", 6,
+                   speed=2.5, steps=400, obstacles=12),
     panels("figure-5.3", "Demonstrations by hand, through key points", demonstration_by_hand,
            [{"world": world, "obstacles": 20} for world in range(2)]),
     panels("figure-5.5", "Demonstrations whose actions slip", slipping_demonstration,
            [{"world": 0, "obstacles": 20, "slip": slip} for slip in (0.3, 0.03)]),
     panels("figure-5.6", "More demonstrations by hand", demonstration_by_hand,
            [{"world": world, "obstacles": 20} for world in range(2, 6)]),
-    shipped_policies("figure-5.9", "NIRL in new maps", ["nirl"], obstacles=20, starts="new"),
+    shipped_policy("figure-5.9", "NIRL in new maps", "nirl", 4, speed=2.0, obstacles=20),
 )  # fmt: skip

@@ -12,13 +12,11 @@ from robonav.experiments.single_runs import world_of
 
 from .robot import draw_paths
 
-COLUMNS = 4
 
-
-def plot_paths(results: Results) -> Figure:
+def plot_paths(results: Results, columns: int = 4) -> Figure:
     """Plot one map for each case with its path. Dots are the nodes that a search visited."""
     cases = results.experiment.cases
-    columns = min(len(cases), COLUMNS)
+    columns = min(len(cases), columns)
     rows = -(-len(cases) // columns)
     figure, panels = plt.subplots(
         rows, columns, figsize=(2.6 * columns, 2.9 * rows), squeeze=False

@@ -21,7 +21,7 @@ from robonav.lfd import (
     learn_policy,
 )
 from robonav.networks import Network, NetworkPolicy, TrainingHistory, fit
-from robonav.robot import Encoder, random_worlds
+from robonav.robot import REFLEX, Encoder, Reflex, random_worlds
 
 from ..runner.settings import read_settings
 from ..runner.setup import Setup
@@ -57,6 +57,7 @@ def demonstrations(
     *,
     number: int = DEMONSTRATIONS,
     expert: str = "keeps clear",
+    reflex: Reflex = REFLEX,
 ) -> Demonstrations:
     """The computer expert's demonstrations of a run. A larger number begins with the same ones.
 
@@ -70,10 +71,14 @@ def demonstrations(
         Of demonstrations.
     expert : str
         A key of :data:`EXPERTS`.
+    reflex : Reflex
+        Of the robot that the expert steers.
     """
     worlds = random_worlds(number, obstacles, seed=DEMONSTRATION_SEED + seed)
     keeps = EXPERTS[expert]
-    return demonstrate(worlds, margin=keeps["margin"], caution=keeps["caution"])
+    return demonstrate(
+        worlds, margin=keeps["margin"], caution=keeps["caution"], reflex=reflex
+    )
 
 
 @lru_cache(32)
@@ -84,12 +89,15 @@ def expert_in_test_worlds(seed: int, scale: str, obstacles: int) -> Demonstratio
 
 @lru_cache(64)
 def cloned_policy(
-    seed: int, obstacles: int = 10, *, target: str = "sine-cosine"
+    seed: int,
+    obstacles: int = 10,
+    *,
+    target: str = "sine-cosine",
+    reflex: Reflex = REFLEX,
 ) -> NetworkPolicy:
     """Return the policy learned from a run's demonstrations (Algorithm 3)."""
-    return learn_policy(
-        demonstrations(seed, obstacles), seed=seed, encoder=Encoder(target=target)
-    )
+    shown = demonstrations(seed, obstacles, reflex=reflex)
+    return learn_policy(shown, seed=seed, encoder=Encoder(target=target))
 
 
 @lru_cache(64)
@@ -133,7 +141,12 @@ def policy_of(network: Network, inputs: str) -> NetworkPolicy:
 
 @lru_cache(32)
 def dagger_result(
-    seed: int, obstacles: int = 10, *, target: str = "sine-cosine", rounds: int = ROUNDS
+    seed: int,
+    obstacles: int = 10,
+    *,
+    target: str = "sine-cosine",
+    rounds: int = ROUNDS,
+    reflex: Reflex = REFLEX,
 ) -> DaggerResult:
     """Run DAgger from a run's demonstrations. Each round has as many new maps as there are demonstrations."""
     worlds = [
@@ -141,9 +154,10 @@ def dagger_result(
         for number in range(rounds)
     ]
     return dagger(
-        demonstrations(seed, obstacles),
+        demonstrations(seed, obstacles, reflex=reflex),
         worlds,
         # the committed results have one seed for all
         seed=np.full((rounds + 1, 2), seed),
         encoder=Encoder(target=target),
+        reflex=reflex,
     )

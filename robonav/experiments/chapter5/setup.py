@@ -38,7 +38,14 @@ from robonav.nirl import (
     learn_under_reward,
     lstd_estimate,
 )
-from robonav.robot import NNQL_SENSORS, Encoder, Policy, random_worlds
+from robonav.robot import (
+    NNQL_SENSORS,
+    REFLEX,
+    Encoder,
+    Policy,
+    Reflex,
+    random_worlds,
+)
 
 from ..runner.settings import Settings, read_settings
 from ..runner.setup import Setup
@@ -81,14 +88,18 @@ def tuned(method: str, discount: float = DISCOUNT, **changes: Any) -> Settings:
 
 @lru_cache(maxsize=256)
 def demonstrations(
-    seed: int, number: int = DEMONSTRATIONS, expert: str = "computer"
+    seed: int,
+    number: int = DEMONSTRATIONS,
+    expert: str = "computer",
+    *,
+    reflex: Reflex = REFLEX,
 ) -> Demonstrations:
     """Return the demonstrations of a run by an expert, "computer" or "human", each in a map of its own."""
     worlds = random_worlds(number, SETUP.obstacles, seed=DEMONSTRATION_SEED + seed)
     if expert == "human":
         drawn = sketch(worlds, seed=seed)
-        return demonstrate_by_hand(worlds, drawn, speed=SETUP.speed)
-    return demonstrate(worlds, speed=SETUP.speed)
+        return demonstrate_by_hand(worlds, drawn, speed=SETUP.speed, reflex=reflex)
+    return demonstrate(worlds, speed=SETUP.speed, reflex=reflex)
 
 
 def encoder(target: str) -> Encoder:
@@ -154,7 +165,7 @@ def train_irl(
     length : float
         The number of iterations relative to the usual number.
     **changes
-        Other arguments of the method.
+        Other arguments of the method; they replace the usual ones.
     """
     iterations = round(ITERATIONS * length)
     common: dict[str, Any] = {
@@ -168,7 +179,7 @@ def train_irl(
         weights = control_reward(method, seed, common["task"].n_inputs)
         return learn_under_reward(trajectories, weights, seed=seed, **common)
     own = own_options(method, settings, iterations)
-    return learn(trajectories, method, seed, **own, **common, **changes)
+    return learn(trajectories, method, seed, **(own | common | changes))
 
 
 def control_reward(name: str, seed: int, inputs: int) -> NDArray[np.float64]:
