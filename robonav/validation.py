@@ -109,6 +109,10 @@ def check_array(
     >>> check_array("values", [1, 2, 3], shape=("S",))
     array([1., 2., 3.])
     """
+    if isinstance(value, np.ma.MaskedArray):
+        raise TypeError(
+            f"{name} must be an array without a mask, got a masked array: fill it first"
+        )
     try:
         given = np.asarray(value)
         if (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ Schedule = Callable[[int], float]
 def constant(value: float) -> Schedule:
     """The same rate always. Values then never converge, but they can follow an environment that changes."""
     _rate("value", value)
-    return lambda n: value
+    return partial(_constant, value)
 
 
 def linear_decay(start: float, end: float, over: int) -> Schedule:
@@ -46,7 +47,7 @@ def linear_decay(start: float, end: float, over: int) -> Schedule:
     """
     _rate("start", start), _rate("end", end)
     check_integer("over", over, at_least=1)
-    return lambda n: start + (end - start) * min(n / over, 1.0)
+    return partial(_linear, start, end, over)
 
 
 def exponential_decay(start: float, end: float, half_life: float) -> Schedule:
@@ -72,7 +73,7 @@ def exponential_decay(start: float, end: float, half_life: float) -> Schedule:
     """
     _rate("start", start), _rate("end", end)
     check_positive("half_life", half_life)
-    return lambda n: end + (start - end) * 0.5 ** (n / half_life)
+    return partial(_exponential, start, end, half_life)
 
 
 def harmonic_decay(start: float = 1.0, half_life: float = 1.0) -> Schedule:
@@ -101,7 +102,7 @@ def harmonic_decay(start: float = 1.0, half_life: float = 1.0) -> Schedule:
     """
     _rate("start", start)
     check_positive("half_life", half_life)
-    return lambda n: start * half_life / (half_life + n)
+    return partial(_harmonic, start, half_life)
 
 
 def polynomial_decay(power: float) -> Schedule:
@@ -127,7 +128,31 @@ def polynomial_decay(power: float) -> Schedule:
     [1.0, 0.5]
     """
     check_real("power", power, above=0)
-    return lambda n: (1 + n) ** -power
+    return partial(_polynomial, power)
+
+
+# The rates themselves. Functions of a module can be pickled, and so sent to other processes; functions made inside
+# another function cannot.
+
+
+def _constant(value: float, n: int) -> float:
+    return value
+
+
+def _linear(start: float, end: float, over: int, n: int) -> float:
+    return start + (end - start) * min(n / over, 1.0)
+
+
+def _exponential(start: float, end: float, half_life: float, n: int) -> float:
+    return end + (start - end) * 0.5 ** (n / half_life)
+
+
+def _harmonic(start: float, half_life: float, n: int) -> float:
+    return start * half_life / (half_life + n)
+
+
+def _polynomial(power: float, n: int) -> float:
+    return (1 + n) ** -power
 
 
 def schedule(name: str, value: float | Schedule | None) -> Schedule:

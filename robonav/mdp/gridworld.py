@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -136,6 +136,12 @@ class GridWorld:
                 "text must have a cell that is no wall and ends nothing, got none"
             )
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What a copy is made of: the fields, without what was computed from them."""
+        return {field.name: vars(self)[field.name] for field in fields(self)} | {
+            "legend": dict(self.legend)
+        }
+
     @cached_property
     def meanings(self) -> Mapping[str, Cell]:
         """Every symbol's meaning."""
@@ -266,8 +272,11 @@ class GridWorld:
 
 
 def as_action(action: int) -> int:
-    """The action as a whole number from 0 to 3, checked."""
-    return check_integer("action", action, at_least=0, at_most=3)
+    """The action as a whole number from 0 to 3, checked; policies of other libraries give it as an array ()."""
+    taken = (
+        action.item() if np.ndim(action) == 0 and hasattr(action, "item") else action
+    )
+    return check_integer("action", taken, at_least=0, at_most=3)
 
 
 class GridEnvironment(gym.Env[Any, Any]):

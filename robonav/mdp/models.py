@@ -76,7 +76,7 @@ class FiniteMDP:
     def __post_init__(self) -> None:
         transitions = _checked_transitions(self.transitions)
         shape = (transitions[0].shape[0], len(transitions))
-        rewards = check_array("rewards", self.rewards, shape=shape).copy(order="F")
+        rewards = _checked_rewards(self.rewards, shape).copy(order="F")
         rewards.flags.writeable = False
         discount = check_real("discount", self.discount, at_least=0, at_most=1)
         object.__setattr__(self, "transitions", transitions)
@@ -89,6 +89,10 @@ class FiniteMDP:
                     "discount must be less than 1 unless every state can reach a terminal state (absorbing, reward 0), "
                     f"got 1 with state {int(stranded.argmax())} unable to"
                 )
+
+    def __reduce__(self) -> tuple[type, tuple[Any, ...]]:
+        """Make copies by the constructor, so that their arrays are read-only too."""
+        return type(self), (self.transitions, self.rewards, self.discount)
 
     def __repr__(self) -> str:
         kind = "sparse" if self.is_sparse else "dense"
@@ -344,6 +348,17 @@ def expected_rewards(transitions: Any, rewards: ArrayLike) -> NDArray[np.float64
     )
 
 
+def _checked_rewards(rewards: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
+    """Rewards (S, A) as finite numbers. The error says what to do with actions that are not allowed."""
+    given = np.asarray(rewards)
+    if given.dtype.kind == "f" and np.isneginf(given).any():
+        raise ValueError(
+            "rewards must hold finite numbers only, got minus infinity: every action must be allowed in every state. "
+            "Give a forbidden action the transitions and the reward of an allowed one"
+        )
+    return check_array("rewards", rewards, shape=shape)
+
+
 def _checked_transitions(
     transitions: Any,
 ) -> NDArray[np.float64] | tuple[sp.csr_array, ...]:
@@ -366,7 +381,8 @@ def _checked_transitions(
             for part in (matrix.data, matrix.indices, matrix.indptr)
         ]
     else:
-        checked = check_array("transitions", transitions, shape=("A", "S", "S")).copy()
+        checked, _ = policies.distributions("transitions", transitions, ("A", "S", "S"))
+        checked = checked.copy()
         if checked.shape[1] != checked.shape[2]:
             raise ValueError(
                 f"transitions must have shape (A, S, S), got {checked.shape}"
@@ -398,7 +414,20 @@ def _checked_sparse(
     copy.sum_duplicates()
     copy.eliminate_zeros()
     check_array("transitions", copy.data)
+    if matrix.dtype != copy.dtype:
+        copy = scaled_rows(copy, matrix.dtype)
     return with_small_indices(copy)
+
+
+def scaled_rows(matrix: sp.csr_array, dtype: np.dtype) -> sp.csr_array:
+    """The matrix whose rows, rounded to a narrower type, are divided by their sums; unchanged if one is too far off."""
+    totals = np.asarray(matrix.sum(axis=1))
+    tolerance = policies.sum_tolerance(
+        dtype, int(np.diff(matrix.indptr).max(initial=1))
+    )
+    if (abs(totals - 1) > tolerance).any():
+        return matrix
+    return sp.csr_array(sp.diags_array(1 / totals) @ matrix)
 
 
 def with_small_indices(matrix: sp.csr_array) -> sp.csr_array:

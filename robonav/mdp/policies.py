@@ -5,14 +5,59 @@ A deterministic policy is an array (S,) of action indices, a stochastic one an a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import check_array, check_real
 
-SUM_TOLERANCE = (
-    1e-8  # how far the probabilities of one distribution may be from summing to one
-)
+SUM_TOLERANCE = 1e-8  # how far the sum of a distribution in float64 may be from 1
+
+
+def sum_tolerance(dtype: np.dtype, terms: int) -> float:
+    """Return how far the sum of a distribution of this type may be from 1: by the rounding of that many numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.mdp.policies import sum_tolerance
+    >>> sum_tolerance(np.dtype("float64"), 3), sum_tolerance(np.dtype("float32"), 3) < 1e-6
+    (1e-08, True)
+    """
+    if dtype.kind != "f" or dtype.itemsize >= np.dtype(float).itemsize:
+        return SUM_TOLERANCE
+    return float(max(terms, 4) * np.finfo(dtype).eps)
+
+
+def distributions(
+    name: str, value: ArrayLike, shape: Sequence[int | str] | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Rows of probabilities (..., n) in float64, and for each row whether it is no distribution (...).
+
+    Rows of a narrower type, such as those of a network in float32, sum to 1 within the rounding of that type only.
+    They are divided by their sums.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the value is not an array of finite numbers of this shape.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.mdp.policies import distributions
+    >>> rows, wrong = distributions("policy", np.full((1, 3), 1 / 3, np.float32))
+    >>> rows.sum(), wrong
+    (np.float64(1.0), array([False]))
+    """
+    rows = check_array(name, value, shape=shape)
+    dtype, totals = np.asarray(value).dtype, rows.sum(axis=-1)
+    tolerance = sum_tolerance(dtype, rows.shape[-1])
+    wrong = (rows < 0).any(axis=-1) | (abs(totals - 1) > tolerance)
+    if tolerance > SUM_TOLERANCE and not wrong.any():
+        rows = rows / totals[..., np.newaxis]
+    return rows, wrong
 
 
 def as_deterministic_policy(
@@ -53,12 +98,12 @@ def as_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
     """
     if check_array("policy", policy).ndim == 1:
         return as_deterministic_policy("policy", policy, states, actions)
-    given = check_array("policy", policy, shape=(states, actions))
-    wrong = (given < 0).any(axis=1) | (abs(given.sum(axis=1) - 1) > SUM_TOLERANCE)
+    given, wrong = distributions("policy", policy, (states, actions))
     if wrong.any():
         state = int(wrong.argmax())
         raise ValueError(
-            f"policy must hold one distribution a state, got {given[state]} for state {state}"
+            f"policy must hold one distribution a state, got {given[state]} with sum {given[state].sum():.10g} "
+            f"for state {state}"
         )
     return given
 
@@ -85,13 +130,13 @@ def as_distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.flo
         raise ValueError(
             f"{name} must be a distribution over the {states} states, got a probability of {given.min():.10g}"
         )
-    totals = given.sum(axis=-1)
-    if (abs(totals - 1) > SUM_TOLERANCE).any():
-        off = np.ravel(totals)[abs(np.ravel(totals) - 1).argmax()]
+    rows, wrong = distributions(name, value)
+    if wrong.any():
+        totals = given.sum(axis=-1).ravel()
         raise ValueError(
-            f"{name} must be a distribution over the {states} states, got sum {off:.10g}"
+            f"{name} must be a distribution over the {states} states, got sum {totals[abs(totals - 1).argmax()]:.10g}"
         )
-    return given
+    return rows
 
 
 def uniform(states: int, actions: int) -> NDArray[np.float64]:

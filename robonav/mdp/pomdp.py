@@ -12,7 +12,7 @@ from robonav.validation import check_array, check_instance, check_integer
 
 from ._arguments import checked, refuses_impossible, require_type
 from .models import FiniteMDP
-from .policies import SUM_TOLERANCE, as_distributions
+from .policies import as_distributions, distributions
 
 Floats = NDArray[np.float64]
 
@@ -122,18 +122,18 @@ class POMDP:
 
     def __post_init__(self) -> None:
         check_instance("mdp", self.mdp, FiniteMDP)
-        z = check_array(
+        z, wrong = distributions(
             "observations",
             self.observations,
-            shape=(self.mdp.n_actions, self.mdp.n_states, "O"),
-        ).copy()
-        wrong = (z < 0).any(axis=2) | (abs(z.sum(axis=2) - 1) > SUM_TOLERANCE)
+            (self.mdp.n_actions, self.mdp.n_states, "O"),
+        )
         if wrong.any():
             action, state = np.argwhere(wrong)[0].tolist()
             raise ValueError(
                 "observations must hold one distribution for each action and state reached, "
                 f"got {z[action, state]} at action {action}, state {state}"
             )
+        z = z.copy()
         z.flags.writeable = False
         object.__setattr__(self, "observations", z)
 

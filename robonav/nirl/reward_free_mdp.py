@@ -58,8 +58,8 @@ class RewardFreeMDP:
         states, actions, _ = features.shape
         discount = check_real("discount", self.discount, at_least=0, below=1)
         unrewarded = FiniteMDP(self.transitions, np.zeros((states, actions)), discount)
-        starts = check_array("starts", self.starts, shape=(states,))
-        if (starts < 0).any() or abs(starts.sum() - 1) > policies.SUM_TOLERANCE:
+        starts, wrong = policies.distributions("starts", self.starts, (states,))
+        if wrong:
             raise ValueError(
                 f"starts must be probabilities that sum to 1, got a sum of {starts.sum():.10g}"
             )
