@@ -6,10 +6,8 @@ Each command imports what it needs when it runs, so that ``robonav --help`` is q
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Annotated, Any
 
 import typer
@@ -98,7 +96,7 @@ def check(
     keys: Annotated[
         list[str] | None,
         typer.Argument(
-            help="Ids of exercises, such as 3.2. The default is all of them."
+            help="Exercises such as 3.2, or chapters such as 3. The default is all of them."
         ),
     ] = None,
     submission: Annotated[
@@ -107,34 +105,32 @@ def check(
             help="Your folder, notebook or zip file. The default is exercises/."
         ),
     ] = None,
+    case: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write the arguments of the first call that fails to this .npz file."
+        ),
+    ] = None,
 ) -> None:
     """Check your answers to the exercises as the grader does, on the public cases."""
+    from robonav.grading.check import check_submission
     from robonav.grading.course import Course
-    from robonav.grading.plugin import command, environment
 
     course = Course.around(Path.cwd())
-    wanted = [
-        argument
-        for key in keys or []
-        for argument in ("--exercise", course.named(key).id)
-    ]
-    with TemporaryDirectory() as folder:
-        report = Path(folder, "grade.json")
-        arguments = [
-            str(course.tests),
-            "--submission",
-            str(submission or course.stubs),
-            "--grade-json",
-            str(report),
-        ]
-        run = command(course.tests, [*arguments, *wanted])
-        done = subprocess.run(run, env=environment(), capture_output=True, text=True)
-        if not report.is_file():
-            raise ValueError(
-                f"the check did not run: {(done.stderr or done.stdout).strip()}"
-            )
-        grade = json.loads(report.read_text())
-    _tell(course, grade, everything=bool(keys))
+    wanted = [exercise for key in keys or [] for exercise in course.selected(key)]
+    chosen = list(dict.fromkeys(wanted)) or list(course.exercises.values())
+    if case is not None and (case.is_dir() or not case.parent.is_dir()):
+        raise ValueError(
+            f"case must be a file to write in a folder that exists, got {case}"
+        )
+    grade, call = check_submission(course, chosen, submission or course.stubs, case)
+    _tell(course, grade, everything=len(chosen) == len(keys or []))
+    if call:
+        _tell_case(case, call)
+    elif any(
+        entry["state"] in ("partial", "wrong", "error") for entry in grade["exercises"]
+    ):
+        print("To get the first call that failed as a file, add: --case case.npz")
     if any(entry["state"] != "correct" for entry in grade["exercises"]):
         raise typer.Exit(1)
 
@@ -394,6 +390,17 @@ def _tell(course: Any, grade: dict[str, Any], *, everything: bool) -> None:
         print(
             "Well done. Marks are given on other cases of the same kind, so your answers should pass there too."
         )
+
+
+def _tell_case(path: Path | None, call: str) -> None:
+    """Say how to repeat the call that was written to a file."""
+    print(
+        f"\nThe first call that failed is in {path}. Repeat it with\n\n"
+        f"    import numpy as np\n"
+        f"    case = np.load({str(path)!r})\n"
+        f"    {call}\n\n"
+        'and compare with case["expected"].'
+    )
 
 
 def _points(entry: dict[str, Any]) -> str:

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from .course import Course, Exercise, trusted
-from .grade import FAULT, Part, Unaccepted, printable
+from .grade import FAULT, Part, State, Unaccepted, printable
 
 PUBLIC = b"2015"  # the seed of the cases when no secret is given
 
@@ -54,11 +54,14 @@ def generator(seed: bytes, name: str) -> np.random.Generator:
 def outcome(test: Test, points: int, error: BaseException | None) -> Part:
     """Return a part's state and feedback from what its test raised. Any unexpected error is a fault of the grader."""
     name = (test.__doc__ or test.__name__).strip().partition("\n")[0]
+    state: State
     match error:
         case None:
-            return Part(name, points, "correct", "")
+            state, feedback = "correct", ""
         case Unaccepted():
-            return Part(name, points, error.state, printable(error.feedback))
+            state, feedback = error.state, printable(error.feedback)
         case AssertionError():  # pytest's message would show the cases
-            return Part(name, points, "wrong", "This does not hold for your answer.")
-    return Part(name, points, "grader-fault", FAULT)
+            state, feedback = "wrong", "This does not hold for your answer."
+        case _:
+            state, feedback = "grader-fault", FAULT
+    return Part(name, points, state, feedback, test.__name__)

@@ -1,4 +1,4 @@
-"""Check a function inside a notebook, with the grader's tests and feedback but without a sandbox."""
+"""Check answers at home: a function inside a notebook without a sandbox, or a submission as the grader does."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from pathlib import Path
 from typing import Any
 
 from . import frames
+from .case_file import write_case
 from .cases import PUBLIC, generator, outcome, parts_of
 from .course import Course, Exercise
-from .grade import Unaccepted, exercise_grade
+from .evidence import Evidence
+from .grade import Unaccepted, exercise_grade, grade
 from .reference import Reference, reference
-from .session import Answer, Calls
+from .session import Answer, Calls, Session
+from .submission import load_submission
 
 
 def check(key: str, function: Callable[..., Any]) -> float:
@@ -30,6 +33,46 @@ def check(key: str, function: Callable[..., Any]) -> float:
     return float(result["points"] or 0)
 
 
+def check_submission(
+    course: Course, exercises: Sequence[Exercise], path: Path, case: Path | None = None
+) -> tuple[dict[str, Any], str]:
+    """Grade exercises of a submission on the public cases. What the student's code prints is part of the feedback.
+
+    Parameters
+    ----------
+    course : Course
+        The course.
+    exercises : sequence of Exercise
+        The exercises to check.
+    path : Path
+        A folder, notebook or zip file.
+    case : Path, optional
+        A file for the first call that was answered wrongly; see :mod:`robonav.grading.case_file`.
+
+    Returns
+    -------
+    dict
+        The grade.
+    str
+        The call in the file as Python code, or an empty string if none was written.
+    """
+    known, call = reference(course), ""
+    session = Session(
+        load_submission(path), "official", show=True, instead=["practice"]
+    )
+    entries = []
+    try:
+        for exercise in exercises:
+            evidence = Evidence(known, course.parameters(exercise))
+            entries.append(graded(course, exercise, session, known, evidence=evidence))
+            failure = evidence.first_failure()
+            if case is not None and failure is not None and not call:
+                call = write_case(case, failure, evidence.names)
+    finally:
+        session.close()
+    return grade(entries, session.tier), call
+
+
 def graded(
     course: Course,
     exercise: Exercise,
@@ -37,32 +80,38 @@ def graded(
     known: Reference,
     *,
     seed: bytes = PUBLIC,
+    evidence: Evidence | None = None,
 ) -> dict[str, Any]:
-    """Return the exercise's entry in a grade, on the cases of this seed."""
-    parts = []
+    """Return the exercise's entry in a grade, on the cases of this seed. ``evidence`` gets all calls."""
+    parts, evidence = [], evidence or Evidence(known, course.parameters(exercise))
     for test, points in parts_of(course, exercise):
         name, error = test.__name__, None
         try:
-            test(Answer(calls, known, exercise, name), generator(seed, name))
+            test(Answer(calls, evidence, exercise, name), generator(seed, name))
         except Exception as raised:
             error = raised
         parts.append(outcome(test, points, error))
-    return exercise_grade(exercise, parts)
+    return exercise_grade(exercise, evidence.explained(parts))
 
 
 class InProcessCalls:
     """Calls without a sandbox: the function runs in this process, on copies of the arguments."""
 
     secret = False
+    printed = ""  # the notebook itself shows what the function prints
 
     def __init__(self, function: Callable[..., Any]) -> None:
         self._function = function
+        self.changed: list[int] = []
 
     def call(self, exercise: Exercise, arguments: Sequence[Any]) -> Any:
         """Call the function, as :meth:`Session.call` does."""
-        arguments = frames.decode(frames.encode(list(arguments)))
+        sent = [frames.encode(argument) for argument in arguments]
+        came = [frames.decode(argument) for argument in sent]
         try:
-            return frames.decode(frames.encode(self._function(*arguments)))
+            answer = frames.decode(frames.encode(self._function(*came)))
+            self.changed = frames.differing(came, sent)
+            return answer
         except NotImplementedError:
             raise Unaccepted("missing", "Not attempted.") from None
         except frames.FrameError as error:
@@ -71,4 +120,5 @@ class InProcessCalls:
                 f"The answer must be numbers, strings, lists, dicts or arrays, not {error}.",
             ) from None
         except Exception as error:
-            raise Unaccepted("error", f"{type(error).__name__}: {error}.") from error
+            kind = type(error).__name__
+            raise Unaccepted("error", f"{kind}: {error}.", raised=kind) from error

@@ -35,12 +35,12 @@ def difference(got: Any, expected: Any) -> str | None:
             )
             if not parts_came or len(got) != len(expected):
                 return _unlike(expected, got)
-            parts = [(f"part {n}", got[n], value) for n, value in enumerate(expected)]
+            parts = [(f"[{n}]", got[n], value) for n, value in enumerate(expected)]
         case _:
             return _numbers_differ(got, np.asarray(expected))
     for name, one, other in parts:
         if found := difference(one, other):
-            return f"in {name} of the answer, {found}"
+            return f"in answer{name}, {found}"
     return None
 
 
@@ -129,6 +129,11 @@ def call(name: str, arguments: tuple[Any, ...], *, numbers: bool) -> str:
     )
 
 
+def row(array: np.ndarray, place: int) -> str:
+    """Format one row of an array, with its index."""
+    return f"[{place}] = {_argument(array[place], True)}"
+
+
 def _argument(value: Any, numbers: bool) -> str:
     if not numbers:
         return kind(value)
@@ -137,7 +142,7 @@ def _argument(value: Any, numbers: bool) -> str:
             text = np.array2string(
                 value, precision=4, separator=", ", suppress_small=True
             ).replace("\n", "")
-        case float():
+        case float() | np.floating():
             text = f"{value:.6g}"
         case _:
             text = str(value)

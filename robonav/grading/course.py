@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import tomllib
 import types
@@ -110,6 +111,24 @@ class Course:
             if key in (exercise.id, exercise.name):
                 return exercise
         raise ValueError(f"no exercise {key!r}: there are {', '.join(self.exercises)}")
+
+    def selected(self, key: str) -> list[Exercise]:
+        """Return the exercises of a chapter, such as ``2``, or the exercise with this id or name."""
+        for chapter, exercises in self.chapters():
+            if key in (chapter, chapter.removeprefix("ch")):
+                return exercises
+        return [self.named(key)]
+
+    def parameters(self, exercise: Exercise) -> list[str]:
+        """Return the names of the arguments, or an empty list if the students' file does not tell them."""
+        try:
+            tree = ast.parse((self.stubs / exercise.file).read_bytes())
+        except (OSError, ValueError, SyntaxError):
+            return []
+        for node in tree.body:
+            if isinstance(node, ast.FunctionDef) and node.name == exercise.name:
+                return [argument.arg for argument in node.args.args]
+        return []
 
 
 @cache

@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import math
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -84,6 +84,22 @@ def decode(frame: bytes) -> Any:
     if next(waiting, None):
         raise FrameError("an array is not used by the value")
     return value
+
+
+def differing(values: Sequence[Any], encoded: Sequence[bytes]) -> list[int]:
+    """Return the places of the values that are no longer what they were when they were encoded."""
+    return [
+        place
+        for place, (value, frame) in enumerate(zip(values, encoded, strict=True))
+        if _encoded(value) != frame
+    ]
+
+
+def _encoded(value: Any) -> bytes | None:
+    try:
+        return encode(value)
+    except FrameError:
+        return None
 
 
 def write(stream: BinaryIO, value: Any) -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from .course import Exercise
@@ -33,12 +33,23 @@ MOST_FEEDBACK = 4_000
 
 
 class Unaccepted(Exception):
-    """Raised when an answer earns no points for a part. It carries the state and the feedback for the student."""
+    """Raised when an answer earns no points for a part.
 
-    def __init__(self, state: State, feedback: str) -> None:
+    Attributes
+    ----------
+    state : str
+        The state of the part.
+    feedback : str
+        What the student reads.
+    raised : str or None
+        The name of the exception that the student's function raised when it was called.
+    """
+
+    def __init__(self, state: State, feedback: str, raised: str | None = None) -> None:
         super().__init__(feedback)
         self.state: State = state
         self.feedback = feedback
+        self.raised = raised
 
 
 @dataclass(frozen=True)
@@ -49,6 +60,7 @@ class Part:
     points: int
     state: State
     feedback: str
+    test: str = ""  # name of the part's test function
 
 
 def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
@@ -68,7 +80,7 @@ def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
         "state": _state(parts),
         "feedback": "Not attempted."
         if _state(parts) == "missing"
-        else printable("\n".join(map(_line, parts))),
+        else printable("\n".join(map(_line, _once(parts)))),
     }
 
 
@@ -107,6 +119,16 @@ def _state(parts: Sequence[Part]) -> State:
     if all(part.state == "correct" for part in parts):
         return "correct"
     return "partial" if _any(parts, "correct") else parts[0].state
+
+
+def _once(parts: Sequence[Part]) -> Iterator[Part]:
+    """Yield the parts. An error that several parts end in is described once."""
+    seen: set[str] = set()
+    for part in parts:
+        error = part.feedback.partition("\n")[0]
+        again = part.state in ("error", "timeout", "memory") and error in seen
+        seen.add(error)
+        yield replace(part, feedback="The same error as above.") if again else part
 
 
 def _line(part: Part) -> str:

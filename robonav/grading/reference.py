@@ -7,13 +7,14 @@ holds recorded answers to the public cases instead, so that the same checks run 
 
 from __future__ import annotations
 
+import copy
 import functools
 import hashlib
 import inspect
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -39,14 +40,22 @@ class Case:
         ).digest()
 
 
+class Mistake(NamedTuple):
+    """A known mistake in one case."""
+
+    name: str
+    hint: str
+    answer: Any  # or {"raised": kind} if the mistake ends in an exception
+
+
 class Reference(Protocol):
-    """Source of right answers and hints."""
+    """Source of right answers, and of the wrong answers of known mistakes."""
 
     def expected(self, case: Case) -> Any:
         """Return the right answer to a case."""
 
-    def hints(self, case: Case, got: Any) -> list[str]:
-        """Return the hints of the known mistakes that give this answer."""
+    def mistakes(self, case: Case) -> Sequence[Mistake]:
+        """Return the known mistakes whose answer to a case is wrong."""
 
 
 class Solutions:
@@ -61,7 +70,7 @@ class Solutions:
     def __init__(self, course: Course) -> None:
         self.course = course
         self._right: dict[bytes, Any] = {}
-        self._wrong: dict[bytes, list[tuple[str, Any]]] = {}
+        self._wrong: dict[bytes, list[Mistake]] = {}
 
     def expected(self, case: Case) -> Any:
         """Return the solution's answer to a case."""
@@ -70,28 +79,24 @@ class Solutions:
             self._right[key] = solution(self.course, case.exercise)(*case.arguments)
         return self._right[key]
 
-    def hints(self, case: Case, got: Any) -> list[str]:
-        """Return the hints of the known mistakes that give this answer."""
-        return _hints(self.mistakes(case), got)
-
-    def mistakes(self, case: Case) -> list[tuple[str, Any]]:
-        """Return the hint and the answer of each known mistake whose answer to the case is wrong."""
+    def mistakes(self, case: Case) -> Sequence[Mistake]:
+        """Return the known mistakes whose answer to a case is wrong."""
         key = case.key()
         if key not in self._wrong:
             self._wrong[key] = list(self._mistakes(case))
         return self._wrong[key]
 
-    def _mistakes(self, case: Case) -> Iterator[tuple[str, Any]]:
-        """Compute the hint and the answer of each known mistake whose answer to the case is wrong."""
+    def _mistakes(self, case: Case) -> Iterator[Mistake]:
         right = self.expected(case)
-        for function in mistakes(self.course, case.exercise).values():
+        for name, function in mistakes(self.course, case.exercise).items():
             try:
                 with np.errstate(all="ignore"):
-                    value = function(*case.arguments)
-            except Exception:  # some mistakes end in an error
-                continue
+                    value = function(*copy.deepcopy(case.arguments))
+            except Exception as error:  # some mistakes end in an exception
+                value = {"raised": type(error).__name__}
             if compare.difference(value, right) is not None:
-                yield inspect.getdoc(function) or "", value
+                hint = " ".join((inspect.getdoc(function) or "").split())
+                yield Mistake(name, hint, value)
 
 
 class Recorder:
@@ -117,9 +122,9 @@ class Recorder:
         )
         return right
 
-    def hints(self, case: Case, got: Any) -> list[str]:
-        """Return the hints of the known mistakes that give this answer."""
-        return self._solutions.hints(case, got)
+    def mistakes(self, case: Case) -> Sequence[Mistake]:
+        """Return the known mistakes whose answer to a case is wrong."""
+        return self._solutions.mistakes(case)
 
     def write(self, folder: Path) -> None:
         """Write one file of frames per exercise."""
@@ -145,9 +150,9 @@ class Recorded:
         """Return the recorded answer to a case."""
         return self._entry(case)[1]
 
-    def hints(self, case: Case, got: Any) -> list[str]:
-        """Return the hints of the known mistakes whose recorded answer is this one."""
-        return _hints(self._entry(case)[2], got)
+    def mistakes(self, case: Case) -> Sequence[Mistake]:
+        """Return the known mistakes whose recorded answer to a case is wrong."""
+        return [Mistake(*mistake) for mistake in self._entry(case)[2]]
 
     def _entry(self, case: Case) -> Any:
         """Return the arguments, the right answer and the mistakes that are recorded for a case.
@@ -172,11 +177,6 @@ class Recorded:
                 "install numpy 2"
             )
         return entry
-
-
-def _hints(mistakes: Iterable[Sequence[Any]], got: Any) -> list[str]:
-    """Return the hints of those mistakes whose answer equals the one given."""
-    return [hint for hint, value in mistakes if compare.difference(got, value) is None]
 
 
 @functools.cache

@@ -15,6 +15,7 @@ from robonav.atomic import atomic_write
 from . import sandbox_check, submission
 from .cases import PUBLIC, generator, outcome, secret_from
 from .course import Course, Exercise
+from .evidence import Evidence
 from .grade import Part, exercise_grade, grade
 from .reference import reference
 from .session import Answer, Session
@@ -57,6 +58,7 @@ class Run:
         self.session = Session(loaded, tier, secret=bool(secret))
         self.reference = reference(self.course)
         self.parts: dict[str, list[Part]] = {}
+        self.evidence: dict[str, Evidence] = {}
         if (
             self.course.tests in [path.resolve() for path in paths]
             and not config.option.keyword
@@ -70,12 +72,12 @@ class Run:
     @pytest.fixture
     def answer(self, request: pytest.FixtureRequest) -> Answer:
         """The student's function."""
-        return Answer(
-            self.session,
-            self.reference,
-            self._exercise(request.node)[0],
-            request.node.name,
-        )
+        exercise, _ = self._exercise(request.node)
+        if exercise.id not in self.evidence:
+            names = self.course.parameters(exercise)
+            self.evidence[exercise.id] = Evidence(self.reference, names)
+        evidence = self.evidence[exercise.id]
+        return Answer(self.session, evidence, exercise, request.node.name)
 
     @pytest.fixture
     def rng(self, request: pytest.FixtureRequest) -> np.random.Generator:
@@ -135,7 +137,11 @@ class Run:
         """Return the grade of all requested exercises."""
         exercises = self.course.exercises
         graded = [
-            exercise_grade(exercises[id], parts) for id, parts in self.parts.items()
+            exercise_grade(
+                exercises[id],
+                self.evidence.get(id, Evidence(self.reference)).explained(parts),
+            )
+            for id, parts in self.parts.items()
         ]
         return grade(
             sorted(graded, key=lambda entry: list(exercises).index(entry["id"])),

@@ -221,7 +221,12 @@ class Worker:
 
 
 def start(
-    tier: str, files: Mapping[str, bytes], limits: Limits, *, python: str | None = None
+    tier: str,
+    files: Mapping[str, bytes],
+    limits: Limits,
+    *,
+    python: str | None = None,
+    show: bool = False,
 ) -> Worker:
     """Start a worker in a sandbox. The worker has the files of the submission and has run none of them yet.
 
@@ -235,6 +240,8 @@ def start(
         What the submission may use.
     python : str, optional
         The interpreter; by default the one of this process, outside any virtual environment.
+    show : bool
+        Whether replies carry what the student's code printed.
 
     Returns
     -------
@@ -259,7 +266,12 @@ def start(
     resources = limits.resources() if worker.forks else {}
     try:
         answer = worker.ask(
-            {"files": contents, "limits": resources, "fork": worker.forks},
+            {
+                "files": contents,
+                "limits": resources,
+                "fork": worker.forks,
+                "show": show,
+            },
             START_SECONDS,
         )
     except (TimedOut, EOFError, Garbled) as error:

@@ -60,7 +60,7 @@ def fault(tier: str, python: str | None = None) -> str | None:
         return None
     return (
         None
-        if reply == {"id": 2, "value": []}
+        if reply == {"id": 2, "value": [], "changed": [], "printed": ""}
         else f"the {tier} sandbox lets out: {reply}"
     )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import itertools
+import re
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -13,22 +14,45 @@ import numpy as np
 
 from . import compare, sandbox
 from .course import Exercise
+from .evidence import Evidence
 from .grade import Unaccepted
-from .reference import Case, Reference
+from .reference import Case
 from .sandbox import Garbled, Limits, TimedOut, Worker
 from .submission import Refused, Submission
+
+ROWS = 5  # answers with as many rows have the arguments' rows shown
 
 
 class Calls(Protocol):
     """An object that calls a student's function."""
 
     secret: bool
+    changed: list[int]  # the arguments that the last call changed
+    printed: str  # what the last call printed, where that is shown
 
     def call(self, exercise: Exercise, arguments: Sequence[Any]) -> Any: ...
 
 
 class Session:
-    """One submission in one sandbox. The sandbox starts with the first call, and starts again after it was killed."""
+    """One submission in one sandbox. The sandbox starts with the first call, and starts again after it was killed.
+
+    Parameters
+    ----------
+    submission : Submission or Refused
+        The files.
+    tier : str
+        The tier of the sandbox.
+    limits : Limits, optional
+        What the submission may use.
+    secret : bool
+        Whether feedback must not show the cases.
+    show : bool
+        Whether feedback shows what the student's code prints. It never does with a secret.
+    instead : sequence of str
+        Tiers to try where a sandbox of the given tier does not start.
+    python : str, optional
+        The interpreter for the student's code.
+    """
 
     def __init__(
         self,
@@ -37,10 +61,15 @@ class Session:
         *,
         limits: Limits | None = None,
         secret: bool = False,
+        show: bool = False,
+        instead: Sequence[str] = (),
         python: str | None = None,
     ) -> None:
         self.tier = tier
         self.secret = secret
+        self.changed: list[int] = []
+        self.printed = ""
+        self._show, self._instead = show and not secret, list(instead)
         self._files = submission.files if isinstance(submission, Submission) else {}
         self._refused = submission if isinstance(submission, Refused) else None
         self._limits = limits or Limits()
@@ -84,6 +113,7 @@ class Session:
         try:
             self._load(exercise)
         except Unaccepted as failure:
+            failure.raised = None  # not by a call
             spoiled = used and self._worker is None and failure.state == "error"
             if spoiled:  # perhaps by the previous exercise: this one gets a new sandbox
                 self._load(exercise)
@@ -93,13 +123,26 @@ class Session:
 
     def _load(self, exercise: Exercise) -> None:
         if self._worker is None:
-            self._worker = sandbox.start(
-                self.tier, self._files, self._limits, python=self._python
-            )
+            self._worker = self._start()
         self._serving = exercise
         self._ask(
             exercise, {"do": "load", "chapter": exercise.chapter, "name": exercise.name}
         )
+
+    def _start(self) -> Worker:
+        while True:
+            try:
+                return sandbox.start(
+                    self.tier,
+                    self._files,
+                    self._limits,
+                    python=self._python,
+                    show=self._show,
+                )
+            except sandbox.SandboxFault:
+                if not self._instead:
+                    raise
+                self.tier = self._instead.pop(0)
 
     def _dismiss(self) -> None:
         """End the previous exercise's child process. If that fails, end the whole sandbox."""
@@ -118,6 +161,7 @@ class Session:
     def _ask(self, exercise: Exercise, request: dict[str, Any]) -> Any:
         assert self._worker is not None
         self._asked += 1
+        self.changed, self.printed = [], ""
         left = self._left.setdefault(exercise.id, self._limits.exercise_seconds)
         if left <= 0:
             raise Unaccepted(
@@ -147,14 +191,22 @@ class Session:
             self._left[exercise.id] = left - (time.monotonic() - start)
         # match types first, because comparing an array with == gives no truth value
         match reply:
-            case {"id": int(number), "value": value, **rest} if (
-                number == self._asked and not rest
-            ):
+            case {
+                "id": int(number),
+                "value": value,
+                "changed": [*changed],
+                "printed": str(printed),
+                **rest,
+            } if number == self._asked and not rest:
+                self.changed = [n for n in changed if isinstance(n, int)]
+                self.printed = printed
                 return value
             case {
                 "id": int(number),
                 "raised": {"kind": str(kind), "message": str(message), "where": where},
+                "printed": str(printed),
             } if number == self._asked:
+                self.printed = printed
                 raise self._raised(kind, message, where)
             case {"ended": int(status)}:
                 self._serving = None
@@ -185,6 +237,7 @@ class Session:
             self._told(
                 kind if known else "An error of your own", f": {message}{place}"
             ),
+            raised=kind,
         )
 
     def _ended(self, status: int) -> Unaccepted:
@@ -222,9 +275,9 @@ class Answer:
     """
 
     def __init__(
-        self, calls: Calls, reference: Reference, exercise: Exercise, part: str
+        self, calls: Calls, evidence: Evidence, exercise: Exercise, part: str
     ) -> None:
-        self._calls, self._reference, self._exercise = calls, reference, exercise
+        self._calls, self._evidence, self._exercise = calls, evidence, exercise
         self._cases = (Case(exercise, part, number) for number in itertools.count())
         self._case: Case
         self._got: Any = None
@@ -234,7 +287,8 @@ class Answer:
         """Call the function, compare its answer with the reference's, and return it for further checks."""
         self._call(arguments)
         if problem := compare.difference(self._got, self.expected):
-            raise self._wrong(problem)
+            raise self._wrong(problem, self._rows(problem))
+        self._evidence.judge("right")
         return self._got
 
     def array(self, *arguments: Any, shape: tuple[int, ...]) -> np.ndarray:
@@ -256,18 +310,64 @@ class Answer:
 
     def _call(self, arguments: tuple[Any, ...]) -> None:
         self._case = replace(next(self._cases), arguments=arguments)
-        self.expected = self._reference.expected(self._case)
-        self._got = self._calls.call(self._exercise, arguments)
+        self.expected = self._evidence.reference.expected(self._case)
+        try:
+            self._got = self._calls.call(self._exercise, arguments)
+        except Unaccepted as error:
+            if error.state != "missing":
+                got = {"raised": error.raised}
+                self._evidence.observe(self._case, got, self.expected, "wrong")
+            if error.raised is not None:
+                error.feedback = self._told(error.feedback, self._called())
+            raise
+        self._evidence.observe(self._case, self._got, self.expected)
+        if self._calls.changed and not self._evidence.changed:
+            self._evidence.changed = True
+            raise self._wrong(self._changing())
 
-    def _wrong(self, problem: str) -> Unaccepted:
+    def _changing(self) -> str:
+        """Describe which arguments the last call changed."""
+        names = self._evidence.names
+        which = (
+            "one of its arguments"
+            if self._calls.secret
+            else " and ".join(
+                names[n] if n < len(names) else f"argument {n}"
+                for n in self._calls.changed[: len(self._case.arguments)]
+            )
+        )
+        return f"your function changes {which} in place; it must work on a copy"
+
+    def _wrong(self, problem: str, rows: str = "") -> Unaccepted:
+        self._evidence.judge("wrong")
         if self._calls.secret:
-            problem = compare.without_answer(problem)
-        called = compare.call(
+            problem, rows = compare.without_answer(problem), ""
+        found = f"{problem[0].upper()}{problem[1:]}."
+        return Unaccepted(
+            "wrong", self._told(self._called(), found, *rows.splitlines())
+        )
+
+    def _rows(self, problem: str) -> str:
+        """Show the arguments' rows that belong to the first wrong row of an answer of many rows."""
+        place = re.match(r"at \[(\d+)", problem)
+        rows = len(self.expected) if place else 0
+        if place is None or rows < ROWS:
+            return ""
+        shown = [
+            f"{name}{compare.row(argument, int(place[1]))}"
+            for name, argument in zip(
+                self._evidence.names, self._case.arguments, strict=False
+            )
+            if isinstance(argument, np.ndarray) and argument.shape[:1] == (rows,)
+        ]
+        return f"There: {', '.join(shown)}." if shown else ""
+
+    def _called(self) -> str:
+        return compare.call(
             self._exercise.name, self._case.arguments, numbers=not self._calls.secret
         )
-        hints = [
-            f"Hint: {hint}" for hint in self._reference.hints(self._case, self._got)
-        ]
-        return Unaccepted(
-            "wrong", "\n".join([called, f"{problem[0].upper()}{problem[1:]}.", *hints])
-        )
+
+    def _told(self, *lines: str) -> str:
+        """Return the lines, with what the call printed below."""
+        printed = [f"Printed: {line}" for line in self._calls.printed.splitlines()]
+        return "\n".join([*lines, *printed])

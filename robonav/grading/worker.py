@@ -8,8 +8,10 @@ not affect the next one, and numpy is imported only once. A child knows the argu
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import importlib.abc
+import io
 import os
 import sys
 import traceback
@@ -22,7 +24,17 @@ from . import frames, hardening, notebook
 
 STUB = 'raise NotImplementedError("{name} is yours to write")'  # the body of a function that is not written yet
 ALLOWED = {"numpy", *sys.stdlib_module_names}
-MOST_TEXT = 2_000  # characters of an error message
+MOST_TEXT = 2_000  # characters of an error message, and of what one call prints
+
+
+class Printed(io.StringIO):
+    """What a student's code prints during one call, up to a number of characters."""
+
+    def write(self, text: str) -> int:
+        """Keep the text if there is room for it."""
+        if left := MOST_TEXT - self.tell():
+            super().write(str(text)[:left])
+        return len(text)
 
 
 class Gate(importlib.abc.MetaPathFinder):
@@ -70,13 +82,13 @@ def main() -> None:
             request = frames.read(requests)
             os.chdir(_unpacked(home, files))
             if opening["fork"]:
-                status = _serve_in_child(requests, replies, request)
+                status = _serve_in_child(requests, replies, request, opening["show"])
                 os.chdir(home)
                 # Before the reply, so that the time for this belongs to the exercise that wrote the files.
                 _empty(home)
                 frames.write(replies, {"ended": status})
             else:
-                _serve(requests, replies, request)
+                _serve(requests, replies, request, opening["show"])
     except (EOFError, BrokenPipeError):
         os._exit(0)  # nothing is left to clean up
 
@@ -129,14 +141,14 @@ def _close_the_gate(own: set[str]) -> None:
 
 
 def _serve_in_child(
-    requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]
+    requests: BinaryIO, replies: BinaryIO, request: dict[str, Any], show: bool
 ) -> int:
     """Serve one exercise in a child process and return its exit code."""
     if (child := os.fork()) == 0:
         status = 1
         try:
             hardening.filter_calls()
-            _serve(requests, replies, request)
+            _serve(requests, replies, request, show)
             status = 0
         finally:
             os._exit(status)
@@ -144,16 +156,22 @@ def _serve_in_child(
     return os.waitstatus_to_exitcode(status)
 
 
-def _serve(requests: BinaryIO, replies: BinaryIO, request: dict[str, Any]) -> None:
+def _serve(
+    requests: BinaryIO, replies: BinaryIO, request: dict[str, Any], show: bool
+) -> None:
     """Answer requests until one says ``end``."""
     functions: dict[str, Any] = {}
     while request["do"] != "end":
-        reply = {"id": request["id"], **_answer(request, functions)}
+        printed = Printed()
+        with contextlib.redirect_stdout(printed if show else sys.stdout):
+            reply = {"id": request["id"], **_answer(request, functions)}
+        reply["printed"] = printed.getvalue()
         try:
             frame = frames.encode(reply)
         # Encoding calls methods of the returned object, which are the student's code and may raise anything.
         except BaseException as error:
-            frame = frames.encode({"id": request["id"], "raised": _described(error)})
+            raised = {"id": request["id"], "raised": _described(error), "printed": ""}
+            frame = frames.encode(raised)
         replies.write(frame)
         replies.flush()
         request = frames.read(requests)
@@ -164,8 +182,10 @@ def _answer(request: dict[str, Any], functions: dict[str, Any]) -> dict[str, Any
     try:
         if request["do"] == "load":
             functions["f"] = _load(Path.cwd(), request["chapter"], request["name"])
-            return {"value": None}
-        return {"value": functions["f"](*request["args"])}
+            return {"value": None, "changed": []}
+        sent = [frames.encode(argument) for argument in request["args"]]
+        value = functions["f"](*request["args"])
+        return {"value": value, "changed": frames.differing(request["args"], sent)}
     except BaseException as error:  # also SystemExit: a student's code must not end the worker as if all were well
         return {"raised": _described(error)}
 

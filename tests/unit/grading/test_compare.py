@@ -56,10 +56,10 @@ def test_a_changed_number_is_found_where_it_is(array, data):
         (
             (np.zeros(2), 1),
             (np.zeros(2), 2),
-            "in part 1 of the answer, expected 2, got 1",
+            "in answer[1], expected 2, got 1",
         ),
         (np.zeros(2), {"a": 1}, "expected a dict of 1, got an array of shape (2,)"),
-        ({"a": 2}, {"a": 1}, "in ['a'] of the answer, expected 1, got 2"),
+        ({"a": 2}, {"a": 1}, "in answer['a'], expected 1, got 2"),
         ("no", "yes", "expected a string, got a string"),
         (1, None, "expected None, got a whole number"),
         (

@@ -35,6 +35,12 @@ def grade(exercise, function, seed=PUBLIC):
         return graded(COURSE, exercise, InProcessCalls(function), SOLUTIONS, seed=seed)
 
 
+def hints(result):
+    """All hints in the feedback."""
+    lines = result["feedback"].splitlines()
+    return {line.partition("Hint: ")[2] for line in lines if "Hint: " in line}
+
+
 def as_lists(value):
     """The same answer in Python's own numbers and lists."""
     if isinstance(value, tuple | list):
@@ -79,7 +85,8 @@ def test_a_known_mistake_scores_less_and_gets_its_hint(exercise, mistake):
     result = grade(exercise, mistake)
     assert result["state"] in ("partial", "wrong", "error")
     assert result["points"] < exercise.points
-    assert inspect.getdoc(mistake) in result["feedback"]
+    assert hints(result) == {" ".join(inspect.getdoc(mistake).split())}
+    assert result["feedback"].count("Hint: ") == result["feedback"].count("✗")
 
 
 @pytest.mark.parametrize(("exercise", "mistake"), MISTAKES)

@@ -47,7 +47,12 @@ def start(request):
 
 
 def loaded(worker, source=None):
-    assert worker.ask(LOAD, 30) == {"id": 1, "value": None}
+    assert worker.ask(LOAD, 30) == {
+        "id": 1,
+        "value": None,
+        "changed": [],
+        "printed": "",
+    }
     return worker
 
 
@@ -129,7 +134,7 @@ def test_what_is_printed_goes_nowhere(start):
             }
         )
     )
-    assert ask(worker) == {"id": 2, "value": 1}
+    assert ask(worker) == {"id": 2, "value": 1, "changed": [], "printed": ""}
 
 
 def test_one_processor_is_enough_for_numpy(start):

@@ -1,0 +1,163 @@
+"""What a student reads at home: hints that follow from all answers, prints, rows, and the failing call as a file."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robonav.grading.check import InProcessCalls, check_submission, graded
+from robonav.grading.course import Course
+from robonav.grading.evidence import Evidence
+from robonav.grading.grade import Part
+from robonav.grading.reference import Case, Solutions
+
+COURSE = Course.around(Path(__file__).parent)
+SOLUTIONS = Solutions(COURSE)
+ROBONAV = [sys.executable, "-c", "from robonav.cli import main; main()"]
+
+
+def feedback(key, function):
+    exercise = COURSE.named(key)
+    with np.errstate(all="ignore"):
+        return graded(COURSE, exercise, InProcessCalls(function), SOLUTIONS)
+
+
+def submitted(folder, name, source):
+    path = folder / "ch2" / f"{name}.py"
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(source)
+    return folder
+
+
+def test_a_hint_never_contradicts_a_part_that_passed():
+    """Keeping ties but ignoring the tolerance passes the part on ties, so it is not "always a best action"."""
+
+    def improve(q, policy, tolerance):
+        current = q[np.arange(len(q)), policy]
+        return np.where(q.max(axis=1) > current, q.argmax(axis=1), policy)
+
+    said = feedback("2.2", improve)["feedback"]
+    assert "Keep the current action where the gain is at most the tolerance" in said
+    assert "always" not in said
+
+
+def test_numbers_that_are_none_get_a_hint():
+    said = feedback("2.2", lambda q, policy, tolerance: np.full(len(q), np.nan))
+    assert said["feedback"].count("Hint: The answer holds nan.") == 3
+    said = feedback("2.3", lambda p, values, d: (values, values + np.inf))
+    assert "Hint: The answer holds infinity." in said["feedback"]
+
+
+def test_an_exchange_of_rows_and_columns_is_named_where_the_shape_does_not_tell_it():
+    class Nothing:
+        def mistakes(self, case):
+            return []
+
+    evidence = Evidence(Nothing())
+    square = np.arange(9.0).reshape(3, 3)
+    case = Case(COURSE.named("2.1"), "a part", 0)
+    evidence.observe(case, square.T, square, "wrong")
+    part, unrelated = evidence.explained(
+        [Part("", 1, "wrong", "It differs.", name) for name in ("a part", "another")]
+    )
+    assert part.feedback.endswith("the transpose of your answer is right.")
+    assert unrelated.feedback == "It differs."
+
+
+def test_a_changed_argument_costs_one_part():
+    def shaped(rewards, potentials, ended, discount):
+        if ended:
+            potentials[-1] = 0.0
+        return rewards + discount * potentials[1:] - potentials[:-1]
+
+    result = feedback("4.2", shaped)
+    assert result["feedback"].count("changes potentials in place") == 1
+    assert 0 < result["points"] < result["max_points"]
+
+
+def test_the_rows_of_a_wrong_answer_are_shown():
+    said = feedback("2.2", lambda q, policy, tolerance: q.argmax(axis=1))["feedback"]
+    assert "At [6] expected 3, got 1." in said
+    assert "There: q[6] = [1., 2., 0., 2., 1.], policy[6] = 3." in said
+
+
+@pytest.mark.sandbox
+def test_an_exception_is_told_once_with_its_call_and_what_was_printed(tmp_path):
+    submitted(
+        tmp_path,
+        "bounds",
+        "def bounds(previous, values, discount):\n    print('so far', discount)\n    return 1 / 0\n",
+    )
+    grade, _ = check_submission(COURSE, [COURSE.named("2.3")], tmp_path)
+    said = grade["exercises"][0]["feedback"]
+    assert (
+        said.count("ZeroDivisionError: division by zero (ch2/bounds.py, line 3)") == 1
+    )
+    assert "    bounds([" in said
+    assert said.count("Printed: so far 0.4") == 1
+    assert "The same error as above." in said
+
+
+@pytest.mark.sandbox
+def test_a_failing_call_becomes_a_file(tmp_path):
+    submitted(
+        tmp_path,
+        "first_visits",
+        "def first_visits(states, rewards, discount, size):\n    return [0.0] * size, [1] * size\n",
+    )
+    path = tmp_path / "case.npz"
+    done = subprocess.run(
+        [*ROBONAV, "check", "2.6", "--submission", tmp_path, "--case", path],
+        cwd=COURSE.root,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 1, done.stderr
+    case = np.load(path)
+    assert set(case) >= {
+        "discount",
+        "size",
+        "expected_0",
+        "expected_1",
+        "got",
+        "call",
+    }
+    called = []
+    eval(  # the call as it is printed
+        str(case["call"]),
+        {"case": case, "first_visits": lambda *arguments: called.append(arguments)},
+    )
+    states, rewards, discount, size = called[0]
+    assert isinstance(states[0], list)
+    assert [len(one) for one in states] == [len(one) for one in rewards]
+    assert (discount, size) == (0.5, 6)
+    assert str(case["call"]) in done.stdout
+
+
+@pytest.mark.sandbox
+def test_a_chapter_is_checked_at_once(tmp_path):
+    done = subprocess.run(
+        [*ROBONAV, "check", "5", "--submission", tmp_path],
+        cwd=COURSE.root,
+        capture_output=True,
+        text=True,
+    )
+    assert [
+        line.split()[0] for line in done.stdout.splitlines() if "points" in line
+    ] == [
+        *(exercise.id for exercise in COURSE.selected("ch5")),
+        "Total:",
+    ]
+
+
+def test_a_file_that_cannot_be_written_is_named(tmp_path):
+    done = subprocess.run(
+        [*ROBONAV, "check", "2.2", "--case", tmp_path / "nowhere" / "case.npz"],
+        cwd=COURSE.root,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 2
+    assert done.stderr.startswith("robonav: case must be a file to write in a folder")
