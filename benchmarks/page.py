@@ -49,6 +49,12 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         False,
         "Planning, training and navigation of chapter 3.",
     ),
+    "Matrix products": (
+        "matrix.py",
+        (),
+        False,
+        "Forward propagation in matrices, compared with a loop over units in the same run.",
+    ),
     "Neural Q-learning": (
         "nnql.py",
         (),
