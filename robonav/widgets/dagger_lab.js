@@ -136,7 +136,7 @@ function render({ model, el }) {
       arrived: own ? `Arrived, with ${own} ${own === 1 ? "correction" : "corrections"} of yours: they are kept. Correct another map, or train.` : "Arrived without you.",
       collided: `It collided. Go back ${BACK} seconds and take over.`,
     }[outcome];
-    const drives = hands ? (episode.asks() ? "You steer: the robot waits for your key." : "You steer, and the reflex moves the robot.") : running ? (episode.steps.length > LONG ? "It may be going in circles: take over." : "The robot drives. Press an arrow key to take over.") : "The robot will fail in this map. Press Drive, and take over before it does.";
+    const drives = hands ? (episode.asks() ? "You steer: the robot waits for you." : "You steer, and the reflex moves the robot.") : running ? (episode.steps.length > LONG ? "It may be going in circles: take over." : `The robot drives. Press ${whatSteers()} to take over.`) : "The robot will fail in this map. Press Drive, and take over before it does.";
     told.textContent = `Map ${map + 1}, ${episode.steps.length} s. ${hint || (ended ?? drives)}`;
     board.canvas.setAttribute("aria-label", told.textContent);
     play.textContent = running ? "Pause" : hands ? "Give it back" : "Drive";
@@ -177,12 +177,13 @@ function render({ model, el }) {
     show();
   };
   board.canvas.addEventListener("keydown", (event) => {
-    if (!(event.key in KEYS)) return;
+    const action = keyAction(event);
+    if (action === null) return;
     event.preventDefault();
-    steer(event.shiftKey && event.key === "ArrowLeft" ? HARD_LEFT : event.shiftKey && event.key === "ArrowRight" ? HARD_RIGHT : KEYS[event.key]);
+    steer(action);
   });
-  const wheel = h("div", { class: "wheel", role: "group", "aria-label": "Take over and steer, a second at a time" },
-    ...[["L60", 2], ["L30", 1], ["F", 0], ["R30", 3], ["R60", 4]].map(([name, action]) => h("button", { type: "button", click: () => steer(action) }, name)));
+  const wheel = steeringButtons({ label: "Take over and steer, a second at a time", take: steer, back: false });
+  const forgetPads = watchPads((action) => episode && action < CHOICES && steer(action));
   const play = h("button", { type: "button", class: "main", click: () => {
     if (running) pause();
     else {
@@ -201,7 +202,7 @@ function render({ model, el }) {
   const ask = h("button", { type: "button", click: () => {
     pause();
     const { world, pose } = episode.now();
-    show(episode.asks() ? `The computer expert would take ${ROBOT.actions[planner(world, pose, SPEED)]} here.` : "The robot's reflex decides here, and not the policy.");
+    show(episode.asks() ? `The computer expert would take ${actionName(planner(world, pose, SPEED))} here.` : "The robot's reflex decides here, and not the policy.");
   } }, "Ask the expert");
   const choose = () => {
     pause();
@@ -213,13 +214,14 @@ function render({ model, el }) {
     show();
   };
   const next = h("button", { type: "button", click: choose }, "Next map where it fails");
-  const stage = h("div", { class: "stage", hidden: true }, board.canvas, told, h("div", { class: "row tools" }, play, back, ask, next), wheel);
+  const stage = h("div", { class: "stage", hidden: true }, board.canvas, wheel, told, h("div", { class: "row tools" }, play, back, ask, next));
 
   el.classList.add("robonav", "imitation", "dagger-lab");
   el.replaceChildren(h("div", { class: "row" }, first.element), about, panel.element, table.element, stage);
   showTable();
   tell();
   return () => {
+    forgetPads();
     panel.cancel();
     pause();
   };

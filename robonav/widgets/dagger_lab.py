@@ -15,13 +15,18 @@ class DaggerLab(anywidget.AnyWidget):
     """Train a weak robot, watch it fail, take over, and train it again."""
 
     _esm = front_end(
-        "simulator", "maps", "episode", "files",
+        "simulator", "maps", "episode", "steering", "files",
         "learning/random", "learning/worlds", "learning/network", "learning/lbfgs",
         "learning/astar", "learning/trials", "learning/worker", "learning/training_panel",
         "drives", "kept_robots", "imitation", "dagger_lab",
     )  # fmt: skip
     _css = style_sheet(
-        "maps", "drives", "learning/training_panel", "imitation", "dagger_lab"
+        "maps",
+        "steering",
+        "drives",
+        "learning/training_panel",
+        "imitation",
+        "dagger_lab",
     )
     data = traitlets.Dict().tag(sync=True)
 

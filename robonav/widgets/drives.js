@@ -46,8 +46,19 @@ const DRIVES = browserStore("robonav.drive.", { what: "your drives", advice: "De
 /** All drives, the oldest first. @returns {(RecordedDrive & {id: string, map: number | null})[]} */
 export const keptDrives = () => DRIVES.all().map(([id, text]) => ({ id, ...driveOfText(text) })).filter(({ steps }) => steps);
 
-/** Keeps drives; returns a sentence where the browser would not. @param {RecordedDrive[]} drives */
-export const keepDrives = (drives) => DRIVES.keep(drives.map(driveText));
+/** What tells drives apart: speed, target, and each pose and action. @param {RecordedDrive} drive */
+const mark = ({ speed, world, steps }) => JSON.stringify([speed, world.target, steps.map(({ pose, action }) => [pose.x.toFixed(6), pose.y.toFixed(6), action])]);
+
+/**
+ * Keeps the drives that are not kept yet.
+ * @param {RecordedDrive[]} drives
+ * @returns {{added: number, warning: string}} how many are new, and a sentence where the browser would not keep them
+ */
+export function keepDrives(drives) {
+  const marks = new Set(keptDrives().map(mark));
+  const fresh = drives.filter((drive) => !marks.has(mark(drive)) && marks.add(mark(drive)));
+  return { added: fresh.length, warning: fresh.length ? DRIVES.keep(fresh.map(driveText)) : "" };
+}
 
 /** Deletes some drives. @param {string[]} ids */
 export const deleteDrives = (ids) => DRIVES.remove(ids);
@@ -61,6 +72,22 @@ export const nextMap = (drives) => 1 + Math.max(0, ...drives.map(({ map }) => ma
 // ---- Seen by the reader ---------------------------------------------------------------------------------------------
 
 const ENDS = { arrived: "arrived", collided: "collided", running: "given up" };
+
+/**
+ * What is said after a drive: whether it is kept, how many there are, and how a robot is trained on them.
+ * @param {{added: number, warning: string}} kept what `keepDrives` returned
+ * @param {{what?: string, training: string, next: string}} words what was made, the page that trains, what else there is to do
+ */
+export function keptWords({ added, warning }, { what = "drive", training, next }) {
+  const count = keptDrives().length;
+  const have = count === 1 ? "It is your first." : `You have ${count} now.`;
+  if (warning) return [`${warning} ${have} To train a robot on another page, press Download all, and load the file there.`];
+  const kept = added ? `This ${what} is kept.` : `You made exactly this ${what} before, and it is kept.`;
+  return [`${kept} ${have} `, h("a", { href: training }, "Train a robot on your drives"), `, or ${next}.`];
+}
+
+/** A number of drives, in words. */
+const drivesCount = (count) => `${count} ${count === 1 ? "drive" : "drives"}`;
 
 /** A small picture of a drive. @param {RecordedDrive} drive */
 export function drivePicture({ world: { size, start, target, obstacles }, steps, outcome }, side = 96) {
@@ -84,32 +111,37 @@ export function drivesList() {
   const said = h("p", { class: "status kept", role: "status" });
   const heading = h("summary", {});
   const list = h("ul", { class: "drives", "aria-label": "Your drives", tabindex: 0 });
+  const told = h("p", { class: "heard", role: "status" }); // beside the buttons and the chooser
   const upload = h("input", { type: "file", accept: ".npz", "aria-label": "File of drives", change: async () => {
     const [file] = upload.files;
     if (!file) return;
     try {
       const drives = await drivesFromFile(await file.arrayBuffer());
-      said.textContent = keepDrives(drives) || `${file.name}: ${drives.length} ${drives.length === 1 ? "drive" : "drives"} loaded.`;
+      const { added, warning } = keepDrives(drives);
+      const known = drives.length - added;
+      const sentence = known === 0 ? `${file.name}: ${drivesCount(added)} loaded.`
+        : `${file.name} holds ${drivesCount(drives.length)}: ${added || "none"} of them new, ${known} kept already.`;
+      told.textContent = `${sentence} ${warning}`.trim();
     } catch (error) {
-      said.textContent = error.message;
+      told.textContent = error.message;
     }
     upload.value = "";
   } });
   const download = h("button", { type: "button", click: () => {
     const sorts = Map.groupBy ? Map.groupBy(keptDrives(), sort) : keptDrives().reduce((all, drive) => all.set(sort(drive), [...(all.get(sort(drive)) ?? []), drive]), new Map());
     sorts.forEach((drives, name) => saveFile(sorts.size === 1 ? "my-drives.npz" : `my-drives-${name}.npz`, demonstrationsFile(drives)));
-    if (sorts.size > 1) said.textContent = "A file for each speed: a file of demonstrations has one.";
+    if (sorts.size > 1) told.textContent = "A file for each speed: a file of demonstrations has one.";
   } }, "Download all");
   const sort = ({ speed, world }) => `${speed}-m-s${world.size === 100 ? "" : `-${world.size}-m`}`;
   let asked = false;
   const clear = h("button", { type: "button", click: () => {
     if (asked) {
       deleteDrives(keptDrives().map(({ id }) => id));
-      said.textContent = "All drives are deleted.";
+      told.textContent = "All drives are deleted.";
       return;
     }
     asked = true;
-    said.textContent = "This deletes every drive that is listed here.";
+    told.textContent = "This deletes every drive that is listed here.";
     clear.textContent = "Press again to delete them all";
   }, blur: () => {
     asked = false;
@@ -123,7 +155,7 @@ export function drivesList() {
       return h("li", {}, drivePicture(drive), h("span", {}, h("b", {}, title), h("br"), `${ENDS[drive.outcome]} after ${drive.steps.length} s`, h("br"), `${effective(drive).length} steps to learn from`),
         h("button", { type: "button", "aria-label": `Delete ${title}`, click: () => {
           deleteDrives([drive.id]);
-          said.textContent = `${title} is deleted.`;
+          told.textContent = `${title} is deleted.`;
           list.focus();
         } }, "Delete"));
     }));
@@ -134,6 +166,6 @@ export function drivesList() {
   };
   show();
   const element = h("details", { class: "my-drives" }, heading, list,
-    h("div", { class: "row tools" }, download, clear, h("label", { class: "file" }, h("span", {}, "load drives (npz)"), upload)));
+    h("div", { class: "row tools" }, download, clear, h("label", { class: "file" }, h("span", {}, "load drives (npz)"), upload)), told);
   return { element, said, say: (...words) => said.replaceChildren(...words), end: watchDrives(show) };
 }

@@ -1,10 +1,5 @@
 // One episode in the page: its state and steps, and a map on which things are dragged. Needs simulator.js and maps.js.
 
-export const KEYS = { ArrowUp: 0, ArrowLeft: 1, ArrowRight: 3, ArrowDown: 5 };
-export const HARD_LEFT = 2;
-export const HARD_RIGHT = 4;
-
-
 const copyWorld = (world) => ({ ...world, start: [...world.start], target: [...world.target], obstacles: world.obstacles.map((o) => ({ ...o })) });
 const between = (a, b, t) => a + (b - a) * t;
 const metres = (value) => Number(value.toFixed(1));

@@ -28,7 +28,7 @@ function render({ model, el }) {
 
   function say() {
     const record = `${tally.arrived} arrived, ${tally.collided} collided.`;
-    const now = { arrived: "Arrived.", collided: "Collided.", running: mine ? "You steer. Each key or button is one second." : running ? about : "Stopped." }[episode.outcome];
+    const now = { arrived: "Arrived.", collided: "Collided.", running: mine ? `You steer. ${howToSteer()}` : running ? about : "Stopped." }[episode.outcome];
     status.textContent = tally.arrived + tally.collided > 0 ? `${now} So far ${record}` : now;
     board.canvas.setAttribute("aria-label", `Map with ${episode.world.obstacles.length} obstacles and a robot. ${status.textContent}`);
     play.textContent = mine ? "Let the network steer" : running ? "Stop" : "Go on";
@@ -84,14 +84,14 @@ function render({ model, el }) {
     board.canvas.focus();
   } }, "Steer it yourself");
   const another = h("button", { type: "button", click: () => { clearTimeout(timer); next(); } }, "Another map");
-  const wheel = h("div", { class: "wheel", role: "group", "aria-label": "Steer, one second at a time" },
-    ...[["↰ 60°", 2, "left 60°"], ["↖ 30°", 1, "left 30°"], ["↑", 0, "ahead"], ["↗ 30°", 3, "right 30°"], ["↱ 60°", 4, "right 60°"], ["↓", 5, "back"]].map(([sign, action, name]) =>
-      h("button", { type: "button", "aria-label": name, click: () => take(action) }, sign)));
+  const wheel = steeringButtons({ label: "Steer, one second at a time", take });
   board.canvas.addEventListener("keydown", (event) => {
-    if (!(event.key in KEYS)) return;
+    const action = keyAction(event);
+    if (action === null) return;
     event.preventDefault();
-    take(event.shiftKey && event.key === "ArrowLeft" ? HARD_LEFT : event.shiftKey && event.key === "ArrowRight" ? HARD_RIGHT : KEYS[event.key]);
+    take(action);
   });
+  const forgetPads = watchPads(take);
 
   el.classList.add("robonav", "first-screen");
   el.replaceChildren(
@@ -106,6 +106,7 @@ function render({ model, el }) {
   board.draw(1);
   if (running) wake();
   return () => {
+    forgetPads();
     clearTimeout(timer);
     cancelAnimationFrame(frame);
   };

@@ -20,8 +20,10 @@ MAPS = 200
 class FirstScreen(anywidget.AnyWidget):
     """Watch a robot cross one random map after another, and stop, obstruct or steer it."""
 
-    _esm = front_end("simulator", "maps", "episode", "learning/worlds", "first_screen")
-    _css = style_sheet("maps", "robot_playground", "first_screen")
+    _esm = front_end(
+        "simulator", "maps", "episode", "steering", "learning/worlds", "first_screen"
+    )
+    _css = style_sheet("maps", "steering", "robot_playground", "first_screen")
     data = traitlets.Dict().tag(sync=True)
 
 

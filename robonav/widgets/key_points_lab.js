@@ -224,10 +224,8 @@ function render({ model, el }) {
         "where nothing is in range its reflex leaves the path. This demonstration is not kept. Move a key point, and try again.");
       return;
     }
-    const warning = keepDrives([{ world: base, speed: SPEED, steps, outcome, map: number }]);
-    const count = keptDrives().length;
-    say(`The robot arrived after ${step} s, with ${effective(episode).length} steps to learn from. The demonstration is kept: ${count === 1 ? "your first" : `you have ${count} now`}. ${warning} `,
-      h("a", { href: training }, "Train a robot on your drives"), ", or demonstrate in another map.");
+    const kept = keepDrives([{ world: base, speed: SPEED, steps, outcome, map: number }]);
+    say(`The robot arrived after ${step} s, with ${effective(episode).length} steps to learn from. `, ...keptWords(kept, { what: "demonstration", training, next: "demonstrate in another map" }));
   };
   const tick = () => {
     do drive.go();

@@ -1,6 +1,6 @@
 // Robot playground: the simulator in the reader's hands. Move things, pick who drives, or drive yourself.
 
-const ME = "you, with the arrow keys";
+const ME = "you";
 const PACES = [1, 2, 3, 5, 8, 12, 20, 40]; // steps a second
 
 /** What a network's inputs are called: sensors, the target's sector V, whether it is seen I, wall flags. */
@@ -133,9 +133,9 @@ function render({ model, el }) {
     if (thought?.z) {
       values.replaceChildren(...[...thought.z].map((z, k) => h("span", { class: k === thought.action ? "chosen" : "" }, `${ROBOT.actions[k]} ${sigmoid(z).toFixed(2)}`)));
       pictures[policy].show(networks(policies[policy].network)(), thought.activations);
-    } else values.replaceChildren(h("span", {}, mine() ? "arrow keys: ahead, left and right 30°, back; with Shift 60°" : "a rule, no network"));
+    } else values.replaceChildren(h("span", {}, mine() ? howToSteer() : "a rule, no network"));
     const will = own === ROBOT.toTarget ? "nothing in range: its reflex turns it to the target" : own === ROBOT.backward ? "blocked ahead: its reflex steps back"
-      : thought ? `it takes ${ROBOT.actions[thought.action]}` : "it waits for your key";
+      : thought ? `it takes ${ROBOT.actions[thought.action]}, ${actionName(thought.action)}` : "it waits for you";
     const ended = { arrived: `Arrived after ${step} s.`, collided: `Collided after ${step} s.` }[outcome];
     status.textContent = ended ?? `${step} s, target in sector ${sensing.region}${sensing.seen ? ", seen" : ""}; ${will}.`;
     board.canvas.setAttribute("aria-label", `Map, ${episode.world.obstacles.length} obstacles. Robot at ${metres(episode.pose.x)}, ${metres(episode.pose.y)}. ${status.textContent}`);
@@ -199,9 +199,7 @@ function render({ model, el }) {
   const save = h("button", { type: "button", click: () => saveFile("my-drive.npz", demonstrationsFile([record()])) }, "Download this drive");
   const mineKept = drivesList();
   const keep = () => {
-    const warning = keepDrives([record()]);
-    const count = keptDrives().length;
-    mineKept.say(`This drive is kept: ${count === 1 ? "your first" : `you have ${count} now`}. ${warning} `, h("a", { href: training }, "Train a robot on your drives"), ", or drive another map.");
+    mineKept.say(...keptWords(keepDrives([record()]), { training, next: "drive another map" }));
   };
   const note = h("span", { role: "status" });
   const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights to drive with", change: async () => {
@@ -225,10 +223,12 @@ function render({ model, el }) {
     policy = index;
     who.move(index);
     picture.replaceChildren(...(pictures[index] ? [pictures[index].element] : []));
-    play.disabled = mine();
+    play.disabled = play.hidden = mine();
     pause();
     refresh();
-    if (mine()) board.canvas.focus();
+    if (!mine()) return;
+    board.canvas.focus({ preventScroll: true });
+    cockpit.scrollIntoView({ block: "nearest" });
   };
   const who = choice({ label: "who drives", options: names, change: pick });
   const go = (world, number = null) => {
@@ -241,11 +241,11 @@ function render({ model, el }) {
     const number = nextMap(keptDrives());
     where.move(worlds.length);
     go(ownMap(number), number);
-    mineKept.say(`Map ${number}. Press an arrow key, or a button below the map. While nothing is near, the robot goes on by itself; then it waits for you.`);
+    mineKept.say(`Map ${number}. Press ${whatSteers()}. While nothing is near, the robot goes on by itself; then it waits for you.`);
     pick(policies.length);
   };
   const coast = h("input", { type: "checkbox", checked: true, change: () => {
-    mineKept.say(coast.checked ? "The robot goes on by itself while nothing is near." : "The robot waits for your key in every second.");
+    mineKept.say(coast.checked ? "The robot goes on by itself while nothing is near." : "The robot waits for you in every second.");
     if (coasting()) wake();
   } });
   const fast = choice({ label: "speed", options: speeds.map((speed) => `${speed} m/s`), value: speeds.indexOf(2), change: (index) => { episode.speed = speeds[index]; refresh(); } });
@@ -257,24 +257,27 @@ function render({ model, el }) {
     refresh();
   };
   board.canvas.addEventListener("keydown", (event) => {
-    if (!(event.key in KEYS)) return;
+    const action = keyAction(event);
+    if (action === null) return;
     event.preventDefault();
-    if (!mine()) pick(policies.length);
-    if (coasting()) return;
-    const action = event.shiftKey && event.key === "ArrowLeft" ? HARD_LEFT : event.shiftKey && event.key === "ArrowRight" ? HARD_RIGHT : KEYS[event.key];
-    if (episode.outcome === "running") act(action);
+    steer(action);
   });
-  const wheel = h("div", { class: "wheel", role: "group", "aria-label": "Drive yourself, a step at a time" },
-    ...[["L60", 2], ["L30", 1], ["F", 0], ["R30", 3], ["R60", 4], ["B", 5]].map(([name, action]) =>
-      h("button", { type: "button", click: () => { if (!mine()) pick(policies.length); if (!coasting()) act(action); } }, name)));
+  /** The reader takes the wheel. */
+  const steer = (action) => {
+    if (!mine()) pick(policies.length);
+    if (!coasting()) act(action);
+  };
+  const wheel = steeringButtons({ label: "Drive yourself, a step at a time", take: steer });
+  const cockpit = h("div", { class: "cockpit" }, board.canvas, wheel, status, mineKept.said);
+  const forgetPads = watchPads((action) => mine() && steer(action), () => (mine() && episode.outcome === "running" && episode.step > 0) || newMap());
 
   el.classList.add("robonav", "robot-playground");
   el.replaceChildren(
     h("div", { class: "row tools" }, where.element, who.element, fast.element, h("button", { type: "button", class: "main", click: newMap }, "Drive a new map yourself")),
     h("div", { class: "row" },
-      h("div", { class: "grow" }, board.canvas,
+      h("div", { class: "grow" }, cockpit,
         h("div", { class: "row tools" }, play, h("button", { type: "button", click: () => { pause(); next(); } }, "One step"), h("button", { type: "button", click: reset }, "Back to the start"), rate.element),
-        wheel, h("label", { class: "check" }, coast, h("span", {}, "when I drive, the robot goes on by itself while nothing is near")), status, mineKept.said),
+        h("label", { class: "check" }, coast, h("span", {}, "when I drive, the robot goes on by itself while nothing is near"))),
       h("div", { class: "grow side" }, h("p", { class: "label" }, "What the driver thinks of each action"), values, picture, table.element)),
     h("div", { class: "row tools" },
       h("button", { type: "button", click: add(true) }, "Add a circle"), h("button", { type: "button", click: add(false) }, "Add a rectangle"), save,
@@ -286,6 +289,7 @@ function render({ model, el }) {
   return () => {
     pause();
     cancelAnimationFrame(frame);
+    forgetPads();
     mineKept.end();
   };
 }

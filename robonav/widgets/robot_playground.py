@@ -21,10 +21,10 @@ class RobotPlayground(anywidget.AnyWidget):
     """Edit a map in which a policy or the reader steers the robot, and download the episode."""
 
     _esm = front_end(
-        "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
+        "simulator", "maps", "episode", "steering", "files", "learning/random", "learning/worlds",
         "drives", "robot_playground",
     )  # fmt: skip
-    _css = style_sheet("maps", "drives", "robot_playground")
+    _css = style_sheet("maps", "steering", "drives", "robot_playground")
     data = traitlets.Dict().tag(sync=True)
 
 

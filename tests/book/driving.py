@@ -18,7 +18,7 @@ KEYS = (
 )  # fmt: skip
 WAITS = """(lab) => {
   const said = lab.querySelector(".status").textContent;
-  return /waits for your key|Arrived|Collided/.test(said) && said;
+  return /waits for you|Arrived|Collided/.test(said) && said;
 }"""
 
 
@@ -58,7 +58,7 @@ def drive_map(lab: Locator, keys: Sequence[str]) -> str:
     lab.get_by_role("button", name="Drive a new map yourself").click()
     left = list(keys)
     said = lab.locator(".status").first.inner_text()
-    if "waits for your key" not in said:
+    if "waits for you" not in said:
         lab.page.keyboard.press("ArrowUp")  # off it goes
     while True:
         waiting = lab.page.wait_for_function(WAITS, arg=lab.element_handle())

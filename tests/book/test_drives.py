@@ -14,7 +14,7 @@ from driving import drive_map, fast, good_drive, keys_of, own_map, playground
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 
-from robonav.lfd import load_demonstrations, save_demonstrations
+from robonav.lfd import concatenate, load_demonstrations, save_demonstrations
 
 CLEAR = "localStorage.clear()"
 
@@ -82,13 +82,24 @@ def test_drives_are_deleted_one_by_one_and_all_and_loaded(lab, tmp_path):
     expect(lab.get_by_role("button", name="Download all")).to_be_disabled()
     upload = lab.get_by_label("File of drives")
     upload.set_input_files(tmp_path / "bad.npz")
-    expect(said(lab)).to_have_text(
+    told = lab.locator(".my-drives .heard")
+    expect(told).to_have_text(
         "The file must hold demonstrations saved by robonav: it is damaged or of another kind."
     )
     for count in (1, 2, 3):
+        save_demonstrations(tmp_path / "drives.npz", good_drive(3 + count))
         upload.set_input_files(tmp_path / "drives.npz")
         expect(heading(lab)).to_have_text(f"My drives ({count})")
-    expect(said(lab)).to_have_text("drives.npz: 1 drive loaded.")
+    expect(told).to_have_text("drives.npz: 1 drive loaded.")
+    both = concatenate([good_drive(6), good_drive(7)])
+    for count, sentence in ((4, "1 of them new, 1"), (4, "none of them new, 2")):
+        save_demonstrations(tmp_path / "drives.npz", both)
+        upload.set_input_files(tmp_path / "drives.npz")
+        expect(told).to_have_text(
+            f"drives.npz holds 2 drives: {sentence} kept already."
+        )
+        expect(heading(lab)).to_have_text(f"My drives ({count})")
+    lab.get_by_role("button", name="Delete drive 4").press("Enter")
     lab.get_by_role("button", name="Delete drive 2").press("Enter")
     expect(heading(lab)).to_have_text("My drives (2)")
     clear = lab.get_by_role("button", name=re.compile("delete", re.I)).last
@@ -103,12 +114,12 @@ def test_a_drive_by_touch_is_kept_with_its_collision(lab):
     lab.get_by_role("button", name="Drive a new map yourself").click()
     lab.get_by_label("the robot goes on by itself").uncheck()
     for _ in range(60):
-        lab.get_by_role("button", name="F", exact=True).dispatch_event("click")
+        lab.get_by_role("button", name="ahead").dispatch_event("click")
     status = lab.locator(".status").first
     for _ in range(200):
         if re.search("Arrived|Collided", status.inner_text()):
             break
-        lab.get_by_role("button", name="L30").dispatch_event("click")
+        lab.get_by_role("button", name="left 30°").dispatch_event("click")
     ended = "arrived" if "Arrived" in status.inner_text() else "collided"
     expect(heading(lab)).to_have_text("My drives (1)")
     heading(lab).click()
@@ -143,6 +154,7 @@ def test_without_storage_the_page_goes_on_in_memory(
     of_the_theme = list(visit.errors)  # it uses the storage unguarded
     drive_map(lab, keys_of(good_drive(1)))
     expect(said(lab)).to_contain_text(sentence)
+    expect(said(lab)).not_to_contain_text("is kept")
     expect(heading(lab)).to_have_text("My drives (1)")
     assert visit.errors == of_the_theme
 
@@ -155,3 +167,43 @@ def test_pages_share_their_drives(view, lab, site):
         "Object.keys(localStorage).filter((key) => key.startsWith('robonav.drive.'))"
     )
     assert len(kept) == 1
+
+
+PADS = """() => {
+  window.pad = { axes: [0, 0], buttons: Array.from({ length: 16 }, () => ({ pressed: false })) };
+  Object.defineProperty(navigator, "getGamepads", { value: () => [null, window.pad] });
+}"""
+PRESS = "([button, pressed]) => { window.pad.buttons[button].pressed = pressed; }"
+
+
+def test_a_gamepad_begins_a_map_and_steers(view, site):
+    lab = mounted(view, site.as_uri(), playground())
+    view.page.evaluate(PADS)
+    view.page.evaluate("() => { window.dispatchEvent(new Event('gamepadconnected')); }")
+    view.page.evaluate(PRESS, [0, True])
+    expect(lab.get_by_label("who drives", exact=True)).to_have_value("you")
+    expect(said(lab)).to_contain_text("Map 1.")
+    lab.get_by_label("the robot goes on by itself").uncheck()
+    status = lab.locator(".status").first
+    expect(status).to_contain_text("0 s, target in sector")
+    view.page.evaluate(PRESS, [0, False])
+    view.page.evaluate(PRESS, [14, True])
+    expect(status).to_contain_text(re.compile("^[2-9] s, "))  # again while it is held
+    view.page.evaluate(PRESS, [14, False])
+    held = view.page.evaluate("new Promise((go) => setTimeout(go, 400))")
+    assert held is None
+    now = status.inner_text()
+    view.page.evaluate("() => { window.pad.axes = [0, -1]; }")
+    expect(status).not_to_have_text(now)
+
+
+def test_the_map_its_buttons_and_what_is_said_stand_on_a_phones_screen(visit, site):
+    visit.page.set_viewport_size(PHONE)
+    visit.open(f"{site.as_uri()}/book/playground.html")
+    lab = visit.page.locator(".robot-playground")
+    lab.get_by_role("button", name="Drive a new map yourself").click()
+    for part in ("canvas", ".wheel", ".status:not(.kept)", ".status.kept"):
+        box = lab.locator(part).bounding_box()
+        assert box
+        assert box["y"] >= 0, part
+        assert box["y"] + box["height"] <= PHONE["height"], part

@@ -75,7 +75,7 @@ def test_a_demonstration_by_keyboard_is_that_of_python_and_is_kept(
     assert f"seed={FIRST_MAP + 1}" in python
     lab.get_by_role("button", name="Let the robot follow the path").click()
     told = lab.locator(".told")
-    expect(told).to_contain_text("The demonstration is kept: your first")
+    expect(told).to_contain_text("This demonstration is kept. It is your first.")
     worlds = random_worlds(1, obstacles=10, seed=FIRST_MAP + 1)
     points = ast.literal_eval(re.search(r"worlds, (\[\[.*\]\])\)", python)[1])
     expected = demonstrate_by_hand(worlds, points)

@@ -16,7 +16,7 @@ from robonav.lfd import load_demonstrations
 from robonav.networks import NetworkPolicy, Weights, random_network, save_weights
 from robonav.robot import Encoder, navigate, random_worlds, sense, turn_to_clearer_side
 
-ME = "you, with the arrow keys"
+ME = "you"
 GREEDY = [
     name
     for name in methods()
@@ -180,7 +180,7 @@ def test_a_drive_of_ones_own_is_a_demonstration_for_python(lab, tmp_path):
     canvas.focus()
     for key in ("ArrowUp", "ArrowLeft", "Shift+ArrowRight", "ArrowUp"):
         lab.page.keyboard.press(key)
-    lab.get_by_role("button", name="R30").click()
+    lab.get_by_role("button", name="right 30°").click()
     expect(lab.get_by_label("who drives", exact=True)).to_have_value(ME)
     expect(status(lab)).to_contain_text("5 s, target in sector")
     with lab.page.expect_download() as download:

@@ -154,26 +154,29 @@ def test_drives_are_kept_listed_and_deleted(node):
     body = (
         STORAGE
         + """
-      const said = page.keepDrives([record, record]);
+      const faster = { ...record, speed: record.speed + 1 };
+      const said = page.keepDrives([record, faster, record]);
+      const again = page.keepDrives([faster]);
       const drives = page.keptDrives();
       const same = JSON.stringify(drives[0].steps) === JSON.stringify(record.steps);
       let heard = 0;
       const end = page.watchDrives(() => { heard += 1; });
       page.deleteDrives([drives[0].id]);
       const [map, left] = [page.nextMap(drives), page.keptDrives().length];
-      return { said, same, first: drives.length, map, left, heard, inMemory: kept.size === 0 };
+      return { said, again, same, first: drives.length, map, left, heard, inMemory: kept.size === 0 };
     """
     )
     got = node(FILES, body, {"allowed": True})
     assert got == {
-        "said": "", "same": True, "first": 2, "map": 4, "left": 1, "heard": 1, "inMemory": False,
+        "said": {"added": 2, "warning": ""}, "again": {"added": 0, "warning": ""},
+        "same": True, "first": 2, "map": 4, "left": 1, "heard": 1, "inMemory": False,
     }  # fmt: skip
 
 
 def test_blocked_storage_keeps_drives_in_memory(node):
     body = (
         STORAGE
-        + "return [page.keepDrives([record]), page.keptDrives().length, kept.size];"
+        + "return [page.keepDrives([record]).warning, page.keptDrives().length, kept.size];"
     )
     said, count, stored = node(FILES, body, {"allowed": False})
     assert (
@@ -189,7 +192,7 @@ def test_full_storage_keeps_drives_in_memory(node):
         + """
       page.keepDrives([record]);
       room = 100;
-      const said = page.keepDrives([record]);
+      const said = page.keepDrives([{ ...record, speed: 3 }]).warning;
       const both = page.keptDrives();
       page.deleteDrives(both.map(({ id }) => id));
       return [said, both.length, page.keptDrives().length];
