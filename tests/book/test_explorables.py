@@ -191,6 +191,32 @@ def test_looks_and_accessibility(visit: Visit, name: str, theme: str) -> None:
         visit.page.evaluate(AXE.read_text("utf-8"))
         assert visit.page.evaluate(RUN) == []
         assert small_words(widget) == []
+        assert widget.evaluate(FAULTS) == []
+
+
+FAULTS = """(widget) => {
+  const faults = [];
+  for (const picture of widget.querySelectorAll("svg:not(button svg)")) {
+    const frame = picture.getBoundingClientRect();
+    const texts = [...picture.querySelectorAll("text")].filter((text) => text.textContent.trim());
+    const boxes = texts.map((text) => text.getBoundingClientRect());
+    boxes.forEach((box, i) => {
+      const inside = box.left > frame.left - 2 && box.right < frame.right + 2 && box.top > frame.top - 3 && box.bottom < frame.bottom + 3;
+      if (!inside) faults.push(`clipped: ${texts[i].textContent}`);
+      boxes.slice(i + 1).forEach((other, k) => {
+        const across = Math.min(box.right, other.right) - Math.max(box.left, other.left);
+        const down = Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top);
+        if (across > 2 && down > 4) faults.push(`overlap: ${texts[i].textContent}, ${texts[i + 1 + k].textContent}`);
+      });
+    });
+  }
+  for (const control of widget.querySelectorAll("button, input, [tabindex]")) {
+    const { width, height } = (control.type === "radio" ? control.closest("label") : control).getBoundingClientRect();
+    if (width < 24 || height < 24) faults.push(`small: ${control.getAttribute("aria-label") ?? control.textContent} ${width} x ${height}`);
+  }
+  return faults;
+}"""
+"""Texts of pictures that are cut off or overlap, and controls of less than 24 pixels."""
 
 
 def small_words(widget: Locator) -> list[str]:

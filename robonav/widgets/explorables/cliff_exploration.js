@@ -73,7 +73,7 @@ export default explorable({
       });
       const best = given.best[Math.round(epsilon / 0.05)];
       return [
-        ...methods.map((name, k) => walks[k] ? `${name} leads ${walks[k]}.` : `${name} does not lead to G yet.`),
+        ...methods.map((name, k) => walks[k] ? `${name}'s path leads ${walks[k]}.` : `${name}'s path does not lead to G yet.`),
         `Values and paths are the mean of ${ROBOTS} robots after ${episodes} episodes each.`, "",
         `For a robot that explores with ε = ${epsilon.toFixed(2)} the best path leads ${said(best.rows)}, with an expected return of ${number(best.value, 1)}.`,
       ].join("\n");

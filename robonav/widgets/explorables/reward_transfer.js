@@ -1,7 +1,8 @@
 // A target that moves: the copied actions beside the best ones for the same reward.
 
-/** Makes the letters of a grid large enough for a phone; returns a function that leaves the values to the colours. */
+/** Makes the letters of a grid large enough for a phone, without the target's; returns a function that leaves the values to the colours. */
 function bare(element) {
+  for (const text of element.querySelectorAll("text")) if (text.textContent === "T") text.remove();
   const texts = [...element.querySelectorAll("text")];
   const values = texts.filter((text) => !text.textContent);
   texts.filter((text) => text.textContent).forEach((text) => set(text, { "font-size": 22, dy: 6 }));
