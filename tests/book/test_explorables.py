@@ -201,8 +201,9 @@ FAULTS = """(widget) => {
     const texts = [...picture.querySelectorAll("text")].filter((text) => text.textContent.trim());
     const boxes = texts.map((text) => text.getBoundingClientRect());
     boxes.forEach((box, i) => {
-      const inside = box.left > frame.left - 2 && box.right < frame.right + 2 && box.top > frame.top - 3 && box.bottom < frame.bottom + 3;
-      if (!inside) faults.push(`clipped: ${texts[i].textContent}`);
+      const across = box.left > frame.left - 2 && box.right < frame.right + 2;
+      const down = box.top > frame.top - 3 && box.bottom < frame.bottom + 3;
+      if (!across || !down) faults.push(`clipped: ${texts[i].textContent}`);
       boxes.slice(i + 1).forEach((other, k) => {
         const across = Math.min(box.right, other.right) - Math.max(box.left, other.left);
         const down = Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top);
@@ -212,7 +213,7 @@ FAULTS = """(widget) => {
   }
   for (const control of widget.querySelectorAll("button, input, [tabindex]")) {
     const { width, height } = (control.type === "radio" ? control.closest("label") : control).getBoundingClientRect();
-    if (width < 24 || height < 24) faults.push(`small: ${control.getAttribute("aria-label") ?? control.textContent} ${width} x ${height}`);
+    if (width < 24 || height < 24) faults.push(`small: ${control.outerHTML}`);
   }
   return faults;
 }"""
