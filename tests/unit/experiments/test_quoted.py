@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from robonav.experiments import names, read_results
@@ -90,3 +91,18 @@ def test_every_experiment_has_its_place():
     elsewhere = {"leaderboard", "lab-lfd", "lab-nnql", "lab-nirl"}
     assert set(places) == set(names()) - elsewhere
     assert set(re.findall(r"<result-([\w.-]+)>", PAGE)) <= set(places)
+
+
+@pytest.mark.parametrize(
+    ("method", "episodes"), [("nnql", 150), ("dqn", 150), ("nfq", 180), ("online", 210)]
+)
+def test_when_25_of_30_episodes_first_succeed(method, episodes):
+    """Two pages say after how many episodes the mean curve of Fig. 4.6 first reaches 25 of 30."""
+    curves = read_results("figure-4.6")
+    (case,) = [
+        place
+        for place, case in enumerate(curves.experiment.cases)
+        if case["method"] == method
+    ]
+    mean = curves.values("successes", case).mean(axis=0)
+    assert 30 * (np.argmax(mean >= 25) + 1) == episodes
