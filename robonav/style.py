@@ -32,6 +32,9 @@ METHODS: dict[str, str] = {
     "cloning": BLUE,
 }
 
+# On a phone a figure is as wide as the page. At this width its 10 pt text is then 9 px high.
+FIGURE_WIDTH = 5.2  # inches
+
 # Figures are transparent and their lines are mid grey, so that one file is legible on light and dark pages.
 INK = "#808080"
 STYLE: Any = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import math
+import textwrap
 from pathlib import Path
 
 import matplotlib as mpl
@@ -15,6 +16,7 @@ from robonav import atomic, style
 from robonav.experiments import Results
 
 OURS, THESIS = style.BLUE, style.ORANGE
+LABEL_WIDTH = 26  # characters of a line of a label
 
 
 def case_labels(results: Results) -> list[str]:
@@ -30,7 +32,10 @@ def case_labels(results: Results) -> list[str]:
 def draw_bars(results: Results, metric: str, label: str) -> Figure:
     """Draw one bar for each case with its 95 % interval over seeds, and a diamond for the number of the thesis."""
     cases = range(len(results.experiment.cases))
-    figure, axes = plt.subplots(figsize=(7, 0.42 * len(cases) + 1.2))
+    labels = [textwrap.fill(text, LABEL_WIDTH) for text in case_labels(results)]
+    lines = sum(text.count("\n") + 1 for text in labels)
+    height = 0.14 * len(cases) + 0.165 * lines + 1.1
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, height))
     thesis = results.experiment.thesis.get(metric, [None] * len(cases))
     for case in cases:
         summary = results.summary(metric, case)
@@ -45,14 +50,12 @@ def draw_bars(results: Results, metric: str, label: str) -> Figure:
         number = thesis[case]
         if number is not None:
             axes.plot(number, case, marker="D", color=THESIS, markersize=7)
-    axes.set(yticks=list(cases), yticklabels=case_labels(results), xlabel=label)
+    axes.set(yticks=list(cases), yticklabels=labels, xlabel=label)
+    axes.set_ylim(len(cases) - 0.5, -0.5)  # the first case on top
     if any(number is not None for number in thesis):
         axes.plot([], [], "D", color=THESIS, label="thesis")
-        axes.plot(
-            [], [], color=OURS, linewidth=6, label="ours, 95 % interval over seeds"
-        )
-        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
-    axes.invert_yaxis()
+        axes.plot([], [], color=OURS, linewidth=6, label="ours, 95 % interval")
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     axes.grid(axis="y", visible=False)
     return figure
 
@@ -66,9 +69,8 @@ def draw_board(results: Results, metric: str) -> Figure:
         [results.summary(metric, place).mean for place in range(len(cases))],
         (len(methods), -1),
     )
-    figure, axes = plt.subplots(
-        figsize=(0.95 * len(settings) + 1.6, 0.42 * len(methods) + 2.2)
-    )
+    height = 0.36 * len(methods) + 2.3
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, height))
     axes.imshow(means, cmap="Blues", vmin=0, vmax=110, aspect="auto")
     for (row, column), mean in np.ndenumerate(means):
         axes.text(
@@ -82,7 +84,7 @@ def draw_board(results: Results, metric: str) -> Figure:
     axes.set(
         xticks=range(len(settings)), yticks=range(len(methods)), yticklabels=methods
     )
-    axes.set_xticklabels(settings, rotation=35, ha="left", rotation_mode="anchor")
+    axes.set_xticklabels(settings, rotation=90, va="bottom")
     axes.tick_params(top=True, bottom=False, labeltop=True, labelbottom=False, length=0)
     axes.grid(False)
     return figure

@@ -151,6 +151,7 @@ def draw_moments(
     path: NDArray[np.float64],
     moments: Sequence[int],
     *,
+    columns: int = 4,
     colour: str = style.ROBOT,
 ) -> None:
     """Draw some moments of an episode among moving obstacles (Fig. 3.10).
@@ -167,12 +168,15 @@ def draw_moments(
         The robot's poses in the episode.
     moments : sequence of int
         Seconds after the start.
+    columns : int
+        Panels in a row.
     colour : str
         Of the robot and its path.
     """
+    rows = -(-len(moments) // columns)
     tracks = obstacle_tracks(world, len(path) - 1)[0]
     for place, moment in enumerate(moments, start=1):
-        axes = figure.add_subplot(1, len(moments), place)
+        axes = figure.add_subplot(rows, min(columns, len(moments)), place)
         draw_world(axes, world, tracks[moment])
         axes.plot(*path[: moment + 1, :2].T, color=colour, linewidth=1.4)
         draw_robot(axes, path[moment], colour)

@@ -51,14 +51,11 @@ def draw_rewards(axes: Axes) -> None:
         axes.axvline(border, color=style.INK, linewidth=0.6)
         axes.axhline(border, color=style.INK, linewidth=0.6)
     for place, name in ((2.5, "dangerous"), (7.5, "cozy"), (10.5, "safe")):
-        axes.annotate(
-            name, (place, 11.1), ha="center", fontsize=8, annotation_clip=False
-        )
+        axes.annotate(name, (place, 11.1), ha="center", annotation_clip=False)
         axes.annotate(
             name,
             (11.1, place),
             va="center",
-            fontsize=8,
             rotation=-90,
             annotation_clip=False,
         )
@@ -272,14 +269,16 @@ def draw_endings(axes: Axes, endings: Mapping[str, tuple[float, float, float]]) 
         xlim=(0, 100),
         xlabel="episodes (%)",
     )
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
+    axes.legend(
+        loc="lower right", bbox_to_anchor=(1.18, 1.0), ncols=3, columnspacing=1.0
+    )
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
 
 
 def plot_learning(results: Results) -> Figure:
     """Plot Fig. 4.4 or 4.6 from its results."""
-    figure, axes = plt.subplots(figsize=(7, 3.8))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 3.4))
     cases = results.experiment.cases
     draw_learning(
         axes,
@@ -293,7 +292,7 @@ def plot_learning(results: Results) -> Figure:
 
 def plot_weight_changes(results: Results) -> Figure:
     """Plot Fig. 4.3 from its results, one panel a layer."""
-    figure, panels = plt.subplots(1, 2, figsize=(9, 3))
+    figure, panels = plt.subplots(2, figsize=(style.FIGURE_WIDTH, 4.6), sharex=True)
     for panel, layer in zip(panels, ("first layer", "second layer"), strict=True):
         ways = {
             str(case["sum"]): results.values(layer, k)
@@ -311,7 +310,7 @@ def plot_rates(results: Results) -> Figure:
         str(case["robot"]): results.values("success", k) for k, case in enumerate(cases)
     }
     thesis = dict(zip(rates, results.experiment.thesis["success"], strict=True))
-    figure, axes = plt.subplots(figsize=(7, 3.4))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 3.4))
     draw_rates(
         axes,
         rates,
@@ -322,7 +321,7 @@ def plot_rates(results: Results) -> Figure:
 
 def plot_speeds(results: Results) -> Figure:
     """Plot Table 4.2 from its results: the mean over seeds, and a band from the worst to the best."""
-    figure, axes = plt.subplots(figsize=(7, 3.6))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 3.8))
     cases = results.experiment.cases
     for name in dict.fromkeys(str(case["robot"]) for case in cases):
         own = [k for k, case in enumerate(cases) if case["robot"] == name]
@@ -350,7 +349,7 @@ def plot_trials(results: Results) -> Figure:
         means.setdefault(str(case["method"]), []).append(
             results.summary("success", k).mean
         )
-    figure, axes = plt.subplots(figsize=(7, 3))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 3))
     draw_trials(axes, means)
     return figure
 
@@ -365,14 +364,14 @@ def plot_endings(results: Results, what: str) -> Figure:
                 for how in ("success", "out of steps", "collision")
             )
             ends[str(case["choice"])] = (arrived, cut, collided)
-    figure, axes = plt.subplots(figsize=(7, 0.42 * len(ends) + 1.3))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 0.42 * len(ends) + 1.3))
     draw_endings(axes, ends)
     return figure
 
 
 def plot_variations(results: Results) -> Figure:
     """Plot the mean success of every choice of ``nnql-circles``, with its interval."""
-    figure, axes = plt.subplots(figsize=(7, 6.5))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 7))
     cases = results.experiment.cases
     for k in range(len(cases)):
         summary = results.summary("success", k)

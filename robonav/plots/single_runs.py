@@ -13,7 +13,7 @@ from robonav.experiments.single_runs import world_of
 from .robot import draw_paths
 
 
-def plot_paths(results: Results, columns: int = 4) -> Figure:
+def plot_paths(results: Results, columns: int = 2) -> Figure:
     """Plot one map for each case with its path. Dots are the nodes that a search visited."""
     cases = results.experiment.cases
     columns = min(len(cases), columns)
@@ -42,7 +42,7 @@ def plot_gaps(results: Results) -> Figure:
     """Plot both gaps of Fig. 2.4 after each half step, with one panel for each case."""
     cases = results.experiment.cases
     figure, panels = plt.subplots(
-        1, len(cases), figsize=(3.2 * len(cases), 2.8), sharey=True
+        len(cases), figsize=(style.FIGURE_WIDTH, 2.4 * len(cases)), sharex=True
     )
     for place, (case, axes) in enumerate(zip(cases, panels, strict=True)):
         for metric, colour in (
@@ -52,9 +52,8 @@ def plot_gaps(results: Results) -> Figure:
             axes.semilogy(
                 results.values(metric, place)[0] + 1e-12, color=colour, label=metric
             )
-        axes.set(
-            xlabel="half step", title=f"{case['sweeps']} sweeps", ylim=(1e-8, None)
-        )
+        axes.set(title=f"{case['sweeps']} sweeps", ylim=(1e-8, None))
+    panels[-1].set(xlabel="half step")
     panels[0].legend()
     return figure
 
