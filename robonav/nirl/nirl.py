@@ -58,7 +58,7 @@ def nirl(
     reward_update : RewardUpdate
         Line 5: :class:`SubgradientMaxMargin`, or :class:`LeastSquaresReward` for the objective that the thesis prints.
     improver : Improver
-        Lines 9 and 10: :class:`ReplaySGD`, or :class:`SingleGradientStep`. The thesis leaves the number of steps open.
+        Lines 9 and 10: :class:`ReplaySGD`, or :class:`FullBatchDescent`. The thesis leaves the number of steps open.
     score : callable
         Measures how well a policy predicts the demonstrations: :func:`balanced_accuracy`, or the thesis's
         :func:`accuracy`.

@@ -372,15 +372,17 @@ def compiled_sarsa_descent(
 
 
 @dataclass(frozen=True)
-class SingleGradientStep:
-    """One gradient step in each iteration of NIRL, on the decisions of this iteration alone.
+class FullBatchDescent:
+    """Gradient steps on the cost of all decisions of an iteration at once, as lines 9 and 10 of Algorithm 10 say.
 
-    The thesis does not say how many steps an iteration makes. This is the smallest number.
-
-    Targets are those of Eq. (5.16), clipped into [0, 1]. After the last decision of an episode the future value is 0.
+    Line 9 computes the targets of Eq. (5.16) once in an iteration; here they are clipped into [0, 1]. Line 10 minimises
+    the cost of Eq. (5.15) for these targets. The thesis does not say with how many gradient steps, so their number is a
+    choice. After the last decision of an episode the future value is 0.
 
     Attributes
     ----------
+    n_steps : int
+        Gradient steps an iteration.
     discount, learning_rate, gradient_step : float
         gamma, alpha and sigma.
     regularisation : float
@@ -388,16 +390,24 @@ class SingleGradientStep:
 
     Examples
     --------
-    >>> from robonav.nirl import SingleGradientStep
-    >>> SingleGradientStep().gradient_step
+    >>> from robonav.nirl import FullBatchDescent
+    >>> FullBatchDescent(n_steps=300).gradient_step
     0.4
     """
 
+    n_steps: int = 1
     discount: float = 0.65
     learning_rate: float = 0.8
     gradient_step: float = 0.4
     regularisation: float = 0.0
     replay: ClassVar[int] = 1
+
+    def __post_init__(self) -> None:
+        check_integer("n_steps", self.n_steps, at_least=1)
+        check_real("discount", self.discount, at_least=0, at_most=1)
+        check_real("learning_rate", self.learning_rate, above=0, at_most=1)
+        check_positive("gradient_step", self.gradient_step)
+        check_real("regularisation", self.regularisation, at_least=0)
 
     def descend(
         self,
@@ -407,7 +417,7 @@ class SingleGradientStep:
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        """The network after one step against the gradient."""
+        """The network after ``n_steps`` steps against the gradient, and its cost before them."""
         if len(transitions) == 0:
             return Improved(network, np.nan)
         inputs, actions = transitions.inputs, transitions.actions
@@ -422,6 +432,8 @@ class SingleGradientStep:
             discount=self.discount,
         ).clip(0, 1)
         decay = {"regularisation": self.regularisation}
-        gradient = cross_entropy_gradient(network, inputs, targets, **decay)
         cost = policy_cost(network, inputs, targets, **decay)
-        return Improved(descend(network, gradient, self.gradient_step), cost)
+        for _ in range(self.n_steps):
+            gradient = cross_entropy_gradient(network, inputs, targets, **decay)
+            network = descend(network, gradient, self.gradient_step)
+        return Improved(network, cost)

@@ -65,14 +65,13 @@ class History:
 
     @property
     def changes(self) -> Floats:
-        """Sum of absolute changes of each layer's weights in each iteration, (n, 2), Fig. 5.11."""
-        return np.stack(
-            [
-                abs(np.diff(weight, axis=0)).sum(axis=(1, 2))
-                for weight in self.networks.weights
-            ],
-            axis=1,
-        )
+        """Sum of absolute changes of each layer's weights in each iteration, (n, 2), Fig. 5.11.
+
+        The biases count too, because they are column 0 of the matrices in Eq. (5.8).
+        """
+        layers = zip(self.networks.weights, self.networks.biases, strict=True)
+        matrices = [np.concatenate([b[..., None], w], axis=-1) for w, b in layers]
+        return np.stack([abs(np.diff(w, axis=0)).sum(axis=(1, 2)) for w in matrices], 1)
 
 
 @dataclass(frozen=True, eq=False)

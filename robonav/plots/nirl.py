@@ -484,7 +484,7 @@ def plot_densities(results: Results) -> Figure:
 
 
 def plot_steps(results: Results) -> Figure:
-    """Plot the changes from Algorithm 10 as written to an algorithm that works, from their results."""
+    """Plot the changes from one reading of Algorithm 10 to an algorithm that works, from their results."""
     figure, axes = plt.subplots(figsize=(8, 4))
     cases = results.experiment.cases
     draw_steps(

@@ -59,6 +59,8 @@ EPISODES_PER_ITERATION: int = CONDITIONS["episodes_per_iteration"]
 SHORTENED: Mapping[str, float] = CONDITIONS["shortened"]
 DEMONSTRATION_SEED: int = CONDITIONS["demonstration_seed"]
 DISCOUNT, OTHER_DISCOUNT = CONDITIONS["discounts"]
+DEFAULTS = Settings.of(CONDITIONS["defaults"])
+"""The default settings of :func:`robonav.nirl.nirl`, with which the book's page on NIRL trains."""
 THESIS = {name: Settings.of(values) for name, values in CONDITIONS["thesis"].items()}
 METHODS = tuple(THESIS)
 LEARNERS = METHODS[:4]

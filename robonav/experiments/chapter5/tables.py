@@ -13,6 +13,7 @@ from robonav.robot import nnql_state
 from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers, Plot
 from .setup import (
     CONTROLS,
+    DEFAULTS,
     DEMONSTRATION_SEED,
     DEMONSTRATIONS,
     DISCOUNT,
@@ -72,8 +73,12 @@ def count_samples(case: Case, seed: int, scale: str) -> Numbers:
 def over_iterations(
     case: Case, seed: int, scale: str, *, metrics: tuple[str, ...]
 ) -> Numbers:
-    """Figs. 5.7, 5.8 and 5.11: margin, cost and weight changes of a run; "at the end" is the mean of 20 iterations."""
-    history = trained("nirl", seed, tuned("nirl", float(case["discount"]))).history
+    """Figs. 5.7, 5.8 and 5.11: margin, cost and weight changes of a run with the default settings of NIRL.
+
+    "At the end" is the mean of the last 20 iterations.
+    """
+    settings = DEFAULTS | {"discount": float(case["discount"])}
+    history = trained("nirl", seed, settings).history
     series = {
         "margin": history.margins,
         "cost": history.costs,
@@ -115,6 +120,10 @@ _ABOUT = {
     },
     "settings": {method: _tuned_by_discount(method) for method in METHODS},
 }
+_ABOUT_ITERATIONS = {
+    key: _ABOUT[key]
+    for key in ("demonstrations", "iterations", "episodes an iteration")
+} | {"settings": dict(DEFAULTS)}
 
 
 def _cases(methods: Sequence[str], discount: float | str) -> list[Case]:
@@ -185,7 +194,7 @@ FIGURE_5_7 = Experiment(
     run=partial(over_iterations, metrics=("margin",)),
     seeds={"quick": 2, "thesis": 10},
     thesis={"margin at the end": [3.0, None]},
-    settings=_ABOUT,
+    settings=_ABOUT_ITERATIONS,
     plot=Plot("nirl.plot_iterations", metric="margin", label="margin"),
 )
 FIGURE_5_8 = Experiment(
@@ -195,7 +204,7 @@ FIGURE_5_8 = Experiment(
     run=partial(over_iterations, metrics=("cost",)),
     seeds={"quick": 2, "thesis": 10},
     thesis={"cost at the end": [3.23, None]},
-    settings=_ABOUT,
+    settings=_ABOUT_ITERATIONS,
     plot=Plot("nirl.plot_iterations", metric="cost", label="cost"),
 )
 FIGURE_5_11 = Experiment(
@@ -204,7 +213,7 @@ FIGURE_5_11 = Experiment(
     cases=[{"discount": discount} for discount in DISCOUNTS],
     run=partial(over_iterations, metrics=("first layer", "second layer")),
     seeds={"quick": 2, "thesis": 10},
-    settings=_ABOUT,
+    settings=_ABOUT_ITERATIONS,
     plot=Plot("nirl.plot_changes"),
 )
 FIGURE_5_10 = Experiment(

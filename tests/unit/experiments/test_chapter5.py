@@ -8,7 +8,9 @@ import pytest
 from robonav.experiments.chapter5 import ablations, tables, transfer
 from robonav.experiments.chapter5.setup import (
     CONTROLS,
+    DEFAULTS,
     DEMONSTRATION_SEED,
+    DISCOUNT,
     HYPERPARAMETERS,
     LEARNERS,
     METHODS,
@@ -34,10 +36,11 @@ from robonav.experiments.ship import folder_of, nirl_weights
 from robonav.networks import load_weights
 from robonav.nirl import (
     ZERO_TERMINAL_VALUES,
+    FullBatchDescent,
     LeastSquaresReward,
-    SingleGradientStep,
     accuracy,
     balanced_accuracy,
+    learn,
 )
 from robonav.nnql import NavigationTask, train
 from robonav.robot import random_worlds
@@ -133,16 +136,38 @@ def test_learning_twice_in_a_process_is_learning_once():
     assert trained("nirl", 1, tuned("nirl"), length=SHORT) is not first
 
 
-def test_steps_begin_with_the_algorithm_as_written_and_add_up():
-    written = ablations.options_up_to("Algorithm 10 as written")
+def test_steps_begin_with_one_gradient_step_and_add_up():
+    written = ablations.options_up_to("Algorithm 10, one gradient step an iteration")
     assert isinstance(written["reward_update"], LeastSquaresReward)
-    assert isinstance(written["improver"], SingleGradientStep)
+    assert isinstance(written["improver"], FullBatchDescent)
     assert written["score"] is accuracy
     half = ablations.options_up_to("policy chosen by balanced accuracy")
     assert half["score"] is balanced_accuracy
     assert half["target"] == "number"
     assert half["improver"].terminal_values == ZERO_TERMINAL_VALUES
     assert ablations.options_up_to("discount 0.9")["improver"].discount == 0.9
+
+
+def test_the_defaults_are_those_of_the_method():
+    """Figs. 5.7, 5.8 and 5.11 are made with what the page on NIRL runs: ``nirl.learn`` without options."""
+    settings = DEFAULTS | {"discount": DISCOUNT}
+    ours = train_irl("nirl", demonstrations(0), 3, settings, length=SHORT)
+    plain = learn(demonstrations(0), seed=3, iterations=len(ours.history.costs))
+    np.testing.assert_array_equal(ours.history.costs, plain.history.costs)
+
+
+@pytest.mark.parametrize("method", ablations.REWARDS)
+def test_one_gradient_step_is_one_reading(method):
+    """The number of steps is the only thing that the cases of one method and scaling vary."""
+    improvers = [scaling(300) for scaling in ablations.SCALINGS.values()]
+    assert [i.n_steps for i in improvers] == [300, 300]
+    options = ablations.options_up_to(
+        "Algorithm 10, one gradient step an iteration"
+        if "5.14" in method
+        else "reward: feature gaps in the expert's states"
+    )
+    assert options["reward_update"] == ablations.REWARDS[method]
+    assert options["improver"] == ablations.SCALINGS["as they are"](1)
 
 
 def test_choices_choose_what_they_say():

@@ -15,9 +15,9 @@ from robonav.nirl import (
     METHODS,
     NEUTRAL_TERMINAL_VALUES,
     ZERO_TERMINAL_VALUES,
+    FullBatchDescent,
     LeastSquaresReward,
     ReplaySGD,
-    SingleGradientStep,
     SubgradientMaxMargin,
     TabularTask,
     Transitions,
@@ -189,7 +189,7 @@ def test_it_finds_the_values_of_a_chain():
 
 
 @pytest.mark.parametrize(
-    "improver", [ReplaySGD(replay=1, n_samples=50), ReplaySGD(replay=2, n_samples=50), SingleGradientStep()]
+    "improver", [ReplaySGD(replay=1, n_samples=50), ReplaySGD(replay=2, n_samples=50), FullBatchDescent()]
 )  # fmt: skip
 def test_network_trains_on_the_decisions_of_the_last_iterations(terrain, improver):
     seen = []
@@ -213,7 +213,7 @@ def test_the_step_to_the_letter_is_a_gradient_step():
     """With targets (5.16), cut to [0, 1], for the taken action, and no change asked of the others."""
     steps, theta = made_up(), RNG.normal(size=(4, 4))
     network = random_network((3, 5, 4), seed=1)
-    improver = SingleGradientStep(gradient_step=0.1)
+    improver = FullBatchDescent(gradient_step=0.1)
     rewards = transition_rewards(theta, steps)
     stepped, cost = improver.descend(network, steps, rewards, 0.0, RNG)
     again, lower = improver.descend(stepped, steps, rewards, 0.0, RNG)
@@ -230,6 +230,34 @@ def test_the_step_to_the_letter_is_a_gradient_step():
         stepped.biases[1], network.biases[1] - 0.1 * slope, atol=1e-12
     )
     assert again is not stepped
+
+
+def test_full_batch_descent_minimises_the_cost_for_targets_that_stay():
+    """Many steps with the targets of the first one: the network's output becomes the target, Eq. (5.16)."""
+    steps, theta = made_up(), RNG.normal(size=(4, 4))
+    network = random_network((3, 20, 4), seed=1)
+    rewards = transition_rewards(theta, steps)
+
+    def after(n_steps):
+        improver = FullBatchDescent(n_steps, gradient_step=2.0)
+        return improver.descend(network, steps, rewards, 0.0, RNG)
+
+    rows = np.arange(12), steps.actions
+    q = network.forward(steps.inputs)[rows]
+    following = np.where(steps.next_index >= 0, np.append(q[1:], 0), 0)
+    target = np.clip(q + 0.8 * (rewards + 0.65 * following - q), 0, 1)
+    errors = [
+        abs(after(n).network.forward(steps.inputs)[rows] - target).mean()
+        for n in (1, 30, 3000)
+    ]
+    assert errors[0] > errors[1] > errors[2]
+    assert errors[2] < 0.05
+    assert after(1).cost == after(30).cost
+
+
+def test_full_batch_descent_rejects_wrong_settings():
+    with pytest.raises(ValueError, match="n_steps must be at least 1, got 0"):
+        FullBatchDescent(n_steps=0)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -386,8 +414,20 @@ def test_nirl_on_ground_of_four_kinds(terrain):
     assert history.balanced[found.chosen] == history.balanced.max()
     assert (np.linalg.norm(history.weights, axis=(1, 2)) <= 1 + 1e-9).all()
     assert history.changes.shape == (150, 2)
-    by_hand = abs(history.networks.weights[1][1] - history.networks.weights[1][0]).sum()
-    assert history.changes[0, 1] == pytest.approx(by_hand)
+
+
+def test_changes_of_weights_count_the_biases(terrain):
+    """In Eq. (5.8) the biases are column 0 of the weight matrices."""
+    tabular = TabularTask(terrain.task)
+    demonstrations = tabular.demonstrate(terrain.expert, 5, seed=1)
+    history = nirl(demonstrations, tabular, iterations=2, seed=0).history
+    before, after = history.networks[1], history.networks[2]
+    by_hand = [
+        abs(after.weights[k] - before.weights[k]).sum()
+        + abs(after.biases[k] - before.biases[k]).sum()
+        for k in (0, 1)
+    ]
+    np.testing.assert_allclose(history.changes[1], by_hand)
 
 
 @pytest.mark.slow
@@ -433,12 +473,33 @@ def test_the_true_reward_makes_an_expert(terrain):
     assert terrain.loss(greedy(terrain, found)) < 0.15
 
 
-def test_it_ends_when_the_margin_is_small(terrain):
+def test_it_stops_before_it_trains(terrain):
+    """Lines 6 to 8 of Algorithm 10 stand before lines 9 and 10: a small margin ends the run with the latest policy."""
     tabular = TabularTask(terrain.task)
     demonstrations = tabular.demonstrate(terrain.expert, 5, seed=1)
-    found = nirl(demonstrations, tabular, iterations=50, tolerance=1e9, seed=0)
+    trained = []
+
+    class Watched(ReplaySGD):
+        def descend(self, *arguments):
+            trained.append(arguments)
+            return super().descend(*arguments)
+
+    found = nirl(
+        demonstrations,
+        tabular,
+        iterations=50,
+        tolerance=1e9,
+        improver=Watched(),
+        seed=0,
+    )
+    assert trained == []
     assert len(found.history.margins) == 0
     assert found.chosen == 0
+    again = nirl(demonstrations, tabular, iterations=50, improver=Watched(), seed=0)
+    margins = again.history.margins
+    tolerance = margins[:10].min() + 1e-12
+    stopped = nirl(demonstrations, tabular, iterations=50, tolerance=tolerance, seed=0)
+    assert len(stopped.history.margins) == np.argmax(margins <= tolerance)
 
 
 def test_the_same_seed_gives_the_same_numbers(terrain):

@@ -12,10 +12,10 @@ from robonav.nirl import (
     ENCODER,
     METHODS,
     NEUTRAL_TERMINAL_VALUES,
+    FullBatchDescent,
     LeastSquaresReward,
     ReplaySGD,
     RobotTask,
-    SingleGradientStep,
     accuracy,
     expert_transitions,
     from_all_states,
@@ -156,7 +156,7 @@ def test_one_trajectory_is_enough(demonstrations, method):
 def test_algorithm_10_to_the_letter_runs(demonstrations):
     to_the_letter = {
         "reward_update": LeastSquaresReward(),
-        "improver": SingleGradientStep(),
+        "improver": FullBatchDescent(),
         "score": accuracy,
     }
     learned = learn(demonstrations, seed=0, task=TASK, iterations=3, **to_the_letter)
