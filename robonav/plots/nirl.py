@@ -10,6 +10,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch, Wedge
 from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import ConvexHull
 
 from robonav import style
 from robonav.experiments import Results
@@ -86,6 +87,9 @@ def draw_margin(
     mu, rivals, theta = (
         np.asarray(part, dtype=float) for part in (expert, others, weights)
     )
+    if np.linalg.matrix_rank(rivals - rivals[0]) == 2:  # not all on a line
+        hull = rivals[ConvexHull(rivals).vertices]
+        axes.fill(*hull.T, color=style.GREY, alpha=0.2, linewidth=0)
     nearest = rivals[(rivals @ theta).argmax()]
     foot = mu - ((mu - nearest) @ theta) * theta
     for x, y in (mu, foot):

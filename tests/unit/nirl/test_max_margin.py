@@ -191,3 +191,42 @@ def test_an_expert_met_at_once_ends_it(terrain, guess):
     learned = learn(terrain, guess, first)
     assert len(learned.policies) == 1
     assert learned.distances.tolist() == [0]
+
+
+@pytest.mark.parametrize("guess", [projection_guess, max_margin_guess])
+@pytest.mark.parametrize("seed", range(5))
+def test_the_distance_keeps_the_bound_of_the_page(guess, seed):
+    """After n policies it is at most D / sqrt(n), where D is the largest distance between two policies."""
+    corners = np.random.default_rng(seed).normal(size=(30, 4))
+    diameter = np.linalg.norm(corners[:, None] - corners, axis=2).max()
+    expert = np.random.default_rng([seed, 1]).dirichlet(np.ones(30)) @ corners
+
+    def solve(weights):
+        k = int((corners @ weights).argmax())
+        return k, corners[k]
+
+    found = apprenticeship_learning(
+        expert, solve, (0, corners[0]), guess=guess, tolerance=0.0, iterations=60
+    )
+    n = np.arange(1, len(found.distances) + 1)
+    assert (found.distances <= diameter / np.sqrt(n) + 1e-9).all()
+
+
+def test_two_policies_by_hand():
+    """The numbers that the page works out by hand, for both methods."""
+    expert, first, second = (
+        np.array(mu) for mu in ([2.0, 2.0], [0.0, 2.0], [2.0, 0.0])
+    )
+    alone, both = (
+        maximum_margin(expert, [first]),
+        maximum_margin(expert, [first, second]),
+    )
+    np.testing.assert_allclose(alone.weights, [1, 0], atol=1e-12)
+    assert alone.margin == pytest.approx(2)
+    assert alone.weights @ (expert - second) == pytest.approx(0)
+    np.testing.assert_allclose(both.weights, np.sqrt([0.5, 0.5]))
+    assert both.margin == pytest.approx(np.sqrt(2))
+    np.testing.assert_allclose(project(first, second, expert), [1, 1])
+    weights, distance = projection_guess(expert, [first, second])
+    np.testing.assert_allclose(weights, [1, 1])
+    assert distance == pytest.approx(np.sqrt(2))
