@@ -373,11 +373,11 @@ def compiled_sarsa_descent(
 
 @dataclass(frozen=True)
 class FullBatchDescent:
-    """Gradient steps on the cost of all decisions of an iteration at once, as lines 9 and 10 of Algorithm 10 say.
+    """Gradient steps on the cost of all decisions of an iteration at once, for targets that stay.
 
-    Line 9 computes the targets of Eq. (5.16) once in an iteration; here they are clipped into [0, 1]. Line 10 minimises
-    the cost of Eq. (5.15) for these targets. The thesis does not say with how many gradient steps, so their number is a
-    choice. After the last decision of an episode the future value is 0.
+    Line 9 of Algorithm 10 computes the targets of Eq. (5.16) once in an iteration; here they are clipped into [0, 1].
+    Line 10 minimises the cost of Eq. (5.15) for these targets. The thesis does not say with how many gradient steps, so
+    their number is a choice. After the last decision of an episode the future value is 0.
 
     Attributes
     ----------
