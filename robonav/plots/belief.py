@@ -200,11 +200,11 @@ def draw_pomdp(axes: Axes) -> None:
         "reward": -1.0,
     }
     names = {
-        "action": "a",
+        "action": "A",
         "belief": "b",
-        "observation": "o",
-        "state": "s",
-        "reward": "r",
+        "observation": "O",
+        "state": "S",
+        "reward": "R",
     }
     colours = {
         "action": style.ORANGE,
@@ -248,8 +248,8 @@ def draw_pomdp(axes: Axes) -> None:
                 mutation_scale=10,
                 color=style.INK,
                 linewidth=0.9,
-                shrinkA=13,
-                shrinkB=13,
+                shrinkA=14,
+                shrinkB=14,
                 connectionstyle=f"arc3,rad={-bent}",
             )
         )
@@ -258,7 +258,7 @@ def draw_pomdp(axes: Axes) -> None:
             x, y = node(kind, time)
             hidden = kind == "state"
             axes.plot(
-                x, y, "o", markersize=24, markerfacecolor=to_rgba(colours[kind], 0.25), markeredgecolor=colours[kind],
+                x, y, "o", markersize=26, markerfacecolor=to_rgba(colours[kind], 0.15), markeredgecolor=colours[kind],
                 markeredgewidth=1.5, linestyle="none",
             )  # fmt: skip
             axes.annotate(f"${letter}_{{{index}}}$", (x, y), ha="center", va="center")
