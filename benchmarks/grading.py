@@ -35,14 +35,14 @@ def answer(
     if chance.random() < hostile:
         return HOSTILE.format(name=exercise.name)
     if draw < 0.55:
-        return (course.solutions / exercise.file).read_text()
+        return (course.solutions / exercise.file).read_text("utf-8")
     if draw < 0.7:
-        return (course.solutions / "otherwise" / exercise.file).read_text()
+        return (course.solutions / "otherwise" / exercise.file).read_text("utf-8")
     if draw < 0.9:
         wrong = chance.choice(sorted(mistakes(course, exercise)))
-        return (
-            course.solutions / "wrong" / exercise.file
-        ).read_text() + f"\n\n{exercise.name} = {wrong}\n"
+        return (course.solutions / "wrong" / exercise.file).read_text(
+            "utf-8"
+        ) + f"\n\n{exercise.name} = {wrong}\n"
     return f"def {exercise.name}(*arguments):\n    {STUB.format(name=exercise.name)}\n"
 
 
@@ -52,7 +52,7 @@ def a_class(course: Course, folder: Path, students: int, hostile: float) -> None
         for exercise in course.exercises.values():
             path = folder / f"student{number:06}" / exercise.file
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(answer(course, exercise, chance, hostile))
+            path.write_text(answer(course, exercise, chance, hostile), "utf-8")
 
 
 def adopt_orphans() -> None:

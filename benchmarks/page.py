@@ -148,7 +148,7 @@ def main() -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "growth.json")
             text = printed("growth.py", ("--json", str(path)))
-            draw_growth(json.loads(path.read_text()))
+            draw_growth(json.loads(path.read_text("utf-8")))
         parts.append(GROWTH.format(text=text))
         shown(len(SCRIPTS) + 1, len(SCRIPTS) + 1)
     with atomic.atomic_write(BOOK / "benchmarks.md") as file:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 PARTIAL = ".partial-"
+LONGEST_PREFIX = 40  # characters, so that the temporary name is not too long either
 
 
 def remove_partial_files(folder: str | Path) -> None:
@@ -23,23 +25,35 @@ def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
     """Open ``path`` for binary writing. The file appears, complete, when the block ends without an error.
 
     The bytes go to a temporary file in the same folder, which is renamed at the end. A reader therefore never sees half
-    a file, even if the writer is killed.
+    a file, even if the writer is killed. A link stays a link, and a file that exists keeps its permissions. What is no
+    regular file, such as a device or a pipe, is written to as it is.
     """
-    target = Path(path)
+    target = Path(path).resolve()  # a link's target, so that the link stays
+    if target.exists() and not target.is_file():
+        with target.open("wb") as file:
+            yield file
+        return
     target.parent.mkdir(parents=True, exist_ok=True)
     descriptor, temporary = tempfile.mkstemp(
-        dir=target.parent, prefix=f".{target.name}{PARTIAL}"
+        dir=target.parent, prefix=f".{target.name[:LONGEST_PREFIX]}{PARTIAL}"
     )
     try:
         with os.fdopen(descriptor, "wb") as file:
             yield file
             file.flush()
             os.fsync(file.fileno())
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)
+        os.chmod(temporary, _permissions(target))
         os.replace(temporary, target)
     except BaseException:
         with suppress(FileNotFoundError):
             os.unlink(temporary)
         raise
+
+
+def _permissions(target: Path) -> int:
+    """Return the permissions of a file that exists, or those that a new file gets."""
+    if target.exists():
+        return stat.S_IMODE(target.stat().st_mode)
+    umask = os.umask(0)
+    os.umask(umask)
+    return 0o666 & ~umask

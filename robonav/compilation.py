@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import warnings
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal
@@ -12,7 +14,9 @@ from numba import njit
 from numba.core.caching import FunctionCache
 
 
-def compiler(*used: ModuleType, inline: bool = False) -> Callable[[Any], Any]:
+def compiler(
+    *used: ModuleType, inline: bool = False, signature: str = ""
+) -> Callable[[Any], Any]:
     """Return a decorator that compiles kernels and caches them on disk.
 
     numba recompiles a cached kernel when its own file changes, but not when a file changes whose kernels it calls.
@@ -25,6 +29,8 @@ def compiler(*used: ModuleType, inline: bool = False) -> Callable[[Any], Any]:
     inline : bool
         Whether numba copies the decorated functions into the kernels that call them. Use it where a call with many
         arrays costs more than the work of the function.
+    signature : str
+        numba's types of the arguments and the result, if the functions are to be compiled for these types alone.
     """
     where: Literal["always", "never"] = "always" if inline else "never"
     digests = tuple(
@@ -38,7 +44,23 @@ def compiler(*used: ModuleType, inline: bool = False) -> Callable[[Any], Any]:
 
     def compiled(function: Any) -> Any:
         kernel: Any = njit(nogil=True, error_model="numpy", inline=where)(function)
-        kernel._cache = Cache(function)
+        try:
+            kernel._cache = Cache(function)
+        except RuntimeError:  # no folder to write in: see NUMBA_CACHE_DIR
+            warn_without_cache()
+        if signature:
+            kernel.compile(signature)
+            kernel.disable_compile()
         return kernel
 
     return compiled
+
+
+@cache
+def warn_without_cache() -> None:
+    """Warn, once in a process, that compiled functions cannot be kept."""
+    warnings.warn(
+        "robonav compiles its fast functions anew in each process, which takes some seconds: neither its folder nor "
+        "the home folder can be written to. Set NUMBA_CACHE_DIR to a folder that can",
+        stacklevel=2,
+    )

@@ -50,7 +50,7 @@ class CourseExercises(SphinxDirective):
             f"{exercise.difficulty}, about {exercise.minutes} minutes, {exercise.points} points; "
             f"belongs to the page {{doc}}`{exercise.page}`"
         )
-        source = stub.read_text()
+        source = stub.read_text("utf-8")
         asked = f"*{about[0].upper()}{about[1:]}.*\n\n{question(source)}"
         parts = [
             f"({key})=\n## {exercise.id} {exercise.title}",
@@ -70,7 +70,7 @@ class CourseExercises(SphinxDirective):
         lines = [
             line
             for line in code(
-                (course.solutions / exercise.file).read_text()
+                (course.solutions / exercise.file).read_text("utf-8")
             ).splitlines()
             if "### " not in line
         ]

@@ -69,7 +69,7 @@ def built(course: Course) -> dict[str, str]:
     files = {"exercises/README.md": _readme(course)}
     for chapter, exercises in course.chapters():
         sources = {
-            exercise: (course.solutions / exercise.file).read_text()
+            exercise: (course.solutions / exercise.file).read_text("utf-8")
             for exercise in exercises
         }
         stubs = {
@@ -92,7 +92,7 @@ def outdated(course: Course) -> list[str]:
     differ = [
         name
         for name in files
-        if name in present and (course.root / name).read_text() != files[name]
+        if name in present and (course.root / name).read_text("utf-8") != files[name]
     ]
     return sorted({*differ, *(set(files) ^ present)})
 

@@ -3,12 +3,13 @@
 import os
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
-from robonav.compilation import compiler
+from robonav.compilation import compiler, warn_without_cache
 
 
 def add_one(x):
@@ -54,3 +55,17 @@ def test_no_index_leaves_its_array(tmp_path):
     )
     assert run.returncode == 0, run.stderr
     assert run.stdout.split()[-1] == "train"
+
+
+def test_without_a_folder_for_the_cache_one_warning_names_the_remedy(monkeypatch):
+    monkeypatch.setattr("robonav.compilation.FunctionCache.__init__", cannot_cache)
+    warn_without_cache.cache_clear()
+    with pytest.warns(UserWarning, match="Set NUMBA_CACHE_DIR"):
+        assert compiler()(add_one)(2) == 3
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert compiler(signature="i8(i8)")(add_one)(3) == 4
+
+
+def cannot_cache(self, function):
+    raise RuntimeError(f"cannot cache function {function.__name__}: no locator")

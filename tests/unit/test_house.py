@@ -213,3 +213,13 @@ def test_plain_pytest_has_no_option_of_the_grader(tmp_path: Path) -> None:
     assert "--basetemp" in run.stdout
     assert "--secret" not in run.stdout
     assert "--submission" not in run.stdout
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.stem)
+def test_text_is_read_and_written_as_utf8(path: Path) -> None:
+    """On Windows the locale's encoding is another one."""
+    for call in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Attribute):
+            named = {keyword.arg for keyword in call.keywords}
+            places = {"read_text": 1, "write_text": 2}.get(call.func.attr, 0)
+            assert len(call.args) >= places or "encoding" in named, ast.unparse(call)

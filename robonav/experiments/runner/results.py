@@ -63,7 +63,7 @@ def save_run(path: Path, rows: Iterable[Row], seconds: float) -> None:
 def load_run(path: Path) -> tuple[list[Row], float] | None:
     """Return the rows of a finished run and its seconds, or None if there is no file or it is damaged."""
     try:
-        content = json.loads(path.read_text())
+        content = json.loads(path.read_text("utf-8"))
         if content["sha256"] != _digest(content["rows"]):
             return None
         rows = [
@@ -153,7 +153,7 @@ def load_results(name: str, folder: str | Path = RESULTS) -> pd.DataFrame:
     path = Path(folder) / f"{name}.csv"
     try:
         content = path.read_bytes()
-        description = path.with_suffix(".json").read_text()
+        description = path.with_suffix(".json").read_text("utf-8")
     except FileNotFoundError as error:
         raise FileNotFoundError(
             f"results of {name} must be in {path.parent}, but {Path(error.filename).name} is missing there: run "
@@ -214,7 +214,7 @@ def read_results(experiment: Experiment | str, folder: str | Path = RESULTS) -> 
         cases = [places[case] for case in zip(*(table[key].astype(str) for key in keys), strict=True)]  # fmt: skip
         frame = table.drop(columns=keys)
         frame.insert(0, "case", cases)
-        return Results(experiment, json.loads(path.read_text())["scale"], frame)
+        return Results(experiment, json.loads(path.read_text("utf-8"))["scale"], frame)
     except KeyError:
         raise ValueError(
             f"{path.stem}.csv must hold results of {experiment.name}, but is damaged or belongs to another experiment"
@@ -244,7 +244,7 @@ def save_timing(
 
 def machine() -> dict[str, Any]:
     """Return a description of the machine: processor, available cores, system, and versions of libraries."""
-    told = Path("/proc/cpuinfo").read_text() if sys.platform == "linux" else ""
+    told = Path("/proc/cpuinfo").read_text("utf-8") if sys.platform == "linux" else ""
     named = re.search(r"model name\s*: (.+)", told)
     return {
         "machine": platform.machine(),

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from robonav.compilation import compiler
 
@@ -35,7 +34,7 @@ def _mix(x):
 
 
 # one signature: otherwise each literal argument compiles another, for 2 s
-@njit("f8(u4[::1], i8, i8, i8, i8)", cache=True, nogil=True, error_model="numpy")
+@compiler(signature="f8(u4[::1], i8, i8, i8, i8)")
 def uniform(key, purpose, step, item, draw):
     """Return a number in [0, 1) from a world's key (2,) and a counter: 8 draws an item, 1024 items a step."""
     counter = np.uint64((step * ITEMS + item) * 8 + draw)
