@@ -41,8 +41,8 @@ class Scheme:
     arrows: tuple[Arrow, ...]
 
 
-SIZE = (6.45, 2.8)
-WIDTH, HEIGHT = 0.64, 0.54  # of a box, in cells of the grid
+SIZE = (5.0, 3.1)
+WIDTH, HEIGHT = 0.58, 0.54  # of a box, in cells of the grid
 
 SCHEMES: dict[str, Scheme] = {
     "demonstration": Scheme(
@@ -64,7 +64,7 @@ SCHEMES: dict[str, Scheme] = {
         },
         (
             Arrow("expert", "data", {"en": "drives", "fr": "conduit"}),
-            Arrow("data", "network", {"en": "train", "fr": "entraînent"}),
+            Arrow("data", "network", {"en": "train", "fr": "forment"}),
             Arrow(
                 "network", "policy", {"en": "becomes", "fr": "devient"}, shift=(0.24, 0)
             ),
@@ -88,8 +88,8 @@ SCHEMES: dict[str, Scheme] = {
         {
             "world": Box(
                 {
-                    "en": "map, new each\nepisode",
-                    "fr": "carte, nouvelle\nà chaque fois",
+                    "en": "map, new\neach\nepisode",
+                    "fr": "carte,\nnouvelle à\nchaque fois",
                 },
                 0,
                 0.5,
@@ -240,7 +240,7 @@ def _draw_box(axes: Axes, box: Box, language: str) -> None:
         box.texts[language],
         ha="center",
         va="center",
-        fontsize=10.5,
+        fontsize=9.5,
     )
 
 
@@ -268,7 +268,7 @@ def _draw_arrow(axes: Axes, drawn: Scheme, arrow: Arrow, language: str) -> None:
         arrow.texts[language],
         ha="center",
         va="center",
-        fontsize=9,
+        fontsize=9.5,
         style="italic",
     )
 
