@@ -1,4 +1,4 @@
-# make book, make lab, make check and make test each set up .venv if it is missing. They need Python 3.11 or later.
+# make open, make book, make lab, make check and make test each set up .venv if it is missing. They need Python 3.11 or later.
 #
 #   PYTHON   the interpreter for .venv
 #   PIP_OPTIONS   options of every pip install, for instance an extra index with PyTorch's CPU builds
@@ -22,24 +22,33 @@ INSTALLED := .venv/.installed
 TORCH := $(shell grep '^torch==' requirements.lock)
 EXTRAS := book,lab,grading,cluster,tests,benchmarks
 
-.PHONY: help book pdf check test lab lock clean
+.PHONY: help open install book pdf check test lab lock clean
 help:
+	@echo "make open   build the book and open it in the browser"
+	@echo "make test   run every check and every test"
 	@echo "make book   build the book into _build/html"
 	@echo "make pdf    print the built book to _build/robonav.pdf; needs Chromium"
 	@echo "make check  run lint, types, doctests and quick tests, in at most two minutes"
-	@echo "make test   run every check and every test"
 	@echo "make lab    open JupyterLab on the notebooks"
+	@echo "make install set up .venv, which every other command does when it is needed"
 	@echo "make lock   write requirements.lock from the newest versions that pyproject.toml allows"
 	@echo "make clean  remove everything that was built, except .venv"
 
 # PyTorch comes first, because the resolver may choose another build, which is gigabytes larger.
+# The editable installation is a path, not an import hook: Python would otherwise take a clone's folder named robonav,
+# seen from the folder above it, for the package.
 $(INSTALLED): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "robonav needs Python 3.11 or later; set PYTHON=")'
 	$(BIN)/python -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv --clear .venv
 	$(BIN)/python -m pip install --quiet $(PIP_OPTIONS) '$(TORCH)'
 	$(BIN)/python -m pip install --quiet $(PIP_OPTIONS) -r requirements.lock
-	$(BIN)/python -m pip install --quiet --no-deps --editable .
+	$(BIN)/python -m pip install --quiet --no-deps --editable . --config-settings editable_mode=compat
 	touch $@
+
+install: $(INSTALLED)
+
+open: book
+	$(BIN)/python -m webbrowser "file://$(CURDIR)/_build/html/index.html"
 
 book: $(INSTALLED)
 	$(BIN)/python book/_ext/execute_notebooks.py
