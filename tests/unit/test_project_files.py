@@ -29,7 +29,7 @@ WITH_COMMANDS = [
 @pytest.mark.parametrize("name", WITH_COMMANDS)
 def test_every_make_command_exists(name: str) -> None:
     text = (ROOT / name).read_text("utf-8")
-    named = set(re.findall(r"(?:^ *|`|run: |RUN )make ([a-z]+)", text, re.M))
+    named = set(re.findall(r"(?:^ *|[`\"]|run: |RUN )make ([a-z]+)", text, re.M))
     named |= set(re.findall(r'"make", "([a-z]+)"', text))
     assert named or name == "RELEASING.md"
     assert named <= TARGETS
