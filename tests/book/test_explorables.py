@@ -250,7 +250,7 @@ def chapter_pages() -> list[str]:
     files = [
         chapter["file"]
         for part in parts
-        if part["caption"].startswith("Chapter")
+        if re.match(r"Chapter [2-5]", part["caption"])
         for chapter in part["chapters"]
     ]
     return [file for file in files if "exercises" not in file]
