@@ -67,8 +67,8 @@ function render({ model, el }) {
   const table = ranking();
   const showTable = () => table.show([...(now ? [now] : []), ...robots, ...baselines.filter(({ outcomes }) => outcomes.length)], { ...trial, obstacles: 10 });
   const panel = trainingPanel({
-    source: model.get("_esm"), action: "Train", unit: "iterations", total: () => LEARNING.iterations,
-    lines: [{ name: "cost", label: "cost J" }, { name: "agreement", label: "agreement (%)", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) }],
+    source: model.get("_esm"), title: "Learn from the demonstrations and your corrections, and test the robot in new maps", action: "Train", unit: "iterations", total: () => LEARNING.iterations,
+    lines: [{ name: "cost", label: "cost J", note: COST_NOTE }, { name: "agreement", label: "agreement (%)", note: AGREEMENT_NOTE, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) }],
     begin: () => {
       finish();
       const examples = examplesFrom(dataset());
@@ -99,6 +99,7 @@ function render({ model, el }) {
     cancelled: () => {
       now = null;
       showTable();
+      return "This robot is dropped; your corrections and the robots in the table stay.";
     },
   });
   const first = choice({ label: "the robot first learns from", options: BASES, change: (index) => {

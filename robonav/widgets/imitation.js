@@ -60,6 +60,10 @@ export function* imitate({ examples, network, sizes, seed, regularisation, itera
 
 // ---- What the reader sees -------------------------------------------------------------------------------------------
 
+/** What the two curves of a training by demonstrations show. */
+export const COST_NOTE = "How far the outputs of the network are from the demonstrated actions, with the penalty on large weights.";
+export const AGREEMENT_NOTE = "How many of the demonstrated steps the network decides as the demonstrator did.";
+
 const percent = (share) => (100 * share).toFixed(1);
 
 /** How often some maps were crossed. @param {string[]} outcomes */

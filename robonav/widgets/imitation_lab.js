@@ -60,10 +60,12 @@ function render({ model, el }) {
     place.replaceChildren(count.element);
     tell();
   };
-  const list = (label, options, key, text = String) => choice({ label, options: options.map(text), value: options.indexOf(settings[key]), change: (index) => { settings[key] = options[index]; if (key === "obstacles") otherMaps(); tell(); } });
+  const list = (label, hint, options, key) => choice({ label, hint, options: options.map(String), value: options.indexOf(settings[key]), change: (index) => { settings[key] = options[index]; if (key === "obstacles") otherMaps(); tell(); } });
   const controls = [
-    list("hidden units", HIDDEN, "hidden"), list("regularisation λ", DECAYS, "regularisation"), list("iterations of L-BFGS", ITERATIONS, "iterations"),
-    list("obstacles in the new maps", OBSTACLES, "obstacles"),
+    list("hidden units", "The size of the network.", HIDDEN, "hidden"),
+    list("strength of regularisation λ", "The larger it is, the smaller the weights stay.", DECAYS, "regularisation"),
+    list("steps of learning: iterations of L-BFGS", "L-BFGS is a method that lowers the cost fast.", ITERATIONS, "iterations"),
+    list("obstacles in the new maps", "", OBSTACLES, "obstacles"),
   ];
   const seeds = slider({ label: "initial weights drawn with seed", count: 10, text: String, change: (at) => { settings.seed = at; tell(); } });
 
@@ -105,10 +107,10 @@ function render({ model, el }) {
   };
   let brought = null; // a network from a file, to be tried
   const panel = trainingPanel({
-    source: model.get("_esm"), action: "Train", unit: "iterations", total: () => settings.iterations,
+    source: model.get("_esm"), title: "Learn a policy from the demonstrations, and test it in new maps", action: "Train", unit: "iterations", total: () => settings.iterations,
     lines: [
-      { name: "cost", label: "cost J" },
-      { name: "agreement", label: "agreement (%)", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
+      { name: "cost", label: "cost J", note: COST_NOTE },
+      { name: "agreement", label: "agreement (%)", note: AGREEMENT_NOTE, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
     ],
     begin: () => {
       if (brought) {
@@ -137,6 +139,7 @@ function render({ model, el }) {
       now = null;
       if (baselines.some(({ outcomes }) => outcomes.length < trial.maps)) for (const each of baselines) each.outcomes = [];
       showTable();
+      return "This robot is dropped; those in the table stay.";
     },
   });
   const several = numberOfRobots();
@@ -145,8 +148,8 @@ function render({ model, el }) {
   const kernel = kernelPanel({
     model, title: "The same settings in Python: several robots", unit: "iterations", total: () => settings.iterations, controls: [several.element, tryBest],
     lines: [
-      { name: "cost", label: "mean cost J" },
-      { name: "agreement", label: "mean agreement (%)", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
+      { name: "cost", label: "mean cost J", note: `${COST_NOTE} The mean over the robots.` },
+      { name: "agreement", label: "mean agreement (%)", note: `${AGREEMENT_NOTE} The mean over the robots.`, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
     ],
     request: () => {
       const learnedFrom = chosen();

@@ -73,7 +73,7 @@ function render({ model, el }) {
     if (k < until) mine[k].title = `95 % interval: ${wilsonInterval(count, each).map(percent).join(" to ")}`;
   });
   const panel = trainingPanel({
-    source, action: "Try this robot in the frozen worlds", unit: "episode", total: () => settings.length * each, lines: [],
+    source, title: "Drive the frozen worlds of every setting", busy: "It drives.", action: "Try this robot in the frozen worlds", unit: "episode", total: () => settings.length * each, lines: [],
     begin: () => {
       const robot = robots()[which.selectedIndex];
       if (!robot) return "There is no robot yet: train one on a page of chapter 3, 4 or 5, or choose a file of weights.";
@@ -84,6 +84,7 @@ function render({ model, el }) {
       return { job: boardJob, argument: { policy: robot, settings: settings.map(({ conditions }) => conditions), seeds: chosen, worlds } };
     },
     live: (news) => show(news.at(-1).arrived, news.at(-1).setting),
+    cancelled: () => "The settings that were finished stay in the table.",
     done: (arrived) => {
       show(arrived, arrived.length);
       const first = arrived.map((count, k) => {

@@ -47,6 +47,9 @@ const CHOICES = {
   inputs: { key: "inputs", label: "target's sector", options: [["number", "a number, 1 to 9"], ["signed", "right to left, -1 to 1"], ["one-hot", "nine inputs, one of them 1"], ["sine-cosine", "sine and cosine"], ["raw", "a number; no input is scaled"]] },
 };
 
+const EXPLORATION_HINT = "The higher the temperature, the more random the actions. It falls from the start to the end of the training.";
+const LEARNING_HINT = "The discount γ says how much a reward counts that comes a step later. The learning rate α says how far a value moves to its new estimate. "
+  + "The step of gradient descent σ says how far the weights then move, in each of several passes through the pairs of state and values. Both are multiplied by the same factor in every episode, from start to end.";
 const ADAM_STEP = [0.003, 0.003]; // the steps of the other methods are too large for DQN
 /** Whether a method takes no notice of a setting. */
 const idle = (method, { key, part = 0 }) => method === "dqn" && (["learningRate", "passes", "rescale"].includes(key) || (key === "gradientStep" && part === 1));
@@ -90,7 +93,7 @@ function settingsForm({ table, open, first, change }) {
       input.toggleAttribute("data-wrong", wrong !== "");
       input.setAttribute("aria-invalid", String(wrong !== ""));
       if (wrong === "") settings = written(settings, field, input.valueAsNumber);
-      change(wrong);
+      change();
     });
     return input;
   };
@@ -100,7 +103,7 @@ function settingsForm({ table, open, first, change }) {
     const one = choice({ label, options: options.map(([, text]) => text), change: (index) => {
       settings = { ...settings, [key]: options[index][0] };
       if (key === "method") put({ ...settings, gradientStep: settings.method === "dqn" ? ADAM_STEP : first.gradientStep });
-      change("");
+      change();
     } });
     lists.push(() => {
       one.move(options.findIndex(([value]) => value === settings[key]));
@@ -108,6 +111,7 @@ function settingsForm({ table, open, first, change }) {
     });
     return one.element;
   };
+  const hints = (text) => h("p", { class: "told" }, text);
   const row = (...children) => h("div", { class: "row" }, ...children);
   const group = (name, title, ...children) => h("details", { open: open.includes(name) }, h("summary", {}, title), ...children);
   const rewardFields = table.map(({ before, after, condition }, part) => rewardField(part, `${before} to ${after}${condition ? `, ${condition}` : ""}`));
@@ -115,8 +119,8 @@ function settingsForm({ table, open, first, change }) {
     h("label", {}, h("span", {}, `${before} → ${after}`, h("small", {}, condition)), numberInput(rewardFields[part]))));
   const element = h("div", { class: "settings" },
     group("reward", "Reward: Table 4.1", rewards, row(list("evading"))),
-    group("exploration", "Exploration", row(...NUMBERS.exploration.map(labelled))),
-    group("learning", "Learning", row(list("method"), list("rescale"), list("inputs"), ...NUMBERS.learning.map(labelled))),
+    group("exploration", "Exploration", hints(EXPLORATION_HINT), row(...NUMBERS.exploration.map(labelled))),
+    group("learning", "Learning", hints(LEARNING_HINT), row(list("method"), list("rescale"), list("inputs"), ...NUMBERS.learning.map(labelled))),
     group("robot", "Robot and maps", row(...NUMBERS.robot.map(labelled))));
   /** Puts other settings into the form. */
   const put = (other) => {
@@ -129,10 +133,11 @@ function settingsForm({ table, open, first, change }) {
     }
     lists.forEach((fill) => fill());
   };
-  /** What is wrong with the form, in one sentence, or nothing; the first wrong field gets the focus. */
-  const wrong = () => {
+  /** What is wrong with the form, in one sentence, or nothing; with `focus` the first wrong field gets the focus. */
+  const wrong = ({ focus = true } = {}) => {
     const found = fields.find(({ field, input }) => complaint(field, input.valueAsNumber) !== "");
     if (!found) return "";
+    if (!focus) return complaint(found.field, found.input.valueAsNumber);
     const group_ = found.input.closest("details");
     if (group_) group_.open = true;
     found.input.focus();
@@ -236,9 +241,9 @@ function trialTable() {
 const FIG_42 = [0, 19, 49, 99, 149, 199, 249, 299].map((episode) => episode / 299);
 const VIEWS = ["the episodes of the training", "new maps where it failed", "new maps that it crossed"];
 const LINES = [
-  { name: "successes", label: "arrivals in 30", colour: PALETTE.GREEN, high: BLOCK, text: String },
-  { name: "first", label: "change of W(1)", text: (value) => value.toFixed(0) },
-  { name: "second", label: "change of W(2)", colour: PALETTE.ORANGE, text: (value) => value.toFixed(0) },
+  { name: "successes", label: "arrivals in 30", note: "How many of the last 30 episodes arrived.", colour: PALETTE.GREEN, high: BLOCK, text: String },
+  { name: "first", label: "change of W(1)", note: "How much the weights between inputs and hidden units changed in an episode: the sum of the absolute changes.", text: (value) => value.toFixed(0) },
+  { name: "second", label: "change of W(2)", note: "The same for the weights between hidden units and outputs.", colour: PALETTE.ORANGE, text: (value) => value.toFixed(0) },
 ];
 
 /** A map to look back on a run: its episodes, or the new maps that it drove, second by second. */
@@ -336,8 +341,8 @@ function severalRobots({ model, form }) {
   return kernelPanel({
     model, title: "The same settings in Python: several robots", unit: "robot", total: robots.value, controls: [robots.element],
     lines: [
-      { name: "last", label: "arrivals, last 100", high: 100, text: (value) => value.toFixed(0) },
-      { name: "maps", label: "new maps (%)", colour: PALETTE.GREEN, high: 100, text: (value) => value.toFixed(0) },
+      { name: "last", label: "arrivals, last 100", note: "How many of the last 100 episodes of a robot arrived.", high: 100, text: (value) => value.toFixed(0) },
+      { name: "maps", label: "new maps (%)", note: "How many new maps a robot crosses.", colour: PALETTE.GREEN, high: 100, text: (value) => value.toFixed(0) },
     ],
     request: () => form.wrong() || { settings: form.settings(), robots: robots.value() },
   });
@@ -350,12 +355,12 @@ function render({ model, el }) {
 
   const note = h("p", { class: "note", role: "status" });
   const setting = h("p", { class: "told" });
-  const tell = (wrong = "") => {
-    note.textContent = wrong;
+  const tell = () => {
+    note.textContent = form.wrong({ focus: false });
     const changes = form.changes();
-    setting.textContent = `${changes.length > 0 ? `Changed: ${changes.join("; ")}.` : "Nothing is changed."} After its training the robot is tested in ${maps} new maps.`;
+    setting.textContent = note.textContent ? "" : `${changes.length > 0 ? `Changed: ${changes.join("; ")}.` : "Nothing is changed."} After its training the robot is tested in ${maps} new maps.`;
   };
-  const form = settingsForm({ table, open, first, change: (wrong) => tell(wrong) });
+  const form = settingsForm({ table, open, first, change: () => tell() });
   /** Other settings in the form, with the reader's own seed and number of episodes. */
   const put = (settings) => {
     const { seed, episodes } = form.settings();
@@ -393,10 +398,13 @@ function render({ model, el }) {
     if (run.episodes.length > 0) map.open(run, 0, run.episodes.length - 1);
   };
   const panel = trainingPanel({
-    source: model.get("_esm"), action: "Train", unit: "episode", total: () => form.settings().episodes, lines: LINES,
+    source: model.get("_esm"), title: "Learn by trial and reward, and drive new maps", action: "Train", unit: "episode", total: () => form.settings().episodes, lines: LINES,
     begin: () => {
       const wrong = form.wrong();
-      if (wrong !== "") return wrong;
+      if (wrong !== "") {
+        note.textContent = ""; // it is said once, below the button
+        return wrong;
+      }
       if (run?.network) [before] = trialRows(run.tests.map(({ outcomes }) => outcomes));
       run = { settings: form.settings(), maps, episodes: [], tests: [], network: null };
       map.hide();
@@ -419,7 +427,10 @@ function render({ model, el }) {
       ended();
       return verdict(run);
     },
-    cancelled: ended,
+    cancelled: () => {
+      ended();
+      return "What the robot learned is dropped; its episodes so far stay below, to be looked at.";
+    },
   });
 
   const kernel = severalRobots({ model, form });

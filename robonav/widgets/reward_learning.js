@@ -21,14 +21,31 @@ export function* rewardJob({ inputs, actions, settings, seed, reward }) {
   }
 }
 
-/** The cells of a map, and what a robot that faces the target perceives in each; cells inside things are left out. */
+/**
+ * The job of the page: a reward and a policy, and then the policy in new maps beside others. Its result is a reward job's;
+ * that it is there already is said before the maps are driven.
+ */
+export function* learnAndTry({ learning, trial }) {
+  const run = rewardJob(learning);
+  let step = run.next();
+  for (; !step.done; step = run.next()) yield { ...step.value, total: step.value.total + trial.count };
+  const found = step.value;
+  const { iterations, encoder } = learning.settings;
+  yield { done: iterations, total: iterations + trial.count, live: { found } };
+  const policies = [{ network: found.network, encoder }, ...trial.policies];
+  for (const { done, live } of trialsJob({ ...trial, policies })) yield { done: iterations + done, total: iterations + trial.count, live: { tried: live } };
+  return found;
+}
+
+/** The cells of a map where a reward decides, and what a robot that faces the target perceives in each: something is in range, and nothing is hit. */
 export function mapCells(world, { encoder }) {
   const cells = [];
   for (let y = HEAT_CELL / 2; y < world.size; y += HEAT_CELL) {
     for (let x = HEAT_CELL / 2; x < world.size; x += HEAT_CELL) {
       const pose = { x, y, heading: Math.atan2(world.target[1] - y, world.target[0] - x) };
       const sensing = sense(world, pose);
-      if (Math.min(...sensing.ranges) > 0) cells.push({ x, y, input: encode(encoder, sensing) });
+      const nearest = Math.min(...sensing.ranges);
+      if (nearest >= ROBOT.collision && nearest < ROBOT.range) cells.push({ x, y, input: encode(encoder, sensing) });
     }
   }
   return cells;
@@ -42,6 +59,9 @@ export function rewardMap(theta, cells, action) {
   });
 }
 
+/** The mean reward over the cells of a map. */
+export const meanReward = (cells) => cells.reduce((sum, { reward }) => sum + reward, 0) / Math.max(1, cells.length);
+
 /** What stands in each column of theta. */
 const featureNames = ({ sensors }) => [...sensors.map((s) => `danger in sector ${s}`),
   "target: sine of its direction", "target: cosine of its direction", "target seen", ...sensors.map((s) => `wall in sector ${s}`), "constant"];
@@ -52,16 +72,20 @@ function render({ model, el }) {
   let [settings, found, shownAction, second] = [{ ...NIRL_SETTINGS, seed: 0 }, null, 0, { obstacles: 10, moving: 10, speed: 2 }];
   let chosen = 0;
   const others = policies.map(({ name, rule, network, encoder }) => ({ name, policy: rule ? { rule } : { network: networks(network)(), encoder } }));
-  const number = (label, value, { step = 1, least, most }, change) => {
+  const number = (label, value, { step = 1, least, most, hint = "" }, change) => {
     const input = h("input", { type: "number", value, step, min: least, max: most, "aria-label": label, change: () => {
       const typed = input.valueAsNumber;
       const right = Number.isFinite(typed) && typed >= least && typed <= most && (step !== 1 || Number.isInteger(typed));
-      complain.textContent = right ? "" : `${label} must be ${step === 1 ? "a whole number" : "a number"} from ${least} to ${most}.`;
+      const sentence = right ? "" : `${label} must be ${step === 1 ? "a whole number" : "a number"} from ${least} to ${most}.`;
+      if (right) wrong.delete(label);
+      else wrong.set(label, sentence);
+      [complain.textContent = ""] = wrong.values();
       input.setAttribute("aria-invalid", String(!right));
       if (right) change(typed);
     } });
-    return h("label", {}, h("span", {}, label), input);
+    return h("label", {}, h("span", {}, label), input, ...hintBelow(hint));
   };
+  const wrong = new Map(); // the sentence on each wrong number
   const complain = h("p", { class: "status", role: "alert" });
 
   // What was learned, as a picture
@@ -70,14 +94,17 @@ function render({ model, el }) {
   let places = null; // the map's cells, once there is a reward to draw
   const paint = (theta) => {
     board.begin(world.size);
+    let told = "";
     if (theta) {
       places ??= mapCells(world, settings);
       const cells = rewardMap(theta, places, shownAction);
-      const sizes = cells.map(({ reward }) => Math.abs(reward)).sort((a, b) => a - b);
+      const mean = meanReward(cells);
+      const sizes = cells.map(({ reward }) => Math.abs(reward - mean)).sort((a, b) => a - b);
       const strongest = sizes[Math.floor(0.95 * sizes.length)] || 1;
+      told = `They show how far it lies above or below its mean over the map, ${mean.toFixed(2)}.`;
       for (let shade = 1; shade <= HEAT_SHADES; shade += 1) {
         for (const [colour, sign] of [[PALETTE.BLUE, 1], [PALETTE.VERMILION, -1]]) {
-          const flat = cells.filter(({ reward }) => Math.min(HEAT_SHADES, Math.ceil((HEAT_SHADES * sign * reward) / strongest)) === shade).flatMap(({ x, y }) => [x, y]);
+          const flat = cells.filter(({ reward }) => Math.min(HEAT_SHADES, Math.ceil((HEAT_SHADES * sign * (reward - mean)) / strongest)) === shade).flatMap(({ x, y }) => [x, y]);
           board.dots(flat, 0, flat.length / 2, { colour, radius: 5, alpha: 0.13 * shade });
         }
       }
@@ -86,8 +113,8 @@ function render({ model, el }) {
     board.start(world.start);
     board.target(world.target);
     const of = shownAction < 0 ? "the largest reward of the five actions" : `the reward of the action ${ACTION_NAMES[shownAction]}`;
-    drawn.textContent = theta ? `The colours show ${of}, for a robot there that faces the target.` : `Once a reward is learned, colours will show ${of}.`;
-    board.canvas.setAttribute("aria-label", theta ? "Map of the learned reward: blue where the reward of the action is positive, red where it is negative" : "Map without a reward: nothing is learned yet");
+    drawn.textContent = theta ? `The colours show ${of}, for a robot there that faces the target. ${told}` : `Once a reward is learned, colours will show ${of}.`;
+    board.canvas.setAttribute("aria-label", theta ? "Map of the learned reward: blue where the reward of the action is above its mean over the map, red where it is below" : "Map without a reward: nothing is learned yet");
   };
   const table = h("div", { class: "scroll" });
   const list = (theta) => {
@@ -102,8 +129,9 @@ function render({ model, el }) {
 
   // How well a robot does in new maps
   const results = h("div", {});
-  const trials = (where, mine, name) => new Promise((resolve) => {
-    const all = [{ name, policy: mine }, ...others];
+  /** A table of the policies in new maps; gives a function that fills it. */
+  const trialsTable = (where, name) => {
+    const all = [{ name }, ...others];
     const rows = all.map(({ name: title }) => [h("th", { scope: "row" }, title), h("td", {}, "")]);
     const caption = h("caption", {}, "");
     results.replaceChildren(h("table", { class: "results" }, caption,
@@ -112,60 +140,79 @@ function render({ model, el }) {
     const show = (counts, n) => {
       caption.textContent = `${n} of ${maps} new maps: ${where.obstacles} standing and ${where.moving} moving obstacles, ${where.speed} m/s`;
       counts.forEach((count, k) => {
-        const [low, high] = wilsonInterval(count, n).map((rate) => Math.round(100 * rate));
-        rows[k][1].textContent = `${Math.round((100 * count) / n)} % [${low}, ${high}]`;
+        const [low, high] = wilsonInterval(count, Math.max(1, n)).map((rate) => Math.round(100 * rate));
+        rows[k][1].textContent = n ? `${Math.round((100 * count) / n)} % [${low}, ${high}]` : "…";
       });
     };
-    trial = startJob(source, trialsJob, { policies: all.map(({ policy }) => policy), seed, count: maps, conditions: where }, {
+    show(all.map(() => 0), 0);
+    return { show, say: (sentence) => (caption.textContent = sentence) };
+  };
+  const trialIn = (where) => ({ policies: others.map(({ policy }) => policy), seed, count: maps, conditions: where });
+  /** Lets a policy that was learned elsewhere drive the new maps. */
+  const tryPolicy = (where, policy, name) => {
+    tried = trialsTable(where, name);
+    const { show, say } = tried;
+    trial = startJob(source, trialsJob, { ...trialIn(where), policies: [policy, ...others.map((other) => other.policy)] }, {
       live: (news) => show(news.at(-1).arrived, news.at(-1).at),
-      done: (arrived) => { show(arrived, maps); resolve(); },
-      error: (sentence) => { caption.textContent = sentence; resolve(); },
+      error: say,
     });
-  });
-  let trial = null;
+  };
+  let [trial, tried] = [null, null];
   const lines = [
-    { name: "margin", label: "margin", low: null },
-    { name: "balanced", label: "bal. accuracy (%)", low: 0, high: 100, colour: PALETTE.GREEN },
-    { name: "arrived", label: "arrived (%)", low: 0, high: 100, colour: PALETTE.ORANGE },
+    { name: "margin", label: "margin", low: null, note: "By how much the reward prefers what the demonstrator did to what the policy does." },
+    { name: "balanced", label: "balanced accuracy (%)", note: "How many of the demonstrated decisions the policy takes too: the mean of the five actions' shares.", low: 0, high: 100, colour: PALETTE.GREEN },
+    { name: "arrived", label: "arrived (%)", note: "How many of the episodes of an iteration arrived.", low: 0, high: 100, colour: PALETTE.ORANGE },
   ].map((line) => ({ ...line, text: (value) => (line.high ? value.toFixed(0) : value.toPrecision(2)) }));
 
-  /** Shows a reward that was learned in the page or in Python, and lets its robot drive. */
-  const learned = (result, title, name) => {
+  /** Shows a reward that was learned in the page or in Python, and keeps its robot. */
+  const learned = (result, title) => {
     found = result;
-    keepRobot({ name: `${title}, ${names()[chosen]}`, network: found.network, encoder: settings.encoder });
+    kept = keepRobot({ name: `${title}, ${names()[chosen]}`, network: found.network, encoder: settings.encoder });
     paint(found.theta);
     list(found.theta);
     elsewhere.hidden = false;
     for (const each of [weights, reward]) each.disabled = false;
-    trials({ obstacles: settings.obstacles, moving: settings.moving, speed: settings.speed }, { network: found.network, encoder: settings.encoder }, name);
+  };
+  let kept = ""; // what the browser says where it does not keep the robot
+  const trained = () => ({ obstacles: settings.obstacles, moving: settings.moving, speed: settings.speed });
+  /** A training in the page with the trial of its policy: `accept` is given the reward as soon as it is learned. */
+  const training = ({ title, action, lines: drawn, name, where, argument, paints, accept, ends }) => {
+    let there = false;
+    return trainingPanel({
+      source, title, action, unit: "iteration", total: () => settings.iterations, lines: drawn,
+      begin: () => {
+        if (complain.textContent) return complain.textContent;
+        trial?.cancel();
+        const { inputs, actions } = decisions(chosen);
+        if (actions.length === 0) return NO_DECISION;
+        [there, tried] = [false, trialsTable(where(), name)];
+        return { job: learnAndTry, argument: { learning: { inputs, actions, ...argument() }, trial: trialIn(where()) } };
+      },
+      live: (news) => {
+        for (const item of news) {
+          if (item.found) {
+            there = true;
+            accept(item.found);
+          }
+          if (item.tried) tried.show(item.tried.arrived, item.tried.at);
+        }
+        if (paints && news.at(-1).theta) paint(news.at(-1).theta);
+      },
+      done: ends,
+      cancelled: () => (there ? "It had learned already, and stays; not all new maps were driven." : "Nothing of this run is kept."),
+    });
   };
 
-  const learn = trainingPanel({
-    source, action: "Learn the reward", unit: "iteration", total: () => settings.iterations, lines,
-    begin: () => {
-      if (complain.textContent) return complain.textContent;
-      trial?.cancel();
-      const { inputs, actions } = decisions(chosen);
-      if (actions.length === 0) return NO_DECISION;
-      return { job: rewardJob, argument: { inputs, actions, settings, seed: settings.seed, reward: null } };
-    },
-    live: (news) => paint(news.at(-1).theta),
-    done: (result) => {
-      learned({ ...result, method: "nirl" }, `NIRL, seed ${settings.seed}`, "your robot");
-      return `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept.`;
-    },
+  const learn = training({
+    title: "Learn a reward and a policy for it, and drive new maps", action: "Learn the reward", lines, name: "your robot", paints: true,
+    where: trained, argument: () => ({ settings, seed: settings.seed, reward: null }),
+    accept: (result) => learned({ ...result, method: "nirl" }, `NIRL, seed ${settings.seed}`),
+    ends: () => `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept. ${kept}`.trim(),
   });
-  const again = trainingPanel({
-    source, action: "Train a new robot for this reward", unit: "iteration", total: () => settings.iterations, lines: lines.slice(2),
-    begin: () => {
-      if (complain.textContent) return complain.textContent;
-      trial?.cancel();
-      const { inputs, actions } = decisions(chosen);
-      return { job: rewardJob, argument: { inputs, actions, settings: { ...settings, ...second }, seed: (settings.seed) + 1, reward: found.theta } };
-    },
-    done: (result) => {
-      trials(second, { network: result.network, encoder: settings.encoder }, "the new robot");
-    },
+  const again = training({
+    title: "Learn a policy for the same reward in other worlds, and drive new maps there", action: "Train a new robot for this reward", lines: lines.slice(2), name: "the new robot", paints: false,
+    where: () => second, argument: () => ({ settings: { ...settings, ...second }, seed: settings.seed + 1, reward: found.theta }),
+    accept: () => {}, ends: () => {},
   });
   const weights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl.safetensors", weightsFile({ network: found.network, encoder: settings.encoder, method: found.method })) }, "Download the policy");
   const reward = h("button", { type: "button", disabled: true, click: () => saveFile("my-reward.npz", npz({ reward_weights: { descr: "<f8", shape: [5, found.theta.length / 5], values: [...found.theta] } })) }, "Download the reward");
@@ -218,7 +265,9 @@ function render({ model, el }) {
     },
     done: ({ sentence, theta, policy }) => {
       const name = METHOD_NAMES[python.asked];
-      learned({ theta, network: networks(policy.network)(), method: Object.keys(PYTHON_METHODS)[python.asked].replace("_", "-") }, `${name} in Python, seed ${settings.seed}`, `${name} in Python, the best of the robots`);
+      const network = networks(policy.network)();
+      learned({ theta, network, method: Object.keys(PYTHON_METHODS)[python.asked].replace("_", "-") }, `${name} in Python, seed ${settings.seed}`);
+      tryPolicy(trained(), { network, encoder: settings.encoder }, `${name} in Python, the best of the robots`);
       return sentence;
     },
   });
@@ -227,14 +276,15 @@ function render({ model, el }) {
   el.classList.add("robonav");
   el.replaceChildren(
     h("div", { class: "row" }, from.element,
-      number("iterations", settings.iterations, { least: 1, most: 1000 }, (value) => (settings = { ...settings, iterations: value })),
+      number("iterations", settings.iterations, { least: 1, most: 1000, hint: "How often the reward is corrected." }, (value) => (settings = { ...settings, iterations: value })),
       number("obstacles in training", settings.obstacles, { least: 0, most: 40 }, (value) => (settings = { ...settings, obstacles: value })),
-      number("inverse temperature η", settings.inverseTemperature, { step: 0.5, least: 0, most: 200 }, (value) => (settings = { ...settings, inverseTemperature: value })),
-      number("seed", 0, { least: 0, most: 1e6 }, (value) => (settings = { ...settings, seed: value }))),
+      number("inverse temperature η", settings.inverseTemperature, { step: 0.5, least: 0, most: 200, hint: "0: actions at random. The larger it is, the more often the robot takes the best action." }, (value) => (settings = { ...settings, inverseTemperature: value })),
+      number("seed", 0, { least: 0, most: 1e6, hint: "Another seed draws other random numbers." }, (value) => (settings = { ...settings, seed: value }))),
     about, complain, learn.element,
     h("div", { class: "row" },
       h("div", { class: "grow" }, board.canvas, drawn, action.element,
-        h("p", { class: "legend" }, h("span", { style: `--mark: ${PALETTE.BLUE}` }, "positive reward"), h("span", { style: `--mark: ${PALETTE.VERMILION}` }, "negative reward"))),
+        h("p", { class: "legend" }, h("span", { style: `--mark: ${PALETTE.BLUE}` }, "above the mean"), h("span", { style: `--mark: ${PALETTE.VERMILION}` }, "below the mean"),
+          h("span", { style: "--mark: transparent; --edge: var(--border)" }, "no colour: nothing is in range, so the reflex decides and no reward is asked"))),
       h("div", { class: "grow" }, results, h("details", {}, h("summary", {}, "The weights of the reward"), table))),
     h("div", { class: "row tools" }, weights, reward),
     elsewhere, kernel.element);

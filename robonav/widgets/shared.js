@@ -92,8 +92,11 @@ export const largest = (values) => values.reduce((best, value, i) => (value > va
 
 // ---- Controls -------------------------------------------------------------------------------------------------------
 
-/** A labelled slider over the steps 0..count-1; `text(step)` says where it stands. */
-export function slider({ label, count, value = 0, text, change }) {
+/** A short note below a control, or nothing. */
+export const hintBelow = (hint) => (hint ? [h("small", { class: "hint" }, hint)] : []);
+
+/** A labelled slider over the steps 0..count-1; `text(step)` says where it stands; `hint` says what it means. */
+export function slider({ label, hint = "", count, value = 0, text, change }) {
   const shown = h("output", { "aria-hidden": "true" });
   const input = h("input", { type: "range", min: 0, max: count - 1, step: 1, "aria-label": label });
   const move = (step) => {
@@ -106,15 +109,15 @@ export function slider({ label, count, value = 0, text, change }) {
     change(Number(input.value));
   });
   move(value);
-  return { element: h("label", {}, h("span", {}, `${label}: `, shown), input), move };
+  return { element: h("label", {}, h("span", {}, `${label}: `, shown), input, ...hintBelow(hint)), move };
 }
 
-/** A labelled list to choose one of. */
-export function choice({ label, options, value = 0, change }) {
+/** A labelled list to choose one of; `hint` says what it means. */
+export function choice({ label, hint = "", options, value = 0, change }) {
   const select = h("select", { "aria-label": label, change: () => change(select.selectedIndex) });
   options.forEach((option) => select.append(h("option", {}, option)));
   select.selectedIndex = value;
-  return { element: h("label", {}, h("span", {}, label), select), move: (index) => (select.selectedIndex = index) };
+  return { element: h("label", {}, h("span", {}, label), select, ...hintBelow(hint)), move: (index) => (select.selectedIndex = index) };
 }
 
 const ICONS = {

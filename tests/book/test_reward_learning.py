@@ -49,6 +49,15 @@ def lab(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Loc
     )
 
 
+ENDED = """() => {
+  const statuses = [...document.querySelectorAll("#mounted .training .status")];
+  const said = statuses.some((one) => one.textContent.startsWith("Done"));
+  const driven = document.querySelector("#mounted caption")?.textContent ?? "";
+  if (said && !driven.startsWith("100 of 100")) throw new Error(`Done is said at ${driven}`);
+  return said;
+}"""
+
+
 def set_number(lab: Locator, label: str, value: float) -> None:
     field = lab.get_by_label(label, exact=True)
     field.fill(str(value))
@@ -59,8 +68,9 @@ def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
     set_number(lab, "iterations", 30)
     expect(lab.get_by_role("button", name="Download the policy")).to_be_disabled()
     lab.get_by_role("button", name="Learn the reward").click()
-    expect(lab.locator(".status").nth(1)).to_contain_text("is kept", timeout=SLOW)
-    expect(lab.locator("caption").first).to_contain_text("100 of 100", timeout=SLOW)
+    lab.page.wait_for_function(ENDED, timeout=SLOW)  # it fails if the maps come after
+    expect(lab.locator(".status").nth(1)).to_contain_text("is kept")
+    expect(lab.locator("caption").first).to_contain_text("100 of 100")
     rates = [
         int(re.match(r"(\d+) %", text)[1])
         for text in lab.locator("table").first.locator("td").all_inner_texts()
@@ -84,11 +94,32 @@ def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
     )
 
 
+COLOURS = """(map) => {
+  const { width, height } = map, pixels = map.getContext("2d").getImageData(0, 0, width, height).data;
+  let [red, blue] = [0, 0];
+  for (let i = 0; i < pixels.length; i += 4) {
+    if (pixels[i + 3] === 0) continue;
+    if (pixels[i] > pixels[i + 2] + 20) red += 1;
+    if (pixels[i + 2] > pixels[i] + 20) blue += 1;
+  }
+  return [red, blue];
+}"""
+
+
 def test_map_shows_the_reward_of_the_chosen_action(lab):
     set_number(lab, "iterations", 3)
     lab.get_by_role("button", name="Learn the reward").click()
     expect(lab.locator(".status").nth(1)).to_contain_text("is kept", timeout=SLOW)
     canvas = lab.locator("canvas")
+    drawn = lab.get_by_text("Once a reward is learned").or_(
+        lab.get_by_text("above or below its mean over the map")
+    )
+    expect(drawn).to_contain_text("the reward of the action F")
+    expect(lab.locator(".legend").first).to_contain_text(
+        "no colour: nothing is in range"
+    )
+    red, blue = canvas.evaluate(COLOURS)
+    assert min(red, blue) > 200  # centred on the mean, both are seen
     ahead = canvas.evaluate("(canvas) => canvas.toDataURL()")
     lab.get_by_label("reward of the action", exact=True).select_option("L60")
     assert canvas.evaluate("(canvas) => canvas.toDataURL()") != ahead
@@ -97,7 +128,7 @@ def test_map_shows_the_reward_of_the_chosen_action(lab):
 def test_training_is_cancelled(lab):
     lab.get_by_role("button", name="Learn the reward").click()
     lab.get_by_role("button", name="Cancel").click()
-    expect(lab.locator(".status").nth(1)).to_have_text("Cancelled.")
+    expect(lab.locator(".status").nth(1)).to_contain_text("Cancelled. ")
     expect(lab.get_by_role("button", name="Learn the reward")).to_be_enabled()
 
 
@@ -105,14 +136,18 @@ def test_wrong_number_is_one_sentence(lab):
     set_number(lab, "iterations", 0)
     sentence = "iterations must be a whole number from 1 to 1000."
     expect(lab.get_by_role("alert")).to_have_text(sentence)
+    set_number(lab, "seed", -1)
     lab.get_by_role("button", name="Learn the reward").click()
     expect(lab.locator(".status").nth(1)).to_have_text(sentence)
+    set_number(lab, "seed", 0)
+    expect(lab.get_by_role("alert")).to_have_text(sentence)
     set_number(lab, "iterations", 5)
     expect(lab.get_by_role("alert")).to_have_text("")
 
 
 def test_without_own_drives_one_sentence_says_where_to_drive(lab):
     lab.get_by_label("demonstrations").select_option("my own drives (0)")
+    expect(lab.locator(".about")).to_contain_text("in the playground first")
     lab.get_by_role("button", name="Learn the reward").click()
     expect(lab.locator(".status").nth(1)).to_contain_text("in the playground first")
 

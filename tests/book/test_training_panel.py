@@ -106,10 +106,14 @@ def test_a_training_is_cancelled_and_begun_again(view, site, worker):
     for _ in range(2):
         train.press("Enter")
         expect(lab.get_by_role("img", name=re.compile("at first"))).to_be_visible()
+        expect(lab.locator(".left")).to_have_text(
+            re.compile(r"^about \d+ (s|min) left$")
+        )
         cancel = lab.get_by_role("button", name="Cancel")
         expect(cancel).to_be_focused()
         cancel.press("Enter")
-        expect(said(lab)).to_have_text("Cancelled.")
+        expect(said(lab)).to_have_text("Cancelled. Nothing of this run is kept.")
+        expect(lab.locator(".left")).to_have_text("")
         expect(train).to_be_focused()
 
 

@@ -31,12 +31,15 @@ export function kernelPanel({ model, title, unit, total, controls = [], lines, r
     }
   }
   const panel = trainingPanel({
-    source: null, action: "Train in Python", unit, total, lines, live, done,
+    source: null, title: `Python: ${title}`, action: "Train in Python", unit, total, lines, live, done,
     begin: () => {
       const asked = request();
       return typeof asked === "string" ? asked : { job: pythonTraining, argument: asked };
     },
-    cancelled: () => model.send({ ask: "cancel" }),
+    cancelled: () => {
+      model.send({ ask: "cancel" });
+      return "Python drops this run and keeps the one before.";
+    },
   });
   const fieldset = h("fieldset", { class: "kernel" }, h("legend", {}, title), h("div", { class: "row tools" }, ...controls), panel.element);
   const element = h("div", {});

@@ -1,17 +1,18 @@
 // Training as the reader sees it: one button that starts and cancels, a bar, and curves that grow.
 
 /** A curve that grows to the right, with the run before it in grey. */
-function liveCurve({ name, label, colour = PALETTE.BLUE, low = 0, high = null, text = (value) => value.toPrecision(3) }, unit) {
+function liveCurve({ name, label, note = "", colour = PALETTE.BLUE, low = 0, high = null, text = (value) => value.toPrecision(3) }, unit) {
   const [width, height] = [340, 150];
   const [left, right, top, bottom] = [50, width - 10, 12, height - 34];
   const line = svg("path", { fill: "none", stroke: colour, "stroke-width": 2.2, "stroke-linejoin": "round" });
   const before = svg("path", { fill: "none", stroke: PALETTE.GREY, "stroke-width": 1.5, "stroke-opacity": 0.6 });
   const [upper, lower, last] = [top + 8, bottom, bottom + 15].map((y, i) =>
     svg("text", { x: i < 2 ? left - 6 : right, y, "text-anchor": "end", "font-size": 11 }));
-  const element = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label },
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label },
     svg("path", { d: `M${left} ${top}V${bottom}H${right}`, fill: "none", stroke: PALETTE.INK }), before, line, upper, lower, last,
     svg("text", { x: (left + right) / 2, y: height - 4, "text-anchor": "middle", "font-size": 12, class: "quiet" }, unit),
     svg("text", { transform: `translate(12 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle", "font-size": 12, class: "quiet" }, label));
+  const element = h("figure", {}, picture, h("figcaption", {}, note));
   let [points, old, total] = [[], [], 1];
 
   const draw = () => {
@@ -30,7 +31,7 @@ function liveCurve({ name, label, colour = PALETTE.BLUE, low = 0, high = null, t
     lower.textContent = text(least);
     last.textContent = String(end);
     const now = points.at(-1);
-    element.setAttribute("aria-label", now ? `${label}: ${text(points[0][1])} at first, ${text(now[1])} after ${now[0]}` : label);
+    picture.setAttribute("aria-label", now ? `${label}: ${text(points[0][1])} at first, ${text(now[1])} after ${now[0]}` : label);
   };
   return {
     element,
@@ -52,26 +53,41 @@ function liveCurve({ name, label, colour = PALETTE.BLUE, low = 0, high = null, t
   };
 }
 
+const LONG_JOB = 2; // seconds: how long a job lasts at least, for the time that is left to be shown
+
+/** How long a job may still take, in words, once it is known that it takes long. @param {number} gone seconds @param {number} share */
+export function timeLeft(gone, share) {
+  const all = gone / share;
+  const rest = Math.round(all - gone);
+  if (gone < 0.5 || share <= 0 || all < LONG_JOB || rest < 1) return "";
+  return rest < 100 ? `about ${rest} s left` : `about ${Math.round(rest / 60)} min left`;
+}
+
 /**
  * A button that starts a job and cancels it, its progress, and a curve for each measure.
- * @param {{source: string, action: string, unit: string, total: () => number,
- *   lines: {name: string, label: string, colour?: string, low?: number, high?: number, text?: (value: number) => string}[],
+ * @param {{source: string, title?: string, action: string, busy?: string, unit: string, total: () => number,
+ *   lines: {name: string, label: string, note?: string, colour?: string, low?: number, high?: number, text?: (value: number) => string}[],
  *   begin: () => {job: Job, argument: any} | string, live?: (news: any[]) => void, done: (result: any) => string | void,
- *   cancelled?: () => void}} options
- *   source: `model.get("_esm")`; total: how long the axes are at first; each item of a job's `live` is {at, [name]: value};
- *   begin: gives the job, or a sentence that says why there is none; done: may give a sentence to say at the end
+ *   cancelled?: () => string | void}} options
+ *   source: `model.get("_esm")`; title: what the button starts; busy: a sentence while the job runs; total: how long the
+ *   axes are at first; each item of a job's `live` is {at, [name]: value}; a line's note says what it shows;
+ *   begin: gives the job, or a sentence that says why there is none; done: may give a sentence to say at the end;
+ *   cancelled: may say what is kept of a job that was cancelled; otherwise nothing is
  */
-export function trainingPanel({ source, action, unit, total, lines, begin, live = () => {}, done, cancelled = () => {} }) {
+export function trainingPanel({ source, title = "", action, busy = "It learns.", unit, total, lines, begin, live = () => {}, done, cancelled = () => {} }) {
   const curves = lines.map((each) => liveCurve(each, unit));
   const fill = h("div", { class: "fill" });
   const bar = h("div", { class: "progress", role: "progressbar", "aria-label": action, "aria-valuemin": 0, "aria-valuemax": 100, "aria-valuenow": 0 }, fill);
   const said = h("p", { class: "status", role: "status" });
+  const left = h("span", { class: "left" });
   let [running, announced, began, frame, waiting] = [null, 0, 0, 0, []];
 
   const show = (steps, of) => {
     const percent = Math.floor((100 * steps) / Math.max(1, of));
     fill.style.width = `${percent}%`;
     set(bar, { "aria-valuenow": percent, "aria-valuetext": `${steps} of ${of}` });
+    const gone = (performance.now() - began) / 1000;
+    left.textContent = steps < of ? timeLeft(gone, steps / of) : "";
     if (percent >= announced + 25 && percent < 100) {
       announced = percent;
       said.textContent = `${percent} % done.`;
@@ -84,6 +100,7 @@ export function trainingPanel({ source, action, unit, total, lines, begin, live 
   };
   const rest = (sentence) => {
     running = null;
+    left.textContent = "";
     if (frame) cancelAnimationFrame(frame);
     draw();
     button.textContent = action;
@@ -102,7 +119,7 @@ export function trainingPanel({ source, action, unit, total, lines, begin, live 
     for (const each of curves) each.begin(total());
     button.textContent = "Cancel";
     button.classList.add("stops");
-    said.textContent = "It learns.";
+    said.textContent = busy;
     running = startJob(source, task.job, task.argument, {
       progress: show,
       live: (news) => {
@@ -125,12 +142,12 @@ export function trainingPanel({ source, action, unit, total, lines, begin, live 
   const cancel = () => {
     if (!running) return;
     running.cancel();
-    rest("Cancelled.");
-    cancelled();
+    rest("");
+    said.textContent = `Cancelled. ${cancelled() ?? "Nothing of this run is kept."}`;
   };
   const button = h("button", { type: "button", class: "main", click: () => (running ? cancel() : start()) }, action);
-  const element = h("div", { class: "training" },
-    h("div", { class: "row tools" }, button, h("div", { class: "grow" }, bar)), said,
+  const element = h("div", { class: "training", role: "group", "aria-label": title || action },
+    h("div", { class: "row tools" }, button, h("div", { class: "grow" }, title && h("p", { class: "label" }, title), bar), left), said,
     h("div", { class: "row curves" }, ...curves.map((each) => each.element)));
   return { element, button, start, cancel, running: () => running !== null, now: () => curves.map((each) => each.now()) };
 }

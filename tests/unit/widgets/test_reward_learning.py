@@ -9,7 +9,7 @@ import pytest
 
 from robonav.lfd import demonstrate, save_demonstrations
 from robonav.nirl import learn
-from robonav.robot import random_worlds
+from robonav.robot import random_worlds, sense
 from robonav.widgets.reward_learning import FILES, reward_learning
 from robonav.widgets.simulator import page_demonstrations, page_world
 
@@ -108,7 +108,11 @@ def test_the_map_draws_the_reward_of_what_the_robot_perceives(node):
     )
     inputs = np.array(got["inputs"])
     assert inputs.shape[1] == 17
-    assert 1000 < len(inputs) < 2500  # cells inside obstacles are left out
+    ticks = np.arange(1, 100, 2)
+    x, y = (part.ravel() for part in np.meshgrid(ticks, ticks))
+    heading = np.arctan2(world.targets[0, 1] - y, world.targets[0, 0] - x)
+    seen = sense(world[np.zeros(len(x), int)], np.column_stack([x, y, heading]))
+    assert len(inputs) == (~seen.safe & (seen.ranges.min(axis=1) >= 1)).sum()
     expected = theta @ np.column_stack([inputs, np.ones(len(inputs))]).T
     np.testing.assert_allclose(got["rewards"][:5], expected, atol=1e-12)
     np.testing.assert_allclose(got["rewards"][5], expected.max(axis=0), atol=1e-12)
