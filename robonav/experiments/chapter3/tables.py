@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -18,6 +20,7 @@ from robonav.lfd import (
     sketch,
     summarise_dataset,
 )
+from robonav.lfd.dagger import TEMPERATURE
 from robonav.networks import accuracy
 from robonav.robot import Policy, Worlds, navigate, neighbour_slip, random_worlds
 from robonav.robot.encoding import TARGET_ENCODINGS
@@ -220,6 +223,20 @@ def expert_margin(case: Case, seed: int, scale: str) -> Numbers:
     return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale, obstacles))
 
 
+def with_equal_data(case: Case, seed: int, scale: str) -> Numbers:
+    """One round of DAgger, and cloning from demonstrations in equally many maps, the control for it."""
+    obstacles, maps = int(case["obstacles"]), int(case["maps"])
+    if case["method"] == "DAgger":
+        result = dagger_result(seed, obstacles, rounds=1)
+        policy, learned_from = result.policy, result.demonstrations[-1]
+    else:
+        learned_from = demonstrations(seed, obstacles, number=maps)
+        cloned = learn_policy(learned_from, seed=seed)
+        policy = replace(cloned, temperature=float(case["temperature"]))
+    rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale, obstacles))
+    return rates | {"examples": len(learned_from.effective)}
+
+
 TABLE_3_2 = Experiment(
     name="table-3.2",
     title="Success in new maps against number of demonstrations",
@@ -385,7 +402,31 @@ MARGINS = Experiment(
     settings=ABOUT,
     plot=Plot("lfd.plot_margins"),
 )
+EQUAL_DATA = Experiment(
+    name="lfd-equal-data",
+    title="Success in new maps: one round of DAgger, and cloning from equally many maps",
+    cases=[
+        {
+            "obstacles": obstacles,
+            "method": name,
+            "maps": maps,
+            "temperature": temperature,
+        }
+        for obstacles in (10, 20, 30)
+        for name, maps, temperature in (
+            ("cloning", DEMONSTRATIONS, 0.0),
+            ("cloning", 2 * DEMONSTRATIONS, 0.0),
+            ("cloning", 2 * DEMONSTRATIONS, TEMPERATURE),
+            ("DAgger", 2 * DEMONSTRATIONS, TEMPERATURE),
+        )
+    ],
+    run=with_equal_data,
+    seeds=SEEDS,
+    settings=ABOUT,
+    plot=SUCCESS_BARS,
+)
 
 EXPERIMENTS = (
     TABLE_3_2, TABLE_3_3, FIGURE_3_5, FIGURE_3_6, FIGURE_3_7, FIGURE_3_8, FIGURE_3_9, FIGURE_3_10, ENCODINGS, MARGINS,
+    EQUAL_DATA,
 )  # fmt: skip
