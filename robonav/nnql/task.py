@@ -20,7 +20,8 @@ from robonav.robot import (
     draw_worlds,
     world_keys,
 )
-from robonav.robot.environments import NavigationEnv, Reward, as_sensing
+from robonav.robot.environment_settings import Reward
+from robonav.robot.environments import NavigationEnv, as_sensing
 from robonav.validation import check_integer, check_positive
 
 from ._arguments import checked

@@ -15,13 +15,13 @@ from numpy.typing import ArrayLike, NDArray
 from robonav.validation import check_integer, check_one_of
 
 from ._fast import NO_REFLEX, OUT_OF_STEPS, RUNNING
-from .environments import (
+from .environment_settings import (
     NavigationSettings,
     Reward,
     arrival_or_collision,
-    observation_space,
     worlds_in,
 )
+from .environments import NavigationEnv
 from .rollout import REFLEX, ReflexRule, undecided
 from .simulator import OUTCOMES, Sensing, Simulator, check_actions
 from .worlds import MOVING_SPEEDS, START, TARGET, Worlds
@@ -97,7 +97,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
             "render_mode", render_mode, [None, *self.metadata["render_modes"]]
         )
         self._generators = [np.random.default_rng()] * self.num_envs
-        self.single_observation_space = observation_space()
+        self.single_observation_space = NavigationEnv().observation_space
         self.single_action_space = gymnasium.spaces.Discrete(6)
         self.observation_space = batch_space(
             self.single_observation_space, self.num_envs

@@ -13,7 +13,7 @@ from robonav.experiments.chapter4.ablations import EVADING, RawNumbers
 from robonav.nnql import NavigationTask, reward_row
 from robonav.nnql.reward import REWARDS
 from robonav.robot import NNQL_SENSORS, TARGET_ENCODINGS, Encoder, Sensing
-from robonav.robot.environments import Reward
+from robonav.robot.environment_settings import Reward
 from robonav.validation import (
     check_array,
     check_integer,

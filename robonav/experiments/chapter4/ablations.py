@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from robonav.nnql import reward
 from robonav.nnql.reward import REWARDS, TABLE, reward_row
 from robonav.robot import NNQL_SENSORS, Encoder, Sensing, nnql_state
-from robonav.robot.environments import Reward, arrival_or_collision
+from robonav.robot.environment_settings import Reward, arrival_or_collision
 
 from ..runner.experiment import Case, Experiment, Numbers, Plot
 from .setup import ABOUT, EVALUATION_TEMPERATURE, SETUP, evaluate, training, tuned

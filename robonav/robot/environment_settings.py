@@ -1,0 +1,159 @@
+"""The arguments of the environments, checked: one robot's and the vector environment's take the same."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from robonav.validation import (
+    check_instance,
+    check_integer,
+    check_one_of,
+    check_positive,
+    check_real,
+)
+
+from .rollout import REFLEX, ReflexRule
+from .simulator import NEVER, OUTCOMES, Sensing, check_slip
+from .worlds import (
+    MOVING_SPEEDS,
+    SIZE,
+    START,
+    TARGET,
+    Worlds,
+    check_drawing,
+    draw_worlds,
+    random_keys,
+)
+
+Reward = Callable[[Sensing, Sensing, NDArray[np.int8]], ArrayLike]
+"""``reward(before, after, outcome) -> (N,)``: from what N robots sensed before and after a step, and the outcomes."""
+
+REWARD_OF_OUTCOME = np.array([0.0, 1.0, -1.0, 0.0])
+"""For an episode that goes on, and for one that ended by arrival, by collision, or for lack of steps."""
+
+OUTCOME_OF_ONE = np.arange(len(OUTCOMES), dtype=np.int8)[:, None]
+OUTCOME_OF_ONE.flags.writeable = False  # row k: outcome k of one robot, (1,)
+
+
+def arrival_or_collision(
+    before: Sensing, after: Sensing, outcome: NDArray[np.int8]
+) -> NDArray[np.float64]:
+    """Return the reward 1 for an arrival, -1 for a collision, else 0.
+
+    Parameters
+    ----------
+    before, after : Sensing
+        What N robots sensed before and after the step; not used.
+    outcome : (N,) int array
+        How their episodes stand after the step: codes into ``OUTCOMES``.
+
+    Returns
+    -------
+    (N,) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.robot import Sensing
+    >>> from robonav.robot.environment_settings import arrival_or_collision
+    >>> nothing = Sensing.empty(3)
+    >>> arrival_or_collision(nothing, nothing, np.array([0, 1, 2]))
+    array([ 0.,  1., -1.])
+    """
+    return REWARD_OF_OUTCOME[outcome]
+
+
+@dataclass(frozen=True, eq=False)
+class NavigationSettings:
+    """What the arguments of :class:`NavigationEnv` say, checked. There they are explained.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is of the wrong kind or out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.robot.environment_settings import NavigationSettings
+    >>> NavigationSettings(speed=0)
+    Traceback (most recent call last):
+    ValueError: speed must be greater than 0, got 0
+    """
+
+    obstacles: int = 10
+    moving: int = 0
+    starts: Sequence[tuple[float, float]] = (START,)
+    targets: Sequence[tuple[float, float]] = (TARGET,)
+    moving_speeds: tuple[float, float] = MOVING_SPEEDS
+    worlds: Worlds | None = None
+    speed: float = 2.0
+    slip: ArrayLike | None = None
+    noise: float = 0.0
+    reward: Reward = arrival_or_collision
+    reflex: ReflexRule | None = REFLEX
+    max_episode_steps: int = NEVER
+
+    def __post_init__(self) -> None:
+        check_drawing(
+            self.obstacles, self.moving, self.starts, self.targets, self.moving_speeds, SIZE
+        )  # fmt: skip
+        if self.worlds is not None and len(check_instance("worlds", self.worlds, Worlds)) == 0:  # fmt: skip
+            raise ValueError("worlds must hold at least one world, got none")
+        if not callable(self.reward):
+            raise TypeError(
+                f"reward must be callable as reward(before, after, outcome), got {type(self.reward).__name__}"
+            )
+        if self.reflex is not None and not callable(self.reflex):
+            raise TypeError(
+                f"reflex must be callable as reflex(sensing, speed), or None, got {self.reflex!r}"
+            )
+        check_integer(
+            "max_episode_steps", self.max_episode_steps, at_least=1, at_most=NEVER
+        )
+        object.__setattr__(self, "speed", check_positive("speed", self.speed))
+        object.__setattr__(self, "noise", check_real("noise", self.noise, at_least=0))
+        if self.slip is not None:
+            object.__setattr__(self, "slip", check_slip(self.slip))
+
+    def next_worlds(self, generators: Sequence[np.random.Generator]) -> Worlds:
+        """Draw a world from each of N random generators, or choose one of ``worlds``.
+
+        In a new world half of the obstacles are circles (radius 1.5 to 4 m) and half rectangles (sides of 3 to 8 m).
+        They lie at random, at least 6 m from the start and the target. A world is drawn again if no way leads to the
+        target 2 m clear of what stands still.
+        """
+        if self.worlds is not None:
+            number = len(self.worlds)
+            return self.worlds[[int(rng.integers(number)) for rng in generators]]
+        return draw_worlds(
+            random_keys(generators), self.obstacles, self.moving, self.starts, self.targets, self.moving_speeds
+        )  # fmt: skip
+
+    def reward_of_one(self, before: Sensing, after: Sensing, outcome: int) -> float:
+        """Return the reward of one robot."""
+        given = self.reward(before, after, OUTCOME_OF_ONE[outcome])
+        reward = np.asarray(given, dtype=float)
+        if reward.shape != (1,):
+            raise ValueError(
+                f"reward must give an array of shape (1,), got {reward.shape}"
+            )
+        return float(reward[0])
+
+
+def worlds_in(options: dict[str, Any] | None, number: int) -> Worlds | None:
+    """Return the worlds that the options of ``reset`` give, if they give any; check that they are ``number``."""
+    for option in check_instance("options", options or {}, dict):
+        check_one_of("options", option, ["worlds"])
+    given = (options or {}).get("worlds")
+    if given is None:
+        return None
+    if len(check_instance("options['worlds']", given, Worlds)) != number:
+        raise ValueError(
+            f"options['worlds'] must hold {number} worlds, got {len(given)}"
+        )
+    return given
