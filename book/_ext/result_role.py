@@ -10,7 +10,7 @@ such as 98.5. The parts are separated by semicolons, and their order after the f
   ``best``, ``deviation``, ``interquartile mean``, ``seeds``, or ``thesis`` for the number that the thesis reports;
 - a format, such as ``.0f``.
 
-``{benchmark}`300 iterations: * ms``` becomes the number at the place of the star in the output of the benchmarks
+``{benchmark}`300 iterations: * ms``` becomes the number at the place of the (last) star in the output of the benchmarks
 (``book/benchmarks.md``).
 
 The numbers are put into the source before it is parsed. They therefore work in tables, captions, and descriptions of
@@ -140,7 +140,7 @@ def benchmark(text: str) -> str:
     ValueError
         If no line has the text, or more than one.
     """
-    before, star, after = text.partition("*")
+    before, star, after = text.rpartition("*")
     places = re.findall(
         rf"{re.escape(before)}\s*({NUMBER.pattern}){re.escape(after)}",
         BENCHMARKS.read_text("utf-8"),

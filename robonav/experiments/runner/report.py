@@ -29,8 +29,18 @@ def as_text(results: Results) -> str:
     return "\n".join(lines)
 
 
-def as_table(results: Results, metric: str, *, rows: str, columns: str) -> str:
-    """Return a Markdown table of mean and interval of a metric, with one line for each value of ``rows``."""
+def as_table(
+    results: Results,
+    metric: str,
+    *,
+    rows: str,
+    columns: str,
+    among: Sequence[str] | None = None,
+) -> str:
+    """Return a Markdown table of mean and interval of a metric, with one line for each value of ``rows``.
+
+    It has a column for each value of ``columns``, or only for those in ``among``.
+    """
     import pandas as pd
 
     cells = pd.DataFrame(
@@ -43,6 +53,7 @@ def as_table(results: Results, metric: str, *, rows: str, columns: str) -> str:
     table = cells.pivot_table(
         index=rows, columns=columns, values="cell", aggfunc="first", sort=False
     )
+    table = table if among is None else table[list(among)]
     return _markdown(table.reset_index())
 
 

@@ -5,12 +5,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from result_role import with_results
 
 from robonav.experiments import names, read_results
 from robonav.experiments.runner.report import short
 
 BOOK = Path(__file__).parents[3] / "book"
-PAGE = (BOOK / "reproduction.md").read_text() if BOOK.is_dir() else ""
+PAGE = (
+    with_results((BOOK / "reproduction.md").read_text("utf-8")) if BOOK.is_dir() else ""
+)
 NIRL = {"method": "nirl", "discount": 0.65}
 QUOTED = [  # start of the row, experiment, metric, case, which of the fitting cases, quoted number
     ("25 demonstrations", "table-3.2", "success", {"expert": "keeps clear", "target": "sine-cosine"}, 1, "interval"),
@@ -49,11 +52,7 @@ def test_what_a_row_quotes_is_what_was_measured(row, name, metric, wanted, which
         if wanted.items() <= case.items()
     ]
     summary = results.summary(metric, fitting[which])
-    shown = (
-        short(summary).replace(" [", " % [")
-        if form == "interval"
-        else f"{getattr(summary, form):.1f}"
-    )
+    shown = short(summary) if form == "interval" else f"{getattr(summary, form):.1f}"
     assert shown in line
 
 
@@ -106,3 +105,24 @@ def test_when_25_of_30_episodes_first_succeed(method, episodes):
     ]
     mean = curves.values("successes", case).mean(axis=0)
     assert 30 * (np.argmax(mean >= 25) + 1) == episodes
+
+
+def test_where_the_policies_of_the_board_lose_most():
+    """The page of the leaderboard counts in which setting policies lose most, compared with 20 obstacles."""
+    board = read_results("leaderboard")
+    success = {
+        (case["method"], case["setting"]): board.summary("success", place).mean
+        for place, case in enumerate(board.experiment.cases)
+    }
+    methods = {method for method, _ in success} - {"straight"}
+    settings = {setting for _, setting in success} - {"10 obstacles"}
+    worst = [
+        min(settings, key=lambda setting: success[method, setting])
+        for method in methods
+    ]
+    assert len(methods) == 11
+    assert worst.count("30 obstacles") == 6
+    assert worst.count("20, 4 m/s") == 4
+    assert success["online", "20, 1 m/s"] == min(
+        success["online", setting] for setting in settings
+    )

@@ -57,6 +57,8 @@ def test_a_table_of_two_dimensions():
     lines = rows_of(as_table(results(), "length", rows="method", columns="obstacles"))
     assert lines[0] == "| method | 10 | 20 |"
     assert lines[3] == "| b | 100.0 [100.0, 100.0] |  |"
+    of = {"rows": "method", "columns": "obstacles", "among": ["20"]}
+    assert rows_of(as_table(results(), "length", **of))[0] == "| method | 20 |"
 
 
 def test_a_case_without_a_metric_is_no_error():
