@@ -206,30 +206,50 @@ def draw_densities(
 
 def draw_steps(axes: Axes, rates: Mapping[str, ArrayLike]) -> None:
     """Draw the success of every run (S,) as a dot, and their mean, with one row for each change from the top down."""
-    for row, (_, values) in enumerate(rates.items()):
+    for row, (name, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
         axes.plot(
             dots,
-            row + 0.15 * np.sin(2.4 * np.arange(len(dots))),
+            row + 0.12 * np.sin(2.4 * np.arange(len(dots))),
             ".",
             color=style.BLUE,
             alpha=0.6,
             markersize=6,
         )
         axes.plot(
-            [dots.mean()] * 2, [row - 0.3, row + 0.3], color=style.BLUE, linewidth=2.5
+            [dots.mean()] * 2, [row - 0.2, row + 0.2], color=style.BLUE, linewidth=2.5
         )
         axes.annotate(
             f"{dots.mean():.0f} %", (103, row), va="center", annotation_clip=False
         )
+        axes.annotate(f"{row + 1}. {name}", (-2, row - 0.3), va="bottom")
     axes.set(
-        yticks=range(len(rates)),
-        yticklabels=list(rates),
+        yticks=[],
         xlim=(-2, 102),
+        ylim=(len(rates) - 0.6, -0.9),
         xlabel="episodes that arrive (%)",
     )
-    axes.invert_yaxis()
-    axes.grid(axis="y", visible=False)
+
+
+def draw_gradient_steps(
+    axes: Axes, steps: Sequence[int], rates: Mapping[str, ArrayLike]
+) -> None:
+    """Draw success (S, n) by reward over the number of gradient steps: every run a dot, means joined by lines."""
+    marks = (("o", style.VERMILION), ("s", style.BLUE))
+    for (name, given), (mark, colour) in zip(rates.items(), marks, strict=False):
+        runs = np.asarray(given, dtype=float)
+        axes.plot(steps, runs.T, ".", color=colour, alpha=0.35, markersize=6)
+        axes.plot(steps, runs.mean(axis=0), mark + "-", color=colour, label=name)
+    axes.set(
+        xscale="log",
+        xticks=list(steps),
+        xticklabels=[f"{n}" for n in steps],
+        ylim=(-2, 102),
+        xlabel="gradient steps an iteration",
+        ylabel="episodes that arrive (%)",
+    )
+    axes.minorticks_off()
+    axes.legend(loc="upper left")
 
 
 def draw_choice(axes: Axes, scores: Mapping[str, ArrayLike], driven: ArrayLike) -> None:
@@ -316,17 +336,19 @@ def names_of(encoder: Encoder) -> list[str]:
 
 
 def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
-    """Draw a reward's weights (5, k + 1), actions as rows and inputs as columns; blue is positive, red negative."""
+    """Draw a reward's weights (5, k + 1), inputs as rows and actions as columns; blue is positive, red negative."""
     theta = np.asarray(weights, dtype=float)
     most = abs(theta).max() or 1.0
-    image = axes.imshow(theta, cmap=GOOD_AND_BAD, vmin=-most, vmax=most, aspect="auto")
+    image = axes.imshow(
+        theta.T, cmap=GOOD_AND_BAD, vmin=-most, vmax=most, aspect="auto"
+    )
     names = names_of(encoder)
     axes.set(
-        xticks=range(len(names)),
-        yticks=range(len(ACTIONS)),
-        yticklabels=ACTIONS[: len(theta)],
+        yticks=range(len(names)),
+        yticklabels=names,
+        xticks=range(len(ACTIONS)),
+        xticklabels=ACTIONS[: len(theta)],
     )
-    axes.set_xticklabels(names, rotation=60, ha="right", fontsize=8)
     axes.grid(False)
     axes.figure.colorbar(image, ax=axes, label="weight", pad=0.02)
 
@@ -337,7 +359,7 @@ def draw_likes(figure: Figure, weights: ArrayLike, encoder: Encoder) -> None:
     most = abs(theta).max() or 1.0
     half = np.degrees(SECTOR) / 2
     for place, (name, row) in enumerate(zip(ACTIONS, theta, strict=True), start=1):
-        axes = figure.add_subplot(1, len(theta), place)
+        axes = figure.add_subplot(2, 3, place)
         for sensor, weight in zip(encoder.sensors, row, strict=True):
             middle = 90 + 2 * half * (sensor - 1)
             face = style.BLUE if weight > 0 else style.VERMILION
@@ -422,7 +444,7 @@ def of_runs(results: Results, metric: str, **wanted: object) -> Floats:
 
 def plot_counts(results: Results) -> Figure:
     """Plot Fig. 5.4 from its results."""
-    figure, panels = plt.subplots(1, 2, figsize=(9, 3))
+    figure, panels = plt.subplots(2, figsize=(style.FIGURE_WIDTH, 5), sharex=True)
     cases = results.experiment.cases
     experts, numbers = (
         list(dict.fromkeys(case[key] for case in cases))
@@ -437,7 +459,7 @@ def plot_counts(results: Results) -> Figure:
             {str(e): of_runs(results, metric, expert=e) for e in experts},
             thesis,
         )
-    panels[0].set(ylabel="samples a trajectory")
+    panels[0].set(xlabel="", ylabel="samples a trajectory")
     panels[1].set(ylabel="different states a trajectory")
     panels[0].legend()
     return figure
@@ -445,7 +467,7 @@ def plot_counts(results: Results) -> Figure:
 
 def plot_iterations(results: Results, metric: str, label: str) -> Figure:
     """Plot Fig. 5.7 or 5.8 from its results."""
-    figure, axes = plt.subplots(figsize=(7, 3))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 2.8))
     cases = results.experiment.cases
     series = {
         f"discount {case['discount']}": results.values(metric, k)
@@ -457,7 +479,7 @@ def plot_iterations(results: Results, metric: str, label: str) -> Figure:
 
 def plot_changes(results: Results) -> Figure:
     """Plot Fig. 5.11 from its results, with one panel for each layer."""
-    figure, panels = plt.subplots(1, 2, figsize=(9, 2.8))
+    figure, panels = plt.subplots(2, figsize=(style.FIGURE_WIDTH, 4.8), sharex=True)
     cases = results.experiment.cases
     for axes, layer in zip(panels, ("first layer", "second layer"), strict=True):
         series = {
@@ -466,6 +488,7 @@ def plot_changes(results: Results) -> Figure:
         }
         draw_iterations(axes, series, "sum of absolute changes")
         axes.set(title=layer, ylim=(0, None))
+    panels[0].set(xlabel="")
     return figure
 
 
@@ -476,20 +499,22 @@ def plot_densities(results: Results) -> Figure:
         list(dict.fromkeys(case[key] for case in cases)) for key in ("speed", "method")
     )
     obstacles = list(dict.fromkeys(int(case["obstacles"]) for case in cases))
-    figure, panels = plt.subplots(1, len(speeds), figsize=(9, 3), sharey=True)
+    size = style.FIGURE_WIDTH, 2.5 * len(speeds)
+    figure, panels = plt.subplots(len(speeds), figsize=size, sharex=True, sharey=True)
     for axes, speed in zip(panels, speeds, strict=True):
         rates = {
             str(m): of_runs(results, "success", method=m, speed=speed) for m in methods
         }
         draw_densities(axes, obstacles, rates, f"{speed:g} m/s")
-    panels[0].set(ylabel="episodes that arrive (%)")
+    for axes in panels:
+        axes.set(ylabel="arrive (%)", xlabel="obstacles" if axes is panels[-1] else "")
     panels[0].legend(loc="lower left")
     return figure
 
 
 def plot_steps(results: Results) -> Figure:
     """Plot the changes from one reading of Algorithm 10 to an algorithm that works, from their results."""
-    figure, axes = plt.subplots(figsize=(8, 4))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 6.4))
     cases = results.experiment.cases
     draw_steps(
         axes,
@@ -497,6 +522,22 @@ def plot_steps(results: Results) -> Figure:
             str(case["change"]): results.values("success", k)
             for k, case in enumerate(cases)
         },
+    )
+    return figure
+
+
+def plot_gradient_steps(results: Results) -> Figure:
+    """Plot the success of Algorithm 10 over its number of gradient steps an iteration, from its results."""
+    cases = results.experiment.cases
+    rewards, steps = (
+        list(dict.fromkeys(case[key] for case in cases))
+        for key in ("reward", "gradient steps")
+    )
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 3.2))
+    draw_gradient_steps(
+        axes,
+        [int(n) for n in steps],
+        {f"reward: {r}": of_runs(results, "success", reward=r) for r in rewards},
     )
     return figure
 
@@ -515,6 +556,6 @@ def plot_comparison(results: Results, discount: float) -> Figure:
         for case, rate in zip(cases, thesis, strict=True)
         if rate is not None
     }
-    figure, axes = plt.subplots(figsize=(7, 4))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 4))
     draw_rates(axes, rates, thesis=known)
     return figure

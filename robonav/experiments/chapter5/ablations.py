@@ -168,7 +168,7 @@ GRADIENT_STEPS_OF_ALGORITHM_10 = Experiment(
     seeds={"quick": 1, "thesis": 10},
     shortened="a tenth of the iterations",
     settings={"iterations": ITERATIONS, "navigations a run": SETUP.navigations},
-    plot=SUCCESS_BARS,
+    plot=Plot("nirl.plot_gradient_steps"),
 )
 CHOICE = Experiment(
     name="nirl-choice",

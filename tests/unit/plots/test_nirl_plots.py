@@ -104,7 +104,7 @@ def test_weights_are_shown_on_a_scale_around_zero(axes):
     weights = np.arange(5.0 * (nirl.ENCODER.size + 1)).reshape(5, -1)
     draw.draw_weights(axes, weights, nirl.ENCODER)
     image = axes.images[0]
-    np.testing.assert_array_equal(image.get_array(), weights)
+    np.testing.assert_array_equal(image.get_array(), weights.T)
     assert image.get_clim() == (-weights.max(), weights.max())
 
 
