@@ -37,6 +37,7 @@ CYCLE = (
     style.SKY,
 )
 SUCCESS = "episodes that arrive (%)"
+LONG_NAME = 20  # characters; longer names of lines stand one below the other
 VISITED = LinearSegmentedColormap.from_list(
     "visited", [to_rgba(style.SKY, 0.75), to_rgba(style.PURPLE, 0.75)]
 )
@@ -245,12 +246,13 @@ def draw_against(
             label="thesis",
         )
     axes.set(xlabel=key)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, fontsize=9)
+    columns = 1 if max(map(len, lines)) > LONG_NAME else 2
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=columns)
 
 
 def plot_demonstrations(results: Results) -> Figure:
     """Plot success against the number of demonstrations, with the thesis's numbers (Table 3.2)."""
-    figure, axes = plt.subplots(figsize=(6.5, 4))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 4))
     draw_against(axes, results, "demonstrations", "success", thesis=True)
     axes.set(ylabel=SUCCESS)
     return figure
@@ -258,7 +260,9 @@ def plot_demonstrations(results: Results) -> Figure:
 
 def plot_iterations(results: Results) -> Figure:
     """Plot agreement with the demonstrations, and success, against training iterations (Table 3.3)."""
-    figure, (above, below) = plt.subplots(2, figsize=(6.5, 6), sharex=True)
+    figure, (above, below) = plt.subplots(
+        2, figsize=(style.FIGURE_WIDTH, 6), sharex=True
+    )
     draw_against(above, results, "iterations", "success")
     above.set(ylabel=SUCCESS, xlabel="")
     above.get_legend().remove()
@@ -269,7 +273,7 @@ def plot_iterations(results: Results) -> Figure:
 
 def plot_planners(results: Results) -> Figure:
     """Plot by how much two planners' paths exceed the straight line, and how many nodes they expand (Fig. 3.5)."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.4), sharey=True)
+    figure, (above, below) = plt.subplots(2, figsize=(style.FIGURE_WIDTH, 6.4))
     cases = results.experiment.cases
     rows = np.arange(len(cases))
     straight = np.array(
@@ -281,32 +285,31 @@ def plot_planners(results: Results) -> Figure:
         nodes = [
             results.summary(f"{name} expands", row).mean for row in range(len(cases))
         ]
-        left.barh(
+        above.barh(
             rows + shift,
             np.array(length) - straight,
             height=0.38,
             color=colour,
             label=f"{name} A*",
         )
-        right.barh(rows + shift, nodes, height=0.38, color=colour)
+        below.barh(rows + shift, nodes, height=0.38, color=colour)
     labels = [
-        f"target (90, {c['target y']}), {c['obstacles']} obstacles, cells {c['grid cell']} m"
+        f"(90, {c['target y']}), {c['obstacles']} obstacles, {c['grid cell']} m"
         for c in cases
     ]
-    left.set(
-        yticks=rows, yticklabels=labels, xlabel="metres more than the straight line"
-    )
-    right.set(xlabel="nodes expanded")
-    left.invert_yaxis()
-    left.legend(fontsize=8)
-    for axes in (left, right):
+    above.set(xlabel="metres more than the straight line")
+    below.set(xlabel="nodes expanded")
+    above.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)
+    for axes in (above, below):
+        axes.set(yticks=rows, yticklabels=labels)
+        axes.invert_yaxis()
         axes.grid(axis="y", visible=False)
     return figure
 
 
 def plot_cost(results: Results) -> Figure:
     """Plot the cost during training: the mean over runs, shaded from the least to the largest (Fig. 3.7)."""
-    figure, axes = plt.subplots(figsize=(6.5, 3.6))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 3.6))
     for case, (setting, colour) in enumerate(
         zip(results.experiment.cases, CYCLE, strict=False)
     ):
@@ -324,13 +327,13 @@ def plot_cost(results: Results) -> Figure:
         0.91, color=style.INK, linewidth=1, linestyle="--", label="thesis, at 300: 0.91"
     )
     axes.set(xlabel="iteration", ylabel="cost $J$")
-    axes.legend(fontsize=8)
+    axes.legend()
     return figure
 
 
 def plot_methods(results: Results) -> Figure:
     """Plot the success of methods against the number of obstacles, with 95 % intervals over runs (Fig. 3.8)."""
-    figure, axes = plt.subplots(figsize=(6.5, 4.6))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 4.6))
     draw_against(axes, results, "obstacles", "success")
     axes.set(
         ylabel=SUCCESS,
@@ -341,7 +344,7 @@ def plot_methods(results: Results) -> Figure:
 
 def plot_margins(results: Results) -> Figure:
     """Plot success against the margin that the expert keeps, with 95 % intervals over runs."""
-    figure, axes = plt.subplots(figsize=(6.5, 4))
+    figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 4))
     draw_against(axes, results, "margin", "success")
     axes.set(xlabel="margin of the expert (m)", ylabel=SUCCESS)
     return figure
@@ -386,4 +389,4 @@ def draw_rounds(axes: Axes, results: Results) -> None:
     axes.set(
         xlabel="round of DAgger (0: behaviour cloning)", ylabel=SUCCESS, xticks=rounds
     )
-    axes.legend(fontsize=8)
+    axes.legend()
