@@ -15,3 +15,11 @@ document.addEventListener("click", (event) => {
   file.click();
   setTimeout(() => URL.revokeObjectURL(file.href), 1000);
 });
+
+// A table that is wider than the page says so.
+document.addEventListener("DOMContentLoaded", () => {
+  const watch = new ResizeObserver((entries) => {
+    for (const { target } of entries) target.toggleAttribute("data-cut", target.scrollWidth > target.clientWidth + 1);
+  });
+  for (const place of document.querySelectorAll(".pst-scrollable-table-container")) watch.observe(place);
+});

@@ -88,7 +88,7 @@ function ranking() {
   const body = h("tbody", {});
   const caption = h("caption", {});
   const heads = ["robot", "arrives (%)", "95 % interval", "from 0 to 100 %"];
-  const element = h("div", { class: "scroll", role: "region", "aria-label": "How often each robot arrives", tabindex: 0 }, h("table", { class: "results" }, caption, h("thead", {}, h("tr", {}, ...heads.map((text) => h("th", { scope: "col" }, text)))), body));
+  const element = wide("How often each robot arrives", h("table", { class: "results" }, caption, h("thead", {}, h("tr", {}, ...heads.map((text) => h("th", { scope: "col" }, text)))), body));
   const show = (robots, { maps, obstacles }) => {
     element.hidden = robots.length === 0;
     caption.textContent = `The same ${maps} maps with ${obstacles} obstacles for every robot. No demonstration was made in them.`;

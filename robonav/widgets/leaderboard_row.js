@@ -29,7 +29,7 @@ function render({ model, el }) {
   const percent = (rate) => `${Math.round(100 * rate)}`;
   const mine = settings.map(() => h("td", {}, ""));
   const head = h("th", { scope: "row" }, "your robot");
-  const table = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Your robot beside the methods of the book" },
+  const table = wide("Your robot beside the methods of the book",
     h("table", { class: "results" },
       h("caption", {}, "Episodes that arrive, in per cent"),
       h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "method"), ...settings.map(({ name }) => h("th", { scope: "col" }, name)))),
@@ -99,7 +99,7 @@ function render({ model, el }) {
   el.replaceChildren(
     h("div", { class: "row tools" }, h("label", {}, h("span", {}, "robot"), which), sets.element, remove,
       h("label", { class: "file" }, h("span", {}, "or weights from a file"), upload)),
-    about, note, panel.element, table,
+    about, note, panel.element, h("div", { class: "board" }, table),
     h("p", {}, h("a", { href: playground }, "Train a robot of your own")));
   fill();
   tell();

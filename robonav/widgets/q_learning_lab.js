@@ -224,7 +224,8 @@ function trialTable() {
   const body = h("tbody", {});
   const heads = ["robot", "arrives (%)", "95 % interval", "collides", "never ends"];
   const caption = h("caption", {}, "");
-  const element = h("div", { class: "scroll", hidden: true }, h("table", { class: "results" }, caption, h("thead", {}, h("tr", {}, ...heads.map((text) => h("th", { scope: "col" }, text)))), body));
+  const element = wide("How the robots did in the new maps", h("table", { class: "results" }, caption, h("thead", {}, h("tr", {}, ...heads.map((text) => h("th", { scope: "col" }, text)))), body));
+  element.hidden = true;
   const show = (outcomes, maps, before) => {
     element.hidden = outcomes.length === 0;
     const rows = trialRows(outcomes);
@@ -441,8 +442,8 @@ function render({ model, el }) {
   el.replaceChildren(
     ...(presets.length > 0 ? faults(presets, first, form, tell) : []), form.element,
     h("div", { class: "row tools" }, count.element, button("The thesis's settings", thesis), button("The book's settings", first)),
-    panel.element,
-    h("div", { class: "row" }, map.element, h("div", { class: "grow" }, small.element, results.element, h("div", { class: "row tools" }, save))),
+    panel.element, results.element,
+    h("div", { class: "row" }, map.element, h("div", { class: "grow" }, small.element, h("div", { class: "row tools" }, save))),
     kernel.element);
   tell();
   const world = trainingWorlds(first)(0);

@@ -116,15 +116,16 @@ function render({ model, el }) {
     drawn.textContent = theta ? `The colours show ${of}, for a robot there that faces the target. ${told}` : `Once a reward is learned, colours will show ${of}.`;
     board.canvas.setAttribute("aria-label", theta ? "Map of the learned reward: blue where the reward of the action is above its mean over the map, red where it is below" : "Map without a reward: nothing is learned yet");
   };
-  const table = h("div", { class: "scroll" });
+  const weightsTable = h("table", { class: "results" });
+  const table = wide("Weights of the reward", weightsTable);
   const list = (theta) => {
     const names = featureNames(settings.encoder);
     const strongest = Math.max(1e-12, ...theta.map(Math.abs));
     const cell = (value) => h("td", { style: `background: color-mix(in srgb, ${value > 0 ? PALETTE.BLUE : PALETTE.VERMILION} ${Math.round((45 * Math.abs(value)) / strongest)}%, transparent)` }, value.toFixed(2));
-    table.replaceChildren(h("table", { class: "results" },
+    weightsTable.replaceChildren(
       h("caption", {}, "Weights of the reward, one column an action"),
       h("thead", {}, h("tr", {}, ...["feature", ...ACTION_NAMES].map((text) => h("th", { scope: "col" }, text)))),
-      h("tbody", {}, ...names.map((name, j) => h("tr", {}, h("th", { scope: "row" }, name), ...ACTION_NAMES.map((_, a) => cell(theta[a * names.length + j])))))));
+      h("tbody", {}, ...names.map((name, j) => h("tr", {}, h("th", { scope: "row" }, name), ...ACTION_NAMES.map((_, a) => cell(theta[a * names.length + j]))))));
   };
 
   // How well a robot does in new maps
@@ -231,10 +232,10 @@ function render({ model, el }) {
   const about = h("p", { class: "about" });
   /** What the chosen demonstrations hold. */
   const tell = () => {
-    const drives = sets[chosen]?.drives ?? keptDrives().length;
+    const all = sets[chosen]?.demonstrations ?? keptDrives().length;
     const count = decisions(chosen).actions.length;
     about.textContent = count === 0 ? NO_DECISION
-      : `${drives} ${drives === 1 ? "drive" : "drives"} with ${count} ${count === 1 ? "decision" : "decisions"} to learn from: steps with something in range.`;
+      : `${all} ${all === 1 ? "demonstration" : "demonstrations"} with ${count} ${count === 1 ? "decision" : "decisions"} to learn from: steps with something in range.`;
   };
   const forget = watchDrives(() => {
     from.element.querySelector("option:last-child").textContent = names().at(-1);

@@ -217,7 +217,7 @@ def reward_learning(
         sets.append(
             {
                 "name": name,
-                "drives": len(drives.worlds),
+                "demonstrations": len(drives.worlds),
                 "inputs": packed(decisions.inputs),
                 "actions": packed(decisions.actions, np.uint8),
             }

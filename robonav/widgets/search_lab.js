@@ -49,11 +49,11 @@ function panel(world, search) {
 
 /** The searches' results, one row each. */
 function results(searches, speed) {
-  const row = ({ kind, found, length, steps, expanded, seconds }) => h("tr", {}, h("th", { scope: "row" }, NAMES[kind]),
-    ...[found ? length.toFixed(1) : "none", expanded, (1000 * seconds).toFixed(1), steps === null ? "needs a driver" : found ? `${steps} actions, ${steps} s` : "none"]
+  const row = ({ kind, found, length, steps, expanded }) => h("tr", {}, h("th", { scope: "row" }, NAMES[kind]),
+    ...[found ? length.toFixed(1) : "none", expanded, steps === null ? "needs a driver" : found ? `${steps} actions, ${steps} s` : "none"]
       .map((text) => h("td", {}, String(text))));
   return h("table", { class: "results" },
-    h("thead", {}, h("tr", {}, ...["search", "length (m)", "nodes", "search time (ms)", `to drive at ${speed} m/s`].map((text) => h("th", { scope: "col" }, text)))),
+    h("thead", {}, h("tr", {}, ...["search", "length (m)", "nodes", `to drive at ${speed} m/s`].map((text) => h("th", { scope: "col" }, text)))),
     h("tbody", {}, ...searches.map(row)));
 }
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import time
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import product
-from typing import Any, TypeVar
+from typing import Any
 
 import anywidget
 import numpy as np
@@ -19,9 +18,6 @@ from robonav.validation import check_array
 
 from .shared import front_end, packed, style_sheet
 from .simulator import page_world
-
-Found = TypeVar("Found", Plan, GridPlan)
-REPEATS = 3  # the number of timings, of which the shortest counts
 
 
 class SearchLab(anywidget.AnyWidget):
@@ -125,31 +121,16 @@ def _both(
     """Return both searches in the format of the page."""
     with warnings.catch_warnings():  # the page itself shows that cells are too large
         warnings.filterwarnings("ignore", message="plan found no path")
-        by_actions, seconds = _timed(
-            lambda: plan(world, margin=margin, cell=cell, speed=speed, record=True)
-        )
-    on_grid, longer = _timed(
-        lambda: plan_on_grid(world, margin=margin, cell=cell, record=True)
-    )
+        by_actions = plan(world, margin=margin, cell=cell, speed=speed, record=True)
+    on_grid = plan_on_grid(world, margin=margin, cell=cell, record=True)
     return [
         {
             "kind": "actions",
             "steps": len(by_actions.actions),
-            "seconds": seconds,
             **_told(by_actions),
         },
-        {"kind": "grid", "steps": None, "seconds": longer, **_told(on_grid)},
+        {"kind": "grid", "steps": None, **_told(on_grid)},
     ]
-
-
-def _timed(search: Callable[[], Found]) -> tuple[Found, float]:
-    """Return a plan and the time of its search in seconds."""
-    spent = []
-    for _ in range(REPEATS):
-        begin = time.perf_counter()
-        found = search()
-        spent.append(time.perf_counter() - begin)
-    return found, min(spent)
 
 
 def _told(found: Plan | GridPlan) -> dict[str, Any]:

@@ -165,6 +165,18 @@ export function player({ label, count, value = 0, text, change, interval = 150 }
   return { element, go, stop, frame: () => frame };
 }
 
+/** A place for something wide, which scrolls sideways where it does not fit, and says so. */
+export function wide(label, ...children) {
+  const element = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": label }, ...children);
+  const look = () => element.toggleAttribute("data-cut", element.scrollWidth > element.clientWidth + 1);
+  if (globalThis.ResizeObserver) {
+    const watch = new ResizeObserver(look);
+    watch.observe(element);
+    for (const child of children) watch.observe(child);
+  }
+  return element;
+}
+
 // ---- Pictures -------------------------------------------------------------------------------------------------------
 
 /**

@@ -31,6 +31,8 @@ def row(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Loc
     rates = {"straight": [30.0] * len(SETTINGS)}
     found = mounted(visit, http, leaderboard_row(rates, worlds=FEW))
     visit.page.evaluate(EMPTIED)
+    cut = found.page.locator(".scroll").get_attribute("data-cut")
+    assert (cut is None) == (request.param == "desktop")
     yield found
     assert visit.errors == []
     assert visit.page.evaluate(

@@ -59,7 +59,7 @@ def test_every_setting_shows_its_own_searches(lab, name, margin, cell):
     if by_actions.found:
         steps = len(by_actions.actions)
         expect(cells.nth(0)).to_have_text(f"{by_actions.length:.1f}")
-        expect(cells.nth(3)).to_have_text(f"{steps} actions, {steps} s")
+        expect(cells.nth(2)).to_have_text(f"{steps} actions, {steps} s")
     expect(cells.nth(1)).to_have_text(str(by_actions.expanded))
 
 

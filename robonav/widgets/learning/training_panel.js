@@ -11,8 +11,8 @@ function liveCurve({ name, label, note = "", colour = PALETTE.BLUE, low = 0, hig
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label },
     svg("path", { d: `M${left} ${top}V${bottom}H${right}`, fill: "none", stroke: PALETTE.INK }), before, line, upper, lower, last,
     svg("text", { x: (left + right) / 2, y: height - 4, "text-anchor": "middle", "font-size": 12, class: "quiet" }, unit),
-    svg("text", { transform: `translate(12 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle", "font-size": 12, class: "quiet" }, label));
-  const element = h("figure", {}, picture, h("figcaption", {}, note));
+    svg("text", { transform: `translate(12 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle", "font-size": 11, class: "quiet" }, label));
+  const element = h("figure", {}, picture, note && h("p", { class: "label" }, note));
   let [points, old, total] = [[], [], 1];
 
   const draw = () => {
@@ -79,7 +79,7 @@ export function trainingPanel({ source, title = "", action, busy = "It learns.",
   const fill = h("div", { class: "fill" });
   const bar = h("div", { class: "progress", role: "progressbar", "aria-label": action, "aria-valuemin": 0, "aria-valuemax": 100, "aria-valuenow": 0 }, fill);
   const said = h("p", { class: "status", role: "status" });
-  const left = h("span", { class: "left" });
+  const left = h("p", { class: "label left" });
   let [running, announced, began, frame, waiting] = [null, 0, 0, 0, []];
 
   const show = (steps, of) => {
@@ -147,7 +147,7 @@ export function trainingPanel({ source, title = "", action, busy = "It learns.",
   };
   const button = h("button", { type: "button", class: "main", click: () => (running ? cancel() : start()) }, action);
   const element = h("div", { class: "training", role: "group", "aria-label": title || action },
-    h("div", { class: "row tools" }, button, h("div", { class: "grow" }, title && h("p", { class: "label" }, title), bar), left), said,
+    h("div", { class: "row tools" }, button, h("div", { class: "grow" }, title && h("p", { class: "label" }, title), bar, left)), said,
     h("div", { class: "row curves" }, ...curves.map((each) => each.element)));
   return { element, button, start, cancel, running: () => running !== null, now: () => curves.map((each) => each.now()) };
 }
