@@ -324,11 +324,12 @@ class NavigationEnv(gymnasium.Env):
 
     def _move_obstacles(self) -> Array:
         """Let the moving obstacles go on for one second; return the centres of all obstacles before."""
+        if not self.moving:
+            return self.centres
         before = self.centres.copy()
-        if self.moving:
-            drift(
-                self.obstacles, self.headings, self.speeds, self.size, self.key, self.steps
-            )  # fmt: skip
+        drift(
+            self.obstacles, self.headings, self.speeds, self.size, self.key, self.steps
+        )  # fmt: skip
         return before
 
     def _sense(self) -> Sensing:
