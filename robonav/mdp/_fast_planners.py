@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _fast
-from .evaluation import History, error_limit, evaluation_residual
+from .evaluation import ValueHistory, error_limit, evaluation_residual
 from .models import FiniteMDP
 from .solutions import Solution, greedy_policy
 
@@ -29,7 +29,7 @@ def value_iteration(
     record: bool,
 ) -> Solution:
     """Twin of ``dynamic_programming.value_iteration``: maximum and residual are found in the pass of the backup."""
-    values, limit, history = start, mdp.residual_for(tolerance), History(record)
+    values, limit, history = start, mdp.residual_for(tolerance), ValueHistory(record)
     updated, policy = np.empty_like(values), np.empty(mdp.n_states, dtype=np.intp)
     history.append(values)
     for iteration in range(1, max_iterations + 1):
@@ -54,7 +54,11 @@ def modified_policy_iteration(
     record: bool,
 ) -> Solution:
     """Twin of ``dynamic_programming.modified_policy_iteration``: sweeps need no copy of the induced chain."""
-    values, limit, history = start, evaluation_residual(mdp, tolerance), History(record)
+    values, limit, history = (
+        start,
+        evaluation_residual(mdp, tolerance),
+        ValueHistory(record),
+    )
     updated, policy = np.empty_like(values), np.empty(mdp.n_states, dtype=np.intp)
     for iteration in range(1, max_iterations + 1):
         history.append(values)
@@ -84,7 +88,7 @@ def in_place_value_iteration(
     record: bool,
 ) -> Solution:
     """Twin of ``asynchronous.in_place_value_iteration``."""
-    values, limit, history = start, mdp.residual_for(tolerance), History(record)
+    values, limit, history = start, mdp.residual_for(tolerance), ValueHistory(record)
     history.append(values)
     for iteration in range(1, max_iterations + 1):
         residual = _fast.in_place_sweep(*mdp.arrays, values)

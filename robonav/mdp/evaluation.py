@@ -159,7 +159,7 @@ def iterative_policy_evaluation(
     """
     transitions, rewards = mdp.induced_chain(policy)  # T_pi (S, S) and r_pi (S,)
     values = starting_values("start", mdp, start)
-    history = History(record)
+    history = ValueHistory(record)
     history.append(values)
     epsilon = evaluation_residual(mdp, tolerance)
     for iteration in range(1, max_iterations + 1):  # 5: repeat
@@ -202,7 +202,7 @@ def expected_return(mdp: FiniteMDP, policy: ArrayLike, start: ArrayLike) -> floa
     return float(probabilities @ policy_evaluation(mdp, policy))  # Eq. (2.28)
 
 
-class History:
+class ValueHistory:
     """The values of each iteration, if they are to be kept."""
 
     def __init__(self, record: bool) -> None:

@@ -12,6 +12,7 @@ from .apprenticeship import (
     projection_guess,
 )
 from .benchmark_mdps import TERRAIN_KINDS, TRUE_WEIGHTS, terrain
+from .decisions import ENCODER, Decisions, expert_decisions
 from .feature_expectations import (
     action_values,
     discounted_feature_sums,
@@ -52,11 +53,11 @@ from .policy_improvement import (
     ZERO_TERMINAL_VALUES,
     FullBatchDescent,
     ReplaySGD,
+    decision_rewards,
     policy_cost,
     sarsa_descent,
     sarsa_targets,
     scale_to_unit_interval,
-    transition_rewards,
 )
 from .refinement import Refined, map_uniform_prior, most_frequent
 from .relative_entropy import (
@@ -89,8 +90,7 @@ from .scirl import (
     structured_classification,
 )
 from .tasks import RobotTask, TabularTask, Task
-from .training import History, IRLResult, Recorder, train_under_reward
-from .transitions import ENCODER, Transitions, expert_transitions
+from .training import IRLHistory, IRLRecorder, IRLResult, train_under_reward
 
 __all__ = [
     "ENCODER",
@@ -102,13 +102,14 @@ __all__ = [
     "ZERO_TERMINAL_VALUES",
     "Apprenticeship",
     "Classification",
+    "Decisions",
     "FullBatchDescent",
-    "History",
+    "IRLHistory",
+    "IRLRecorder",
     "IRLResult",
     "LeastSquaresReward",
     "Margin",
     "MaximumCausalEntropy",
-    "Recorder",
     "Refined",
     "RelativeEntropy",
     "ReplaySGD",
@@ -119,7 +120,6 @@ __all__ = [
     "TabularTask",
     "Task",
     "Trajectories",
-    "Transitions",
     "accuracy",
     "action_block",
     "action_values",
@@ -129,12 +129,13 @@ __all__ = [
     "balanced_accuracy",
     "boltzmann_policy",
     "causal_entropy_dual",
+    "decision_rewards",
     "discounted_feature_sums",
     "dual",
     "dual_gradient",
     "empirical_expectations",
+    "expert_decisions",
     "expert_margin",
-    "expert_transitions",
     "exploring_policy",
     "feature_expectations",
     "feature_gap",
@@ -181,6 +182,5 @@ __all__ = [
     "structured_classification",
     "terrain",
     "train_under_reward",
-    "transition_rewards",
     "value_of_expectations",
 ]

@@ -16,7 +16,7 @@ from robonav.validation import (
     checks,
 )
 
-from .transitions import Transitions
+from .decisions import Decisions
 
 
 def unit_interval(name: str, value: Any) -> float:
@@ -68,7 +68,7 @@ def slack_of_features(name: str, value: Any) -> Any:
 
 RULES: dict[str, Rule] = {
     "bound": check_positive,
-    "demonstrations": lambda name, value: check_instance(name, value, Transitions),
+    "demonstrations": lambda name, value: check_instance(name, value, Decisions),
     "discount": unit_interval,
     "estimate": function,
     "apprenticeship.expectations": function,

@@ -23,15 +23,15 @@ from robonav.networks.multilayer_perceptron import random_network
 from robonav.progress import Progress
 
 from ._arguments import checked
+from .decisions import Decisions, concatenate
 from .feature_expectations import discounted_feature_sums, empirical_expectations
 from .features import state_action_features
 from .max_margin import maximum_margin, project_to_unit_ball
 from .model_selection import Score, balanced_accuracy
 from .policy import exploring_policy
-from .policy_improvement import ReplaySGD, transition_rewards
+from .policy_improvement import ReplaySGD, decision_rewards
 from .tasks import Task
-from .training import IRLResult, Recorder
-from .transitions import Transitions, concatenate
+from .training import IRLRecorder, IRLResult
 
 Floats = NDArray[np.float64]
 
@@ -42,8 +42,8 @@ RewardGuess = Callable[[Floats, Sequence[Floats]], tuple[Floats, float]]
 """``guess(expert, found) -> (weights, distance)``: a reward under which the expert does better than the policies found
 so far, and the distance of the expert's feature expectations from those of the nearest mixture of these policies."""
 
-PolicyExpectations = Callable[[Transitions, int, float], Floats]
-"""``expectations(transitions, n_actions, discount) -> (A (k + 1),)``: estimated feature expectations."""
+PolicyExpectations = Callable[[Decisions, int, float], Floats]
+"""``expectations(decisions, n_actions, discount) -> (A (k + 1),)``: estimated feature expectations."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -285,16 +285,14 @@ def nearest_mixture(expert: ArrayLike, found: ArrayLike) -> Floats:
     return shares / shares.sum()
 
 
-def from_initial_state(
-    transitions: Transitions, n_actions: int, discount: float
-) -> Floats:
+def from_initial_state(decisions: Decisions, n_actions: int, discount: float) -> Floats:
     """Feature expectations discounted from the first decision of each episode.
 
     Uses Eq. (5.13). With the thesis's discount of 0.65, decisions after the first dozen hardly count.
 
     Parameters
     ----------
-    transitions : Transitions
+    decisions : Decisions
         M decisions; if there is none, the expectations are zero.
     n_actions : int
         A.
@@ -314,22 +312,20 @@ def from_initial_state(
     >>> from_initial_state(expert, 4, 0.5).sum()  # a feature and the constant, at two steps
     np.float64(3.0)
     """
-    taken = state_action_features(transitions.features, transitions.actions, n_actions)
+    taken = state_action_features(decisions.features, decisions.actions, n_actions)
     if not len(taken):
         return np.zeros(taken.shape[1])
-    return empirical_expectations(taken, transitions.trajectory, discount)
+    return empirical_expectations(taken, decisions.trajectory, discount)
 
 
-def from_all_states(
-    transitions: Transitions, n_actions: int, discount: float
-) -> Floats:
+def from_all_states(decisions: Decisions, n_actions: int, discount: float) -> Floats:
     """Feature expectations discounted from every decision, and averaged over all decisions.
 
     All parts of an episode then have equal weight.
 
     Parameters
     ----------
-    transitions : Transitions
+    decisions : Decisions
         M decisions; if there is none, the expectations are zero.
     n_actions : int
         A.
@@ -349,14 +345,14 @@ def from_all_states(
     >>> from_all_states(expert, 4, 0.5).sum()  # the mean of 3 and 2
     np.float64(2.5)
     """
-    taken = state_action_features(transitions.features, transitions.actions, n_actions)
-    sums = discounted_feature_sums(taken, transitions.trajectory, discount)
+    taken = state_action_features(decisions.features, decisions.actions, n_actions)
+    sums = discounted_feature_sums(taken, decisions.trajectory, discount)
     return sums.mean(axis=0) if len(sums) else np.zeros(sums.shape[1])
 
 
 @checked
 def apprenticeship(
-    demonstrations: Transitions,
+    demonstrations: Decisions,
     task: Task,
     *,
     guess: RewardGuess = projection_guess,
@@ -377,7 +373,7 @@ def apprenticeship(
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         The expert's decisions.
     task : Task
         The task on which the network trains.
@@ -411,7 +407,7 @@ def apprenticeship(
     network = random_network((task.n_inputs, hidden, n_actions), seed=rng)
     per_reward = max(iterations // n_rewards, 1)
     total = n_rewards * per_reward
-    record = Recorder(demonstrations, task, network, eta, total, progress)
+    record = IRLRecorder(demonstrations, task, network, eta, total, progress)
     mu_expert = expectations(demonstrations, n_actions, discount)
     episodes = [task.rollout(exploring_policy(network, eta), rng)]
     found = [expectations(episodes[0], n_actions, discount)]  # 1
@@ -422,7 +418,7 @@ def apprenticeship(
         theta = project_to_unit_ball(weights.reshape(n_actions, -1))
         for _ in range(per_reward):  # 4
             pairs = concatenate(episodes[-improver.replay :])
-            rewards = transition_rewards(theta, pairs)  # theta . f(s, a)
+            rewards = decision_rewards(theta, pairs)  # theta . f(s, a)
             fraction = (len(episodes) - 1) / max(total - 1, 1)
             network, cost = improver.descend(network, pairs, rewards, fraction, rng)
             record.add(episodes[-1], theta, network, cost)

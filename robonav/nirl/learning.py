@@ -11,13 +11,13 @@ from robonav.lfd.demonstrations import Demonstrations
 from robonav.validation import check_instance, check_one_of
 
 from .apprenticeship import apprenticeship
+from .decisions import Decisions, Floats, expert_decisions
 from .nirl import nirl
 from .refinement import Refined
 from .relative_entropy import relative_entropy
 from .scirl import scirl
 from .tasks import RobotTask
 from .training import IRLResult, train_under_reward
-from .transitions import Floats, Transitions, expert_transitions
 
 METHODS: dict[str, Callable[..., IRLResult]] = {
     "nirl": nirl,
@@ -77,18 +77,18 @@ def learn(
     """
     learner = METHODS[check_one_of("method", method, METHODS)]
     task = RobotTask() if task is None else check_instance("task", task, RobotTask)
-    expert = robot_transitions(demonstrations, task, refine)
+    expert = robot_decisions(demonstrations, task, refine)
     return learner(expert, task, seed=seed, **settings)
 
 
-def robot_transitions(
+def robot_decisions(
     demonstrations: Demonstrations, task: RobotTask, refine: Refinement | None = None
-) -> Transitions:
+) -> Decisions:
     """The expert's decisions, with the states as the task's encoder gives them, and refined on request.
 
     Two states are equal if all inputs of the network are equal.
     """
-    expert = expert_transitions(demonstrations, task.encoder)
+    expert = expert_decisions(demonstrations, task.encoder)
     if refine is None:
         return expert
     refined = refine(expert.inputs.round(6), expert.actions, task.n_actions)
@@ -135,5 +135,5 @@ def learn_under_reward(
     np.False_
     """
     task = RobotTask() if task is None else check_instance("task", task, RobotTask)
-    expert = robot_transitions(demonstrations, task)
+    expert = robot_decisions(demonstrations, task)
     return train_under_reward(expert, task, weights, seed=seed, **settings)

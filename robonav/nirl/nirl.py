@@ -10,19 +10,19 @@ from robonav.networks.multilayer_perceptron import random_network
 from robonav.progress import Progress
 
 from ._arguments import checked
+from .decisions import Decisions, concatenate
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, balanced_accuracy
 from .policy import exploring_policy, neural_action_values
-from .policy_improvement import Improver, ReplaySGD, transition_rewards
+from .policy_improvement import Improver, ReplaySGD, decision_rewards
 from .reward_update import RewardUpdate, SubgradientMaxMargin, expert_margin
 from .tasks import Task
-from .training import IRLResult, Recorder
-from .transitions import Transitions, concatenate
+from .training import IRLRecorder, IRLResult
 
 
 @checked
 def nirl(
-    demonstrations: Transitions,
+    demonstrations: Decisions,
     task: Task,
     *,
     iterations: int = 140,
@@ -43,7 +43,7 @@ def nirl(
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         The expert's decisions.
     task : Task
         The task on which the network trains.
@@ -89,7 +89,7 @@ def nirl(
     """
     rng = np.random.default_rng(seed)
     network = random_network((task.n_inputs, hidden, task.n_actions), seed=rng)  # 1
-    record = Recorder(
+    record = IRLRecorder(
         demonstrations, task, network, inverse_temperature, iterations, progress
     )
     theta, episodes = np.zeros((task.n_actions, task.n_inputs + 1)), []
@@ -103,7 +103,7 @@ def nirl(
         if expert_margin(demonstrations, pi, reward) <= tolerance:  # 6
             break  # 7, 8
         pairs = concatenate(episodes[-improver.replay :])
-        rewards = transition_rewards(reward, pairs)  # 9: theta . f(s, a)
+        rewards = decision_rewards(reward, pairs)  # 9: theta . f(s, a)
         fraction = (i - 1) / max(iterations - 1, 1)
         # 9, 10: SARSA targets, Eq. (5.16), and descent on the cost, Eq. (5.15)
         network, cost = improver.descend(network, pairs, rewards, fraction, rng)

@@ -16,8 +16,8 @@ from robonav.networks.multilayer_perceptron import (
 )
 from robonav.validation import check_integer, check_positive, check_real
 
+from .decisions import Decisions, Floats, Ints
 from .policy import neural_action_values
-from .transitions import Floats, Ints, Transitions
 
 SURVIVAL_BONUS = (0.0, 1.0)
 """Terminal value 0 after a collision and 1 after any other end. It rewards survival, whatever the reward is."""
@@ -45,7 +45,7 @@ class Improver(Protocol):
     def descend(
         self,
         network: Network,
-        transitions: Transitions,
+        decisions: Decisions,
         rewards: Floats,
         fraction: float,
         rng: np.random.Generator,
@@ -56,7 +56,7 @@ class Improver(Protocol):
         ----------
         network : Network
             The latest.
-        transitions : Transitions
+        decisions : Decisions
             M decisions of the last ``replay`` iterations.
         rewards : (M,) array
             Their rewards.
@@ -67,8 +67,8 @@ class Improver(Protocol):
         """
 
 
-def transition_rewards(weights: ArrayLike, transitions: Transitions) -> Floats:
-    """Rewards r(s_t, a_t) = theta . f(s_t, a_t) of transitions.
+def decision_rewards(weights: ArrayLike, decisions: Decisions) -> Floats:
+    """Rewards r(s_t, a_t) = theta . f(s_t, a_t) of decisions.
 
     Uses Eq. (5.2). By Eq. (5.5) only the block of the action taken is not zero, so the reward is theta_a . phi(s).
 
@@ -76,7 +76,7 @@ def transition_rewards(weights: ArrayLike, transitions: Transitions) -> Floats:
     ----------
     weights : (A, k + 1) array
         theta, one row for each action.
-    transitions : Transitions
+    decisions : Decisions
         M decisions.
 
     Returns
@@ -86,14 +86,14 @@ def transition_rewards(weights: ArrayLike, transitions: Transitions) -> Floats:
     Examples
     --------
     >>> import numpy as np
-    >>> from robonav.nirl import Transitions, transition_rewards
+    >>> from robonav.nirl import Decisions, decision_rewards
     >>> nothing = np.zeros(1, dtype=int)
-    >>> one = Transitions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
-    >>> transition_rewards([[3.0, 1.0]], one)
+    >>> one = Decisions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> decision_rewards([[3.0, 1.0]], one)
     array([7.])
     """
     theta = np.asarray(weights, dtype=float)
-    return np.einsum("mk,mk->m", transitions.features, theta[transitions.actions])
+    return np.einsum("mk,mk->m", decisions.features, theta[decisions.actions])
 
 
 def scale_to_unit_interval(rewards: ArrayLike, *, percentile: float = 95.0) -> Floats:
@@ -201,7 +201,7 @@ def policy_cost(
 
 def sarsa_descent(
     network: Network,
-    transitions: Transitions,
+    decisions: Decisions,
     rewards: Floats,
     terminal_values: Floats,
     order: Ints,
@@ -219,7 +219,7 @@ def sarsa_descent(
     ----------
     network : Network
         One hidden layer.
-    transitions : Transitions
+    decisions : Decisions
         M decisions.
     rewards : (M,) array
         In units of the network's output.
@@ -239,9 +239,9 @@ def sarsa_descent(
     --------
     >>> import numpy as np
     >>> from robonav.networks import random_network
-    >>> from robonav.nirl import Transitions, sarsa_descent
+    >>> from robonav.nirl import Decisions, sarsa_descent
     >>> nothing = np.zeros(1, dtype=int)
-    >>> one = Transitions(np.ones((1, 2)), nothing, nothing, nothing, nothing, nothing)
+    >>> one = Decisions(np.ones((1, 2)), nothing, nothing, nothing, nothing, nothing)
     >>> start = random_network((2, 3, 1), seed=0)
     >>> order = np.zeros(500, dtype=int)
     >>> rates = {"learning_rate": 0.8, "discount": 0.5, "gradient_step": 1.0}
@@ -251,8 +251,8 @@ def sarsa_descent(
     """
     w1, w2 = (weight.copy() for weight in network.weights)
     b1, b2 = (bias.copy() for bias in network.biases)
-    inputs, actions = transitions.inputs, transitions.actions
-    following = transitions.next_index
+    inputs, actions = decisions.inputs, decisions.actions
+    following = decisions.next_index
     rates = {"learning_rate": learning_rate, "discount": discount}
     cost = 0.0
     for i in order:
@@ -325,20 +325,20 @@ class ReplaySGD:
     def descend(
         self,
         network: Network,
-        transitions: Transitions,
+        decisions: Decisions,
         rewards: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
         """The network after ``n_samples`` steps of :func:`sarsa_descent`, by its compiled twin."""
-        if len(transitions) == 0:
+        if len(decisions) == 0:
             return Improved(network, np.nan)
-        collided = transitions.collided[transitions.trajectory]
-        order = rng.integers(len(transitions), size=self.n_samples)
+        collided = decisions.collided[decisions.trajectory]
+        order = rng.integers(len(decisions), size=self.n_samples)
         first, last = self.gradient_step
         return compiled_sarsa_descent(
             network,
-            transitions,
+            decisions,
             (1 - self.discount) * scale_to_unit_interval(rewards),
             np.where(collided, *self.terminal_values),
             order,
@@ -350,7 +350,7 @@ class ReplaySGD:
 
 def compiled_sarsa_descent(
     network: Network,
-    transitions: Transitions,
+    decisions: Decisions,
     rewards: Floats,
     terminal_values: Floats,
     order: Ints,
@@ -365,8 +365,8 @@ def compiled_sarsa_descent(
     w1, w2 = (weight.T.copy(order="C") for weight in network.weights)
     b1, b2 = (bias.copy() for bias in network.biases)
     cost = _fast.sarsa_descent(
-        w1, b1, w2, b2, transitions.inputs, transitions.actions, rewards,
-        transitions.next_index, terminal_values, order, learning_rate, discount, gradient_step,
+        w1, b1, w2, b2, decisions.inputs, decisions.actions, rewards,
+        decisions.next_index, terminal_values, order, learning_rate, discount, gradient_step,
     )  # fmt: skip
     return Improved(Network((w1.T, w2.T), (b1, b2)), cost)
 
@@ -412,16 +412,16 @@ class FullBatchDescent:
     def descend(
         self,
         network: Network,
-        transitions: Transitions,
+        decisions: Decisions,
         rewards: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
         """The network after ``n_steps`` steps against the gradient, and its cost before them."""
-        if len(transitions) == 0:
+        if len(decisions) == 0:
             return Improved(network, np.nan)
-        inputs, actions = transitions.inputs, transitions.actions
-        rows, following = np.arange(len(transitions)), transitions.next_index
+        inputs, actions = decisions.inputs, decisions.actions
+        rows, following = np.arange(len(decisions)), decisions.next_index
         targets = neural_action_values(network, inputs)
         q = targets[rows, actions]
         targets[rows, actions] = sarsa_targets(

@@ -20,12 +20,12 @@ from scipy.special import logsumexp, softmax
 from robonav.errors import ConvergenceWarning
 
 from ._arguments import checked
+from .decisions import Decisions
 from .feature_expectations import discounted_feature_sums
 from .features import state_action_features
 from .policy_improvement import ReplaySGD
 from .tasks import Task
 from .training import IRLResult, train_under_reward
-from .transitions import Transitions
 
 Floats = NDArray[np.float64]
 
@@ -313,7 +313,7 @@ def _is_within_slack(excess: float, found: Any) -> bool:
 
 
 def segment_features(
-    transitions: Transitions, n_actions: int, discount: float, horizon: int
+    decisions: Decisions, n_actions: int, discount: float, horizon: int
 ) -> Floats:
     """Discounted features of segments: of each decision and the ones after it, ``horizon`` of them at most.
 
@@ -322,7 +322,7 @@ def segment_features(
 
     Parameters
     ----------
-    transitions : Transitions
+    decisions : Decisions
         M decisions.
     n_actions : int
         A.
@@ -344,28 +344,28 @@ def segment_features(
     >>> segment_features(expert, 4, 0.5, 2).sum(axis=1)
     array([3., 3., 2.])
     """
-    taken = state_action_features(transitions.features, transitions.actions, n_actions)
-    all_sums = discounted_feature_sums(taken, transitions.trajectory, discount)
+    taken = state_action_features(decisions.features, decisions.actions, n_actions)
+    all_sums = discounted_feature_sums(taken, decisions.trajectory, discount)
     sums = all_sums.copy()
-    after = np.arange(len(transitions)) + horizon  # the first decision left out
-    same = after < len(transitions)  # whether it belongs to the same episode
-    same[same] = transitions.trajectory[after[same]] == transitions.trajectory[same]
+    after = np.arange(len(decisions)) + horizon  # the first decision left out
+    same = after < len(decisions)  # whether it belongs to the same episode
+    same[same] = decisions.trajectory[after[same]] == decisions.trajectory[same]
     sums[same] -= discount**horizon * all_sums[after[same]]
     return sums
 
 
 def random_segments(
-    demonstrations: Transitions,
+    demonstrations: Decisions,
     task: Task,
     n_samples: int,
     horizon: int,
     rng: np.random.Generator,
-) -> Transitions:
+) -> Decisions:
     """Segments of uniformly random actions, each begun in a state in which the expert made a decision.
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         The expert's decisions.
     task : Task
         The task in which the actions are taken.
@@ -378,7 +378,7 @@ def random_segments(
 
     Returns
     -------
-    Transitions
+    Decisions
 
     Examples
     --------
@@ -399,7 +399,7 @@ def random_segments(
 
 @checked
 def relative_entropy(
-    demonstrations: Transitions,
+    demonstrations: Decisions,
     task: Task,
     *,
     n_samples: int = 6000,
@@ -416,7 +416,7 @@ def relative_entropy(
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         The expert's decisions, with the states where segments can begin.
     task : Task
         The task on which the network trains. Obstacles must stand still, because segments begin in the

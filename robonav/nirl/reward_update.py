@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from robonav.validation import check_integer, check_real
 
+from .decisions import Decisions, Floats
 from .feature_expectations import discounted_feature_sums
 from .features import state_action_features
 from .max_margin import project_to_unit_ball
-from .transitions import Floats, Transitions
 
 
 class RewardUpdate(Protocol):
@@ -24,7 +24,7 @@ class RewardUpdate(Protocol):
 
     def __call__(
         self,
-        demonstrations: Transitions,
+        demonstrations: Decisions,
         action_probabilities: Floats,
         action_values: Floats,
         weights: Floats,
@@ -34,7 +34,7 @@ class RewardUpdate(Protocol):
 
         Parameters
         ----------
-        demonstrations : Transitions
+        demonstrations : Decisions
             M decisions of the expert.
         action_probabilities : (M, A) array
             pi(a | s_t) of the latest policy in the expert's states.
@@ -79,7 +79,7 @@ def inverse_frequency_weights(
 
 
 def feature_gap(
-    demonstrations: Transitions, action_probabilities: Floats, step_weights: Floats
+    demonstrations: Decisions, action_probabilities: Floats, step_weights: Floats
 ) -> Floats:
     """The expert's features minus a policy's in the same states: sum_t w_t [f(s_t, a_t) - sum_a pi(a | s_t) f(s_t, a)].
 
@@ -88,7 +88,7 @@ def feature_gap(
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         M decisions of the expert.
     action_probabilities : (M, A) array
         pi(a | s_t).
@@ -102,9 +102,9 @@ def feature_gap(
     Examples
     --------
     >>> import numpy as np
-    >>> from robonav.nirl import Transitions, feature_gap
+    >>> from robonav.nirl import Decisions, feature_gap
     >>> nothing = np.zeros(1, dtype=int)
-    >>> left = Transitions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> left = Decisions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
     >>> feature_gap(left, np.array([[0.5, 0.5]]), np.ones(1))
     array([[ 1. ,  0.5],
            [-1. , -0.5]])
@@ -115,7 +115,7 @@ def feature_gap(
 
 
 def expert_margin(
-    demonstrations: Transitions, action_probabilities: Floats, theta: Floats
+    demonstrations: Decisions, action_probabilities: Floats, theta: Floats
 ) -> float:
     """By how much a reward prefers the expert's decisions to a policy's: theta . gap, see :func:`feature_gap`.
 
@@ -123,7 +123,7 @@ def expert_margin(
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         M decisions of the expert.
     action_probabilities : (M, A) array
         pi(a | s_t) of the policy.
@@ -137,9 +137,9 @@ def expert_margin(
     Examples
     --------
     >>> import numpy as np
-    >>> from robonav.nirl import Transitions, expert_margin
+    >>> from robonav.nirl import Decisions, expert_margin
     >>> nothing = np.zeros(1, dtype=int)
-    >>> left = Transitions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> left = Decisions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
     >>> expert_margin(left, np.array([[0.5, 0.5]]), np.array([[1.0, 0.0], [0.0, 0.0]]))
     1.0
     """
@@ -167,9 +167,9 @@ class SubgradientMaxMargin:
     Examples
     --------
     >>> import numpy as np
-    >>> from robonav.nirl import SubgradientMaxMargin, Transitions
+    >>> from robonav.nirl import SubgradientMaxMargin, Decisions
     >>> nothing = np.zeros(1, dtype=int)
-    >>> left = Transitions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> left = Decisions(np.array([[2.0]]), nothing, nothing, nothing, nothing, nothing)
     >>> half = np.array([[0.5, 0.5]])
     >>> SubgradientMaxMargin()(left, half, half, np.zeros((2, 2)), 1)
     array([[ 1. ,  0.5],
@@ -183,7 +183,7 @@ class SubgradientMaxMargin:
 
     def __call__(
         self,
-        demonstrations: Transitions,
+        demonstrations: Decisions,
         action_probabilities: Floats,
         action_values: Floats,
         weights: Floats,
@@ -216,9 +216,9 @@ class LeastSquaresReward:
     Examples
     --------
     >>> import numpy as np
-    >>> from robonav.nirl import LeastSquaresReward, Transitions
+    >>> from robonav.nirl import LeastSquaresReward, Decisions
     >>> nothing = np.zeros(1, dtype=int)
-    >>> left = Transitions(np.array([[0.0]]), nothing, nothing, nothing, nothing, nothing)
+    >>> left = Decisions(np.array([[0.0]]), nothing, nothing, nothing, nothing, nothing)
     >>> half = np.array([[0.5, 0.5]])
     >>> LeastSquaresReward(regularisation=0.0)(left, half, half, np.zeros((2, 2)), 1)
     array([[0. , 0.5],
@@ -236,7 +236,7 @@ class LeastSquaresReward:
 
     def __call__(
         self,
-        demonstrations: Transitions,
+        demonstrations: Decisions,
         action_probabilities: Floats,
         action_values: Floats,
         weights: Floats,

@@ -16,17 +16,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._arguments import checked
+from .decisions import Decisions
 from .feature_expectations import discounted_feature_sums
 from .features import all_action_features, state_action_features
 from .policy_improvement import ReplaySGD
 from .reward_update import inverse_frequency_weights
 from .tasks import Task
 from .training import IRLResult, train_under_reward
-from .transitions import Transitions
 
 Floats = NDArray[np.float64]
 
-Estimate = Callable[[Transitions, int, float], Floats]
+Estimate = Callable[[Decisions, int, float], Floats]
 """``estimate(demonstrations, n_actions, discount) -> (M, A, A (k + 1))``: mu_E(s_t, a) of every action in each of the
 expert's states."""
 
@@ -255,16 +255,14 @@ def structured_classification(
     return Classification(mean / scale, costs)
 
 
-def lstd_estimate(
-    demonstrations: Transitions, n_actions: int, discount: float
-) -> Floats:
+def lstd_estimate(demonstrations: Decisions, n_actions: int, discount: float) -> Floats:
     """mu_E of every action by :func:`lstd_mu`, with the state-action features as its basis.
 
     For an action that was not demonstrated in a state, the estimate comes from similar states.
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         M decisions.
     n_actions : int
         A.
@@ -291,13 +289,13 @@ def lstd_estimate(
 
 
 def heuristic_estimate(
-    demonstrations: Transitions, n_actions: int, discount: float
+    demonstrations: Decisions, n_actions: int, discount: float
 ) -> Floats:
     """mu_E of every action: a Monte Carlo estimate for the expert's own, :func:`heuristic_mu` for all others.
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         M decisions.
     n_actions : int
         A.
@@ -324,7 +322,7 @@ def heuristic_estimate(
 
 @checked
 def scirl(
-    demonstrations: Transitions,
+    demonstrations: Decisions,
     task: Task,
     *,
     estimate: Estimate = lstd_estimate,
@@ -338,7 +336,7 @@ def scirl(
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         The expert's decisions.
     task : Task
         The task on which the network trains with the reward.

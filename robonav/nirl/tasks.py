@@ -23,9 +23,9 @@ from robonav.robot import (
 from robonav.robot._fast import ARRIVED, COLLIDED
 from robonav.validation import check_integer, check_positive
 
+from .decisions import ENCODER, Decisions, Floats, Ints
 from .policy import ActionProbabilities
 from .reward_free_mdp import RewardFreeMDP, Trajectories
-from .transitions import ENCODER, Floats, Ints, Transitions
 
 
 class Task(Protocol):
@@ -49,17 +49,17 @@ class Task(Protocol):
 
     def rollout(
         self, policy: ActionProbabilities, rng: np.random.Generator
-    ) -> Transitions:
+    ) -> Decisions:
         """A few episodes with a policy, each from a new start."""
 
     def rollout_from(
         self,
-        demonstrations: Transitions,
+        demonstrations: Decisions,
         index: Ints,
         policy: ActionProbabilities,
         n_decisions: int,
         rng: np.random.Generator,
-    ) -> Transitions:
+    ) -> Decisions:
         """Segments of ``n_decisions`` decisions at most, each begun where a demonstrated decision was made."""
 
     def greedy_policy(self, network: Network) -> Any:
@@ -122,7 +122,7 @@ class RobotTask:
 
     def rollout(
         self, policy: ActionProbabilities, rng: np.random.Generator
-    ) -> Transitions:
+    ) -> Decisions:
         """``n_episodes`` episodes, each in a new map."""
         worlds = random_worlds(self.n_episodes, self.obstacles, self.moving, seed=rng)
         simulator = Simulator(worlds, self.speed, max_steps=self.max_steps)
@@ -130,12 +130,12 @@ class RobotTask:
 
     def rollout_from(
         self,
-        demonstrations: Transitions,
+        demonstrations: Decisions,
         index: Ints,
         policy: ActionProbabilities,
         n_decisions: int,
         rng: np.random.Generator,
-    ) -> Transitions:
+    ) -> Decisions:
         """Segments begun at the poses of demonstrated decisions; obstacles stand where they start."""
         states = demonstrations.states
         if states is None:
@@ -156,7 +156,7 @@ def collect(
     *,
     reflex: ReflexRule | None = REFLEX,
     n_decisions: int | None = None,
-) -> Transitions:
+) -> Decisions:
     """Run the robots of a simulator with a policy, for ``n_decisions`` decisions each at most."""
     made = np.zeros(len(simulator), dtype=np.int64)
     rows: list[tuple[Ints, Floats, Ints, Ints]] = []
@@ -176,7 +176,7 @@ def collect(
 
 def _by_episode(
     rows: list[tuple[Ints, Floats, Ints, Ints]], width: int, outcome: NDArray[np.int8]
-) -> Transitions:
+) -> Decisions:
     """Decisions sorted by episode, from decisions sorted by time."""
     nothing = np.empty(0, np.int64)
     empty = (nothing, np.empty((0, width)), nothing, nothing)
@@ -184,7 +184,7 @@ def _by_episode(
         np.concatenate(column) for column in zip(empty, *rows, strict=True)
     )
     order = np.argsort(owner, kind="stable")
-    return Transitions(
+    return Decisions(
         inputs[order],
         actions[order],
         owner[order],
@@ -234,40 +234,40 @@ class TabularTask:
 
     def rollout(
         self, policy: ActionProbabilities, rng: np.random.Generator
-    ) -> Transitions:
+    ) -> Decisions:
         """``n_episodes`` episodes from the initial state."""
         probabilities = policy(np.eye(self.mdp.n_states))
         return self.demonstrate(probabilities, self.n_episodes, seed=rng)
 
     def rollout_from(
         self,
-        demonstrations: Transitions,
+        demonstrations: Decisions,
         index: Ints,
         policy: ActionProbabilities,
         n_decisions: int,
         rng: np.random.Generator,
-    ) -> Transitions:
+    ) -> Decisions:
         """Segments begun in the states of demonstrated decisions."""
         first = demonstrations.inputs[index].argmax(axis=1)
         probabilities = policy(np.eye(self.mdp.n_states))
         n = len(first)
-        return self._transitions(
+        return self._decisions(
             self.mdp.rollout(probabilities, n, n_decisions, seed=rng, first=first)
         )
 
     def demonstrate(
         self, policy: ArrayLike, n_episodes: int, *, seed: int | np.random.Generator
-    ) -> Transitions:
+    ) -> Decisions:
         """Episodes with a known policy, (S,) actions or (S, A) probabilities, for instance an expert's."""
-        return self._transitions(
+        return self._decisions(
             self.mdp.rollout(policy, n_episodes, self.max_steps, seed=seed)
         )
 
-    def _transitions(self, trajectories: Trajectories) -> Transitions:
+    def _decisions(self, trajectories: Trajectories) -> Decisions:
         """The decisions of trajectories, up to the terminal states."""
         alive = ~self.mdp.terminal[trajectories.states]
         steps = np.broadcast_to(np.arange(alive.shape[1]), alive.shape)
-        return Transitions(
+        return Decisions(
             np.eye(self.mdp.n_states)[trajectories.states[alive]],
             trajectories.actions[alive],
             trajectories.trajectory[alive.ravel()],

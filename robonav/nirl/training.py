@@ -13,17 +13,17 @@ from robonav.networks.network_stack import NetworkStack, stacked
 from robonav.progress import Progress
 
 from ._arguments import checked
+from .decisions import Decisions, Floats, concatenate
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, accuracy, balanced_accuracy
 from .policy import exploring_policy, greedy_actions
-from .policy_improvement import Improver, ReplaySGD, transition_rewards
+from .policy_improvement import Improver, ReplaySGD, decision_rewards
 from .reward_update import expert_margin
 from .tasks import Task
-from .transitions import Floats, Transitions, concatenate
 
 
 @dataclass(frozen=True, eq=False)
-class History:
+class IRLHistory:
     """The record of n iterations. Networks and scores begin with the network before the first.
 
     Attributes
@@ -46,10 +46,10 @@ class History:
     Examples
     --------
     >>> from robonav.lfd import demonstrate
-    >>> from robonav.nirl import History, learn
+    >>> from robonav.nirl import IRLHistory, learn
     >>> from robonav.robot import random_worlds
     >>> result = learn(demonstrate(random_worlds(2, obstacles=20, seed=3)), iterations=2)
-    >>> isinstance(result.history, History), len(result.history.costs)
+    >>> isinstance(result.history, IRLHistory), len(result.history.costs)
     (True, 2)
     """
 
@@ -85,7 +85,7 @@ class IRLResult:
         MDP the actions (S,).
     reward_weights : (A, k + 1) array
         theta that the policy was trained for. Row a holds the weights of phi(s) and of the constant for action a.
-    history : History
+    history : IRLHistory
         Of all iterations.
     chosen : int
         Which of the history's networks the policy is.
@@ -104,17 +104,17 @@ class IRLResult:
 
     policy: Any
     reward_weights: Floats
-    history: History
+    history: IRLHistory
     chosen: int
     network: Network
 
 
-class Recorder:
+class IRLRecorder:
     """The record of a training: it takes in each iteration, and makes the result at the end.
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         M decisions of the expert. Every network is scored by how well it predicts them.
     task : Task
         The task on which the network trains.
@@ -132,10 +132,10 @@ class Recorder:
     >>> import numpy as np
     >>> from robonav.networks import random_network
     >>> from robonav.nirl import TabularTask, accuracy, terrain
-    >>> from robonav.nirl.training import Recorder
+    >>> from robonav.nirl.training import IRLRecorder
     >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
     >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
-    >>> recorder = Recorder(expert, task, network, inverse_temperature=25.0, iterations=1)
+    >>> recorder = IRLRecorder(expert, task, network, inverse_temperature=25.0, iterations=1)
     >>> recorder.add(expert, np.zeros((4, 43)), network, cost=0.7)
     >>> recorder.result(accuracy).history.costs
     array([0.7])
@@ -143,7 +143,7 @@ class Recorder:
 
     def __init__(
         self,
-        demonstrations: Transitions,
+        demonstrations: Decisions,
         task: Task,
         network: Network,
         inverse_temperature: float,
@@ -154,13 +154,13 @@ class Recorder:
         self._inverse_temperature = inverse_temperature
         self._iterations, self._progress = iterations, progress
         self._networks = [network]
-        self._episodes: list[Transitions] = []
+        self._episodes: list[Decisions] = []
         self._weights: list[Floats] = []
         self._margins: list[float] = []
         self._costs: list[float] = []
 
     def add(
-        self, episodes: Transitions, theta: Floats, network: Network, cost: float
+        self, episodes: Decisions, theta: Floats, network: Network, cost: float
     ) -> None:
         """Record an iteration: its episodes, its reward, the network after it, and the cost."""
         policy = exploring_policy(self._networks[-1], self._inverse_temperature)
@@ -181,7 +181,7 @@ class Recorder:
         chosen = int(np.argmax(scores))
         n, shape = len(self._weights), (self._task.n_actions, expert.features.shape[1])
         weights = np.array(self._weights).reshape(n, *shape)
-        history = History(
+        history = IRLHistory(
             networks=stacked(self._networks),
             weights=weights,
             margins=np.array(self._margins),
@@ -203,7 +203,7 @@ class Recorder:
 
 @checked
 def train_under_reward(
-    demonstrations: Transitions,
+    demonstrations: Decisions,
     task: Task,
     weights: Floats,
     *,
@@ -221,7 +221,7 @@ def train_under_reward(
 
     Parameters
     ----------
-    demonstrations : Transitions
+    demonstrations : Decisions
         The expert's decisions.
     task : Task
         The task on which the network trains.
@@ -257,16 +257,16 @@ def train_under_reward(
     """
     rng, theta = np.random.default_rng(seed), project_to_unit_ball(weights)
     network = random_network((task.n_inputs, hidden, task.n_actions), seed=rng)
-    record = Recorder(
+    record = IRLRecorder(
         demonstrations, task, network, inverse_temperature, iterations, progress
     )
-    episodes: list[Transitions] = []
+    episodes: list[Decisions] = []
     for iteration in range(iterations):
         episodes.append(
             task.rollout(exploring_policy(network, inverse_temperature), rng)
         )
         pairs = concatenate(episodes[-improver.replay :])
-        rewards = transition_rewards(theta, pairs)  # theta . f(s, a)
+        rewards = decision_rewards(theta, pairs)  # theta . f(s, a)
         fraction = iteration / max(iterations - 1, 1)
         network, cost = improver.descend(network, pairs, rewards, fraction, rng)
         record.add(episodes[-1], theta, network, cost)

@@ -157,14 +157,14 @@ def select_action(
     return int(rng.choice(len(q), p=probabilities))
 
 
-def values_taken(q_net: torch.nn.Module, batch: Transitions) -> torch.Tensor:
+def values_taken(q_net: torch.nn.Module, batch: Batch) -> torch.Tensor:
     """Q-values of the actions taken: of each row of outputs the one that ``batch.actions`` names.
 
     Parameters
     ----------
     q_net : torch.nn.Module
         The network that learns.
-    batch : Transitions
+    batch : Batch
         m transitions.
 
     Returns
@@ -191,7 +191,7 @@ def values_taken(q_net: torch.nn.Module, batch: Transitions) -> torch.Tensor:
 def dqn_targets(
     q_net: torch.nn.Module,
     target_net: torch.nn.Module,
-    batch: Transitions,
+    batch: Batch,
     discount: float,
 ) -> torch.Tensor:
     """Targets of plain DQN: r + gamma max_a Q_target(s', a), or r where the episode ended.
@@ -202,7 +202,7 @@ def dqn_targets(
         Not used.
     target_net : torch.nn.Module
         The older copy of the network.
-    batch : Transitions
+    batch : Batch
         m transitions.
     discount : float
         The thesis's gamma.
@@ -231,7 +231,7 @@ def dqn_targets(
 def double_dqn_targets(
     q_net: torch.nn.Module,
     target_net: torch.nn.Module,
-    batch: Transitions,
+    batch: Batch,
     discount: float,
 ) -> torch.Tensor:
     """Targets by the double estimator: r + gamma Q_target(s', argmax_a Q(s', a)), or r where the episode ended.
@@ -244,7 +244,7 @@ def double_dqn_targets(
         The network that learns. It chooses the next action.
     target_net : torch.nn.Module
         Its older copy. It gives the value of that action.
-    batch : Transitions
+    batch : Batch
         m transitions.
     discount : float
         The thesis's gamma.
@@ -273,7 +273,7 @@ def double_dqn_targets(
 
 
 @dataclass(frozen=True, eq=False)
-class Transitions:
+class Batch:
     """m transitions as tensors; the first axis runs over the transitions.
 
     Attributes
@@ -329,14 +329,14 @@ class ReplayBuffer:
         before, after = np.asarray(state, float), np.asarray(next_state, float)
         self._transitions.append((before, action, float(reward), after, terminal))
 
-    def all(self) -> Transitions:
+    def all(self) -> Batch:
         """Every transition, in the order in which they were made."""
         return self._at(range(len(self)))
 
-    def sample(self, size: int, rng: np.random.Generator) -> Transitions:
+    def sample(self, size: int, rng: np.random.Generator) -> Batch:
         """Transitions drawn at random, with replacement."""
         return self._at(rng.integers(len(self), size=size))
 
-    def _at(self, indices: range | NDArray[np.int64]) -> Transitions:
+    def _at(self, indices: range | NDArray[np.int64]) -> Batch:
         columns = zip(*(self._transitions[k] for k in indices), strict=True)
-        return Transitions(*(torch.as_tensor(np.array(column)) for column in columns))
+        return Batch(*(torch.as_tensor(np.array(column)) for column in columns))

@@ -22,7 +22,7 @@ from robonav.networks.policy import sample_actions
 from robonav.networks.torch_module import as_module, as_network
 
 from ._arguments import Schedule, checked
-from .dqn import ReplayBuffer, Transitions
+from .dqn import Batch, ReplayBuffer
 from .schedules import geometric_schedule, softmax_policy
 from .task import EXPLORING, make_rng, reflex_acted
 
@@ -144,9 +144,7 @@ def collect_episode(
         state, done = next_state, terminated or truncated
 
 
-def nfq_targets(
-    network: Network, transitions: Transitions, discount: float
-) -> torch.Tensor:
+def nfq_targets(network: Network, transitions: Batch, discount: float) -> torch.Tensor:
     """Targets of all transitions: r + gamma max_a Q(s', a), or r where the episode ended, clipped into [0, 1].
 
     A Q-value is the sigmoid of a logit. The sigmoid is increasing, so the sigmoid of the largest logit is the largest
@@ -156,7 +154,7 @@ def nfq_targets(
     ----------
     network : Network
         The network of the last sweep.
-    transitions : Transitions
+    transitions : Batch
         M transitions.
     discount : float
         The thesis's gamma.
@@ -185,7 +183,7 @@ def nfq_targets(
 
 def rprop_fit(
     network: Network,
-    transitions: Transitions,
+    transitions: Batch,
     targets: torch.Tensor,
     epochs: int,
     tolerance: float,
@@ -202,7 +200,7 @@ def rprop_fit(
     ----------
     network : Network
         The network that the fit starts from.
-    transitions : Transitions
+    transitions : Batch
         M transitions.
     targets : (M,) tensor
         Q-values to fit, see :func:`nfq_targets`.

@@ -15,7 +15,7 @@ from scipy.spatial import ConvexHull
 from robonav import style
 from robonav.experiments import Results
 from robonav.lfd import Demonstrations
-from robonav.nirl.transitions import add_constant
+from robonav.nirl.decisions import add_constant
 from robonav.robot import COLLISION_DISTANCE, SENSOR_RANGE, Encoder, Worlds, sense
 from robonav.robot._fast import SECTOR
 from robonav.robot.drawing import draw_robot, draw_world

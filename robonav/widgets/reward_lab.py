@@ -11,7 +11,7 @@ import traitlets
 from numpy.typing import ArrayLike
 
 from robonav.lfd.demonstrations import LEARNED
-from robonav.nirl import Transitions
+from robonav.nirl import Decisions
 from robonav.robot import Encoder, Worlds
 from robonav.validation import check_array, check_positive, check_real
 
@@ -37,7 +37,7 @@ class RewardLab(anywidget.AnyWidget):
 def reward_lab(
     reward_weights: ArrayLike,
     encoder: Encoder,
-    decisions: Transitions,
+    decisions: Decisions,
     worlds: Mapping[str, Worlds],
     others: Worlds,
     *,
@@ -52,7 +52,7 @@ def reward_lab(
         The weights theta, one row for each action and the constant last, as :func:`robonav.nirl.learn` returns them.
     encoder : Encoder
         The encoder phi(s), with k features.
-    decisions : Transitions
+    decisions : Decisions
         The expert's decisions, with which the choices of the reward are compared.
     worlds : mapping of str to Worlds
         Batches of one by name, which the lab draws.

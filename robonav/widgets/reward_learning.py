@@ -17,12 +17,12 @@ from robonav.nirl import (
     ReplaySGD,
     RobotTask,
     balanced_accuracy,
-    expert_transitions,
+    expert_decisions,
     greedy_actions,
     learn,
 )
+from robonav.nirl.decisions import Decisions, Floats
 from robonav.nirl.policy_improvement import Improved
-from robonav.nirl.transitions import Floats, Transitions
 from robonav.robot import Worlds, random_worlds
 from robonav.validation import check_integer, check_one_of
 
@@ -56,7 +56,7 @@ FILES = (
 
 @dataclass(frozen=True)
 class WatchedSGD(ReplaySGD):
-    """The improvement of the policy, watched: ``watch(network, transitions)`` is called after each.
+    """The improvement of the policy, watched: ``watch(network, decisions)`` is called after each.
 
     Examples
     --------
@@ -72,18 +72,18 @@ class WatchedSGD(ReplaySGD):
     3
     """
 
-    watch: Callable[[Network, Transitions], None] = lambda _network, _transitions: None
+    watch: Callable[[Network, Decisions], None] = lambda _network, _decisions: None
 
     def descend(
         self,
         network: Network,
-        transitions: Transitions,
+        decisions: Decisions,
         rewards: Floats,
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        improved = super().descend(network, transitions, rewards, fraction, rng)
-        self.watch(improved.network, transitions)
+        improved = super().descend(network, decisions, rewards, fraction, rng)
+        self.watch(improved.network, decisions)
         return improved
 
 
@@ -116,7 +116,7 @@ class RewardLearning(KernelTraining):
         )
         obstacles = check_integer("obstacles", settings["obstacles"], at_least=0)
         task = RobotTask(obstacles=obstacles)
-        expert = expert_transitions(demonstrations, task.encoder)
+        expert = expert_decisions(demonstrations, task.encoder)
         worlds = random_worlds(TRIED, obstacles, seed=self.data["seed"])
         results: list[IRLResult] = []
         rates: list[float] = []
@@ -149,12 +149,12 @@ class RewardLearning(KernelTraining):
 
 
 def _watcher(
-    expert: Transitions, task: RobotTask, report: Report, before: int, total: int
-) -> Callable[[Network, Transitions], None]:
+    expert: Decisions, task: RobotTask, report: Report, before: int, total: int
+) -> Callable[[Network, Decisions], None]:
     """A function that reports the latest policy of a robot, after the ``before`` iterations of earlier robots."""
     done = 0
 
-    def watch(network: Network, transitions: Transitions) -> None:
+    def watch(network: Network, decisions: Decisions) -> None:
         nonlocal done
         done += 1
         predicted = greedy_actions(network, expert.inputs)
@@ -163,7 +163,7 @@ def _watcher(
             total,
             at=done,
             balanced=100 * balanced_accuracy(predicted, expert.actions),
-            arrived=100 * float(transitions.arrived[-task.n_episodes :].mean()),
+            arrived=100 * float(decisions.arrived[-task.n_episodes :].mean()),
         )
 
     return watch
@@ -213,7 +213,7 @@ def reward_learning(
     """
     sets = []
     for name, drives in demonstrations.items():
-        decisions = expert_transitions(drives)
+        decisions = expert_decisions(drives)
         sets.append(
             {
                 "name": name,

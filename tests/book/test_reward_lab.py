@@ -11,12 +11,12 @@ from mounting import mounted
 from playwright.sync_api import Locator, expect
 
 from robonav.lfd import demonstrate
-from robonav.nirl import ENCODER, expert_transitions
-from robonav.nirl.transitions import add_constant
+from robonav.nirl import ENCODER, expert_decisions
+from robonav.nirl.decisions import add_constant
 from robonav.robot import navigate, random_worlds
 from robonav.widgets.reward_lab import reward_lab
 
-SHOWN = expert_transitions(demonstrate(random_worlds(6, 20, seed=3)))
+SHOWN = expert_decisions(demonstrate(random_worlds(6, 20, seed=3)))
 THETA = np.linalg.lstsq(SHOWN.features, np.eye(5)[SHOWN.actions], rcond=None)[0].T
 WORLDS = {"one": random_worlds(1, 20, seed=5), "another": random_worlds(1, 20, seed=9)}
 OTHERS = random_worlds(10, 20, seed=6)

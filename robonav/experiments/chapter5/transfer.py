@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from robonav.lfd import Demonstrations, demonstrate
 from robonav.lfd.demonstrations import LEARNED
 from robonav.nirl import (
-    expert_transitions,
+    expert_decisions,
     learn_under_reward,
     map_uniform_prior,
     most_frequent,
@@ -163,7 +163,7 @@ def refine(case: Case, seed: int, scale: str) -> Numbers:
     refinement = REFINEMENTS[str(case["actions"])]
     changed = 0.0
     if refinement is not None:
-        steps = expert_transitions(trajectories, encoder(tuned("nirl")["target"]))
+        steps = expert_decisions(trajectories, encoder(tuned("nirl")["target"]))
         refined = refinement(steps.inputs.round(6), steps.actions, LEARNED)
         changed = 100 * refined.changed.mean()
     learned = train_irl("nirl", trajectories, seed, tuned("nirl"), refine=refinement)

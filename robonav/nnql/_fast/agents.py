@@ -18,7 +18,7 @@ from .replay_buffers import ReplayBuffers
 
 
 @dataclass(frozen=True, eq=False)
-class Decisions:
+class Experience:
     """What K robots went through in a step that their policy decided.
 
     Attributes
@@ -63,7 +63,7 @@ class Agent:
         q: Array = expit(self.networks.logits(rows, x[:, None])[:, 0])
         return q
 
-    def observe(self, rows: Rows, decisions: Decisions) -> None:
+    def observe(self, rows: Rows, decisions: Experience) -> None:
         """Learn from one step of each of ``rows``."""
 
     def end_episode(self, rows: Rows, episodes: Rows) -> None:
@@ -115,7 +115,7 @@ class NNQLAgent(Agent):
         self.learning_rate, self.gradient_step = learning_rate, gradient_step
         self.rescale, self.passes, self.tolerance = RESCALE[rescale], passes, tolerance
 
-    def observe(self, rows: Rows, decisions: Decisions) -> None:
+    def observe(self, rows: Rows, decisions: Experience) -> None:
         future = self.values(rows, decisions.reached).max(axis=1)
         q = q_targets(
             decisions.values,
@@ -168,7 +168,7 @@ class NFQAgent(Agent):
         self.discount, self.episodes_per_fit = discount, episodes_per_fit
         self.sweeps, self.epochs, self.tolerance = sweeps, epochs, tolerance
 
-    def observe(self, rows: Rows, decisions: Decisions) -> None:
+    def observe(self, rows: Rows, decisions: Experience) -> None:
         self.buffers.append(
             rows, decisions.inputs, decisions.actions, decisions.rewards, decisions.reached, decisions.terminal,
         )  # fmt: skip
@@ -248,7 +248,7 @@ class DQNAgent(Agent):
     def values(self, rows: Rows, x: Array) -> Array:
         return self.networks.logits(rows, x[:, None])[:, 0]
 
-    def observe(self, rows: Rows, decisions: Decisions) -> None:
+    def observe(self, rows: Rows, decisions: Experience) -> None:
         self.buffers.append(
             rows, decisions.inputs, decisions.actions, decisions.rewards, decisions.reached, decisions.terminal,
         )  # fmt: skip

@@ -21,7 +21,7 @@ from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 
 from ..schedules import Schedule, geometric_schedule, softmax_policy
 from ..task import EXPLORING, NavigationTask, make_rng
-from .agents import Agent, Decisions
+from .agents import Agent, Experience
 from .networks import Array, Rows
 
 
@@ -135,7 +135,7 @@ class Trainer:
         self.statistics.returns[rows, self.episode[rows]] += rewards
         self.agent.observe(
             rows,
-            Decisions(
+            Experience(
                 inputs=self.inputs,
                 values=self.values,
                 actions=step.actions[step.asked],

@@ -15,16 +15,17 @@ from robonav.nirl import (
     METHODS,
     NEUTRAL_TERMINAL_VALUES,
     ZERO_TERMINAL_VALUES,
+    Decisions,
     FullBatchDescent,
     LeastSquaresReward,
     ReplaySGD,
     SubgradientMaxMargin,
     TabularTask,
-    Transitions,
     _fast,
     accuracy,
     all_action_features,
     balanced_accuracy,
+    decision_rewards,
     discounted_feature_sums,
     feature_gap,
     greedy_actions,
@@ -37,7 +38,6 @@ from robonav.nirl import (
     sarsa_targets,
     scale_to_unit_interval,
     train_under_reward,
-    transition_rewards,
 )
 from robonav.nirl.policy_improvement import compiled_sarsa_descent
 
@@ -45,10 +45,10 @@ RNG = np.random.default_rng(0)
 
 
 def made_up(decisions=12, inputs=3, actions=4, trajectories=3, seed=0):
-    """Transitions with random contents."""
+    """Decisions with random contents."""
     rng = np.random.default_rng(seed)
     trajectory = np.sort(rng.integers(trajectories, size=decisions))
-    return Transitions(
+    return Decisions(
         rng.normal(size=(decisions, inputs)),
         rng.integers(actions, size=decisions),
         trajectory,
@@ -64,7 +64,7 @@ def made_up(decisions=12, inputs=3, actions=4, trajectories=3, seed=0):
 def test_rewards_are_theta_times_the_blocks():
     steps, theta = made_up(), RNG.normal(size=(4, 4))
     blocks = all_action_features(steps.features, 4)[np.arange(12), steps.actions]
-    np.testing.assert_allclose(transition_rewards(theta, steps), blocks @ theta.ravel())
+    np.testing.assert_allclose(decision_rewards(theta, steps), blocks @ theta.ravel())
 
 
 def test_sarsa_by_hand():
@@ -95,7 +95,7 @@ def test_no_reward_is_neither_good_nor_bad():
 
 
 def test_after_is_the_next_decision_of_the_same_drive():
-    steps = Transitions(
+    steps = Decisions(
         np.zeros((4, 1)),
         np.zeros(4, int),
         np.array([0, 0, 2, 2]),
@@ -164,7 +164,7 @@ def test_one_step_is_minus_rate_times_the_numerical_gradient(follows):
 def test_it_finds_the_values_of_a_chain():
     """Three decisions in a row with rewards 1, 0, 1 (in [0, 1]) and then the best forever: y = (1 - gamma) Q."""
     inputs = np.eye(3)
-    steps = Transitions(
+    steps = Decisions(
         inputs,
         np.zeros(3, int),
         np.zeros(3, int),
@@ -176,7 +176,7 @@ def test_it_finds_the_values_of_a_chain():
     improve = ReplaySGD(
         discount=0.5, learning_rate=1.0, gradient_step=(2.0, 2.0), n_samples=20_000
     )
-    rewards = transition_rewards(theta, steps)
+    rewards = decision_rewards(theta, steps)
     network = improve.descend(
         random_network((3, 6, 1), seed=0), steps, rewards, 0.0, np.random.default_rng(0)
     ).network
@@ -197,16 +197,16 @@ def test_network_trains_on_the_decisions_of_the_last_iterations(terrain, improve
     class Watched:
         replay = improver.replay
 
-        def descend(self, network, transitions, *rest):
-            seen.append(transitions)
-            return improver.descend(network, transitions, *rest)
+        def descend(self, network, decisions, *rest):
+            seen.append(decisions)
+            return improver.descend(network, decisions, *rest)
 
     task = TabularTask(terrain.task)
     shown = task.demonstrate(terrain.expert, 5, seed=1)
     found = nirl(shown, task, iterations=3, improver=Watched(), seed=0)
     made = found.history.decisions
     expected = [sum(made[max(k - improver.replay, 0) : k]) for k in (1, 2, 3)]
-    assert [len(transitions) for transitions in seen] == expected
+    assert [len(decisions) for decisions in seen] == expected
 
 
 def test_the_step_to_the_letter_is_a_gradient_step():
@@ -214,7 +214,7 @@ def test_the_step_to_the_letter_is_a_gradient_step():
     steps, theta = made_up(), RNG.normal(size=(4, 4))
     network = random_network((3, 5, 4), seed=1)
     improver = FullBatchDescent(gradient_step=0.1)
-    rewards = transition_rewards(theta, steps)
+    rewards = decision_rewards(theta, steps)
     stepped, cost = improver.descend(network, steps, rewards, 0.0, RNG)
     again, lower = improver.descend(stepped, steps, rewards, 0.0, RNG)
     assert lower < cost
@@ -222,7 +222,7 @@ def test_the_step_to_the_letter_is_a_gradient_step():
     q = outputs[np.arange(12), steps.actions]
     following = np.where(steps.next_index >= 0, np.append(q[1:], 0), 0)
     target = np.clip(
-        q + 0.8 * (transition_rewards(theta, steps) + 0.65 * following - q), 0, 1
+        q + 0.8 * (decision_rewards(theta, steps) + 0.65 * following - q), 0, 1
     )
     slope = np.zeros(4)
     np.add.at(slope, steps.actions, (q - target) / 12)
@@ -236,7 +236,7 @@ def test_full_batch_descent_minimises_the_cost_for_targets_that_stay():
     """Many steps with the targets of the first one: the network's output becomes the target, Eq. (5.16)."""
     steps, theta = made_up(), RNG.normal(size=(4, 4))
     network = random_network((3, 20, 4), seed=1)
-    rewards = transition_rewards(theta, steps)
+    rewards = decision_rewards(theta, steps)
 
     def after(n_steps):
         improver = FullBatchDescent(n_steps, gradient_step=2.0)
@@ -263,10 +263,10 @@ def test_full_batch_descent_rejects_wrong_settings():
 @pytest.mark.parametrize("seed", range(3))
 def test_readable_descent_equals_compiled_twin(seed):
     rng = np.random.default_rng(seed)
-    transitions = made_up(decisions=30, seed=seed)
+    decisions = made_up(decisions=30, seed=seed)
     arguments = {
         "network": random_network((3, 5, 4), seed=seed),
-        "transitions": transitions,
+        "decisions": decisions,
         "rewards": 0.35 * rng.random(30),
         "terminal_values": rng.random(30),
         "order": rng.integers(30, size=400),

@@ -17,7 +17,7 @@ from robonav.nirl import (
     ReplaySGD,
     RobotTask,
     accuracy,
-    expert_transitions,
+    expert_decisions,
     from_all_states,
     from_initial_state,
     heuristic_estimate,
@@ -30,7 +30,7 @@ from robonav.nirl import (
     segment_features,
     state_action_features,
 )
-from robonav.nirl.learning import robot_transitions
+from robonav.nirl.learning import robot_decisions
 from robonav.nirl.tasks import collect
 from robonav.robot import Reflex, Simulator, navigate, random_worlds
 
@@ -71,51 +71,51 @@ def test_a_training_episode_is_an_episode_of_navigate(action):
 
 def test_experts_and_learners_are_recorded_in_the_same_way(demonstrations):
     """An expert's decisions are its effective pairs, with the seconds at which they were made."""
-    transitions = expert_transitions(demonstrations)
+    decisions = expert_decisions(demonstrations)
     pairs = demonstrations.effective
-    np.testing.assert_array_equal(transitions.actions, pairs.actions)
-    np.testing.assert_array_equal(transitions.inputs, ENCODER(pairs.sensing))
-    first = np.searchsorted(demonstrations.trajectory, transitions.trajectory)
+    np.testing.assert_array_equal(decisions.actions, pairs.actions)
+    np.testing.assert_array_equal(decisions.inputs, ENCODER(pairs.sensing))
+    first = np.searchsorted(demonstrations.trajectory, decisions.trajectory)
     np.testing.assert_array_equal(
-        demonstrations.poses[first + transitions.times], pairs.poses
+        demonstrations.poses[first + decisions.times], pairs.poses
     )
-    assert transitions.arrived.all()
+    assert decisions.arrived.all()
 
 
 def test_segments_stop_after_their_horizon(demonstrations):
-    transitions = expert_transitions(demonstrations)
-    found = segment_features(transitions, LEARNED, 0.65, 3)
-    block = state_action_features(transitions.features, transitions.actions, LEARNED)
-    for t in range(len(transitions) - 3):
+    decisions = expert_decisions(demonstrations)
+    found = segment_features(decisions, LEARNED, 0.65, 3)
+    block = state_action_features(decisions.features, decisions.actions, LEARNED)
+    for t in range(len(decisions) - 3):
         inside = [
             block[t + k] * 0.65**k
             for k in range(3)
-            if transitions.trajectory[t + k] == transitions.trajectory[t]
+            if decisions.trajectory[t + k] == decisions.trajectory[t]
         ]
         np.testing.assert_allclose(found[t], sum(inside), atol=1e-9)
 
 
 def test_random_segments_begin_where_the_expert_decided(demonstrations):
     rng = np.random.default_rng(0)
-    steps = random_segments(expert_transitions(demonstrations), RobotTask(), 50, 4, rng)
+    steps = random_segments(expert_decisions(demonstrations), RobotTask(), 50, 4, rng)
     assert (np.bincount(steps.trajectory) <= 4).all()
     begun = steps.inputs[np.flatnonzero(np.diff(steps.trajectory, prepend=-1))]
-    known = {tuple(row) for row in expert_transitions(demonstrations).inputs.round(9)}
+    known = {tuple(row) for row in expert_decisions(demonstrations).inputs.round(9)}
     assert all(tuple(row) in known for row in begun.round(9))
 
 
 @pytest.mark.parametrize("estimate", [lstd_estimate, heuristic_estimate])
 def test_expectations_of_the_experts_actions_are_known(demonstrations, estimate):
-    transitions = expert_transitions(demonstrations)
-    mu = estimate(transitions, LEARNED, 0.65)
-    assert mu.shape == (len(transitions), LEARNED, LEARNED * (ENCODER.size + 1))
+    decisions = expert_decisions(demonstrations)
+    mu = estimate(decisions, LEARNED, 0.65)
+    assert mu.shape == (len(decisions), LEARNED, LEARNED * (ENCODER.size + 1))
     assert np.isfinite(mu).all()
 
 
 def test_two_kinds_of_expectations(demonstrations):
-    transitions = expert_transitions(demonstrations)
+    decisions = expert_decisions(demonstrations)
     start, everywhere = (
-        f(transitions, LEARNED, 0.65) for f in (from_initial_state, from_all_states)
+        f(decisions, LEARNED, 0.65) for f in (from_initial_state, from_all_states)
     )
     constants = (np.arange(1, LEARNED + 1) * (ENCODER.size + 1)) - 1
     assert start[constants].sum() == pytest.approx(
@@ -205,7 +205,7 @@ def test_nothing_to_learn_from_gets_a_sentence(demonstrations, method):
 
 
 def test_arguments_of_another_type(demonstrations):
-    expert, task = expert_transitions(demonstrations), RobotTask()
+    expert, task = expert_decisions(demonstrations), RobotTask()
     for call, sentence in (
         (lambda: learn([1]), "demonstrations must be Demonstrations, got list"),
         (lambda: learn(demonstrations, task=4), "task must be RobotTask, got int"),
@@ -218,7 +218,7 @@ def test_arguments_of_another_type(demonstrations):
             call()
     for method in METHODS.values():
         for arguments, sentence in (
-            ((demonstrations, task), "demonstrations must be Transitions, got Demonst"),
+            ((demonstrations, task), "demonstrations must be Decisions, got Demonst"),
             ((expert, gymnasium.make("CartPole-v1")), "task must be a task such as"),
             ((expert, RobotTask), "task must be a task such as"),
         ):
@@ -253,7 +253,7 @@ def test_refinement_makes_demonstrations_consistent(demonstrations):
         actions=actions,
         poses=pairs.poses[thrice],
     )
-    refined = robot_transitions(doubled, RobotTask(), most_frequent)
+    refined = robot_decisions(doubled, RobotTask(), most_frequent)
     states, counts = np.unique(refined.inputs, axis=0, return_counts=True)
     for state in states:
         assert len(set(refined.actions[(refined.inputs == state).all(axis=1)])) == 1
@@ -270,9 +270,7 @@ def test_a_reward_can_be_taken_elsewhere(demonstrations):
     idle = learn_under_reward(
         demonstrations, theta, task=TASK, seed=0, iterations=2, improver=neutral
     )
-    outputs = idle.history.networks[-1].forward(
-        expert_transitions(demonstrations).inputs
-    )
+    outputs = idle.history.networks[-1].forward(expert_decisions(demonstrations).inputs)
     assert abs(outputs - 0.5).mean() < 0.1
 
 

@@ -13,8 +13,8 @@ from robonav.networks.multilayer_perceptron import (
 from robonav.networks.network_stack import stacked
 from robonav.nnql._fast.agents import (
     Agent,
-    Decisions,
     DQNAgent,
+    Experience,
     NFQAgent,
     NNQLAgent,
     adam,
@@ -49,7 +49,7 @@ def corridor_steps(agent, n, seeds=2, seed=0):
         values = agent.values(rows, inputs)
         yield (
             rows,
-            Decisions(
+            Experience(
                 inputs,
                 values,
                 action,
@@ -108,7 +108,7 @@ def test_nfq_looks_at_nothing_beyond_the_end():
     x, last = np.eye(4)[[2, 2]], np.array([True, True])
     agent.observe(
         rows,
-        Decisions(
+        Experience(
             x,
             x[:, :2],
             np.array([1, 1]),
@@ -211,7 +211,7 @@ def test_accumulated_training_is_a_plain_loop(pairs):
         np.testing.assert_allclose(values[0], network.forward(x), rtol=1e-9)
         agent.observe(
             rows,
-            Decisions(
+            Experience(
                 x[None],
                 values,
                 np.array([action]),
@@ -362,7 +362,7 @@ def test_dqn_learns_from_the_double_estimate():
     values = agent.values(zero, x)
     agent.observe(
         zero,
-        Decisions(
+        Experience(
             x,
             values,
             action[0],

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from robonav.lfd import demonstrate
-from robonav.nirl import RobotTask, expert_transitions, nirl
+from robonav.nirl import RobotTask, expert_decisions, nirl
 from robonav.robot import random_worlds
 
 FILES = (
@@ -39,7 +39,7 @@ def in_page(node, expert, seed, **settings):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_nirl_in_the_page_learns_what_python_learns(node, seed):
-    expert = expert_transitions(demonstrate(random_worlds(4, 20, seed=30 + seed)))
+    expert = expert_decisions(demonstrate(random_worlds(4, 20, seed=30 + seed)))
     expected = nirl(expert, RobotTask(), iterations=3, seed=seed)
     ours = in_page(node, expert, seed, iterations=3)
     history = expected.history

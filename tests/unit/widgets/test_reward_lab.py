@@ -9,11 +9,11 @@ import pytest
 from robonav.lfd import demonstrate
 from robonav.nirl import (
     ENCODER,
-    expert_transitions,
+    decision_rewards,
+    expert_decisions,
     scale_to_unit_interval,
-    transition_rewards,
 )
-from robonav.nirl.transitions import add_constant
+from robonav.nirl.decisions import add_constant
 from robonav.robot import Reflex, Simulator, navigate, random_worlds
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 from robonav.widgets.reward_lab import reward_lab
@@ -24,7 +24,7 @@ SPEED, DISCOUNT = 2.0, 0.9
 
 @pytest.fixture(scope="module")
 def shown():
-    return expert_transitions(demonstrate(random_worlds(6, 20, seed=3)))
+    return expert_decisions(demonstrate(random_worlds(6, 20, seed=3)))
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +58,7 @@ def test_rewards_and_judgements_are_pythons(page, shown, theta):
     seen = page(body, data)
     np.testing.assert_allclose(seen["all"], shown.features @ theta.T, atol=1e-12)
     assert seen["scale"] == pytest.approx(
-        np.percentile(abs(transition_rewards(theta, shown)), 95), abs=1e-12
+        np.percentile(abs(decision_rewards(theta, shown)), 95), abs=1e-12
     )
     assert seen["agreement"] == np.mean(
         (shown.features @ theta.T).argmax(axis=1) == shown.actions
@@ -67,7 +67,7 @@ def test_rewards_and_judgements_are_pythons(page, shown, theta):
 
 def plan(shown, theta, depth):
     encoder = lab(shown, theta).data["encoder"]
-    scale = float(np.percentile(abs(transition_rewards(theta, shown)), 95))
+    scale = float(np.percentile(abs(decision_rewards(theta, shown)), 95))
     return {
         "theta": theta.ravel().tolist(),
         "encoder": encoder,
@@ -180,7 +180,7 @@ def test_percentiles_are_numpys(page):
 @pytest.mark.parametrize("target", ["number", "signed", "one-hot", "sine-cosine"])
 def test_every_feature_has_a_name(shown, target):
     encoder = replace(ENCODER, target=target)
-    steps = expert_transitions(demonstrate(random_worlds(2, 20, seed=3)), encoder)
+    steps = expert_decisions(demonstrate(random_worlds(2, 20, seed=3)), encoder)
     features = lab(steps, np.zeros((5, encoder.size + 1)), encoder=encoder).data[
         "features"
     ]

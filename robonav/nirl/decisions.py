@@ -39,7 +39,7 @@ class RobotStates:
 
 
 @dataclass(frozen=True, eq=False)
-class Transitions:
+class Decisions:
     """M decisions in N episodes, one episode after the other. Steps in which the robot's reflex acted are left out.
 
     Attributes
@@ -62,10 +62,10 @@ class Transitions:
     Examples
     --------
     >>> from robonav.lfd import demonstrate
-    >>> from robonav.nirl import expert_transitions
+    >>> from robonav.nirl import expert_decisions
     >>> from robonav.robot import random_worlds
-    >>> transitions = expert_transitions(demonstrate(random_worlds(2, obstacles=20, seed=3)))
-    >>> transitions.inputs.shape[1], bool(transitions.arrived.all())
+    >>> decisions = expert_decisions(demonstrate(random_worlds(2, obstacles=20, seed=3)))
+    >>> decisions.inputs.shape[1], bool(decisions.arrived.all())
     (17, True)
     """
 
@@ -92,7 +92,7 @@ class Transitions:
         last = np.append(self.trajectory[1:] != self.trajectory[:-1], True)[: len(self)]
         return np.where(last, -1, following)
 
-    def with_actions(self, actions: ArrayLike) -> Transitions:
+    def with_actions(self, actions: ArrayLike) -> Decisions:
         """The same states with other actions (M,), for instance refined ones."""
         return replace(
             self,
@@ -105,13 +105,13 @@ def add_constant(inputs: Floats) -> Floats:
     return np.concatenate([inputs, np.ones((len(inputs), 1))], axis=1)
 
 
-def concatenate(parts: Sequence[Transitions]) -> Transitions:
+def concatenate(parts: Sequence[Decisions]) -> Decisions:
     """Several as one, their episodes numbered from the first to the last."""
     offsets = np.cumsum([0] + [len(part.collided) for part in parts])
     trajectories = [
         part.trajectory + offset for part, offset in zip(parts, offsets, strict=False)
     ]
-    return Transitions(
+    return Decisions(
         np.concatenate([part.inputs for part in parts]),
         np.concatenate([part.actions for part in parts]),
         np.concatenate(trajectories),
@@ -121,9 +121,9 @@ def concatenate(parts: Sequence[Transitions]) -> Transitions:
     )
 
 
-def expert_transitions(
+def expert_decisions(
     demonstrations: Demonstrations, encoder: Encoder = ENCODER
-) -> Transitions:
+) -> Decisions:
     """What an expert decided: the effective pairs of its demonstrations.
 
     Parameters
@@ -135,7 +135,7 @@ def expert_transitions(
 
     Returns
     -------
-    Transitions
+    Decisions
 
     Raises
     ------
@@ -145,9 +145,9 @@ def expert_transitions(
     Examples
     --------
     >>> from robonav.lfd import demonstrate
-    >>> from robonav.nirl import expert_transitions
+    >>> from robonav.nirl import expert_decisions
     >>> from robonav.robot import random_worlds
-    >>> len(expert_transitions(demonstrate(random_worlds(1, obstacles=20, seed=3)))) > 0
+    >>> len(expert_decisions(demonstrate(random_worlds(1, obstacles=20, seed=3)))) > 0
     True
     """
     check_instance("demonstrations", demonstrations, Demonstrations)
@@ -161,7 +161,7 @@ def expert_transitions(
             "demonstrations must hold an effective pair, a step with something in range and one of the five learned "
             f"actions, got none in {len(demonstrations)} steps"
         )
-    return Transitions(
+    return Decisions(
         encoder(pairs.sensing),
         pairs.actions,
         pairs.trajectory,
