@@ -2,10 +2,11 @@
 # 6 points, exercise, about 40 minutes.
 # Check it with: robonav check 2.7
 """A robot plans until its battery is empty. Every action uses a whole number of units
-of charge, at least one. An action that needs more units than are left is not possible,
-and the episode ends when no action is possible. Rewards are not discounted. The horizon
-is finite, but the charge counts down instead of the time. Compute the largest expected
-sum of rewards from every state with every charge.
+of charge, at least one. An action that needs more units than are left is not possible.
+The robot cannot stop of its own accord: the episode ends when no action is possible,
+and not before, even if all rewards are negative. Rewards are not discounted. The
+horizon is finite, but the charge counts down instead of the time. Compute the largest
+expected sum of rewards from every state with every charge.
 """
 
 import numpy as np

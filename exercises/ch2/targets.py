@@ -6,7 +6,8 @@ next state. Compute the three targets $r + \\gamma \\cdot (\\text{value of } s')
 batch of recorded steps. After the last step of an episode this value is 0. Expected
 SARSA uses the mean over the $\\varepsilon$-greedy policy. With probability
 $\\varepsilon$ this policy takes any of the $A$ actions, each with the same probability.
-Otherwise it takes a best action, and each best action with the same probability.
+Otherwise it takes a best action. There may be several best actions: does it matter
+which of them it takes?
 """
 
 import numpy as np

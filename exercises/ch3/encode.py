@@ -1,13 +1,13 @@
 # Exercise 3.2: A state for sensors of any range.
 # 5 points, exercise, about 25 minutes.
 # Check it with: robonav check 3.2
-"""Table 3.1 is for a sensor with a range of 30 cm. Write the state of Eq. (3.17) for
-sensors of any range (``reach``): nine degrees of danger, with the borders of the table
-scaled in proportion; the target's region; and whether the target is within range. The
-target is given by its distance and by its bearing from straight ahead,
-counter-clockwise in radians. Region 1 covers the 40 degrees around straight ahead, and
-the regions are numbered counter-clockwise from 1 to 9. A reading that lies on a border
-of the table has the lesser danger.
+"""Table 3.1 is for a sensor with a range of 30 cm, and has borders at 3, 7, 11, 15, 20,
+25 and 30 cm. Write the state of Eq. (3.17) for sensors of any range (``reach``): nine
+degrees of danger, with the borders of the table scaled in proportion; the target's
+region; and whether the target is within range. The target is given by its distance and
+by its bearing from straight ahead, counter-clockwise in radians. Region 1 covers the 40
+degrees around straight ahead, and the regions are numbered counter-clockwise from 1 to
+9. A reading that lies on a border of the table has the lesser danger.
 """
 
 import numpy as np

@@ -1,13 +1,13 @@
 # Exercise 4.7: A learning curve with its band.
 # 5 points, exercise, about 25 minutes.
 # Check it with: robonav check 4.7
-"""A learning curve from one seed proves little. Compute the curve of Figure 4.6 from
-many seeds, with its band. Count each seed's successes in every block of a given number
-of episodes. Then compute the mean over the seeds, and a 95 % interval of this mean by
-the bootstrap. You are given which seeds to draw for each resample. Draw *seeds*, not
-episodes, because the episodes of one seed depend on each other. The interval ends at
-the 2.5th and the 97.5th percentile of the resamples' means, as `numpy.percentile`
-computes them.
+"""A learning curve from one seed proves little. Compute the curve of the thesis's
+Figure 4.6 from many seeds, with its band. Count each seed's successes in every block of
+a given number of episodes. Then compute the mean over the seeds, and a 95 % interval of
+this mean by the bootstrap. You are given which seeds to draw for each resample. Draw
+*seeds*, not episodes, because the episodes of one seed depend on each other. The
+interval ends at the 2.5th and the 97.5th percentile of the resamples' means, as
+`numpy.percentile` computes them.
 """
 
 import numpy as np

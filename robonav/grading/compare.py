@@ -44,6 +44,45 @@ def difference(got: Any, expected: Any) -> str | None:
     return None
 
 
+def only(value: Any, expected: Any, at: Any) -> Any:
+    """Return the expected answer with the places ``at`` taken from ``value``, so that only these can differ.
+
+    A value of another shape is returned as it is.
+    """
+    if isinstance(expected, list | tuple):
+        came = isinstance(value, list | tuple) or (
+            isinstance(value, np.ndarray) and value.ndim > 0
+        )
+        if not came or len(value) != len(expected):
+            return value
+        chosen = list(expected)
+        chosen[at] = value[at]
+        return tuple(chosen) if isinstance(expected, tuple) else chosen
+    array = as_numbers(value)
+    if array is None or array.shape != np.shape(expected):
+        return value
+    mixed = np.array(expected, dtype=np.result_type(expected, array))
+    mixed[at] = array[at]
+    return mixed
+
+
+def is_near(got: Any, expected: Any) -> bool:
+    """Whether all numbers are right to a hundredth of the largest, though they are not right."""
+    if isinstance(expected, list | tuple):
+        came = isinstance(got, list | tuple) and len(got) == len(expected)
+        return came and all(
+            difference(one, other) is None or is_near(one, other)
+            for one, other in zip(got, expected, strict=True)
+        )
+    array = as_numbers(got)
+    target = np.asarray(expected)
+    if array is None or target.dtype.kind != "f" or array.shape != target.shape:
+        return False
+    if not np.isfinite(array).all() or not np.isfinite(target).all():
+        return False
+    return bool(np.abs(array - target).max(initial=0) <= 0.01 * np.abs(target).max())
+
+
 def without_answer(problem: str) -> str:
     """Remove the student's answer from a description of the difference: it could repeat a secret case."""
     return problem.partition(", got ")[0]

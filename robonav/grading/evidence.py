@@ -21,6 +21,8 @@ NOT_FINITE = (
     "The answer holds {what}. Look for a division by zero, the logarithm of zero, an exponential that is too large, or "
     "infinity times zero."
 )
+NEAR = "All numbers are nearly right. Perhaps an iteration stops too early, or a number is rounded."
+NONE = "Your function returned None: does every way through it end in a return?"
 TRANSPOSED = "Rows and columns are exchanged: the transpose of your answer is right."
 
 
@@ -44,6 +46,11 @@ class Observation:
     got: Any
     expected: Any
     verdict: Literal["open", "right", "wrong"]
+    at: Any = None  # the places that counted, or None for all
+
+    def counted(self, value: Any) -> Any:
+        """Return a value with only those places that counted."""
+        return value if self.at is None else compare.only(value, self.expected, self.at)
 
 
 class Evidence:
@@ -61,9 +68,10 @@ class Evidence:
         got: Any,
         expected: Any,
         verdict: Literal["open", "right", "wrong"] = "open",
+        at: Any = None,
     ) -> None:
         """Keep a call and its answer."""
-        self.observations.append(Observation(case, got, expected, verdict))
+        self.observations.append(Observation(case, got, expected, verdict, at))
 
     def judge(self, verdict: Literal["right", "wrong"]) -> None:
         """Say whether the last answer was right."""
@@ -94,8 +102,8 @@ class Evidence:
     def _hint(self, observation: Observation) -> str | None:
         """Return the hint of the known mistake that fits this call and contradicts no other."""
         best, hint = 0, None
-        for name, said, value in self.reference.mistakes(observation.case):
-            if compare.difference(observation.got, value) is not None:
+        for name, (said, value) in self._mistakes(observation).items():
+            if compare.difference(observation.counted(observation.got), value):
                 continue
             if (fits := self._fits(name)) > best:
                 best, hint = fits, said
@@ -105,29 +113,42 @@ class Evidence:
         """Return how many wrong answers a mistake explains, or 0 if an answer that was right excludes it."""
         fits = 0
         for observation in self.observations:
-            would_be = {
-                known: value
-                for known, _, value in self.reference.mistakes(observation.case)
-            }
-            if name not in would_be:
+            if (found := self._mistakes(observation).get(name)) is None:
                 continue
             if observation.verdict == "right":
                 return 0
-            fits += compare.difference(observation.got, would_be[name]) is None
+            got = observation.counted(observation.got)
+            fits += compare.difference(got, found[1]) is None
         return fits
+
+    def _mistakes(self, observation: Observation) -> dict[str, tuple[str, Any]]:
+        """Return hint and answer of the known mistakes that are wrong in the places that counted."""
+        known = {
+            name: (hint, observation.counted(value))
+            for name, hint, value in self.reference.mistakes(observation.case)
+        }
+        if observation.at is None:
+            return known
+        return {
+            name: (hint, value)
+            for name, (hint, value) in known.items()
+            if compare.difference(value, observation.expected) is not None
+        }
 
 
 def _plain_hint(observation: Observation) -> str | None:
     """Return a hint that needs no known mistake."""
-    got, expected = (
-        compare.as_numbers(value) for value in (observation.got, observation.expected)
-    )
-    several = isinstance(observation.got, list | tuple)
-    for value in [observation.got, *(observation.got if several else [])]:
+    answer = observation.counted(observation.got)
+    if answer is None and observation.expected is not None:
+        return NONE
+    several = isinstance(answer, list | tuple)
+    for value in [answer, *(answer if several else [])]:
         numbers = compare.as_numbers(value)
         if numbers is not None and not np.isfinite(numbers).all():
             what = "nan" if np.isnan(numbers).any() else "infinity"
             return NOT_FINITE.format(what=what)
-    if got is None or expected is None or got.ndim != 2:
-        return None
-    return TRANSPOSED if compare.difference(got.T, expected) is None else None
+    table = compare.as_numbers(answer)
+    turned = table.T if table is not None and table.ndim == 2 else None
+    if turned is not None and not compare.difference(turned, observation.expected):
+        return TRANSPOSED
+    return NEAR if compare.is_near(answer, observation.expected) else None

@@ -20,6 +20,7 @@ from .reference import Case
 from .sandbox import Garbled, Limits, TimedOut, Worker
 from .submission import Refused, Submission
 
+MOST_ROWS = 8  # as many rows have their first numbers shown
 ROWS = 5  # answers with as many rows have the arguments' rows shown
 
 
@@ -283,9 +284,12 @@ class Answer:
         self._got: Any = None
         self.expected: Any = None
 
-    def agrees(self, *arguments: Any) -> Any:
-        """Call the function, compare its answer with the reference's, and return it for further checks."""
-        self._call(arguments)
+    def agrees(self, *arguments: Any, at: Any = None) -> Any:
+        """Call the function, compare its answer with the reference's, and return it for further checks.
+
+        With ``at``, an index into the answer, only these places count.
+        """
+        self._call(arguments, at)
         if problem := compare.difference(self._got, self.expected):
             raise self._wrong(problem, self._rows(problem))
         self._evidence.judge("right")
@@ -308,7 +312,7 @@ class Answer:
         if not holds:
             raise self._wrong(otherwise)
 
-    def _call(self, arguments: tuple[Any, ...]) -> None:
+    def _call(self, arguments: tuple[Any, ...], at: Any = None) -> None:
         self._case = replace(next(self._cases), arguments=arguments)
         self.expected = self._evidence.reference.expected(self._case)
         try:
@@ -316,11 +320,13 @@ class Answer:
         except Unaccepted as error:
             if error.state != "missing":
                 got = {"raised": error.raised}
-                self._evidence.observe(self._case, got, self.expected, "wrong")
+                self._evidence.observe(self._case, got, self.expected, "wrong", at)
             if error.raised is not None:
                 error.feedback = self._told(error.feedback, self._called())
             raise
-        self._evidence.observe(self._case, self._got, self.expected)
+        self._evidence.observe(self._case, self._got, self.expected, at=at)
+        if at is not None:
+            self._got = compare.only(self._got, self.expected, at)
         if self._calls.changed and not self._evidence.changed:
             self._evidence.changed = True
             raise self._wrong(self._changing())
@@ -349,6 +355,8 @@ class Answer:
 
     def _rows(self, problem: str) -> str:
         """Show the arguments' rows that belong to the first wrong row of an answer of many rows."""
+        if problem.startswith("expected an array"):
+            return self._beginnings()
         place = re.match(r"at \[(\d+)", problem)
         rows = len(self.expected) if place else 0
         if place is None or rows < ROWS:
@@ -361,6 +369,21 @@ class Answer:
             if isinstance(argument, np.ndarray) and argument.shape[:1] == (rows,)
         ]
         return f"There: {', '.join(shown)}." if shown else ""
+
+    def _beginnings(self) -> str:
+        """Show how the rows begin where there are too many or too few of them."""
+        tables = [compare.as_numbers(value) for value in (self.expected, self._got)]
+        if any(
+            table is None or table.ndim != 2 or not 0 < len(table) <= MOST_ROWS
+            for table in tables
+        ):
+            return ""
+        right, own = (
+            ", ".join(f"{row[0]:g}" for row in table.tolist())
+            for table in tables
+            if table is not None
+        )
+        return f"The rows begin with {right}; yours begin with {own}."
 
     def _called(self) -> str:
         return compare.call(

@@ -1,7 +1,8 @@
 """In the chapter a reward belongs to a state and an action, and a terminal state is one
 that returns to itself. Here the reward belongs to the transition, $r(s, a, s')$, and
 terminal states are marked. The episode ends in a terminal state, so its entry in the
-value table must be ignored. Write the Bellman backup for this case,
+value table must be ignored, though the reward of the step into it counts. Write the
+Bellman backup for this case,
 
 $$Q(s, a) = \\sum_{s'} P(s' \\mid s, a) \\left(r(s, a, s') + \\gamma V(s')\\right),$$
 

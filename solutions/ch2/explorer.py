@@ -1,8 +1,8 @@
-"""A project for an evening: R-max (Brafman and Tennenholtz, 2002), a method that
-explores because it is optimistic. Estimate a model by counting the steps recorded so
-far. Use the estimate only for pairs of state and action that were tried a given number
-of times. Every other pair gets the largest possible value, $r_{max} / (1 - \\gamma)$.
-Then compute the optimal action values of this model. A robot that acts greedily on them
+"""A small project: R-max (Brafman and Tennenholtz, 2002), a method that explores
+because it is optimistic. Estimate a model by counting the steps recorded so far. Use
+the estimate only for pairs of state and action that were tried a given number of times.
+Every other pair gets the largest possible value, $r_{max} / (1 - \\gamma)$. Then
+compute the optimal action values of this model. A robot that acts greedily on them
 explores the unknown pairs until all pairs that it can reach are known.
 """
 
@@ -34,7 +34,7 @@ def explorer(
 
     Returns
     -------
-    (S, A), optimal values of the pairs in the model, exact to 1e-8. The reward of a
+    (S, A), optimal values of the pairs in the model, exact to 1e-6. The reward of a
     known pair is the mean of its recorded rewards; the value of an unknown pair is
     ``largest_reward / (1 - discount)``.
     """

@@ -4,8 +4,9 @@ degrees. It has two kinds of moves. It can go to the next cell in the direction 
 heading, which costs 1 along a row or column and $\\sqrt 2$ diagonally. Or it can turn
 by 45 degrees to either side where it stands, which costs ``turn_cost``. It must not cut
 corners: a diagonal move needs the two cells beside it to be free as well. Find the cost
-of the cheapest path to the goal, with any heading there. An admissible heuristic makes
-the search fast. Without one the search must still end.
+of the cheapest path to the goal, with any heading there. The goal may be blocked; there
+is no path to it then. An admissible heuristic makes the search fast. Without one the
+search must still end.
 """
 
 import numpy as np

@@ -1,8 +1,8 @@
-"""Figure 4.3 sums the signed changes of all weights over an episode, and the thesis
-takes a sum near zero as a sign of convergence. Show why this is wrong. From the weights
-at the beginning and after each episode, compute three measures of change: the signed
-sum, in which changes can cancel; the sum of the absolute changes; and the largest
-absolute change.
+"""The thesis's Figure 4.3 sums the signed changes of all weights over an episode, and
+the thesis takes a sum near zero as a sign of convergence. Show why this is wrong. From
+the weights at the beginning and after each episode, compute three measures of change:
+the signed sum, in which changes can cancel; the sum of the absolute changes; and the
+largest absolute change.
 """
 
 import numpy as np

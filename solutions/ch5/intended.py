@@ -30,7 +30,8 @@ def intended(
     Returns
     -------
     (S,), the action most likely meant, the lowest index among equals, and -1 for a
-    state that was never seen. What was done in a state could always have been meant.
+    state that was never seen. For each state that was seen, one intended action at
+    least could have led to all that was done there.
     """
     ### BEGIN SOLUTION
     with np.errstate(divide="ignore"):

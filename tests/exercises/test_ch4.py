@@ -11,35 +11,52 @@ def some(rng, *shape):
     return allowed
 
 
-@pytest.mark.part("4.1", points=3)
-def test_explore_what_is_allowed(answer, rng):
-    """Agrees with Eq. (4.7) among the actions that are allowed."""
+def robots(rng, n=6, actions=4, *, few=False):
+    """Values, shares that can be reached, and allowed actions; ``few`` makes values that tie."""
+    allowed = some(rng, n, actions)
+    allowed[:, :2] = True
+    values = rng.normal(size=(n, actions))
+    if few:
+        values = rng.integers(-2, 1, size=(n, actions)).astype(float)
+        values[:, 0] = 1.0
+        values[: n // 2, 1] = 1.0
+    masked = np.where(allowed, values, -np.inf)
+    best = (masked == masked.max(axis=1, keepdims=True)).sum(axis=1)
+    least = best / allowed.sum(axis=1)
+    return values, least + (1 - least) * rng.uniform(0.2, 0.9, size=n), allowed
+
+
+@pytest.mark.part("4.1", points=2)
+def test_explore_with_a_share(answer, rng):
+    """Finds the policy where a single action is best."""
     for _ in range(6):
-        answer.agrees(
-            rng.normal(size=(5, 4)), rng.uniform(0.3, 2, size=5), some(rng, 5, 4)
-        )
+        answer.agrees(*robots(rng))
 
 
 @pytest.mark.part("4.1", points=1)
-def test_explore_at_temperature_zero(answer, rng):
-    """Takes a best allowed action at temperature zero, and each best one with the same probability."""
+def test_explore_where_actions_tie(answer, rng):
+    """Finds the policy where several actions are best."""
     for _ in range(6):
-        answer.agrees(
-            rng.integers(-2, 1, size=(8, 4)).astype(float),
-            rng.integers(2, size=8).astype(float),
-            some(rng, 8, 4),
-        )
+        answer.agrees(*robots(rng, few=True))
+
+
+@pytest.mark.part("4.1", points=1)
+def test_explore_at_the_extremes(answer, rng):
+    """Is greedy for a share of 1, and takes all allowed actions alike where the share is too small to reach."""
+    for _ in range(4):
+        values, share, allowed = robots(rng, 8, few=True)
+        share[:4], share[6:] = 1.0, 0.05
+        answer.agrees(values, share, allowed)
 
 
 @pytest.mark.part("4.1", points=1)
 def test_explore_without_overflow(answer, rng):
-    """Stays finite with large values and low temperatures."""
+    """Stays finite with values in the thousands."""
     for _ in range(6):
-        answer.agrees(
-            rng.uniform(-5000, 5000, size=(5, 4)),
-            rng.uniform(0.001, 1, size=5),
-            some(rng, 5, 4),
-        )
+        values, share, allowed = robots(rng)
+        allowed[0, 3] = False
+        values[0, 3] = 500.0  # a forbidden action with by far the largest value
+        answer.agrees(4000 + 10 * values, share, allowed)
 
 
 @pytest.mark.part("4.2", points=2)
@@ -57,7 +74,7 @@ def test_shaped_episodes(answer, rng):
 @pytest.mark.part("4.2", points=1)
 def test_shaped_episodes_cut_off(answer, rng):
     """Keeps the last state's potential where the episode was only cut off."""
-    for steps in (0, 1, 6):
+    for steps in (1, 6, 0):
         answer.agrees(
             rng.normal(size=steps),
             rng.normal(size=steps + 1),
@@ -194,11 +211,18 @@ def test_fitted_to_little(answer, rng):
     answer.agrees(features, actions, costs, following, outcomes, 3, 0.9, 0.5, 0)
 
 
-@pytest.mark.part("4.6", points=2)
-def test_changes_of_random_weights(answer, rng):
-    """Agrees with the definition on random weights."""
+@pytest.mark.part("4.6", points=1)
+def test_changes_that_are_added(answer, rng):
+    """Finds the signed and the absolute sum for random weights."""
     for _ in range(6):
-        answer.agrees(rng.normal(size=(7, 9)).cumsum(axis=0))
+        answer.agrees(rng.normal(size=(7, 9)).cumsum(axis=0), at=np.s_[:, :2])
+
+
+@pytest.mark.part("4.6", points=1)
+def test_changes_and_the_largest(answer, rng):
+    """Finds the largest absolute change for random weights."""
+    for _ in range(6):
+        answer.agrees(rng.normal(size=(7, 9)).cumsum(axis=0), at=np.s_[:, 2])
 
 
 @pytest.mark.part("4.6", points=1)
@@ -224,11 +248,18 @@ def careers(rng, seeds, episodes):
     return rng.random((seeds, episodes)) < probability
 
 
-@pytest.mark.part("4.7", points=3)
-def test_band_of_full_blocks(answer, rng):
-    """Agrees with the definition where the blocks fill all episodes."""
+@pytest.mark.part("4.7", points=1)
+def test_band_and_its_curve(answer, rng):
+    """Finds the mean curve where the blocks fill all episodes."""
     for _ in range(4):
-        answer.agrees(careers(rng, 6, 40), 10, rng.integers(6, size=(50, 6)))
+        answer.agrees(careers(rng, 6, 40), 10, rng.integers(6, size=(50, 6)), at=0)
+
+
+@pytest.mark.part("4.7", points=2)
+def test_band_of_full_blocks(answer, rng):
+    """Finds the interval where the blocks fill all episodes."""
+    for _ in range(4):
+        answer.agrees(careers(rng, 6, 40), 10, rng.integers(6, size=(50, 6)), at=1)
 
 
 @pytest.mark.part("4.7", points=2)

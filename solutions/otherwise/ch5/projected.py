@@ -3,14 +3,17 @@
 import numpy as np
 
 
-def projected(mixture, found, expert, scale):
+def projected(weights, found, expert, scale):
+    mixture = (weights[:, None] * found[:-1]).sum(axis=0)
+    new = found[-1]
+
     def away(share):  # the slope of the squared distance
         return float(
-            ((found - mixture) / scale)
-            @ ((mixture + share * (found - mixture) - expert) / scale)
+            ((new - mixture) / scale)
+            @ ((mixture + share * (new - mixture) - expert) / scale)
         )
 
-    if np.array_equal(mixture, found) or away(0.0) >= 0:
+    if np.allclose(mixture, new, atol=1e-14) or away(0.0) >= 0:
         share = 0.0
     elif away(1.0) <= 0:
         share = 1.0
@@ -20,4 +23,6 @@ def projected(mixture, found, expert, scale):
             middle = (low + high) / 2
             low, high = (middle, high) if away(middle) < 0 else (low, middle)
         share = low
-    return mixture + share * (found - mixture), share
+    probabilities = [w - share * w for w in weights] + [share]
+    rest = (np.array(probabilities) @ found - expert) / scale
+    return probabilities, float(np.sqrt((rest**2).sum()))

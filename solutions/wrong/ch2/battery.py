@@ -71,3 +71,53 @@ def full_first(transitions, rewards, costs, charge):
                 axis=0,
             )
     return values[::-1]
+
+
+def counts_steps_freely(transitions, rewards, costs, charge):
+    """Charge is not the number of steps: an action uses its own units, and needs as many as it uses."""
+    values = np.zeros((charge + 1, transitions.shape[1]))
+    for left in range(1, charge + 1):
+        q = [
+            rewards[:, a] + transitions[a] @ values[left - 1] for a in range(len(costs))
+        ]
+        values[left] = np.max(q, axis=0)
+    return values
+
+
+def wraps_around(transitions, rewards, costs, charge):
+    """A negative index counts from the end in Python: leave out actions that need more units than are left."""
+    values = [np.zeros(transitions.shape[1])]
+    for left in range(1, charge + 1):
+        q = [
+            rewards[:, a] + transitions[a] @ values[left - cost]
+            for a, cost in enumerate(costs)
+            if left - cost >= -len(values)
+        ]
+        values.append(np.max(q, axis=0) if q else np.zeros(transitions.shape[1]))
+    return np.array(values)
+
+
+def same_charge(transitions, rewards, costs, charge):
+    """After the action less charge is left: use the row of the units that remain."""
+    values = np.zeros((charge + 1, transitions.shape[1]))
+    for left in range(1, charge + 1):
+        possible = [a for a, cost in enumerate(costs) if cost <= left]
+        if possible:
+            values[left] = np.max([rewards[:, a] for a in possible], axis=0)
+    return values
+
+
+def averages(transitions, rewards, costs, charge):
+    """The robot takes the best action, so take the maximum over the possible actions, not their mean."""
+    values = np.zeros((charge + 1, transitions.shape[1]))
+    for left in range(1, charge + 1):
+        possible = [a for a, cost in enumerate(costs) if cost <= left]
+        if possible:
+            values[left] = np.mean(
+                [
+                    rewards[:, a] + transitions[a] @ values[left - costs[a]]
+                    for a in possible
+                ],
+                axis=0,
+            )
+    return values

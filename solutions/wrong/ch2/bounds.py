@@ -31,3 +31,27 @@ def state_by_state(previous, values, discount):
     """Use the smallest and the largest change over all states, not each state's own change."""
     change = discount / (1 - discount) * (values - previous)
     return values + np.minimum(change, 0), values + np.maximum(change, 0)
+
+
+def never_the_other_way(previous, values, discount):
+    """The smallest change may be positive and the largest negative: do not limit them at 0."""
+    change = discount / (1 - discount) * (values - previous)
+    return values + min(change.min(), 0.0), values + max(change.max(), 0.0)
+
+
+def own_change(previous, values, discount):
+    """Later changes depend on all states: use the smallest and the largest change over all of them."""
+    change = discount / (1 - discount) * (values - previous)
+    return values + change, values + change
+
+
+def swapped(previous, values, discount):
+    """Return the lower bounds first, then the upper bounds."""
+    change = discount / (1 - discount) * (values - previous)
+    return values + change.max(), values + change.min()
+
+
+def no_first_discount(previous, values, discount):
+    """The next sweep changes the values by the discount times the last change already: its series is g + g^2 + ..."""
+    change = (values - previous) * (1 / (1 - discount) - discount)
+    return values + change.min(), values + change.max()

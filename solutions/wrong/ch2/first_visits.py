@@ -79,3 +79,49 @@ def over_all_episodes(states, rewards, discount, size):
     ]
     values, count = _mean([pair for first in pairs for pair in first.items()], size)
     return values * count / len(states), count
+
+
+def seen_in_any_episode(states, rewards, discount, size):
+    """A first visit is the first in its own episode: forget the visited states when the next episode begins."""
+    samples, seen = [], set()
+    for visited, earned in zip(states, rewards):
+        for state, value in zip(visited, _returns(earned, discount)):
+            if state not in seen:
+                seen.add(state)
+                samples.append((state, value))
+    return _mean(samples, size)
+
+
+def nothing_by_nothing(states, rewards, discount, size):
+    """The value of a state that no episode visited is 0, not 0 divided by 0."""
+    values, count = _first(states, rewards, discount, size)
+    return np.where(count > 0, values, np.nan), count
+
+
+def _first(states, rewards, discount, size):
+    pairs = [
+        dict(reversed(list(zip(v, _returns(e, discount)))))
+        for v, e in zip(states, rewards)
+    ]
+    return _mean([pair for first in pairs for pair in first.items()], size)
+
+
+def counts_visits(states, rewards, discount, size):
+    """Count the episodes that visited the state, not its visits: an episode counts once."""
+    count = np.zeros(size, dtype=np.int64)
+    for visited in states:
+        for state in visited:
+            count[state] += 1
+    return _first(states, rewards, discount, size)[0], count
+
+
+def sums(states, rewards, discount, size):
+    """Divide the sum of the returns by the number of episodes that visited the state."""
+    values, count = _first(states, rewards, discount, size)
+    return values * count, count
+
+
+def only_the_reward(states, rewards, discount, size):
+    """The return holds the rewards of all later steps too, not only that of the step from the state."""
+    pairs = [dict(reversed(list(zip(v, e)))) for v, e in zip(states, rewards)]
+    return _mean([pair for first in pairs for pair in first.items()], size)

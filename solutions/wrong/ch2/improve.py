@@ -31,3 +31,23 @@ def first_better(q, policy, tolerance):
     """This takes the first action that is better. Take the best one."""
     better = q - q[np.arange(len(q)), policy][:, None] > tolerance
     return np.where(better.any(axis=1), better.argmax(axis=1), policy)
+
+
+def best_of_all_states(q, policy, tolerance):
+    """Look for the best action in every state: take the maximum along each row of q."""
+    current = q[np.arange(len(q)), policy]
+    best = int(q.max(axis=0).argmax())
+    return np.where(q[:, best] - current > tolerance, best, policy)
+
+
+def any_best_is_kept(q, policy, tolerance):
+    """Compare with the value of the current action, not with the mean of the actions."""
+    better = q.max(axis=1) - q.mean(axis=1) > tolerance
+    return np.where(better, q.argmax(axis=1), policy)
+
+
+def tolerance_of_the_best(q, policy, tolerance):
+    """The tolerance decides whether to change. A change goes to the best action, not to the first good one."""
+    current = q[np.arange(len(q)), policy]
+    good = q >= q.max(axis=1, keepdims=True) - tolerance
+    return np.where(q.max(axis=1) - current > tolerance, good.argmax(axis=1), policy)

@@ -55,3 +55,90 @@ def no_reward_at_the_end(
     mean = epsilon * following.mean(axis=1) + (1 - epsilon) * best
     values = np.stack([best, q[next_states, next_actions], mean])
     return np.where(terminated, 0.0, rewards + discount * values)
+
+
+def _rows(q, rewards, next_states, next_actions, terminated, discount, mean):
+    following = q[next_states]
+    values = np.stack(
+        [following.max(axis=1), q[next_states, next_actions], mean(following)]
+    )
+    return rewards + discount * np.where(terminated, 0.0, values)
+
+
+def each_best_as_probable(
+    q, rewards, next_states, next_actions, terminated, discount, epsilon
+):
+    """The best actions together have the probability 1 - epsilon: several of them share it."""
+
+    def mean(rows):
+        best = rows == rows.max(axis=1, keepdims=True)
+        return (rows * (epsilon / rows.shape[1] + (1 - epsilon) * best)).sum(axis=1)
+
+    return _rows(q, rewards, next_states, next_actions, terminated, discount, mean)
+
+
+def plain_mean(q, rewards, next_states, next_actions, terminated, discount, epsilon):
+    """The policy is not uniform: with probability 1 - epsilon it takes a best action."""
+    return _rows(
+        q,
+        rewards,
+        next_states,
+        next_actions,
+        terminated,
+        discount,
+        lambda rows: rows.mean(axis=1),
+    )
+
+
+def sum_for_mean(q, rewards, next_states, next_actions, terminated, discount, epsilon):
+    """Each of the A actions has the probability epsilon / A: take the mean of the values, not their sum."""
+    return _rows(
+        q,
+        rewards,
+        next_states,
+        next_actions,
+        terminated,
+        discount,
+        lambda rows: epsilon * rows.sum(axis=1) + (1 - epsilon) * rows.max(axis=1),
+    )
+
+
+def epsilon_turned(
+    q, rewards, next_states, next_actions, terminated, discount, epsilon
+):
+    """Epsilon is the probability of a random action, not of a best one."""
+    return _rows(
+        q,
+        rewards,
+        next_states,
+        next_actions,
+        terminated,
+        discount,
+        lambda rows: (1 - epsilon) * rows.mean(axis=1) + epsilon * rows.max(axis=1),
+    )
+
+
+def only_the_best(q, rewards, next_states, next_actions, terminated, discount, epsilon):
+    """Expected SARSA also counts the random actions: each has the probability epsilon / A."""
+    return _rows(
+        q,
+        rewards,
+        next_states,
+        next_actions,
+        terminated,
+        discount,
+        lambda rows: (1 - epsilon) * rows.max(axis=1),
+    )
+
+
+def no_discount(q, rewards, next_states, next_actions, terminated, discount, epsilon):
+    """Multiply the value of the next state by the discount factor."""
+    return _rows(
+        q,
+        rewards,
+        next_states,
+        next_actions,
+        terminated,
+        1.0,
+        lambda rows: epsilon * rows.mean(axis=1) + (1 - epsilon) * rows.max(axis=1),
+    )

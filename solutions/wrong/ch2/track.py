@@ -31,7 +31,7 @@ def reads_first(belief, transitions, observations, actions, readings):
 
 
 def backwards(belief, transitions, observations, actions, readings):
-    """Sum over the state before the move. Eq. (2.18), as printed, has the two states exchanged."""
+    """Sum over the state before the move: it is the first of the two states in ``transitions[action]``, the row."""
     for action, reading in zip(actions, readings):
         moved = transitions[action] @ belief
         joint = moved * _likelihood(observations, action, reading)
@@ -59,4 +59,52 @@ def starts_anew(belief, transitions, observations, actions, readings):
             if joint.sum() > 0
             else np.full(len(belief), 1 / len(belief))
         )
+    return belief
+
+
+def moves_only_with_a_reading(belief, transitions, observations, actions, readings):
+    """The robot moves in every step: without a reading, the belief is the prediction from the move."""
+    for action, reading in zip(actions, readings):
+        if reading >= 0:
+            moved = belief @ transitions[action]
+            joint = moved * observations[action, :, reading]
+            belief = joint / joint.sum() if joint.sum() > 0 else moved
+    return belief
+
+
+def forgets_the_move_with_a_lie(belief, transitions, observations, actions, readings):
+    """A wrong reading does not undo the move: keep the prediction, not the belief from before the step."""
+    for action, reading in zip(actions, readings):
+        moved = belief @ transitions[action]
+        joint = moved * _likelihood(observations, action, reading)
+        belief = joint / joint.sum() if joint.sum() > 0 else belief
+    return belief
+
+
+def divides_by_zero(belief, transitions, observations, actions, readings):
+    """An impossible reading has the probability zero, and dividing by it gives nan. Ignore such a reading."""
+    for action, reading in zip(actions, readings):
+        joint = (belief @ transitions[action]) * _likelihood(
+            observations, action, reading
+        )
+        belief = joint / joint.sum()
+    return belief
+
+
+def stops_at_a_lie(belief, transitions, observations, actions, readings):
+    """Go on after a wrong reading: only the reading is ignored, not the rest of the episode."""
+    for action, reading in zip(actions, readings):
+        belief = belief @ transitions[action]
+        joint = belief * _likelihood(observations, action, reading)
+        if joint.sum() == 0:
+            return belief
+        belief = joint / joint.sum()
+    return belief
+
+
+def never_moves(belief, transitions, observations, actions, readings):
+    """The robot moves before it reads its sensor: first predict with ``transitions[action]``."""
+    for action, reading in zip(actions, readings):
+        joint = belief * _likelihood(observations, action, reading)
+        belief = joint / joint.sum() if joint.sum() > 0 else belief
     return belief

@@ -67,3 +67,59 @@ def keeps_its_place(states, labels, visited, advice, capacity):
 def newest_go(states, labels, visited, advice, capacity):
     """When there are too many pairs, remove the oldest."""
     return _gathered(states, labels, visited, advice, capacity, oldest=False)
+
+
+def _listed(kept, states):
+    return np.array([s for s, _ in kept], dtype=int).reshape(
+        -1, states.shape[1]
+    ), np.array([n for _, n in kept], dtype=int)
+
+
+def _pairs(states, labels):
+    return dict(zip(map(tuple, states.tolist()), labels.tolist()))
+
+
+def silence_deletes(states, labels, visited, advice, capacity):
+    """A label of -1 changes nothing: a state that is in the data keeps its label and its place."""
+    kept = _pairs(states, labels)
+    for state, label in zip(map(tuple, visited.tolist()), advice.tolist()):
+        kept.pop(state, None)
+        if label >= 0:
+            kept[state] = label
+    return _listed(list(kept.items())[-capacity:], states)
+
+
+def newest_first(states, labels, visited, advice, capacity):
+    """Return the oldest pair first."""
+    kept, of = _gathered(states, labels, visited, advice, capacity)
+    return kept[::-1], of[::-1]
+
+
+def makes_room_first(states, labels, visited, advice, capacity):
+    """Remove the oldest pairs at the end: a new label of a known state needs no room."""
+    kept = _pairs(states, labels)
+    for state, label in zip(map(tuple, visited.tolist()), advice.tolist()):
+        if label < 0:
+            continue
+        if len(kept) >= capacity:
+            del kept[next(iter(kept))]
+        kept.pop(state, None)
+        kept[state] = label
+    return _listed(list(kept.items())[-capacity:], states)
+
+
+def first_of_the_round(states, labels, visited, advice, capacity):
+    """A state may be visited several times in a round: its newest label counts there, too."""
+    seen, first = set(), []
+    for n, (state, label) in enumerate(
+        zip(map(tuple, visited.tolist()), advice.tolist())
+    ):
+        if label >= 0 and state not in seen:
+            seen.add(state)
+            first.append(n)
+    return _gathered(states, labels, visited[first], advice[first], capacity)
+
+
+def has_no_limit(states, labels, visited, advice, capacity):
+    """The memory holds ``capacity`` pairs: remove the oldest if there are more."""
+    return _gathered(states, labels, visited, advice, 10**6)

@@ -55,3 +55,21 @@ def overflows(weights, inputs):
     """Exponentials of large numbers overflow: first subtract the largest in each row. The result stays the same."""
     e = np.exp(_z(weights, inputs))
     return e / e.sum(axis=1, keepdims=True)
+
+
+def one_maximum(weights, inputs):
+    """Subtract the largest of each row. With the largest of all rows, a row far below it becomes 0 divided by 0."""
+    z = _z(weights, inputs)
+    e = np.exp(z - z.max())
+    return e / e.sum(axis=1, keepdims=True)
+
+
+def hidden_without_a_curve(weights, inputs):
+    """The hidden layers need the hyperbolic tangent."""
+    return _softmax(_z(weights, inputs, squash=lambda z: z))
+
+
+def not_divided(weights, inputs):
+    """Divide the exponentials of a row by their sum."""
+    z = _z(weights, inputs)
+    return np.exp(z - z.max(axis=1, keepdims=True))

@@ -12,14 +12,18 @@ def _slopes(
     mean=True,
     bias=False,
     per_example=True,
+    sign=1,
+    output=False,
 ):
     activations = [inputs]
     for layer in weights[:-1]:
         activations.append(np.tanh(layer[:, 0] + activations[-1] @ layer[:, 1:].T))
     z = weights[-1][:, 0] + activations[-1] @ weights[-1][:, 1:].T
     e = np.exp(z - z.max(axis=1, keepdims=True))
-    delta = e / e.sum(axis=1, keepdims=True)
+    p = e / e.sum(axis=1, keepdims=True)
+    delta = p.copy()
     delta[np.arange(len(labels)), labels] -= 1
+    delta *= sign * (p * (1 - p) if output else 1)
     slopes, m = [], len(inputs)
     for layer, a in zip(weights[::-1], activations[::-1]):
         slope = np.column_stack([delta.sum(axis=0), delta.T @ a]) / (m if mean else 1)
@@ -52,5 +56,37 @@ def decays_biases(weights, inputs, labels, decay):
 
 
 def decays_too_much(weights, inputs, labels, decay):
-    """Divide the weight decay by the number of examples, too. The thesis prints Eq. (3.27) without this division."""
+    """Divide the weight decay by the number of examples, too: it is part of the mean."""
     return _slopes(weights, inputs, labels, decay, per_example=False)
+
+
+def uphill(weights, inputs, labels, decay):
+    """The error of an output is p - y. With y - p the derivatives of the cross-entropy have the wrong sign."""
+    return _slopes(weights, inputs, labels, decay, sign=-1)
+
+
+def squared_error(weights, inputs, labels, decay):
+    """The slope of the softmax cancels against that of the logarithm: the error of an output is p - y alone."""
+    return _slopes(weights, inputs, labels, decay, output=True)
+
+
+def decays_twice(weights, inputs, labels, decay):
+    """The derivative of lambda / 2 times a square is lambda times the weight: the 2 cancels."""
+    return _slopes(weights, inputs, labels, 2 * decay)
+
+
+def decays_half(weights, inputs, labels, decay):
+    """The derivative of lambda / 2 times a square is lambda times the weight: the 2 cancels."""
+    return _slopes(weights, inputs, labels, decay / 2)
+
+
+def no_decay(weights, inputs, labels, decay):
+    """Add the derivative of the weight decay."""
+    return _slopes(weights, inputs, labels, 0.0)
+
+
+def slope_of_the_slope(weights, inputs, labels, decay):
+    """The derivative is 1 - h * h for the unit's value h: do not apply the hyperbolic tangent again."""
+    return _slopes(
+        weights, inputs, labels, decay, slope_of=lambda a: 1 - np.tanh(a) ** 2
+    )

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def _expanded(pose, speed, turn_cost, centres, radii, size, margin, *, signs=1, first=True, whole=True, border=True,
-              signed=False, keep=True, wrap=True):  # fmt: skip
+              signed=False, keep=True, wrap=True, line=False, strict=False, thick=True, pays=1.0):  # fmt: skip
     rows, start = [], pose[:2]
     for action, degrees in enumerate((0, 30, 60, -30, -60)):
         turn = signs * np.radians(degrees)
@@ -13,13 +13,17 @@ def _expanded(pose, speed, turn_cost, centres, radii, size, margin, *, signs=1, 
         way = speed * np.array([np.cos(going), np.sin(going)])
         end = start + way
         along = (
-            np.clip((centres - start) @ way / speed**2, 0, 1)
+            np.clip(
+                (centres - start) @ way / speed**2, *((-1e9, 1e9) if line else (0, 1))
+            )
             if whole
             else np.ones(len(centres))
         )
-        gaps = np.hypot(*(centres - start - along[:, None] * way).T) - radii
+        gaps = np.hypot(*(centres - start - along[:, None] * way).T) - thick * radii
         room = margin if keep else 0.0
         inside = min(*start, *end) >= room and max(*start, *end) <= size - room
+        if strict:
+            room += 1e-9
         if np.all(gaps >= room) and (inside or not border):
             heading = (heading + np.pi) % (2 * np.pi) - np.pi if wrap else heading
             rows.append(
@@ -27,7 +31,7 @@ def _expanded(pose, speed, turn_cost, centres, radii, size, margin, *, signs=1, 
                     action,
                     *end,
                     heading,
-                    speed + turn_cost * (turn if signed else abs(turn)),
+                    speed + pays * turn_cost * (turn if signed else abs(turn)),
                 ]
             )
     return np.array(rows).reshape(-1, 5)
@@ -66,3 +70,35 @@ def left_pays_right(*arguments):
 def heading_runs_away(*arguments):
     """Bring the heading back into the interval from -pi to pi."""
     return _expanded(*arguments, wrap=False)
+
+
+def along_the_line(*arguments):
+    """A step ends after one second: measure the distance to the segment, not to the whole line."""
+    return _expanded(*arguments, line=True)
+
+
+def exactly_is_too_near(*arguments):
+    """A step that keeps exactly the margin is possible."""
+    return _expanded(*arguments, strict=True)
+
+
+def thin_obstacles(*arguments):
+    """Distances count from the edge of an obstacle: subtract its radius."""
+    return _expanded(*arguments, thick=False)
+
+
+def pays_nothing(*arguments):
+    """The cost is the length of the step and, in addition, the cost of the turn."""
+    return _expanded(*arguments, pays=0.0)
+
+
+def pays_by_degrees(*arguments):
+    """The cost of a turn is given for one radian, not for one degree."""
+    return _expanded(*arguments, pays=float(np.degrees(1.0)))
+
+
+def heading_from_zero(*arguments):
+    """The heading lies between -pi and pi, not between 0 and 2 pi."""
+    rows = _expanded(*arguments)
+    rows[:, 3] %= 2 * np.pi
+    return rows

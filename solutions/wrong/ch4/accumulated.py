@@ -4,14 +4,14 @@ import numpy as np
 
 
 def _weights(features, actions, rewards, ended, number, discount, gradient_step, *, all_so_far=True, fresh=False,
-             oldest=True, end=True, after=False, at_once=False):  # fmt: skip
+             oldest=True, end=True, after=False, at_once=False, sarsa=False, discounted=True):  # fmt: skip
     weights, targets, steps = np.zeros((number, features.shape[1])), [], len(rewards)
 
     def target(t):
         last = end and ended and t == steps - 1
-        return rewards[t] + (
-            0.0 if last else discount * (weights @ features[t + 1]).max()
-        )
+        q = weights @ features[t + 1]
+        value = q[actions[t + 1]] if sarsa and t + 1 < steps else q.max()
+        return rewards[t] + (0.0 if last else (discount if discounted else 1.0) * value)
 
     for t in range(steps):
         targets.append(target(t))
@@ -58,3 +58,13 @@ def all_at_once(*arguments):
 def on_from_the_end(*arguments):
     """If the episode ended, the last step has no next state: its target is only the reward."""
     return _weights(*arguments, end=False)
+
+
+def of_the_next_action(*arguments):
+    """This is SARSA's target. Q-learning uses the largest value of the next state, whichever action is taken there."""
+    return _weights(*arguments, sarsa=True)
+
+
+def no_discount(*arguments):
+    """Multiply the value of the next state by the discount factor."""
+    return _weights(*arguments, discounted=False)

@@ -60,3 +60,43 @@ def strides(successes, block, draws):
     return counts.mean(axis=0), np.percentile(
         counts[draws].mean(axis=1), [2.5, 97.5], axis=0
     )
+
+
+def as_if_normal(successes, block, draws):
+    """Use the percentiles of the resamples' means: they assume no normal distribution."""
+    counts = _counts(successes, block)
+    spread = 1.96 * counts[draws].mean(axis=1).std(axis=0)
+    mean = counts.mean(axis=0)
+    return mean, np.stack([mean - spread, mean + spread])
+
+
+def as_if_normal_without_draws(successes, block, draws):
+    """Use the percentiles of the resamples' means: they assume no normal distribution."""
+    counts = _counts(successes, block)
+    mean = counts.mean(axis=0)
+    spread = 1.96 * counts.std(axis=0, ddof=1) / np.sqrt(len(counts))
+    return mean, np.stack([mean - spread, mean + spread])
+
+
+def mean_over_resamples(successes, block, draws):
+    """Take each resample's mean over its seeds, then the percentiles over the resamples."""
+    counts = _counts(successes, block)
+    return counts.mean(axis=0), np.percentile(
+        counts[draws].mean(axis=0), [2.5, 97.5], axis=0
+    )
+
+
+def centre_of_the_resamples(successes, block, draws):
+    """The curve is the mean over the seeds themselves: the resamples are for its interval."""
+    resampled = _counts(successes, block)[draws].mean(axis=1)
+    return resampled.mean(axis=0), np.percentile(resampled, [2.5, 97.5], axis=0)
+
+
+def counts_the_rest(successes, block, draws):
+    """Leave out the last episodes if they do not fill a block."""
+    rest = -successes.shape[1] % block
+    filled = np.pad(successes, ((0, 0), (0, rest)))
+    counts = filled.reshape(len(successes), -1, block).sum(axis=2)
+    return counts.mean(axis=0), np.percentile(
+        counts[draws].mean(axis=1), [2.5, 97.5], axis=0
+    )

@@ -37,3 +37,27 @@ def largest_rise(weights):
     return np.column_stack(
         [change.sum(axis=1), np.abs(change).sum(axis=1), change.max(axis=1)]
     )
+
+
+def absolute_sum_signed_largest(weights):
+    """The order is: signed sum, sum of absolute values, largest absolute value."""
+    change = np.diff(weights, axis=0)
+    return np.column_stack(
+        [np.abs(change).sum(axis=1), change.sum(axis=1), np.abs(change).max(axis=1)]
+    )
+
+
+def means(weights):
+    """Add the changes of all weights; do not average them."""
+    change = np.diff(weights, axis=0)
+    return np.column_stack(
+        [change.mean(axis=1), np.abs(change).mean(axis=1), np.abs(change).max(axis=1)]
+    )
+
+
+def over_the_episodes(weights):
+    """A row is one episode: add over the weights, along a row, not over the episodes."""
+    change = np.diff(weights, axis=0)
+    return np.column_stack(
+        [change.sum(axis=0), np.abs(change).sum(axis=0), np.abs(change).max(axis=0)]
+    )

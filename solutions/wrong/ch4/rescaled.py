@@ -4,7 +4,7 @@ import numpy as np
 
 
 def _targets(outputs, actions, rewards, next_outputs, ended, bounds, discount, learning_rate, *, scale=True,
-             horizon=True, end=True, clip=True, whole=False, zero=True):  # fmt: skip
+             horizon=True, end=True, clip=True, whole=False, zero=True, every=False, mean=False):  # fmt: skip
     least, greatest = (
         (bound / (1 - discount if horizon else 1) for bound in bounds)
         if scale
@@ -15,6 +15,12 @@ def _targets(outputs, actions, rewards, next_outputs, ended, bounds, discount, l
     nothing = 0.0 if zero else least
     after = least + (greatest - least) * next_outputs.max(axis=1)
     following = np.where(ended, nothing, after) if end else after
+    if mean:
+        after = least + (greatest - least) * next_outputs.mean(axis=1)
+        following = np.where(ended, nothing, after)
+    if every:
+        q += learning_rate * ((rewards + discount * following)[:, None] - q)
+        return ((q - least) / (greatest - least)).clip(0.0, 1.0)
     q[taken] += (1.0 if whole else learning_rate) * (
         rewards + discount * following - q[taken]
     )
@@ -50,3 +56,26 @@ def all_the_way(*arguments):
 def not_clipped(*arguments):
     """Clip the targets to the range from 0 to 1: a reward may be out of its bounds."""
     return _targets(*arguments, clip=False)
+
+
+def every_action(*arguments):
+    """Only the action that was taken gets a new target: all other targets are the network's own outputs."""
+    return _targets(*arguments, every=True)
+
+
+def mean_of_the_next(*arguments):
+    """Q-learning uses the largest value of the next state."""
+    return _targets(*arguments, mean=True)
+
+
+def other_targets_zero(outputs, actions, *arguments):
+    """The actions that were not taken keep the network's outputs as targets, so that they do not change."""
+    targets = _targets(outputs, actions, *arguments)
+    return np.where(np.arange(outputs.shape[1]) == actions[:, None], targets, 0.0)
+
+
+def not_back_on_the_scale(outputs, actions, rewards, next_outputs, ended, bounds, discount, rate):  # fmt: skip
+    """Return the targets on the network's scale, from 0 to 1, not as Q-values."""
+    least, greatest = (bound / (1 - discount) for bound in bounds)
+    arguments = outputs, actions, rewards, next_outputs, ended, bounds, discount, rate
+    return least + (greatest - least) * _targets(*arguments, clip=False)

@@ -36,3 +36,33 @@ def next_potential_alone(rewards, potentials, ended, discount):
         : len(rewards)
     ]
     return rewards + discount * following
+
+
+def discount_on_the_old_potential(rewards, potentials, ended, discount):
+    """The discount belongs to the potential of the next state, not to that of the state before the step."""
+    following = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])[
+        : len(rewards)
+    ]
+    return rewards + following - discount * potentials[:-1]
+
+
+def all_discounted(rewards, potentials, ended, discount):
+    """Discount only the potential of the next state, not the whole difference."""
+    following = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])[
+        : len(rewards)
+    ]
+    return rewards + discount * (following - potentials[:-1])
+
+
+def potentials_alone(rewards, potentials, ended, discount):
+    """Add the potentials' difference to the reward of the step."""
+    following = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])[
+        : len(rewards)
+    ]
+    return discount * following - potentials[:-1]
+
+
+def from_the_step_before(rewards, potentials, ended, discount):
+    """The potentials have an entry more than the rewards: step t leads from entry t to entry t + 1."""
+    before = np.concatenate([potentials[:1], potentials[:-2]])[: len(rewards)]
+    return rewards + discount * potentials[:-1] - before

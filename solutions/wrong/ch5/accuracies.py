@@ -68,3 +68,31 @@ def in_percent(expert_actions, policy_actions, number):
         float(_shares(expert_actions, number) @ _shares(policy_actions, number)),
     )
     return [100 * part for part in found]
+
+
+def zero_by_zero(expert_actions, policy_actions, number):
+    """If both always take the same action, 1 - c is 0: the agreement beyond chance is 0 then, not 0 divided by 0."""
+    plain = np.float64(_plain(expert_actions, policy_actions))
+    c = _shares(expert_actions, number) @ _shares(policy_actions, number)
+    with np.errstate(all="ignore"):
+        return [plain, (plain - c) / (1 - c)]
+
+
+def short_counts(expert_actions, policy_actions, number):
+    """Count all actions, also those that do not occur: ``numpy.bincount`` has the argument ``minlength``."""
+    p, q = (
+        np.bincount(actions) / len(actions)
+        for actions in (expert_actions, policy_actions)
+    )
+    return _beyond(_plain(expert_actions, policy_actions), float(p @ q))
+
+
+def counts_for_frequencies(expert_actions, policy_actions, number):
+    """p and q are frequencies: divide the counts by the number of steps."""
+    p, q = (
+        np.bincount(actions, minlength=number)
+        for actions in (expert_actions, policy_actions)
+    )
+    return _beyond(
+        _plain(expert_actions, policy_actions), float(p @ q) / len(expert_actions)
+    )

@@ -63,3 +63,42 @@ def products(states, done, slip, prior, size):
     for state in np.unique(states):
         meant[state] = np.argmax(prior * slip[:, done[states == state]].prod(axis=1))
     return meant
+
+
+def zero_times_infinity(states, done, slip, prior, size):
+    """0 times the logarithm of 0 is nan: add only the logarithms of the actions that were done."""
+    with np.errstate(all="ignore"):
+        log_slip, log_prior = np.log(slip), np.log(prior)
+        meant = np.full(size, -1)
+        for state in np.unique(states):
+            counts = np.bincount(done[states == state], minlength=len(prior))
+            meant[state] = np.argmax(log_prior + log_slip @ counts.astype(float))
+    return meant
+
+
+def nearly_zero(states, done, slip, prior, size):
+    """A probability of 0 excludes an action: a small number in its place does not, if a state was seen often."""
+    meant = np.full(size, -1)
+    for state in np.unique(states):
+        seen = done[states == state]
+        likelihood = np.log(slip + 1e-9)[:, seen].sum(axis=1)
+        meant[state] = np.argmax(np.log(prior + 1e-9) + likelihood)
+    return meant
+
+
+def last_of_equals(states, done, slip, prior, size):
+    """Of several actions that are equally probable, return the one with the lowest index."""
+    with np.errstate(divide="ignore"):
+        log_slip, log_prior = np.log(slip), np.log(prior)
+    meant = np.full(size, -1)
+    for state in np.unique(states):
+        log_p = log_prior + log_slip[:, done[states == state]].sum(axis=1)
+        meant[state] = len(log_p) - 1 - np.argmax(log_p[::-1])
+    return meant
+
+
+def prior_alone(states, done, slip, prior, size):
+    """Use what was done as well as the prior."""
+    meant = np.full(size, -1)
+    meant[np.unique(states)] = int(np.argmax(prior))
+    return meant

@@ -16,7 +16,7 @@ def against_the_mean(expert, found):
 
 
 def difference_of_means(expert, found):
-    """The direction from the mean policy to the expert does not maximise the smallest difference."""
+    """Weights in proportion to the mean differences do not maximise the smallest difference."""
     return _onto_the_simplex(expert - found.mean(axis=0))
 
 
@@ -43,3 +43,17 @@ def signs_swapped(expert, found):
 def last_policy_alone(expert, found):
     """Use all policies found so far, not only the last one."""
     return np.eye(len(expert))[np.argmax(expert - found[-1])]
+
+
+def last_round(expert, found):
+    """The weights of the last round go around the solution: return the mean over all rounds."""
+    payoff = expert - found
+    payoff = payoff / max(np.abs(payoff).max(), 1e-300)
+    policies, features = payoff.shape
+    theta, against = np.full(features, 1 / features), np.full(policies, 1 / policies)
+    for _ in range(2000):
+        gain, loss = against @ payoff, payoff @ theta
+        theta = theta * np.exp(0.1 * gain)
+        against = against * np.exp(-0.1 * loss)
+        theta, against = theta / theta.sum(), against / against.sum()
+    return theta

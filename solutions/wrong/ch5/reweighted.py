@@ -21,7 +21,7 @@ def overflows(log_p, log_q, features, most):
 
 
 def no_cut(log_p, log_q, features, most):
-    """Clip the weights that are larger than the limit."""
+    """Clip the weights after you scaled them to the mean one: the limit has no meaning for unscaled weights."""
     return _estimate(log_p - log_q, features, most, cut=False)
 
 
@@ -53,3 +53,31 @@ def size_before_the_cut(log_p, log_q, features, most):
     estimate, _ = _estimate(log_p - log_q, features, most)
     _, size = _estimate(log_p - log_q, features, most, cut=False)
     return estimate, size
+
+
+def cuts_the_ratios(log_p, log_q, features, most):
+    """Clip the weights after you scaled them to the mean one: the limit has no meaning for unscaled weights."""
+    with np.errstate(all="ignore"):
+        weights = np.minimum(np.exp(log_p - log_q), most)
+        weights = weights / weights.sum()
+        return weights @ features, 1 / (weights @ weights)
+
+
+def shifted_apart(log_p, log_q, features, most):
+    """Subtract the logarithms of each sample first, then the largest difference: p and q alone may underflow."""
+    with np.errstate(all="ignore"):
+        weights = np.exp(log_p - log_p.max()) / np.exp(log_q - log_q.max())
+        weights = np.minimum(weights / weights.mean(), most)
+        weights /= weights.sum()
+        return weights @ features, 1 / (weights @ weights)
+
+
+def number_of_samples(log_p, log_q, features, most):
+    """The effective sample size is smaller than the number of samples: it is 1 / sum of the squared weights."""
+    return _estimate(log_p - log_q, features, most)[0], float(len(features))
+
+
+def sum_of_squares(log_p, log_q, features, most):
+    """The effective sample size is 1 divided by the sum of the squared weights."""
+    estimate, size = _estimate(log_p - log_q, features, most)
+    return estimate, 1 / size
