@@ -261,19 +261,21 @@ def draw_pomdp(axes: Axes) -> None:
                 x, y, "o", markersize=26, markerfacecolor=to_rgba(colours[kind], 0.15), markeredgecolor=colours[kind],
                 markeredgewidth=1.5, linestyle="none",
             )  # fmt: skip
+            if kind == "reward":  # the reward of a step comes with the next state
+                index = ("t", "t+1", "t+2")[time]
             axes.annotate(f"${letter}_{{{index}}}$", (x, y), ha="center", va="center")
             if hidden and time == 0:
                 axes.annotate(
-                    "hidden", (x - 0.75, y), ha="center", va="center", style="italic"
+                    "hidden", (x - 1.15, y), ha="center", va="center", style="italic"
                 )
         first = node(kind, 0)[0]
         if kind != "state":
             axes.annotate(
                 kind,
-                (first - 0.75, rows[kind]),
+                (first - 1.15, rows[kind]),
                 ha="center",
                 va="center",
                 style="italic",
             )
-    axes.set(xlim=(-1.4, 6.8), ylim=(-1.5, 3.5), aspect="equal")
+    axes.set(xlim=(-1.9, 6.6), ylim=(-1.5, 3.5), aspect="equal")
     axes.axis("off")

@@ -136,7 +136,7 @@ def _draw_meaning(axes: Axes, grid: GridWorld, state: int, ink: str) -> None:
             column + 0.13,
             row + 0.18,
             symbol,
-            fontsize=8,
+            fontsize=9,
             color=ink,
             ha="center",
             va="center",

@@ -41,7 +41,7 @@ class Scheme:
     arrows: tuple[Arrow, ...]
 
 
-SIZE = (5.0, 3.1)
+SIZE = (4.8, 3.1)
 WIDTH, HEIGHT = 0.58, 0.54  # of a box, in cells of the grid
 
 SCHEMES: dict[str, Scheme] = {
