@@ -20,7 +20,7 @@ export REPOSITORY
 BIN := .venv/bin
 INSTALLED := .venv/.installed
 TORCH := $(shell grep '^torch==' requirements.lock)
-EXTRAS := book,lab,grading,cluster,tests,benchmarks
+EXTRAS := book,lab,grading,cluster,tests,benchmarks,formats,clients
 
 .PHONY: help open install book pdf check test lab lock clean
 help:

@@ -14,6 +14,7 @@ from .human_expert import (
     sketch,
     smooth_path,
 )
+from .minari_datasets import from_minari, to_minari
 from .nearest_neighbours import NeighbourPolicy, learn_neighbours
 
 __all__ = [
@@ -32,6 +33,7 @@ __all__ = [
     "dagger",
     "demonstrate",
     "demonstrate_by_hand",
+    "from_minari",
     "labelled_states",
     "learn_neighbours",
     "learn_policy",
@@ -44,4 +46,5 @@ __all__ = [
     "sketch",
     "smooth_path",
     "summarise_dataset",
+    "to_minari",
 ]

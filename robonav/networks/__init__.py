@@ -19,6 +19,7 @@ from .multilayer_perceptron import (
     stochastic_gradient_descent,
 )
 from .network_stack import NetworkStack, stacked
+from .onnx_files import save_onnx
 from .optimisers import fit, gradient_descent, lbfgs, one_hot
 from .policy import NetworkPolicy
 from .training_history import TrainingHistory, accuracy
@@ -55,6 +56,7 @@ __all__ = [
     "one_hot",
     "propagate",
     "random_network",
+    "save_onnx",
     "save_weights",
     "sigmoid",
     "sigmoid_slope",
