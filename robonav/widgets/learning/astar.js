@@ -2,6 +2,7 @@
 
 const [TURN_COUNT, CLOSE_ENOUGH] = [12, ROBOT.arrival - 2e-6];
 const TURNED = [0, 1, 2, -1, -2]; // what F, L30, L60, R30, R60 add, in steps of 30 degrees
+const MOVE = 1; // metres: slower robots turn at most once in this distance
 const [EXPERT_MARGIN, EXPERT_CAUTION, MARGIN_STEP, MOST_NODES] = [3, 2, 0.5, 50_000];
 
 /** A square as a double number and what it rounded off (Dekker 1971). */
@@ -56,13 +57,41 @@ function makeHeap() {
   };
 }
 
+/** How many steps a robot goes straight on before it may turn again: as many as cover a cell, or a metre. */
+const stepsInMove = (speed, cell) => Math.max(1, Math.ceil(Math.min(cell, MOVE) / speed));
+
 /**
- * Modified A*, Algorithm 4, as robonav.lfd.plan: a path from a pose to the target, in the world as it stands.
+ * A path of moves, each of several steps, as a path of steps that ends where the robot arrives; a move turns at its start.
+ * @param {Pose[]} poses @param {number[]} actions
+ */
+function asSingleSteps({ poses, actions }, steps, target) {
+  const single = { poses: [poses[0]], actions: [] };
+  for (const [k, action] of actions.entries()) {
+    for (let step = 1; step <= steps; step += 1) {
+      const [from, to] = [poses[k], poses[k + 1]];
+      const [x, y] = [from.x + (step / steps) * (to.x - from.x), from.y + (step / steps) * (to.y - from.y)];
+      single.poses.push({ x, y, heading: to.heading });
+      single.actions.push(step === 1 ? action : 0);
+      if (exactHypot(x - target[0], y - target[1]) <= CLOSE_ENOUGH) return single;
+    }
+  }
+  return single;
+}
+
+/** Modified A* as robonav.lfd.plan: by moves of one step, or for a slow robot of several. */
+export function modifiedAstar(world, pose, { speed, cell = MOVE, ...settings }) {
+  const steps = stepsInMove(speed, cell);
+  const path = searchMoves(world, pose, { move: steps * speed, cell, ...settings });
+  return steps === 1 ? path : { ...path, ...asSingleSteps(path, steps, world.target) };
+}
+
+/**
+ * Modified A*, Algorithm 4: a path from a pose to the target, in the world as it stands.
  * @param {World} world
  * @param {Pose} pose
  * @returns {{found: boolean, poses: Pose[], actions: number[], expanded: number}} the start alone where there is no path
  */
-export function modifiedAstar(world, pose, { speed, margin, caution = 0, cell = Math.min(1, speed), limit = 200_000 }) {
+function searchMoves(world, pose, { move, margin, caution = 0, cell, limit = 200_000 }) {
   const { size, target, obstacles } = world;
   const cells = Math.ceil(size / cell);
   const [xs, ys] = [new Float64Array(cells * cells * TURN_COUNT), new Float64Array(cells * cells * TURN_COUNT)];
@@ -70,8 +99,8 @@ export function modifiedAstar(world, pose, { speed, margin, caution = 0, cell = 
   const parents = new Int32Array(xs.length).fill(-1);
   const closed = new Uint8Array(xs.length);
   const headings = Array.from({ length: TURN_COUNT }, (_, turns) => pose.heading + 30 * turns * (Math.PI / 180));
-  const ways = headings.map((heading) => [speed * Math.cos(heading), speed * Math.sin(heading)]);
-  const farEnough = margin + speed + cell;
+  const ways = headings.map((heading) => [move * Math.cos(heading), move * Math.sin(heading)]);
+  const farEnough = margin + move + cell;
   const most = caution > 0 ? ROBOT.range : farEnough;
   const clear = new Float64Array(cells * cells).fill(-1);
   const clearance = (x0, y0, x1, y1) => sweptClearance(world, obstacles, x0, y0, x1, y1);
@@ -99,13 +128,13 @@ export function modifiedAstar(world, pose, { speed, margin, caution = 0, cell = 
       const [column, row] = [Math.floor(x1 / cell), Math.floor(y1 / cell)];
       const square = column * cells + row;
       const neighbour = square * TURN_COUNT + turned;
-      if (closed[neighbour] || costs[neighbour] <= costs[node] + speed) continue; // 16, 17
+      if (closed[neighbour] || costs[neighbour] <= costs[node] + move) continue; // 16, 17
       if (clear[square] < 0) {
         const [cx, cy] = [(column + 0.5) * cell, (row + 0.5) * cell];
         clear[square] = Math.min(clearance(cx, cy, cx, cy), most);
       }
-      let tentative = costs[node] + speed; // 19
-      if (caution > 0) tentative += speed * caution * (1 - clear[square] / most) ** 2;
+      let tentative = costs[node] + move; // 19
+      if (caution > 0) tentative += move * caution * (1 - clear[square] / most) ** 2;
       if (costs[neighbour] <= tentative) continue; // 20
       if (clear[square] < farEnough && clearance(x, y, x1, y1) < margin) continue; // 10, 11
       [xs[neighbour], ys[neighbour], costs[neighbour], parents[neighbour]] = [x1, y1, tentative, node]; // 21
@@ -122,7 +151,7 @@ export function modifiedAstar(world, pose, { speed, margin, caution = 0, cell = 
 /** The expert's plan from a pose, with the largest margin that leaves a path; straight on where none does. */
 export function expertPlan(world, pose, speed) {
   for (let margin = EXPERT_MARGIN; margin >= ROBOT.collision; margin -= MARGIN_STEP) {
-    const plan = modifiedAstar(world, pose, { speed, margin, caution: EXPERT_CAUTION, cell: speed, limit: MOST_NODES });
+    const plan = modifiedAstar(world, pose, { speed, margin, caution: EXPERT_CAUTION, cell: Math.max(speed, MOVE), limit: MOST_NODES });
     if (plan.found) return plan;
   }
   return { found: false, poses: [pose], actions: [0], expanded: 0 };

@@ -137,12 +137,6 @@ export class RandomNumbers {
     return Float64Array.from({ length: count }, () => low + range * this.random());
   }
 
-  /** A Gumbel-distributed number. */
-  gumbel() {
-    const u = 1 - this.random();
-    return u < 1 ? -Math.log(-Math.log(u)) : this.gumbel();
-  }
-
   /** A whole number from `low` to `high - 1`, at most 2^32 of them (Lemire 2019). */
   integers(low, high) {
     const range = high - low;

@@ -20,16 +20,23 @@ PLAN = """return data.worlds.map((world) => {
         {"speed": 2.0, "margin": 2.0},
         {"speed": 2.0, "margin": 3.0, "caution": 2.0, "cell": 2.0},
         {"speed": 1.5, "margin": 1.0, "cell": 1.0, "limit": 500},
+        {"speed": 0.5, "margin": 2.0},
+        {"speed": 0.3, "margin": 2.0, "caution": 2.0, "cell": 1.0},
     ],
 )
 def test_plans_are_pythons_node_for_node(node, settings):
-    """Of two paths that are equally long, rounding may choose another; the nodes are as many all the same."""
+    """Of two paths that are equally long, rounding may choose another; the nodes are as many all the same.
+
+    A slow robot's moves are a metre, as long as a cell: there rounding may also decide which cell a point is in.
+    """
     worlds = random_worlds(50, 20, seed=12)
     given = {"worlds": [page_world(w) for w in worlds], "settings": settings}
     others = 0
     for world, got in zip(worlds, node(FILES, PLAN, given), strict=True):
         expected = plan(world, **settings)
-        assert (got["found"], got["expanded"]) == (expected.found, expected.expanded)
+        assert got["found"] == expected.found
+        apart = abs(got["expanded"] - expected.expanded)
+        assert apart == 0 if settings["speed"] >= 1 else apart <= 2
         assert len(got["actions"]) == len(expected.actions)
         if got["actions"] != expected.actions.tolist():
             others += 1
@@ -37,18 +44,19 @@ def test_plans_are_pythons_node_for_node(node, settings):
         np.testing.assert_allclose(got["points"], expected.points, atol=1e-9)
         turned = np.array(got["headings"]) - expected.headings
         np.testing.assert_allclose(np.sin(turned / 2), 0, atol=1e-9)
-    assert others <= 1
+    assert others <= (1 if settings["speed"] >= 1 else 3)
 
 
-@pytest.mark.parametrize("obstacles", [10, 20])
-def test_the_expert_demonstrates_as_in_python(node, obstacles):
-    worlds = random_worlds(25, obstacles, seed=7)
-    shown = demonstrate(worlds)
-    body = """return data.map((world) => {
-      const { steps, outcome } = page.expertDrive(world);
+@pytest.mark.parametrize(("obstacles", "speed"), [(10, 2.0), (20, 2.0), (10, 0.5)])
+def test_the_expert_demonstrates_as_in_python(node, obstacles, speed):
+    worlds = random_worlds(25 if speed > 1 else 5, obstacles, seed=7)
+    shown = demonstrate(worlds, speed=speed)
+    body = """return data.worlds.map((world) => {
+      const { steps, outcome } = page.expertDrive(world, data.speed);
       return { actions: steps.map(({ action }) => action), outcome };
     });"""
-    got = node(FILES, body, [page_world(w) for w in worlds])
+    given = {"worlds": [page_world(w) for w in worlds], "speed": speed}
+    got = node(FILES, body, given)
     for i, each in enumerate(got):
         assert each["actions"] == shown.actions[shown.trajectory == i].tolist(), i
         assert each["outcome"] == shown.outcome[i]
