@@ -8,12 +8,15 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from robonav._version import __version__
 from robonav.errors import WorkerLost
+
+if TYPE_CHECKING:
+    from robonav.experiments.runner.experiment import Experiment, Results
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -29,6 +32,7 @@ app.add_typer(exercises, name="exercises")
 
 
 def _version(wanted: bool) -> None:
+    """Print name and version, and exit, if wanted."""
     if wanted:
         print(f"robonav {__version__}")
         raise typer.Exit
@@ -235,9 +239,8 @@ def reproduce(
     ] = False,
 ) -> None:
     """Reproduce a table or figure of the thesis. An interrupted run resumes when it is started again."""
-    from robonav import experiments, progress
-    from robonav.experiments.runner.report import as_json, as_text
-    from robonav.plots.experiments import save_figure
+    from robonav import experiments
+    from robonav.experiments.runner.report import as_json
 
     if show or not name:
         for known in experiments.names():
@@ -248,24 +251,23 @@ def reproduce(
         experiments.experiment(one)
         for one in (experiments.names() if name == "all" else [name])
     ]
-    done = []
-    for experiment in chosen:
-        with progress.bar(experiment.name) as report:
-            done.append(
-                experiments.reproduce(
-                    experiment,
-                    out,
-                    scale=scale,
-                    backend=backend,
-                    scheduler=scheduler,
-                    jobs=jobs,
-                    progress=report,
-                )
-            )
-        save_figure(done[-1], out)
-        print(as_text(done[-1]))
+    how = {"scale": scale, "backend": backend, "scheduler": scheduler, "jobs": jobs}
+    done = [_reproduced(experiment, out, **how) for experiment in chosen]
     if json_file is not None:
         _write_json(json_file, as_json(done))
+
+
+def _reproduced(experiment: Experiment, out: Path, **how: Any) -> Results:
+    """Run one experiment with a progress bar, keep its figure, and print its results."""
+    from robonav import experiments, progress
+    from robonav.experiments.runner.report import as_text
+    from robonav.plots.experiments import save_figure
+
+    with progress.bar(experiment.name) as report:
+        results = experiments.reproduce(experiment, out, progress=report, **how)
+    save_figure(results, out)
+    print(as_text(results))
+    return results
 
 
 @app.command()

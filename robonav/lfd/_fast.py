@@ -44,20 +44,8 @@ def square_of(x, y, cell, cells):
 
 @compiled
 def search_actions(
-    kinds,
-    shapes,
-    centres,
-    size,
-    pose,
-    target,
-    speed,
-    margin,
-    caution,
-    cell,
-    limit,
-    record,
-    visited,
-):
+    kinds, shapes, centres, size, pose, target, speed, margin, caution, cell, limit, record, visited,
+):  # fmt: skip
     """Modified A* in one world: the compiled twin of :func:`robonav.lfd.astar.modified_astar`.
 
     Node ``(column * cells + row) * HEADINGS + heading`` stands for the poses of one heading in one cell. The clearance
@@ -97,25 +85,15 @@ def search_actions(
     costs = np.full(len(positions), math.inf)  # G
     parents = np.empty(len(positions), dtype=np.int32)
     closed = np.zeros(len(positions), dtype=np.bool_)
-    displacements = np.empty((HEADINGS, 2))  # of one step, for each heading
-    for h in range(HEADINGS):
-        heading = pose[2] + math.radians(30.0 * h)
-        displacements[h, 0], displacements[h, 1] = (
-            speed * math.cos(heading),
-            speed * math.sin(heading),
-        )
+    displacements = displacements_of_a_step(pose[2], speed)
     # With this clearance at the middle of a square, every step that ends there is safe.
     far_enough = margin + speed + cell
     most = SENSOR_RANGE if caution > 0.0 else far_enough  # clearances are cut off here
     clear = np.full(cells * cells, -1.0)  # of each square; -1: not computed yet
 
     start = square_of(pose[0], pose[1], cell, cells) * HEADINGS
-    positions[start, 0], positions[start, 1], costs[start], parents[start] = (
-        pose[0],
-        pose[1],
-        0.0,
-        NONE,
-    )
+    positions[start, 0], positions[start, 1] = pose[0], pose[1]
+    costs[start], parents[start] = 0.0, NONE
     rest = math.hypot(target[0] - pose[0], target[1] - pose[1])
     # F, then H: of equal F, the node nearest to the target
     queue = [(rest, rest, start)]
@@ -127,10 +105,11 @@ def search_actions(
         closed[node] = True
         x, y, h = positions[node, 0], positions[node, 1], node % HEADINGS
         if record:
+            heading = wrapped_heading(pose[2], h)
             visited[expanded, 0], visited[expanded, 1], visited[expanded, 2] = (
                 x,
                 y,
-                wrapped_heading(pose[2], h),
+                heading,
             )
         expanded += 1
         if math.hypot(target[0] - x, target[1] - y) <= CLOSE_ENOUGH:
@@ -143,35 +122,52 @@ def search_actions(
                 continue
             square = square_of(x1, y1, cell, cells)
             neighbour = square * HEADINGS + turned
-            if closed[neighbour] or costs[neighbour] <= costs[node] + speed:
+            tentative = costs[node] + speed
+            if closed[neighbour] or costs[neighbour] <= tentative:
                 continue
             if clear[square] < 0.0:
-                cx, cy = (square // cells + 0.5) * cell, (square % cells + 0.5) * cell
-                clear[square] = swept_clearance(
-                    kinds, shapes, centres, centres, size, cx, cy, cx, cy, most
+                clear[square] = clearance_at_middle(
+                    kinds, shapes, centres, size, square, cell, cells, most
                 )
-            tentative = costs[node] + speed
             if caution > 0.0:
                 tentative += speed * caution * (1.0 - clear[square] / most) ** 2
             if costs[neighbour] <= tentative:
                 continue
-            safe = clear[square] >= far_enough
-            if (
-                not safe
-                and swept_clearance(
-                    kinds, shapes, centres, centres, size, x, y, x1, y1, margin
-                )
-                < margin
+            if clear[square] < far_enough and margin > step_clearance(
+                kinds, shapes, centres, size, x, y, x1, y1, margin
             ):
                 continue
             positions[neighbour, 0], positions[neighbour, 1] = x1, y1
             costs[neighbour], parents[neighbour] = tentative, node
             rest = math.hypot(target[0] - x1, target[1] - y1)
             heapq.heappush(queue, (tentative + rest, rest, neighbour))
-    poses, actions = _path(
-        positions, parents, start if reached == NONE else reached, pose[2]
-    )
+    last = start if reached == NONE else reached
+    poses, actions = _path(positions, parents, last, pose[2])
     return reached != NONE, poses, actions, expanded
+
+
+@compiled
+def displacements_of_a_step(heading, speed):
+    """Return how far a step leads in x and y (12, 2), for each number of 30-degree turns from a heading."""
+    displacements = np.empty((HEADINGS, 2))
+    for turns in range(HEADINGS):
+        turned = heading + math.radians(30.0 * turns)
+        displacements[turns, 0] = speed * math.cos(turned)
+        displacements[turns, 1] = speed * math.sin(turned)
+    return displacements
+
+
+@compiled
+def clearance_at_middle(kinds, shapes, centres, size, square, cell, cells, limit):
+    """Return the distance from the middle of a square to obstacles and borders, at most ``limit``."""
+    x, y = (square // cells + 0.5) * cell, (square % cells + 0.5) * cell
+    return step_clearance(kinds, shapes, centres, size, x, y, x, y, limit)
+
+
+@compiled
+def step_clearance(kinds, shapes, centres, size, x, y, x1, y1, limit):
+    """Return the distance that a step keeps from obstacles, which stand still, and borders, at most ``limit``."""
+    return swept_clearance(kinds, shapes, centres, centres, size, x, y, x1, y1, limit)
 
 
 @compiled
@@ -275,9 +271,7 @@ def search_grid(
                 x1 = west + (column + right) * cell
                 y1 = south + (row + up) * cell
                 if (
-                    swept_clearance(
-                        kinds, shapes, centres, centres, size, x, y, x1, y1, margin
-                    )
+                    step_clearance(kinds, shapes, centres, size, x, y, x1, y1, margin)
                     < margin
                 ):
                     continue

@@ -467,21 +467,8 @@ def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
         episode in a state and go on from it another time, so that the state alone does not say what is to come.
     """
     bare = getattr(env, "unwrapped", env)
-    table = getattr(bare, "P", None)
-    if table is None:
-        raise ValueError(
-            f"env must publish its transitions as P[s][a] (FrozenLake, Taxi, CliffWalking), got {env}"
-        )
-    if getattr(bare, "fickle_passenger", False):
-        raise ValueError(
-            "env must move as its table P says, got a taxi whose fickle passenger is not in it"
-        )
-    rows = [_in_order(row) for row in _in_order(table)]
-    states, actions = len(rows), len(rows[0]) if rows else 0
-    if actions == 0 or any(len(row) != actions for row in rows):
-        raise ValueError(
-            "env must publish P[s][a] for as many actions in every state, and for at least one of each"
-        )
+    rows = _published_rows(bare, env)
+    states, actions = len(rows), len(rows[0])
     entries = np.array(
         [
             (action, state, reached, probability, probability * reward, ended)
@@ -500,9 +487,9 @@ def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
     ended = entries[:, 5] == 1
     terminal = np.zeros(states, dtype=bool)
     terminal[reached[ended]] = True
-    starts = np.asarray(getattr(bare, "initial_state_distrib", np.ones(states)))
     leaving = np.zeros(states, dtype=bool)
     leaving[state[(reached != state) | (entries[:, 4] != 0)]] = True
+    starts = np.asarray(getattr(bare, "initial_state_distrib", np.ones(states)))
     going_on = sp.csr_array(
         (np.ones((~ended).sum()), (state[~ended], reached[~ended])), (states, states)
     )
@@ -525,6 +512,26 @@ def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:
             sp.coo_array((probability, coordinates), (states, states)).tocsr()
         )
     return transitions, rewards
+
+
+def _published_rows(bare: Any, env: Any) -> list[list[Any]]:
+    """The table P[s][a] of an environment, as lists; ValueError if it is missing or incomplete."""
+    table = getattr(bare, "P", None)
+    if table is None:
+        raise ValueError(
+            f"env must publish its transitions as P[s][a] (FrozenLake, Taxi, CliffWalking), got {env}"
+        )
+    if getattr(bare, "fickle_passenger", False):
+        raise ValueError(
+            "env must move as its table P says, got a taxi whose fickle passenger is not in it"
+        )
+    rows = [_in_order(row) for row in _in_order(table)]
+    actions = len(rows[0]) if rows else 0
+    if actions == 0 or any(len(row) != actions for row in rows):
+        raise ValueError(
+            "env must publish P[s][a] for as many actions in every state, and for at least one of each"
+        )
+    return rows
 
 
 def _in_order(part: Any) -> list[Any]:

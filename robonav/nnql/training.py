@@ -193,46 +193,29 @@ def train(
         raise ValueError(
             "record must be False with a checkpoint, which does not hold the history"
         )
-    network = stacked(
-        [random_network(sizes, seed=make_rng(seed, INITIAL)) for seed in seeds]
+    networks = BatchedNetworks(
+        stacked([random_network(sizes, seed=make_rng(seed, INITIAL)) for seed in seeds])
     )
     own = {name: value for name, value in settings.items() if name != "temperature"}
-    agent = make_agent(
-        method, BatchedNetworks(network), seeds, task.max_steps, sizes, own
-    )
+    agent = make_agent(method, networks, seeds, task.max_steps, sizes, own)
     statistics = EpisodeStatistics(len(seeds), episodes, record=record)
+    temperature, settings = settings["temperature"], settings | {"hidden": hidden}
     identity = {
-        "method": method,
-        "seeds": seeds,
-        "episodes": episodes,
-        "task": task,
-        "settings": settings | {"hidden": hidden},
-    }
-    done = (
-        0
-        if checkpoint is None
-        else load_checkpoint(checkpoint, identity, agent, statistics)
-    )
+        "method": method, "seeds": seeds, "episodes": episodes, "task": task, "settings": settings,
+    }  # fmt: skip
+    done, interval = 0, episodes
+    if checkpoint is not None:
+        done = load_checkpoint(checkpoint, identity, agent, statistics)
+        interval = checkpoint_interval
     while done < episodes:
-        last = (
-            episodes
-            if checkpoint is None
-            else min(done + checkpoint_interval, episodes)
-        )
+        last = min(done + interval, episodes)
         Trainer(
-            agent,
-            task,
-            seeds,
-            episodes,
-            settings["temperature"],
-            statistics,
-            first=done,
-            last=last,
-        ).run(progress)
+            agent, task, seeds, episodes, temperature, statistics, first=done, last=last
+        ).run(progress)  # fmt: skip
         done = last
         if checkpoint is not None:
             save_checkpoint(checkpoint, identity, agent, statistics, done)
-    return _result(method, seeds, agent, task, sizes, statistics, identity["settings"])
+    return _result(method, seeds, agent, task, sizes, statistics, settings)
 
 
 def method_settings(method: str, given: dict[str, Any]) -> dict[str, Any]:
