@@ -1,15 +1,15 @@
 # Exercise 2.1: A backup with rewards on transitions.
 # 4 points, warm-up, about 10 minutes.
 # Check it with: robonav check 2.1
-"""In the chapter a reward belongs to a state and an action, and a terminal state is one
-that returns to itself. Here the reward belongs to the transition, $r(s, a, s')$, and
-terminal states are marked. The episode ends in a terminal state, so its entry in the
-value table must be ignored, though the reward of the step into it counts. Write the
+r"""In the chapter a reward belongs to a state and an action, and a terminal state is
+one that returns to itself. Here the reward belongs to the transition, $r(s, a, s')$,
+and terminal states are marked. The episode ends in a terminal state, so its entry in
+the value table must be ignored, though the reward of the step into it counts. Write the
 Bellman backup for this case,
 
-$$Q(s, a) = \\sum_{s'} P(s' \\mid s, a) \\left(r(s, a, s') + \\gamma V(s')\\right),$$
+$$Q(s, a) = \sum_{s'} P(s' \mid s, a) \left(r(s, a, s') + \gamma V(s')\right),$$
 
-with $V(s') = 0$ where $s'$ is terminal, and $Q(s, \\cdot) = 0$ where $s$ itself is
+with $V(s') = 0$ where $s'$ is terminal, and $Q(s, \cdot) = 0$ where $s$ itself is
 terminal.
 """
 

@@ -1,12 +1,12 @@
 # Exercise 2.3: Two bounds from one sweep.
 # 4 points, exercise, about 20 minutes.
 # Check it with: robonav check 2.3
-"""In the chapter value iteration stops when the largest change of a value is small.
+r"""In the chapter value iteration stops when the largest change of a value is small.
 MacQueen (1966) used the smallest change as well. Suppose that one sweep changed every
 value by at least $m$ and at most $M$; both may be negative. Two facts about the backup
 of value iteration tell how far all later sweeps together can still move the values.
 Larger values before a sweep never give smaller values after it. And a constant $c$ that
-is added to all values before a sweep adds $\\gamma c$ to all values after it. Derive
+is added to all values before a sweep adds $\gamma c$ to all values after it. Derive
 the bounds on a sheet of paper: what can the next sweep change, what the one after it,
 and what do all of them add up to? Then write a function that computes a lower and an
 upper bound on the optimal values from two successive value tables, as tight as this

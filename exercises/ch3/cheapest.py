@@ -1,11 +1,11 @@
 # Exercise 3.7: The cheapest path for a robot that turns.
 # 12 points, project, about 120 minutes.
 # Check it with: robonav check 3.7
-"""This project is a complete search like modified A*. A robot moves on a grid of cells.
-It has one of eight headings, numbered counter-clockwise from east in steps of 45
+r"""This project is a complete search like modified A*. A robot moves on a grid of
+cells. It has one of eight headings, numbered counter-clockwise from east in steps of 45
 degrees. It has two kinds of moves. It can go to the next cell in the direction of its
-heading, which costs 1 along a row or column and $\\sqrt 2$ diagonally. Or it can turn
-by 45 degrees to either side where it stands, which costs ``turn_cost``. It must not cut
+heading, which costs 1 along a row or column and $\sqrt 2$ diagonally. Or it can turn by
+45 degrees to either side where it stands, which costs ``turn_cost``. It must not cut
 corners: a diagonal move needs the two cells beside it to be free as well. Find the cost
 of the cheapest path to the goal, with any heading there. The goal may be blocked; there
 is no path to it then. An admissible heuristic makes the search fast. Without one the

@@ -1,14 +1,14 @@
 # Exercise 4.5: Fitted Q iteration with costs.
 # 10 points, project, about 90 minutes.
 # Check it with: robonav check 4.5
-"""A larger project: fitted Q iteration, the idea of NFQ (Riedmiller, 2005), with costs
-in place of rewards and a linear regression in place of a network, $Q(s, a) = w_a \\cdot
-\\phi(s)$. Every iteration uses all recorded steps. Compute the target of each step with
+r"""A larger project: fitted Q iteration, the idea of NFQ (Riedmiller, 2005), with costs
+in place of rewards and a linear regression in place of a network, $Q(s, a) = w_a \cdot
+\phi(s)$. Every iteration uses all recorded steps. Compute the target of each step with
 the weights of the last iteration: its cost plus the discounted *smallest* value of the
 next state; the cost alone if the goal was reached; and exactly 1, the largest cost, if
 the robot failed. Then fit the weights of each action to the targets of its steps by
-ridge regression, which minimises $\\sum (w \\cdot \\phi - \\text{target})^2 + \\rho
-\\lVert w \\rVert^2$. The weights of an action that was never taken stay zero.
+ridge regression, which minimises $\sum (w \cdot \phi - \text{target})^2 + \rho
+\lVert w \rVert^2$. The weights of an action that was never taken stay zero.
 """
 
 import numpy as np

@@ -1,10 +1,10 @@
 # Exercise 4.2: Reward shaping with a potential.
 # 4 points, warm-up, about 15 minutes.
 # Check it with: robonav check 4.2
-"""A reward like the chapter's can be exploited: if every step away from an obstacle is
+r"""A reward like the chapter's can be exploited: if every step away from an obstacle is
 rewarded, a robot may go to and fro in front of it. Ng, Harada and Russell (1999) found
 the additional rewards that leave the optimal policy unchanged. Give every state a
-potential $\\Phi(s)$, and add $\\gamma \\Phi(s') - \\Phi(s)$ to the reward of each step.
+potential $\Phi(s)$, and add $\gamma \Phi(s') - \Phi(s)$ to the reward of each step.
 The potential after the last step counts as zero. In the discounted return of a whole
 episode the additions cancel except for the potential of the first state, so the optimal
 policy remains optimal. Shape the rewards of an episode.

@@ -1,11 +1,11 @@
 # Exercise 5.5: Samples of another policy.
 # 6 points, exercise, about 30 minutes.
 # Check it with: robonav check 5.5
-"""Relative-entropy IRL estimates feature expectations under one policy from samples of
-another, with the weights $p(\\tau) / q(\\tau)$. A few very large weights can dominate
+r"""Relative-entropy IRL estimates feature expectations under one policy from samples of
+another, with the weights $p(\tau) / q(\tau)$. A few very large weights can dominate
 the estimate. Make it robust: scale the weights so that their mean is one; clip those
 that are larger than a given limit; scale them to sum to one; average the features. Also
-return the effective sample size $1 / \\sum w_i^2$ of the final weights. Only logarithms
+return the effective sample size $1 / \sum w_i^2$ of the final weights. Only logarithms
 of the probabilities are given, and their absolute values can be large.
 """
 

@@ -1,7 +1,7 @@
-"""A small project: R-max (Brafman and Tennenholtz, 2002), a method that explores
+r"""A small project: R-max (Brafman and Tennenholtz, 2002), a method that explores
 because it is optimistic. Estimate a model by counting the steps recorded so far. Use
 the estimate only for pairs of state and action that were tried a given number of times.
-Every other pair gets the largest possible value, $r_{max} / (1 - \\gamma)$. Then
+Every other pair gets the largest possible value, $r_{max} / (1 - \gamma)$. Then
 compute the optimal action values of this model. A robot that acts greedily on them
 explores the unknown pairs until all pairs that it can reach are known.
 """

@@ -1,8 +1,8 @@
-"""Q-learning, SARSA and expected SARSA differ only in the value that they use for the
-next state. Compute the three targets $r + \\gamma \\cdot (\\text{value of } s')$ for a
+r"""Q-learning, SARSA and expected SARSA differ only in the value that they use for the
+next state. Compute the three targets $r + \gamma \cdot (\text{value of } s')$ for a
 batch of recorded steps. After the last step of an episode this value is 0. Expected
-SARSA uses the mean over the $\\varepsilon$-greedy policy. With probability
-$\\varepsilon$ this policy takes any of the $A$ actions, each with the same probability.
+SARSA uses the mean over the $\varepsilon$-greedy policy. With probability
+$\varepsilon$ this policy takes any of the $A$ actions, each with the same probability.
 Otherwise it takes a best action. There may be several best actions: does it matter
 which of them it takes?
 """

@@ -1,9 +1,9 @@
-"""Each output of the chapter's network has a sigmoid of its own, so its five outputs
+r"""Each output of the chapter's network has a sigmoid of its own, so its five outputs
 need not add up to one. Write the forward pass of a network whose outputs are
 probabilities: hidden layers with the hyperbolic tangent, and in the last layer the
 softmax
 
-$$p_k = \\frac{e^{z_k}}{\\sum_j e^{z_j}}.$$
+$$p_k = \frac{e^{z_k}}{\sum_j e^{z_j}}.$$
 
 The weights have the bias in their first column, as in Eq. (3.18). Inputs may be large,
 and nothing may overflow.

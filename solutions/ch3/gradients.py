@@ -1,9 +1,9 @@
-"""Write backpropagation through the network of exercise 3.1. It has one or more hidden
+r"""Write backpropagation through the network of exercise 3.1. It has one or more hidden
 layers with the hyperbolic tangent and a softmax in the last layer. Its cost is the mean
 cross-entropy with weight decay on all weights but the biases,
 
-$$J = -\\frac{1}{m} \\sum_{i=1}^{m} \\log p_{y_i}(x_i)
-+ \\frac{\\lambda}{2 m} \\sum_l \\lVert W^{(l)} \\rVert^2.$$
+$$J = -\frac{1}{m} \sum_{i=1}^{m} \log p_{y_i}(x_i)
++ \frac{\lambda}{2 m} \sum_l \lVert W^{(l)} \rVert^2.$$
 
 The chapter's network has a sigmoid in every unit and a cost that is a sum over its
 outputs. Work out first, on paper, what the derivative of this cost with respect to

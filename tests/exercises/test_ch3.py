@@ -99,7 +99,7 @@ def test_gradients_of_the_last_layer(answer, rng):
         answer.agrees(network(rng, 4, 5, 3), *examples(rng, 7, 4, 3), 0.0, at=-1)
 
 
-@pytest.mark.part("3.3", points=2)
+@pytest.mark.part("3.3", points=1)
 def test_gradients_of_the_hidden_layer(answer, rng):
     """Propagates the error back through one hidden layer, without weight decay."""
     for _ in range(5):
@@ -115,14 +115,14 @@ def test_gradients_with_decay(answer, rng):
         )
 
 
-@pytest.mark.part("3.3", points=2)
+@pytest.mark.part("3.3", points=1)
 def test_gradients_through_two_hidden_layers(answer, rng):
     """Propagates the error back through two hidden layers."""
     for _ in range(3):
         answer.agrees(network(rng, 3, 5, 4, 3), *examples(rng, 6, 3, 3), 0.3)
 
 
-@pytest.mark.part("3.3", points=1)
+@pytest.mark.part("3.3", points=3)
 def test_gradients_of_a_large_network(answer, rng):
     """Is fast with 4,000 weights and a thousand examples, for which differences take too long."""
     weights = network(rng, 30, 60, 35, 5, scale=0.2)
