@@ -177,7 +177,16 @@ class PathFollower:
         return np.linalg.norm(ends - goals[:, None], axis=2).argmin(axis=1)
 
     def lookahead_point(self, robot: int, pose: Floats, speed: float) -> Floats:
-        """Return the point of a robot's path that lies a step and a half beyond the point nearest to the robot."""
+        """Return the point of a robot's path that lies a step and a half beyond the point nearest to the robot.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.lfd import PathFollower, smooth_path
+        >>> follower = PathFollower([smooth_path([(0, 1), (10, 1)])])
+        >>> follower.lookahead_point(0, np.array([2.0, 0.0, 0.0]), speed=2.0)
+        array([5., 1.])
+        """
         path = self.paths[robot][self._passed[robot] :]  # the robot never turns back
         lengths = np.linalg.norm(np.diff(path, axis=0), axis=1)
         along = np.concatenate([[0], np.cumsum(lengths)])  # metres from the first point
@@ -265,7 +274,15 @@ def demonstrate_by_hand(
 
 
 def between_ends(world: Worlds, key_points: ArrayLike) -> Floats:
-    """Return the start, the key points (K, 2) and the target of one world as (K + 2, 2)."""
+    """Return the start, the key points (K, 2) and the target of one world as (K + 2, 2).
+
+    Examples
+    --------
+    >>> from robonav.lfd.human_expert import between_ends
+    >>> from robonav.robot import make_world
+    >>> between_ends(make_world(), [(40, 65)]).tolist()
+    [[10.0, 10.0], [40.0, 65.0], [90.0, 90.0]]
+    """
     points = check_array("key_points", key_points, shape=("K", 2))
     return np.concatenate([world.starts, points, world.targets])
 
@@ -326,7 +343,15 @@ def _sketch(world: Worlds, rng: np.random.Generator, noise: float) -> Floats:
 
 
 def simplified(path: Floats, tolerance: float) -> Floats:
-    """Return the corners of a polyline within ``tolerance`` metres of a path (P, 2) (Douglas and Peucker 1973)."""
+    """Return the corners of a polyline within ``tolerance`` metres of a path (P, 2) (Douglas and Peucker 1973).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd.human_expert import simplified
+    >>> simplified(np.array([[0.0, 0.0], [1.0, 0.1], [2.0, 0.0], [4.0, 3.0]]), tolerance=0.5).tolist()
+    [[0.0, 0.0], [2.0, 0.0], [4.0, 3.0]]
+    """
     chord = path[-1] - path[0]
     off = np.abs(
         chord[0] * (path[:, 1] - path[0, 1]) - chord[1] * (path[:, 0] - path[0, 0])

@@ -1,5 +1,7 @@
 """The human expert: key points, smooth paths, robots that follow them."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -122,3 +124,16 @@ def test_key_points_through_an_obstacle_are_an_error():
         demonstrate_by_hand(world, [[(40, 65)], [(40, 65)]])
     with pytest.raises(ValueError, match="must lead clear"):
         demonstrate_by_hand(world, [[(40, 120)]])
+
+
+def test_a_follower_takes_the_action_that_ends_nearest_to_the_point_ahead():
+    """The question on the page: from (30, 30) towards (33, 31), L30 ends nearest."""
+    follower = PathFollower([[(x, 31) for x in np.arange(20, 60, 0.25)]])
+    pose = np.array([30.0, 30.0, 0.0])
+    assert follower.lookahead_point(0, pose, 2.0) == pytest.approx((33, 31))
+    simulator = SimpleNamespace(poses=pose[None], speed=2.0)
+    assert follower(simulator, np.array([0])).tolist() == [1]
+    turns = np.radians([0, 30, 60, -30, -60])
+    ends = pose[:2] + 2 * np.column_stack([np.cos(turns), np.sin(turns)])
+    left = np.linalg.norm(ends - (33, 31), axis=1)
+    assert left.round(2).tolist()[:3] == [1.41, 1.27, 2.13]
