@@ -56,7 +56,7 @@ def draw_key_points(
         axes.plot(
             x, y, ".", color=style.BLUE, markersize=5, label="robot, a dot a second"
         )
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, fontsize=8)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3)
 
 
 def draw_slips(axes: Axes, demonstrations: Demonstrations, meant: ArrayLike) -> None:
@@ -316,7 +316,7 @@ def draw_black_boxes(axes: Axes) -> None:
             axes.annotate(
                 "", (2.3, place - row), (1.75, place - row), arrowprops=_ARROW
             )
-            axes.text(2.38, place - row, text, va="center", fontsize=9)
+            axes.text(2.38, place - row, text, va="center")
     axes.set(xlim=(0, 3), ylim=(-1.0, 0.85))
     axes.axis("off")
 
@@ -336,7 +336,7 @@ def names_of(encoder: Encoder) -> list[str]:
 
 
 def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
-    """Draw a reward's weights (5, k + 1), inputs as rows and actions as columns; blue is positive, red negative."""
+    """Draw a reward's weights (5, k + 1), inputs as rows and actions as columns; blue is positive, orange negative."""
     theta = np.asarray(weights, dtype=float)
     most = abs(theta).max() or 1.0
     image = axes.imshow(
@@ -354,7 +354,7 @@ def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
 
 
 def draw_likes(figure: Figure, weights: ArrayLike, encoder: Encoder) -> None:
-    """Draw one robot for each action; a sector has the colour of its weight of danger (blue positive, red negative)."""
+    """Draw one robot for each action; a sector has the colour of its weight of danger (blue positive, orange negative)."""
     theta = np.asarray(weights, dtype=float)[:, : len(encoder.sensors)]
     most = abs(theta).max() or 1.0
     half = np.degrees(SECTOR) / 2
@@ -403,7 +403,7 @@ def draw_reward_map(
     *,
     spacing: float = 1.0,
 ) -> None:
-    """Draw the reward of going straight on over a world, for a robot that faces the target: high is blue, low is red.
+    """Draw the reward of going straight on over a world, for a robot that faces the target: high is blue, low is orange.
 
     The map is blank within a metre of an obstacle, and where nothing is in range: there the policy decides nothing.
     """
