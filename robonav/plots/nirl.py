@@ -354,7 +354,7 @@ def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
 
 
 def draw_likes(figure: Figure, weights: ArrayLike, encoder: Encoder) -> None:
-    """Draw one robot for each action; a sector has the colour of its weight of danger (blue positive, orange negative)."""
+    """Draw one robot for each action; a sector shows its weight of danger (blue positive, orange negative)."""
     theta = np.asarray(weights, dtype=float)[:, : len(encoder.sensors)]
     most = abs(theta).max() or 1.0
     half = np.degrees(SECTOR) / 2
@@ -403,7 +403,7 @@ def draw_reward_map(
     *,
     spacing: float = 1.0,
 ) -> None:
-    """Draw the reward of going straight on over a world, for a robot that faces the target: high is blue, low is orange.
+    """Draw the reward of going straight on over a world, if the robot faces the target: blue is high, orange low.
 
     The map is blank within a metre of an obstacle, and where nothing is in range: there the policy decides nothing.
     """
