@@ -22,6 +22,7 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from robonav.documentation import documents
 from robonav.progress import Progress
 
 from ._arguments import checked
@@ -307,19 +308,8 @@ def public(
     train.__signature__ = signature  # type: ignore[attr-defined]
     learner: Any = wraps(algorithm)(checked(train))
     learner.__signature__ = signature
-    entries = [
-        f"{name} : {DOCUMENTATION[(other or {}).get(name, name)]}"
-        for name in parameters
-    ]
-    text, _, examples = (inspect.getdoc(algorithm) or "").partition("Examples\n")
-    sections = section("Parameters", *entries) + section("Returns", returns) + RAISES
-    learner.__doc__ = f"{text}{sections}\nExamples\n{examples}"
-    return learner
-
-
-def section(title: str, *lines: str) -> str:
-    """A section of a docstring."""
-    return "\n".join([title, "-" * len(title), *lines, "", ""])
+    said = {name: DOCUMENTATION[(other or {}).get(name, name)] for name in parameters}
+    return documents(said, returns=returns, raises=RAISES)(learner)
 
 
 DOCUMENTATION = {
@@ -362,11 +352,7 @@ DOCUMENTATION = {
 }
 """Type and description of each parameter of a learner."""
 
-RAISES = """\
-Raises
-------
-TypeError
+RAISES = """TypeError
     If ``env`` is not a Gymnasium environment or its spaces are not discrete.
 ValueError
-    If a number is out of its range, or the policy or the features do not fit the environment.
-"""
+    If a number is out of its range, or the policy or the features do not fit the environment."""

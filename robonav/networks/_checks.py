@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from robonav.documentation import documents
 from robonav.validation import (
     check_array,
     check_generator,
@@ -18,6 +19,8 @@ from robonav.validation import (
 )
 
 Array = NDArray[np.float64]
+P = ParamSpec("P")
+R = TypeVar("R")
 
 
 def checked_layers(
@@ -161,7 +164,35 @@ def check_examples(function: str, arguments: dict[str, Any]) -> None:
     )
 
 
-checked = checks(
+DOCUMENTATION = {
+    "network": """Network
+    A single network.""",
+    "x": """(m, s[0]) array
+    Inputs.""",
+    "y": """(m, s[-1]) array
+    Labels in [0, 1].""",
+    "gradient_step": """float
+    alpha, which the thesis calls the learning rate.""",
+    "regularisation": """float
+    lambda, at least 0. It acts on the weights, never on the biases.""",
+    "iterations": """int
+    The most iterations to make.""",
+    "record": """bool
+    Keep the network of every iteration.""",
+    "progress": """callable, optional
+    Called as ``progress(done, iterations)`` after every iteration.""",
+}
+BAD_EXAMPLES = """ValueError
+    If a shape does not fit, there is no example, or a label lies outside [0, 1]."""
+
+documented = documents(DOCUMENTATION, raises=BAD_EXAMPLES)
+"""Decorate a function of (network, x, y, ...): its docstring gets what it leaves out of parameters and errors."""
+
+checked_arguments = checks(
     {"regularisation": partial(check_real, at_least=0)}, together=check_examples
 )
-"""Decorate a function of (network, x, y, regularisation) so that its arguments are checked before it runs."""
+
+
+def checked(function: Callable[P, R]) -> Callable[P, R]:
+    """Decorate a function of (network, x, y, regularisation): its arguments are checked, and documented."""
+    return documented(checked_arguments(function))

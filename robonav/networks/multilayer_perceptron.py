@@ -20,8 +20,9 @@ Read the file from top to bottom, as the network learns:
 
 Layer l has s_l units with activations a(l). The weights W(l) and the biases b(l) lead to layer l + 1. Python counts
 from 0, so that ``weights[0]`` is W(1) and ``a[0]`` is a(1) = x. Examples are rows: with m examples, a(l) is (m, s_l)
-and stands on the left of the transposed weights. Functions marked ``@checked`` first check their arguments. The
-numbers of equations are those of the thesis. The book's page "A neural network, by hand" derives them in the same
+and stands on the left of the transposed weights. Functions marked ``@checked`` first check their arguments, and
+``help`` explains those that they share: ``network``, ``x`` (inputs), ``y`` (labels) and ``regularisation`` (lambda).
+The numbers of equations are those of the thesis. The book's page "A neural network, by hand" derives them in the same
 order.
 """
 
@@ -286,25 +287,9 @@ def squared_error_cost(
 ) -> float:
     """Mean squared-error cost with weight decay, Eq. (3.7).
 
-    Parameters
-    ----------
-    network : Network
-        A single network.
-    x : (m, s[0]) array
-        Inputs.
-    y : (m, s[-1]) array
-        Labels in [0, 1].
-    regularisation : float
-        lambda, at least 0. It acts on the weights, never on the biases.
-
     Returns
     -------
     float
-
-    Raises
-    ------
-    ValueError
-        If a shape does not fit, there is no example, or a label lies outside [0, 1].
 
     Examples
     --------
@@ -323,25 +308,9 @@ def cross_entropy_cost(
 ) -> float:
     """Mean cross-entropy cost with weight decay, Eq. (3.22).
 
-    Parameters
-    ----------
-    network : Network
-        A single network.
-    x : (m, s[0]) array
-        Inputs.
-    y : (m, s[-1]) array
-        Labels in [0, 1].
-    regularisation : float
-        lambda, at least 0. It acts on the weights, never on the biases.
-
     Returns
     -------
     float
-
-    Raises
-    ------
-    ValueError
-        If a shape does not fit, there is no example, or a label lies outside [0, 1].
 
     Examples
     --------
@@ -458,25 +427,9 @@ def squared_error_gradient(
 ) -> Gradient:
     """Gradient of the squared-error cost, from the output errors of Eq. (3.13).
 
-    Parameters
-    ----------
-    network : Network
-        A single network.
-    x : (m, s[0]) array
-        Inputs.
-    y : (m, s[-1]) array
-        Labels in [0, 1].
-    regularisation : float
-        lambda, at least 0. It acts on the weights, never on the biases.
-
     Returns
     -------
     Gradient
-
-    Raises
-    ------
-    ValueError
-        If a shape does not fit, there is no example, or a label lies outside [0, 1].
 
     Examples
     --------
@@ -499,25 +452,9 @@ def cross_entropy_gradient(
 
     The weights decay by lambda / m, which is the derivative of the cost.
 
-    Parameters
-    ----------
-    network : Network
-        A single network.
-    x : (m, s[0]) array
-        Inputs.
-    y : (m, s[-1]) array
-        Labels in [0, 1].
-    regularisation : float
-        lambda, at least 0. It acts on the weights, never on the biases.
-
     Returns
     -------
     Gradient
-
-    Raises
-    ------
-    ValueError
-        If a shape does not fit, there is no example, or a label lies outside [0, 1].
 
     Examples
     --------
@@ -595,8 +532,6 @@ def batch_gradient_descent(
         alpha. With too large a step the cost rises or jumps.
     iterations : int
         Steps to take.
-    regularisation : float
-        lambda, at least 0.
     cost_gradient : callable
         ``squared_error_gradient`` or ``cross_entropy_gradient``.
     after_step : callable, optional
@@ -648,12 +583,6 @@ def stochastic_gradient_descent(
 
     Parameters
     ----------
-    network : Network
-        A single network.
-    x : (m, s[0]) array
-        Inputs.
-    y : (m, s[-1]) array
-        Labels in [0, 1].
     gradient_step : float
         Positive. Each step is the gradient times this number.
     epochs : int

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
+from robonav.documentation import documents
 from robonav.networks.multilayer_perceptron import Network
 from robonav.validation import (
     Rule,
@@ -19,6 +21,9 @@ from robonav.validation import (
 )
 
 from .network_environment import network_environment
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 Schedule = float | tuple[float, float]
 """A number, or a pair: its value in the first episode and in the last."""
@@ -80,5 +85,40 @@ RULES: dict[str, Rule] = {
 """The rule of each argument: by the name of the argument, or by "function.argument"."""
 
 
-checked = checks(RULES)
+DOCUMENTATION = {
+    "env": """gymnasium.Env
+    An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the network's
+    inputs.""",
+    "network": """Network
+    The network to start from, with one output for each action, see :func:`q_network`.""",
+    "episodes": """int
+    Episodes of training.""",
+    "learning_rate": """Schedule
+    The thesis's alpha, Eq. (4.9).""",
+    "discount": """float
+    The thesis's gamma.""",
+    "gradient_step": """Schedule
+    The thesis's sigma, Eq. (4.12).""",
+    "temperature": """Schedule
+    T of the softmax policy, Eq. (4.7).""",
+    "rescale": """{"shift", "clip"}
+    How Q-values are brought into [0, 1].""",
+    "seed": """int
+    Seed of the environment and of the exploration.""",
+}
+
+checked_arguments = checks(RULES)
 """Decorate a function so that its arguments are checked by these rules before it runs."""
+
+documented = documents(
+    DOCUMENTATION,
+    returns="""Network
+    The trained network.""",
+    raises="""ValueError, TypeError
+    If an argument is out of bounds.""",
+)
+
+
+def checked(function: Callable[P, R]) -> Callable[P, R]:
+    """Decorate a function of this chapter: its arguments are checked, and its docstring gets what it leaves out."""
+    return documented(checked_arguments(function))

@@ -52,19 +52,8 @@ def dqn(
 
     Parameters
     ----------
-    env : gymnasium.Env
-        An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the
-        network's inputs.
-    network : Network
-        The network to start from, with one output for each action, see :func:`q_network`.
-    episodes : int
-        Episodes of training.
-    discount : float
-        The thesis's gamma.
     gradient_step : float
         Step of Adam.
-    temperature : Schedule
-        T of the softmax policy, Eq. (4.7).
     batch_size : int
         Transitions drawn for an update.
     target_update_interval : int

@@ -45,17 +45,6 @@ def nfq(
 
     Parameters
     ----------
-    env : gymnasium.Env
-        An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the
-        network's inputs.
-    network : Network
-        The network to start from, with one output for each action, see :func:`q_network`.
-    episodes : int
-        Episodes of training.
-    discount : float
-        The thesis's gamma.
-    temperature : Schedule
-        T of the softmax policy, Eq. (4.7).
     episodes_per_fit : int
         Episodes that are collected before the network is fitted again.
     sweeps : int
@@ -64,18 +53,6 @@ def nfq(
         Epochs of Rprop in a sweep, at most.
     tolerance : float
         A sweep ends early when an epoch changes the cost by less than this.
-    seed : int
-        Seed of the environment and of the exploration.
-
-    Returns
-    -------
-    Network
-        The trained network.
-
-    Raises
-    ------
-    ValueError, TypeError
-        If an argument is out of bounds.
 
     Examples
     --------

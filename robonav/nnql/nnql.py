@@ -37,36 +37,9 @@ def nnql(
 
     Parameters
     ----------
-    env : gymnasium.Env
-        An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the
-        network's inputs.
-    network : Network
-        The network to start from, with one output for each action, see :func:`q_network`.
-    episodes : int
-        Episodes of training.
-    learning_rate, discount : Schedule, float
-        The thesis's alpha and gamma, Eq. (4.9).
-    gradient_step : Schedule
-        The thesis's sigma, Eq. (4.12).
-    temperature : Schedule
-        The thesis's T, Eq. (4.7).
-    rescale : {"shift", "clip"}
-        How Q-values are brought into [0, 1].
     passes, tolerance : int, float
         Gradient descent goes through the pairs at most ``passes`` times. It stops earlier when the mean cost changes by
         less than ``tolerance`` from one pass to the next.
-    seed : int
-        Seed of the environment and of the exploration.
-
-    Returns
-    -------
-    Network
-        The trained network.
-
-    Raises
-    ------
-    ValueError, TypeError
-        If an argument is out of bounds.
 
     Notes
     -----
@@ -123,40 +96,11 @@ def online(
 ) -> Network:
     """One-step online neural Q-learning: train on the pair of each step and forget it.
 
-    Parameters, result and errors are those of :func:`nnql`; the defaults differ.
-
     Parameters
     ----------
-    env : gymnasium.Env
-        An environment with discrete actions. Its observations, as :func:`network_environment` makes them, are the
-        network's inputs.
-    network : Network
-        The network to start from, with one output for each action, see :func:`q_network`.
-    episodes : int
-        Episodes of training.
-    learning_rate, discount : Schedule, float
-        The thesis's alpha and gamma, Eq. (4.9).
-    gradient_step : Schedule
-        The thesis's sigma, Eq. (4.12).
-    temperature : Schedule
-        The thesis's T, Eq. (4.7).
-    rescale : {"shift", "clip"}
-        How Q-values are brought into [0, 1].
     passes, tolerance : int, float
         Gradient descent repeats the pair at most ``passes`` times. It stops earlier when the cost changes by less than
         ``tolerance`` from one step to the next.
-    seed : int
-        Seed of the environment and of the exploration.
-
-    Returns
-    -------
-    Network
-        The trained network.
-
-    Raises
-    ------
-    ValueError, TypeError
-        If an argument is out of bounds.
 
     Examples
     --------

@@ -24,6 +24,7 @@ BASE = {
     "progress",
     "style",
     "validation",
+    "documentation",
 }
 CHAPTERS = {"mdp", "robot", "networks", "lfd", "nnql", "nirl"}
 ALLOWED = {
