@@ -69,7 +69,7 @@ export function corridorPicture(cells, touched = null) {
     const column = {
       likelihood: svg("rect", { x: x + 1, y: BASE + 6, width: CELL - 2, height: 12, fill: PALETTE.GREEN }),
       belief: svg("rect", { x: x + 3, width: CELL - 6, fill: PALETTE.BLUE }),
-      prior: svg("path", { fill: "none", stroke: PALETTE.ORANGE, "stroke-width": 2 }),
+      prior: svg("path", { fill: "none", stroke: PALETTE.PURPLE, "stroke-width": 2 }),
       text: say(x + CELL / 2, 0, ""),
     };
     element.append(

@@ -1,7 +1,7 @@
 // A robot that knows the plan of its corridor, but not its place in it: it moves, it senses, and its belief follows.
 
 const [LEFT, RIGHT, STAY] = [0, 1, 2];
-const SAID = ["moved left", "moved right", "stayed"];
+const SAID = ["tried to move left", "tried to move right", "stayed"]; // it cannot tell whether a move failed
 
 function render({ model, el }) {
   const { corridors, sensors, wheels, transitions, observations, seed } = model.get("data");
@@ -45,8 +45,11 @@ function render({ model, el }) {
     const what = history.length === 1
       ? "Step 0: the robot knows the plan, not its place."
       : `Step ${history.length - 1}: the robot ${SAID[now.action]} and ${seen}.`;
+    const share = (100 * now.belief[best]).toFixed(1);
+    const alike = now.belief[best] - Math.min(...now.belief) < 1e-9;
+    const known = alike ? `All ${now.belief.length} cells are equally likely, with ${share} %` : `Likeliest cell ${best} with ${share} %`;
     const where = reveal.checked ? ` It is in cell ${now.place}.` : "";
-    status.textContent = `${what} Likeliest cell ${best} with ${(100 * now.belief[best]).toFixed(1)} %; uncertainty ${entropy(now.belief).toFixed(2)} bits.${where}`;
+    status.textContent = `${what} ${known}; uncertainty ${entropy(now.belief).toFixed(2)} bits.${where}`;
   }
 
   const keys = (event) => {
@@ -65,7 +68,7 @@ function render({ model, el }) {
       setting("wheel", "wheels", wheels)),
     stage,
     h("div", { class: "legend", "aria-hidden": "true" },
-      key(PALETTE.ORANGE, "after the move"), key(PALETTE.GREEN, "how well each cell explains what was seen"),
+      key(PALETTE.ORANGE, "door"), key(PALETTE.PURPLE, "prediction, after the move"), key(PALETTE.GREEN, "how well each cell explains what was seen"),
       key(PALETTE.BLUE, "belief, in per cent")),
     h("div", { class: "row" },
       button("← Left", () => go(LEFT)), button("Stay and sense", () => go(STAY)), button("Right →", () => go(RIGHT)),

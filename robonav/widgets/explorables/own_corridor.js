@@ -61,9 +61,11 @@ export default explorable({
       }
       picture.show({ belief, likelihood, prior: null }, null);
       const probability = (door) => seen(cells, door, accuracy).reduce((sum, share, s) => sum + share * belief[s], 0);
+      const alike = Math.max(...belief) - Math.min(...belief) < 1e-9;
+      const known = alike ? "All cells are equally likely" : `Likeliest cell: ${largest(belief)}`;
       const after = (door) => number(entropy(weighed(belief, seen(cells, door, accuracy))));
       return [
-        `${said} Likeliest cell: ${largest(belief)}, with ${number(100 * Math.max(...belief), 1)} %.`,
+        `${said} ${known}, with ${number(100 * Math.max(...belief), 1)} %.`,
         `Uncertainty: ${number(entropy(belief))} bits (0 when the cell is known, ${number(Math.log2(cells.length))} when no cell is excluded).`, "",
         `The probability of a door is ${number(100 * probability(true), 0)} %. A door would leave ${after(true)} bits, and a wall ${after(false)}.`,
         `A move succeeds with probability ${Math.round(100 * (1 - slip))} %.`,
