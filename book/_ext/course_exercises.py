@@ -86,6 +86,16 @@ class CourseExercises(SphinxDirective):
         )
 
 
+def exercises_of(course: Course, page: str) -> str:
+    """Return the list of the exercises that belong to a page, in MyST Markdown; empty if there is none."""
+    return "\n".join(
+        f"- {{ref}}`{exercise.id} {exercise.title} <exercise-{exercise.id.replace('.', '-')}>`: "
+        f"{exercise.difficulty}, about {exercise.minutes} minutes"
+        for exercise in course.exercises.values()
+        if exercise.page == page
+    )
+
+
 class PageExercises(SphinxDirective):
     """The directive ``{exercises}``: a list of the exercises that belong to a page."""
 
@@ -96,15 +106,10 @@ class PageExercises(SphinxDirective):
         here = self.env.docname.rpartition("/")[2]
         page = self.arguments[0] if self.arguments else here
         self.env.note_dependency(str(course.tests / "manifest.toml"))
-        listed = [
-            f"- {{ref}}`{exercise.id} {exercise.title} <exercise-{exercise.id.replace('.', '-')}>`: "
-            f"{exercise.difficulty}, about {exercise.minutes} minutes"
-            for exercise in course.exercises.values()
-            if exercise.page == page
-        ]
+        listed = exercises_of(course, page)
         if not listed:
             raise self.error(f"no exercise in the manifest belongs to the page {page}")
-        return self.parse_text_to_nodes("\n".join(listed))
+        return self.parse_text_to_nodes(listed)
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

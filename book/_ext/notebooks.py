@@ -15,6 +15,7 @@ import re
 import sys
 import textwrap
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,12 +23,15 @@ import jupytext
 import nbformat
 import yaml
 from check_site import pages
+from course_exercises import exercises_of
 from docutils import nodes
 from quiz import VERDICTS, marks
 from release import first_cell
 from result_role import with_results
 from sphinx.application import Sphinx
 from thesis_numbers import thesis_number
+
+from robonav.grading.course import Course
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -39,6 +43,7 @@ OPTIONS = re.compile(r"\A(?::[\w-]+:[^\n]*\n)+|\A---\n.*?\n---\n", re.S)
 DOLLARS = re.compile(
     r"^\$\$(?P<body>.*?)\$\$ *\((?P<label>[^()\n]+)\)[ \t]*$", re.M | re.S
 )
+EXERCISES = re.compile(r"^```\{exercises\} *(?P<page>[\w-]*)\n```$", re.M)
 ROLE = re.compile(r"\{(?P<name>[\w:.-]+)\}`(?P<text>[^`]+)`")
 TARGET = re.compile(r"^\([\w:. -]+\)=\n", re.M)
 PICTURE = re.compile(r"(?P<start>!\[[^\]]*\]\()(?P<path>[^):\s]+)\)")
@@ -64,8 +69,8 @@ LEFT_OUT = (
 
 
 def with_tag(tex: str, label: str | None) -> str:
-    """Return a displayed formula, numbered if its label contains a number of the thesis."""
-    number = thesis_number(label or "")
+    """Return a displayed formula with the thesis's number, or with its label if it is an equation of the book."""
+    number = thesis_number(label or "") or label
     tag = f" \\tag{{{number}}}" if number else ""
     return f"$$\n{tex.strip()}{tag}\n$$"
 
@@ -178,6 +183,11 @@ def attach_pictures(cell: nbformat.NotebookNode, folder: Path) -> None:
     )
 
 
+def _exercises(match: re.Match[str], page: str) -> str:
+    """Return the exercises that a directive lists: those of the page it stands on, or of the page that it names."""
+    return exercises_of(Course.around(), match["page"] or page)
+
+
 def notebook_of(source: Path) -> nbformat.NotebookNode:
     """Return the notebook of one page, without outputs. Its first cell installs the package if it is missing."""
     notebook = jupytext.read(source)
@@ -185,7 +195,8 @@ def notebook_of(source: Path) -> nbformat.NotebookNode:
     for index, cell in enumerate(notebook.cells):
         cell["id"] = f"cell-{index}"
         if cell.cell_type == "markdown":
-            cell.source = plain(cell.source)
+            listed = partial(_exercises, page=source.stem)
+            cell.source = plain(EXERCISES.sub(listed, cell.source))
             attach_pictures(cell, source.parent)
     notebook.metadata.pop("jupytext", None)
     return notebook

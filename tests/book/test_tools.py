@@ -276,6 +276,14 @@ def test_notebooks_are_valid_reproducible_and_without_outputs(tmp_path: Path) ->
     assert notebook == notebooks.notebook_of(page)
 
 
+def test_a_notebook_lists_its_exercises_and_names_its_own_equations() -> None:
+    notebook = notebooks.notebook_of(notebooks.ROOT / "book" / "nnql-comparison.md")
+    text = "\n".join(cell.source for cell in notebook.cells)
+    assert "- 4.5 Fitted Q iteration with costs: project, about 90 minutes" in text
+    assert "\\tag{nfq-target}" in text
+    assert "The targets (nfq-target) and the fit (nfq-fit)" in text
+
+
 def test_a_notebook_that_was_changed_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
