@@ -15,7 +15,7 @@ from .planner import planner
 from .solutions import Solution, first_values, greedy_policy
 
 
-@planner(start=first_values, limit=FiniteMDP.residual_for, compiled=True)
+@planner(start=first_values, limit=FiniteMDP.residual_for, twin="_fast_planners")
 def in_place_value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -74,7 +74,7 @@ def in_place_value_iteration(
     return Solution(values, policy, iteration, residual, residual <= epsilon)
 
 
-@planner(start=first_values, limit=error_limit, compiled=True)
+@planner(start=first_values, limit=error_limit, twin="_fast_planners")
 def prioritized_sweeping(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,

@@ -5,11 +5,11 @@ Q(s, a) arrays (S, A). So are the rewards r(s, a), and ``mdp.expected_next_value
 T(s, a, s') V(s').
 
 The decorator ``planner`` checks the arguments, fills in the default of ``start``, and warns where a loop did not
-converge. With ``compiled=True`` it runs a compiled twin of the function as written, which also keeps the history where
-``record`` is true. Tests hold both equal: bit for bit on sparse models. On dense ones NumPy adds the terms of an
-expected value in another order, and both are equal within rounding. There rounding may also decide between two equally
-good actions, and modified policy iteration then evaluates another policy on its way; both results still keep the
-tolerance.
+converge. With ``twin="_fast_planners"`` it runs a compiled twin of the function as written, which also keeps the
+history where ``record`` is true; the twin in ``_recorded_planners`` only keeps it. Tests hold both equal: bit for bit
+on sparse models. On dense ones NumPy adds the terms of an expected value in another order, and both are equal within
+rounding. There rounding may also decide between two equally good actions, and modified policy iteration then evaluates
+another policy on its way; both results still keep the tolerance.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from .evaluation import evaluation_residual, least_gain, policy_evaluation
 from .models import FiniteMDP
 from .planner import planner
-from .rounding import gains_and_limit
+from .rounding import improve
 from .solutions import (
     Solution,
     first_policy,
@@ -33,7 +33,7 @@ Floats = NDArray[np.float64]
 Actions = NDArray[np.intp]
 
 
-@planner(start=first_values, limit=FiniteMDP.residual_for, compiled=True)
+@planner(start=first_values, limit=FiniteMDP.residual_for, twin="_fast_planners")
 def value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
@@ -91,52 +91,7 @@ def value_iteration(
     return Solution(values, policy, iteration, residual, residual <= epsilon)
 
 
-def improve(
-    mdp: FiniteMDP, policy: Actions, values: Floats, q: Floats, tolerance: float
-) -> tuple[Actions, float]:
-    """Greedy policy that changes an action only where another one is strictly better.
-
-    With a plain ``q.argmax(axis=1)``, policy iteration may never end: where two actions tie, rounding may prefer one in
-    one iteration and the other in the next. So the gain Q(s, a) - V(s) of a new action must exceed what rounding can
-    explain, and also the least gain that matters, ``tolerance * (1 - discount)``.
-
-    Parameters
-    ----------
-    mdp : FiniteMDP
-        S states, A actions.
-    policy : (S,) array of ints
-    values : (S,) array
-        The values of the policy.
-    q : (S, A) array
-        The action values of the policy, computed from ``values``.
-    tolerance : float
-        Largest loss of value accepted, in units of reward.
-
-    Returns
-    -------
-    improved : (S,) array of ints
-        The best action of each state where it is strictly better, the action of ``policy`` elsewhere.
-    gain : float
-        The largest gain of any action.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.mdp import FiniteMDP, policy_evaluation
-    >>> from robonav.mdp.dynamic_programming import improve
-    >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
-    >>> policy = np.array([0])  # action 1 has the larger reward
-    >>> values = policy_evaluation(mdp, policy)
-    >>> improve(mdp, policy, values, mdp.action_values(values), tolerance=1e-9)
-    (array([1]), 1.0)
-    """
-    gains, limit = gains_and_limit(mdp, policy, values, q, tolerance)  # Q(s, a) - V(s)
-    best = gains.max(axis=1)
-    improved = np.where(best > limit, gains.argmax(axis=1), policy)
-    return improved, float(best.max())
-
-
-@planner(start=first_policy, limit=least_gain)
+@planner(start=first_policy, limit=least_gain, twin="_recorded_planners")
 def policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-9,
@@ -189,12 +144,9 @@ def policy_iteration(
     """
     policy = np.asarray(start)  # 1 and 2
     values = np.zeros(mdp.n_states)  # 3
-    history, policies = [], []
     for iteration in range(1, max_iterations + 1):  # 4: repeat
         # 5 to 8: the values of the policy, by solving V = r_pi + discount * T_pi V
         values = policy_evaluation(mdp, policy, guess=values)
-        history.append(values)
-        policies.append(policy)
         # 9: its greedy policy, Eq. (2.25)
         q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
         improved, gain = improve(mdp, policy, values, q, tolerance)
@@ -202,11 +154,10 @@ def policy_iteration(
         converged = np.array_equal(policy, previous)
         if converged:  # 11
             break
-    rows = np.array(history), np.array(policies)
-    return Solution(values, policy, iteration, gain, converged, *rows)
+    return Solution(values, policy, iteration, gain, converged)
 
 
-@planner(start=first_values_below, limit=evaluation_residual, compiled=True)
+@planner(start=first_values_below, limit=evaluation_residual, twin="_fast_planners")
 def modified_policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,

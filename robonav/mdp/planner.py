@@ -20,6 +20,7 @@ import inspect
 from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
+from importlib import import_module
 from typing import Any, ParamSpec
 
 import numpy as np
@@ -37,7 +38,7 @@ def planner(
     *,
     start: Callable[[FiniteMDP, ArrayLike | None], Any],
     limit: Callable[[FiniteMDP, float], float],
-    compiled: bool = False,
+    twin: str | None = None,
 ) -> Callable[[Callable[P, Solution]], Callable[P, Solution]]:
     """Make a planner of an algorithm.
 
@@ -47,8 +48,8 @@ def planner(
         ``start(mdp, given)`` is what the algorithm starts from where the user gave ``given`` or None.
     limit : callable
         ``limit(mdp, tolerance)`` is the residual at which the algorithm stops, for the warning.
-    compiled : bool
-        Whether ``_fast_planners`` has a twin of the same name, which then runs instead.
+    twin : str, optional
+        The module with a function of the same name that runs instead: it is compiled, or it keeps a record.
     """
 
     def decorate(algorithm: Callable[P, Solution]) -> Callable[P, Solution]:
@@ -62,7 +63,7 @@ def planner(
             call.apply_defaults()
             mdp, tolerance = call.arguments["mdp"], call.arguments["tolerance"]
             call.arguments["start"] = start(mdp, call.arguments["start"])
-            run = compiled_twin(name) if compiled else algorithm
+            run = twin_of(name, twin) if twin else algorithm
             solution = run(*call.args, **call.kwargs)
             if not solution.converged:
                 wanted = limit(mdp, tolerance)
@@ -76,11 +77,11 @@ def planner(
     return decorate
 
 
-def compiled_twin(name: str) -> Callable[..., Solution]:
-    """The compiled planner of this name; numba is loaded only now."""
-    from . import _fast_planners
-
-    twin: Callable[..., Solution] = getattr(_fast_planners, name)
+def twin_of(name: str, module: str) -> Callable[..., Solution]:
+    """The planner of this name in a module of this package, which is loaded only now."""
+    twin: Callable[..., Solution] = getattr(
+        import_module(f"robonav.mdp.{module}"), name
+    )
     return twin
 
 

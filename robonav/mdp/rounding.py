@@ -78,3 +78,48 @@ def warn_if_hidden(rounding: float, matters: float, discount: float) -> None:
             ConvergenceWarning,
             stacklevel=7,
         )
+
+
+def improve(
+    mdp: FiniteMDP, policy: Actions, values: Floats, q: Floats, tolerance: float
+) -> tuple[Actions, float]:
+    """Greedy policy that changes an action only where another one is strictly better.
+
+    With a plain ``q.argmax(axis=1)``, policy iteration may never end: where two actions tie, rounding may prefer one in
+    one iteration and the other in the next. So the gain Q(s, a) - V(s) of a new action must exceed what rounding can
+    explain, and also the least gain that matters, ``tolerance * (1 - discount)``.
+
+    Parameters
+    ----------
+    mdp : FiniteMDP
+        S states, A actions.
+    policy : (S,) array of ints
+    values : (S,) array
+        The values of the policy.
+    q : (S, A) array
+        The action values of the policy, computed from ``values``.
+    tolerance : float
+        Largest loss of value accepted, in units of reward.
+
+    Returns
+    -------
+    improved : (S,) array of ints
+        The best action of each state where it is strictly better, the action of ``policy`` elsewhere.
+    gain : float
+        The largest gain of any action.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.mdp import FiniteMDP, policy_evaluation
+    >>> from robonav.mdp.rounding import improve
+    >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
+    >>> policy = np.array([0])  # action 1 has the larger reward
+    >>> values = policy_evaluation(mdp, policy)
+    >>> improve(mdp, policy, values, mdp.action_values(values), tolerance=1e-9)
+    (array([1]), 1.0)
+    """
+    gains, limit = gains_and_limit(mdp, policy, values, q, tolerance)  # Q(s, a) - V(s)
+    best = gains.max(axis=1)
+    improved = np.where(best > limit, gains.argmax(axis=1), policy)
+    return improved, float(best.max())

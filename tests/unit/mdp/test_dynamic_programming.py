@@ -28,7 +28,7 @@ from robonav.mdp import (
     prioritized_sweeping,
     value_iteration,
 )
-from robonav.mdp.solutions import first_values_below
+from robonav.mdp.solutions import first_policy, first_values_below
 
 PLANNERS = [
     value_iteration,
@@ -580,6 +580,27 @@ def test_compiled_twins(planner, seed):
             for count in range(1, min(compiled.iterations, 10)):
                 stopped = algorithm(mdp, 1e-3, start=start, max_iterations=count)
                 np.testing.assert_array_equal(compiled.history[count], stopped.values)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_recorded_policy_iteration_is_what_the_page_shows(seed):
+    algorithm = inspect.unwrap(policy_iteration)
+    for mdp in (with_terminal_states(seed, 0.9), four_by_three().mdp(0.99)):
+        start = first_policy(mdp, None)
+        recorded = policy_iteration(mdp, 1e-9, record=True)
+        readable = algorithm(mdp, 1e-9, start=start)
+        for name in ("values", "policy", "iterations", "residual", "converged"):
+            np.testing.assert_array_equal(
+                getattr(recorded, name), getattr(readable, name)
+            )
+        np.testing.assert_array_equal(recorded.policies[0], start)
+        assert len(recorded.policies) == len(recorded.history) == readable.iterations
+        for count in range(1, readable.iterations):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", ConvergenceWarning)
+                stopped = algorithm(mdp, 1e-9, start=start, max_iterations=count)
+            np.testing.assert_array_equal(recorded.history[count - 1], stopped.values)
+            np.testing.assert_array_equal(recorded.policies[count], stopped.policy)
 
 
 @pytest.mark.parametrize("planner", COMPILED)

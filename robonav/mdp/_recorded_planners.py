@@ -1,0 +1,36 @@
+"""Policy iteration with the record that its readable function leaves out."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .evaluation import ValueHistory, policy_evaluation
+from .models import FiniteMDP
+from .rounding import improve
+from .solutions import Solution
+
+
+def policy_iteration(
+    mdp: FiniteMDP,
+    tolerance: float,
+    *,
+    start: NDArray[np.intp],
+    max_iterations: int,
+    record: bool,
+) -> Solution:
+    """Twin of ``dynamic_programming.policy_iteration`` that keeps each policy and its values."""
+    policy, values = start, np.zeros(mdp.n_states)
+    history, policies = ValueHistory(record), ValueHistory(record)
+    for iteration in range(1, max_iterations + 1):
+        values = policy_evaluation(mdp, policy, guess=values)
+        history.append(values)
+        policies.append(policy)
+        q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
+        improved, gain = improve(mdp, policy, values, q, tolerance)
+        previous, policy = policy, improved
+        converged = np.array_equal(policy, previous)
+        if converged:
+            break
+    rows = history.rows, policies.rows
+    return Solution(values, policy, iteration, gain, converged, *rows)
