@@ -1,0 +1,55 @@
+"""Every front end is one valid module, and asks nothing of its host but what anywidget gives everywhere."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import re
+import shutil
+import subprocess
+
+import anywidget
+import pytest
+
+from robonav import widgets
+from robonav.widgets.shared import HERE
+
+SCRIPTS = sorted(HERE.rglob("*.js"))
+MODEL = {"get", "on", "send"}
+"""What anywidget's model has in JupyterLab, in Colab, in VS Code, and on a page without a kernel."""
+
+
+def front_ends() -> dict[str, str]:
+    """The module of each widget, by the name of its class."""
+    found = {}
+    for module in pkgutil.walk_packages(widgets.__path__, "robonav.widgets."):
+        for kind in vars(importlib.import_module(module.name)).values():
+            if isinstance(kind, type) and issubclass(kind, anywidget.AnyWidget):
+                found[kind.__name__] = getattr(kind, "_esm", None)
+    return {name: str(text) for name, text in found.items() if text}
+
+
+def test_every_widget_is_one_module_without_names_that_clash(tmp_path):
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("Node is not installed")
+    found = front_ends()
+    assert {"RobotPlayground", "ImitationLab", "QLearningLab"} <= set(found)
+    for name, text in found.items():
+        path = tmp_path / f"{name}.mjs"
+        path.write_text(text, "utf-8")
+        checked = subprocess.run(
+            [node, "--check", path], capture_output=True, text=True, check=False
+        )
+        assert checked.returncode == 0, f"{name}: {checked.stderr}"
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+def test_nothing_depends_on_jupyterlab(script):
+    text = re.sub(r"--jp-[\w-]+", "", script.read_text("utf-8"))  # colours
+    code = re.sub(r"//.*|/\*[\s\S]*?\*/", "", text)
+    if (
+        "model, el }" in code or script.stem == "kernel_panel"
+    ):  # elsewhere, a decision process
+        assert set(re.findall(r"\bmodel\.(\w+)", code)) <= MODEL
+    assert not re.search(r"jupyter|lumino|requirejs|\brequire\(|\bimport ", code, re.I)
