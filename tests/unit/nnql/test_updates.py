@@ -13,9 +13,11 @@ from robonav.nnql import (
     clip,
     cross_entropy,
     double_dqn_targets,
+    dqn_targets,
     nfq_targets,
     q_targets,
     shift,
+    stochastic_gradient_descent,
 )
 
 q_values = arrays(float, (6, 5), elements=st.floats(-3, 3))
@@ -113,3 +115,41 @@ def test_targets_from_the_replay_buffer_have_double_precision():
     fitted = nfq_targets(ones, transitions, 0.7).item()
     assert double == pytest.approx(0.1 + 0.7, abs=1e-15)
     assert fitted == pytest.approx(0.1 + 0.7 * sigmoid(1.0), abs=1e-15)
+
+
+def test_the_step_that_the_page_computes_by_hand():
+    """The numbers of "One step by hand" on the page about NNQL."""
+    weights = np.array([[1.0, -1.0], [-1.0, 1.0]])
+    network = Network((weights, weights), (np.zeros(2), np.zeros(2)))
+    state, next_state = np.eye(2)
+    hidden, q = network.activations(state)[1:]
+    np.testing.assert_allclose(hidden, [0.731, 0.269], atol=5e-4)
+    np.testing.assert_allclose(q, [0.614, 0.386], atol=5e-4)
+    target = q_targets(q, 0, 0.6, network.forward(next_state).max(), 0.5, 0.6)
+    np.testing.assert_allclose(shift(target), [0.791, 0.386], atol=5e-4)
+    trained = stochastic_gradient_descent(network, [state], [target], 1.0, 1, 0)
+    np.testing.assert_allclose(trained.weights[1][0], [1.130, -0.952], atol=5e-4)
+    np.testing.assert_allclose(trained.biases[1], [0.177, 0], atol=5e-4)
+    np.testing.assert_allclose(trained.weights[0][:, 0], [1.035, -1.035], atol=5e-4)
+    np.testing.assert_allclose(trained.biases[0], [0.035, -0.035], atol=5e-4)
+    np.testing.assert_allclose(trained.forward(state), [0.685, 0.380], atol=5e-4)
+    last = q_targets(trained.forward(next_state), 1, 1.0, 0.0, 0.5, 0.6)
+    np.testing.assert_allclose(last[1], 0.805, atol=5e-4)
+
+
+def test_the_targets_that_the_quiz_asks_for():
+    """DQN and double DQN on the page that compares the methods: 0.64 and 0.34."""
+
+    def linear(values):  # a network whose logits are these values in every state
+        return as_module(
+            Network(
+                (np.zeros((1, 1)), np.zeros((2, 1))), (np.zeros(1), np.array(values))
+            )
+        )
+
+    learns, older = linear([0.5, 0.7]), linear([0.9, 0.4])
+    buffer = ReplayBuffer()
+    buffer.append(np.ones(1), 0, 0.1, np.ones(1), False)
+    for targets, wanted in ((dqn_targets, 0.64), (double_dqn_targets, 0.34)):
+        found = targets(learns, older, buffer.all(), 0.6).item()
+        assert found == pytest.approx(wanted)
