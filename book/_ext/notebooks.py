@@ -58,6 +58,7 @@ KINDS = {
     "algorithm": "Algorithm",
     "exercise": "Exercise",
 }
+STATEMENTS = {"theorem": "theorem", "thm": "theorem", "lemma": "lemma"}
 LEFT_OUT = (
     "solution",
     "solution-start",
@@ -150,9 +151,12 @@ def title_of(page: str) -> str:
 
 
 def called(label: str) -> str:
-    """Return the name of a label where nothing is numbered: the thesis's number, or words for a figure."""
+    """Return the name of a label where nothing is numbered: the thesis's number, or words."""
     if match := LABEL.search(label):
         return f"{KINDS[match['kind']]} {match['number'].replace('-', '.')}"
+    kind, _, subject = label.replace("-", " ").partition(" ")
+    if kind in STATEMENTS:
+        return f"the {STATEMENTS[kind]} on {subject}"
     return f"the figure of {label.removeprefix('fig-').replace('-', ' ')}"
 
 

@@ -245,6 +245,15 @@ def test_pages_become_plain_markdown() -> None:
         assert left_over not in plain.replace("\\tag{2.26}", "")
 
 
+def test_statements_without_a_number_of_the_thesis_are_called_by_their_subject() -> (
+    None
+):
+    plain = notebooks.plain(
+        "By {prf:ref}`lemma-contraction` and {prf:ref}`theorem-2-1`."
+    )
+    assert plain == "By the lemma on contraction and Theorem 2.1."
+
+
 PAGE = """---
 jupytext:
   text_representation: {extension: .md, format_name: myst}
