@@ -13,7 +13,7 @@ from pathlib import Path
 
 from robonav.validation import check_integer, check_one_of
 
-DIFFICULTIES = ("warm-up", "exercise", "project")
+DIFFICULTIES = ("warm-up", "exercise", "project", "open task")
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,9 @@ NONE = "Your function returned None: does every way through it end in a return?"
 TRANSPOSED = "Rows and columns are exchanged: the transpose of your answer is right."
 
 
+Verdict = Literal["asked", "open", "right", "wrong"]
+
+
 @dataclass(eq=False)
 class Observation:
     """One call of the student's function.
@@ -39,13 +42,13 @@ class Observation:
     expected : object
         The right answer.
     verdict : str
-        ``open`` where a right answer need not equal the expected one.
+        ``open`` where a right answer need not equal the expected one, ``asked`` where there is no expected one.
     """
 
     case: Case
     got: Any
     expected: Any
-    verdict: Literal["open", "right", "wrong"]
+    verdict: Verdict
     at: Any = None  # the places that counted, or None for all
 
     def counted(self, value: Any) -> Any:
@@ -67,7 +70,7 @@ class Evidence:
         case: Case,
         got: Any,
         expected: Any,
-        verdict: Literal["open", "right", "wrong"] = "open",
+        verdict: Verdict = "open",
         at: Any = None,
     ) -> None:
         """Keep a call and its answer."""
@@ -75,7 +78,8 @@ class Evidence:
 
     def judge(self, verdict: Literal["right", "wrong"]) -> None:
         """Say whether the last answer was right."""
-        self.observations[-1].verdict = verdict
+        if self.observations[-1].verdict != "asked":
+            self.observations[-1].verdict = verdict
 
     def explained(self, parts: Iterable[Part]) -> list[Part]:
         """Return the parts, those that failed with the hint for them."""
@@ -123,6 +127,8 @@ class Evidence:
 
     def _mistakes(self, observation: Observation) -> dict[str, tuple[str, Any]]:
         """Return hint and answer of the known mistakes that are wrong in the places that counted."""
+        if observation.verdict == "asked" or observation.expected is None:
+            return {}
         known = {
             name: (hint, observation.counted(value))
             for name, hint, value in self.reference.mistakes(observation.case)

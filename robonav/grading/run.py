@@ -162,3 +162,6 @@ class Run:
             terminalreporter.line(
                 f"{entry['id']}  {points}/{entry['max_points']}  {entry['state']:12}  {title}"
             )
+            lines = map(str.strip, entry["feedback"].splitlines())
+            for hint in dict.fromkeys(x for x in lines if x.startswith("Hint: ")):
+                terminalreporter.line(f"      {hint}")

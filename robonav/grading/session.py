@@ -307,6 +307,13 @@ class Answer:
             raise self._wrong("the answer holds NaN or infinity")
         return array.astype(float)
 
+    def ask(self, *arguments: Any) -> Any:
+        """Call the function and return its answer as it came. There is no single right answer to this call."""
+        self._case = replace(next(self._cases), arguments=arguments)
+        self._got = self._called_with(arguments, None, None)
+        self._evidence.observe(self._case, self._got, None, "asked")
+        return self._got
+
     def check(self, holds: bool, otherwise: str) -> None:
         """Require a property of the last answer. ``otherwise`` tells the student what is wrong if it does not hold."""
         if not holds:
@@ -315,21 +322,24 @@ class Answer:
     def _call(self, arguments: tuple[Any, ...], at: Any = None) -> None:
         self._case = replace(next(self._cases), arguments=arguments)
         self.expected = self._evidence.reference.expected(self._case)
-        try:
-            self._got = self._calls.call(self._exercise, arguments)
-        except Unaccepted as error:
-            if error.state != "missing":
-                got = {"raised": error.raised}
-                self._evidence.observe(self._case, got, self.expected, "wrong", at)
-            if error.raised is not None:
-                error.feedback = self._told(error.feedback, self._called())
-            raise
+        self._got = self._called_with(arguments, self.expected, at)
         self._evidence.observe(self._case, self._got, self.expected, at=at)
         if at is not None:
             self._got = compare.only(self._got, self.expected, at)
         if self._calls.changed and not self._evidence.changed:
             self._evidence.changed = True
             raise self._wrong(self._changing())
+
+    def _called_with(self, arguments: tuple[Any, ...], expected: Any, at: Any) -> Any:
+        try:
+            return self._calls.call(self._exercise, arguments)
+        except Unaccepted as error:
+            if error.state != "missing":
+                got = {"raised": error.raised}
+                self._evidence.observe(self._case, got, expected, "wrong", at)
+            if error.raised is not None:
+                error.feedback = self._told(error.feedback, self._called())
+            raise
 
     def _changing(self) -> str:
         """Describe which arguments the last call changed."""

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from robonav.grading.compare import as_numbers
+
 
 def probabilities(rng, *shape):
     """Probabilities along the last axis, about half of them zero."""
@@ -385,3 +387,52 @@ def test_explorer_that_has_seen_nothing(answer, rng):
     """Gives all pairs the largest possible value before the first step."""
     nothing = np.zeros((0, 3), dtype=int), np.zeros(0), np.zeros(0, dtype=bool)
     answer.agrees(*nothing, (3, 2), 1, 1.5, 0.75)
+
+
+def arrivals(answer, worlds):
+    """How many robots arrive that the student's function steers, without reflexes."""
+    from robonav.robot import navigate
+
+    def policy(sensing, rng):
+        got = answer.ask(sensing.ranges, sensing.target_region, sensing.target_seen)
+        actions = as_numbers(got)
+        fits = (
+            actions is not None
+            and actions.dtype.kind in "iu"
+            and actions.shape == sensing.target_region.shape
+            and bool(np.isin(actions, range(5)).all())
+        )
+        answer.check(
+            fits, "the answer must hold a whole number from 0 to 4 for each robot"
+        )
+        return actions
+
+    return int(navigate(policy, worlds, max_steps=250, reflex=None).success.sum())
+
+
+def steers(answer, rng, obstacles, least):
+    """Require that many of 60 robots arrive."""
+    from robonav.robot import random_worlds
+
+    arrived = arrivals(answer, random_worlds(60, obstacles, seed=rng))
+    answer.check(
+        arrived >= least, f"expected {least} arrivals in 60 worlds, got {arrived}"
+    )
+
+
+@pytest.mark.part("2.9", points=2)
+def test_steer_among_some_obstacles(answer, rng):
+    """Arrives in three of four worlds with five obstacles; a robot that goes straight arrives in three of five."""
+    steers(answer, rng, 5, 45)
+
+
+@pytest.mark.part("2.9", points=2)
+def test_steer_among_more_obstacles(answer, rng):
+    """Arrives in three of four worlds with ten obstacles; a robot that goes straight arrives in two of five."""
+    steers(answer, rng, 10, 45)
+
+
+@pytest.mark.part("2.9", points=4)
+def test_steer_among_many_obstacles(answer, rng):
+    """Arrives in seven of ten worlds with fifteen obstacles; a robot that goes straight arrives in one of five."""
+    steers(answer, rng, 15, 42)

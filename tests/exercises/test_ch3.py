@@ -5,6 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from robonav.grading.compare import as_numbers
+
 
 def network(rng, *sizes, scale=1.0):
     """Weights of a network of these sizes, the bias in column 0."""
@@ -323,3 +325,88 @@ def test_cheapest_without_a_path(answer, rng):
 def test_cheapest_across_a_large_map(answer, rng):
     """Ends in time on a map of 25 by 25 cells."""
     answer.agrees(maze(rng, 25, 25, 0.15), (0, 0, 1), (24, 24), 0.3)
+
+
+def expert_action(sensing):
+    """Turn away from what is ahead, to the side with more room, and more sharply if it is near."""
+    from robonav.robot import Action
+
+    left, right = (
+        sensing.ranges[:, side].min(axis=1) for side in (slice(1, 3), slice(7, 9))
+    )
+    near = sensing.ranges[:, 0] < 4
+    turn_left = np.where(near, Action.L60, Action.L30)
+    turn_right = np.where(near, Action.R60, Action.R30)
+    turn = np.where(left > right, turn_left, turn_right)
+    return np.where(sensing.ranges[:, 0] < 7, turn, Action.F)
+
+
+def recorded(rng, worlds):
+    """The expert's effective steps in some worlds: inputs and labels."""
+    from robonav.robot import Encoder, navigate, random_worlds
+
+    steps, encoder = [], Encoder()
+
+    def expert(sensing, generator):
+        actions = expert_action(sensing)
+        effective = (sensing.ranges < 10).any(axis=1)
+        steps.append((encoder(sensing)[effective], actions[effective]))
+        return actions
+
+    navigate(expert, random_worlds(worlds, 15, seed=rng))
+    inputs, labels = zip(*steps, strict=True)
+    return np.concatenate(inputs), np.concatenate(labels).astype(np.int64)
+
+
+def outputs(weights, inputs):
+    for layer in weights[:-1]:
+        inputs = np.tanh(layer[:, 0] + inputs @ layer[:, 1:].T)
+    return weights[-1][:, 0] + inputs @ weights[-1][:, 1:].T
+
+
+def trained(answer, inputs, labels):
+    """The weights that the student's function returns, as a network from 12 inputs to five outputs."""
+    got = answer.ask(inputs, labels)
+    weights, units = [], 12
+    for layer in got if isinstance(got, list | tuple) else []:
+        array = as_numbers(layer)
+        fits = array is not None and array.ndim == 2 and array.shape[1] == units + 1
+        answer.check(
+            fits and bool(np.isfinite(array).all()),
+            f"layer {len(weights)} must hold finite numbers in {units + 1} columns",
+        )
+        weights.append(array)
+        units = len(array)
+    answer.check(
+        bool(weights) and units == 5,
+        "the answer must be a list of layers, the last of five rows",
+    )
+    return weights
+
+
+@pytest.mark.part("3.8", points=4)
+def test_imitate_the_expert(answer, rng):
+    """Turns to the expert's side in two of three new steps in which the expert turns."""
+    weights = trained(answer, *recorded(rng, 20))
+    inputs, labels = recorded(rng, 30)
+    turns = labels > 0
+    chosen = outputs(weights, inputs[turns]).argmax(axis=1)
+    side = np.array([0, 1, 1, -1, -1])
+    agreed = int(100 * (side[chosen] == side[labels[turns]]).mean())
+    answer.check(
+        agreed >= 65, f"expected the same side in 65 of 100 turns, got {agreed}"
+    )
+
+
+@pytest.mark.part("3.8", points=6)
+def test_imitate_and_drive(answer, rng):
+    """Arrives in four of five new worlds with ten obstacles; a robot that goes straight arrives in two of five."""
+    from robonav.robot import Encoder, navigate, random_worlds
+
+    weights, encoder = trained(answer, *recorded(rng, 20)), Encoder()
+
+    def policy(sensing, generator):
+        return outputs(weights, encoder(sensing)).argmax(axis=1)
+
+    arrived = int(navigate(policy, random_worlds(100, 10, seed=rng)).success.sum())
+    answer.check(arrived >= 80, f"expected 80 arrivals in 100 worlds, got {arrived}")

