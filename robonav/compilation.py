@@ -60,7 +60,7 @@ def compiler(
 def warn_without_cache() -> None:
     """Warn, once in a process, that compiled functions cannot be kept."""
     warnings.warn(
-        "robonav compiles its fast functions anew in each process, which takes some seconds: neither its folder nor "
+        "robonav compiles its fast functions again in each process, which takes some seconds: neither its folder nor "
         "the home folder can be written to. Set NUMBA_CACHE_DIR to a folder that can",
         stacklevel=2,
     )

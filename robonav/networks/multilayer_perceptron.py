@@ -415,6 +415,15 @@ def mean_gradient(
     Returns
     -------
     Gradient
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import Gradient, Network
+    >>> network = Network((np.array([[2.0]]),), (np.array([0.0]),))
+    >>> total = Gradient([np.array([[6.0]])], [np.array([4.0])])
+    >>> mean_gradient(network, total, 2, decay=0.5).weights
+    [array([[4.]])]
     """
     pairs = zip(network.weights, total.weights, strict=True)
     dW = [dw / m + decay * W for W, dw in pairs]  # Eqs. (3.9) and (3.27)

@@ -34,7 +34,16 @@ compiled = compiler(constants, geometry, motion, random_numbers)
 
 @compiled
 def slip_to(action: int, slip: Array, key: Array, step: int) -> int:
-    """Draw the action that comes of ``action``, whose row of ``slip`` says how likely each is."""
+    """Draw the action that comes of ``action``, whose row of ``slip`` says how likely each is.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.robot import random_worlds
+    >>> always_straight = np.eye(6)[[0, 0, 0, 0, 0, 5]]
+    >>> slip_to(1, always_straight, random_worlds(1, seed=0).keys[0], 0)
+    0
+    """
     draw, total = uniform(key, SLIPPING, step, 0, 0), 0.0
     for other in range(slip.shape[1]):
         total += slip[action, other]
@@ -48,7 +57,18 @@ def drift(
     obstacles: Obstacles, headings: Array, speeds: Array,
     size: float, key: Array, step: int,
 ) -> None:  # fmt: skip
-    """Let moving obstacles go on for one second. Some turn at random, and borders reflect them."""
+    """Let moving obstacles go on for one second. Some turn at random, and borders reflect them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.robot import make_world
+    >>> world = make_world(circles=[(50, 50, 2)])
+    >>> obstacles = world.kinds[0], world.shapes[0], world.centres[0].copy()
+    >>> drift(obstacles, np.array([0.0]), np.array([1.5]), 100.0, world.keys[0], 0)
+    >>> obstacles[2].tolist()
+    [[51.5, 50.0]]
+    """
     kinds, shapes, centres = obstacles
     for m in range(len(kinds)):
         if kinds[m] == NOTHING or speeds[m] == 0.0:
@@ -77,6 +97,14 @@ def least_clearance(
 
     Obstacles go straight and evenly from ``centres_before`` to their centres, and the robot does too. So, seen from an
     obstacle, the robot goes straight along a segment. Exact below :data:`COLLISION_DISTANCE`.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world
+    >>> world = make_world(circles=[(53, 50, 2)])
+    >>> obstacles = world.kinds[0], world.shapes[0], world.centres[0]
+    >>> least_clearance(obstacles, world.centres[0], 100.0, (50.0, 47.5), (56.0, 47.5))
+    0.5
     """
     kinds, shapes, centres = obstacles
     (x0, y0), (x1, y1) = start, end

@@ -46,6 +46,17 @@ def sense(
 
     Fills in ``ranges`` (9,) and ``walls`` (9,), whether the nearest thing is a border. Returns the target's sector, 1
     to 9, and whether it is in range. ``noise`` is the standard deviation of the error of a range.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world
+    >>> world = make_world(circles=[(58, 50, 2)])
+    >>> obstacles = world.kinds[0], world.shapes[0], world.centres[0]
+    >>> ranges, walls = np.empty(9), np.empty(9, dtype=bool)
+    >>> sense(obstacles, 100.0, (50.0, 50.0, 0.0), (90.0, 50.0), 0.0, world.keys[0], 0, ranges, walls)
+    (1, False)
+    >>> ranges
+    array([ 6., 10., 10., 10., 10., 10., 10., 10., 10.])
     """
     ranges[:], walls[:] = SENSOR_RANGE, False
     sense_obstacles(obstacles, pose, ranges, walls)
@@ -65,7 +76,13 @@ def sense(
 
 @compiled
 def sector_at(bearing: float) -> int:
-    """Index 0 to 8 of the sector of 40 degrees that holds a bearing; 0 looks ahead, counter-clockwise."""
+    """Index 0 to 8 of the sector of 40 degrees that holds a bearing; 0 looks ahead, counter-clockwise.
+
+    Examples
+    --------
+    >>> sector_at(0.0), sector_at(math.radians(30)), sector_at(math.radians(-30))
+    (0, 1, 8)
+    """
     return math.floor(bearing / SECTOR + 0.5) % SENSORS
 
 
@@ -93,6 +110,16 @@ def sense_obstacles(
 
     This is enough: seen from outside, the distance to a convex shape falls and then rises with the bearing. So its
     least distance in a sector is at its nearest point, if the sector holds it, or else on one of the sector's two rays.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world
+    >>> world = make_world(circles=[(50, 57, 2)])
+    >>> ranges, walls = np.full(9, 10.0), np.zeros(9, dtype=bool)
+    >>> obstacles = world.kinds[0], world.shapes[0], world.centres[0]
+    >>> sense_obstacles(obstacles, (50.0, 50.0, 0.0), ranges, walls)
+    >>> ranges[2]  # 80 degrees to the left
+    np.float64(5.0)
     """
     kinds, shapes, centres = obstacles
     x, y, heading = pose
@@ -126,7 +153,15 @@ def see_circle(
     x: float, y: float, radius: float,
     rays: Array, ranges: Array, walls: Flags,
 ) -> None:  # fmt: skip
-    """See a circle whose centre is x ahead and y to the left."""
+    """See a circle whose centre is x ahead and y to the left.
+
+    Examples
+    --------
+    >>> ranges, walls = np.full(9, 10.0), np.zeros(9, dtype=bool)
+    >>> see_circle(8.0, 0.0, 2.0, directions_of_rays(), ranges, walls)
+    >>> ranges[0]
+    np.float64(6.0)
+    """
     distance = math.hypot(x, y) - radius
     if distance <= 0.0:  # the robot is in it
         ranges[:] = 0.0
@@ -146,7 +181,16 @@ def see_rectangle(
     x: float, y: float, shape: Array, turned: float,
     rays: Array, ranges: Array, walls: Flags,
 ) -> None:  # fmt: skip
-    """See a rectangle whose centre is x ahead and y to the left, its length turned to the left."""
+    """See a rectangle whose centre is x ahead and y to the left, its length turned to the left.
+
+    Examples
+    --------
+    >>> ranges, walls = np.full(9, 10.0), np.zeros(9, dtype=bool)
+    >>> shape = np.array([3.0, 1.0, 0.0])  # half its length and its width
+    >>> see_rectangle(8.0, 0.0, shape, 0.0, directions_of_rays(), ranges, walls)
+    >>> ranges[0]
+    np.float64(5.0)
+    """
     half_length, half_width = shape[0], shape[1]
     c, s = math.cos(turned), math.sin(turned)
     px, py = -(c * x + s * y), -(c * y - s * x)  # the robot in the rectangle's frame
@@ -166,7 +210,15 @@ def see_rectangle(
 
 @compiled
 def sense_borders(size: float, pose: Pose, ranges: Array, walls: Flags) -> None:
-    """See each border at its nearest point, and where the rays between two sectors leave the map."""
+    """See each border at its nearest point, and where the rays between two sectors leave the map.
+
+    Examples
+    --------
+    >>> ranges, walls = np.full(9, 10.0), np.zeros(9, dtype=bool)
+    >>> sense_borders(100.0, (96.0, 50.0, 0.0), ranges, walls)
+    >>> ranges[0], walls[0]
+    (np.float64(4.0), np.True_)
+    """
     x, y, heading = pose
     margin = min(x, size - x, y, size - y)
     if margin >= SENSOR_RANGE:

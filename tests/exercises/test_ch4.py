@@ -42,7 +42,7 @@ def test_explore_where_actions_tie(answer, rng):
 
 @pytest.mark.part("4.1", points=1)
 def test_explore_at_the_extremes(answer, rng):
-    """Is greedy for a share of 1, and takes all allowed actions alike where the share is too small to reach."""
+    """Is greedy for a share of 1, and takes all allowed actions equally often where the share is too small to reach."""
     for _ in range(4):
         values, share, allowed = robots(rng, 8, few=True)
         share[:4], share[6:] = 1.0, 0.05

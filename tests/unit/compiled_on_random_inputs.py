@@ -1,6 +1,6 @@
 """Calls every compiled part of the package with random inputs.
 
-``test_compilation.py`` runs this file with numba's checks of bounds, which compile the kernels anew. An index outside
+``test_compilation.py`` runs this file with numba's checks of bounds, which compile the kernels again. An index outside
 an array then raises an IndexError. Without the checks it would read or write foreign memory.
 """
 

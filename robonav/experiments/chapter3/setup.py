@@ -96,8 +96,8 @@ def cloned_policy(
     reflex: Reflex = REFLEX,
 ) -> NetworkPolicy:
     """Return the policy learned from a run's demonstrations (Algorithm 3)."""
-    shown = demonstrations(seed, obstacles, reflex=reflex)
-    return learn_policy(shown, seed=seed, encoder=Encoder(target=target))
+    taught = demonstrations(seed, obstacles, reflex=reflex)
+    return learn_policy(taught, seed=seed, encoder=Encoder(target=target))
 
 
 @lru_cache(64)

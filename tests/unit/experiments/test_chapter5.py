@@ -81,7 +81,7 @@ def test_cloning_draws_other_trials_instead():
 def test_worlds_to_show_to_tune_on_and_to_test_on_never_meet():
     assert max(experiment.seeds["thesis"] for experiment in ALL) < TUNING_SEEDS
     seeds = {
-        "shown": [
+        "demonstrated": [
             DEMONSTRATION_SEED + s
             for s in (*range(30), *range(TUNING_SEEDS, TUNING_SEEDS + 20))
         ],
@@ -205,7 +205,7 @@ def test_robots_trained_together_are_those_trained_alone():
 
 
 def test_a_comparison_has_its_controls_beside_it():
-    """No reward, one of chance, plain cloning: wherever what was learned is said to be good for something."""
+    """Zero and random rewards and cloning stand beside every learned reward that is said to help."""
     methods = {
         e.name: {case.get("method") for case in e.cases} for e in tables.EXPERIMENTS
     }

@@ -84,7 +84,7 @@ def two_states(discount):
 @each_planner
 @pytest.mark.parametrize("discount", [0, 0.5, 0.9, 0.92, 0.95, 0.99])
 def test_two_states_in_closed_form(planner, discount):
-    """The second state is worth -1 / (1 - gamma); in the first it pays to stay from gamma = 10/11 on."""
+    """The second state has the value -1 / (1 - gamma); in the first it pays to stay from gamma = 10/11 on."""
     second = -1 / (1 - discount)
     stay, leave = (
         (5 + 0.5 * discount * second) / (1 - 0.5 * discount),
@@ -224,7 +224,7 @@ def test_the_bound_is_needed():
 
 
 def tie_rich_grid(discount):
-    """An open slippery grid with pockets behind walls: whole regions in which all actions are worth the same."""
+    """An open slippery grid with pockets behind walls: whole regions in which all actions have the same value."""
     rng = np.random.default_rng(0)
     symbols = np.where(rng.random((40, 40)) < 0.3, "#", ".")
     symbols[-1, -1] = "G"
@@ -261,7 +261,7 @@ def test_a_small_gain_is_seen_in_large_values():
 
 
 def test_what_rounding_hides_is_told():
-    """At a discount of 1 - 1e-7 a gain of one rounding error is worth more than the tolerance."""
+    """At a discount of 1 - 1e-7 a gain of one rounding error amounts to more than the tolerance."""
     with pytest.warns(
         ConvergenceWarning, match=r"its policy may lose \S*e-0[89], where 1e-09 was"
     ):

@@ -1,4 +1,4 @@
-"""What policies are worth: published values, simulation, and both ways to solve the equations."""
+"""Values of policies: published values, simulation, and both ways to solve the equations."""
 
 import warnings
 

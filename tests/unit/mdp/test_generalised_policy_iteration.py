@@ -97,7 +97,7 @@ def test_an_action_that_ties_stays():
 
 @pytest.mark.parametrize("sweeps", [100, math.inf])
 def test_it_ends_where_actions_tie_in_large_values(sweeps):
-    """Most cells cannot reach the goal: all their actions are worth -1e8, to rounding."""
+    """Most cells cannot reach the goal: all their actions have the value -1e8, to rounding."""
     walled = "##..#\n..#.#\n#....\n.#..#\n#.##G"
     grid = GridWorld(walled, legend={"G": Cell(ends=True)}, slip=0.2, step_reward=-1e5)
     trace = generalized_policy_iteration(

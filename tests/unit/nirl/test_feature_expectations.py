@@ -71,12 +71,12 @@ def test_exact_expectations_are_the_sum_of_the_series():
 
 @pytest.mark.parametrize("weights", [[1.0, -2.0, 0.5, 3.0], [0.0, 0.0, 1.0, 0.0]])
 def test_equal_expectations_equal_values(terrain, weights):
-    """Eq. (5.4): theta . mu is what the policy is worth, for any reward."""
+    """Eq. (5.4): theta . mu is the value of the policy, for any reward."""
     policy = np.random.default_rng(1).dirichlet(np.ones(4), terrain.task.n_states)
-    worth = terrain.task.starts @ policy_evaluation(
+    value = terrain.task.starts @ policy_evaluation(
         terrain.task.with_reward(weights), policy
     )
-    assert initial_expectations(terrain.task, policy) @ weights == pytest.approx(worth)
+    assert initial_expectations(terrain.task, policy) @ weights == pytest.approx(value)
 
 
 def test_sampled_expectations_approach_the_exact_ones(terrain):
@@ -112,7 +112,7 @@ def test_a_torn_trajectory_gets_a_sentence():
 
 
 def test_walks_follow_the_transitions():
-    """A ring in which action 1 goes on and action 0 stays, without chance."""
+    """A ring in which action 1 goes on and action 0 stays, for sure."""
     stay, go = np.eye(4), np.roll(np.eye(4), 1, axis=1)
     task = RewardFreeMDP(
         np.stack([stay, go]), np.zeros((4, 2, 1)), 0.5, np.array([0, 0, 1.0, 0])

@@ -118,7 +118,7 @@ def learn(case, guess, expert, **options):
 
 
 def test_the_apprentice_matches_the_expert(terrain, guess):
-    """With the expert's exact expectations: distances fall, and the mixture is worth what the expert is."""
+    """With the expert's exact expectations: distances fall, and the mixture has the expert's value."""
     learned = learn(
         terrain,
         guess,
@@ -150,8 +150,8 @@ def test_the_apprentice_of_demonstrations(terrain, guess):
     from robonav.nirl import empirical_expectations
 
     walks = terrain.task.rollout(terrain.expert, 200, 60, seed=5)
-    shown = terrain.task.features[walks.states, walks.actions].reshape(-1, 4)
-    expert = empirical_expectations(shown, walks.trajectory, terrain.task.discount)
+    taken = terrain.task.features[walks.states, walks.actions].reshape(-1, 4)
+    expert = empirical_expectations(taken, walks.trajectory, terrain.task.discount)
     learned = learn(terrain, guess, expert, iterations=20)
     assert terrain.loss(learned.policies[learned.closest]) < 0.05
 

@@ -202,8 +202,8 @@ def test_network_trains_on_the_decisions_of_the_last_iterations(terrain, improve
             return improver.descend(network, decisions, *rest)
 
     task = TabularTask(terrain.task)
-    shown = task.demonstrate(terrain.expert, 5, seed=1)
-    found = nirl(shown, task, iterations=3, improver=Watched(), seed=0)
+    demonstrations = task.demonstrate(terrain.expert, 5, seed=1)
+    found = nirl(demonstrations, task, iterations=3, improver=Watched(), seed=0)
     made = found.history.decisions
     expected = [sum(made[max(k - improver.replay, 0) : k]) for k in (1, 2, 3)]
     assert [len(decisions) for decisions in seen] == expected

@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from robonav.nirl import boltzmann_policy, map_uniform_prior, most_frequent
 
-# State 7: action 0 ten times, action 1 twice. Action 0 is common elsewhere, action 1 is shown nowhere else.
+# State 7: action 0 ten times, action 1 twice. Action 0 is common elsewhere, action 1 stands nowhere else.
 STATES = np.array([7] * 12 + [3] * 90)
 SHOWN = np.array([0] * 10 + [1] * 2 + [0] * 90)
 
@@ -39,13 +39,13 @@ def test_states_of_several_numbers():
     arrays(np.int64, 30, elements=st.integers(0, 4)),
     arrays(np.int64, 30, elements=st.integers(0, 4)),
 )
-def test_refined_demonstrations_are_consistent_and_stay_so(states, shown):
-    once = most_frequent(states, shown, 5)
+def test_refined_demonstrations_are_consistent_and_stay_so(states, actions):
+    once = most_frequent(states, actions, 5)
     for state in set(states):
         mine = once.actions[states == state]
         assert len(set(mine)) == 1
-        assert (shown[states == state] == mine[0]).sum() == np.bincount(
-            shown[states == state]
+        assert (actions[states == state] == mine[0]).sum() == np.bincount(
+            actions[states == state]
         ).max()
     again = most_frequent(states, once.actions, 5)
     assert not again.changed.any()

@@ -169,9 +169,9 @@ def test_slack_shrinks_with_demonstrations():
 
 def first_features(case, walks):
     """Discounted features of whole walks, (N, K)."""
-    shown = case.task.features[walks.states, walks.actions]
+    taken = case.task.features[walks.states, walks.actions]
     return np.einsum(
-        "t,ntk->nk", case.task.discount ** np.arange(shown.shape[1]), shown
+        "t,ntk->nk", case.task.discount ** np.arange(taken.shape[1]), taken
     )
 
 

@@ -45,9 +45,9 @@ def test_the_subgradient_is_that_of_the_cost(theta, ridge):
 def test_a_separable_case_is_separated():
     rng = np.random.default_rng(3)
     mu, theta = rng.normal(size=(200, 4, 5)), rng.normal(size=5)
-    shown = (mu @ theta).argmax(axis=1)
-    learned = structured_classification(mu, shown)
-    assert ((mu @ learned.weights).argmax(axis=1) == shown).mean() > 0.97
+    demonstrated = (mu @ theta).argmax(axis=1)
+    learned = structured_classification(mu, demonstrated)
+    assert ((mu @ learned.weights).argmax(axis=1) == demonstrated).mean() > 0.97
     assert learned.costs[-1] < 0.5 * learned.costs[0]
 
 
@@ -137,7 +137,7 @@ def test_scirl_with_monte_carlo(terrain):
 
 
 def test_scirl_with_the_heuristic(scattered):
-    """From what was shown alone. The heuristic suits an expert that goes somewhere good and stays.
+    """From the demonstrations alone. The heuristic suits an expert that goes somewhere good and stays.
 
     Any reward that is good everywhere separates it: the ridge chooses among those.
     """
@@ -146,10 +146,12 @@ def test_scirl_with_the_heuristic(scattered):
         scattered.task.rollout(scattered.expert, 40, 30, seed=4),
     )
     features = task.features[drawn.states, drawn.actions].reshape(drawn.states.size, -1)
-    shown = drawn.actions.ravel()
+    demonstrated = drawn.actions.ravel()
     to_go = discounted_feature_sums(features, drawn.trajectory, task.discount)
     learned = structured_classification(
-        heuristic_mu(to_go, shown, 4, task.discount), shown, regularisation=1e-2
+        heuristic_mu(to_go, demonstrated, 4, task.discount),
+        demonstrated,
+        regularisation=1e-2,
     )
     assert scattered.loss(scattered.best(learned.weights)) < 0.05
 

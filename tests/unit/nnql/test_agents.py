@@ -24,7 +24,7 @@ from robonav.nnql._fast.networks import BatchedNetworks, packed, unpacked
 from robonav.nnql._fast.replay_buffers import ReplayBuffers
 
 GAMMA = 0.7
-END = 3  # a corridor of states 0 to 3: action 0 goes left, 1 right; 3 is the end and worth 1
+END = 3  # a corridor of states 0 to 3: action 0 goes left, 1 right; 3 is the end and gives 1
 
 
 def corridor_values():

@@ -30,7 +30,7 @@ TWINS = [
 
 
 class Corridor(gymnasium.Env):
-    """Five places in a row; action 1 goes right, 0 left; the right end is worth 1 and ends the episode."""
+    """Five places in a row; action 1 goes right, 0 left; the right end gives 1 and ends the episode."""
 
     observation_space = gymnasium.spaces.Discrete(5)
     action_space = gymnasium.spaces.Discrete(2)

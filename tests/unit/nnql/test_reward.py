@@ -30,7 +30,7 @@ def sensing(*nearest):
     return Sensing(ranges, np.zeros((n, 9), bool), np.ones(n, int), np.zeros(n, bool))
 
 
-def worth(before, after, outcome=RUNNING):
+def reward_of(before, after, outcome=RUNNING):
     return float(
         reward(sensing(before), sensing(after), np.array([outcome], np.int8))[0]
     )
@@ -74,7 +74,7 @@ def worth(before, after, outcome=RUNNING):
 )
 def test_each_row(row, before, after, outcome, expected):
     assert reward_row(sensing(before), sensing(after), np.array([outcome]))[0] == row
-    assert worth(before, after, outcome) == expected == TABLE[row].reward
+    assert reward_of(before, after, outcome) == expected == TABLE[row].reward
 
 
 def holds(row, before, after, outcome):
@@ -161,7 +161,9 @@ def test_it_is_a_gymnasium_reward_single_and_vectorised():
         read, gained, terminated, truncated, info = single.step(0)
         _, all_gained, *_ = batch.step([0, 0, 0])
         outcome = OUTCOMES.tolist().index(info["outcome"])
-        assert gained == worth(before, read["ranges"].min(), outcome) == all_gained[0]
+        assert (
+            gained == reward_of(before, read["ranges"].min(), outcome) == all_gained[0]
+        )
         total.append(gained)
         if terminated or truncated:
             break

@@ -1,4 +1,4 @@
-"""Beliefs over cells and poses, their worth, their uncertainty, and the scheme of Fig. 2.3."""
+"""Beliefs over cells and poses, their values, their uncertainty, and the scheme of Fig. 2.3."""
 
 import matplotlib as mpl
 import numpy as np

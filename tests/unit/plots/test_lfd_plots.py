@@ -78,11 +78,11 @@ def test_methods_rounds_and_margins():
 
 
 def test_maps():
-    shown = demonstrate(random_worlds(3, 5, seed=1))
+    demonstrations = demonstrate(random_worlds(3, 5, seed=1))
     figure = plt.figure()
-    draw.draw_demonstrations(figure, shown, range(3))
+    draw.draw_demonstrations(figure, demonstrations, range(3))
     assert [axes.get_title() for axes in figure.axes] == ["arrived"] * 3
     figure, axes = plt.subplots()
-    made = plan(shown.worlds[0], record=True)
-    draw.draw_search(axes, shown.worlds[0], made)
+    made = plan(demonstrations.worlds[0], record=True)
+    draw.draw_search(axes, demonstrations.worlds[0], made)
     assert len(axes.collections[-1].get_offsets()) == made.expanded

@@ -71,14 +71,16 @@ def test_key_points_and_what_was_driven(axes):
 
 
 def test_slips_are_ringed(axes):
-    shown = lfd.record(
+    demonstrations = lfd.record(
         lfd.ComputerExpert(), random_worlds(1, 20, seed=4), slip=neighbour_slip(0.3)
     )
-    meant = shown.actions.copy()
+    meant = demonstrations.actions.copy()
     meant[3] = (meant[3] + 1) % 5
-    draw.draw_slips(axes, shown, meant)
+    draw.draw_slips(axes, demonstrations, meant)
     assert axes.get_title().startswith("1 of")
-    np.testing.assert_array_equal(axes.lines[-1].get_xdata(), shown.poses[3:4, 0])
+    np.testing.assert_array_equal(
+        axes.lines[-1].get_xdata(), demonstrations.poses[3:4, 0]
+    )
 
 
 def test_names_fit_the_inputs():
@@ -113,9 +115,9 @@ def test_the_map_of_a_reward_is_blank_where_nothing_is_decided(axes):
     weights[0, -1] = 1.0  # a constant reward of going on
     world = random_worlds(1, 3, seed=0)
     draw.draw_reward_map(axes, world, weights, nirl.ENCODER, spacing=5.0)
-    shown = np.ma.masked_invalid(axes.images[0].get_array())
-    assert 0 < shown.mask.mean() < 1
-    assert (shown.compressed() == 1).all()
+    drawn = np.ma.masked_invalid(axes.images[0].get_array())
+    assert 0 < drawn.mask.mean() < 1
+    assert (drawn.compressed() == 1).all()
 
 
 def test_the_choice_rings_the_best_of_each_score(axes):

@@ -44,31 +44,31 @@ def encoded(path):
 
 
 @pytest.fixture(scope="module")
-def shown():
+def demonstrations():
     """Drives in worlds with different numbers of obstacles, one of which moves."""
     parts = [random_worlds(2, 5, 1, seed=3), random_worlds(2, 10, seed=4)]
     return demonstrate(concatenate([part.with_slots(10) for part in parts]))
 
 
-def test_drives_of_python_come_back_to_python(node, shown, tmp_path):
-    save_demonstrations(tmp_path / "there.npz", shown)
+def test_drives_of_python_come_back_to_python(node, demonstrations, tmp_path):
+    save_demonstrations(tmp_path / "there.npz", demonstrations)
     body = f"""{BUFFER} return page.drivesFromFile(buffer).then((drives) => {{
       const bytes = page.demonstrationsFile(drives); {BYTES}
     }});"""
     back = node(FILES, body, encoded(tmp_path / "there.npz"))
     (tmp_path / "back.npz").write_bytes(base64.b64decode(back))
     got = load_demonstrations(tmp_path / "back.npz")
-    assert got.worlds.digest() == shown.worlds.digest()
-    assert got.speed == shown.speed
+    assert got.worlds.digest() == demonstrations.worlds.digest()
+    assert got.speed == demonstrations.speed
     for name in ("trajectory", "actions", "poses", "outcome"):
-        np.testing.assert_array_equal(getattr(got, name), getattr(shown, name))
+        np.testing.assert_array_equal(getattr(got, name), getattr(demonstrations, name))
     for name in ("ranges", "walls", "target_region", "target_seen"):
-        ours, theirs = (getattr(each.sensing, name) for each in (got, shown))
+        ours, theirs = (getattr(each.sensing, name) for each in (got, demonstrations))
         np.testing.assert_array_equal(ours, theirs)
 
 
-def test_arrays_stored_by_columns_are_read(node, shown, tmp_path):
-    save_demonstrations(tmp_path / "drives.npz", shown)
+def test_arrays_stored_by_columns_are_read(node, demonstrations, tmp_path):
+    save_demonstrations(tmp_path / "drives.npz", demonstrations)
     arrays = archive.read_archive(tmp_path / "drives.npz")
     turned = {
         name: np.asfortranarray(array) if array.ndim > 1 else array
@@ -81,13 +81,13 @@ def test_arrays_stored_by_columns_are_read(node, shown, tmp_path):
     """
     got = node(FILES, body, encoded(tmp_path / "turned.npz"))
     for i, (world, ranges) in enumerate(got):
-        mine = shown.trajectory == i
-        np.testing.assert_array_equal(ranges, shown.sensing.ranges[mine])
-        assert world == page_world(shown.worlds[i])
+        mine = demonstrations.trajectory == i
+        np.testing.assert_array_equal(ranges, demonstrations.sensing.ranges[mine])
+        assert world == page_world(demonstrations.worlds[i])
 
 
-def broken(tmp_path, shown, **changes):
-    save_demonstrations(tmp_path / "drives.npz", shown)
+def broken(tmp_path, demonstrations, **changes):
+    save_demonstrations(tmp_path / "drives.npz", demonstrations)
     arrays = archive.read_archive(tmp_path / "drives.npz")
     for name, change in changes.items():
         arrays[name] = change(arrays[name])
@@ -98,35 +98,52 @@ def broken(tmp_path, shown, **changes):
 @pytest.mark.parametrize(
     ("content", "why"),
     [
-        (lambda path, shown: b"", "it is damaged or of another kind"),
-        (lambda path, shown: b"PK" + bytes(300), "it is damaged or of another kind"),
+        (lambda path, demonstrations: b"", "it is damaged or of another kind"),
         (
-            lambda path, shown: broken(path, shown, format=lambda _: np.array("x")),
+            lambda path, demonstrations: b"PK" + bytes(300),
+            "it is damaged or of another kind",
+        ),
+        (
+            lambda path, demonstrations: broken(
+                path, demonstrations, format=lambda _: np.array("x")
+            ),
             "it does not say so",
         ),
         (
-            lambda path, shown: broken(path, shown, poses=lambda a: a[:, :2]),
+            lambda path, demonstrations: broken(
+                path, demonstrations, poses=lambda a: a[:, :2]
+            ),
             "its array poses is missing or of another shape",
         ),
         (
-            lambda path, shown: broken(path, shown, ranges=lambda a: a * np.nan),
+            lambda path, demonstrations: broken(
+                path, demonstrations, ranges=lambda a: a * np.nan
+            ),
             "its array ranges holds what is no number",
         ),
         (
-            lambda path, shown: broken(path, shown, actions=lambda a: a + 5),
+            lambda path, demonstrations: broken(
+                path, demonstrations, actions=lambda a: a + 5
+            ),
             "a step of it is none of the robot's",
         ),
         (
-            lambda path, shown: broken(path, shown, outcome=lambda a: a + 7),
+            lambda path, demonstrations: broken(
+                path, demonstrations, outcome=lambda a: a + 7
+            ),
             "a drive ends in a way that there is not",
         ),
     ],
 )
-def test_a_file_that_is_no_drive_gets_one_sentence(node, shown, tmp_path, content, why):
+def test_a_file_that_is_no_drive_gets_one_sentence(
+    node, demonstrations, tmp_path, content, why
+):
     body = (
         f"{BUFFER} return page.drivesFromFile(buffer).catch((error) => error.message);"
     )
-    said = node(FILES, body, base64.b64encode(content(tmp_path, shown)).decode())
+    said = node(
+        FILES, body, base64.b64encode(content(tmp_path, demonstrations)).decode()
+    )
     assert said == f"The file must hold demonstrations saved by robonav: {why}."
 
 

@@ -38,24 +38,24 @@ def lab() -> ImitationLab:
 
 
 @pytest.fixture(scope="module")
-def shown():
+def demonstrations():
     return demonstrate(random_worlds(25, 10, seed=7))
 
 
-def test_the_expert_drives_in_the_page_as_in_python(node, lab, shown):
+def test_the_expert_drives_in_the_page_as_in_python(node, lab, demonstrations):
     body = """return page.replayed(data).map(({ steps, outcome }) => ({
       outcome, poses: steps.map(({ pose }) => [pose.x, pose.y, pose.heading]),
     }));"""
     got = node(FILES, body, lab.data["expert"])
-    assert [each["outcome"] for each in got] == shown.outcome.tolist()
+    assert [each["outcome"] for each in got] == demonstrations.outcome.tolist()
     poses = np.concatenate([each["poses"] for each in got])
-    np.testing.assert_allclose(poses, shown.poses, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(poses, demonstrations.poses, rtol=0, atol=1e-9)
 
 
-def test_examples_are_pythons(node, lab, shown):
+def test_examples_are_pythons(node, lab, demonstrations):
     body = """const { m, x, y } = page.examplesFrom(page.replayed(data)); return { m, x: [...x], y: [...y] };"""
     got = node(FILES, body, lab.data["expert"])
-    x, y = labelled_states(shown)
+    x, y = labelled_states(demonstrations)
     assert got["m"] == len(x)
     np.testing.assert_allclose(got["x"], x.ravel(), atol=1e-12)
     np.testing.assert_array_equal(got["y"], y.ravel())
@@ -74,8 +74,8 @@ def test_rivals_end_in_every_new_map_as_in_python(node, lab):
 
 
 @pytest.mark.slow
-def test_robots_of_twenty_seeds_arrive_as_often_as_pythons(node, lab, shown):
-    """Rounding makes two networks of one; they drive alike, though not the same."""
+def test_robots_of_twenty_seeds_arrive_as_often_as_pythons(node, lab, demonstrations):
+    """Rounding makes two networks of one; they drive similarly, but not identically."""
     given = {
         **lab.data, "trial": {"seed": 2024, "maps": 100, "obstacles": 20},
         "seeds": list(range(20)), "iterations": 300, "count": 25,
@@ -85,7 +85,7 @@ def test_robots_of_twenty_seeds_arrive_as_often_as_pythons(node, lab, shown):
     unseen = random_worlds(100, 20, seed=2024)
     theirs = np.array(
         [
-            navigate(learn_policy(shown, seed=s), unseen).success.mean()
+            navigate(learn_policy(demonstrations, seed=s), unseen).success.mean()
             for s in range(20)
         ]
     )
@@ -116,11 +116,11 @@ def test_the_book_policy_reaches_the_page(lab):
     assert lab.data["book"] == page_policy(method("lfd"))
 
 
-def test_the_answers_on_the_page_are_true(shown):
+def test_the_answers_on_the_page_are_true(demonstrations):
     unseen = random_worlds(200, 10, seed=2024)
 
     def trained(count, regularisation):
-        x, y = labelled_states(shown.select_trajectories(range(count)))
+        x, y = labelled_states(demonstrations.select_trajectories(range(count)))
         history = fit(x, y, regularisation=regularisation, seed=0)
         driven = navigate(NetworkPolicy(history.network), unseen)
         return history.accuracies[-1], driven
@@ -143,10 +143,10 @@ def answers_of(lab, message):
 
 
 @pytest.fixture
-def request_of_page(shown, tmp_path):
+def request_of_page(demonstrations, tmp_path):
     """What the page asks the kernel for: two robots, on the demonstrations as the page sends them."""
     path = tmp_path / "drives.npz"
-    save_demonstrations(path, shown)
+    save_demonstrations(path, demonstrations)
     return {
         "ask": "train",
         "run": 1,
@@ -158,9 +158,11 @@ def request_of_page(shown, tmp_path):
     }  # fmt: skip
 
 
-def test_the_kernel_trains_robots_as_learn_policy_does(lab, shown, request_of_page):
+def test_the_kernel_trains_robots_as_learn_policy_does(
+    lab, demonstrations, request_of_page
+):
     *told, last = answers_of(lab, request_of_page)
-    x, y = labelled_states(shown)
+    x, y = labelled_states(demonstrations)
     histories = [fit(x, y, iterations=30, seed=3 + k) for k in range(2)]
     live = [item for answer in told for item in answer.get("live", ())]
     assert [item["at"] for item in live] == list(range(31))
@@ -169,7 +171,9 @@ def test_the_kernel_trains_robots_as_learn_policy_does(lab, shown, request_of_pa
         np.mean([history.costs for history in histories], axis=0),
     )
     assert told[-1]["done"] == told[-1]["total"] == 32
-    expected = [learn_policy(shown, iterations=30, seed=3 + k) for k in range(2)]
+    expected = [
+        learn_policy(demonstrations, iterations=30, seed=3 + k) for k in range(2)
+    ]
     for got, want in zip(lab.trainings, expected, strict=True):
         for mine, theirs in zip(got.network.weights, want.network.weights, strict=True):
             np.testing.assert_array_equal(mine, theirs)

@@ -50,7 +50,7 @@ def test_plans_are_pythons_node_for_node(node, settings):
 @pytest.mark.parametrize(("obstacles", "speed"), [(10, 2.0), (20, 2.0), (10, 0.5)])
 def test_the_expert_demonstrates_as_in_python(node, obstacles, speed):
     worlds = random_worlds(25 if speed > 1 else 5, obstacles, seed=7)
-    shown = demonstrate(worlds, speed=speed)
+    demonstrations = demonstrate(worlds, speed=speed)
     body = """return data.worlds.map((world) => {
       const { steps, outcome } = page.expertDrive(world, data.speed);
       return { actions: steps.map(({ action }) => action), outcome };
@@ -58,5 +58,8 @@ def test_the_expert_demonstrates_as_in_python(node, obstacles, speed):
     given = {"worlds": [page_world(w) for w in worlds], "speed": speed}
     got = node(FILES, body, given)
     for i, each in enumerate(got):
-        assert each["actions"] == shown.actions[shown.trajectory == i].tolist(), i
-        assert each["outcome"] == shown.outcome[i]
+        assert (
+            each["actions"]
+            == demonstrations.actions[demonstrations.trajectory == i].tolist()
+        ), i
+        assert each["outcome"] == demonstrations.outcome[i]

@@ -23,14 +23,16 @@ SPEED, DISCOUNT = 2.0, 0.9
 
 
 @pytest.fixture(scope="module")
-def shown():
+def decisions():
     return expert_decisions(demonstrate(random_worlds(6, 20, seed=3)))
 
 
 @pytest.fixture(scope="module")
-def theta(shown):
+def theta(decisions):
     """Least squares on what the expert did: a reward that drives in some maps and not in others."""
-    return np.linalg.lstsq(shown.features, np.eye(5)[shown.actions], rcond=None)[0].T
+    return np.linalg.lstsq(
+        decisions.features, np.eye(5)[decisions.actions], rcond=None
+    )[0].T
 
 
 @pytest.fixture
@@ -38,36 +40,38 @@ def page(node):
     return partial(node, ("simulator", "maps", "reward_lab"))
 
 
-def lab(shown, theta, **changes):
+def lab(decisions, theta, **changes):
     worlds, others = {"one": random_worlds(1, 20, seed=5)}, random_worlds(3, 20, seed=6)
     return reward_lab(
-        **{"reward_weights": theta, "encoder": ENCODER, "decisions": shown} | changes,
+        **{"reward_weights": theta, "encoder": ENCODER, "decisions": decisions}
+        | changes,
         worlds=worlds,
         others=others,
     )
 
 
-def test_rewards_and_judgements_are_pythons(page, shown, theta):
-    data = lab(shown, theta).data
+def test_rewards_and_judgements_are_pythons(page, decisions, theta):
+    data = lab(decisions, theta).data
     body = """
       const [theta, inputs] = [page.unpack(data.theta).values, page.unpack(data.inputs).values];
-      const shown = { inputs, actions: page.unpack(data.actions).values, width: data.features.length - 1 };
-      const width = shown.width;
-      const all = [...shown.actions].map((_, m) => page.rewardsOf(theta, inputs.subarray(m * width, (m + 1) * width)));
-      return { all, ...page.judged(theta, shown) };"""
+      const decisions = { inputs, actions: page.unpack(data.actions).values, width: data.features.length - 1 };
+      const width = decisions.width;
+      const rewards = (m) => page.rewardsOf(theta, inputs.subarray(m * width, (m + 1) * width));
+      const all = [...decisions.actions].map((_, m) => rewards(m));
+      return { all, ...page.judged(theta, decisions) };"""
     seen = page(body, data)
-    np.testing.assert_allclose(seen["all"], shown.features @ theta.T, atol=1e-12)
+    np.testing.assert_allclose(seen["all"], decisions.features @ theta.T, atol=1e-12)
     assert seen["scale"] == pytest.approx(
-        np.percentile(abs(decision_rewards(theta, shown)), 95), abs=1e-12
+        np.percentile(abs(decision_rewards(theta, decisions)), 95), abs=1e-12
     )
     assert seen["agreement"] == np.mean(
-        (shown.features @ theta.T).argmax(axis=1) == shown.actions
+        (decisions.features @ theta.T).argmax(axis=1) == decisions.actions
     )
 
 
-def plan(shown, theta, depth):
-    encoder = lab(shown, theta).data["encoder"]
-    scale = float(np.percentile(abs(decision_rewards(theta, shown)), 95))
+def plan(decisions, theta, depth):
+    encoder = lab(decisions, theta).data["encoder"]
+    scale = float(np.percentile(abs(decision_rewards(theta, decisions)), 95))
     return {
         "theta": theta.ravel().tolist(),
         "encoder": encoder,
@@ -78,7 +82,7 @@ def plan(shown, theta, depth):
     }
 
 
-def test_a_robot_that_looks_no_further_drives_as_in_python(page, shown, theta):
+def test_a_robot_that_looks_no_further_drives_as_in_python(page, decisions, theta):
     worlds = random_worlds(60, 20, seed=7)
 
     def policy(sensing, rng):
@@ -90,7 +94,7 @@ def test_a_robot_that_looks_no_further_drives_as_in_python(page, shown, theta):
     drives = page(
         body,
         {
-            "plan": plan(shown, theta, 1),
+            "plan": plan(decisions, theta, 1),
             "worlds": [page_world(world) for world in worlds],
         },
     )
@@ -137,11 +141,11 @@ def copy_of(simulator):
     return other
 
 
-def test_values_ahead_are_those_of_brute_force(page, shown, theta):
+def test_values_ahead_are_those_of_brute_force(page, decisions, theta):
     worlds = random_worlds(12, 20, 6, seed=8)
     rng = np.random.default_rng(0)
     moments, expected = [], []
-    setting = plan(shown, theta, 2)
+    setting = plan(decisions, theta, 2)
     for world in worlds:
         simulator = Simulator(world, SPEED)
         for _ in range(12 + int(rng.integers(20))):
@@ -178,7 +182,7 @@ def test_percentiles_are_numpys(page):
 
 
 @pytest.mark.parametrize("target", ["number", "signed", "one-hot", "sine-cosine"])
-def test_every_feature_has_a_name(shown, target):
+def test_every_feature_has_a_name(decisions, target):
     encoder = replace(ENCODER, target=target)
     steps = expert_decisions(demonstrate(random_worlds(2, 20, seed=3)), encoder)
     features = lab(steps, np.zeros((5, encoder.size + 1)), encoder=encoder).data[
@@ -188,6 +192,6 @@ def test_every_feature_has_a_name(shown, target):
     assert features[-1]["kind"] == "constant"
 
 
-def test_weights_that_do_not_fit_are_refused(shown):
+def test_weights_that_do_not_fit_are_refused(decisions):
     with pytest.raises(ValueError, match="reward_weights must have shape"):
-        lab(shown, np.zeros((5, 4)))
+        lab(decisions, np.zeros((5, 4)))

@@ -141,7 +141,7 @@ def draws(keys, step, actions):
 
 
 class Seeded:
-    """A policy that draws its chances as the page does: by world, step and action."""
+    """A policy that draws its random numbers as the page does: by world, step and action."""
 
     def __init__(self, policy, worlds, speed, steps):
         self.policy, self.simulator, self.steps = (
