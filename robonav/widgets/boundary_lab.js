@@ -151,6 +151,7 @@ function render({ model, el }) {
     status,
     h("div", { class: "row" }, h("div", { class: "grow" }, map.element, h("div", { class: "probes" }, ...probes.map(({ element }) => element))), place),
     history.element,
+    h("p", { class: "label" }, "The cost J says how far the answers of the network are from the labels of all examples. An iteration is one step of the training."),
   );
   load();
   return time.stop;

@@ -8,6 +8,7 @@ const OBSTACLES = [10, 20, 30];
 const FEW = 25; // of the expert's demonstrations, as on the page
 const NO_STEP = "These demonstrations have no step with something in range, so there is nothing to learn from.";
 const NO_DRIVE = "There is nothing to learn from: drive a few maps in the playground, or choose the expert's demonstrations.";
+const ROOM = 700; // pixels from which on the settings are open at first
 const MOST_ROBOTS = 6; // of the reader's, that stay in the table
 
 function render({ model, el }) {
@@ -197,7 +198,7 @@ function render({ model, el }) {
   const kept = drivesList();
   el.replaceChildren(
     h("div", { class: "row" }, source.element, place), about,
-    h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element),
+    h("details", { open: (globalThis.innerWidth ?? Infinity) >= ROOM }, h("summary", {}, "How it learns"), h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element)),
     panel.element, table.element, view.element,
     h("div", { class: "row tools" }, download, h("label", { class: "file" }, h("span", {}, "try weights from a file (safetensors)"), upload), note),
     kept.element, kept.said, kernel.element);

@@ -137,6 +137,7 @@ function render({ model, el }) {
     status,
     h("details", {}, h("summary", {}, "Set the eleven inputs with sliders"), inputs.element),
     history.element,
+    h("p", { class: "label" }, "The cost J says how far the outputs of the network are from the expert's actions, over all demonstrated moments. An iteration is one step of the training."),
   );
   show();
   return time.stop;

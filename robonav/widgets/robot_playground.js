@@ -241,7 +241,7 @@ function render({ model, el }) {
     const number = nextMap(keptDrives());
     where.move(worlds.length);
     go(ownMap(number), number);
-    mineKept.say(`Map ${number}. Press ${whatSteers()}. While nothing is near, the robot goes on by itself; then it waits for you.`);
+    mineKept.say(`Map ${number}. Bring the robot to the circle without touching anything: press ${whatSteers()}. While nothing is near, it goes on by itself; then it waits for you.`);
     pick(policies.length);
   };
   const coast = h("input", { type: "checkbox", checked: true, change: () => {

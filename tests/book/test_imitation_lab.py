@@ -13,6 +13,7 @@ from driving import drive_map, fast, good_drive, keys_of, playground
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 from test_accessibility import AXE, RUN, ours
+from test_controls import choose_everything, slide_everything
 
 from robonav.benchmark.policies import method
 from robonav.lfd import concatenate, learn_policy, record, save_demonstrations
@@ -44,6 +45,14 @@ def view(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[V
 
 def opened(view: Visit, site: Path, widget: ImitationLab) -> Locator:
     return mounted(view, site.as_uri(), widget)
+
+
+def setting(lab: Locator, label: str) -> Locator:
+    """A setting of the training; on a phone they are folded at first."""
+    lab.locator("details", has_text="How it learns").evaluate(
+        "(fold) => { fold.open = true; }"
+    )
+    return lab.get_by_label(label)
 
 
 def said(lab: Locator) -> Locator:
@@ -93,7 +102,7 @@ def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
     drives = concatenate([good_drive(number) for number in range(1, 6)])
     ours = navigate(learn_policy(drives, regularisation=0.1), UNSEEN).success.mean()
     assert found["robot 1"] == pytest.approx(100 * ours, abs=8)
-    lab.get_by_label("regularisation λ").select_option("1")
+    setting(lab, "regularisation λ").select_option("1")
     train(lab)  # so much of it that few drives teach only the commonest action
     assert rates(lab)["robot 2"] == found["always straight on"]
 
@@ -114,7 +123,7 @@ def test_without_drives_the_page_says_so_and_offers_the_experts(view, site, widg
     lab.get_by_label("learn from", exact=True).select_option(
         "the expert's demonstrations"
     )
-    lab.get_by_label("iterations of L-BFGS").select_option("30")
+    setting(lab, "iterations of L-BFGS").select_option("30")
     train(lab)
     assert rates(lab)["robot 1"] > 80
 
@@ -141,8 +150,8 @@ def test_drives_that_collided_are_left_out(view, site, widget, tmp_path):
 
 def test_training_is_cancelled_and_begun_again(view, site, widget):
     lab = opened(view, site, widget)
-    lab.get_by_label("hidden units").select_option("32")
-    lab.get_by_label("iterations of L-BFGS").select_option("1000")
+    setting(lab, "hidden units").select_option("32")
+    setting(lab, "iterations of L-BFGS").select_option("1000")
     button = lab.get_by_role("button", name="Train")
     button.press("Enter")
     expect(
@@ -151,7 +160,7 @@ def test_training_is_cancelled_and_begun_again(view, site, widget):
     lab.get_by_role("button", name="Cancel").press("Enter")
     expect(said(lab)).to_contain_text("Cancelled. ")
     expect(lab.locator("tbody tr")).to_have_count(0)
-    lab.get_by_label("iterations of L-BFGS").select_option("3")
+    setting(lab, "iterations of L-BFGS").select_option("3")
     train(lab)
     expect(lab.locator("tbody tr")).to_have_count(3)
 
@@ -159,7 +168,7 @@ def test_training_is_cancelled_and_begun_again(view, site, widget):
 def test_without_a_worker_the_page_trains_itself(visit, site, widget):
     visit.page.add_init_script("delete globalThis.Worker")
     lab = opened(visit, site, widget)
-    lab.get_by_label("iterations of L-BFGS").select_option("10")
+    setting(lab, "iterations of L-BFGS").select_option("10")
     train(lab)
     assert visit.errors == []
 
@@ -199,9 +208,9 @@ def test_weights_from_a_file_are_tried_and_watched(view, site, widget, tmp_path)
 
 def test_other_maps_begin_a_new_table(view, site, widget):
     lab = opened(view, site, widget)
-    lab.get_by_label("iterations of L-BFGS").select_option("3")
+    setting(lab, "iterations of L-BFGS").select_option("3")
     train(lab)
-    lab.get_by_label("obstacles in the new maps").select_option("30")
+    setting(lab, "obstacles in the new maps").select_option("30")
     expect(lab.locator("tbody tr")).to_have_count(0)
     train(lab)
     unseen = random_worlds(200, 30, seed=2024)
@@ -221,3 +230,11 @@ def test_axe_finds_nothing_serious(visit, site, size, scheme, widget):
     visit.page.evaluate(AXE.read_text("utf-8"))
     assert [bad for bad in visit.page.evaluate(RUN) if ours(bad)] == []
     assert visit.page.evaluate("document.documentElement.scrollWidth") <= size["width"]
+
+
+def test_every_setting_changes_what_is_shown(visit, site, widget):
+    visit.page.set_viewport_size(PHONE)
+    lab = opened(visit, site, widget)
+    setting(lab, "hidden units")
+    choose_everything(lab)
+    slide_everything(lab)
