@@ -1,0 +1,146 @@
+"""The numbers that the pages of chapter 2 work by hand are those of the package, and stand on the pages."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from itertools import cycle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robonav import mdp
+from robonav.mdp.belief_planning import backup
+
+BOOK = Path(__file__).parents[3] / "book"
+
+
+@pytest.fixture
+def written() -> Callable[[str, str, str], str]:
+    """The text of a page from one heading to another."""
+    if not BOOK.is_dir():
+        pytest.skip("the book is not here")
+
+    def between(page: str, first: str, last: str) -> str:
+        text = (BOOK / f"{page}.md").read_text("utf-8")
+        start = text.index(first)
+        return text[start : text.index(last, start)]
+
+    return between
+
+
+def assert_written(text: str, numbers: object, digits: int) -> None:
+    for number in np.ravel(np.asarray(numbers, dtype=float)):
+        assert f"{number:.{digits}f}".replace("-0.000", "0.000") in text
+
+
+def test_two_states(written):
+    text = written("decision-processes", "### Two states, by hand", "## Action values")
+    transitions = [[[0.5, 0.5], [0, 1]], [[0, 1], [0, 1]]]
+    rewards = [[5, 10], [-1, -1]]
+    two = mdp.FiniteMDP(transitions, rewards, 0.95)
+    stay, leave = (mdp.policy_evaluation(two, policy) for policy in ([0, 0], [1, 0]))
+    assert stay[1] == pytest.approx(-20)
+    assert leave[0] == pytest.approx(-9)
+    assert_written(text, stay[0], 2)
+    equal = mdp.FiniteMDP(transitions, rewards, 10 / 11)
+    assert mdp.policy_evaluation(equal, [0, 0]) == pytest.approx(
+        mdp.policy_evaluation(equal, [1, 0])
+    )
+
+
+def test_three_sweeps(written):
+    text = written(
+        "dynamic-programming", "Take three cells A, B and C", "```{code-cell}"
+    )
+    goal = {"G": mdp.Cell(reward=1, ends=True)}
+    row = mdp.GridWorld(". . . G", legend=goal, slip=0.2).mdp(0.9)
+    swept = mdp.value_iteration(row, record=True).history[1:4, :3]
+    assert (swept > 0).tolist() == [
+        [False, False, True],
+        [False, True, True],
+        [True, True, True],
+    ]
+    assert swept[0, 2] == pytest.approx(0.8)
+    assert_written(text, swept[1:][swept[1:] > 0], 3)
+
+
+def test_returns_of_an_episode(written):
+    text = written("model-free-learning", "## Monte Carlo prediction", "The code below")
+    returns = mdp.discounted_return([0, 2, 0, 10], 0.9)
+    assert [f"{value:g}" for value in returns.round(2)] == ["9.09", "10.1", "9", "10"]
+    assert "9.09" in text
+    assert "10.1" in text
+    assert returns[[0, 2]].mean() == pytest.approx(9.045)
+    assert "9.045" in text
+
+
+class OneStep:
+    """One step from state 0 to state 1 with a reward of -1; then a time limit."""
+
+    def reset(self) -> tuple[int, dict]:
+        return 0, {}
+
+    def step(self, action: int) -> tuple[int, float, bool, bool, dict]:
+        return 1, -1.0, False, True, {}
+
+
+class ThirdAction:
+    """Random numbers that explore and then draw the last action."""
+
+    def __init__(self) -> None:
+        self.numbers = cycle([0.0, 0.99])
+
+    def random(self) -> float:
+        return next(self.numbers)
+
+
+@pytest.mark.parametrize(
+    ("method", "target"),
+    [(mdp.q_learning, 3.5), (mdp.sarsa, -0.1), (mdp.expected_sarsa, 2.96)],
+)
+def test_one_step_and_three_updates(written, method, target):
+    text = written("model-free-learning", "### The same step", "```{code-cell}")
+    q = [[2.0], [3.0, 5.0, 1.0]]
+    inspect.unwrap(method)(
+        OneStep(),
+        q,
+        [[0], [0, 0, 0]],
+        1,
+        discount=0.9,
+        learning_rate=lambda n: 0.5,
+        epsilon=lambda episode: 0.3,
+        rng=ThirdAction(),
+    )
+    assert q[0][0] == pytest.approx(2 + 0.5 * (target - 2))
+    assert f"= {target:g}$" in text
+    assert f"{q[0][0]:.2f}" in text
+
+
+def test_a_belief_update(written):
+    text = written("partial-observation", "### An update by hand", "```{code-cell}")
+    three = mdp.corridor("D..", accuracy=0.9, slip=0.1)
+    predicted = three.predict(three.uniform(), 1)
+    probability = three.observation_probabilities(three.uniform(), 1)[0]
+    assert_written(text, predicted, 3)
+    assert_written(text, predicted * three.likelihood(1, 0), 3)
+    assert_written(text, probability, 3)
+    assert_written(text, three.update(three.uniform(), 1, 0), 3)
+
+
+def test_a_backup_of_an_alpha_vector(written):
+    text = written(
+        "partial-observation", "Take the tiger with one step", "```{code-cell}"
+    )
+    tiger = mdp.tiger(accuracy=0.85, discount=0.95)
+    one_step = mdp.AlphaVectors(tiger.mdp.rewards.T, np.arange(3))
+    belief = np.array([0.85, 0.15])
+    for seen in (0, 1):
+        carried = tiger.likelihood(0, seen) * one_step.vectors
+        for value in carried @ belief:
+            assert f"{value:.3f}".rstrip("0") in text
+    two_steps = backup(tiger, belief[None], one_step)
+    assert two_steps.actions.tolist() == [0]
+    assert_written(text, two_steps.vectors, 2)
+    assert_written(text, two_steps.value(belief), 2)
