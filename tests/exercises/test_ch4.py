@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from robonav.grading.compare import as_numbers
+
 
 def some(rng, *shape):
     """Truth values, one true in each row at least."""
@@ -267,3 +269,94 @@ def test_band_of_an_open_end(answer, rng):
     """Leaves out the episodes that do not fill a block."""
     for block in (7, 12):
         answer.agrees(careers(rng, 5, 40), block, rng.integers(5, size=(40, 5)))
+
+
+SAFE, COZY, DANGEROUS, WON, FAILED = range(5)
+TABLE = np.array(
+    [
+        [0.0, -0.06, -0.1, 1.0, -1.0],
+        [0.03, 0.0, -0.06, 1.0, -1.0],
+        [0.05, 0.03, -0.02, 1.0, -1.0],
+    ]
+)
+
+
+def rooms(rng, side=9, obstacles=4):
+    """What kind of place each cell of a grid is, and where each of four moves leads."""
+    cells = rng.permutation(side**2)
+    rows, columns = np.divmod(np.arange(side**2), side)
+    blocked = cells[:obstacles]
+    away = np.min(
+        [np.maximum(abs(rows - rows[b]), abs(columns - columns[b])) for b in blocked],
+        axis=0,
+    )
+    kinds = np.select(
+        [away == 0, away == 1, away == 2], [FAILED, DANGEROUS, COZY], SAFE
+    )
+    kinds[cells[-1]] = WON
+    moves = [
+        np.clip(rows + down, 0, side - 1) * side + np.clip(columns + right, 0, side - 1)
+        for down, right in ((0, 1), (1, 0), (0, -1), (-1, 0))
+    ]
+    return kinds, np.array(moves)
+
+
+def arrived(kinds, moves, table, discount=0.95):
+    """The share of cells from which a robot arrives that acts optimally for the table."""
+    going = kinds < WON
+    rewards = np.where(going, table[np.minimum(kinds, DANGEROUS), kinds[moves]], 0.0)
+    values = np.zeros(len(kinds))
+    for _ in range(400):
+        values = np.where(going, (rewards + discount * values[moves]).max(axis=0), 0.0)
+    best = (rewards + discount * values[moves]).argmax(axis=0)
+    cells = np.arange(len(kinds))
+    for _ in range(len(kinds)):
+        cells = np.where(kinds[cells] < WON, moves[best[cells], cells], cells)
+    return (kinds[cells] == WON)[going].mean()
+
+
+def cured(answer, rng, raised):
+    """Yield arrivals with the original and with the cured table, and how many rewards the cure changed."""
+    for _ in range(8):
+        table = TABLE.copy()
+        for entry in rng.choice(9, size=raised, replace=False):
+            table[divmod(int(entry), 3)] += rng.uniform(0.2, 0.4)
+        got = as_numbers(answer.ask(table))
+        fits = got is not None and got.shape == (3, 5) and np.isfinite(got).all()
+        answer.check(bool(fits), "expected a table of 3 rows and 5 columns")
+        kept = np.allclose(got[:, WON:], table[:, WON:])
+        answer.check(kept, "expected the rewards for arrivals and collisions unchanged")
+        shares = [
+            [arrived(*room, one) for one in (TABLE, got.astype(float))]
+            for room in [rooms(rng) for _ in range(3)]
+        ]
+        right, own = (int(100 * share) for share in np.mean(shares, axis=0))
+        yield right, own, int((~np.isclose(got, table)).sum())
+
+
+@pytest.mark.part("4.8", points=3)
+def test_cure_one_raised_reward(answer, rng):
+    """The robot arrives where one reward had been raised."""
+    for right, own, _ in cured(answer, rng, 1):
+        answer.check(
+            own >= right - 2, f"expected {right} of 100 drives to arrive, got {own}"
+        )
+
+
+@pytest.mark.part("4.8", points=3)
+def test_cure_two_raised_rewards(answer, rng):
+    """The robot arrives where two rewards had been raised."""
+    for right, own, _ in cured(answer, rng, 2):
+        answer.check(
+            own >= right - 2, f"expected {right} of 100 drives to arrive, got {own}"
+        )
+
+
+@pytest.mark.part("4.8", points=2)
+def test_cure_changes_little(answer, rng):
+    """The robot arrives, and no more rewards change than had been raised."""
+    for right, own, changed in cured(answer, rng, 2):
+        answer.check(
+            own >= right - 2, f"expected {right} of 100 drives to arrive, got {own}"
+        )
+        answer.check(changed <= 2, f"expected at most 2 changed rewards, got {changed}")
