@@ -67,7 +67,12 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         "Training of chapter 4, compared with stable-baselines3's DQN. The ratio "
         "is that of learning steps to updates in a second.",
     ),
-    "Inverse reinforcement learning": ("nirl.py", (), False, "One run of chapter 5."),
+    "Inverse reinforcement learning": (
+        "nirl.py",
+        (),
+        False,
+        "Runs of chapter 5, and the four methods beside each other.",
+    ),
     "Decisions": (
         "decisions.py",
         (),

@@ -10,7 +10,7 @@ from robonav.robot import Navigation, Policy, Reflex, navigate
 from .chapter3 import setup as setup3
 from .chapter4 import setup as setup4
 from .chapter5 import setup as setup5
-from .runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers
+from .runner.experiment import Case, Experiment, Numbers, Plot
 from .runner.setup import Setup
 
 WORLDS = 400  # in which a run is tested
@@ -104,6 +104,6 @@ EXPERIMENTS = (
                 "nirl": dict(setup5.tuned("nirl")),
             },
         },
-        plot=SUCCESS_BARS,
+        plot=Plot("experiments.draw_points_lost"),
     ),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,7 +15,7 @@ from robonav.robot import (
     NNQL_SENSORS,
     REFLEX,
     Encoder,
-    Sensing,
+    ReflexRule,
     Worlds,
     draw_worlds,
     world_keys,
@@ -96,6 +96,9 @@ class NavigationTask:
         The reward of a step, by default that of Table 4.1.
     reflex : Reflex
         What the robot does before the policy is asked.
+    maps : int, optional
+        Number of different maps, through which the episodes of a seed go again and again. By default each episode has
+        a new map.
 
     Examples
     --------
@@ -116,16 +119,20 @@ class NavigationTask:
         default_factory=lambda: Encoder(NNQL_SENSORS, walls=True, target="number")
     )
     reward: Reward = reward
-    reflex: Callable[[Sensing, float], NDArray[np.int64]] = REFLEX
+    reflex: ReflexRule | None = REFLEX
+    maps: int | None = None
 
     def __post_init__(self) -> None:
         check_positive("speed", self.speed)
         check_integer("max_steps", self.max_steps, at_least=1)
+        if self.maps is not None:
+            check_integer("maps", self.maps, at_least=1)
 
     def worlds(self, seeds: Sequence[int], first: int, last: int) -> Worlds:
         """The worlds of episodes ``first`` to ``last - 1`` of each seed, one seed after the other."""
+        episodes = np.arange(first, last) % (self.maps or last)
         keys = [
-            world_keys(last, int(make_rng(seed, WORLDS).integers(2**63)))[first:]
+            world_keys(last, int(make_rng(seed, WORLDS).integers(2**63)))[episodes]
             for seed in seeds
         ]
         return draw_worlds(

@@ -60,6 +60,38 @@ def draw_bars(results: Results, metric: str, label: str) -> Figure:
     return figure
 
 
+def draw_points_lost(results: Results) -> Figure:
+    """Draw how many points of success each policy loses where its reflex knows only the sector of the target.
+
+    One row for each policy of a chapter, with 95 % intervals over seeds: policies that were trained with exact
+    directions, or not at all, above those that were trained with sectors.
+    """
+    cases = results.experiment.cases
+    names = list(dict.fromkeys((case["chapter"], case["policy"]) for case in cases))
+    figure, axes = plt.subplots(figsize=(5.2, 0.42 * len(names) + 1.6))
+    for place, case in enumerate(cases):
+        if case["driving"] == "exact":
+            continue
+        summary = results.summary("points lost", place)
+        too = case["training"] == "sector"
+        row = names.index((case["chapter"], case["policy"])) + (0.14 if too else -0.14)
+        colour = THESIS if too else OURS
+        axes.plot([summary.low, summary.high], [row, row], color=colour, linewidth=2.5)
+        axes.plot(summary.mean, row, "s" if too else "o", color=colour, markersize=6)
+    axes.axvline(0, color=style.INK, linewidth=1)
+    axes.set(
+        yticks=range(len(names)),
+        yticklabels=[f"{policy}, chapter {chapter}" for chapter, policy in names],
+        xlabel="points of success lost",
+    )
+    axes.plot([], [], "o", color=OURS, label="not trained with sectors")
+    axes.plot([], [], "s", color=THESIS, label="trained with sectors, too")
+    axes.legend(loc="lower center", bbox_to_anchor=(0.4, 1.0), ncols=2)
+    axes.invert_yaxis()
+    axes.grid(axis="y", visible=False)
+    return figure
+
+
 def draw_board(results: Results, metric: str) -> Figure:
     """Draw the leaderboard: one cell for each method and setting, dark where the percentage is high."""
     cases = results.experiment.cases

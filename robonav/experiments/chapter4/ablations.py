@@ -1,4 +1,4 @@
-"""Failures of learning: reward, temperature, encoding and scaling are changed one at a time (not in the thesis)."""
+"""Failures of learning, one choice changed at a time; NFQ that fits late; NNQL that trains in few maps."""
 
 from __future__ import annotations
 
@@ -14,8 +14,16 @@ from robonav.nnql.reward import REWARDS, TABLE, reward_row
 from robonav.robot import NNQL_SENSORS, Encoder, Sensing, nnql_state
 from robonav.robot.environment_settings import Reward, arrival_or_collision
 
-from ..runner.experiment import Case, Experiment, Numbers, Plot
-from .setup import ABOUT, EVALUATION_TEMPERATURE, SETUP, evaluate, training, tuned
+from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers, Plot
+from .setup import (
+    ABOUT,
+    EPISODES,
+    EVALUATION_TEMPERATURE,
+    SETUP,
+    evaluate,
+    training,
+    tuned,
+)
 
 Array = NDArray[np.float64]
 
@@ -113,6 +121,31 @@ def vary(case: Case, seed: int, scale: str) -> Numbers:
     return rates | {"last episodes": 100 * trained.successes[0, -100:].mean()}
 
 
+FIT_ONCE = "once, after all episodes"
+FITS: dict[str, dict[str, Any]] = {
+    "every 20 episodes, 20 sweeps": {},
+    f"{FIT_ONCE}, 20 sweeps": {"episodes_per_fit": EPISODES},
+    f"{FIT_ONCE}, 300 sweeps": {"episodes_per_fit": EPISODES, "sweeps": 300},
+}
+"""When NFQ fits its network. The last has as many sweeps in all as the first."""
+
+
+def fit_later(case: Case, seed: int, scale: str) -> Numbers:
+    """NFQ as tuned, or as in section 4.5.3: its training begins when all data have been collected."""
+    changes = FITS[str(case["fits"])]
+    trained = training("nfq", seed, scale, tuned()["nfq"] | changes)
+    rates = evaluate(trained.policies[0], SETUP.test_worlds(seed, scale))
+    return rates | {"successful episodes of training": 100 * trained.successes.mean()}
+
+
+def in_few_maps(case: Case, seed: int, scale: str) -> Numbers:
+    """NNQL trained in a new map in each episode, or again and again in a few maps; tested in new maps."""
+    maps = None if case["maps"] == "new" else int(case["maps"])
+    trained = training("nnql", seed, scale, tuned()["nnql"], maps=maps)
+    rates = evaluate(trained.policies[0], SETUP.test_worlds(seed, scale))
+    return rates | {"last 100 episodes": 100 * trained.successes[0, -100:].mean()}
+
+
 CIRCLES = Experiment(
     name="nnql-circles",
     title="Outcomes of NNQL with one choice changed at a time: reward, temperature, encoding, rescaling, discount",
@@ -129,6 +162,25 @@ CIRCLES = Experiment(
         "otherwise": dict(tuned()["nnql"]),
     },
     plot=Plot("nnql.plot_variations"),
+)
+
+LATE_FITS = Experiment(
+    name="nfq-late",
+    title="Success of NFQ that fits its network now and then, or once, when all data have been collected",
+    cases=[{"fits": fits} for fits in FITS],
+    run=fit_later,
+    seeds={"quick": 1, "thesis": 24},
+    settings={**ABOUT, "otherwise": dict(tuned()["nfq"])},
+    plot=SUCCESS_BARS,
+)
+FEW_MAPS = Experiment(
+    name="nnql-maps",
+    title="Success in new maps of NNQL by the number of maps in which it trains",
+    cases=[{"maps": maps} for maps in ("new", 30, 10, 3, 1)],
+    run=in_few_maps,
+    seeds={"quick": 1, "thesis": 24},
+    settings={**ABOUT, "settings": dict(tuned()["nnql"])},
+    plot=SUCCESS_BARS,
 )
 
 EXPERIMENTS = (CIRCLES,)

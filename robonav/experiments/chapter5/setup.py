@@ -104,14 +104,14 @@ def demonstrations(
     return demonstrate(worlds, speed=SETUP.speed, reflex=reflex)
 
 
-def encoder(target: str) -> Encoder:
+def encoder(target: str, sensors: tuple[int, ...] = NNQL_SENSORS) -> Encoder:
     """Return phi(s) of section 5.4.1, with one of the encodings of the target's sector."""
-    return Encoder(NNQL_SENSORS, walls=True, target=target)
+    return Encoder(sensors, walls=True, target=target)
 
 
 def task(target: str = "sine-cosine", **changes: Any) -> RobotTask:
     """Return the training task: 20 obstacles, 2 m/s, ten episodes in each iteration."""
-    return RobotTask(EPISODES_PER_ITERATION, encoder=encoder(target), **changes)
+    return RobotTask(EPISODES_PER_ITERATION, **({"encoder": encoder(target)} | changes))
 
 
 def policy_improvement(settings: Settings) -> ReplaySGD:
@@ -219,6 +219,8 @@ def cloned_policy(
     settings: Settings,
     number: int = DEMONSTRATIONS,
     expert: str = "computer",
+    *,
+    inputs: Encoder | None = None,
 ) -> NetworkPolicy:
     """Return the policy of behaviour cloning from the same demonstrations, as in chapter 3."""
     return learn_policy(
@@ -227,7 +229,7 @@ def cloned_policy(
         settings["regularisation"],
         settings["iterations"],
         seed,
-        encoder=encoder(settings["target"]),
+        encoder=inputs or encoder(settings["target"]),
     )
 
 

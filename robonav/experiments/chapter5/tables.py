@@ -130,6 +130,19 @@ def _cases(methods: Sequence[str], discount: float | str) -> list[Case]:
     return [{"method": method, "discount": discount} for method in methods]
 
 
+def _inputs_of_methods() -> str:
+    """Return the sentence on what the networks of Table 5.2 read: each method has the encoding of its best trial."""
+    by_target: dict[str, list[str]] = {}
+    for method in METHODS:
+        target = str(tuned(method)["target"])
+        by_target.setdefault(target, []).append(method.replace("_", " "))
+    groups = [f"{', '.join(names)}: {target}" for target, names in by_target.items()]
+    return (
+        "All networks read seven sensors, their wall flags, whether the target is seen, and its sector, in the "
+        f"encoding of the method's best trial ({'; '.join(groups)})."
+    )
+
+
 # The order of the baselines differs from that of the other tables; the order of results is kept.
 _BASELINES = ("freer-side", "straight")
 
@@ -163,6 +176,7 @@ TABLE_5_2 = Experiment(
     seeds={"quick": 2, "thesis": 25},
     thesis={"success": [83, 66, 78, 79, *[None] * (len(COMPARED) - 4)]},
     settings=_ABOUT,
+    note=_inputs_of_methods(),
     plot=Plot("nirl.plot_comparison", discount=DISCOUNT),
 )
 WITHOUT_BONUS = Experiment(

@@ -82,6 +82,8 @@ class Experiment:
     shortened : str
         How a quick run shortens the training. The numbers of such a run cannot be compared with those at the thesis's
         scale. If the string is empty, a quick run only has fewer seeds and fewer navigations.
+    note : str
+        A sentence that readers need to compare the cases. It stands below the table.
     plot : Plot or str
         The function that draws the results, or the reason why there is no figure.
 
@@ -106,6 +108,7 @@ class Experiment:
     thesis: Mapping[str, Sequence[float | None]] = field(default_factory=dict)
     settings: Mapping[str, Any] = field(default_factory=dict)
     shortened: str = ""
+    note: str = ""
     plot: Plot | str = ""
 
     def __post_init__(self) -> None:

@@ -12,7 +12,7 @@ from .statistics import Summary
 
 
 def as_text(results: Results) -> str:
-    """Return a title, and one line for each case and metric: mean, interval, worst, best, and the thesis's number."""
+    """Return a title, a line for each case and metric (mean, interval, worst, best, the thesis's number), the note."""
     experiment = results.experiment
     seeds = experiment.seeds[results.scale]
     heading = [results.scale, "1 run a case" if seeds == 1 else f"{seeds} runs a case"]
@@ -26,7 +26,7 @@ def as_text(results: Results) -> str:
             beside = "" if number is None else f"; thesis {number:g}"
             summary = _long(results.summary(metric, place))
             lines.append(f"  {label}: {metric} {summary}{beside}")
-    return "\n".join(lines)
+    return "\n".join([*lines, *([f"  {experiment.note}"] if experiment.note else [])])
 
 
 def as_table(
@@ -85,13 +85,14 @@ def thesis_number(results: Results, metric: str, case: int) -> float | None:
 
 
 def number_of_runs(results: Results) -> str:
-    """Return a sentence with the number of runs of each case."""
+    """Return a sentence with the number of runs of each case, and the experiment's note."""
     runs = results.experiment.seeds[results.scale]
-    return (
+    number = (
         "One run a case."
         if runs == 1
         else f"{runs} runs a case; mean and 95 % interval over runs."
     )
+    return f"{number} {results.experiment.note}".strip()
 
 
 def short(summary: Summary) -> str:

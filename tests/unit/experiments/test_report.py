@@ -1,11 +1,14 @@
 """Tables of results for people."""
 
+from dataclasses import replace
+
 from robonav.experiments import Experiment, Results
 from robonav.experiments.runner.report import (
     as_json,
     as_markdown,
     as_table,
     as_text,
+    number_of_runs,
     short,
 )
 from robonav.experiments.runner.statistics import summarise
@@ -51,6 +54,14 @@ def test_markdown_shows_what_varies_ours_and_the_thesis():
     assert lines[2] == "| a | 10 | 91.0 [90.0, 92.0] | 100.0 [100.0, 100.0] | 98 |"
     assert lines[4] == "| b | 10 | 71.0 [70.0, 72.0] | 100.0 [100.0, 100.0] | 56.5 |"
     assert lines[5] == "| b | 20 | 61.0 [60.0, 62.0] |  |  |"
+
+
+def test_a_note_stands_below_the_table_and_the_text():
+    noted = replace(EXPERIMENT, note="Method b reads more.")
+    with_note = replace(results(), experiment=noted)
+    assert number_of_runs(with_note).endswith("over runs. Method b reads more.")
+    assert as_text(with_note).splitlines()[-1] == "  Method b reads more."
+    assert as_text(with_note).splitlines()[:-1] == as_text(results()).splitlines()
 
 
 def test_a_table_of_two_dimensions():

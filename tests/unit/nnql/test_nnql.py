@@ -248,3 +248,19 @@ def test_task_of_another_type(task):
     kind = type(task).__name__
     with pytest.raises(TypeError, match=f"task must be NavigationTask, got {kind}"):
         train("nnql", seeds=1, episodes=1, task=task)
+
+
+def test_episodes_go_through_a_task_s_maps_again_and_again():
+    new, three = NavigationTask(), NavigationTask(maps=3)
+    first = new.worlds([4, 5], 0, 8)
+    again = three.worlds([4, 5], 0, 8)
+    for seed in (0, 8):  # the episodes of the second seed follow those of the first
+        for episode in range(8):
+            np.testing.assert_array_equal(
+                again.centres[seed + episode], first.centres[seed + episode % 3]
+            )
+    np.testing.assert_array_equal(
+        three.worlds([4], 4, 6).centres, first[[1, 2]].centres
+    )
+    with pytest.raises(ValueError, match="maps must be at least 1, got 0"):
+        NavigationTask(maps=0)
