@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from browser import DESKTOP, PHONE, Visit
+from browser import DESKTOP, PHONE, Visit, swipe, tap
 from mounting import BLANK, mounted_alone
 from playwright.sync_api import Locator, expect
 from test_accessibility import AXE, RUN, ours
@@ -114,3 +114,24 @@ def test_axe_finds_nothing_serious(visit: Visit, size: dict, theme: str) -> None
     visit.page.evaluate(AXE.read_text("utf-8"))
     assert [bad for bad in visit.page.evaluate(RUN) if ours(bad)] == []
     assert visit.page.evaluate("document.documentElement.scrollWidth") <= size["width"]
+
+
+def test_a_finger_adds_a_key_point_and_drags_it(visit: Visit) -> None:
+    visit.page.set_viewport_size(PHONE)
+    visit.open(BLANK.as_uri())
+    visit.page.evaluate("() => localStorage.clear()")
+    lab = mounted_alone(visit, key_points_lab())
+    board = lab.locator("canvas.map")
+    board.scroll_into_view_if_needed()
+    corner = board.bounding_box()
+
+    def on_screen(point: list[float]) -> tuple[float, float]:
+        at = place(lab, point)
+        return corner["x"] + at["x"], corner["y"] + at["y"]
+
+    options = lab.get_by_label("key point", exact=True).locator("option")
+    tap(visit.page, *on_screen([20, 50]))
+    expect(options).to_have_text([re.compile(r"1: \((19|20)\.\d, (49|50)\.")])
+    swipe(visit.page, on_screen([20, 50]), on_screen([40, 70]))
+    expect(options).to_have_text([re.compile(r"1: \((39|40)\.\d, (69|70)\.")])
+    assert visit.errors == []
