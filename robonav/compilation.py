@@ -43,6 +43,7 @@ def compiler(
             return (*super()._index_key(sig, codegen), *digests)
 
     def compiled(function: Any) -> Any:
+        """Compile a kernel, with a cache that depends on the files it uses."""
         kernel: Any = njit(nogil=True, error_model="numpy", inline=where)(function)
         try:
             kernel._cache = Cache(function)

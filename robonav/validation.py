@@ -224,6 +224,7 @@ def checks(
     """
 
     def decorate(function: Callable[P, R]) -> Callable[P, R]:
+        """Check the arguments of this function."""
         signature = inspect.signature(function)
         optional = {
             name
@@ -233,6 +234,7 @@ def checks(
 
         @functools.wraps(function)
         def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+            """Check the arguments, then call the function."""
             bound = signature.bind(*args, **kwargs)
             bound.apply_defaults()
             arguments = bound.arguments

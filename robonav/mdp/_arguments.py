@@ -110,10 +110,12 @@ def refuses_impossible(
     """
 
     def decorate(update: Callable[P, NDArray[Any]]) -> Callable[P, NDArray[Any]]:
+        """Let this update refuse an observation that cannot be."""
         signature = inspect.signature(update)
 
         @wraps(update)
         def updated(*args: P.args, **kwargs: P.kwargs) -> NDArray[Any]:
+            """Update the belief, if the observation is possible."""
             with np.errstate(invalid="ignore"):
                 posterior = update(*args, **kwargs)
             if np.isnan(posterior).any():

@@ -49,10 +49,12 @@ def warns_not_converged(
     """
 
     def decorate(method: Callable[P, R]) -> Callable[P, R]:
+        """Let this function warn where it did not converge."""
         signature = inspect.signature(method)
 
         @wraps(method)
         def run(*args: P.args, **kwargs: P.kwargs) -> R:
+            """Call the function, and warn where it did not converge."""
             result = method(*args, **kwargs)
             if not result.converged:
                 call = signature.bind(*args, **kwargs)

@@ -161,6 +161,7 @@ def schedule(name: str, value: float | Schedule | None) -> Schedule:
         return constant(_rate(name, value))
 
     def checked(n: int) -> float:
+        """The rate of an event, checked."""
         rate = value(n)
         return (
             rate

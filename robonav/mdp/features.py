@@ -162,6 +162,7 @@ def with_bias(features: Features) -> Features:
     """
 
     def extended(state: Any) -> NDArray[np.float64]:
+        """The features with a constant in front."""
         found = features(state)
         return np.hstack([np.ones((len(found), 1)), found])
 

@@ -253,6 +253,7 @@ def checked_features(
     """The features, which raise a ValueError if their shape changes or the weights have grown without bound."""
 
     def find(state: Any) -> NDArray[np.float64]:
+        """The features of a state, checked."""
         check_weights(weights)
         found = np.asarray(features(state))
         if found.shape != shape:

@@ -27,6 +27,7 @@ def takes_values(method: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(method)
     def checked(self: FiniteMDP, values: ArrayLike) -> Any:
+        """Check the values, then call the method."""
         return method(self, check_array("values", values, shape=(self.n_states,)))
 
     return checked

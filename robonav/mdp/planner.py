@@ -53,12 +53,14 @@ def planner(
     """
 
     def decorate(algorithm: Callable[P, Solution]) -> Callable[P, Solution]:
+        """Make a planner of this algorithm."""
         signature = inspect.signature(algorithm)
         name = algorithm.__name__
 
         @checked
         @wraps(algorithm)
         def plan(*args: P.args, **kwargs: P.kwargs) -> Solution:
+            """Fill in the start, run the algorithm or its twin, and warn where it did not converge."""
             call = signature.bind(*args, **kwargs)
             call.apply_defaults()
             mdp, tolerance = call.arguments["mdp"], call.arguments["tolerance"]

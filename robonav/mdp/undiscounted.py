@@ -37,6 +37,7 @@ def once_per_model(function: Callable[[FiniteMDP], Any]) -> Callable[[FiniteMDP]
 
     @wraps(function)
     def kept(mdp: FiniteMDP) -> Any:
+        """The answer for a model, kept for the next call."""
         if mdp not in known:
             known[mdp] = function(mdp)
         return known[mdp]

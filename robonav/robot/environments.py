@@ -60,6 +60,7 @@ def while_running(
 
     @wraps(step)
     def checked(env: NavigationEnv, action: int) -> Step:
+        """Check the state of the episode and the action, then make the step."""
         if env.outcome is None:
             raise ValueError("step: call reset first")
         if env.outcome != RUNNING:

@@ -142,6 +142,7 @@ def valid_actions(choose: Chooser) -> Chooser:
     def checked(
         simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
     ) -> NDArray[np.int64]:
+        """Ask the chooser, and check its actions."""
         return check_actions(choose(simulator, sensing, robots), (len(robots),))
 
     return checked

@@ -134,6 +134,7 @@ def _progress(report: Report, before: int, of_all: int) -> Progress:
     """A callback of a training that begins when ``before`` of ``of_all`` episodes are done."""
 
     def progress(done: int, total: int) -> None:
+        """Tell the page how far the training is."""
         report(before + done, of_all)
 
     return progress

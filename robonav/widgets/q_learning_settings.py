@@ -106,6 +106,7 @@ class QLearningSettings:
         def reward(
             before: Sensing, after: Sensing, outcome: NDArray[np.int8]
         ) -> NDArray[np.float64]:
+            """The reward of a step of N robots."""
             row = reward_row(before, after, outcome)
             farther = after.ranges.min(axis=1) > before.ranges.min(axis=1)
             unpaid = self.must_move_away & np.isin(row, EVADING) & ~farther

@@ -155,6 +155,7 @@ def _watcher(
     done = 0
 
     def watch(network: Network, decisions: Decisions) -> None:
+        """Tell the page about an iteration."""
         nonlocal done
         done += 1
         predicted = greedy_actions(network, expert.inputs)

@@ -69,6 +69,7 @@ def asks(
     """Register the function below as the numbers of an explorable; see :class:`Question`."""
 
     def register(given: Callable[..., dict[str, Any]]) -> Callable[..., dict[str, Any]]:
+        """Keep the function and what is asked about its numbers."""
         asked = Question(title, question, guesses, right, because, files, given)
         EXPLORABLES[asked.name] = asked
         return given
