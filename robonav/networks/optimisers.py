@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from robonav.progress import Progress
 from robonav.validation import check_array, check_integer, check_positive, check_real
 
-from ._checks import checked_examples
+from ._checks import checked_examples, documented
 from .costs import SQUARED_ERROR, Objective
 from .multilayer_perceptron import (
     Array,
@@ -57,6 +57,7 @@ def one_hot(actions: ArrayLike, count: int) -> Array:
     return np.eye(width)[indices]
 
 
+@documented
 def gradient_descent(
     network: Network,
     x: ArrayLike,
@@ -75,22 +76,12 @@ def gradient_descent(
     ----------
     network : Network
         Where to start.
-    x : (m, s[0]) array
-        Inputs.
-    y : (m, s[-1]) array
-        Labels in [0, 1].
     gradient_step : float
         The step alpha, positive; the thesis calls it the learning rate. With too large a step the cost rises or jumps.
     iterations : int
         Steps to take, at most 100,000.
-    regularisation : float
-        lambda, at least 0.
     objective : Objective
         ``SQUARED_ERROR`` or ``CROSS_ENTROPY``.
-    record : bool
-        Whether to keep the network of every iteration.
-    progress : callable, optional
-        Called as ``progress(done, iterations)``.
 
     Returns
     -------
@@ -127,6 +118,7 @@ def gradient_descent(
     return recorder.history()
 
 
+@documented
 def lbfgs(
     network: Network,
     x: ArrayLike,
@@ -145,18 +137,8 @@ def lbfgs(
     ----------
     network : Network
         The network to start from.
-    x : (m, s[0]) array
-        Inputs.
-    y : (m, s[-1]) array
-        Labels in [0, 1].
-    regularisation : float
-        lambda, at least 0.
     iterations : int
         Steps to take, at most 100,000.
-    record : bool
-        Whether to keep the network of every iteration.
-    progress : callable, optional
-        Called as ``progress(done, iterations)``.
 
     Returns
     -------
@@ -188,6 +170,7 @@ def lbfgs(
     return recorder.history()
 
 
+@documented
 def fit(
     x: ArrayLike,
     y: ArrayLike,
@@ -209,16 +192,10 @@ def fit(
         Labels in [0, 1], such as :func:`one_hot` actions.
     hidden : int or sequence of int
         Units of the hidden layer, or of several; () for none.
-    regularisation : float
-        lambda, at least 0.
     iterations : int
         The most iterations of L-BFGS, at most 100,000.
     seed : int or Generator
         Of the initial weights.
-    record : bool
-        Whether to keep the network of every iteration.
-    progress : callable, optional
-        Called as ``progress(done, iterations)``.
 
     Returns
     -------

@@ -40,7 +40,7 @@ from .maximum_entropy import (
     soft_value_iteration,
 )
 from .model_selection import accuracy, balanced_accuracy
-from .nirl import nirl
+from .nirl import nirl, sarsa_descent
 from .policy import (
     boltzmann_policy,
     exploring_policy,
@@ -55,7 +55,6 @@ from .policy_improvement import (
     ReplaySGD,
     decision_rewards,
     policy_cost,
-    sarsa_descent,
     sarsa_targets,
     scale_to_unit_interval,
 )

@@ -1,4 +1,4 @@
-"""Neural inverse reinforcement learning: Algorithm 10."""
+"""Neural inverse reinforcement learning, Algorithm 10, and the descent with which it improves its policy."""
 
 from __future__ import annotations
 
@@ -6,15 +6,21 @@ import math
 
 import numpy as np
 
-from robonav.networks.multilayer_perceptron import random_network
+from robonav.networks.multilayer_perceptron import Network, random_network, sigmoid
 from robonav.progress import Progress
 
 from ._arguments import checked
-from .decisions import Decisions, concatenate
+from .decisions import Decisions, Floats, Ints, concatenate
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, balanced_accuracy
 from .policy import exploring_policy, neural_action_values
-from .policy_improvement import Improver, ReplaySGD, decision_rewards
+from .policy_improvement import (
+    Improved,
+    Improver,
+    ReplaySGD,
+    decision_rewards,
+    sarsa_targets,
+)
 from .reward_update import RewardUpdate, SubgradientMaxMargin, expert_margin
 from .tasks import Task
 from .training import IRLRecorder, IRLResult
@@ -105,7 +111,83 @@ def nirl(
         pairs = concatenate(episodes[-improver.replay :])
         rewards = decision_rewards(reward, pairs)  # 9: theta . f(s, a)
         fraction = (i - 1) / max(iterations - 1, 1)
-        # 9, 10: SARSA targets, Eq. (5.16), and descent on the cost, Eq. (5.15)
+        # 9, 10: SARSA targets, Eq. (5.16), and descent towards them: sarsa_descent, below
         network, cost = improver.descend(network, pairs, rewards, fraction, rng)
         record.add(episodes[-1], reward, network, cost)
     return record.result(score)
+
+
+def sarsa_descent(
+    network: Network,
+    decisions: Decisions,
+    rewards: Floats,
+    terminal_values: Floats,
+    order: Ints,
+    *,
+    learning_rate: float,
+    discount: float,
+    gradient_step: float,
+) -> Improved:
+    """Stochastic gradient descent on the cost, one transition at a time, with SARSA targets.
+
+    Each step computes the target of one transition with the current weights, by Eq. (5.16), and clips it into [0, 1].
+    It then changes the weights against the gradient of the cross-entropy of the output of the action taken.
+
+    Parameters
+    ----------
+    network : Network
+        One hidden layer.
+    decisions : Decisions
+        M decisions.
+    rewards : (M,) array
+        In units of the network's output.
+    terminal_values : (M,) array
+        Future value after a decision that is the last one of its episode.
+    order : array of int
+        Indices of the decisions to train on, one step for each.
+    learning_rate, discount, gradient_step : float
+        alpha, gamma and sigma.
+
+    Returns
+    -------
+    Improved
+        The network, and the mean cost, of each step before its change of the weights.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.nirl import Decisions, sarsa_descent
+    >>> nothing = np.zeros(1, dtype=int)
+    >>> one = Decisions(np.ones((1, 2)), nothing, nothing, nothing, nothing, nothing)
+    >>> start = random_network((2, 3, 1), seed=0)
+    >>> order = np.zeros(500, dtype=int)
+    >>> rates = {"learning_rate": 0.8, "discount": 0.5, "gradient_step": 1.0}
+    >>> network, cost = sarsa_descent(start, one, np.array([0.5]), np.array([0.8]), order, **rates)
+    >>> network.forward(one.inputs).round(2)  # 0.5 + 0.5 * 0.8
+    array([[0.9]])
+    """
+    w1, w2 = (weight.copy() for weight in network.weights)
+    b1, b2 = (bias.copy() for bias in network.biases)
+    inputs, actions = decisions.inputs, decisions.actions
+    following = decisions.next_index
+    rates = {"learning_rate": learning_rate, "discount": discount}
+    cost = 0.0
+    for i in order:
+        next_q, k = terminal_values[i], following[i]
+        if k >= 0:  # the episode went on: Q(s', a') of the next decision
+            x, a = inputs[k], actions[k]
+            next_q = sigmoid(w2[a] @ sigmoid(w1 @ x + b1) + b2[a])
+        x, a = inputs[i], actions[i]
+        hidden = sigmoid(w1 @ x + b1)
+        z = w2[a] @ hidden + b2[a]
+        q = sigmoid(z)
+        target = sarsa_targets(q, rewards[i], next_q, **rates).clip(0, 1)  # Eq. (5.16)
+        cost += np.logaddexp(0, z) - target * z  # cross-entropy, as in Eq. (5.15)
+        delta = gradient_step * (q - target)  # its derivative by z, times sigma
+        back = delta * w2[a] * hidden * (1 - hidden)
+        w2[a] -= delta * hidden
+        b2[a] -= delta
+        w1 -= np.outer(back, x)
+        b1 -= back
+    return Improved(Network((w1, w2), (b1, b2)), cost / max(len(order), 1))
