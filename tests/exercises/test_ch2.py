@@ -386,7 +386,8 @@ def test_explorer_on_the_border(answer, rng):
 def test_explorer_that_has_seen_nothing(answer, rng):
     """Gives all pairs the largest possible value before the first step."""
     nothing = np.zeros((0, 3), dtype=int), np.zeros(0), np.zeros(0, dtype=bool)
-    answer.agrees(*nothing, (3, 2), 1, 1.5, 0.75)
+    size = tuple(rng.integers(2, 6, size=2).tolist())
+    answer.agrees(*nothing, size, 1, rng.uniform(1, 3), rng.uniform(0.5, 0.9))
 
 
 def arrivals(answer, worlds):

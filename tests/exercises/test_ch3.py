@@ -182,10 +182,11 @@ def test_successors_by_the_border(answer, rng):
 @pytest.mark.part("3.4", points=1)
 def test_successors_where_there_are_none(answer, rng):
     """Returns no row where no action is possible, and allows a step that keeps exactly the margin."""
-    pose = np.array([10.0, 10.0, 0.0])
-    for centre, radius, margin in (([10.0, 11.0], 1.0, 0.5), ([14.0, 10.0], 1.0, 1.0)):
-        obstacle = np.array([centre]), np.array([radius])
-        answer.agrees(pose, 2.0, 1.0, *obstacle, 20.0, margin, at=PLACES)
+    for beside, margin in (([0.0, 1.0], 0.5), ([4.0, 0.0], 1.0)):
+        place = rng.integers(6, 15, size=2).astype(float)
+        obstacle = place[None] + beside, np.ones(1)
+        pose, turn_cost = np.append(place, 0.0), rng.uniform(0.5, 2)
+        answer.agrees(pose, 2.0, turn_cost, *obstacle, 20.0, margin, at=PLACES)
 
 
 def demonstration(rng, length, few=3):
@@ -314,11 +315,13 @@ def test_cheapest_through_mazes(answer, rng):
 @pytest.mark.part("3.7", points=2)
 def test_cheapest_without_a_path(answer, rng):
     """Returns infinity where there is no path, and 0 where the start is at the goal."""
-    blocked = np.zeros((4, 4), dtype=bool)
-    blocked[:, 2] = True
-    answer.agrees(blocked, (0, 0, 0), (3, 3), 0.5)
-    answer.agrees(blocked, (1, 1, 3), (1, 1), 0.5)
-    answer.agrees(blocked, (1, 1, 3), (2, 2), 0.5)
+    blocked = np.zeros((5, 6), dtype=bool)
+    wall = int(rng.integers(2, 5))
+    blocked[:, wall] = True
+    row, goal, heading = (int(rng.integers(n)) for n in (5, 5, 8))
+    turn_cost = round(rng.uniform(0.2, 1.0), 3)
+    for cell in ((goal, 5), (row, 0), (goal, wall)):  # beyond it, here, and inside
+        answer.agrees(blocked, (row, 0, heading), cell, turn_cost)
 
 
 @pytest.mark.part("3.7", points=1)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from robonav.grading import frames
 from robonav.grading.cases import PUBLIC, parts_of
 from robonav.grading.check import InProcessCalls, graded
 from robonav.grading.course import Course, trusted
@@ -171,3 +172,18 @@ def test_the_solution_leaves_its_arguments_alone(exercise):
         return answer
 
     assert grade(exercise, watched)["state"] == "correct"
+
+
+def test_answers_known_by_heart_earn_nothing_on_other_cases(exercise):
+    """No case is the same under every secret."""
+    function, known = solution(COURSE, exercise), {}
+
+    def learned(*arguments):
+        return known.setdefault(frames.encode(list(arguments)), function(*arguments))
+
+    def repeated(*arguments):
+        return known[frames.encode(list(arguments))]
+
+    assert grade(exercise, learned)["points"] == exercise.points
+    assert grade(exercise, repeated)["points"] == exercise.points
+    assert grade(exercise, repeated, b"another")["points"] == 0
