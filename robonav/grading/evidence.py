@@ -50,6 +50,8 @@ class Observation:
     expected: Any
     verdict: Verdict
     at: Any = None  # the places that counted, or None for all
+    free: bool = False  # whether several answers are right
+    advice: str | None = None  # a hint for an answer that is no known mistake's
 
     def counted(self, value: Any) -> Any:
         """Return a value with only those places that counted."""
@@ -81,6 +83,14 @@ class Evidence:
         if self.observations[-1].verdict != "asked":
             self.observations[-1].verdict = verdict
 
+    def leave_free(self) -> None:
+        """Mark the last call as one with several right answers, in which wrong ones may agree by chance."""
+        self.observations[-1].free = True
+
+    def advise(self, hint: str | None) -> None:
+        """Keep a hint for the last answer, for the case that it is no known mistake's."""
+        self.observations[-1].advice = hint
+
     def explained(self, parts: Iterable[Part]) -> list[Part]:
         """Return the parts, those that failed with the hint for them."""
         return [self._explained(part) for part in parts]
@@ -111,7 +121,7 @@ class Evidence:
                 continue
             if (fits := self._fits(name)) > best:
                 best, hint = fits, said
-        return hint or _plain_hint(observation)
+        return hint or observation.advice or _plain_hint(observation)
 
     def _fits(self, name: str) -> int:
         """Return how many wrong answers a mistake explains, or 0 if an answer that was right excludes it."""
@@ -122,7 +132,10 @@ class Evidence:
             if observation.verdict == "right":
                 return 0
             got = observation.counted(observation.got)
-            fits += compare.difference(got, found[1]) is None
+            same = compare.difference(got, found[1]) is None
+            if observation.free and not same:
+                return 0
+            fits += same
         return fits
 
     def _mistakes(self, observation: Observation) -> dict[str, tuple[str, Any]]:

@@ -298,6 +298,7 @@ class Answer:
     def array(self, *arguments: Any, shape: tuple[int, ...]) -> np.ndarray:
         """Call the function and return its answer as an array of finite floats of this shape."""
         self._call(arguments)
+        self._evidence.leave_free()
         array = compare.as_numbers(self._got)
         if array is None or array.shape != shape:
             raise self._wrong(
@@ -314,9 +315,14 @@ class Answer:
         self._evidence.observe(self._case, self._got, None, "asked")
         return self._got
 
-    def check(self, holds: bool, otherwise: str) -> None:
-        """Require a property of the last answer. ``otherwise`` tells the student what is wrong if it does not hold."""
+    def check(self, holds: bool, otherwise: str, hint: str | None = None) -> None:
+        """Require a property of the last answer.
+
+        ``otherwise`` tells the student what is wrong if it does not hold, and ``hint`` what may be the reason if the
+        answer is no known mistake's.
+        """
         if not holds:
+            self._evidence.advise(hint)
             raise self._wrong(otherwise)
 
     def _call(self, arguments: tuple[Any, ...], at: Any = None) -> None:

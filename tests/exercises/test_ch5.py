@@ -147,7 +147,18 @@ def game(answer, expert, found):
     best, reached = gap(answer.expected, contrasts), gap(theta, contrasts)
     near = reached >= best - 0.015 * np.abs(contrasts).max()
     problem = f"a margin of {best:.3f} can be reached, got {reached:.3f}"
-    answer.check(near, problem)
+    answer.check(near, problem, advice(theta, contrasts))
+
+
+def advice(theta, contrasts):
+    """What may be wrong with weights that do not reach the greatest margin."""
+    if len(contrasts) == 1:
+        return "Against one policy, all weight belongs on the feature with the largest difference."
+    if gap(theta, contrasts) < gap(np.full(theta.shape, 1 / len(theta)), contrasts):
+        return "Equal weights reach a larger margin than yours: is a sign exchanged, or is this only the last round?"
+    if theta.max() > 0.999:
+        return "All weight is on one feature. Against several policies several features usually need some."
+    return "If the players learn in rounds, return the mean over all rounds, and play enough of them."
 
 
 @pytest.mark.part("5.4", points=2)
