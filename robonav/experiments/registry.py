@@ -8,6 +8,8 @@ from .runner.experiment import Experiment
 
 MODULES = (
     "baselines",
+    "reflex",
+    "chapter2",
     "chapter3.tables",
     "chapter4.tables",
     "chapter4.ablations",
