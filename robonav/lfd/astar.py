@@ -173,7 +173,13 @@ def grid_through(start: Floats, cell: float) -> tuple[Floats, Index]:
 
 
 def grid_point(origin: Floats, index: Index, cell: float) -> Point:
-    """Return x and y of a point of the grid, whose point (0, 0) is ``origin``."""
+    """Return x and y of a point of the grid, whose point (0, 0) is ``origin``.
+
+    Examples
+    --------
+    >>> grid_point(np.array([0.5, 0.5]), (2, 0), 1.0)
+    (np.float64(2.5), np.float64(0.5))
+    """
     return origin[0] + index[0] * cell, origin[1] + index[1] * cell
 
 
@@ -281,20 +287,43 @@ def five_steps(
 
 
 def cell_of(world: Worlds, point: Point | Floats, cell: float) -> Index:
-    """Return column and row of the cell that holds a point."""
+    """Return column and row of the cell that holds a point.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world
+    >>> cell_of(make_world(), (12.5, 99.9), 5.0)
+    (2, 19)
+    """
     last = math.ceil(world.size / cell) - 1
     return min(int(point[0] / cell), last), min(int(point[1] / cell), last)
 
 
 def step_clearance(world: Worlds, start: Point, end: Point, limit: float) -> float:
-    """Return the distance that a step keeps from obstacles and borders, at most ``limit``; 0 if it leaves the map."""
+    """Return the distance that a step keeps from obstacles and borders, at most ``limit``; 0 if it leaves the map.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world
+    >>> world = make_world(circles=[(53, 50, 2)])
+    >>> step_clearance(world, (50.0, 47.5), (56.0, 47.5), limit=3.0)
+    0.5
+    """
     centres = world.centres[0]
     obstacles = world.kinds[0], world.shapes[0], centres, centres, world.size
     return swept_clearance(*obstacles, *start, *end, limit)
 
 
 def nearness(world: Worlds, point: Point, cell: float) -> float:
-    """Return 1 at an obstacle, falling to 0 at sensor range, for the middle of the cell that holds a point."""
+    """Return 1 at an obstacle, falling to 0 at sensor range, for the middle of the cell that holds a point.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world
+    >>> world = make_world(circles=[(50, 50, 2)])
+    >>> nearness(world, (20.0, 20.0), cell=1.0), nearness(world, (50.0, 50.0), cell=1.0)
+    (0.0, 1.0)
+    """
     column, row = cell_of(world, point, cell)
     middle = ((column + 0.5) * cell, (row + 0.5) * cell)
     clear = step_clearance(world, middle, middle, SENSOR_RANGE)
@@ -302,12 +331,26 @@ def nearness(world: Worlds, point: Point, cell: float) -> float:
 
 
 def distance(point: Point, target: Floats) -> float:
-    """Return the straight distance from a point to the target, the heuristic H."""
+    """Return the straight distance from a point to the target, the heuristic H.
+
+    Examples
+    --------
+    >>> distance((0.0, 0.0), np.array([3.0, 4.0]))
+    5.0
+    """
     return float(np.hypot(target[0] - point[0], target[1] - point[1]))
 
 
 def path_to(node: Node) -> list[Node]:
-    """Return the path to a node, found by following the parents back to the start."""
+    """Return the path to a node, found by following the parents back to the start.
+
+    Examples
+    --------
+    >>> start = Node(index=(0, 0), point=(0.0, 0.0), G=0.0, H=1.0)
+    >>> end = Node((1, 0), (1.0, 0.0), 1.0, 0.0, start)
+    >>> [node.index for node in path_to(end)]
+    [(0, 0), (1, 0)]
+    """
     path = [node]
     while path[-1].parent is not None:
         path.append(path[-1].parent)

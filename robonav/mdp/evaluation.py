@@ -96,17 +96,38 @@ def policy_evaluation(
 
 
 def evaluation_residual(mdp: FiniteMDP, tolerance: float) -> float:
-    """Change of a sweep below which all values are within ``tolerance`` of their limit."""
+    """Change of a sweep below which all values are within ``tolerance`` of their limit.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three
+    >>> evaluation_residual(four_by_three().mdp(0.9), tolerance=0.01)
+    0.001111111111111111
+    """
     return (1 if mdp.discount == 1 else 2) * mdp.residual_for(tolerance)
 
 
 def least_gain(mdp: FiniteMDP, tolerance: float) -> float:
-    """Gain of an action that, taken forever, adds up to ``tolerance``; without discount 0."""
+    """Gain of an action that, taken forever, adds up to ``tolerance``; without discount 0.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three
+    >>> least_gain(four_by_three().mdp(0.5), tolerance=0.01)
+    0.005
+    """
     return tolerance * (1 - mdp.discount)
 
 
 def error_limit(mdp: FiniteMDP, tolerance: float) -> float:
-    """Bellman error below which the greedy policy loses at most ``tolerance``; without discount ``tolerance``."""
+    """Bellman error below which the greedy policy loses at most ``tolerance``; without discount ``tolerance``.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three
+    >>> error_limit(four_by_three().mdp(0.5), tolerance=0.01)
+    0.0025
+    """
     return tolerance * (1 if mdp.discount == 1 else (1 - mdp.discount) / 2)
 
 
@@ -203,7 +224,17 @@ def expected_return(mdp: FiniteMDP, policy: ArrayLike, start: ArrayLike) -> floa
 
 
 class ValueHistory:
-    """The values of each iteration, if they are to be kept."""
+    """The values of each iteration, if they are to be kept.
+
+    Examples
+    --------
+    >>> history = ValueHistory(record=True)
+    >>> history.append(np.zeros(2))
+    >>> history.append(np.ones(2))
+    >>> history.rows
+    array([[0., 0.],
+           [1., 1.]])
+    """
 
     def __init__(self, record: bool) -> None:
         self._rows: list[NDArray[Any]] | None = [] if record else None
@@ -220,7 +251,14 @@ class ValueHistory:
 
 
 def starting_values(name: str, mdp: FiniteMDP, given: ArrayLike | None) -> Floats:
-    """A copy of the values to start from; zeros unless given."""
+    """A copy of the values to start from; zeros unless given.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three
+    >>> starting_values("start", four_by_three().mdp(0.9), None).shape
+    (11,)
+    """
     if given is None:
         return np.zeros(mdp.n_states)
     return check_array(name, given, shape=(mdp.n_states,)).copy()

@@ -310,7 +310,14 @@ require_type("mdp", FiniteMDP)
 
 
 def reachable(steps: sp.csr_array, starts: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Which states (S,) can be reached from some of ``starts`` along the nonzero entries of ``steps`` (S, S)."""
+    """Which states (S,) can be reached from some of ``starts`` along the nonzero entries of ``steps`` (S, S).
+
+    Examples
+    --------
+    >>> steps = sp.csr_array(([1.0], ([0], [1])), (3, 3))  # from state 0 to state 1
+    >>> reachable(steps, np.array([0]))
+    array([ True,  True, False])
+    """
     if not starts.size:
         return np.zeros(steps.shape[0], dtype=bool)
     return np.isfinite(

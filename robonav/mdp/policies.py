@@ -71,6 +71,11 @@ def as_deterministic_policy(
         If it does not hold whole numbers.
     ValueError
         If it has another shape, or an action does not exist.
+
+    Examples
+    --------
+    >>> as_deterministic_policy("policy", [1, 0], states=2, actions=2)
+    array([1, 0])
     """
     check_array(name, policy, shape=(states,))
     if np.asarray(policy).dtype.kind not in "iu":
@@ -95,6 +100,12 @@ def as_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
         If the policy is not an array of numbers, or has one dimension but holds no whole numbers.
     ValueError
         If its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
+
+    Examples
+    --------
+    >>> as_policy([[0.5, 0.5], [1.0, 0.0]], states=2, actions=2)
+    array([[0.5, 0.5],
+           [1. , 0. ]])
     """
     if check_array("policy", policy).ndim == 1:
         return as_deterministic_policy("policy", policy, states, actions)
@@ -109,7 +120,14 @@ def as_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
 
 
 def probabilities(policy: ArrayLike, states: int, actions: int) -> NDArray[np.float64]:
-    """The policy as probabilities (S, A), whichever of the two forms it comes in."""
+    """The policy as probabilities (S, A), whichever of the two forms it comes in.
+
+    Examples
+    --------
+    >>> probabilities([1, 0], states=2, actions=2)
+    array([[0., 1.],
+           [1., 0.]])
+    """
     given = as_policy(policy, states, actions)
     return given if given.ndim == 2 else np.eye(actions)[given]
 
@@ -121,6 +139,11 @@ def as_distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.flo
     ------
     TypeError, ValueError
         If the value is not an array of numbers, its last axis is not S, or a row is not a distribution.
+
+    Examples
+    --------
+    >>> as_distributions("belief", [0.25, 0.75], states=2)
+    array([0.25, 0.75])
     """
     given: NDArray[np.float64] = check_array(name, value)
     if given.ndim == 0 or given.shape[-1] != states:
@@ -140,7 +163,14 @@ def as_distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.flo
 
 
 def uniform(states: int, actions: int) -> NDArray[np.float64]:
-    """The policy (S, A) that takes all actions with equal probability."""
+    """The policy (S, A) that takes all actions with equal probability.
+
+    Examples
+    --------
+    >>> uniform(states=2, actions=4)
+    array([[0.25, 0.25, 0.25, 0.25],
+           [0.25, 0.25, 0.25, 0.25]])
+    """
     return np.full((states, actions), 1 / actions)
 
 

@@ -55,7 +55,14 @@ class Solution:
 def first_values(
     mdp: FiniteMDP, start: ArrayLike | None, *, name: str = "start"
 ) -> Floats:
-    """Values (S,) for sweeps to start from; without discount those of a policy that is sure to end."""
+    """Values (S,) for sweeps to start from; without discount those of a policy that is sure to end.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three
+    >>> first_values(four_by_three().mdp(0.9), None).any()
+    np.False_
+    """
     values = starting_values(name, mdp, start)
     return values if mdp.discount < 1 else undiscounted.proper_values(mdp, values)
 
@@ -68,7 +75,14 @@ def first_values_below(mdp: FiniteMDP, start: ArrayLike | None) -> Floats:
 
 
 def first_policy(mdp: FiniteMDP, start: ArrayLike | None) -> Actions:
-    """Policy (S,) to start from: a proper one where there is one, else the largest immediate reward."""
+    """Policy (S,) to start from: a proper one where there is one, else the largest immediate reward.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three
+    >>> first_policy(four_by_three().mdp(0.9), None)
+    array([1, 1, 1, 0, 0, 1, 0, 1, 1, 0, 0])
+    """
     if start is None:
         steps, shortest = undiscounted.shortest_path_policy(mdp, mdp.terminal)
         return np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
@@ -81,7 +95,15 @@ def first_policy(mdp: FiniteMDP, start: ArrayLike | None) -> Actions:
 
 
 def greedy_policy(mdp: FiniteMDP, values: Floats, tolerance: float) -> Actions:
-    """Greedy policy (S,) for optimal values known to within ``tolerance``; without discount one that ends."""
+    """Greedy policy (S,) for optimal values known to within ``tolerance``; without discount one that ends.
+
+    Examples
+    --------
+    >>> from robonav.mdp import FiniteMDP
+    >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
+    >>> greedy_policy(mdp, np.array([2.0]), 1e-6)
+    array([1])
+    """
     if mdp.discount < 1:
         return mdp.greedy(values)
     return undiscounted.greedy_policy(mdp, values, tolerance)

@@ -57,6 +57,13 @@ def zero_reward_absorbing(mdp: FiniteMDP) -> Bools:
 
     Found by elimination: starting from all pairs with reward 0, remove those that may lead to a state without any pair
     left, until nothing changes.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld
+    >>> corridor = GridWorld("S . G", step_reward=-1).mdp(1.0)  # the step into G gives 0
+    >>> zero_reward_absorbing(corridor).any(axis=1)
+    array([False,  True,  True])
     """
     staying = np.ascontiguousarray(mdp.rewards == 0)
     pairs = staying.ravel()  # a view
@@ -92,6 +99,14 @@ def shortest_path_policy(
     policy : (S,) array of ints
         The action that leads one step closer with the largest probability (0 where none does). Following it reaches a
         goal with probability 1 from every state if all ``steps`` are finite.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld
+    >>> corridor = GridWorld("S . G", step_reward=-1).mdp(1.0)
+    >>> steps, policy = shortest_path_policy(corridor, corridor.terminal)
+    >>> steps, policy[:2]
+    (array([2., 1., 0.]), array([1, 1]))
     """
     usable = (
         np.ones(mdp.rewards.size, dtype=bool) if allowed is None else allowed.ravel()
@@ -117,6 +132,13 @@ def clamp_undiscounted(mdp: FiniteMDP, q: Floats) -> Floats:
 
     With gamma < 1 the backup converges to 0 for a zero-reward loop. With gamma = 1 the loop keeps the value that it
     starts from (say -1), so it is clamped to 0.
+
+    Examples
+    --------
+    >>> from robonav.mdp import FiniteMDP
+    >>> waiting = FiniteMDP([[[1.0]]], [[0.0]], 1.0)
+    >>> clamp_undiscounted(waiting, np.array([[-1.0]]))
+    array([[0.]])
     """
     if mdp.discount < 1:
         return q
@@ -128,6 +150,13 @@ def proper_values(mdp: FiniteMDP, start: Floats) -> Floats:
 
     The policy is greedy for the values ``start`` where that leads to a terminal state, and the shortest path
     elsewhere. Where the agent can stay in zero-reward states instead, the value is at least 0.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld
+    >>> corridor = GridWorld("S . G", step_reward=-1).mdp(1.0)
+    >>> proper_values(corridor, np.zeros(3))
+    array([-1.,  0.,  0.])
     """
     _, shortest = shortest_path_policy(mdp, mdp.terminal)
     greedy = policies.greedy_actions(mdp.action_values(start))
@@ -144,6 +173,13 @@ def greedy_policy(mdp: FiniteMDP, values: Floats, tolerance: float) -> NDArray[n
     An action that waits forever can be as greedy as one that goes on, but its return is 0. So of the greedy
     actions take one that leads closer to a terminal state or, where 0 is the optimal value, to a state in which the
     agent can stay without reward.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld
+    >>> corridor = GridWorld("S . G", step_reward=-1).mdp(1.0)
+    >>> greedy_policy(corridor, np.array([-2.0, -1.0, 0.0]), 1e-9)[:2]
+    array([1, 1])
     """
     q = clamp_undiscounted(mdp, mdp.action_values(values))
     best = policies.greedy_actions(q, tolerance=tolerance)

@@ -277,7 +277,13 @@ def squared_error(output: Array, label: Array) -> Array:
 
 
 def squared_weights(network: Network) -> float:
-    """Return the sum of all squared weights; the biases are left out."""
+    """Return the sum of all squared weights; the biases are left out.
+
+    Examples
+    --------
+    >>> squared_weights(Network((np.array([[3.0, 4.0]]),), (np.zeros(1),)))
+    25.0
+    """
     return float(sum((weight**2).sum() for weight in network.weights))
 
 

@@ -128,6 +128,12 @@ def accuracy(network: Network, x: ArrayLike, y: ArrayLike) -> float:
 
 
 def fraction_correct(z: Any, y: Any) -> float:
-    """Return the fraction of logits ``z`` (m, K) that agree with the labels ``y`` (m, K), in NumPy or torch."""
+    """Return the fraction of logits ``z`` (m, K) that agree with the labels ``y`` (m, K), in NumPy or torch.
+
+    Examples
+    --------
+    >>> fraction_correct(np.array([[2.0, 1.0], [0.0, 3.0]]), np.array([[1, 0], [1, 0]]))
+    0.5
+    """
     right = (z > 0) == (y > 0.5) if z.shape[1] == 1 else z.argmax(1) == y.argmax(1)
     return float(right.sum()) / len(z)

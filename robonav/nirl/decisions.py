@@ -101,7 +101,13 @@ class Decisions:
 
 
 def add_constant(inputs: Floats) -> Floats:
-    """Inputs (M, k) and a column of ones."""
+    """Inputs (M, k) and a column of ones.
+
+    Examples
+    --------
+    >>> add_constant(np.array([[2.0, 3.0]]))
+    array([[2., 3., 1.]])
+    """
     return np.concatenate([inputs, np.ones((len(inputs), 1))], axis=1)
 
 

@@ -38,7 +38,14 @@ def prepare(axes: Axes, size: float) -> None:
 
 
 def obstacle_patches(worlds: Worlds, centres: ArrayLike | None = None) -> list[Patch]:
-    """The obstacles of the first world, at ``centres`` (M, 2) or where they start."""
+    """The obstacles of the first world, at ``centres`` (M, 2) or where they start.
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world
+    >>> [type(patch).__name__ for patch in obstacle_patches(make_world(circles=[(50, 50, 2)]))]
+    ['Circle']
+    """
     placed = worlds.centres[0] if centres is None else np.asarray(centres)
     patches: list[Patch] = []
     for m in np.flatnonzero(worlds.kinds[0]):
@@ -62,7 +69,16 @@ def obstacle_patches(worlds: Worlds, centres: ArrayLike | None = None) -> list[P
 
 
 def draw_world(axes: Axes, worlds: Worlds, centres: ArrayLike | None = None) -> None:
-    """The first world of a batch: borders, obstacles, start (a square) and target (a ring as wide as arrival)."""
+    """The first world of a batch: borders, obstacles, start (a square) and target (a ring as wide as arrival).
+
+    Examples
+    --------
+    >>> from robonav.robot import random_worlds
+    >>> axes = Figure().add_subplot()
+    >>> draw_world(axes, random_worlds(1, obstacles=10, seed=1))
+    >>> len(axes.patches)  # ten obstacles, the border and the target
+    12
+    """
     prepare(axes, worlds.size)
     for patch in obstacle_patches(worlds, centres):
         axes.add_patch(patch)
@@ -81,7 +97,13 @@ def draw_world(axes: Axes, worlds: Worlds, centres: ArrayLike | None = None) -> 
 
 
 def robot_outline(pose: ArrayLike) -> NDArray[np.float64]:
-    """Corners (3, 2) of the triangle that stands for the robot at ``pose``; its tip looks ahead."""
+    """Corners (3, 2) of the triangle that stands for the robot at ``pose``; its tip looks ahead.
+
+    Examples
+    --------
+    >>> robot_outline([10.0, 10.0, 0.0])[0]  # the tip
+    array([12., 10.])
+    """
     x, y, heading = np.asarray(pose, dtype=float)
     angles = heading + np.array([0.0, 2.5, -2.5])
     corners: NDArray[np.float64] = np.column_stack([np.cos(angles), np.sin(angles)])
@@ -89,7 +111,14 @@ def robot_outline(pose: ArrayLike) -> NDArray[np.float64]:
 
 
 def draw_robot(axes: Axes, pose: ArrayLike, colour: str = style.ROBOT) -> Polygon:
-    """The robot at ``pose`` (x, y, heading)."""
+    """The robot at ``pose`` (x, y, heading).
+
+    Examples
+    --------
+    >>> axes = Figure().add_subplot()
+    >>> type(draw_robot(axes, [10.0, 10.0, 0.0])).__name__
+    'Polygon'
+    """
     artist = Polygon(robot_outline(pose), closed=True, color=colour, zorder=5)
     axes.add_patch(artist)
     return artist
@@ -98,7 +127,14 @@ def draw_robot(axes: Axes, pose: ArrayLike, colour: str = style.ROBOT) -> Polygo
 def draw_sensors(
     axes: Axes, pose: ArrayLike, ranges: Iterable[float], *, numbered: bool = False
 ) -> list[Wedge]:
-    """The nine sectors, each as far as it reads (Fig. 2.6); warm where something is near."""
+    """The nine sectors, each as far as it reads (Fig. 2.6); warm where something is near.
+
+    Examples
+    --------
+    >>> axes = Figure().add_subplot()
+    >>> len(draw_sensors(axes, [10.0, 10.0, 0.0], [10.0] * 9))
+    9
+    """
     x, y, heading = np.asarray(pose, dtype=float)
     half = np.degrees(_fast.SECTOR) / 2
     wedges = []
@@ -137,7 +173,16 @@ def picture(
     *,
     pixels: int = 480,
 ) -> NDArray[np.uint8]:
-    """Return what :func:`draw_moment` draws as an image (pixels, pixels, 3)."""
+    """Return what :func:`draw_moment` draws as an image (pixels, pixels, 3).
+
+    Examples
+    --------
+    >>> from robonav.robot import random_worlds, sense
+    >>> world = random_worlds(1, obstacles=10, seed=1)
+    >>> pose = world.start_poses[0]
+    >>> picture(world, world.centres[0], pose, sense(world, [pose]).ranges[0]).shape
+    (480, 480, 3)
+    """
     figure = Figure(
         figsize=(4.8, 4.8), dpi=pixels / 4.8, facecolor="white", layout="constrained"
     )
