@@ -165,6 +165,16 @@ export function player({ label, count, value = 0, text, change, interval = 150 }
   return { element, go, stop, frame: () => frame };
 }
 
+const LONG_JOB = 2; // seconds: how long a job lasts at least, for the time that is left to be shown
+
+/** How long a job may still take, in words, once it is known that it takes long. @param {number} gone seconds @param {number} share */
+export function timeLeft(gone, share) {
+  const all = gone / share;
+  const rest = Math.round(all - gone);
+  if (gone < 0.5 || share <= 0 || all < LONG_JOB || rest < 1) return "";
+  return rest < 100 ? `about ${rest} s left` : `about ${Math.round(rest / 60)} min left`;
+}
+
 /** A place for something wide, which scrolls sideways where it does not fit, and says so. */
 export function wide(label, ...children) {
   const element = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": label }, ...children);

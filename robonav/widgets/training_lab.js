@@ -140,10 +140,12 @@ function render({ model, el }) {
 function trainer({ model, choices, live }) {
   const bar = h("progress", { value: 0, max: 1, "aria-label": "Training done" });
   const note = h("span", { role: "status" });
+  let began = 0;
   const begin = h("button", { type: "button", click: () => {
     running(true);
     live(null);
     bar.value = 0;
+    began = performance.now();
     note.textContent = "Training …";
     model.send({ ask: "train", choices: choices() });
   } }, "Train");
@@ -155,10 +157,11 @@ function trainer({ model, choices, live }) {
     if (message.kernel) element.hidden = false;
     if (message.live) {
       bar.value = message.done / message.total;
-      note.textContent = `${message.done} of ${message.total}`;
+      const left = message.done < message.total ? timeLeft((performance.now() - began) / 1000, bar.value) : "";
+      note.textContent = `${message.done} of ${message.total}${left && `, ${left}`}`;
       live(curvesOf(message.live.at(-1)));
     }
-    const end = message.ended ?? message.error ?? (message.cancelled ? "Cancelled." : "");
+    const end = message.ended ?? message.error ?? (message.cancelled ? "Cancelled. The curves so far stay until you choose another setting." : "");
     if (end) {
       note.textContent = end;
       running(false);

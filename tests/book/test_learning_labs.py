@@ -12,6 +12,11 @@ from playwright.sync_api import Locator, expect
 
 from robonav.experiments import labs, read_results
 
+LABELS = {
+    "lambda": "strength of regularisation λ",
+    "hidden": "hidden units",
+    "discount": "discount γ",
+}
 NAMES = [experiment.name for experiment in labs.EXPERIMENTS]
 
 
@@ -36,7 +41,9 @@ def test_curves_are_the_committed_results(page, name):
         len(results.experiment.cases) - 1,
     ):
         for label, choice in results.experiment.cases[index].items():
-            lab.get_by_label(label, exact=True).select_option(str(choice))
+            lab.get_by_label(LABELS.get(label, label), exact=True).select_option(
+                str(choice)
+            )
         said = lab.locator(".status")
         expect(said).to_have_text(re.compile(r"^(Iteration|Episode) (300|140): "))
         numbers = re.findall(

@@ -53,16 +53,6 @@ function liveCurve({ name, label, note = "", colour = PALETTE.BLUE, low = 0, hig
   };
 }
 
-const LONG_JOB = 2; // seconds: how long a job lasts at least, for the time that is left to be shown
-
-/** How long a job may still take, in words, once it is known that it takes long. @param {number} gone seconds @param {number} share */
-export function timeLeft(gone, share) {
-  const all = gone / share;
-  const rest = Math.round(all - gone);
-  if (gone < 0.5 || share <= 0 || all < LONG_JOB || rest < 1) return "";
-  return rest < 100 ? `about ${rest} s left` : `about ${Math.round(rest / 60)} min left`;
-}
-
 /**
  * A button that starts a job and cancels it, its progress, and a curve for each measure.
  * @param {{source: string, title?: string, action: string, busy?: string, unit: string, total: () => number,
