@@ -19,6 +19,7 @@ from .grade import Unaccepted
 from .reference import Case
 from .sandbox import Garbled, Limits, TimedOut, Worker
 from .submission import Refused, Submission
+from .worker import MOST_TEXT
 
 MOST_ROWS = 8  # as many rows have their first numbers shown
 ROWS = 5  # answers with as many rows have the arguments' rows shown
@@ -200,14 +201,14 @@ class Session:
                 **rest,
             } if number == self._asked and not rest:
                 self.changed = [n for n in changed if isinstance(n, int)]
-                self.printed = printed
+                self.printed = printed[:MOST_TEXT] if self._show else ""
                 return value
             case {
                 "id": int(number),
                 "raised": {"kind": str(kind), "message": str(message), "where": where},
                 "printed": str(printed),
             } if number == self._asked:
-                self.printed = printed
+                self.printed = printed[:MOST_TEXT] if self._show else ""
                 raise self._raised(kind, message, where)
             case {"ended": int(status)}:
                 self._serving = None

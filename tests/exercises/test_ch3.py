@@ -376,7 +376,7 @@ def trained(answer, inputs, labels):
         fits = array is not None and array.ndim == 2 and array.shape[1] == units + 1
         answer.check(
             fits and bool(np.isfinite(array).all()),
-            f"layer {len(weights)} must hold finite numbers in {units + 1} columns",
+            "each layer must hold finite numbers, in a column for the bias and one for each unit before",
         )
         weights.append(array)
         units = len(array)

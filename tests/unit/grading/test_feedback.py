@@ -12,6 +12,8 @@ from robonav.grading.course import Course
 from robonav.grading.evidence import Evidence
 from robonav.grading.grade import Part
 from robonav.grading.reference import Case, Solutions
+from robonav.grading.session import Session
+from robonav.grading.submission import Submission
 
 COURSE = Course.around(Path(__file__).parent)
 SOLUTIONS = Solutions(COURSE)
@@ -161,3 +163,40 @@ def test_a_file_that_cannot_be_written_is_named(tmp_path):
     )
     assert done.returncode == 2
     assert done.stderr.startswith("robonav: case must be a file to write in a folder")
+
+
+@pytest.mark.parametrize("options", [{}, {"show": True, "secret": True}])
+def test_a_reply_that_claims_to_have_printed_is_not_believed(options):
+    """Student code may forge a reply, and the feedback of a class must not hold what it chose."""
+
+    class Forged:
+        forks = False
+
+        def ask(self, request, seconds):
+            said = {"value": None, "changed": [], "printed": "a secret case"}
+            return {"id": request["id"], **said}
+
+        def end(self):
+            pass
+
+    session = Session(Submission({}), "official", **options)
+    session._worker = Forged()
+    session.call(COURSE.named("2.2"), [1])
+    assert session.printed == ""
+
+
+@pytest.mark.sandbox
+def test_a_check_needs_little_time(tmp_path):
+    resource = pytest.importorskip("resource")
+
+    def spent():
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return used.ru_utime + used.ru_stime
+
+    begin = spent()
+    subprocess.run(
+        [*ROBONAV, "check", "2.2", "--submission", tmp_path],
+        cwd=COURSE.root,
+        capture_output=True,
+    )
+    assert spent() - begin < 3
