@@ -8,6 +8,10 @@ from matplotlib.colors import to_rgb
 
 from robonav import lfd, nirl, style
 from robonav.experiments import Results
+from robonav.experiments.chapter5.ablations import (
+    GRADIENT_STEPS,
+    GRADIENT_STEPS_OF_ALGORITHM_10,
+)
 from robonav.experiments.chapter5.tables import (
     FIGURE_5_4,
     FIGURE_5_7,
@@ -157,3 +161,20 @@ def test_results_find_their_panels():
     for figure in (counts, course, densities, comparison):
         figure.canvas.draw()
         plt.close(figure)
+
+
+def test_gradient_steps_have_a_line_for_each_reward():
+    results = made_up(GRADIENT_STEPS_OF_ALGORITHM_10, ("success",))
+    (axes,) = draw.plot_gradient_steps(results).axes
+    first, second = (line for line in axes.lines if line.get_label()[0] != "_")
+    assert first.get_label() == "reward: least squares, (5.14)"
+    for line, cases in ((first, np.arange(6)), (second, np.arange(6, 12))):
+        np.testing.assert_array_equal(line.get_xdata(), GRADIENT_STEPS)
+        np.testing.assert_array_equal(line.get_ydata(), 100 * cases + 10)
+
+
+def test_steps_are_rows_with_dots_means_and_names(axes):
+    draw.draw_steps(axes, {"as printed": [1.0, 3.0], "changed": [90.0, 98.0]})
+    texts = [text.get_text() for text in axes.texts]
+    assert texts == ["2 %", "1. as printed", "94 %", "2. changed"]
+    np.testing.assert_array_equal(axes.lines[1].get_xdata(), [2.0, 2.0])
