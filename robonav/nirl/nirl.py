@@ -111,7 +111,7 @@ def nirl(
         pairs = concatenate(episodes[-improver.replay :])
         rewards = decision_rewards(reward, pairs)  # 9: theta . f(s, a)
         fraction = (i - 1) / max(iterations - 1, 1)
-        # 9, 10: SARSA targets, Eq. (5.16), and descent towards them: sarsa_descent, below
+        # 9, 10: targets, Eq. (5.16), and descent to them, as in sarsa_descent below
         network, cost = improver.descend(network, pairs, rewards, fraction, rng)
         record.add(episodes[-1], reward, network, cost)
     return record.result(score)
