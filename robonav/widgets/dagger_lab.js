@@ -89,12 +89,13 @@ function render({ model, el }) {
     },
     done: (network) => {
       robots = [{ ...now, policy: { network, encoder: ENCODER } }, ...robots];
-      keepRobot({ name: `DAgger, ${now.name}`, network, encoder: ENCODER });
+      const warning = keepRobot({ name: `DAgger, ${now.name}`, network, encoder: ENCODER });
       now = null;
       showTable();
       choose();
       const [last, before] = robots.map(({ outcomes }) => percent(rateOf(outcomes).rate));
-      return before === undefined ? `Your robot arrives in ${last} % of the new maps. Now watch it, and correct it.` : `It arrives in ${last} % of the new maps. Before this training it arrived in ${before} %.`;
+      const sentence = before === undefined ? `Your robot arrives in ${last} % of the new maps. Now watch it, and correct it.` : `It arrives in ${last} % of the new maps. Before this training it arrived in ${before} %.`;
+      return `${sentence} ${warning}`.trim();
     },
     cancelled: () => {
       now = null;

@@ -128,13 +128,13 @@ function render({ model, el }) {
     live,
     done: (network) => {
       robots = [{ ...now, policy: { network, encoder: now.encoder } }, ...robots].slice(0, MOST_ROBOTS);
-      keepRobot({ name: now.name, network, encoder: now.encoder });
+      const warning = keepRobot({ name: now.name, network, encoder: now.encoder });
       now = null;
       download.disabled = false;
       showTable();
       view.update();
       const [own, straight] = [robots[0], baselines[1]].map(({ outcomes }) => percent(rateOf(outcomes).rate));
-      return `Your robot arrives in ${own} % of the maps, one that always goes straight on in ${straight} %.`;
+      return `Your robot arrives in ${own} % of the maps, one that always goes straight on in ${straight} %. ${warning}`.trim();
     },
     cancelled: () => {
       now = null;

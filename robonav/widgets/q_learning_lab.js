@@ -424,9 +424,9 @@ function render({ model, el }) {
     done: (network) => {
       run.network = network;
       const { method, episodes, seed } = run.settings;
-      keepRobot({ ...learned(run), name: `${method}, ${episodes} episodes, seed ${seed}`, temperature: trial.temperatures[method] });
+      const warning = keepRobot({ ...learned(run), name: `${method}, ${episodes} episodes, seed ${seed}`, temperature: trial.temperatures[method] });
       ended();
-      return verdict(run);
+      return `${verdict(run)} ${warning}`.trim();
     },
     cancelled: () => {
       ended();

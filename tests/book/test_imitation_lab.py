@@ -173,6 +173,18 @@ def test_without_a_worker_the_page_trains_itself(visit, site, widget):
     assert visit.errors == []
 
 
+def test_a_robot_that_the_browser_does_not_keep_is_said_to_be_lost(visit, site, widget):
+    visit.page.add_init_script(
+        """Object.defineProperty(window, "localStorage", {
+          get: () => { throw new DOMException("no", "SecurityError"); },
+        });"""
+    )
+    lab = opened(visit, site, widget)
+    setting(lab, "iterations of L-BFGS").select_option("3")
+    train(lab)
+    expect(said(lab)).to_contain_text("your robots last until you close it")
+
+
 def test_weights_from_a_file_are_tried_and_watched(view, site, widget, tmp_path):
     encoder = Encoder(target="signed")
     network = random_network((encoder.size, 4, 5), seed=5, spread=3.0)
