@@ -16,6 +16,7 @@ MODULES = (
     "chapter4.tuning",
     "chapter5.tables",
     "chapter5.ablations",
+    "chapter5.inputs",
     "chapter5.transfer",
     "chapter5.tuning",
     "single_runs",
