@@ -83,6 +83,22 @@ def test_page_fits_a_phone(visit: Visit, http: str, page_name: str) -> None:
     assert visit.page.evaluate(ILLEGIBLE) == []
 
 
+FORMULAS_CUT = """() => [...document.querySelectorAll("mjx-container:not([display])")]
+  .filter((formula) => !formula.closest(".scroll, table, .tableholder"))
+  .filter((formula) => formula.getBoundingClientRect().right > innerWidth)
+  .map((formula) => formula.textContent)"""
+
+
+def test_formulas_in_lines_fit_a_phone(visit: Visit, http: str, page_name: str) -> None:
+    """A formula in a line does not scroll: a long one is written as several, between which the line can break."""
+    visit.page.set_viewport_size(PHONE)
+    visit.open(f"{http}/{page_name}.html")
+    visit.page.wait_for_function(
+        "() => !window.MathJax?.startup?.promise || MathJax.startup.document.state() >= 100"
+    )
+    assert visit.page.evaluate(FORMULAS_CUT) == []
+
+
 @pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
 def test_search_finds_a_page(visit: Visit, address: str, size: dict[str, int]) -> None:
     visit.page.set_viewport_size(size)
