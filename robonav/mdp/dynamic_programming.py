@@ -1,15 +1,23 @@
-"""Planning with a known model: Algorithms 1 and 2 of the thesis, and modified policy iteration (section 2.3).
+"""Planning with a known model: value iteration, policy iteration, and modified policy iteration (section 2.3).
 
-A model has S states and A actions. Values V(s) are arrays (S,), policies arrays (S,) of actions, and action values
-Q(s, a) arrays (S, A). So are the rewards r(s, a), and ``mdp.expected_next_values(values)``, the sums over s' of
-T(s, a, s') V(s').
+A Markov decision process has states s, actions a, probabilities T(s, a, s') of the next state, rewards r(s, a) and a
+discount gamma. The action values of values V are
 
-The decorator ``planner`` checks the arguments, fills in the default of ``start``, and warns where a loop did not
-converge. With ``twin="_fast_planners"`` it runs a compiled twin of the function as written, which also keeps the
-history where ``record`` is true; the twin in ``_recorded_planners`` only keeps it. Tests hold both equal: bit for bit
-on sparse models. On dense ones NumPy adds the terms of an expected value in another order, and both are equal within
-rounding. There rounding may also decide between two equally good actions, and modified policy iteration then evaluates
-another policy on its way; both results still keep the tolerance.
+    Q(s, a) = r(s, a) + gamma * sum over s' of T(s, a, s') V(s').                 (2.15)
+
+The optimal values solve Bellman's optimality equation, and the values of a policy pi solve a linear one:
+
+    V*(s)  = max over a of Q*(s, a),      V_pi(s) = Q_pi(s, pi(s)).
+
+- Value iteration (Algorithm 2) replaces V by the maximum of its action values, again and again.
+- Policy iteration (Algorithm 1) solves the linear equation for its policy, and then takes the best action of every
+  state. It repeats both until no action changes.
+- Modified policy iteration only approaches the solution of the linear equation, by a few sweeps.
+
+In the code ``values`` are an array (S,), a ``policy`` is an array (S,) of actions, and ``q`` and the rewards are arrays
+(S, A). ``mdp.expected_next_values(values)`` are the sums over s'. The numbers in the comments are the steps of the
+thesis's algorithms. What stands around an algorithm, such as the checks of its arguments and its compiled twin, is the
+work of the decorator :func:`robonav.mdp.planner.planner`.
 """
 
 from __future__ import annotations

@@ -6,7 +6,8 @@ The decorator :func:`planner` turns an algorithm into the function that users ca
 2. fills in the default of ``start``;
 3. runs the compiled twin of the algorithm from ``_fast_planners`` where there is one. It gives the same numbers, bit
    for bit on sparse models and within rounding on dense ones, and keeps the values of each iteration if ``record`` is
-   true;
+   true. (On dense models NumPy adds the terms of an expected value in another order. Where two actions are equally
+   good, modified policy iteration may then evaluate another policy on its way; both results keep the tolerance);
 4. warns if the algorithm did not converge;
 5. adds the greedy policy of each row of the history if ``record`` is true, and otherwise drops the history of an
    algorithm that has no twin.

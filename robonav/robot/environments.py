@@ -205,12 +205,8 @@ class NavigationEnv(gymnasium.Env):
         max_episode_steps: int | None = None,
         render_mode: str | None = None,
     ) -> None:
-        self.arrival_distance = (
-            ARRIVAL_DISTANCE  # 3 m: nearer to its target, it arrives
-        )
-        self.collision_distance = (
-            COLLISION_DISTANCE  # 1 m: nearer to a thing, it collides
-        )
+        self.arrival_distance = ARRIVAL_DISTANCE  # 3 m: it arrives
+        self.collision_distance = COLLISION_DISTANCE  # 1 m: nearer, it collides
         self.turns = TURNS.tolist()  # of actions 0 to 5: 0, 30, 60, -30, -60, 0 degrees
         self.sector = SECTOR  # 40 degrees
 
@@ -218,11 +214,8 @@ class NavigationEnv(gymnasium.Env):
             obstacles, moving, starts, targets, moving_speeds, worlds, speed, slip, noise, reward, reflex,
             NEVER if max_episode_steps is None else max_episode_steps,
         )  # fmt: skip
-        self.speed, self.slip, self.noise = (
-            settings.speed,
-            settings.slip,
-            settings.noise,
-        )
+        self.speed, self.slip = settings.speed, settings.slip
+        self.noise = settings.noise
         self.reflex, self.reward = settings.reflex, settings.reward_of_one
         self.max_episode_steps = settings.max_episode_steps
 
@@ -271,13 +264,8 @@ class NavigationEnv(gymnasium.Env):
     def step(self, action: int) -> Step:
         """Simulate one second."""
         (x0, y0, _), before = self.pose, self.sensing
-
-        # The reflex comes first: it may turn to the target and go, or step back.
-        reflex, heading = self._reflex()
-        if reflex != NO_REFLEX:
-            action = Action.F if reflex in TURNS_FIRST else reflex
-        if self.slip is not None:
-            action = slip_to(action, self.slip, self.key, self.steps)
+        # The reflex may put another action in its place, and the robot may slip.
+        action, heading, reflex = self._executed(action)
 
         # The robot turns, then goes straight on. Meanwhile obstacles move.
         distance = -self.speed if action == Action.B else self.speed
@@ -308,6 +296,15 @@ class NavigationEnv(gymnasium.Env):
             self.render()
         return self._observation(), reward, terminated, truncated, self._info(reflex)
 
+    def _executed(self, action: int) -> tuple[int, float, int]:
+        """The action that the robot executes, the heading from which it turns, and the reflex's action or -1."""
+        reflex, heading = self._reflex()
+        if reflex != NO_REFLEX:
+            action = Action.F if reflex in TURNS_FIRST else reflex
+        if self.slip is not None:
+            action = slip_to(action, self.slip, self.key, self.steps)
+        return action, heading, reflex
+
     def _reflex(self) -> tuple[int, float]:
         """The reflex's action, -1 where the action given counts, and the heading to which it turns first."""
         x, y, heading = self.pose
@@ -316,9 +313,7 @@ class NavigationEnv(gymnasium.Env):
         reflex = int(self.reflex(self.sensing, self.speed)[0])
         if reflex == Action.TO_TARGET:
             heading = math.atan2(self.target[1] - y, self.target[0] - x)
-        elif (
-            reflex == Action.TO_SECTOR
-        ):  # the middle of the sector that holds the target
+        elif reflex == Action.TO_SECTOR:  # the middle of the target's sector
             sectors = int(self.sensing.target_region[0]) - 1  # from the one ahead
             heading = wrap(heading + self.sector * sectors)
         return reflex, heading
