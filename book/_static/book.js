@@ -23,3 +23,10 @@ document.addEventListener("DOMContentLoaded", () => {
   });
   for (const place of document.querySelectorAll(".pst-scrollable-table-container")) watch.observe(place);
 });
+
+// The theme's buttons that unfold pages in the sidebar have no name of their own.
+document.addEventListener("DOMContentLoaded", () => {
+  for (const button of document.querySelectorAll("nav .has-children > details > summary")) {
+    button.setAttribute("aria-label", `Pages below “${button.closest("li").querySelector("a").textContent.trim()}”`);
+  }
+});

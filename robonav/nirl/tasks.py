@@ -66,7 +66,7 @@ class Task(Protocol):
         """The policy that always takes the action with the largest output of a network."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RobotTask:
     """The robot in new random maps. Its reflex acts as usual; only the decisions of the policy are kept.
 

@@ -89,7 +89,9 @@ function guessing({ guesses, right, because }) {
 /** Calls back when the reader opens the answer, which a page folds directly below. */
 function whenAnswered(element, call) {
   const folded = element.closest(".cell")?.nextElementSibling;
-  if (folded?.matches("details")) folded.addEventListener("toggle", () => folded.open && call());
+  if (!folded?.matches("details")) return;
+  folded.addEventListener("toggle", () => folded.open && call());
+  if (folded.open) call(); // opened before the widget was there
 }
 
 // ---- The frame ------------------------------------------------------------------------------------------------------
