@@ -30,3 +30,10 @@ document.addEventListener("DOMContentLoaded", () => {
     button.setAttribute("aria-label", `Pages below “${button.closest("li").querySelector("a").textContent.trim()}”`);
   }
 });
+
+// An answer of a quiz that is a formula alone is named by its source; a drawn formula has no text.
+document.addEventListener("DOMContentLoaded", () => {
+  for (const answer of document.querySelectorAll(".quiz summary:has(.math)")) {
+    answer.setAttribute("aria-label", answer.textContent.replaceAll(/\\[()]/g, "").trim());
+  }
+});

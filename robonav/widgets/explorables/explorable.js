@@ -86,12 +86,16 @@ function guessing({ guesses, right, because }) {
   return { element: h("div", { class: "row guess" }, options.element, ask, told), move, judge };
 }
 
-/** Calls back when the reader opens the answer, which a page folds directly below. */
+/**
+ * Calls back when the reader opens the answer, which a page folds directly below. The whole document is watched, since
+ * a widget may be drawn before it is put into its page. Returns how to stop.
+ */
 function whenAnswered(element, call) {
-  const folded = element.closest(".cell")?.nextElementSibling;
-  if (!folded?.matches("details")) return;
-  folded.addEventListener("toggle", () => folded.open && call());
-  if (folded.open) call(); // opened before the widget was there
+  const opened = ({ target }) => {
+    if (target.open && target.previousElementSibling?.contains(element)) call();
+  };
+  document.addEventListener("toggle", opened, true); // the event does not bubble
+  return () => document.removeEventListener("toggle", opened, true);
 }
 
 // ---- The frame ------------------------------------------------------------------------------------------------------
@@ -136,7 +140,7 @@ export const explorable = ({ controls, start = () => ({}), draw }) => ({
       h("div", { class: "row" }, stage, said),
     );
     show();
-    whenAnswered(el, guess.judge);
+    return whenAnswered(el, guess.judge);
   },
 });
 
