@@ -34,6 +34,8 @@ document.addEventListener("DOMContentLoaded", () => {
 // An answer of a quiz that is a formula alone is named by its source; a drawn formula has no text.
 document.addEventListener("DOMContentLoaded", () => {
   for (const answer of document.querySelectorAll(".quiz summary:has(.math)")) {
-    answer.setAttribute("aria-label", answer.textContent.replaceAll(/\\[()]/g, "").trim());
+    const words = answer.cloneNode(true);
+    words.querySelectorAll(".math").forEach((formula) => formula.remove());
+    if (words.textContent.trim() === "") answer.setAttribute("aria-label", answer.textContent.replaceAll(/\\[()]/g, "").trim());
   }
 });
