@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import wraps
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +24,23 @@ NNQL_SENSORS = (1, 2, 3, 4, 7, 8, 9)
 Floats = NDArray[np.float64]
 
 
+def with_ranges_from_zero(
+    encode: Callable[[ArrayLike], NDArray[np.int64]],
+) -> Callable[[ArrayLike], NDArray[np.int64]]:
+    """Decorate an encoding so that it raises ValueError for ranges below 0."""
+
+    @wraps(encode)
+    def checked(ranges: ArrayLike) -> NDArray[np.int64]:
+        if not (np.asarray(ranges) >= 0).all():
+            raise ValueError(
+                f"ranges must be numbers from 0 on, in metres, got {np.min(ranges)}"
+            )
+        return encode(ranges)
+
+    return checked
+
+
+@with_ranges_from_zero
 def degree_of_danger(ranges: ArrayLike) -> NDArray[np.int64]:
     """Return the degrees of danger of ranges, 0 (nothing near) to 7 (collision): Table 3.1.
 
@@ -47,10 +65,6 @@ def degree_of_danger(ranges: ArrayLike) -> NDArray[np.int64]:
     >>> degree_of_danger([0.5, 1.0, 4.0, 9.9, 10.0])
     array([7, 6, 4, 1, 0])
     """
-    if not (np.asarray(ranges) >= 0).all():
-        raise ValueError(
-            f"ranges must be numbers from 0 on, in metres, got {np.min(ranges)}"
-        )
     degrees: NDArray[np.int64] = len(DANGER_BORDERS) - np.searchsorted(
         DANGER_BORDERS, ranges, side="right"
     )
