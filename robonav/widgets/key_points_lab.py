@@ -45,7 +45,7 @@ def key_points_lab(
     Raises
     ------
     TypeError, ValueError
-        If the number of obstacles is no integer of at least 0.
+        If the number of obstacles is not a whole number, or is below 0.
 
     Examples
     --------

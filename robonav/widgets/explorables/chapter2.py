@@ -28,8 +28,7 @@ from .registry import asks
 def discounted_return(
     soon: float = 4.0, soon_steps: int = 2, late: float = 10.0, late_steps: int = 8
 ) -> dict[str, Any]:
-    """Two ways with one reward each at their end, and the discount at which both returns are "
-    "equal."""
+    """Two ways with one reward each at their end, and the discount at which both returns are equal."""
     near, far = np.zeros(soon_steps), np.zeros(late_steps)
     near[-1], far[-1] = soon, late
     equal = (soon / late) ** (1 / (late_steps - soon_steps))
@@ -43,8 +42,7 @@ def discounted_return(
 
 
 def _grid(grid: mdp.GridWorld, discount: float) -> tuple[mdp.FiniteMDP, dict[str, Any]]:
-    """A grid's model, and what each explorable on a grid takes: picture, model, start and "
-    "best values."""
+    """A grid's model, and what each explorable on a grid takes: picture, model, start and best values."""
     model = grid.mdp(discount)
     best = mdp.policy_iteration(model)
     return model, {
@@ -196,8 +194,7 @@ def cliff() -> mdp.GridWorld:
     files=("random_numbers", "grid"),
 )
 def cliff_exploration() -> dict[str, Any]:
-    """The cliff, and for each amount of exploring how far from its edge the best walk is, "
-    "and what it expects."""
+    """The cliff, and for each amount of exploring how far from its edge the best walk is, and what it expects."""
     grid = cliff()
     model, begin = grid.mdp(1.0), int(grid.start.argmax())
     best = []
@@ -224,8 +221,7 @@ def cliff_exploration() -> dict[str, Any]:
 
 
 def best_while_exploring(model: mdp.FiniteMDP, epsilon: float) -> NDArray[np.float64]:
-    """Action values of the best policy among those that take a random action with "
-    "probability ``epsilon``."""
+    """Action values of the best policy among those that take a random action with probability ``epsilon``."""
     q = np.zeros((model.n_states, model.n_actions))
     for _ in range(5000):
         values = (mdp.epsilon_greedy(q, epsilon) * q).sum(axis=1)

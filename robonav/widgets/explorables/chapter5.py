@@ -49,8 +49,7 @@ TARGETS = {
     files=("grid",),
 )
 def reward_transfer() -> dict[str, Any]:
-    """For each place of the target: the copied policy and the best one for the expert's "
-    "reward, with their values."""
+    """For each place of the target: the copied policy and the best one for the expert's reward, with their values."""
     copied = mdp.policy_iteration(
         _ground(TARGETS["where it was"])[1].with_reward(nirl.TRUE_WEIGHTS)
     ).policy
@@ -240,8 +239,7 @@ def boltzmann_temperature() -> dict[str, Any]:
     because="Always going forward is right in 75 % of the decisions, and the careful policy in 70 %.",
 )
 def accuracy_or_balance() -> dict[str, Any]:
-    """How many actions there are besides going forward, and how well the careful policy "
-    "predicts."""
+    """How many actions there are besides going forward, and how well the careful policy predicts."""
     return {"others": 4, "careful": 0.7}
 
 
