@@ -27,7 +27,7 @@ from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
 from robonav.experiments.runner.experiment import Results
-from robonav.experiments.runner.report import thesis_number
+from robonav.experiments.runner.report import short, thesis_number, usual_format
 from robonav.experiments.runner.results import read_results
 from robonav.experiments.runner.statistics import Summary, summarise
 
@@ -120,15 +120,11 @@ def _written(summary: Summary, statistic: str, form: str | None) -> str:
     """Return a statistic as text. Without a format, the digits depend on the size of the mean."""
     if statistic == "seeds":
         return str(summary.seeds)
-    size = abs(summary.mean)
-    form = form or (".1f" if size >= 10 else ".2f" if size >= 1 else ".3f")
-    low, high, mean = (
-        format(number, form) for number in (summary.low, summary.high, summary.mean)
-    )
+    form = form or usual_format(summary)
     if statistic == "interval":
-        return f"{low} to {high}"
+        return f"{summary.low:{form}} to {summary.high:{form}}"
     if statistic == "with interval":
-        return f"{mean} [{low}, {high}]"
+        return short(summary, form)
     return format(getattr(summary, statistic.replace(" ", "_")), form)
 
 

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 import gymnasium
 import numpy as np
 
-from robonav.robot import Action, Sensing, Worlds
+from robonav.robot import OUTCOMES, Action, Sensing, Worlds
+from robonav.robot.environment_settings import REWARD_OF_OUTCOME
 from robonav.robot.environments import NavigationEnv
 from robonav.robot.worlds import concatenate as concatenate_worlds
 from robonav.validation import check_instance
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     import minari
 
 SENSED = tuple(field.name for field in fields(Sensing))
-REWARDS = {"arrived": 1.0, "collided": -1.0, "out of steps": 0.0}
+REWARDS = dict(zip(OUTCOMES.tolist(), REWARD_OF_OUTCOME.tolist(), strict=True))
 
 
 def to_minari(

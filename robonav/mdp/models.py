@@ -389,8 +389,9 @@ def _checked_transitions(
             for part in (matrix.data, matrix.indices, matrix.indptr)
         ]
     else:
-        checked, _ = policies.distributions("transitions", transitions, ("A", "S", "S"))
-        checked = checked.copy()
+        checked = check_array("transitions", transitions, shape=("A", "S", "S")).copy()
+        if (dtype := np.asarray(transitions).dtype) != checked.dtype:
+            checked, _ = policies.normalised(checked, dtype)
         if checked.shape[1] != checked.shape[2]:
             raise ValueError(
                 f"transitions must have shape (A, S, S), got {checked.shape}"

@@ -51,8 +51,14 @@ def distributions(
     >>> rows.sum(), wrong
     (np.float64(1.0), array([False]))
     """
-    rows = check_array(name, value, shape=shape)
-    dtype, totals = np.asarray(value).dtype, rows.sum(axis=-1)
+    return normalised(check_array(name, value, shape=shape), np.asarray(value).dtype)
+
+
+def normalised(
+    rows: NDArray[np.float64], dtype: np.dtype
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Rows that came in this type, divided by their sums if it is a narrow one, and which are no distributions."""
+    totals = rows.sum(axis=-1)
     tolerance = sum_tolerance(dtype, rows.shape[-1])
     wrong = (rows < 0).any(axis=-1) | (abs(totals - 1) > tolerance)
     if tolerance > SUM_TOLERANCE and not wrong.any():
@@ -153,7 +159,7 @@ def as_distributions(name: str, value: ArrayLike, states: int) -> NDArray[np.flo
         raise ValueError(
             f"{name} must be a distribution over the {states} states, got a probability of {given.min():.10g}"
         )
-    rows, wrong = distributions(name, value)
+    rows, wrong = normalised(given, np.asarray(value).dtype)
     if wrong.any():
         totals = given.sum(axis=-1).ravel()
         raise ValueError(

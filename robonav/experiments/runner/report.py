@@ -95,15 +95,18 @@ def number_of_runs(results: Results) -> str:
     return f"{number} {results.experiment.note}".strip()
 
 
-def short(summary: Summary) -> str:
+def usual_format(summary: Summary) -> str:
+    """Return the format of a number in few characters: the larger its mean, the fewer digits."""
+    size = abs(summary.mean)
+    return ".1f" if size >= 10 else ".2f" if size >= 1 else ".3f"
+
+
+def short(summary: Summary, form: str | None = None) -> str:
     """Return mean and interval in few characters: ``97.3 [96.8, 97.7]``."""
-    digits = 1 if abs(summary.mean) >= 10 else 2 if abs(summary.mean) >= 1 else 3
-    interval = (
-        ""
-        if math.isnan(summary.low)
-        else f" [{summary.low:.{digits}f}, {summary.high:.{digits}f}]"
-    )
-    return f"{summary.mean:.{digits}f}{interval}"
+    form = form or usual_format(summary)
+    low, high = format(summary.low, form), format(summary.high, form)
+    interval = "" if math.isnan(summary.low) else f" [{low}, {high}]"
+    return f"{summary.mean:{form}}{interval}"
 
 
 def as_json(several: Sequence[Results]) -> list[dict[str, Any]]:
