@@ -93,9 +93,6 @@ def test_formulas_in_lines_fit_a_phone(visit: Visit, http: str, page_name: str) 
     """A formula in a line does not scroll: a long one is written as several, between which the line can break."""
     visit.page.set_viewport_size(PHONE)
     visit.open(f"{http}/{page_name}.html")
-    visit.page.wait_for_function(
-        "() => !window.MathJax?.startup?.promise || MathJax.startup.document.state() >= 100"
-    )
     assert visit.page.evaluate(FORMULAS_CUT) == []
 
 
