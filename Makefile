@@ -95,7 +95,7 @@ lock:
 	_build/lock/bin/python -m pip install --quiet $(PIP_OPTIONS) '$(TORCH)'
 	_build/lock/bin/python -m pip install --quiet $(PIP_OPTIONS) '.[$(EXTRAS)]'
 	{ sed '/^[^#]/,$$d' requirements.lock; \
-	  _build/lock/bin/python -m pip freeze --exclude robonav | sed 's/+[a-z0-9.]*$$//'; } > _build/requirements.lock
+	  _build/lock/bin/python -m pip freeze --exclude robonav-book | sed 's/+[a-z0-9.]*$$//'; } > _build/requirements.lock
 	mv _build/requirements.lock requirements.lock
 	rm -rf _build/lock
 

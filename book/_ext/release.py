@@ -1,8 +1,8 @@
 """The release of the book: a wheel beside the pages, and the first cell of a notebook, which installs it.
 
-An index may have another package of the same name, so a downloaded notebook installs exactly the wheel that its book
-was built with: from the book's address if that is known (``make book ADDRESS=https://...``), else from the notebook's
-folder.
+A downloaded notebook installs exactly the wheel that its book was built with: from the book's address if that is known
+(``make book ADDRESS=https://...``), else from the notebook's folder. The wheel's metadata come from ``pyproject.toml``,
+so the wheel does not depend on which version of the package is installed where the book is built.
 """
 
 from __future__ import annotations
@@ -10,10 +10,14 @@ from __future__ import annotations
 import base64
 import hashlib
 import os
+import tomllib
 import zipfile
-from importlib.metadata import distribution
 from pathlib import Path
+from typing import Any
 
+from packaging.metadata import Metadata
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 from sphinx.application import Sphinx
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -34,9 +38,20 @@ if importlib.util.find_spec("robonav") is None:
     %pip install --quiet "{wheel}" anywidget"""
 
 
+def project() -> dict[str, Any]:
+    """Return the table ``[project]`` of ``pyproject.toml``."""
+    return tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+
+
+def release_name() -> str:
+    """Return the name and the version of the release, as file names of the wheel begin."""
+    about = project()
+    return f"{canonicalize_name(about['name']).replace('-', '_')}-{about['version']}"
+
+
 def wheel_name() -> str:
     """Return the file name of the wheel."""
-    return f"robonav-{distribution('robonav').version}-py3-none-any.whl"
+    return f"{release_name()}-py3-none-any.whl"
 
 
 def first_cell(address: str | None = None) -> str:
@@ -47,10 +62,49 @@ def first_cell(address: str | None = None) -> str:
     )
 
 
+def metadata() -> bytes:
+    """Return the file METADATA of the wheel."""
+    about = project()
+    extras = about["optional-dependencies"]
+    optional = [
+        _with_extra(requirement, extra)
+        for extra, requirements in extras.items()
+        for requirement in requirements
+    ]
+    fields = {
+        "metadata_version": "2.4",
+        "name": about["name"],
+        "version": about["version"],
+        "summary": about["description"],
+        "author": ", ".join(author["name"] for author in about["authors"]),
+        "keywords": about["keywords"],
+        "classifiers": about["classifiers"],
+        "license_expression": about["license"],
+        "license_files": about["license-files"],
+        "requires_python": about["requires-python"],
+        "requires_dist": about["dependencies"] + optional,
+        "provides_extra": list(extras),
+        "description": (ROOT / about["readme"]).read_text("utf-8"),
+        "description_content_type": "text/markdown",
+    }
+    return Metadata.from_raw(fields).as_rfc822().as_bytes()
+
+
+def _with_extra(text: str, extra: str) -> str:
+    requirement = Requirement(text)
+    also = f" and ({requirement.marker})" if requirement.marker else ""
+    requirement.marker = None
+    return f'{requirement}; extra == "{extra}"{also}'
+
+
+def _entry_points() -> bytes:
+    lines = [f"{name} = {target}" for name, target in project()["scripts"].items()]
+    return "\n".join(["[console_scripts]", *lines, ""]).encode()
+
+
 def build_wheel(folder: Path) -> Path:
-    """Write the wheel: the files of the package, and the metadata of the installed package."""
-    about = distribution("robonav")
-    info = f"robonav-{about.version}.dist-info"
+    """Write the wheel: the files of the package, and the metadata of ``pyproject.toml``."""
+    info = f"{release_name()}.dist-info"
     package = [
         path
         for path in sorted((ROOT / "robonav").rglob("*"))
@@ -59,13 +113,8 @@ def build_wheel(folder: Path) -> Path:
     contents = {
         path.relative_to(ROOT).as_posix(): path.read_bytes() for path in package
     }
-    metadata = (
-        about.read_text("METADATA") or about.read_text("PKG-INFO") or ""
-    )  # of an editable installation
-    contents[f"{info}/METADATA"] = metadata.encode()
-    contents[f"{info}/entry_points.txt"] = (
-        about.read_text("entry_points.txt") or ""
-    ).encode()
+    contents[f"{info}/METADATA"] = metadata()
+    contents[f"{info}/entry_points.txt"] = _entry_points()
     contents[f"{info}/licenses/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     contents[f"{info}/WHEEL"] = (
         b"Wheel-Version: 1.0\nGenerator: robonav\nRoot-Is-Purelib: true\nTag: py3-none-any\n"

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import zipfile
+from importlib.metadata import distributions
 from pathlib import Path
 
 import edit_page
@@ -12,6 +14,8 @@ import print_book
 import pytest
 import release
 from browser import executable
+
+from robonav import __version__
 
 
 def test_the_wheel_installs_and_is_whole(tmp_path: Path) -> None:
@@ -43,6 +47,31 @@ def test_the_wheel_installs_and_is_whole(tmp_path: Path) -> None:
     assert "robonav/widgets/shared.js" in names
     assert "robonav/py.typed" in names
     assert not [name for name in names if "__pycache__" in name]
+
+
+def test_the_wheel_is_of_the_distribution_with_the_books_name(tmp_path: Path) -> None:
+    wheel = release.build_wheel(tmp_path)
+    assert re.fullmatch(r"robonav_book-[\d.]+-py3-none-any\.whl", wheel.name)
+    about = next(iter(distributions(path=[str(wheel)])))
+    assert about.metadata["Name"] == release.project()["name"] == "robonav-book"
+    assert about.version == __version__
+    assert any(line.startswith("pytest>=8; extra ==") for line in about.requires or [])
+    assert [(e.name, e.value) for e in about.entry_points] == [
+        ("robonav", "robonav.cli:main")
+    ]
+    with zipfile.ZipFile(wheel) as archive:
+        for line in archive.read(f"{release.release_name()}.dist-info/RECORD").split():
+            name, digest, size = line.decode().rsplit(",", 2)
+            if digest:
+                content = archive.read(name)
+                assert len(content) == int(size)
+                assert digest == f"sha256={release._digest(content)}"
+
+
+def test_pages_link_to_the_wheel_of_this_version() -> None:
+    for page in (release.ROOT / "book").glob("*.md"):
+        for name in re.findall(r"robonav[\w.-]*\.whl", page.read_text("utf-8")):
+            assert name == release.wheel_name(), page.name
 
 
 def test_a_notebooks_first_cell_installs_the_books_own_release() -> None:
