@@ -10,12 +10,15 @@ import ctypes
 import errno
 import os
 import platform
+import random
 import struct
 from collections.abc import Iterable, Mapping
 
 # Number of each refused call on (x86-64, AArch64). A worker needs no call that starts or changes a process, reads the
-# memory of another one, opens a connection or changes a mount. It must not allocate memory that its limit does not
-# count and that may exist longer than the worker. Calls that only x86-64 has are None on AArch64.
+# memory or the open files of another one, opens a connection or changes a mount. It must not allocate memory that its
+# limit does not count and that may exist longer than the worker. It must not change the mode, owner, times, attributes
+# or locks of a file, which would work on files of the host that it can only read. It must not use up what all processes
+# of a user share, or read the kernel's log. Calls that only x86-64 has are None on AArch64.
 REFUSED: dict[str, tuple[int, int | None]] = {
     "fork": (57, None),
     "vfork": (58, None),
@@ -57,7 +60,42 @@ REFUSED: dict[str, tuple[int, int | None]] = {
     "sched_setattr": (314, 274),
     "ioprio_set": (251, 30),
     "io_setup": (206, 0),
+    "pidfd_getfd": (438, 438),
+    "kcmp": (312, 272),
+    "process_madvise": (440, 440),
+    "move_pages": (279, 239),
+    "migrate_pages": (256, 238),
+    "chmod": (90, None),
+    "fchmod": (91, 52),
+    "fchmodat": (268, 53),
+    "fchmodat2": (452, 452),
+    "chown": (92, None),
+    "fchown": (93, 55),
+    "lchown": (94, None),
+    "fchownat": (260, 54),
+    "utime": (132, None),
+    "utimes": (235, None),
+    "futimesat": (261, None),
+    "utimensat": (280, 88),
+    "truncate": (76, 45),
+    "setxattr": (188, 5),
+    "lsetxattr": (189, 6),
+    "fsetxattr": (190, 7),
+    "setxattrat": (463, 463),
+    "removexattr": (197, 14),
+    "lremovexattr": (198, 15),
+    "fremovexattr": (199, 16),
+    "removexattrat": (466, 466),
+    "flock": (73, 32),
+    "inotify_init": (253, None),
+    "inotify_init1": (294, 26),
+    "fanotify_init": (300, 262),
+    "sync": (162, 81),
+    "syncfs": (306, 267),
+    "syslog": (103, 116),
 }
+# A lease makes everybody else wait who opens the file.
+FCNTL, LEASES = (72, 25), (1024, 1026)
 # Allowed for process 0, the caller, which can only lower its limits. Changed limits of the worker, its parent, would
 # hold for the next exercise too.
 PRLIMIT = (302, 261)
@@ -73,7 +111,8 @@ ALLOW, KILL, REFUSE = (
     0x80000000,
     0x00050000,
 )
-CALL, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # offsets in struct seccomp_data
+# offsets in struct seccomp_data
+CALL, ARCHITECTURE, FIRST_ARGUMENT, SECOND_ARGUMENT = 0, 4, 16, 24
 
 PR_SET_SECCOMP, PR_SET_NO_NEW_PRIVS, FILTER_MODE = 22, 38, 2
 LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
@@ -82,6 +121,8 @@ READ, ALL_OF_IT = (
     0b1101,
     (1 << 13) - 1,
 )
+# Users that no system assigns, and users that no container assigns, which has few.
+USERS, CONTAINER_USERS = range(2_000_000, 4_000_000), range(62_000, 65_000)
 OF_A_FILE = 0b111  # execute, write, read: the rights of a file; the others are rights of folders
 
 
@@ -127,6 +168,9 @@ def filter_program(machine: str) -> bytes:
         step(EQUAL, CLONE3[column], otherwise=1),
         step(RETURN, REFUSE | errno.ENOSYS),
     ]
+    program += [step(EQUAL, FCNTL[column], otherwise=5), step(LOAD, SECOND_ARGUMENT)]
+    program += [step(EQUAL, LEASES[0], then=1), step(EQUAL, LEASES[1], otherwise=1)]
+    program += [refuse, step(RETURN, ALLOW)]
     program += [step(EQUAL, PRLIMIT[column], otherwise=4), step(LOAD, FIRST_ARGUMENT)]
     program += [step(EQUAL, 0, then=1), refuse, step(RETURN, ALLOW)]
     program += [step(EQUAL, CLONE[column], otherwise=3), step(LOAD, FIRST_ARGUMENT)]
@@ -163,6 +207,16 @@ def restrict_files(readable: Iterable[str], writable: Iterable[str]) -> bool:
     done = call(LANDLOCK_RESTRICT, rules, 0)
     os.close(rules)
     return done == 0
+
+
+def unused_user() -> int:
+    """Return the number of a user that owns nothing, and that exists in this container."""
+    with open("/proc/self/uid_map") as file:
+        last = max(
+            int(start) + int(length) for start, _, length in map(str.split, file)
+        )
+    users = USERS if last > USERS.stop else CONTAINER_USERS
+    return random.SystemRandom().choice(users)
 
 
 def become(user: int) -> None:

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import functools
 import os
-import random
 import select
 import shutil
 import signal
@@ -31,20 +30,28 @@ from typing import Any, BinaryIO, cast
 
 import numpy as np
 
-from . import frames
+from . import frames, hardening
+from .removal import remove
 
 START_SECONDS = (
     60.0  # time that the worker has to start, before it runs any of the student's code
 )
 # The files of this folder that the sandbox contains.
-STAGED = ("hardening", "frames", "notebook", "supervisor", "worker")
+STAGED = ("hardening", "frames", "notebook", "removal", "supervisor", "worker")
 # The shared libraries of the interpreter.
 LOADER = ("/lib", "/lib64", "/usr/lib", "/usr/lib64", "/etc/ld.so.cache")
 CHUNK = 1 << 16  # bytes moved at once
 HOME = "/submission"  # the only writable folder in the official tier; not /tmp, which may contain an environment
 NOBODY = "65534"
-# The user numbers of the restricted tier; no system assigns these numbers.
-USERS = range(2_000_000, 4_000_000)
+NAMESPACES = (
+    "--unshare-ipc",
+    "--unshare-pid",
+    "--unshare-net",
+    "--unshare-cgroup-try",
+    "--unshare-uts",
+    "--hostname",
+    "sandbox",
+)
 ENVIRONMENT = {
     "LANG": "C.UTF-8",
     "OMP_NUM_THREADS": "1",
@@ -284,21 +291,23 @@ def start(
 
 def _official(python: str, limits: Limits) -> Worker:
     """Start a worker in namespaces of its own, made by bubblewrap."""
-    process = _spawn(
-        [
-            *_bubblewrap(python, limits.written),
-            "--",
-            *_python(python, "/grader", "worker.main()"),
-        ]
-    )
+    process = _spawn(_in_namespaces(python, limits, "worker.main()"))
     return Worker(process, process.kill, forks=True)
+
+
+def _in_namespaces(python: str, limits: Limits, code: str) -> list[str]:
+    """Return a command that runs ``code`` in namespaces of its own, never as root and never as the owner of a file."""
+    if os.geteuid() == 0:
+        code = f"hardening.become({hardening.unused_user()})\n{code}"
+    command = _bubblewrap(python, limits.written)
+    return [*command, "--", *_python(python, "/grader", code)]
 
 
 def _restricted(python: str, limits: Limits) -> Worker:
     """Start a worker as another user that Landlock lets read only what it needs."""
     if os.name != "posix" or os.geteuid() != 0:
         raise OSError("only root can give the worker another user")
-    user, folder = random.SystemRandom().choice(USERS), tempfile.mkdtemp()
+    user, folder = hardening.unused_user(), tempfile.mkdtemp()
     os.chown(folder, user, user)
     reader, lifeline = os.pipe()
     readable = [*LOADER, *_interpreter(python), *_numpy(), _stage(), "/dev/urandom"]
@@ -312,7 +321,7 @@ def _restricted(python: str, limits: Limits) -> Worker:
             os.close(lifeline)
             lifeline = -1
         process.wait()
-        shutil.rmtree(folder, ignore_errors=True)
+        remove(Path(folder))
 
     return Worker(process, end, forks=True)
 
@@ -328,7 +337,7 @@ def _practice(python: str, limits: Limits) -> Worker:
                 os.killpg(process.pid, signal.SIGKILL)
         process.kill()
         process.wait()
-        shutil.rmtree(folder, ignore_errors=True)
+        remove(Path(folder))
 
     return Worker(process, end, forks=sys.platform == "linux")
 
@@ -355,22 +364,14 @@ def _python(python: str, stage: str, code: str) -> list[str]:
     """Return a command that runs ``code`` with the staged files and numpy, but without site-packages."""
     path = [stage, *{os.path.dirname(folder) for folder in _numpy()}]
     return [python, "-I", "-S", "-B", "-c", f"import sys; sys.path += {path!r}\n"
-            f"from robonav.grading import supervisor, worker\n{code}"]  # fmt: skip
+            f"from robonav.grading import hardening, supervisor, worker\n{code}"]  # fmt: skip
 
 
 def _bubblewrap(python: str, writable: int) -> list[str]:
     """Return the bubblewrap command: libraries, interpreter, numpy and worker are read-only, and HOME is small."""
-    command = [
-        "bwrap",
-        "--unshare-all",
-        "--unshare-user",
-        "--die-with-parent",
-        "--cap-drop",
-        "ALL",
-    ]
-    command += ["--uid", NOBODY, "--gid", NOBODY, "--hostname", "sandbox"]
-    if _bubblewrap_can("--disable-userns"):
-        command += ["--disable-userns"]
+    command = [_bwrap(), "--die-with-parent", *NAMESPACES, *_user_options()]
+    for path in _folders_above([*LOADER, *_interpreter(python), *_numpy()]):
+        command += ["--perms", "0755", "--dir", path]
     for path in LOADER:
         command += (
             ["--symlink", os.readlink(path), path]
@@ -383,20 +384,39 @@ def _bubblewrap(python: str, writable: int) -> list[str]:
         command += ["--perms", "0555", "--size", "4096", "--tmpfs", path]
     for path in _numpy():
         command += ["--ro-bind", path, path]
-    command += [
-        "--ro-bind",
-        _stage(),
-        "/grader",
-        "--dev",
-        "/dev",
-        "--size",
-        str(writable),
-        "--tmpfs",
-        HOME,
-    ]
+    command += ["--ro-bind", _stage(), "/grader"]
+    # No other device: /dev/null belongs to root, who is nobody inside, so that nobody inside can change it.
+    command += ["--size", "4096", "--tmpfs", "/dev"]
+    command += ["--dev-bind", os.devnull, os.devnull]
+    command += ["--perms", "0777", "--size", str(writable), "--tmpfs", HOME]
     for path in ("/", "/dev", *_package_folders(python)):
         command += ["--remount-ro", path]
     return [*command, "--chdir", HOME]
+
+
+def _user_options() -> list[str]:
+    """Return bubblewrap's options for the user inside.
+
+    An ordinary user gets a user namespace. In a namespace of root's, the worker would own root's files, such as the
+    host's devices. There the sandbox has none, and only the right to become another user.
+    """
+    if os.geteuid() == 0:
+        rights = ["--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"]
+        return ["--cap-drop", "ALL", *rights]
+    options = ["--unshare-user", "--uid", NOBODY, "--gid", NOBODY, "--cap-drop", "ALL"]
+    if _bubblewrap_can("--disable-userns"):
+        options += ["--disable-userns"]
+    return options
+
+
+@functools.cache
+def _bwrap() -> str:
+    """Return the path of bubblewrap. A relative folder in PATH could be a folder of submissions."""
+    folders = filter(os.path.isabs, os.environ.get("PATH", "").split(os.pathsep))
+    found = shutil.which("bwrap", path=os.pathsep.join(folders))
+    if found is None:
+        raise OSError("bubblewrap is not installed")
+    return found
 
 
 @functools.cache
@@ -404,7 +424,7 @@ def _bubblewrap_can(option: str) -> bool:
     """Whether the installed bubblewrap knows an option."""
     return (
         option
-        in subprocess.run(["bwrap", "--help"], capture_output=True, text=True).stdout
+        in subprocess.run([_bwrap(), "--help"], capture_output=True, text=True).stdout
     )
 
 
@@ -417,6 +437,17 @@ def _interpreter(python: str) -> list[str]:
     ).stdout
     prefix, library = answer.splitlines()
     return [python, library, *map(str, Path(prefix).glob("lib/libpython*.so*"))]
+
+
+def _folders_above(paths: Sequence[str]) -> list[str]:
+    """Return the folders that the sandbox must have for these paths. They may be closed to the worker on the host."""
+    above = {folder for path in paths for folder in Path(path).parents}
+    there = [folder for folder in LOADER if os.path.isdir(folder)]
+    return sorted(str(folder) for folder in above if not _is_in(folder, there))
+
+
+def _is_in(path: Path, folders: Sequence[str]) -> bool:
+    return any(path.is_relative_to(folder) for folder in folders)
 
 
 def _numpy() -> list[str]:

@@ -12,11 +12,19 @@ TIERS = ("official", "restricted", "practice")
 CANARY = b'''
 def canary(path):
     """What succeeded of everything that must not."""
-    import os, resource, socket
+    import fcntl, os, resource, socket
     import decimal, fractions, random  # modules of the standard library must be there
 
     def limits():
         resource.setrlimit(resource.RLIMIT_AS, (1 << 62, 1 << 62))
+
+    def lock():
+        with open(os.__file__) as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+    def be_root():
+        if os.getuid() != 0:
+            raise OSError
 
     attempts = {
         "reads": lambda: open(path),
@@ -24,6 +32,9 @@ def canary(path):
         "connects": socket.socket,
         "writes": lambda: open("/var/tmp/robonav-canary", "w"),
         "raises its limits": limits,
+        "is root": be_root,
+        "changes a device": lambda: os.chmod(os.devnull, 0o666),
+        "locks a file of the host": lock,
         "sees the host's processes": lambda: os.listdir("/proc"),
     }
     succeeded = []

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from . import frames, hardening, notebook
+from .removal import empty
 
 STUB = 'raise NotImplementedError("{name} is yours to write")'  # the body of a function that is not written yet
 ALLOWED = {"numpy", *sys.stdlib_module_names}
@@ -85,7 +86,7 @@ def main() -> None:
                 status = _serve_in_child(requests, replies, request, opening["show"])
                 os.chdir(home)
                 # Before the reply, so that the time for this belongs to the exercise that wrote the files.
-                _empty(home)
+                empty(home)
                 frames.write(replies, {"ended": status})
             else:
                 _serve(requests, replies, request, opening["show"])
@@ -103,15 +104,6 @@ def _take_streams() -> tuple[BinaryIO, BinaryIO]:
     for stream in (0, 1, 2):
         os.dup2(nowhere, stream)
     return requests, replies
-
-
-def _empty(home: Path) -> None:
-    """Delete everything in a folder as far as possible."""
-    for place, folders, names in os.walk(home, topdown=False):
-        for name in names:
-            _tried(os.unlink, os.path.join(place, name))
-        for name in folders:
-            _tried(os.rmdir, os.path.join(place, name))
 
 
 def _unpacked(home: Path, files: Mapping[str, bytes]) -> Path:

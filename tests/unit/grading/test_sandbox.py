@@ -99,6 +99,31 @@ def test_what_an_exercise_leaves_behind_is_gone_when_it_has_ended(
     worker.kill()
 
 
+DEEP = b"""
+import os
+def echo():
+    for n in range(3000):
+        os.mkdir("deep", 0o300)
+        os.chdir("deep")
+        open("file", "w").close()
+    os.symlink("/", "link")
+"""
+
+
+def test_folders_in_folders_in_folders_are_removed(start, monkeypatch, tmp_path):
+    """However deep they are and whatever their modes: at the end of an exercise, and of a submission."""
+    monkeypatch.setattr(sandbox.tempfile, "tempdir", str(tmp_path))
+    tmp_path.chmod(0o755)
+    worker = loaded(start({"ch2/echo.py": DEEP}))
+    assert ask(worker)["value"] is None
+    assert worker.ask({"do": "end"}, 30) == {"ended": 0}
+    loaded(worker)
+    assert ask(worker)["value"] is None
+    worker.kill()
+    left = [path for path in tmp_path.iterdir() if "grader" not in path.name]
+    assert left == []
+
+
 def test_a_deadline_ends_everything_at_once(start):
     worker = loaded(start({"ch2/echo.py": b"def echo():\n    while True: pass"}))
     begin = time.monotonic()
@@ -135,6 +160,71 @@ def test_what_is_printed_goes_nowhere(start):
         )
     )
     assert ask(worker) == {"id": 2, "value": 1, "changed": [], "printed": ""}
+
+
+CHANGES = """
+import fcntl, os
+def changes():
+    # What succeeded, at places that can be seen and are not the worker's own.
+    own, done = OWN, []
+    def locked(path, lock):
+        with open(path) as file: lock(file)
+    attempts = {
+        "chmod": lambda p: os.chmod(p, 0o777, follow_symlinks=True),
+        "chown": lambda p: os.lchown(p, os.getuid(), os.getgid()),
+        "utime": lambda p: os.utime(p, (1, 1)),
+        "truncate": lambda p: os.truncate(p, 0),
+        "setxattr": lambda p: os.setxattr(p, "user.x", b"x"),
+        "removexattr": lambda p: os.removexattr(p, "user.x"),
+        "write": lambda p: os.path.isfile(p) and open(p, "r+") or 1 / 0,
+        "create": lambda p: os.mkdir(os.path.join(p, "x")),
+        "lease": lambda p: os.path.isfile(p) and locked(p, lambda f: fcntl.fcntl(f, 1024, fcntl.F_WRLCK)) or 1 / 0,
+        "touch": os.utime,
+        "flock": lambda p: locked(p, lambda f: fcntl.flock(f, fcntl.LOCK_EX | fcntl.LOCK_NB)),
+    }
+    for name in ALLOWED: del attempts[name]
+    for place, folders, names in os.walk("/"):
+        if place.startswith(own):
+            folders.clear()
+            continue
+        if place.count("/") > 3:
+            folders[:], names[:] = folders[:3], names[:3]  # enough of the libraries
+        for path in [place, *(os.path.join(place, n) for n in names)]:
+            for name, attempt in attempts.items():
+                try: attempt(path)
+                except (OSError, ZeroDivisionError): continue
+                done.append([name, path])
+    for descriptor in range(64):
+        for name, attempt in {"fchmod": lambda d: os.fchmod(d, 0o666), "fchown": lambda d: os.fchown(d, 0, 0)}.items():
+            try: attempt(descriptor)
+            except OSError: continue
+            if os.path.exists("/dev/null") and os.path.samestat(os.fstat(descriptor), os.stat("/dev/null")):
+                done.append([name, descriptor])
+    return done[:20]
+"""
+
+
+@pytest.mark.parametrize(
+    "start", list(probed())[::2], ids=lambda one: one[0], indirect=True
+)
+def test_nothing_of_the_host_can_be_changed(start):
+    """In the practice tier, which has no namespaces, this would try the files of this machine."""
+    source = f"ALLOWED = []\n{CHANGES}\ndef echo(): return changes()".replace(
+        "OWN", "os.path.dirname(os.getcwd())"
+    )
+    worker = loaded(start({"ch2/echo.py": source.encode()}))
+    assert ask(worker, seconds=60)["value"] == []
+
+
+def test_nothing_of_the_host_can_be_changed_without_the_filter_either():
+    """The worker owns nothing. The filter alone refuses locks, and the time of writing, which any user may set."""
+    if fault := sandbox_check.fault("official"):
+        pytest.skip(fault)
+    source = CHANGES.replace("OWN", "os.getcwd()")
+    code = f"ALLOWED = ['touch', 'flock']\n{source}\nprint(os.getuid() != 0, changes())"
+    command = sandbox._in_namespaces(sandbox.PYTHON, Limits(), code)
+    ran = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert ran.stdout == "True []\n"
 
 
 def test_one_processor_is_enough_for_numpy(start):
@@ -222,9 +312,9 @@ def test_importing_the_grader_is_light():
     assert not {"torch", "numba", "matplotlib"} & set(loaded)
 
 
-def run_filter(program, machine, call, first_argument=0):
+def run_filter(program, machine, call, first_argument=0, second=0):
     """A small interpreter of classic BPF: what the kernel would do with a system call."""
-    data = {0: call, 4: hardening.MACHINES[machine][1], 16: first_argument}
+    data = {0: call, 4: hardening.MACHINES[machine][1], 16: first_argument, 24: second}
     steps = [
         struct.unpack_from("=HBBI", program, at) for at in range(0, len(program), 8)
     ]
@@ -244,6 +334,18 @@ def run_filter(program, machine, call, first_argument=0):
                 tests[hardening.HAS_BITS] = bool(accumulator & value)
                 at += then if tests[code] else otherwise
         at += 1
+
+
+@pytest.mark.parametrize("machine", list(hardening.MACHINES))
+def test_the_filter_refuses_leases_on_files_of_the_host(machine):
+    program = hardening.filter_program(machine)
+    call = hardening.FCNTL[hardening.MACHINES[machine][0]]
+    for operation in (0, 1, 2, 3, 4, 6, 1030, 1031):
+        assert run_filter(program, machine, call, second=operation) == hardening.ALLOW
+    for operation in (1024, 1026):
+        assert (
+            run_filter(program, machine, call, second=operation) == hardening.REFUSE | 1
+        )
 
 
 @pytest.mark.parametrize("machine", list(hardening.MACHINES))
