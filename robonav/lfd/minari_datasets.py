@@ -17,7 +17,7 @@ import numpy as np
 
 from robonav.robot import OUTCOMES, Action, Sensing, Worlds
 from robonav.robot.environment_settings import REWARD_OF_OUTCOME
-from robonav.robot.environments import NavigationEnv
+from robonav.robot.environments import NavigationEnv, as_sensing
 from robonav.robot.worlds import concatenate as concatenate_worlds
 from robonav.validation import check_instance
 
@@ -140,11 +140,13 @@ def from_minari(dataset: minari.MinariDataset) -> Demonstrations:
     return Demonstrations(
         worlds=worlds,
         trajectory=np.repeat(np.arange(len(episodes)), lengths),
-        sensing=Sensing(
-            *(
-                np.concatenate([each.observations[name][:-1] for each in episodes])
+        sensing=as_sensing(
+            {
+                name: np.concatenate(
+                    [each.observations[name][:-1] for each in episodes]
+                )
                 for name in SENSED
-            )
+            }
         ),
         actions=np.concatenate([_executed(episode) for episode in episodes]),
         poses=np.concatenate([episode.infos["pose"][:-1] for episode in episodes]),
@@ -162,12 +164,13 @@ def _episode(one: Demonstrations) -> dict[str, Any]:
     rewards = np.zeros(steps)
     rewards[-1] = REWARDS[str(one.outcome[0])]
     ends = np.arange(steps) == steps - 1
+    sensing = one.sensing[once_more]
     return {
         "observations": {
-            name: getattr(one.sensing, name)[once_more].astype(
-                np.int64 if name != "ranges" else float
-            )
-            for name in SENSED
+            "ranges": sensing.ranges,
+            "walls": sensing.walls.astype(np.int8),
+            "target_region": sensing.target_region - 1,
+            "target_seen": sensing.target_seen.astype(np.int64),
         },
         "actions": one.actions,
         "rewards": rewards,

@@ -158,15 +158,17 @@ def navigate_greedily(
     return : float
         Sum of the rewards.
     info : dict
-        What the environment says of the last step; ``info["outcome"]`` in the robot's.
+        What the environment says of the last step; ``info["outcome"]`` in the robot's, a
+        :class:`~robonav.robot.Outcome`.
 
     Examples
     --------
     >>> from robonav.nnql import NavigationTask, navigate_greedily, q_network
+    >>> from robonav.robot import Outcome
     >>> env = NavigationTask().environment()
     >>> total, info = navigate_greedily(env, q_network(env, seed=0), seed=2)
-    >>> info["outcome"]
-    'collided'
+    >>> Outcome(info["outcome"]).name
+    'COLLIDED'
     """
     state, info = env.reset(seed=seed)  # 2, 3
     total, done = 0.0, False

@@ -25,6 +25,7 @@ from .rollout import (
 from .simulator import (
     OUTCOMES,
     Action,
+    Outcome,
     Reflex,
     Sensing,
     Simulator,
@@ -56,6 +57,7 @@ __all__ = [
     "Chooser",
     "Encoder",
     "Navigation",
+    "Outcome",
     "Policy",
     "Reflex",
     "ReflexRule",

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from gymnasium.envs.registration import load_env_creator
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import (
@@ -18,7 +20,8 @@ from robonav.validation import (
 )
 
 from .rollout import REFLEX, ReflexRule
-from .simulator import NEVER, OUTCOMES, Sensing, check_slip
+from .simulator import DIRECTIONS, NEVER, OUTCOMES, Reflex, Sensing, check_slip
+from .world_files import load_worlds
 from .worlds import (
     MOVING_SPEEDS,
     SIZE,
@@ -35,6 +38,8 @@ Reward = Callable[[Sensing, Sensing, NDArray[np.int8]], ArrayLike]
 
 REWARD_OF_OUTCOME = np.array([0.0, 1.0, -1.0, 0.0])
 """For an episode that goes on, and for one that ended by arrival, by collision, or for lack of steps."""
+
+NO_LIMIT = -1  # Gymnasium's sign for an episode that may last for ever
 
 OUTCOME_OF_ONE = np.arange(len(OUTCOMES), dtype=np.int8)[:, None]
 OUTCOME_OF_ONE.flags.writeable = False  # row k: outcome k of one robot, (1,)
@@ -68,6 +73,46 @@ def arrival_or_collision(
     return REWARD_OF_OUTCOME[outcome]
 
 
+def as_worlds(given: Worlds | str | Path | None) -> Worlds | None:
+    """Return the worlds given, or those of the file with this name; there must be at least one."""
+    if given is None:
+        return None
+    worlds = load_worlds(given) if isinstance(given, str | Path) else given
+    if len(check_instance("worlds", worlds, Worlds)) == 0:
+        raise ValueError("worlds must hold at least one world, got none")
+    return worlds
+
+
+def as_reward(given: Reward | str) -> Reward:
+    """Return the function given, or the one of this name, "module:function"."""
+    reward = load_env_creator(given) if isinstance(given, str) and ":" in given else given  # fmt: skip
+    if not callable(reward):
+        raise TypeError(
+            "reward must be callable as reward(before, after, outcome), or a name as 'module:function', "
+            f"got {given!r}"
+        )
+    return reward
+
+
+def as_reflex(given: ReflexRule | str | None) -> ReflexRule | None:
+    """Return the rule given, or the reflex that knows the direction of the target in this way."""
+    if isinstance(given, str):
+        return Reflex(check_one_of("reflex", given, DIRECTIONS))
+    if given is not None and not callable(given):
+        raise TypeError(
+            "reflex must be callable as reflex(sensing, speed), 'exact', 'sector' or None, "
+            f"got {given!r}"
+        )
+    return given
+
+
+def as_limit(given: int) -> int:
+    """Return the number of steps after which an episode is truncated, for Gymnasium's ``max_episode_steps``."""
+    if given == NO_LIMIT:
+        return NEVER
+    return check_integer("max_episode_steps", given, at_least=1, at_most=NEVER)
+
+
 @dataclass(frozen=True, eq=False)
 class NavigationSettings:
     """What the arguments of :class:`NavigationEnv` say, checked. There they are explained.
@@ -96,29 +141,25 @@ class NavigationSettings:
     noise: float = 0.0
     reward: Reward = arrival_or_collision
     reflex: ReflexRule | None = REFLEX
-    max_episode_steps: int = NEVER
+    max_episode_steps: int = NO_LIMIT
 
     def __post_init__(self) -> None:
         check_drawing(
             self.obstacles, self.moving, self.starts, self.targets, self.moving_speeds, SIZE
         )  # fmt: skip
-        if self.worlds is not None and len(check_instance("worlds", self.worlds, Worlds)) == 0:  # fmt: skip
-            raise ValueError("worlds must hold at least one world, got none")
-        if not callable(self.reward):
-            raise TypeError(
-                f"reward must be callable as reward(before, after, outcome), got {type(self.reward).__name__}"
-            )
-        if self.reflex is not None and not callable(self.reflex):
-            raise TypeError(
-                f"reflex must be callable as reflex(sensing, speed), or None, got {self.reflex!r}"
-            )
-        check_integer(
-            "max_episode_steps", self.max_episode_steps, at_least=1, at_most=NEVER
+        self._set(
+            worlds=as_worlds(self.worlds),
+            reward=as_reward(self.reward),
+            reflex=as_reflex(self.reflex),
+            speed=check_positive("speed", self.speed),
+            noise=check_real("noise", self.noise, at_least=0),
+            slip=None if self.slip is None else check_slip(self.slip),
+            max_episode_steps=as_limit(self.max_episode_steps),
         )
-        object.__setattr__(self, "speed", check_positive("speed", self.speed))
-        object.__setattr__(self, "noise", check_real("noise", self.noise, at_least=0))
-        if self.slip is not None:
-            object.__setattr__(self, "slip", check_slip(self.slip))
+
+    def _set(self, **values: Any) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
 
     def next_worlds(self, generators: Sequence[np.random.Generator]) -> Worlds:
         """Draw a world from each of N random generators, or choose one of ``worlds``.
@@ -145,15 +186,18 @@ class NavigationSettings:
         return float(reward[0])
 
 
-def worlds_in(options: dict[str, Any] | None, number: int) -> Worlds | None:
+def worlds_in(
+    options: dict[str, Any] | None, number: int, *, also: tuple[str, ...] = ()
+) -> Worlds | None:
     """Return the worlds that the options of ``reset`` give, if they give any; check that they are ``number``."""
-    for option in check_instance("options", options or {}, dict):
-        check_one_of("options", option, ["worlds"])
-    given = (options or {}).get("worlds")
-    if given is None:
+    given = check_instance("options", options or {}, dict)
+    for option in given:
+        check_one_of("options", option, ["worlds", *also])
+    worlds: Worlds | None = given.get("worlds")
+    if worlds is None:
         return None
-    if len(check_instance("options['worlds']", given, Worlds)) != number:
+    if len(check_instance("options['worlds']", worlds, Worlds)) != number:
         raise ValueError(
-            f"options['worlds'] must hold {number} worlds, got {len(given)}"
+            f"options['worlds'] must hold {number} worlds, got {len(worlds)}"
         )
-    return given
+    return worlds

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import wraps
+from pathlib import Path
 from typing import Any, ClassVar
 
 import gymnasium
@@ -34,6 +35,7 @@ from ._fast.constants import (
 from ._fast.geometry import micrometres
 from ._fast.motion import wrap
 from .environment_settings import (
+    NO_LIMIT,
     NavigationSettings,
     Reward,
     arrival_or_collision,
@@ -42,14 +44,13 @@ from .environment_settings import (
 from .physics import drift, least_clearance, slip_to
 from .rollout import REFLEX, ReflexRule
 from .sensors import Array, Pose, sense
-from .simulator import NEVER, OUTCOMES, Action, Sensing, check_action
+from .simulator import Action, Sensing, check_action
 from .worlds import MOVING_SPEEDS, START, TARGET, Worlds
 
 Observation = dict[str, Any]
 Info = dict[str, Any]
 Step = tuple[Observation, float, bool, bool, Info]
 
-NAME_OF_OUTCOME = OUTCOMES.tolist()
 TURNS_FIRST = (Action.TO_TARGET, Action.TO_SECTOR)  # then the robot goes forward
 
 
@@ -101,14 +102,17 @@ class NavigationEnv(gymnasium.Env):
 
     ``Dict``, the fields of :class:`Sensing` for one robot.
 
-    | key           | space                    | unit   | meaning                                               |
-    |---------------|--------------------------|--------|-------------------------------------------------------|
+    | key           | space                     | unit   | meaning                                                |
+    |---------------|---------------------------|--------|--------------------------------------------------------|
     | ranges        | Box(0, 10, (9,), float64) | metres | least distance in each sector, 10 if nothing is in range |
-    | walls         | MultiBinary(9)           | -      | whether that nearest thing is the map's border        |
-    | target_region | Discrete(9, start=1)     | -      | sector that holds the target                          |
-    | target_seen   | Discrete(2)              | -      | whether the target is within 10 m                     |
+    | walls         | MultiBinary(9)            | -      | whether that nearest thing is the map's border         |
+    | target_region | Discrete(9)               | -      | column 0 to 8 of the sector that holds the target      |
+    | target_seen   | Discrete(2)               | -      | whether the target is within 10 m                      |
 
-    Sector 1 (column 0) looks ahead; sectors are numbered counter-clockwise.
+    Column 0 of ranges and walls looks ahead; sectors are numbered counter-clockwise. The thesis and :class:`Sensing`
+    number them from 1 to 9: theirs is ``target_region + 1``, and :func:`as_sensing` adds this 1. The number of a sector
+    has no size: sectors 9 and 1 are neighbours. So it is a ``Discrete``, which libraries turn into nine inputs of 0 and
+    1, and not a ``Box``. It starts at 0 because several libraries, stable-baselines3 among them, take no other start.
 
     ## Rewards
 
@@ -121,23 +125,35 @@ class NavigationEnv(gymnasium.Env):
 
     ## Episode end
 
-    1. Termination: the robot arrives, within 3 m of the target (outcome "arrived").
-    2. Termination: the robot comes nearer than 1 m to an obstacle or a border (outcome "collided").
+    1. Termination: the robot arrives, within 3 m of the target (``Outcome.ARRIVED``).
+    2. Termination: the robot comes nearer than 1 m to an obstacle or a border (``Outcome.COLLIDED``).
     3. Truncation: ``gymnasium.make`` cuts episodes after 500 steps, or after its ``max_episode_steps``, by Gymnasium's
-       ``TimeLimit``. The environment does not see this: its outcome stays "running". An environment made with a limit
-       of its own, ``NavigationEnv(max_episode_steps=...)``, and the vector environment say "out of steps".
+       ``TimeLimit``. The environment does not see this: its outcome stays ``RUNNING``. An environment made with a limit
+       of its own, ``NavigationEnv(max_episode_steps=...)``, and the vector environment say ``OUT_OF_STEPS``. A limit of
+       -1 is none.
 
     ## Information
 
     | key     | type           | meaning                                                                |
     |---------|----------------|------------------------------------------------------------------------|
-    | outcome | str            | "running", "arrived", "collided" or "out of steps"                     |
+    | outcome | int            | an :class:`Outcome`: 0 running, 1 arrived, 2 collided, 3 out of steps  |
     | reflex  | int            | the action that the reflex put in place of the one given, else -1      |
     | pose    | (3,) float64   | x and y in metres, heading in radians; a robot does not know its pose  |
+
+    ``Outcome(info["outcome"]).name`` is the outcome in words. ``info`` has numbers alone, because wrappers such as
+    ``NumpyToTorch`` take no text.
 
     ## Options
 
     ``reset(options={"worlds": world})`` puts the robot into a given world, a batch of one.
+
+    ## In other processes
+
+    ``gymnasium.make("robonav:robonav/Navigation-v0")`` imports robonav itself. Processes that do not begin as copies of
+    this one (the "spawn" and "forkserver" of ``AsyncVectorEnv``) need this form of the name.
+
+    ``env.spec.to_json()`` works with arguments that JSON has: numbers, lists, None, the names of a ``reflex`` and of a
+    ``reward`` function, and the name of a file of ``worlds``.
 
     ## Version history
 
@@ -153,20 +169,23 @@ class NavigationEnv(gymnasium.Env):
         Points in metres, of which each map gets one at random.
     moving_speeds : (float, float)
         Least and greatest speed of moving obstacles, in m/s.
-    worlds : Worlds, optional
-        Choose the map of each episode among these at random, instead of drawing new ones.
+    worlds : Worlds or path, optional
+        Choose the map of each episode among these at random, instead of drawing new ones; or among those of a file
+        that :func:`save_worlds` wrote.
     speed : float
         Of the robot, in m/s.
     slip : (6, 6) array, optional
         Probabilities that action a (row) turns into another, see :class:`Simulator`.
     noise : float
         Standard deviation in metres of the error of a range.
-    reward : callable
-        ``reward(before, after, outcome) -> (N,)`` rewards of N robots, see ``Reward``.
-    reflex : callable, optional
-        What the robot does before the action given counts, see :class:`Reflex`; None turns it off.
-    max_episode_steps : int, optional
-        Limit of the environment itself. By default it has none and leaves the limit to Gymnasium's wrapper.
+    reward : callable or str
+        ``reward(before, after, outcome) -> (N,)`` rewards of N robots, see ``Reward``; or its name, such as
+        "robonav.nnql:reward".
+    reflex : callable or {"exact", "sector"}, optional
+        What the robot does before the action given counts: a :class:`Reflex`, its direction, or a function of the same
+        arguments. None turns it off.
+    max_episode_steps : int
+        Limit of the environment itself. By default it has none (-1) and leaves the limit to Gymnasium's wrapper.
     render_mode : {"human", "rgb_array"}, optional
         Whether :meth:`render` shows a window or returns an image.
 
@@ -179,8 +198,9 @@ class NavigationEnv(gymnasium.Env):
     >>> terminated = truncated = False
     >>> while not (terminated or truncated):
     ...     observation, reward, terminated, truncated, info = env.step(0)
-    >>> info["outcome"], reward
-    ('arrived', 1.0)
+    >>> from robonav.robot import Outcome
+    >>> Outcome(info["outcome"]).name, reward
+    ('ARRIVED', 1.0)
     """
 
     metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
@@ -196,13 +216,13 @@ class NavigationEnv(gymnasium.Env):
         starts: Sequence[tuple[float, float]] = (START,),
         targets: Sequence[tuple[float, float]] = (TARGET,),
         moving_speeds: tuple[float, float] = MOVING_SPEEDS,
-        worlds: Worlds | None = None,
+        worlds: Worlds | str | Path | None = None,
         speed: float = 2.0,
         slip: ArrayLike | None = None,
         noise: float = 0.0,
-        reward: Reward = arrival_or_collision,
-        reflex: ReflexRule | None = REFLEX,
-        max_episode_steps: int | None = None,
+        reward: Reward | str = arrival_or_collision,
+        reflex: ReflexRule | str | None = REFLEX,
+        max_episode_steps: int = NO_LIMIT,
         render_mode: str | None = None,
     ) -> None:
         self.arrival_distance = ARRIVAL_DISTANCE  # 3 m: it arrives
@@ -212,7 +232,7 @@ class NavigationEnv(gymnasium.Env):
 
         self.settings = settings = NavigationSettings(
             obstacles, moving, starts, targets, moving_speeds, worlds, speed, slip, noise, reward, reflex,
-            NEVER if max_episode_steps is None else max_episode_steps,
+            max_episode_steps,
         )  # fmt: skip
         self.speed, self.slip = settings.speed, settings.slip
         self.noise = settings.noise
@@ -224,7 +244,7 @@ class NavigationEnv(gymnasium.Env):
             {
                 "ranges": spaces.Box(0.0, SENSOR_RANGE, (SENSORS,), np.float64),
                 "walls": spaces.MultiBinary(SENSORS),
-                "target_region": spaces.Discrete(SENSORS, start=1),
+                "target_region": spaces.Discrete(SENSORS),
                 "target_seen": spaces.Discrete(2),
             }
         )
@@ -342,13 +362,13 @@ class NavigationEnv(gymnasium.Env):
         return {
             "ranges": sensing.ranges[0].copy(),  # a copy, which the caller may change
             "walls": sensing.walls[0].astype(np.int8),
-            "target_region": sensing.target_region[0],
+            "target_region": sensing.target_region[0] - 1,
             "target_seen": np.int64(sensing.target_seen[0]),
         }
 
     def _info(self, reflex: int) -> Info:
         return {
-            "outcome": NAME_OF_OUTCOME[self.outcome],
+            "outcome": self.outcome,
             "reflex": reflex,
             "pose": np.array(self.pose),
         }
@@ -398,6 +418,6 @@ def as_sensing(observation: dict[str, Any]) -> Sensing:
     return Sensing(
         np.atleast_2d(observation["ranges"]),
         np.atleast_2d(observation["walls"]).astype(bool),
-        np.atleast_1d(observation["target_region"]),
+        np.atleast_1d(observation["target_region"]) + 1,
         np.atleast_1d(observation["target_seen"]).astype(bool),
     )

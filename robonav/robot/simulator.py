@@ -22,11 +22,28 @@ from . import _fast
 from ._fast import OUT_OF_STEPS, RUNNING
 from .worlds import Worlds
 
-OUTCOMES = np.array(["running", "arrived", "collided", "out of steps"])
-"""How an episode stands, by the codes 0 to 3."""
-
 NO_SLIP = np.zeros((0, 0))
 NEVER = 2**19  # steps; the random numbers of a world count no further
+
+
+class Outcome(IntEnum):
+    """How an episode stands, by number: the environments put this number into ``info["outcome"]``.
+
+    Examples
+    --------
+    >>> from robonav.robot import Outcome
+    >>> Outcome(1).name, Outcome.COLLIDED == 2
+    ('ARRIVED', True)
+    """
+
+    RUNNING = 0
+    ARRIVED = 1
+    COLLIDED = 2
+    OUT_OF_STEPS = 3
+
+
+OUTCOMES = np.array([outcome.name.lower().replace("_", " ") for outcome in Outcome])
+"""The same in words, by number: running, arrived, collided, out of steps."""
 
 
 class Action(IntEnum):

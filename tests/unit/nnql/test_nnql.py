@@ -18,6 +18,7 @@ from robonav.nnql import (
     stochastic_gradient_descent,
     train,
 )
+from robonav.robot import Outcome
 
 TWINS = [
     ("nnql", {"episodes": 10}, 1e-12),
@@ -137,7 +138,7 @@ def test_greedy_navigation_of_the_robot():
         navigate_greedily(task.environment(), policy.network[0], seed=50 + k)[1]
         for k in range(20)
     ]
-    assert sum(info["outcome"] == "arrived" for info in ended) >= 16
+    assert sum(info["outcome"] == Outcome.ARRIVED for info in ended) >= 16
 
 
 def test_descent_stops_when_the_cost_settles():

@@ -14,6 +14,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 import robonav
 from robonav.robot import (
     Action,
+    Outcome,
     Reflex,
     Simulator,
     make_world,
@@ -106,14 +107,14 @@ def test_vector_environment_equals_gymnasiums_over_the_single_one(settings, limi
         for a, b in zip(one[1:4], other[1:4], strict=True):
             np.testing.assert_array_equal(a, b)
             assert a.dtype == b.dtype
-        seen.update(one[4]["outcome"])
+        seen.update(one[4]["outcome"].tolist())
         if wrapped:  # whose truncation the environment does not see
-            one[4]["outcome"][one[3] & ~one[2]] = "running"
+            one[4]["outcome"][one[3] & ~one[2]] = Outcome.RUNNING
         equal(one[4], other[4])
         assert all(
             one[0][key] in space for key, space in native.observation_space.items()
         )
-    assert seen >= {"running", "collided", "out of steps"}
+    assert seen >= {Outcome.RUNNING, Outcome.COLLIDED, Outcome.OUT_OF_STEPS}
 
 
 def test_autoreset_mode_is_declared():
@@ -154,7 +155,7 @@ def test_rewards_and_outcomes():
         rewards.append(reward)
         if terminated:
             break
-    assert info["outcome"] == "arrived"
+    assert info["outcome"] == Outcome.ARRIVED
     assert rewards[-1] == 1
     assert set(rewards[:-1]) == {0.0}
 
@@ -164,7 +165,7 @@ def test_rewards_and_outcomes():
         _, reward, terminated, _, info = env.step(0)
         if terminated:
             break
-    assert info["outcome"] == "collided"
+    assert info["outcome"] == Outcome.COLLIDED
     assert reward == -1
 
 
@@ -174,12 +175,18 @@ def test_out_of_steps_is_truncation_single_and_vector():
     for _ in range(5):
         *_, terminated, truncated, info = env.step(0)
     assert (terminated, truncated) == (False, True)
-    assert info["outcome"] == "running"  # the wrapper cut the episode, not the robot
+    assert (
+        info["outcome"] == Outcome.RUNNING
+    )  # the wrapper cut the episode, not the robot
     env = NavigationEnv(max_episode_steps=5)
     env.reset(seed=0)
     for _ in range(5):
         *_, terminated, truncated, info = env.step(0)
-    assert (terminated, truncated, info["outcome"]) == (False, True, "out of steps")
+    assert (terminated, truncated, info["outcome"]) == (
+        False,
+        True,
+        Outcome.OUT_OF_STEPS,
+    )
     batch = gymnasium.make_vec(
         NAME, 3, vectorization_mode="vector_entry_point", max_episode_steps=5
     )
@@ -188,7 +195,7 @@ def test_out_of_steps_is_truncation_single_and_vector():
         *_, terminated, truncated, info = batch.step(np.zeros(3, int))
     assert truncated.all()
     assert not terminated.any()
-    assert info["outcome"].tolist() == ["out of steps"] * 3
+    assert info["outcome"].tolist() == [Outcome.OUT_OF_STEPS] * 3
 
 
 def test_a_limit_above_the_registered_one_holds():
@@ -203,7 +210,7 @@ def test_a_limit_above_the_registered_one_holds():
 def test_the_parameters_of_both_environments_are_listed():
     single = inspect.signature(NavigationEnv).parameters
     vector = inspect.signature(NavigationVectorEnv).parameters
-    assert set(single) == set(vector) - {"num_envs"}
+    assert set(single) == set(vector) - {"num_envs", "autoreset_mode"}
     assert all(kind.kind is kind.KEYWORD_ONLY for kind in single.values())
     for name in set(single) - {"max_episode_steps"}:
         assert single[name].default == vector[name].default
@@ -363,7 +370,10 @@ def test_what_a_reader_does_to_an_observation_changes_nothing(vector):
             "moving_speeds must be the least and the greatest",
         ),
         ({"starts": 5}, ValueError, "starts must have shape"),
-        ({"worlds": "x"}, TypeError, "worlds must be Worlds, got str"),
+        ({"worlds": 3}, TypeError, "worlds must be Worlds, got int"),
+        ({"worlds": "none.npz"}, FileNotFoundError, "none.npz"),
+        ({"reward": "nothing"}, TypeError, "reward must be callable .* got 'nothing'"),
+        ({"reflex": "left"}, ValueError, "reflex must be one of exact, sector, got"),
         ({"reflex": False}, TypeError, "reflex must be callable"),
         (
             {"max_episode_steps": 10**30},
@@ -382,7 +392,9 @@ def test_bad_rewards_options_and_seeds_are_refused_with_a_sentence():
     env.reset(seed=0)
     with pytest.raises(ValueError, match=r"reward must give an array of shape \(3,\)"):
         env.step(np.zeros(3, int))
-    with pytest.raises(ValueError, match="options must be one of worlds, got 'world'"):
+    with pytest.raises(
+        ValueError, match="options must be one of worlds, reset_mask, got 'world'"
+    ):
         env.reset(options={"world": 1})
     with pytest.raises(TypeError, match=r"options\['worlds'\] must be Worlds"):
         env.reset(options={"worlds": "x"})
