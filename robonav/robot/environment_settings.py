@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from gymnasium.envs.registration import load_env_creator
@@ -85,13 +85,15 @@ def as_worlds(given: Worlds | str | Path | None) -> Worlds | None:
 
 def as_reward(given: Reward | str) -> Reward:
     """Return the function given, or the one of this name, "module:function"."""
-    reward = load_env_creator(given) if isinstance(given, str) and ":" in given else given  # fmt: skip
+    reward: Any = given
+    if isinstance(given, str) and ":" in given:
+        reward = load_env_creator(given)
     if not callable(reward):
         raise TypeError(
             "reward must be callable as reward(before, after, outcome), or a name as 'module:function', "
             f"got {given!r}"
         )
-    return reward
+    return cast(Reward, reward)
 
 
 def as_reflex(given: ReflexRule | str | None) -> ReflexRule | None:
@@ -115,51 +117,20 @@ def as_limit(given: int) -> int:
 
 @dataclass(frozen=True, eq=False)
 class NavigationSettings:
-    """What the arguments of :class:`NavigationEnv` say, checked. There they are explained.
+    """What the arguments of :class:`NavigationEnv` say, checked by :func:`check_settings`. There they are explained."""
 
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is of the wrong kind or out of bounds.
-
-    Examples
-    --------
-    >>> from robonav.robot.environment_settings import NavigationSettings
-    >>> NavigationSettings(speed=0)
-    Traceback (most recent call last):
-    ValueError: speed must be greater than 0, got 0
-    """
-
-    obstacles: int = 10
-    moving: int = 0
-    starts: Sequence[tuple[float, float]] = (START,)
-    targets: Sequence[tuple[float, float]] = (TARGET,)
-    moving_speeds: tuple[float, float] = MOVING_SPEEDS
-    worlds: Worlds | None = None
-    speed: float = 2.0
-    slip: ArrayLike | None = None
-    noise: float = 0.0
-    reward: Reward = arrival_or_collision
-    reflex: ReflexRule | None = REFLEX
-    max_episode_steps: int = NO_LIMIT
-
-    def __post_init__(self) -> None:
-        check_drawing(
-            self.obstacles, self.moving, self.starts, self.targets, self.moving_speeds, SIZE
-        )  # fmt: skip
-        self._set(
-            worlds=as_worlds(self.worlds),
-            reward=as_reward(self.reward),
-            reflex=as_reflex(self.reflex),
-            speed=check_positive("speed", self.speed),
-            noise=check_real("noise", self.noise, at_least=0),
-            slip=None if self.slip is None else check_slip(self.slip),
-            max_episode_steps=as_limit(self.max_episode_steps),
-        )
-
-    def _set(self, **values: Any) -> None:
-        for name, value in values.items():
-            object.__setattr__(self, name, value)
+    obstacles: int
+    moving: int
+    starts: Sequence[tuple[float, float]]
+    targets: Sequence[tuple[float, float]]
+    moving_speeds: tuple[float, float]
+    worlds: Worlds | None
+    speed: float
+    slip: NDArray[np.float64] | None
+    noise: float
+    reward: Reward
+    reflex: ReflexRule | None
+    max_episode_steps: int
 
     def next_worlds(self, generators: Sequence[np.random.Generator]) -> Worlds:
         """Draw a world from each of N random generators, or choose one of ``worlds``.
@@ -184,6 +155,52 @@ class NavigationSettings:
                 f"reward must give an array of shape (1,), got {reward.shape}"
             )
         return float(reward[0])
+
+
+def check_settings(
+    *,
+    obstacles: int = 10,
+    moving: int = 0,
+    starts: Sequence[tuple[float, float]] = (START,),
+    targets: Sequence[tuple[float, float]] = (TARGET,),
+    moving_speeds: tuple[float, float] = MOVING_SPEEDS,
+    worlds: Worlds | str | Path | None = None,
+    speed: float = 2.0,
+    slip: ArrayLike | None = None,
+    noise: float = 0.0,
+    reward: Reward | str = arrival_or_collision,
+    reflex: ReflexRule | str | None = REFLEX,
+    max_episode_steps: int = NO_LIMIT,
+) -> NavigationSettings:
+    """Return the arguments of :class:`NavigationEnv`, checked.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is of the wrong kind or out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.robot.environment_settings import check_settings
+    >>> check_settings(speed=0)
+    Traceback (most recent call last):
+    ValueError: speed must be greater than 0, got 0
+    """
+    check_drawing(obstacles, moving, starts, targets, moving_speeds, SIZE)
+    return NavigationSettings(
+        obstacles=obstacles,
+        moving=moving,
+        starts=starts,
+        targets=targets,
+        moving_speeds=moving_speeds,
+        worlds=as_worlds(worlds),
+        speed=check_positive("speed", speed),
+        slip=None if slip is None else check_slip(slip),
+        noise=check_real("noise", noise, at_least=0),
+        reward=as_reward(reward),
+        reflex=as_reflex(reflex),
+        max_episode_steps=as_limit(max_episode_steps),
+    )
 
 
 def worlds_in(

@@ -36,9 +36,9 @@ from ._fast.geometry import micrometres
 from ._fast.motion import wrap
 from .environment_settings import (
     NO_LIMIT,
-    NavigationSettings,
     Reward,
     arrival_or_collision,
+    check_settings,
     worlds_in,
 )
 from .physics import drift, least_clearance, slip_to
@@ -230,9 +230,10 @@ class NavigationEnv(gymnasium.Env):
         self.turns = TURNS.tolist()  # of actions 0 to 5: 0, 30, 60, -30, -60, 0 degrees
         self.sector = SECTOR  # 40 degrees
 
-        self.settings = settings = NavigationSettings(
-            obstacles, moving, starts, targets, moving_speeds, worlds, speed, slip, noise, reward, reflex,
-            max_episode_steps,
+        self.settings = settings = check_settings(
+            obstacles=obstacles, moving=moving, starts=starts, targets=targets, moving_speeds=moving_speeds,
+            worlds=worlds, speed=speed, slip=slip, noise=noise, reward=reward, reflex=reflex,
+            max_episode_steps=max_episode_steps,
         )  # fmt: skip
         self.speed, self.slip = settings.speed, settings.slip
         self.noise = settings.noise

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -17,9 +17,9 @@ from robonav.validation import check_integer, check_one_of
 
 from ._fast import NO_REFLEX, OUT_OF_STEPS, RUNNING
 from .environment_settings import (
-    NavigationSettings,
     Reward,
     arrival_or_collision,
+    check_settings,
     worlds_in,
 )
 from .environments import NavigationEnv
@@ -75,7 +75,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
     array([0, 0, 0])
     """
 
-    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
+    metadata: dict[str, Any] = {  # noqa: RUF012 - as Gymnasium declares it
         "render_modes": ["rgb_array"],
         "render_fps": 10,
         "autoreset_mode": AutoresetMode.NEXT_STEP,
@@ -101,9 +101,10 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         render_mode: str | None = None,
     ) -> None:
         self.num_envs = check_integer("num_envs", num_envs, at_least=1)
-        self.settings = NavigationSettings(
-            obstacles, moving, starts, targets, moving_speeds, worlds, speed, slip, noise, reward, reflex,
-            max_episode_steps,
+        self.settings = check_settings(
+            obstacles=obstacles, moving=moving, starts=starts, targets=targets, moving_speeds=moving_speeds,
+            worlds=worlds, speed=speed, slip=slip, noise=noise, reward=reward, reflex=reflex,
+            max_episode_steps=max_episode_steps,
         )  # fmt: skip
         self.render_mode = check_one_of(
             "render_mode", render_mode, [None, *self.metadata["render_modes"]]
