@@ -6,7 +6,7 @@ no Python objects, so reading a file never runs code from it. K is the number of
 =================  ===========  =====================================================================================
 array              shape        content
 =================  ===========  =====================================================================================
-format             ()           the text ``robonav demonstrations 1``
+format             ()           the text ``robonav demonstrations 1``, as Unicode or as bytes
 speed              ()           m/s
 trajectory         (K,)         whole number: the trajectory that each step belongs to, from 0, ascending
 actions            (K,)         whole number: 0 F, 1 L30, 2 L60, 3 R30, 4 R60, 5 B, 6 turn to the target and go,
@@ -133,7 +133,7 @@ def load_demonstrations(path: str | Path) -> Demonstrations:
         ) from None
     except archive.Damaged:
         raise ValueError(f"{name} is damaged, or no npz archive") from None
-    written = str(arrays.pop("format", ""))
+    written = _text(arrays.pop("format", np.array("")))
     if written != FORMAT:
         raise ValueError(f"{name} has the format {written!r}, expected {FORMAT!r}")
     wanted = {*_STEPS, *_SENSED, "outcome", *(f"worlds.{field}" for field in _WORLDS)}
@@ -145,6 +145,13 @@ def load_demonstrations(path: str | Path) -> Demonstrations:
         return _demonstrations(arrays)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} does not hold demonstrations: {error}") from None
+
+
+def _text(array: NDArray[Any]) -> str:
+    """Return the text that an array holds. Languages without Unicode arrays write it as bytes."""
+    if array.dtype.kind == "S":
+        array = np.char.decode(array, "utf-8", errors="replace")
+    return str(array)
 
 
 def _demonstrations(arrays: Mapping[str, NDArray[Any]]) -> Demonstrations:

@@ -112,6 +112,11 @@ class Demonstrations:
                 raise ValueError(
                     f"demonstrations: {name} must lie in 0..{most}, got {values.min()}..{values.max()}"
                 )
+        here, size = self.poses[:, :2], self.worlds.size
+        if ((here < 0) | (here > size)).any():
+            raise ValueError(
+                f"demonstrations: poses must have x and y in 0..{size:g}, got {here.min():g}..{here.max():g}"
+            )
         for outcome in np.unique(self.outcome):
             check_one_of("demonstrations: outcome", outcome, OUTCOMES[1:])
 
@@ -120,6 +125,10 @@ class Demonstrations:
 
     def __getitem__(self, index: slice | NDArray[Any]) -> Demonstrations:
         """Select some of the steps, in their order. All worlds and outcomes are kept."""
+        if not isinstance(index, slice) and np.ndim(index) != 1:
+            raise TypeError(
+                f"steps are selected by a slice, a list or a mask, got {index!r}"
+            )
         steps = {
             name: getattr(self, name)[index]
             for name in ("trajectory", "sensing", "actions", "poses")
@@ -137,8 +146,8 @@ class Demonstrations:
         return np.bincount(self.trajectory, minlength=len(self.worlds))
 
     def select_trajectories(self, index: ArrayLike) -> Demonstrations:
-        """Select whole trajectories by indices or by a mask, and number them from 0."""
-        chosen = np.arange(len(self.worlds))[np.asarray(index)]
+        """Select whole trajectories by an index, indices or a mask, and number them from 0."""
+        chosen = np.atleast_1d(np.arange(len(self.worlds))[np.asarray(index)])
         none = np.empty(0, np.int64)
         rows = np.concatenate(
             [none, *(np.flatnonzero(self.trajectory == number) for number in chosen)]

@@ -39,11 +39,15 @@ class FiniteMDP:
 
     The next state depends on the present state and action alone, Eq. (2.2): each pair has one row of ``transitions``.
 
+    Every action is allowed in every state. Write an action that is forbidden in a state as a copy of one that is
+    allowed there: the same transitions and the same reward. The optimal values are then those of the allowed actions.
+    A reward of minus infinity is refused.
+
     Parameters
     ----------
     transitions : (A, S, S) array or sequence of A sparse (S, S) matrices
-        ``transitions[a][s, s']`` is the probability T(s, a, s') of reaching s' from s by action a. Kept in the form
-        in which it was given, read-only.
+        ``transitions[a][s, s']`` is the probability T(s, a, s') of reaching s' from s by action a. Kept dense or
+        sparse, as it was given, and read-only. An array of A matrices as objects is a sequence too.
     rewards : (S, A) array
         Expected immediate reward r(s, a).
     discount : float
@@ -362,7 +366,7 @@ def _checked_rewards(rewards: ArrayLike, shape: tuple[int, int]) -> NDArray[np.f
     if given.dtype.kind == "f" and np.isneginf(given).any():
         raise ValueError(
             "rewards must hold finite numbers only, got minus infinity: every action must be allowed in every state. "
-            "Give a forbidden action the transitions and the reward of an allowed one"
+            "Give a forbidden action the transitions and the reward of an allowed one in that state"
         )
     return check_array("rewards", rewards, shape=shape)
 
@@ -376,6 +380,8 @@ def _checked_transitions(
         raise TypeError(
             "transitions must be a sequence of A sparse matrices (S, S), got one sparse matrix"
         )
+    if isinstance(transitions, np.ndarray) and transitions.dtype.kind == "O":
+        transitions = list(transitions)  # of matrices, as pymdptoolbox has them
     if isinstance(transitions, Sequence) and any(
         sp.issparse(matrix) for matrix in transitions
     ):

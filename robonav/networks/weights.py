@@ -21,6 +21,7 @@ from .multilayer_perceptron import Array, Network
 from .network_stack import network_of
 
 FORMAT = "robonav weights 1"
+DTYPES = {"F16", "F32", "F64"}  # safetensors' names of floats that NumPy has too
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +123,7 @@ def save_weights(path: str | Path, weights: Weights) -> None:
         "version": weights.version,
     }
     try:
-        note = json.dumps(about, sort_keys=True, allow_nan=False)
+        note = json.dumps(about, sort_keys=True, allow_nan=False, default=_plain)
     except (TypeError, ValueError) as error:
         raise TypeError(
             f"made must hold only types that JSON can hold: {error}"
@@ -130,6 +131,13 @@ def save_weights(path: str | Path, weights: Weights) -> None:
     contiguous = {name: np.ascontiguousarray(array) for name, array in tensors.items()}
     with atomic.atomic_write(path) as file:
         file.write(save(contiguous, metadata={"robonav": note}))
+
+
+def _plain(value: Any) -> Any:
+    """Return numbers and arrays of NumPy in types that JSON can hold; raise TypeError for anything else."""
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} is none of them")
 
 
 def load_weights(path: str | Path) -> Weights:
@@ -148,6 +156,8 @@ def load_weights(path: str | Path) -> Weights:
     ------
     FileNotFoundError
         If there is no such file.
+    IsADirectoryError
+        If the path is that of a folder.
     ValueError
         If the file is not a safetensors file, was not written by robonav, has another format, or holds no network.
 
@@ -164,11 +174,18 @@ def load_weights(path: str | Path) -> Weights:
     (16, 8, 5)
     """
     name = Path(path).name
+    if Path(path).is_dir():
+        raise IsADirectoryError(f"{name} is a folder, not a safetensors file")
     try:
         with safe_open(str(path), framework="numpy") as file:
+            kinds = {file.get_slice(key).get_dtype() for key in file.keys()}  # noqa: SIM118 - not a mapping
+            if not kinds <= DTYPES:
+                raise ValueError(
+                    f"{name} must hold tensors of {', '.join(sorted(DTYPES))}, got {', '.join(sorted(kinds - DTYPES))}"
+                )
             note = (file.metadata() or {}).get("robonav")
             tensors = {key: file.get_tensor(key) for key in file.keys()}  # noqa: SIM118 - not a mapping
-    except (SafetensorError, TypeError, ValueError):
+    except (SafetensorError, TypeError):
         raise ValueError(f"{name} is not a whole safetensors file") from None
     about = _about(name, note)
     try:

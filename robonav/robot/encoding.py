@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import wraps
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_instance, check_integer, check_one_of
+from robonav.validation import check_integer, check_one_of
 
 from ._fast import SECTOR, SENSOR_RANGE, SENSORS
 from .simulator import Sensing
@@ -138,7 +138,7 @@ TARGET_ENCODINGS: dict[str, Callable[[ArrayLike], Floats]] = {
 TARGET_WIDTHS = {"number": 1, "signed": 1, "one-hot": SENSORS, "sine-cosine": 2}
 
 
-def _columns(sensors: tuple[int, ...]) -> list[int]:
+def _columns(sensors: Iterable[int]) -> list[int]:
     return [
         check_integer("sensors", sensor, at_least=1, at_most=SENSORS) - 1
         for sensor in sensors
@@ -208,8 +208,8 @@ class Encoder:
 
     Parameters
     ----------
-    sensors : tuple of int
-        Which of the sensors 1 to 9.
+    sensors : sequence of int
+        Which of the sensors 1 to 9. Kept as a tuple.
     walls : bool
         Whether the wall flags of these sensors follow.
     target : {"number", "signed", "one-hot", "sine-cosine"}
@@ -235,8 +235,15 @@ class Encoder:
     target: str = "sine-cosine"
 
     def __post_init__(self) -> None:
-        _columns(check_instance("sensors", self.sensors, tuple))
-        check_instance("walls", self.walls, bool)
+        sensors, walls = self.sensors, self.walls
+        listed = sensors.tolist() if isinstance(sensors, np.ndarray) else sensors
+        if not isinstance(listed, tuple | list):
+            raise TypeError(f"sensors must be a sequence of numbers, got {sensors!r}")
+        if not isinstance(walls, bool | np.bool_):
+            raise TypeError(f"walls must be True or False, got {walls!r}")
+        chosen = tuple(column + 1 for column in _columns(listed))
+        object.__setattr__(self, "sensors", chosen)
+        object.__setattr__(self, "walls", bool(walls))
         check_one_of("target", self.target, TARGET_ENCODINGS)
 
     @property

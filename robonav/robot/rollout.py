@@ -299,6 +299,5 @@ def _by_robot(
     owners = np.concatenate([owner for owner, _ in track])
     poses = np.concatenate([pose for _, pose in track])
     order = np.argsort(owners, kind="stable")
-    return tuple(
-        np.split(poses[order], np.cumsum(np.bincount(owners, minlength=n))[:-1])
-    )
+    ends = np.cumsum(np.bincount(owners, minlength=n))
+    return tuple(np.split(poses[order], ends)[:-1])

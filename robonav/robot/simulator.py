@@ -336,7 +336,7 @@ class Simulator:
 
         Parameters
         ----------
-        commands : (K,) int64 array
+        commands : (K,) int array
             What each robot is to do, codes of :class:`Action`.
         robots : (K,) int64 array, optional
             Indices of different robots. For all others, time stands still.
@@ -354,13 +354,14 @@ class Simulator:
         rows = self._rows(robots)
         fits = (
             isinstance(commands, np.ndarray)
-            and commands.dtype == np.int64
+            and commands.dtype.kind in "iu"
             and commands.shape == rows.shape
         )
         if not fits or (commands.astype(np.uint64) > Action.TO_SECTOR).any():
             raise ValueError(
                 f"commands must be an array of {len(rows)} whole numbers 0 to 7, got {commands!r}"
             )
+        commands = commands.astype(np.int64, copy=False)
         w = self.worlds
         executed = commands.copy() if len(self.slip) else commands
         _fast.in_threads(

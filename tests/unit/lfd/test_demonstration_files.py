@@ -162,3 +162,20 @@ def test_nothing_half_written(demonstrations, tmp_path, monkeypatch):
     with pytest.raises(OSError, match="no space left"):
         save_demonstrations(tmp_path / "drives.npz", demonstrations)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_format_may_be_written_as_bytes(written, demonstrations):
+    changed(written, format=np.array(b"robonav demonstrations 1"))
+    assert len(load_demonstrations(written)) == len(demonstrations)
+    changed(written, format=np.array(b"\xff"))
+    with pytest.raises(ValueError, match=r"drives\.npz has the format"):
+        load_demonstrations(written)
+
+
+@pytest.mark.parametrize("place", [-0.001, 100.001, 1000.0])
+def test_poses_off_the_map_are_refused(written, demonstrations, place):
+    poses = demonstrations.poses.copy()
+    poses[3, 1] = place
+    changed(written, poses=poses)
+    with pytest.raises(ValueError, match=r"poses must have x and y in 0\.\.100, got"):
+        load_demonstrations(written)

@@ -302,3 +302,12 @@ def test_demonstrations_are_recorded_with_the_reflex_that_is_given():
         for recorded in (by_hand, computer, labelled):
             in_safe_states = np.unique(recorded.actions[recorded.sensing.safe])
             np.testing.assert_array_equal(in_safe_states, [to_target])
+
+
+def test_steps_are_selected_by_several_and_trajectories_by_one(demonstrations):
+    with pytest.raises(TypeError, match="steps are selected by a slice, a list or a"):
+        demonstrations[0]
+    assert len(demonstrations[[0, 2]]) == 2
+    one, several = (demonstrations.select_trajectories(i) for i in (1, [1]))
+    assert len(one.worlds) == 1
+    assert np.array_equal(one.poses, several.poses)

@@ -259,3 +259,38 @@ def test_a_taxi_whose_passenger_changes_their_mind_is_refused():
 def test_an_environment_without_a_table_is_refused():
     with pytest.raises(ValueError, match="publish its transitions"):
         FiniteMDP.from_gymnasium(gym.make("CartPole-v1"), 0.9)
+
+
+@pytest.mark.parametrize("kind", [np.asarray, sp.csr_matrix, sp.csr_array])
+def test_an_array_of_matrices_as_objects_is_taken(kind):
+    """As pymdptoolbox's ``mdptoolbox.example.forest`` and its kind make them."""
+    mdp = random_mdp(3)
+    matrices = np.empty(3, dtype=object)
+    for action, matrix in enumerate(mdp.transitions):
+        matrices[action] = kind(matrix)
+    taken = FiniteMDP(matrices, mdp.rewards, mdp.discount)
+    assert np.array_equal(taken.by_action.toarray(), mdp.by_action.toarray())
+    matrices[1] = "text"
+    with pytest.raises(TypeError, match="transitions must"):
+        FiniteMDP(matrices, mdp.rewards, mdp.discount)
+
+
+def test_a_forbidden_action_is_a_copy_of_an_allowed_one():
+    """The documented form gives the values of the allowed actions alone; the form of other packages is refused."""
+    mdp = random_mdp(4)
+    forbidden = np.random.default_rng(4).random((6, 3)) < 0.5
+    forbidden[np.arange(6), np.arange(6) % 3] = False
+    transitions, rewards = mdp.transitions.copy(), mdp.rewards.copy()
+    for state, action in np.argwhere(forbidden):
+        transitions[action, state] = mdp.transitions[state % 3, state]
+        rewards[state, action] = mdp.rewards[state, state % 3]
+    found = value_iteration(FiniteMDP(transitions, rewards, 0.9), tolerance=1e-10)
+    values = np.zeros(6)
+    for _ in range(500):
+        q = mdp.action_values(values)
+        values = np.where(forbidden, -np.inf, q).max(axis=1)
+    assert np.allclose(found.values, values, atol=1e-8)
+    with pytest.raises(ValueError, match=r"got minus infinity.*the reward of an allow"):
+        FiniteMDP(
+            mdp.transitions, np.where(forbidden, -np.inf, mdp.rewards), discount=0.9
+        )

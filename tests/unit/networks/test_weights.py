@@ -4,7 +4,9 @@ import json
 
 import numpy as np
 import pytest
+import torch
 from safetensors.numpy import save_file
+from safetensors.torch import save_file as save_torch_file
 
 from robonav import __version__
 from robonav.networks.multilayer_perceptron import random_network
@@ -78,9 +80,7 @@ def test_what_json_does_not_know_is_refused_before_anything_is_written(tmp_path)
     with pytest.raises(TypeError, match="made must hold only types that JSON can hold"):
         save_weights(
             tmp_path / "w",
-            Weights(
-                random_network((11, 2), seed=0), "lfd", ELEVEN, {"seed": np.int64(3)}
-            ),
+            Weights(random_network((11, 2), seed=0), "lfd", ELEVEN, {"seeds": {3}}),
         )
     assert not (tmp_path / "w").exists()
 
@@ -169,3 +169,23 @@ def test_a_cut_or_foreign_file_is_refused(tmp_path, keep):
 def test_a_missing_file_is_said_to_be_missing(tmp_path):
     with pytest.raises(FileNotFoundError):
         load_weights(tmp_path / "nowhere")
+
+
+def test_a_folder_is_said_to_be_a_folder(tmp_path):
+    with pytest.raises(IsADirectoryError, match="is a folder, not a safetensors file"):
+        load_weights(tmp_path)
+
+
+def test_a_type_that_numpy_lacks_is_named(tmp_path):
+    tensors = {name: torch.tensor(array) for name, array in GOOD.items()}
+    tensors["weights.1"] = tensors["weights.1"].bfloat16()
+    save_torch_file(tensors, tmp_path / "b.safetensors", metadata=note())
+    with pytest.raises(ValueError, match=r"tensors of F16, F32, F64, got BF16"):
+        load_weights(tmp_path / "b.safetensors")
+
+
+def test_settings_of_numpys_types_are_written(tmp_path):
+    made = {"seed": np.int64(3), "rates": np.array([0.5, 0.25])}
+    network = random_network((11, 8, 5), seed=0)
+    save_weights(tmp_path / "w", Weights(network, "lfd", ELEVEN, made))
+    assert load_weights(tmp_path / "w").made == {"seed": 3, "rates": [0.5, 0.25]}

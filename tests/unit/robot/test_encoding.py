@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import asdict
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -118,3 +121,27 @@ def test_picking_rows_of_sensing():
     read = some_sensing()
     assert isinstance(read[:3], Sensing)
     assert len(read[read.safe]) == read.safe.sum()
+
+
+@pytest.mark.parametrize(
+    "sensors", [[1, 2, 9], np.array([1, 2, 9]), (1, np.int8(2), 9)]
+)
+def test_the_encoder_takes_what_json_and_numpy_give(sensors):
+    encoder = Encoder(sensors, walls=np.True_)
+    assert encoder == Encoder((1, 2, 9), walls=True)
+    assert hash(encoder) == hash(Encoder((1, 2, 9), walls=True))
+    assert json.dumps(asdict(encoder))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"sensors": "123"}, "sensors must be a sequence of numbers, got '123'"),
+        ({"sensors": np.array(3)}, "sensors must be a sequence of numbers"),
+        ({"sensors": [[1], [2]]}, "sensors must be a whole number"),
+        ({"walls": 1}, "walls must be True or False, got 1"),
+    ],
+)
+def test_the_encoder_names_what_it_cannot_take(arguments, message):
+    with pytest.raises(TypeError, match=message):
+        Encoder(**arguments)

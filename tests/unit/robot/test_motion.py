@@ -445,3 +445,12 @@ def test_a_simulator_that_restarts_leaves_the_worlds_it_was_given():
     before = worlds.digest()
     Simulator(worlds).restart(np.arange(2), random_worlds(2, 5, seed=1))
     assert worlds.digest() == before
+
+
+@pytest.mark.parametrize("dtype", [np.int32, np.uint8, np.int8, np.uint64])
+def test_the_simulator_takes_whole_numbers_of_any_type(dtype):
+    worlds = random_worlds(3, 5, seed=2)
+    ours, theirs = Simulator(worlds), Simulator(worlds)
+    executed = ours.step(np.array([0, 2, 5]))
+    assert np.array_equal(theirs.step(np.array([0, 2, 5], dtype=dtype)), executed)
+    assert np.array_equal(theirs.poses, ours.poses)

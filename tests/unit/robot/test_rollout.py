@@ -162,3 +162,11 @@ def test_a_part_of_the_robots_senses_and_steps_as_among_all():
     others = [0, 2, 3, 5, 7]
     np.testing.assert_array_equal(part.poses[others], worlds.start_poses[others])
     assert (part.steps[others] == 0).all()
+
+
+def test_no_worlds_have_no_paths():
+    driven = navigate(
+        turn_to_clearer_side, random_worlds(0, 3, seed=1), record_paths=True
+    )
+    assert driven.paths == ()
+    assert len(driven.steps) == 0
