@@ -20,8 +20,8 @@ from robonav.atomic import atomic_write
 
 from .check import InProcessCalls, graded
 from .course import Course, Exercise
+from .notebook import STUB
 from .reference import Recorder, solution
-from .worker import STUB
 
 SOLUTION = re.compile(
     r"^( *)### BEGIN SOLUTION\n.*?^ *### END SOLUTION\n", re.MULTILINE | re.DOTALL

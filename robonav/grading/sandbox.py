@@ -13,6 +13,7 @@ In all three tiers the worker limits its resources. On Linux it also forbids its
 from __future__ import annotations
 
 import functools
+import importlib.util
 import os
 import select
 import shutil
@@ -37,7 +38,17 @@ START_SECONDS = (
     60.0  # time that the worker has to start, before it runs any of the student's code
 )
 # The files of this folder that the sandbox contains.
-STAGED = ("hardening", "frames", "notebook", "removal", "supervisor", "worker")
+STAGED = (
+    "answers",
+    "hardening",
+    "frames",
+    "notebook",
+    "removal",
+    "supervisor",
+    "worker",
+)
+# The files of IPython that read the cells of a notebook; they import nothing but the standard library.
+STAGED_IPYTHON = ("core/inputtransformer2.py", "utils/tokenutil.py")
 # The shared libraries of the interpreter.
 LOADER = ("/lib", "/lib64", "/usr/lib", "/usr/lib64", "/etc/ld.so.cache")
 CHUNK = 1 << 16  # bytes moved at once
@@ -488,6 +499,11 @@ def _staged() -> tempfile.TemporaryDirectory[str]:
     package.mkdir(parents=True)
     for name in STAGED:
         shutil.copy(Path(__file__).with_name(f"{name}.py"), package)
+    if (ipython := importlib.util.find_spec("IPython")) and ipython.origin:
+        for name in STAGED_IPYTHON:
+            copied = Path(folder.name, "IPython", name)
+            copied.parent.mkdir(parents=True)
+            shutil.copy(Path(ipython.origin).parent / name, copied)
     for path in [folder.name, *map(str, Path(folder.name).rglob("*"))]:
         os.chmod(path, 0o755)
     return folder

@@ -57,7 +57,7 @@ def fault(tier: str, python: str | None = None) -> str | None:
         return str(error)
     try:
         worker.ask(
-            {"id": 1, "do": "load", "chapter": "", "name": "canary"},
+            {"id": 1, "do": "load", "path": "canary.py", "name": "canary"},
             sandbox.START_SECONDS,
         )
         reply = worker.ask(

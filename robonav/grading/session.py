@@ -80,6 +80,8 @@ class Session:
         self._serving: Exercise | None = None
         # by exercise, so that a file that hangs is loaded only once
         self._failed: dict[str, Unaccepted] = {}
+        self.found: dict[str, str] = {}  # the file with the answer, by exercise
+        self.unwritten: set[str] = set()  # exercises whose function is as handed out
         self._left: dict[str, float] = {}  # seconds by exercise
         self._asked = 0
 
@@ -127,9 +129,19 @@ class Session:
         if self._worker is None:
             self._worker = self._start()
         self._serving = exercise
-        self._ask(
-            exercise, {"do": "load", "chapter": exercise.chapter, "name": exercise.name}
+        name = exercise.name
+        found = self._ask(
+            exercise, {"do": "find", "chapter": exercise.chapter, "name": name}
         )
+        match found:
+            case {"path": "", "unwritten": str(unwritten)}:
+                if unwritten:
+                    self.unwritten.add(exercise.id)
+                raise Unaccepted("missing", "Not attempted.")
+            case {"path": str(path), "origin": str(origin)}:
+                if origin in self._files:
+                    self.found[exercise.id] = origin
+                self._ask(exercise, {"do": "load", "path": path, "name": name})
 
     def _start(self) -> Worker:
         while True:

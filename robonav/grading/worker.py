@@ -1,7 +1,7 @@
 """The worker runs a student's code in the sandbox. It answers each of the grader's requests with one frame.
 
 The grader sends the submission's files once, and the worker says ``ready``. Then, for each exercise, the grader asks
-to ``load`` a function, to ``call`` it any number of times, and to ``end``. Each exercise gets a fresh copy of the files
+to ``find`` a function, to ``load`` it, to ``call`` it any number of times, and to ``end``. Each exercise gets a fresh copy of the files
 in its own folder and, where the system can fork, its own child process. A child that crashes or damages its folder does
 not affect the next one, and numpy is imported only once. A child knows the arguments of its calls but no right answer.
 """
@@ -20,10 +20,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from . import frames, hardening, notebook
+from . import answers, frames, hardening, notebook
 from .removal import empty
 
-STUB = 'raise NotImplementedError("{name} is yours to write")'  # the body of a function that is not written yet
 ALLOWED = {"numpy", *sys.stdlib_module_names}
 MOST_TEXT = 2_000  # characters of an error message, and of what one call prints
 
@@ -72,6 +71,8 @@ def main() -> None:
     requests, replies = _take_streams()
     opening = frames.read(requests)
     files = {name: content.tobytes() for name, content in opening["files"].items()}
+    with contextlib.suppress(ImportError):
+        notebook.transformer()
     _close_the_gate(
         {part.removesuffix(".py") for name in files for part in name.split("/")}
     )
@@ -127,7 +128,9 @@ def _tried(do: Callable[..., Any], *arguments: Any, **options: Any) -> None:
 
 def _close_the_gate(own: set[str]) -> None:
     """Make robonav's modules, and all others that are not allowed, impossible to import."""
-    for name in [name for name in sys.modules if name.partition(".")[0] == "robonav"]:
+    for name in [
+        name for name in sys.modules if name.partition(".")[0] in ("robonav", "IPython")
+    ]:
         del sys.modules[name]
     sys.meta_path.insert(0, Gate(own))
 
@@ -170,10 +173,13 @@ def _serve(
 
 
 def _answer(request: dict[str, Any], functions: dict[str, Any]) -> dict[str, Any]:
-    """Load a function or call it, and return its value or a description of the error."""
+    """Find a function, load it or call it, and return its value or a description of the error."""
     try:
+        if request["do"] == "find":
+            found = _found(Path.cwd(), request["chapter"], request["name"])
+            return {"value": found, "changed": []}
         if request["do"] == "load":
-            functions["f"] = _load(Path.cwd(), request["chapter"], request["name"])
+            functions["f"] = _load(Path.cwd(), request["path"], request["name"])
             return {"value": None, "changed": []}
         sent = [frames.encode(argument) for argument in request["args"]]
         value = functions["f"](*request["args"])
@@ -182,42 +188,20 @@ def _answer(request: dict[str, Any], functions: dict[str, Any]) -> dict[str, Any
         return {"raised": _described(error)}
 
 
-def _load(folder: Path, chapter: str, name: str) -> Any:
-    """Load the function ``name`` from ``chapter/name.py``, else from another ``name.py``, else from a notebook."""
-    files = [path for path in sorted(folder.rglob("*.py")) if path.stem == name]
-    files.sort(key=lambda path: (path.parent.name != chapter, len(path.parts)))
-    for path in files:
-        if STUB.format(name=name).encode() not in (source := path.read_bytes()):
-            return _function(_run(name, path, source), name)
-    unreadable: Exception | None = None
-    for path in sorted(folder.rglob("*.ipynb")):
-        try:
-            tree = notebook.definitions(path.read_bytes())
-        except ValueError as error:
-            unreadable = ValueError(f"{path.name}: {error}")
-            continue
-        if name in map(notebook.names, tree.body):
-            return _function(_run(name, path, tree), name)
-        unreadable = unreadable or notebook.broken(path.read_bytes(), name)
-    raise unreadable or NotImplementedError(f"no file or notebook defines {name}")
+def _found(folder: Path, chapter: str, name: str) -> dict[str, str]:
+    """Return where the answer to an exercise is, before any code of the student runs."""
+    found = answers.find(folder, chapter, name)
+    if not found.path and found.problem:
+        raise found.problem
+    return {"path": found.path, "origin": found.origin, "unwritten": found.unwritten}
 
 
-def _function(module: types.ModuleType, name: str) -> Any:
-    """Return the function of this name, or raise an AttributeError in one sentence."""
+def _load(folder: Path, path: str, name: str) -> Any:
+    """Run the file with the answer, and return its function."""
+    module = answers.load(folder, path, name)
     if not hasattr(module, name):
-        raise AttributeError(f"{module.__file__} defines no {name}")
+        raise AttributeError(f"{path} defines no {name}")
     return getattr(module, name)
-
-
-def _run(name: str, path: Path, source: Any) -> types.ModuleType:
-    """Run source code as a module of this name."""
-    module = types.ModuleType(name)
-    module.__file__ = str(path.relative_to(Path.cwd()))
-    sys.modules[name] = module
-    # At the end of the path, so that a student's random.py does not replace Python's.
-    sys.path += [str(path.parent), str(Path.cwd())]
-    exec(compile(source, str(path), "exec"), module.__dict__)
-    return module
 
 
 def _described(error: BaseException) -> dict[str, Any]:

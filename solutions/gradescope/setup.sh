@@ -8,5 +8,5 @@ if command -v apt-get >/dev/null; then
   apt-get install -y bubblewrap python3 python3-venv
 fi
 python3 -m venv "$root/venv"
-"$root/venv/bin/pip" install numpy gymnasium typer joblib tqdm pytest jinja2
+"$root/venv/bin/pip" install numpy gymnasium typer joblib tqdm pytest jinja2 filelock ipython
 "$root/venv/bin/pip" install --no-deps --editable "$root/source"

@@ -12,7 +12,7 @@ import pytest
 
 from robonav.grading import build
 from robonav.grading.course import Course
-from robonav.grading.notebook import definitions
+from robonav.grading.notebook import is_unwritten, parsed, sources
 
 COURSE = Course.around(Path(__file__).parent)
 ROBONAV = str(Path(sys.executable).with_name("robonav"))
@@ -107,9 +107,11 @@ def test_notebooks_are_valid_and_carry_what_nbgrader_reads(chapter):
         )
     assert "BEGIN SOLUTION" not in json.dumps(handed_out)
     assert json.dumps(source).count("BEGIN SOLUTION") == len(source.cells) // 3
-    taken = definitions((COURSE.stubs / f"{chapter}.ipynb").read_bytes())
-    names = {node.name for node in taken.body if isinstance(node, ast.FunctionDef)}
-    assert names == {e.name for e in COURSE.exercises.values() if e.chapter == chapter}
+    cells = sources((COURSE.stubs / f"{chapter}.ipynb").read_bytes())
+    statements = [node for cell in cells for node in parsed(cell)]
+    for e in COURSE.exercises.values():
+        unwritten = sum(is_unwritten(node, e.name) for node in statements)
+        assert unwritten == (e.chapter == chapter)
 
 
 def test_building_writes_what_differs_and_removes_what_has_no_source(tmp_path):

@@ -15,7 +15,7 @@ from robonav.grading.sandbox import Limits, SandboxFault, TimedOut
 pytestmark = pytest.mark.sandbox
 
 ECHO = {"ch2/echo.py": b"def echo(*values): return values"}
-LOAD = {"id": 1, "do": "load", "chapter": "ch2", "name": "echo"}
+LOAD = {"id": 1, "do": "load", "path": "ch2/echo.py", "name": "echo"}
 
 
 def probed():
