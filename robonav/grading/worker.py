@@ -1,9 +1,10 @@
 """The worker runs a student's code in the sandbox. It answers each of the grader's requests with one frame.
 
 The grader sends the submission's files once, and the worker says ``ready``. Then, for each exercise, the grader asks
-to ``find`` a function, to ``load`` it, to ``call`` it any number of times, and to ``end``. Each exercise gets a fresh copy of the files
-in its own folder and, where the system can fork, its own child process. A child that crashes or damages its folder does
-not affect the next one, and numpy is imported only once. A child knows the arguments of its calls but no right answer.
+to ``find`` a function, to ``load`` it, to ``call`` it any number of times, and to ``end``. Each exercise gets a fresh
+copy of the files in its own folder and, where the system can fork, its own child process. A child that crashes or
+damages its folder does not affect the next one, and numpy is imported only once. A child knows the arguments of its
+calls but no right answer.
 """
 
 from __future__ import annotations
@@ -15,7 +16,6 @@ import io
 import os
 import sys
 import traceback
-import types
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
