@@ -1,6 +1,7 @@
 """The numbers of the explorables' JavaScript against Python's."""
 
 import re
+from pathlib import Path
 
 import gymnasium as gym
 import numpy as np
@@ -429,6 +430,33 @@ def test_the_policy_decides_where_python_says(compute, speed):
         assert (np.array(shown) == kinds).all()
         if (obstacles, speed) == (10, 2.0):
             assert round(100 * (kinds == 1).sum() / (kinds < 3).sum()) == 67
+
+
+def test_page_of_the_robot_says_in_how_many_places_the_policy_decides():
+    """The answer has the shares of the free places: among 10 obstacles, among 30, and with a range of 4 m."""
+    page = Path(__file__).parents[3] / "book" / "robot.md"
+    if not page.is_file():
+        pytest.skip("the book is not here")
+    middles = np.arange(1.0, 100, 2)
+    places = np.stack(np.meshgrid(middles, middles), axis=-1).reshape(-1, 2)
+    shares = []
+    for obstacles, sight in ((10, 10.0), (30, 10.0), (10, 4.0)):
+        world = random_worlds(1, obstacles, seed=41)
+        towards = world.targets[0] - places
+        poses = np.column_stack([places, np.arctan2(towards[:, 1], towards[:, 0])])
+        sensing = sense(world[np.zeros(len(poses), int)], poses)
+        nearest = sensing.ranges.min(axis=1)
+        blocked = Reflex()(sensing, 2.0) == Action.B
+        free = nearest >= 1
+        shares.append((free & (nearest < sight) & ~blocked).sum() / free.sum())
+    said = re.search(
+        r"In (\d+) %, on this map.*?30 obstacles it is (\d+) %.*?it would be (\d+) %",
+        page.read_text("utf-8"),
+        re.S,
+    )
+    assert [int(number) for number in said.groups()] == [
+        round(100 * share) for share in shares
+    ]
 
 
 @pytest.mark.parametrize(("speed", "near"), [(2, 10), (6.5, 10), (7, 10), (4.5, 6)])
