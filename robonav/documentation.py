@@ -80,6 +80,32 @@ def documents(
     return decorate
 
 
+def add_sections(described: Callable[..., object], sections: str) -> None:
+    """Add sections to the docstring of a function or class whose source shows a short one.
+
+    Parameters
+    ----------
+    described : function or class
+        Its docstring is changed.
+    sections : str
+        In numpydoc's format.
+
+    Examples
+    --------
+    >>> def double(x):
+    ...     '''Twice a number.'''
+    ...     return 2 * x
+    >>> add_sections(double, "Returns\\n-------\\nfloat")
+    >>> print(double.__doc__)
+    Twice a number.
+    <BLANKLINE>
+    Returns
+    -------
+    float
+    """
+    described.__doc__ = f"{inspect.getdoc(described)}\n\n{sections.strip()}"
+
+
 def sections_of(docstring: str) -> tuple[str, dict[str, str]]:
     """Return the text of a docstring in numpydoc's format, and its sections by their titles.
 

@@ -6,7 +6,8 @@ from functools import partial
 
 import numpy as np
 
-from robonav.networks.multilayer_perceptron import Array, random_network
+from robonav.networks import random_network
+from robonav.networks.multilayer_perceptron import Array
 from robonav.networks.optimisers import lbfgs, one_hot
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress

@@ -1,22 +1,24 @@
 """The multilayer perceptron: its passes, its training and its use as a policy (sections 3.3 and 3.4)."""
 
+from ._interface import (
+    batch_gradient_descent,
+    cross_entropy_cost,
+    cross_entropy_gradient,
+    random_network,
+    squared_error_cost,
+    squared_error_gradient,
+    stochastic_gradient_descent,
+)
 from .costs import CROSS_ENTROPY, SQUARED_ERROR, Objective
 from .multilayer_perceptron import (
     Gradient,
     Network,
     backpropagate,
-    batch_gradient_descent,
-    cross_entropy_cost,
-    cross_entropy_gradient,
     descend,
     propagate,
-    random_network,
     sigmoid,
     sigmoid_slope,
     squared_error,
-    squared_error_cost,
-    squared_error_gradient,
-    stochastic_gradient_descent,
 )
 from .network_stack import NetworkStack, stacked
 from .onnx_files import save_onnx

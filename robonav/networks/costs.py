@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from .multilayer_perceptron import (
-    Gradient,
+from ._interface import (
     cross_entropy_cost,
     cross_entropy_gradient,
     squared_error_cost,
     squared_error_gradient,
 )
+from .multilayer_perceptron import Gradient
 
 
 @dataclass(frozen=True)

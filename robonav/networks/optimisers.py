@@ -11,13 +11,9 @@ from robonav.progress import Progress
 from robonav.validation import check_array, check_integer, check_positive, check_real
 
 from ._checks import checked_examples, documented
+from ._interface import random_network
 from .costs import SQUARED_ERROR, Objective
-from .multilayer_perceptron import (
-    Array,
-    Network,
-    batch_gradient_descent,
-    random_network,
-)
+from .multilayer_perceptron import Array, Network, batch_gradient_descent
 from .training_history import Recorder, TrainingHistory, accuracy
 
 MOST_ITERATIONS = 100_000  # these take minutes; a larger number is a slip of the pen
@@ -111,10 +107,12 @@ def gradient_descent(
         recorder.add(network, cost, accuracy(network, inputs, labels))
 
     keep(network)
-    batch_gradient_descent(
-        network, inputs, labels, gradient_step=step, iterations=count, regularisation=regularisation,
-        cost_gradient=objective.gradient, after_step=keep,
-    )  # fmt: skip
+    for _ in range(count):
+        network = batch_gradient_descent(
+            network, inputs, labels, gradient_step=step, iterations=1, regularisation=regularisation,
+            cost_gradient=objective.gradient,
+        )  # fmt: skip
+        keep(network)
     return recorder.history()
 
 

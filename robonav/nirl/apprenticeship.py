@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import nnls
 
-from robonav.networks.multilayer_perceptron import random_network
+from robonav.networks import random_network
 from robonav.progress import Progress
 
 from ._arguments import checked

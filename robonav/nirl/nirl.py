@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from robonav.networks.multilayer_perceptron import Network, random_network, sigmoid
+from robonav.networks import random_network
+from robonav.networks.multilayer_perceptron import Network, sigmoid
 from robonav.progress import Progress
 
 from ._arguments import checked

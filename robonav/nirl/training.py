@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.networks.multilayer_perceptron import Network, random_network
+from robonav.networks import random_network
+from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.network_stack import NetworkStack, stacked
 from robonav.progress import Progress
 

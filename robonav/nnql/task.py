@@ -10,7 +10,8 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.networks.multilayer_perceptron import Network, random_network
+from robonav.networks import random_network
+from robonav.networks.multilayer_perceptron import Network
 from robonav.robot import (
     NNQL_SENSORS,
     REFLEX,

@@ -1,6 +1,6 @@
 """Documentation that several functions share."""
 
-from robonav.documentation import documents
+from robonav.documentation import add_sections, documents
 
 SHARED = {
     "x": "float\n    Input.",
@@ -58,3 +58,14 @@ def test_a_function_without_shared_parameters_keeps_its_docstring():
         """Go."""
 
     assert go.__doc__ == "Go."
+
+
+def test_sections_of_another_file_stand_below_the_docstring_of_the_source():
+    def go():
+        """Go.
+
+        Far away.
+        """
+
+    add_sections(go, "\nReturns\n-------\nint\n")
+    assert go.__doc__ == "Go.\n\nFar away.\n\nReturns\n-------\nint"
