@@ -1,5 +1,14 @@
 """A* path planning on a known map: on a grid, and over the robot's own actions.
 
+A* keeps an open list of the nodes that it has reached, and always goes on from the one with the smallest estimate of
+the cost of a whole path through it,
+
+    F = G + H,                                                                                         (3.31)
+
+where G is the cost of the path from the start to the node, and H estimates the cost that remains by the straight
+distance to the target. No path is shorter than H. When the target itself has the smallest F of the list, no other path
+can therefore be cheaper than the one found. With H = 0 this is Dijkstra's algorithm, which searches in all directions.
+
 The file is to be read from top to bottom:
 
 1. :class:`Node` is what the search knows about a place that it has reached.

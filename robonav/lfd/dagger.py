@@ -1,11 +1,15 @@
 """Dataset aggregation (DAgger): train on the states that the learner itself visits (Ross, Gordon and Bagnell 2011).
 
 A cloned policy is trained on the states that the expert visits. Once it makes a mistake, it meets states that the
-training examples do not cover, and makes more mistakes there. DAgger repeats three things:
+training examples do not cover, and makes more mistakes there. DAgger repeats three things, in round i = 1, 2, ...:
 
-1. Roll out the learner, and label each state that it visits with the action that the expert would take there.
-2. Aggregate: add these pairs to all those gathered before.
-3. Train a new policy on the aggregate.
+1. Roll out the learner pi_i, and label each state s that it visits with the action pi*(s) that the expert would take
+   there. In a mixture with the expert, each step is the expert's with probability beta_i: it then takes the action
+   pi*(s) instead of pi_i(s).
+2. Aggregate: D_i = D_(i-1) and all these pairs (s, pi*(s)).
+3. Train a new policy pi_(i+1) on D_i by supervised learning.
+
+D_0 are the expert's demonstrations. :func:`dagger` is this loop, and :func:`labelled_rollout` its first step.
 """
 
 from __future__ import annotations

@@ -1,5 +1,16 @@
 """Action values as a linear function of features, Eq. (4.3): SARSA (Algorithm 7) and Q-learning.
 
+With features f_i(s, a) and weights w_i,
+
+    Q(s, a) = sum over i of w_i f_i(s, a).                                                             (4.3)
+
+The derivative of Q(s, a) by w_i is f_i(s, a). A step that changes Q(s, a) by the fraction alpha of its error delta
+therefore changes each weight in proportion to its feature:
+
+    delta = r + gamma * (value of s') - Q(s, a),        w_i += alpha * delta * f_i(s, a).
+
+SARSA takes Q(s', a') of the next action for the value of s', and Q-learning the largest Q(s', a').
+
 ``f = features(state)`` is an array (A, n): ``f[a, i]`` is f_i(s, a), and ``f @ weights`` are the action values (A,).
 The functions change ``weights`` in place. ``learning_rate(episode)`` and ``epsilon(episode)`` are schedules. The
 decorator ``linear_method`` makes them and the weights (step 1 of the algorithm), so users call

@@ -1,5 +1,14 @@
 """Learning from whole episodes: Monte Carlo prediction and control (section 2.4.2).
 
+The return from step t on is the sum of the discounted rewards that follow,
+
+    G_t = r_t + gamma * r_(t+1) + gamma^2 * r_(t+2) + ... = r_t + gamma * G_(t+1),                     (2.3)
+
+and the value of a state is the expected return. Monte Carlo estimates it by the mean of the returns. It needs no model
+and no other estimates, but it can learn only when an episode has ended. Each function makes an episode, computes its
+returns from the last step back to the first, and adds them to the means. If a state occurs several times in an
+episode, the first-visit method counts only the return after the first time, and the every-visit method counts all.
+
 The functions change ``values`` or ``q``, and ``visits``, in place, as those of ``temporal_difference`` do.
 """
 

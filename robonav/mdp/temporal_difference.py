@@ -1,5 +1,18 @@
 """Learning from each step: Q-learning (Algorithm 5), SARSA (Algorithm 6), expected SARSA, and TD(0).
 
+After each step from s by action a to s' with reward r, an estimate moves by the fraction alpha towards a target:
+
+    Q(s, a) += alpha * (target - Q(s, a)),      target = r + gamma * (value of s').
+
+The methods differ in what they take for the value of s':
+
+- Q-learning: the largest Q(s', a') over all actions a';
+- SARSA: Q(s', a') of the action a' that comes next;
+- expected SARSA: the mean of Q(s', a') over the actions a', with the probabilities of the policy;
+- TD(0), which learns the values V of a given policy: V(s').
+
+A terminal state s' has the value 0.
+
 In each function ``q[state][action]`` is Q(s, a), or ``values[state]`` is V(s), and ``visits`` counts the updates of
 each entry. All of them are changed in place. ``epsilon(episode)`` and ``learning_rate(n)`` are schedules: the
 probability of a random action in an episode, and the learning rate alpha after n earlier updates.

@@ -1,13 +1,25 @@
 """Maximum causal entropy inverse reinforcement learning (Ziebart et al. 2010; 2008 for deterministic worlds).
 
-Of all policies with the expert's feature expectations, take the one with the largest causal entropy. It is a Boltzmann
-policy over action values whose backup has a soft maximum in place of Bellman's maximum. The file has the parts of the
-method in order:
+Of all policies with the expert's feature expectations, take the one with the largest causal entropy: it prefers nothing
+that the demonstrations do not show. With the reward r(s, a) = theta . f(s, a) it is the Boltzmann policy
 
-1. the backward pass: :func:`soft_value_iteration` computes the soft values and the policy of a reward;
-2. the forward pass: :func:`occupancy_measure` computes how often this policy takes each action in each state;
-3. the dual function and its gradient, the expert's feature expectations minus those of the policy;
-4. the optimisation of the weights by L-BFGS.
+    pi(a | s) = exp(Q(s, a) - V(s)),
+    Q(s, a)   = r(s, a) + gamma * sum over s' of T(s, a, s') V(s'),
+    V(s)      = log sum over a of exp(Q(s, a)),
+
+with a soft maximum in the last line, where Bellman's equation has the maximum of Q(s, a).
+
+How often this policy visits the states, each visit discounted by its step, follows from the initial distribution p_0:
+
+    d(s')     = p_0(s') + gamma * sum over s and a of d(s) pi(a | s) T(s, a, s').
+
+The weights theta make the demonstrations most likely where the gradient is zero,
+
+    mu_E - sum over s and a of d(s) pi(a | s) f(s, a) = 0:
+
+the policy then has the expert's feature expectations mu_E. The file has these parts in order: the backward pass,
+:func:`soft_value_iteration`; the forward pass, :func:`occupancy_measure`; the function that is maximised and its
+gradient, :func:`causal_entropy_dual`; and its optimisation by L-BFGS, :func:`maximum_causal_entropy`.
 """
 
 from __future__ import annotations
@@ -31,41 +43,6 @@ from ._arguments import checked
 from .reward_free_mdp import RewardFreeMDP
 
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class SoftSolution:
-    """Soft-optimal values and policy, at one temperature.
-
-    Attributes
-    ----------
-    values : (S,) array
-        V, the soft maximum of each row of ``q``.
-    q : (S, A) array
-        Action values Q.
-    policy : (S, A) array
-        The Boltzmann policy over ``q``.
-    iterations : int
-        Number of sweeps.
-    residual : float
-        Largest change of a value in the last sweep.
-    converged : bool
-        Whether it was as small as the tolerance asks for.
-
-    Examples
-    --------
-    >>> from robonav.nirl import TRUE_WEIGHTS, soft_value_iteration, terrain
-    >>> grid, mdp = terrain()
-    >>> soft_value_iteration(mdp.with_reward(TRUE_WEIGHTS)).policy.shape
-    (42, 4)
-    """
-
-    values: Floats
-    q: Floats
-    policy: Floats
-    iterations: int
-    residual: float
-    converged: bool
 
 
 @checked
@@ -223,40 +200,6 @@ def causal_entropy_dual(
     return float(value), gradient
 
 
-@dataclass(frozen=True, eq=False)
-class MaximumCausalEntropy:
-    """A reward, its soft policy, and the trace of the optimisation.
-
-    Attributes
-    ----------
-    weights : (K,) array
-        theta.
-    policy : (S, A) array
-        Soft-optimal for this reward.
-    dual_values : (iterations,) array
-        The penalised dual, which is maximised, after each iteration.
-    gaps : (iterations,) array
-        Distance between the expert's feature expectations and the policy's.
-    converged : bool
-        Whether the gradient became as small as asked for.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.nirl import initial_expectations, maximum_causal_entropy, terrain
-    >>> grid, mdp = terrain()
-    >>> expert = initial_expectations(mdp, np.zeros(42, dtype=int))
-    >>> maximum_causal_entropy(mdp, expert, regularisation=0.1).converged
-    True
-    """
-
-    weights: Floats
-    policy: Floats
-    dual_values: Floats
-    gaps: Floats
-    converged: bool
-
-
 @checked
 def maximum_causal_entropy(
     mdp: RewardFreeMDP,
@@ -340,3 +283,72 @@ def _has_converged(found: Any, tolerance: float) -> bool:
             stacklevel=4,
         )
     return largest <= tolerance
+
+
+@dataclass(frozen=True, eq=False)
+class SoftSolution:
+    """Soft-optimal values and policy, at one temperature.
+
+    Attributes
+    ----------
+    values : (S,) array
+        V, the soft maximum of each row of ``q``.
+    q : (S, A) array
+        Action values Q.
+    policy : (S, A) array
+        The Boltzmann policy over ``q``.
+    iterations : int
+        Number of sweeps.
+    residual : float
+        Largest change of a value in the last sweep.
+    converged : bool
+        Whether it was as small as the tolerance asks for.
+
+    Examples
+    --------
+    >>> from robonav.nirl import TRUE_WEIGHTS, soft_value_iteration, terrain
+    >>> grid, mdp = terrain()
+    >>> soft_value_iteration(mdp.with_reward(TRUE_WEIGHTS)).policy.shape
+    (42, 4)
+    """
+
+    values: Floats
+    q: Floats
+    policy: Floats
+    iterations: int
+    residual: float
+    converged: bool
+
+
+@dataclass(frozen=True, eq=False)
+class MaximumCausalEntropy:
+    """A reward, its soft policy, and the trace of the optimisation.
+
+    Attributes
+    ----------
+    weights : (K,) array
+        theta.
+    policy : (S, A) array
+        Soft-optimal for this reward.
+    dual_values : (iterations,) array
+        The penalised dual, which is maximised, after each iteration.
+    gaps : (iterations,) array
+        Distance between the expert's feature expectations and the policy's.
+    converged : bool
+        Whether the gradient became as small as asked for.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import initial_expectations, maximum_causal_entropy, terrain
+    >>> grid, mdp = terrain()
+    >>> expert = initial_expectations(mdp, np.zeros(42, dtype=int))
+    >>> maximum_causal_entropy(mdp, expert, regularisation=0.1).converged
+    True
+    """
+
+    weights: Floats
+    policy: Floats
+    dual_values: Floats
+    gaps: Floats
+    converged: bool

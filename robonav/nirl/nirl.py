@@ -1,4 +1,15 @@
-"""Neural inverse reinforcement learning, Algorithm 10, and the descent with which it improves its policy."""
+"""Neural inverse reinforcement learning, Algorithm 10, and the descent with which it improves its policy.
+
+A network gives the action values Q(s, a), and a Boltzmann policy follows them. Each iteration
+
+1. rolls out this policy, pi(a | s) proportional to exp(eta Q(s, a)), Eq. (5.10);
+2. chooses weights theta of a reward r(s, a) = theta . f(s, a) under which the expert's decisions are better than the
+   policy's, Eq. (5.14);
+3. improves the policy for this reward: it moves Q(s, a) towards r(s, a) + gamma * Q(s', a'), where s' and a' are the
+   state and the action that came next, Eq. (5.16).
+
+:func:`nirl` is this loop, and :func:`sarsa_descent` its step 3 for one transition after the other.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,10 @@
 """Deep Q-learning (Mnih et al. 2015) in its variant "double DQN" (van Hasselt et al. 2016).
 
-DQN learns Q-values with a network. Three ideas make this stable:
+DQN learns Q-values with a network. For a transition (s, a, r, s') it makes Q(s, a) more like a target,
+
+    target = r + gamma * max over a' of Q(s', a'),      or r where the episode ended.
+
+The target contains the network that it trains, and it changes with every step. Three ideas make this stable:
 
 1. Replay: the network trains on transitions drawn at random from all that were made, not on the latest one.
 2. A target network: the targets come from a copy of the network that stands still between its updates.

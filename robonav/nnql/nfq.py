@@ -1,8 +1,12 @@
 """Neural fitted Q iteration (Riedmiller 2005): collect transitions, then fit the network to all of them.
 
-The method alternates between two phases. The robot first collects transitions in a few episodes. Then fitted Q
-iteration repeats two steps: compute a target for every transition so far, and fit the network to these targets by
-supervised learning on the whole batch.
+The method alternates between two phases. The robot first collects transitions (s, a, r, s') in a few episodes. Then
+fitted Q iteration repeats two steps: compute a target for every transition so far,
+
+    target = r + gamma * max over a' of Q(s', a'),      or r where the episode ended,
+
+and fit the network to these targets by supervised learning on the whole batch. While the network is fitted, the
+targets do not change.
 
 Two things differ from Riedmiller's paper. His network has state and action as inputs and one output; ours has one
 output an action, as in Fig. 4.1, and only the output of the action taken is fitted. His Q-values are costs, so that he
