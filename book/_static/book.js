@@ -16,12 +16,12 @@ document.addEventListener("click", (event) => {
   setTimeout(() => URL.revokeObjectURL(file.href), 1000);
 });
 
-// A table that is wider than the page says so.
+// A table or an output that is wider than the page says so.
 document.addEventListener("DOMContentLoaded", () => {
   const watch = new ResizeObserver((entries) => {
     for (const { target } of entries) target.toggleAttribute("data-cut", target.scrollWidth > target.clientWidth + 1);
   });
-  for (const place of document.querySelectorAll(".pst-scrollable-table-container")) watch.observe(place);
+  for (const place of document.querySelectorAll(".pst-scrollable-table-container, .cell_output pre")) watch.observe(place);
 });
 
 // The theme's buttons that unfold pages in the sidebar have no name of their own.
