@@ -31,6 +31,7 @@ from result_role import with_results
 from sphinx.application import Sphinx
 from thesis_numbers import thesis_number
 
+from robonav.drills import of_page
 from robonav.grading.course import Course
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -44,6 +45,7 @@ DOLLARS = re.compile(
     r"^\$\$(?P<body>.*?)\$\$ *\((?P<label>[^()\n]+)\)[ \t]*$", re.M | re.S
 )
 EXERCISES = re.compile(r"^```\{exercises\} *(?P<page>[\w-]*)\n```$", re.M)
+DRILLS = re.compile(r"^```\{drills\}\n```$", re.M)
 ROLE = re.compile(r"\{(?P<name>[\w:.-]+)\}`(?P<text>[^`]+)`")
 TARGET = re.compile(r"^\([\w:. -]+\)=\n", re.M)
 PICTURE = re.compile(r"(?P<start>!\[[^\]]*\]\()(?P<path>[^):\s]+)\)")
@@ -192,6 +194,16 @@ def _exercises(match: re.Match[str], page: str) -> str:
     return exercises_of(Course.around(), match["page"] or page)
 
 
+def _drills(page: str) -> str:
+    """Return one question of each drill of a page, its solution folded. Pictures are left out of notebooks."""
+    questions = [(drill.title, drill.question(0)) for drill in of_page(page)]
+    return "\n\n".join(
+        f"**{title}.** {question.text}\n\n"
+        f"<details><summary>Solution</summary>\n\n{question.explanation}\n\n</details>"
+        for title, question in questions
+    )
+
+
 def notebook_of(source: Path) -> nbformat.NotebookNode:
     """Return the notebook of one page, without outputs. Its first cell installs the package if it is missing."""
     notebook = jupytext.read(source)
@@ -200,7 +212,8 @@ def notebook_of(source: Path) -> nbformat.NotebookNode:
         cell["id"] = f"cell-{index}"
         if cell.cell_type == "markdown":
             listed = partial(_exercises, page=source.stem)
-            cell.source = plain(EXERCISES.sub(listed, cell.source))
+            text = DRILLS.sub(lambda _: _drills(source.stem), cell.source)
+            cell.source = plain(EXERCISES.sub(listed, text))
             attach_pictures(cell, source.parent)
     notebook.metadata.pop("jupytext", None)
     return notebook

@@ -39,7 +39,9 @@ ALLOWED = {
     "plots": CHAPTERS | {"experiments", "benchmark"},
     "widgets": CHAPTERS | {"experiments", "benchmark", "plots"},
     "grading": CHAPTERS,
-    "cli": CHAPTERS | {"experiments", "benchmark", "plots", "widgets", "grading"},
+    "drills": CHAPTERS,
+    "cli": CHAPTERS
+    | {"experiments", "benchmark", "plots", "widgets", "grading", "drills"},
 }
 LATE = (
     "numba",

@@ -1,0 +1,122 @@
+"""The drills of a page: the directives ``{drills}`` and ``{progress}``.
+
+``{drills}`` shows the drills of the page that it stands on, each folded. ``{progress}`` lists all drills of the book by
+page. The questions are drawn while the book is built, :data:`QUESTIONS` of each drill, into a script of their own,
+``_static/drills/NAME.js``, which a page loads when a reader opens the drill.
+
+Without scripts, and on paper, a drill shows its first question with its solution.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from html import escape
+from pathlib import Path
+
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+import robonav.drills
+from robonav.drills import DRILLS, Drill, of_page
+from robonav.drills.markup import as_json, html
+from robonav.widgets.shared import front_end, style_sheet
+
+QUESTIONS = 100  # of each drill
+FOLDER = "drills"
+
+
+def script(drill: Drill) -> str:
+    """Return the script with a drill's questions. A drill without numbers has few different ones."""
+    drawn = (as_json(drill.question(seed)) for seed in range(QUESTIONS))
+    texts = dict.fromkeys(
+        json.dumps(question, ensure_ascii=False, separators=(",", ":"))
+        for question in drawn
+    )
+    return f"robonavDrill({json.dumps(drill.name)},[{','.join(texts)}]);\n"
+
+
+def page_script() -> str:
+    """Return the script of all pages with drills: a plain one, because modules do not load from disk."""
+    plain = re.sub(
+        r"^export ", "", front_end("drills", "drills_page"), flags=re.MULTILINE
+    )
+    return f"(() => {{\n{plain}\n}})();\n"
+
+
+def folded(drill: Drill, static: str) -> str:
+    """Return a folded drill as HTML, with its first question for readers without scripts."""
+    first = drill.question(0)
+    return (
+        f'<details class="robonav drill" data-drill="{drill.name}" data-source="{static}/{FOLDER}/{drill.name}.js">'
+        f'<summary>{escape(drill.title)}<span class="drill-standing"></span></summary>'
+        f'<div class="drill-place"><p>{html(first.text)}</p>{first.picture}'
+        f"<details><summary>Solution</summary><p>{html(first.explanation)}</p></details></div></details>"
+    )
+
+
+class _Drills(SphinxDirective):
+    """What both directives share."""
+
+    def static(self) -> str:
+        """Return the path of the folder of static files from the page."""
+        return "../" * self.env.docname.count("/") + "_static"
+
+    def raw(self, text: str) -> nodes.Node:
+        """Return HTML, after noting that the page depends on the package's drills."""
+        for path in Path(robonav.drills.__file__).parent.glob("*.py"):
+            self.env.note_dependency(str(path))
+        # the page then loads MathJax, which the questions need
+        self.env.get_domain("math").data["has_equations"][self.env.docname] = True  # type: ignore[attr-defined]
+        return nodes.raw("", text, format="html")
+
+
+class PageDrills(_Drills):
+    """The directive ``{drills}``."""
+
+    def run(self) -> list[nodes.Node]:
+        page = self.env.docname.rpartition("/")[2]
+        drills = of_page(page)
+        if not drills:
+            raise self.error(f"no drill belongs to the page {page}")
+        return [self.raw("".join(folded(drill, self.static()) for drill in drills))]
+
+
+class Progress(_Drills):
+    """The directive ``{progress}``."""
+
+    def run(self) -> list[nodes.Node]:
+        parts: list[nodes.Node] = [
+            self.raw(f'<p class="drills-summary" data-drills="{" ".join(DRILLS)}"></p>')
+        ]
+        for page in dict.fromkeys(drill.page for drill in DRILLS.values()):
+            drills = of_page(page)
+            names = " ".join(drill.name for drill in drills)
+            parts += self.parse_text_to_nodes(f"**{{doc}}`/book/{page}`**")
+            parts.append(
+                self.raw(f'<p class="drills-summary" data-drills="{names}"></p>')
+            )
+            parts += [self.raw(folded(drill, self.static())) for drill in drills]
+        return parts
+
+
+def write_files(app: Sphinx, error: Exception | None) -> None:
+    """Write the scripts beside the pages."""
+    if error or app.builder.format != "html":
+        return
+    folder = Path(app.outdir) / "_static"
+    (folder / FOLDER).mkdir(parents=True, exist_ok=True)
+    (folder / "drills.js").write_text(page_script(), "utf-8")
+    (folder / "drills.css").write_text(style_sheet("drills"), "utf-8")
+    for drill in DRILLS.values():
+        (folder / FOLDER / f"{drill.name}.js").write_text(script(drill), "utf-8")
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.add_directive("drills", PageDrills)
+    app.add_directive("progress", Progress)
+    app.add_js_file("drills.js")
+    app.add_css_file("drills.css")
+    app.connect("build-finished", write_files)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,27 @@
+"""Drills: questions with new numbers each time, their right answers computed by the package's own functions."""
+
+from . import chapter2 as chapter2
+from .question import (
+    Choice,
+    Number,
+    Order,
+    Place,
+    Question,
+    Table,
+    Verdict,
+)
+from .registry import DRILLS, Drill, drill, of_page
+
+__all__ = [
+    "DRILLS",
+    "Choice",
+    "Drill",
+    "Number",
+    "Order",
+    "Place",
+    "Question",
+    "Table",
+    "Verdict",
+    "drill",
+    "of_page",
+]

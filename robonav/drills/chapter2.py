@@ -1,0 +1,268 @@
+"""Drills of chapter 2: decisions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robonav import mdp
+
+from .pictures import grid_picture
+from .question import Number, Order, Place, Question, Table
+from .registry import drill
+from .text import sign, terms
+
+Rng = np.random.Generator
+
+
+# ---- decision-processes
+
+
+@drill("decision-processes", "The return of an episode")
+def discounted_return(rng: Rng) -> Question:
+    """Compute the return of a short episode by hand."""
+    rewards = rng.integers(-3, 6, size=4).astype(float)
+    discount = rng.choice([0.5, 0.8, 0.9])
+    returns = mdp.discounted_return(rewards, discount)
+    powers = discount ** np.arange(4)
+    return Question(
+        f"An episode has the rewards ${', '.join(f'{r:g}' for r in rewards)}$. "
+        f"What is its return $G_0$ with $\\gamma = {discount:g}$?",
+        Number(
+            returns[0],
+            wrong={
+                "This is the sum without discount.": rewards.sum(),
+                "The first reward is not discounted: its factor is $\\gamma^0 = 1$.": discount
+                * returns[0],
+                "This is the return after the first step, $G_1$. The first reward counts too.": returns[
+                    1
+                ],
+                "This is the mean of the rewards. The return is a sum.": rewards.mean(),
+                "The discount's power grows by one in each step; here it stays at 1 after the first.": rewards[
+                    0
+                ]
+                + discount * rewards[1:].sum(),
+            },
+        ),
+        f"$G_0 = {terms(rewards, powers)} = {returns[0]:.4g}$.",
+    )
+
+
+@drill("decision-processes", "From one return to the one before")
+def return_backwards(rng: Rng) -> Question:
+    """Use the recursion of the return."""
+    reward, following = float(rng.integers(-4, 5)), round(float(rng.uniform(-6, 9)), 1)
+    discount = rng.choice([0.5, 0.8, 0.9, 0.95])
+    answer = mdp.discounted_return([reward, following], discount)[0]
+    return Question(
+        f"The return from step 8 on is $G_8 = {following:g}$, and step 7 gave the reward $r_7 = {reward:g}$. "
+        f"What is $G_7$ with $\\gamma = {discount:g}$?",
+        Number(
+            answer,
+            wrong={
+                "The return of the next step must be discounted once.": reward
+                + following,
+                "The discount belongs to $G_8$. The reward $r_7$ comes at once.": following
+                + discount * reward,
+                "The reward $r_7$ is not discounted.": discount * (reward + following),
+                "The reward $r_7$ is missing.": discount * following,
+            },
+        ),
+        f"$G_7 = r_7 + \\gamma G_8 = {reward:g} {sign(discount * following)} = {answer:.4g}$.",
+    )
+
+
+def _two_states(rng: Rng) -> tuple[mdp.FiniteMDP, float, float]:
+    """A model in which the only action stays in state 0 with probability p, and else ends; p and its reward."""
+    stay, reward = float(rng.choice([0.5, 0.6, 0.8])), float(rng.integers(1, 6))
+    discount = float(rng.choice([0.5, 0.8, 0.9]))
+    model = mdp.FiniteMDP([[[stay, 1 - stay], [0, 1]]], [[reward], [0]], discount)
+    return model, stay, reward
+
+
+@drill("decision-processes", "The value of a state that is left at random")
+def value_of_a_loop(rng: Rng) -> Question:
+    """Solve Bellman's equation of a policy for one state."""
+    model, stay, reward = _two_states(rng)
+    discount = model.discount
+    value = mdp.policy_evaluation(model, [0, 0])[0]
+    return Question(
+        f"In state A each step gives the reward ${reward:g}$. Then the robot stays in A with probability ${stay:g}$, "
+        f"and else the episode ends. What is $V(A)$ with $\\gamma = {discount:g}$?",
+        Number(
+            value,
+            wrong={
+                "The probability of staying is missing: $V = r + \\gamma V$ would hold if it always stayed.": reward
+                / (1 - discount),
+                "The discount is missing.": reward / (1 - stay),
+                "This is one step only. After it the robot may be in A again.": reward,
+                "This is two steps. The value counts all later steps, so solve the equation for $V(A)$.": reward
+                * (1 + discount * stay),
+                "The probability of ending stands in the place of the probability of staying.": reward
+                / (1 - discount * (1 - stay)),
+            },
+        ),
+        f"$V(A) = {reward:g} + {discount:g} \\cdot {stay:g} \\, V(A)$, "
+        f"so $V(A) = {reward:g} / (1 - {discount * stay:.4g}) = {value:.4g}$.",
+    )
+
+
+@drill("decision-processes", "Advantages of two actions")
+def advantages(rng: Rng) -> Question:
+    """Compute values and advantages of a policy that chooses at random."""
+    q = np.round(rng.uniform(-2, 6, size=2), 1)
+    probability = float(rng.choice([0.2, 0.25, 0.4, 0.7]))
+    value = float(np.dot([probability, 1 - probability], q))
+    return Question(
+        f"A policy takes action a with probability ${probability:g}$ and action b otherwise. "
+        f"$Q(s, a) = {q[0]:g}$ and $Q(s, b) = {q[1]:g}$. Fill in the state's value and both advantages.",
+        Table(
+            ["s"],
+            ["V(s)", "A(s, a)", "A(s, b)"],
+            [[value, q[0] - value, q[1] - value]],
+            wrong={
+                "The value of a policy weights the actions by its probabilities; this is the maximum.": [
+                    [q.max(), q[0] - q.max(), q[1] - q.max()]
+                ],
+                "The actions are not equally probable.": [
+                    [q.mean(), q[0] - q.mean(), q[1] - q.mean()]
+                ],
+                "The advantage is $Q - V$, not $V - Q$.": [
+                    [value, value - q[0], value - q[1]]
+                ],
+            },
+        ),
+        f"$V(s) = {probability:g} \\cdot {q[0]:g} + {1 - probability:g} \\cdot {q[1]:g} = {value:.4g}$. "
+        f"An advantage is $A(s, a) = Q(s, a) - V(s)$: {q[0] - value:.4g} and {q[1] - value:.4g}.",
+    )
+
+
+# ---- dynamic-programming
+
+
+@drill("dynamic-programming", "A Bellman backup in one cell")
+def bellman_backup(rng: Rng) -> Question:
+    """Back up the value of one cell of a grid that slips."""
+    slip = float(rng.choice([0.1, 0.2]))
+    up, right, down = np.round(rng.uniform(0, 1, size=3), 2)
+    discount = float(rng.choice([0.8, 0.9]))
+    ahead, aside = 1 - 2 * slip, slip
+    expected = np.array([ahead * right + aside * (up + down)])
+    # one action, "right"; the states are the cell itself, and the cells above, right and below
+    to_others = [0, aside, ahead, aside]
+    stay = [np.eye(4)[k] for k in (1, 2, 3)]
+    model = mdp.FiniteMDP([[to_others, *stay]], np.zeros((4, 1)), discount)
+    answer = float(model.action_values([0, up, right, down])[0, 0])
+    return Question(
+        f"The robot in the cell A goes right. It gets there with probability ${ahead:g}$, and slips up or down with "
+        f"probability ${aside:g}$ each. The step gives no reward. The picture shows the values of the cells around. "
+        f"What does the backup give as $Q(A, \\text{{right}})$ with $\\gamma = {discount:g}$?",
+        Number(
+            answer,
+            wrong={
+                "The discount is missing.": float(expected[0]),
+                "The robot may also slip: this counts the cell to the right alone.": discount
+                * right,
+                "Each value counts by its own probability; this is the plain mean of the three.": discount
+                * (up + right + down)
+                / 3,
+                "The slips are missing: only the way to the right is counted here.": discount
+                * ahead
+                * right,
+                "This is the largest of the values. A backup of one action is a mean over next states.": discount
+                * max(up, right, down),
+            },
+        ),
+        f"${discount:g} \\, ({ahead:g} \\cdot {right:g} + {aside:g} \\cdot {up:g} + {aside:g} \\cdot {down:g}) "
+        f"= {answer:.4g}$.",
+        grid_picture(
+            [
+                [None, f"{up:g}", None],
+                [None, "A", f"{right:g}"],
+                [None, f"{down:g}", None],
+            ],
+            title=f"Cell A. Above it a cell with value {up:g}, to its right {right:g}, below it {down:g}.",
+        ),
+    )
+
+
+@drill("dynamic-programming", "When may value iteration stop?")
+def stopping_bound(rng: Rng) -> Question:
+    """Turn an accepted loss into the change at which to stop."""
+    discount = float(rng.choice([0.8, 0.9, 0.95, 0.99]))
+    loss = float(rng.choice([0.5, 1.0, 2.0, 5.0]))
+    model = mdp.FiniteMDP([[[1.0]]], [[1.0]], discount)
+    answer = model.residual_for(loss)
+    return Question(
+        f"Your policy may lose at most ${loss:g}$ in every state, and $\\gamma = {discount:g}$. "
+        "At which largest change of a sweep may value iteration stop? Give three significant digits.",
+        Number(
+            answer,
+            tolerance=0.006 * answer,
+            wrong={
+                "This is the accepted loss itself. Later sweeps can still change the values much more.": loss,
+                "This is a bound on the values. The policy's loss can be twice as large.": loss
+                * (1 - discount)
+                / discount,
+                "The discount in the denominator is missing.": loss
+                * (1 - discount)
+                / 2,
+                "The factor $1 - \\gamma$ is missing.": loss / (2 * discount),
+            },
+        ),
+        f"$\\epsilon (1 - \\gamma) / (2 \\gamma) = {loss:g} \\cdot {1 - discount:.2g} / {2 * discount:g} "
+        f"= {answer:.3g}$.",
+    )
+
+
+@drill("dynamic-programming", "Which arrow changes?")
+def improved_cell(rng: Rng) -> Question:
+    """Find the state in which a policy is not greedy."""
+    grid = mdp.GridWorld("S . . \n . # . \n . . G")
+    model = grid.mdp(discount=0.9)
+    best = mdp.policy_iteration(model)
+    q = model.action_values(best.values)
+    unique = np.flatnonzero((mdp.greedy_actions(q).sum(axis=1) == 1) & ~model.terminal)
+    changed = int(rng.choice(unique))
+    policy = best.policy.copy()
+    policy[changed] = (policy[changed] + rng.integers(1, 4)) % 4
+    letters = "ABCDEFH"  # G is the goal
+    places = {tuple(cell): letters[s] for s, cell in enumerate(grid.cells[:7].tolist())}
+    shown: list[list[str | None]] = [["", "", ""], ["", None, ""], ["", "", "G"]]
+    for s, (i, j) in enumerate(grid.cells[:7].tolist()):
+        shown[i][j] = mdp.gridworld.ARROWS[policy[s]]
+    name = letters[changed]
+    return Question(
+        "The goal G gives the reward 1 and ends the episode; steps never slip. One arrow of this policy is not greedy "
+        "with respect to the optimal values. Which cell's arrow does an improvement change?",
+        Place([*letters], [name]),
+        f"In {name} the greedy action is {mdp.gridworld.ARROWS[best.policy[changed]]}: "
+        f"its action value is {q[changed].max():.3g}, and the arrow's is {q[changed, policy[changed]]:.3g}.",
+        grid_picture(
+            shown,
+            names=places,
+            title="A policy on a grid of three by three cells with a wall in the middle.",
+        ),
+    )
+
+
+@drill("dynamic-programming", "The steps of policy iteration")
+def order_of_policy_iteration(rng: Rng) -> Question:
+    """Put the steps of an algorithm in order."""
+    return Question(
+        "Put the steps of policy iteration in order.",
+        Order(
+            [
+                "Choose any policy.",
+                "Compute the values of the policy.",
+                "Take in each state the action with the largest action value.",
+                "Stop if no action has changed; else evaluate again.",
+            ],
+            hint="An evaluation comes before each improvement, because the improvement needs the values.",
+            before={
+                (0, 1): "There must be a policy before it can be evaluated.",
+                (1, 2): "The improvement needs the values of the policy.",
+                (2, 3): "Whether an action has changed is known after the improvement.",
+            },
+        ),
+        "Evaluation and improvement alternate, beginning with any policy, until an improvement changes nothing.",
+    )

@@ -1,0 +1,124 @@
+"""Questions as HTML and JSON: what the page and the exports show."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from .question import Asked, Choice, Number, Order, Place, Question
+
+
+@cache
+def _parser() -> Any:
+    from markdown_it import MarkdownIt
+    from mdit_py_plugins.dollarmath import dollarmath_plugin
+
+    def formula(text: str, options: dict[str, Any]) -> str:
+        escaped = text.replace("&", "&amp;").replace("<", "&lt;")
+        return rf"\[{escaped}\]" if options["display_mode"] else rf"\({escaped}\)"
+
+    return MarkdownIt("commonmark").use(dollarmath_plugin, renderer=formula)
+
+
+@cache
+def html(text: str) -> str:
+    r"""Return Markdown as HTML, its formulas between ``\(`` and ``\)`` as MathJax and learning platforms read them.
+
+    Parameters
+    ----------
+    text : str
+        Markdown; one paragraph loses its tags, so that it can stand in a line.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> html("The value of $s < t$ is *exact*.")
+    'The value of <span class="math inline">\\(s &lt; t\\)</span> is <em>exact</em>.'
+    """
+    parser = _parser()
+    tokens = parser.parse(text)
+    if [token.type for token in tokens] == [
+        "paragraph_open",
+        "inline",
+        "paragraph_close",
+    ]:
+        return str(parser.renderInline(text))
+    return str(parser.render(text))
+
+
+def _asked(asked: Asked) -> dict[str, Any]:
+    """The kind of answer as JSON; texts that a reader sees are HTML."""
+    if isinstance(asked, Number):
+        wrong = [[html(hint), number] for hint, number in asked.wrong.items()]
+        return {
+            "kind": "number",
+            "answer": asked.answer,
+            "tolerance": asked.tolerance,
+            "unit": asked.unit,
+            "wrong": wrong,
+        }
+    if isinstance(asked, Choice):
+        options = [html(option) for option in asked.options]
+        hints = [html(asked.wrong.get(option, "")) for option in asked.options]
+        right = asked.options.index(asked.right)
+        return {"kind": "choice", "options": options, "right": right, "hints": hints}
+    if isinstance(asked, Place):
+        by_place = {place: html(hint) for place, hint in asked.wrong.items()}
+        return {"kind": "place", "right": list(asked.right), "hints": by_place}
+    if isinstance(asked, Order):
+        before = [[i, j, html(hint)] for (i, j), hint in asked.before.items()]
+        steps = [html(step) for step in asked.steps]
+        return {
+            "kind": "order",
+            "steps": steps,
+            "before": before,
+            "hint": html(asked.hint),
+        }
+    wrong = [[html(hint), table] for hint, table in asked.wrong.items()]
+    return {
+        "kind": "table",
+        "rows": [html(row) for row in asked.rows],
+        "columns": [html(column) for column in asked.columns],
+        "answer": asked.answer,
+        "tolerance": asked.tolerance,
+        "wrong": wrong,
+    }
+
+
+def as_json(question: Question) -> dict[str, Any]:
+    """Return a question as the page's script takes it.
+
+    Parameters
+    ----------
+    question : Question
+
+    Returns
+    -------
+    dict
+        Plain numbers, texts and lists.
+
+    Examples
+    --------
+    >>> as_json(Question("$1 + 1$?", Number(2), "Two."))["asked"]["kind"]
+    'number'
+    """
+    return {
+        "text": html(question.text),
+        "picture": question.picture,
+        "asked": _plain(_asked(question.asked)),
+        "explanation": html(question.explanation),
+    }
+
+
+def _plain(value: Any) -> Any:
+    """Python's own numbers in place of numpy's, rounded to what a reader's answer is compared with."""
+    if isinstance(value, dict):
+        return {key: _plain(one) for key, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(one) for one in value]
+    if isinstance(value, bool | int | str):
+        return value
+    return round(float(value), 8)

@@ -1,0 +1,50 @@
+// The drills of a page, and the page of progress. A drill's questions are a script of their own, loaded when it is opened.
+
+const waiting = new Map();
+
+/** Called by the script of a drill. */
+globalThis.robonavDrill = (name, questions) => waiting.get(name)?.(questions);
+
+/** The questions of a drill, by a script, since a page that was opened from disk may load nothing else. */
+function load(name, address) {
+  return new Promise((resolve, reject) => {
+    waiting.set(name, resolve);
+    document.head.append(h("script", { src: address, error: () => reject(new Error(address)) }));
+  });
+}
+
+/** Draws the drill of an element when it is opened for the first time. */
+function open(element, told) {
+  const { drill: name, source } = element.dataset;
+  const place = element.querySelector(".drill-place");
+  load(name, source)
+    .then((questions) => drawDrill(place, { name, questions, told }))
+    .catch(() => place.replaceChildren("The questions of this drill are missing beside the page."));
+}
+
+/** How many drills of a list are mastered, due and new. */
+function summary(names) {
+  const records = names.map((name) => remembered()[name]);
+  const mastered = records.filter((record) => record?.streak >= MASTERED).length;
+  const due = records.filter((record) => isDue(record)).length;
+  return `${mastered} of ${names.length} mastered, ${due} due today.`;
+}
+
+document.addEventListener("DOMContentLoaded", () => {
+  const drills = [...document.querySelectorAll("details.drill")];
+  const tell = () => {
+    for (const element of drills) {
+      const record = remembered()[element.dataset.drill];
+      element.querySelector(".drill-standing").textContent = standing(record);
+      element.classList.toggle("mastered", record?.streak >= MASTERED);
+      element.classList.toggle("due", isDue(record));
+    }
+    for (const list of document.querySelectorAll(".drills-summary")) {
+      list.textContent = summary(list.dataset.drills.split(" "));
+    }
+  };
+  for (const element of drills) {
+    element.addEventListener("toggle", () => element.open && open(element, tell), { once: true });
+  }
+  tell();
+});

@@ -1,0 +1,93 @@
+"""The answers of chapter 2's drills, worked out another way from the numbers in their texts."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from robonav.drills import DRILLS, Question
+
+SEEDS = range(50)
+
+
+def numbers(text: str) -> list[float]:
+    """All numbers of a question's text, in order; indices such as the 0 in G_0 are left out."""
+    return [float(n) for n in re.findall(r"(?<![_\w.])-?\d+\.?\d*", text)]
+
+
+def drawn(name: str) -> list[Question]:
+    return [DRILLS[name].question(seed) for seed in SEEDS]
+
+
+def test_discounted_return() -> None:
+    for question in drawn("discounted-return"):
+        *rewards, discount = numbers(question.text)
+        total = sum(discount**k * reward for k, reward in enumerate(rewards))
+        assert question.asked.answer == pytest.approx(total)
+
+
+def test_return_backwards() -> None:
+    for question in drawn("return-backwards"):
+        step, following, before, reward, discount = numbers(question.text)
+        assert (step, before) == (8, 7)
+        assert question.asked.answer == pytest.approx(reward + discount * following)
+
+
+def test_value_of_a_loop_is_a_geometric_series() -> None:
+    for question in drawn("value-of-a-loop"):
+        reward, stay, discount = numbers(question.text)
+        series = sum(reward * (discount * stay) ** k for k in range(1000))
+        assert question.asked.answer == pytest.approx(series)
+
+
+def test_advantages_of_a_policy_have_mean_zero() -> None:
+    for question in drawn("advantages"):
+        probability, *q = numbers(question.text)
+        value, *advantages = question.asked.answer[0]
+        weights = np.array([probability, 1 - probability])
+        assert weights @ advantages == pytest.approx(0)
+        assert np.subtract(q, value) == pytest.approx(advantages)
+
+
+def test_bellman_backup() -> None:
+    for question in drawn("bellman-backup"):
+        ahead, aside, discount = numbers(question.text)
+        up, right, down = numbers(" ".join(re.findall(r">([\d.]+)<", question.picture)))
+        expected = discount * (ahead * right + aside * up + aside * down)
+        assert ahead + 2 * aside == pytest.approx(1)
+        assert question.asked.answer == pytest.approx(expected)
+
+
+def test_stopping_bound() -> None:
+    for question in drawn("stopping-bound"):
+        loss, discount = numbers(question.text)
+        change = question.asked.answer
+        assert 2 * discount / (1 - discount) * change == pytest.approx(loss)
+
+
+def test_the_improved_cell_points_away_from_the_shortest_path() -> None:
+    distance = dict(zip("ABCDEFH", (4, 3, 2, 3, 1, 2, 1), strict=True))
+    position = dict(
+        zip(
+            "ABCDEFH",
+            [(0, 0), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)],
+            strict=True,
+        )
+    )
+    at = {cell: name for name, cell in position.items()} | {(2, 2): "goal"}
+    distance["goal"] = 0
+    for question in drawn("improved-cell"):
+        wrong = []
+        for name, (i, j) in position.items():
+            group = re.search(rf'data-place="{name}">(.*?)</g>', question.picture)
+            assert group
+            x0, y0, x1, y1 = map(
+                float, re.search(r"M(\S+) (\S+)L(\S+) ([\d.]+)", group[1]).groups()
+            )
+            step = (i + int(np.sign(y1 - y0)), j + int(np.sign(x1 - x0)))
+            reached = at.get(step, name)
+            if distance[reached] != distance[name] - 1:
+                wrong.append(name)
+        assert wrong == list(question.asked.right)

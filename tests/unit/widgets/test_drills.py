@@ -1,0 +1,93 @@
+"""The page judges answers as Python does, and remembers what is mastered."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from robonav.drills import DRILLS, Choice, Order, Place
+from robonav.drills.markup import as_json, html
+
+SEEDS = 20
+MASTERED, DAYS = 3, [1, 3, 7, 21, 60]
+
+
+def answers(question, rng):
+    """Some answers, right and wrong, as Python and as the page take them."""
+    asked = question.asked
+    if isinstance(asked, Choice):
+        return [(option, k) for k, option in enumerate(asked.options)]
+    if isinstance(asked, Place):
+        return [(place, place) for place in asked.places]
+    if isinstance(asked, Order):
+        orders = [rng.permutation(len(asked.steps)).tolist() for _ in range(6)]
+        return [(order, order) for order in [*orders, sorted(orders[0])]]
+    tables = [asked.answer, *asked.wrong.values()]
+    near = [np.round(np.asarray(table, float), 2).tolist() for table in tables]
+    return [(table, table) for table in near]
+
+
+def test_judges_as_python_does(node):
+    rng = np.random.default_rng(0)
+    cases, expected = [], []
+    for drill in DRILLS.values():
+        for seed in range(SEEDS):
+            question = drill.question(seed)
+            for own, given in answers(question, rng):
+                verdict = question.judge(own)
+                cases.append([as_json(question)["asked"], given])
+                expected.append({"right": verdict.right, "hint": html(verdict.hint)})
+    found = node(
+        "drills",
+        "return data.map(([asked, given]) => page.judge(asked, given));",
+        cases,
+    )
+    assert found == expected
+    assert {verdict["right"] for verdict in found} == {True, False}
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("0.25", 0.25),
+        (" 0,25 ", 0.25),
+        ("-3", -3),
+        ("−3", -3),
+        (".5", 0.5),
+        ("1e-3", 0.001),
+    ],
+)
+def test_numbers_as_people_type_them(node, text, number):
+    assert node("drills", "return page.typed(data);", text) == number
+
+
+@pytest.mark.parametrize("text", ["", "abc", "1.2.3", "0x10", "Infinity", "1 2"])
+def test_what_is_no_number(node, text):
+    assert node("drills", "return Number.isNaN(page.typed(data));", text)
+
+
+def test_mastered_after_three_and_due_ever_later(node):
+    body = """
+      const today = new Date("2026-01-01T12:00:00Z");
+      const records = [];
+      let record;
+      for (const right of data) records.push((record = page.answered(record, right, today)));
+      return records;
+    """
+    records = node("drills", body, [True] * 8 + [False])
+    assert [record["streak"] for record in records] == [*range(1, 9), 0]
+    first = np.datetime64("2026-01-01")
+    waits = [
+        int((np.datetime64(record["due"]) - first).astype(int)) for record in records
+    ]
+    assert waits == [0, 0, *DAYS, DAYS[-1], 0]
+    assert (records[-1]["right"], records[-1]["wrong"]) == (8, 1)
+
+
+def test_a_browser_that_keeps_nothing(node):
+    body = """
+      globalThis.localStorage = {
+        getItem() { throw new Error("blocked"); }, setItem() { throw new Error("blocked"); } };
+      return [page.remembered(), page.remember({})];
+    """
+    assert node("drills", body, None) == [{}, False]
