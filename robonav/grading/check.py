@@ -14,7 +14,7 @@ from .evidence import Evidence
 from .grade import Unaccepted, exercise_grade, grade
 from .reference import Reference, reference
 from .session import Answer, Calls, Session
-from .submission import load_submission
+from .submission import Refused, Submission, load_submission
 
 
 def check(key: str, function: Callable[..., Any]) -> float:
@@ -82,7 +82,11 @@ def graded(
     seed: bytes = PUBLIC,
     evidence: Evidence | None = None,
 ) -> dict[str, Any]:
-    """Return the exercise's entry in a grade, on the cases of this seed. ``evidence`` gets all calls."""
+    """Return the exercise's entry in a grade, on the cases of this seed. ``evidence`` gets all calls.
+
+    On other cases than the public ones, the feedback says only which parts failed, and how.
+    """
+    secret = seed != PUBLIC
     parts, evidence = [], evidence or Evidence(known, course.parameters(exercise))
     for test, points in parts_of(course, exercise):
         name, error = test.__name__, None
@@ -90,14 +94,48 @@ def graded(
             test(Answer(calls, evidence, exercise, name), generator(seed, name))
         except Exception as raised:
             error = raised
-        parts.append(outcome(test, points, error))
-    return exercise_grade(exercise, evidence.explained(parts))
+        parts.append(outcome(test, points, error, secret=secret))
+    return exercise_grade(exercise, parts if secret else evidence.explained(parts))
+
+
+def with_public_feedback(
+    course: Course,
+    entries: Sequence[dict[str, Any]],
+    loaded: Submission | Refused,
+    tier: str,
+) -> list[dict[str, Any]]:
+    """Return a grade's entries with feedback from the public cases for exercises that failed on secret ones.
+
+    The student's code runs again for it, in a new sandbox that never had a secret case. Whatever the feedback repeats
+    of its answers and messages, it can tell none.
+    """
+    known, session = reference(course), Session(loaded, tier)
+    try:
+        return [
+            entry
+            if entry["state"] in ("correct", "missing", "grader-fault")
+            else _publicly_explained(course, entry, session, known)
+            for entry in entries
+        ]
+    finally:
+        session.close()
+
+
+def _publicly_explained(
+    course: Course, entry: dict[str, Any], session: Session, known: Reference
+) -> dict[str, Any]:
+    public = graded(course, course.exercises[entry["id"]], session, known)
+    if public["feedback"] == entry["feedback"]:  # the submission was refused
+        return entry
+    said = f"On the public cases, as with robonav check:\n{public['feedback']}"
+    if public["state"] == "correct":
+        said = "On the public cases, all parts are right."
+    return {**entry, "feedback": f"{entry['feedback']}\n{said}"}
 
 
 class InProcessCalls:
     """Calls without a sandbox: the function runs in this process, on copies of the arguments."""
 
-    secret = False
     printed = ""  # the notebook itself shows what the function prints
 
     def __init__(self, function: Callable[..., Any]) -> None:

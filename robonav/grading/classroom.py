@@ -23,8 +23,8 @@ from robonav import atomic
 from robonav.progress import Progress
 
 from . import report, submission
-from .cases import PUBLIC
-from .check import graded
+from .cases import seed_of, stretched
+from .check import graded, with_public_feedback
 from .course import Course
 from .grade import fault_grade, grade
 from .reference import reference
@@ -42,9 +42,7 @@ class GradingConfig:
 
     def key(self) -> str:
         """Return a hash of everything that a grade depends on, except the submission."""
-        digest = hashlib.sha256(
-            hashlib.sha256(self.secret).digest() + self.tier.encode()
-        )
+        digest = hashlib.sha256(stretched(self.secret) + self.tier.encode())
         for folder, pattern in (
             (self.course.tests, "*"),
             (self.course.solutions, "**/*.py"),
@@ -66,19 +64,17 @@ def grade_submission(
         for exercise in course.exercises.values()
         if not ids or exercise.id in ids
     ]
-    session, known = (
-        Session(loaded, config.tier, secret=bool(config.secret)),
-        reference(course),
-    )
+    session, known = Session(loaded, config.tier), reference(course)
     try:
-        seed = config.secret or PUBLIC
-        return grade(
-            [
-                graded(course, exercise, session, known, seed=seed)
-                for exercise in exercises
-            ],
-            config.tier,
-        )
+        seed = seed_of(config.secret, _digest(loaded))
+        entries = [
+            graded(course, exercise, session, known, seed=seed)
+            for exercise in exercises
+        ]
+        session.close()
+        if config.secret:
+            entries = with_public_feedback(course, entries, loaded, config.tier)
+        return grade(entries, config.tier)
     except Exception:  # an error in the grader is not the student's fault
         return fault_grade(exercises, config.tier)
     finally:

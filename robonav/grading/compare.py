@@ -83,11 +83,6 @@ def is_near(got: Any, expected: Any) -> bool:
     return bool(np.abs(array - target).max(initial=0) <= 0.01 * np.abs(target).max())
 
 
-def without_answer(problem: str) -> str:
-    """Remove the student's answer from a description of the difference: it could repeat a secret case."""
-    return problem.partition(", got ")[0]
-
-
 def as_numbers(value: Any) -> np.ndarray | None:
     """Convert a student's answer to an array of numbers or truth values. Return None if that is impossible."""
     if not _holds_numbers(value):
@@ -161,21 +156,17 @@ def kind(value: Any) -> str:
     return f"an array of shape {array.shape}"
 
 
-def call(name: str, arguments: tuple[Any, ...], *, numbers: bool) -> str:
-    """Format a call ``name(...)`` for feedback: small arguments in full, or the shapes of all arguments."""
-    return (
-        f"{name}({', '.join(_argument(argument, numbers) for argument in arguments)})"
-    )
+def call(name: str, arguments: tuple[Any, ...]) -> str:
+    """Format a call ``name(...)`` for feedback: small arguments in full, large ones by their shapes."""
+    return f"{name}({', '.join(map(_argument, arguments))})"
 
 
 def row(array: np.ndarray, place: int) -> str:
     """Format one row of an array, with its index."""
-    return f"[{place}] = {_argument(array[place], True)}"
+    return f"[{place}] = {_argument(array[place])}"
 
 
-def _argument(value: Any, numbers: bool) -> str:
-    if not numbers:
-        return kind(value)
+def _argument(value: Any) -> str:
     match value:
         case np.ndarray():
             text = np.array2string(

@@ -43,13 +43,23 @@ class Unaccepted(Exception):
         What the student reads.
     raised : str or None
         The name of the exception that the student's function raised when it was called.
+    refused : bool
+        Whether the whole submission was refused, before any of its code ran.
     """
 
-    def __init__(self, state: State, feedback: str, raised: str | None = None) -> None:
+    def __init__(
+        self,
+        state: State,
+        feedback: str,
+        raised: str | None = None,
+        *,
+        refused: bool = False,
+    ) -> None:
         super().__init__(feedback)
         self.state: State = state
         self.feedback = feedback
         self.raised = raised
+        self.refused = refused
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,8 @@ import pytest
 from robonav.atomic import atomic_write
 
 from . import sandbox_check, submission
-from .cases import PUBLIC, generator, outcome, secret_from
+from .cases import generator, outcome, secret_from, seed_of
+from .check import with_public_feedback
 from .course import Course, Exercise
 from .evidence import Evidence
 from .grade import Part, exercise_grade, grade
@@ -54,8 +55,11 @@ class Run:
             raise pytest.UsageError(
                 f"no marks in the practice tier: {sandbox_check.fault('official')}"
             )
-        self.seed = secret or PUBLIC
-        self.session = Session(loaded, tier, secret=bool(secret))
+        digest = "" if isinstance(loaded, submission.Refused) else loaded.digest
+        self.loaded, self.secret = loaded, bool(secret)
+        self.seed = seed_of(secret or b"", digest)
+        self.session = Session(loaded, tier)
+        self.entries: list[dict[str, Any]] = []  # when all parts have run
         self.reference = reference(self.course)
         self.parts: dict[str, list[Part]] = {}
         self.evidence: dict[str, Evidence] = {}
@@ -114,7 +118,8 @@ class Run:
         if call.when == "call" or call.excinfo is not None:
             exercise, points = self._exercise(item)
             test = cast(pytest.Function, item).function
-            part = outcome(test, points, call.excinfo.value if call.excinfo else None)
+            error = call.excinfo.value if call.excinfo else None
+            part = outcome(test, points, error, secret=self.secret)
             self.parts.setdefault(exercise.id, []).append(part)
             if part.state not in ("correct", "grader-fault"):
                 # The traceback would show the grader's own code.
@@ -124,6 +129,7 @@ class Run:
     def pytest_sessionfinish(self, session: pytest.Session, exitstatus: int) -> None:
         """Stop the sandbox, and write the grade file if one is asked for and the run was complete."""
         self.session.close()
+        self.entries = self._graded()
         if session.config.getoption("grade_json") and exitstatus in (
             pytest.ExitCode.OK,
             pytest.ExitCode.TESTS_FAILED,
@@ -135,18 +141,20 @@ class Run:
 
     def grade(self) -> dict[str, Any]:
         """Return the grade of all requested exercises."""
-        exercises = self.course.exercises
-        graded = [
-            exercise_grade(
-                exercises[id],
-                self.evidence.get(id, Evidence(self.reference)).explained(parts),
-            )
-            for id, parts in self.parts.items()
+        return grade(self.entries, self.session.tier)
+
+    def _graded(self) -> list[dict[str, Any]]:
+        """Return the entries of all requested exercises in the manifest's order, with their feedback."""
+        exercises, tier = self.course.exercises, self.session.tier
+        in_order = sorted(self.parts, key=list(exercises).index)
+        if self.secret:
+            entries = [exercise_grade(exercises[id], self.parts[id]) for id in in_order]
+            return with_public_feedback(self.course, entries, self.loaded, tier)
+        known = {id: self.evidence.get(id, Evidence(self.reference)) for id in in_order}
+        return [
+            exercise_grade(exercises[id], known[id].explained(self.parts[id]))
+            for id in in_order
         ]
-        return grade(
-            sorted(graded, key=lambda entry: list(exercises).index(entry["id"])),
-            self.session.tier,
-        )
 
     def pytest_terminal_summary(
         self, terminalreporter: pytest.TerminalReporter

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import builtins
 import itertools
 import re
 import time
@@ -28,7 +27,6 @@ ROWS = 5  # answers with as many rows have the arguments' rows shown
 class Calls(Protocol):
     """An object that calls a student's function."""
 
-    secret: bool
     changed: list[int]  # the arguments that the last call changed
     printed: str  # what the last call printed, where that is shown
 
@@ -46,10 +44,8 @@ class Session:
         The tier of the sandbox.
     limits : Limits, optional
         What the submission may use.
-    secret : bool
-        Whether feedback must not show the cases.
     show : bool
-        Whether feedback shows what the student's code prints. It never does with a secret.
+        Whether feedback shows what the student's code prints.
     instead : sequence of str
         Tiers to try where a sandbox of the given tier does not start.
     python : str, optional
@@ -62,16 +58,14 @@ class Session:
         tier: str,
         *,
         limits: Limits | None = None,
-        secret: bool = False,
         show: bool = False,
         instead: Sequence[str] = (),
         python: str | None = None,
     ) -> None:
         self.tier = tier
-        self.secret = secret
         self.changed: list[int] = []
         self.printed = ""
-        self._show, self._instead = show and not secret, list(instead)
+        self._show, self._instead = show, list(instead)
         self._files = submission.files if isinstance(submission, Submission) else {}
         self._refused = submission if isinstance(submission, Refused) else None
         self._limits = limits or Limits()
@@ -96,7 +90,8 @@ class Session:
             If the sandbox itself fails.
         """
         if self._refused:
-            raise Unaccepted("error", f"The submission was refused: {self._refused}.")
+            said = f"The submission was refused: {self._refused}."
+            raise Unaccepted("error", said, refused=True)
         if exercise.id in self._failed:
             raise self._failed[exercise.id]
         self._serve(exercise)
@@ -198,9 +193,7 @@ class Session:
             ) from None
         except Garbled as error:
             self.close()
-            raise Unaccepted(
-                "error", self._told("The reply is not an answer", f": {error}.")
-            ) from None
+            raise Unaccepted("error", f"The reply is not an answer: {error}.") from None
         finally:
             self._left[exercise.id] = left - (time.monotonic() - start)
         # match types first, because comparing an array with == gives no truth value
@@ -240,19 +233,12 @@ class Session:
         if kind == "MemoryError":
             return Unaccepted(
                 "memory",
-                self._told("Your code needs more memory than the limit", place),
+                f"Your code needs more memory than the limit{place}",
             )
         if kind == "FrameError":
             said = "The answer must be numbers, strings, lists, dicts or arrays"
-            return Unaccepted("error", self._told(said, f", not {message}."))
-        known = not self.secret or isinstance(getattr(builtins, kind, None), type)
-        return Unaccepted(
-            "error",
-            self._told(
-                kind if known else "An error of your own", f": {message}{place}"
-            ),
-            raised=kind,
-        )
+            return Unaccepted("error", f"{said}, not {message}.")
+        return Unaccepted("error", f"{kind}: {message}{place}", raised=kind)
 
     def _ended(self, status: int) -> Unaccepted:
         if status == -9:
@@ -263,20 +249,11 @@ class Session:
         if status < 0:
             return Unaccepted(
                 "error",
-                self._told(
-                    "Your code crashed the process it ran in", f" (signal {-status})."
-                ),
+                f"Your code crashed the process it ran in (signal {-status}).",
             )
         return Unaccepted(
-            "error",
-            self._told(
-                "Your code ended the process it ran in", f" (exit code {status})."
-            ),
+            "error", f"Your code ended the process it ran in (exit code {status})."
         )
-
-    def _told(self, said: str, more: str) -> str:
-        """Omit ``more`` when the cases are secret, because the student's code could reveal a case in it."""
-        return f"{said}; try robonav check at home." if self.secret else f"{said}{more}"
 
 
 class Answer:
@@ -363,20 +340,14 @@ class Answer:
     def _changing(self) -> str:
         """Describe which arguments the last call changed."""
         names = self._evidence.names
-        which = (
-            "one of its arguments"
-            if self._calls.secret
-            else " and ".join(
-                names[n] if n < len(names) else f"argument {n}"
-                for n in self._calls.changed[: len(self._case.arguments)]
-            )
+        which = " and ".join(
+            names[n] if n < len(names) else f"argument {n}"
+            for n in self._calls.changed[: len(self._case.arguments)]
         )
         return f"your function changes {which} in place; it must work on a copy"
 
     def _wrong(self, problem: str, rows: str = "") -> Unaccepted:
         self._evidence.judge("wrong")
-        if self._calls.secret:
-            problem, rows = compare.without_answer(problem), ""
         found = f"{problem[0].upper()}{problem[1:]}."
         return Unaccepted(
             "wrong", self._told(self._called(), found, *rows.splitlines())
@@ -415,9 +386,7 @@ class Answer:
         return f"The rows begin with {right}; yours begin with {own}."
 
     def _called(self) -> str:
-        return compare.call(
-            self._exercise.name, self._case.arguments, numbers=not self._calls.secret
-        )
+        return compare.call(self._exercise.name, self._case.arguments)
 
     def _told(self, *lines: str) -> str:
         """Return the lines, with what the call printed below."""

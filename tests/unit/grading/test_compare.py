@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from robonav.grading.compare import call, difference, without_answer
+from robonav.grading.compare import call, difference
 
 FLOATS = hnp.arrays(
     float,
@@ -103,28 +103,12 @@ def test_strings_are_never_made_an_array_of():
     )
 
 
-def test_what_came_can_be_left_out():
-    for problem in (
-        difference([0.0, 7.0], np.zeros(2)),
-        difference((1, np.zeros((1234, 0))), (1, np.zeros(3))),
-    ):
-        assert "expected" in without_answer(problem)
-        assert not {"7", "1234", "got"} & set(
-            without_answer(problem).replace("(", " ").replace(",", " ").split()
-        )
-
-
 def test_a_small_number_among_small_ones_counts():
     assert difference([2e-9], np.array([1e-9])) is not None
 
 
-def test_a_call_shows_small_arguments_or_only_their_kinds():
+def test_a_call_shows_small_arguments_and_the_kinds_of_large_ones():
     arguments = (np.array([1.5, 2.0]), 0.25, [1, 2], np.zeros(1000), {"key": "word"})
-    assert call("f", arguments, numbers=True).startswith(
+    assert call("f", arguments).startswith(
         "f([1.5, 2. ], 0.25, [1, 2], an array of shape (1000,), {"
-    )
-    hidden = call("f", arguments, numbers=False)
-    assert (
-        hidden
-        == "f(an array of shape (2,), a number, an array of shape (2,), an array of shape (1000,), a dict of 1)"
     )

@@ -4,7 +4,9 @@ import os
 import struct
 import subprocess
 import sys
+import tempfile
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -102,7 +104,7 @@ def test_what_an_exercise_leaves_behind_is_gone_when_it_has_ended(
 DEEP = b"""
 import os
 def echo():
-    for n in range(3000):
+    for n in range(1500):
         os.mkdir("deep", 0o300)
         os.chdir("deep")
         open("file", "w").close()
@@ -110,17 +112,26 @@ def echo():
 """
 
 
-def test_folders_in_folders_in_folders_are_removed(start, monkeypatch, tmp_path):
+@pytest.fixture
+def temporary(monkeypatch):
+    """A folder for temporary files that every user can reach, as tmp_path is not."""
+    sandbox._stage()  # which stays for all tests
+    with tempfile.TemporaryDirectory() as folder:
+        os.chmod(folder, 0o755)
+        monkeypatch.setattr(sandbox.tempfile, "tempdir", folder)
+        yield Path(folder)
+        monkeypatch.undo()
+
+
+def test_folders_in_folders_in_folders_are_removed(start, temporary):
     """However deep they are and whatever their modes: at the end of an exercise, and of a submission."""
-    monkeypatch.setattr(sandbox.tempfile, "tempdir", str(tmp_path))
-    tmp_path.chmod(0o755)
     worker = loaded(start({"ch2/echo.py": DEEP}))
     assert ask(worker)["value"] is None
     assert worker.ask({"do": "end"}, 30) == {"ended": 0}
     loaded(worker)
     assert ask(worker)["value"] is None
     worker.kill()
-    left = [path for path in tmp_path.iterdir() if "grader" not in path.name]
+    left = [path for path in temporary.iterdir() if "grader" not in path.name]
     assert left == []
 
 
