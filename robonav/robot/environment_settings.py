@@ -1,9 +1,14 @@
-"""The arguments of the environments, checked: one robot's and the vector environment's take the same."""
+"""What surrounds the environments: their arguments, checked, and one robot's rows of what holds many robots.
+
+The simulator, reflexes and reward functions hold arrays whose rows are robots. :class:`NavigationEnv` has one robot. It
+takes its row of a world from here, and asks reflex and reward about its row.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import wraps
 from pathlib import Path
 from typing import Any, cast
 
@@ -19,8 +24,18 @@ from robonav.validation import (
     check_real,
 )
 
+from ._fast.constants import NO_REFLEX
 from .rollout import REFLEX, ReflexRule
-from .simulator import DIRECTIONS, NEVER, OUTCOMES, Reflex, Sensing, check_slip
+from .simulator import (
+    DIRECTIONS,
+    NEVER,
+    OUTCOMES,
+    Outcome,
+    Reflex,
+    Sensing,
+    check_action,
+    check_slip,
+)
 from .world_files import load_worlds
 from .worlds import (
     MOVING_SPEEDS,
@@ -32,6 +47,10 @@ from .worlds import (
     draw_worlds,
     random_keys,
 )
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Obstacles = tuple[Array, Array, Array]  # kinds (M,), shapes (M, 3), centres (M, 2)
 
 Reward = Callable[[Sensing, Sensing, NDArray[np.int8]], ArrayLike]
 """``reward(before, after, outcome) -> (N,)``: from what N robots sensed before and after a step, and the outcomes."""
@@ -71,6 +90,74 @@ def arrival_or_collision(
     array([ 0.,  1., -1.])
     """
     return REWARD_OF_OUTCOME[outcome]
+
+
+@dataclass(eq=False)
+class Map:
+    """The map of one robot: one world, taken out of its batch. Its obstacles may move.
+
+    Attributes
+    ----------
+    kinds, shapes, centres : (M,), (M, 3) and (M, 2) arrays
+        Of M obstacles, see :class:`Worlds`.
+    headings, speeds : (M,) arrays
+        Of their motion.
+    size : float
+        Length of the map's sides in metres.
+    key : (2,) array
+        Random numbers of the episode are a hash of it.
+    start : (x, y, heading)
+        Pose of the robot at the start; it faces its target.
+    target : (x, y)
+
+    Examples
+    --------
+    >>> from robonav.robot import make_world
+    >>> Map.of(make_world(circles=[(58, 50, 2)])).centres
+    array([[58., 50.]])
+    """
+
+    kinds: Array
+    shapes: Array
+    centres: Array
+    headings: Array
+    speeds: Array
+    size: float
+    key: NDArray[np.uint32]
+    start: tuple[float, float, float]
+    target: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        self.obstacles: Obstacles = self.kinds, self.shapes, self.centres
+        self.moving = bool(self.speeds.any())
+
+    @staticmethod
+    def of(world: Worlds) -> Map:
+        """Return the map of a batch of one world, which stays as it is."""
+        return Map(
+            world.kinds[0], world.shapes[0], world.centres[0].copy(), world.headings[0].copy(), world.speeds[0],
+            world.size, world.keys[0], tuple(world.start_poses[0].tolist()), tuple(world.targets[0].tolist()),
+        )  # fmt: skip
+
+
+def sensing_of_one(ranges: Array, walls: Flags, region: int, seen: bool) -> Sensing:
+    """Return what one robot senses as reflexes, rewards and policies take it; ``region`` is 0 to 8."""
+    return Sensing(ranges[None], walls[None], np.array([region + 1]), np.array([seen]))
+
+
+def while_running(step: Callable[[Any, int], Any]) -> Callable[[Any, int], Any]:
+    """Decorate ``step``: ValueError outside an episode, and for an action that does not exist."""
+
+    @wraps(step)
+    def checked(env: Any, action: int) -> Any:
+        """Check the state of the episode and the action, then make the step."""
+        if env.outcome is None:
+            raise ValueError("step: call reset first")
+        if env.outcome != Outcome.RUNNING:
+            raise ValueError("step: the episode has ended; call reset first")
+        return step(env, check_action(action))
+
+    return checked
 
 
 def as_worlds(given: Worlds | str | Path | None) -> Worlds | None:
@@ -145,6 +232,10 @@ class NavigationSettings:
         return draw_worlds(
             random_keys(generators), self.obstacles, self.moving, self.starts, self.targets, self.moving_speeds
         )  # fmt: skip
+
+    def reflex_of_one(self, sensing: Sensing, speed: float) -> int:
+        """Return the action of one robot's reflex, -1 where the action given counts."""
+        return NO_REFLEX if self.reflex is None else int(self.reflex(sensing, speed)[0])
 
     def reward_of_one(self, before: Sensing, after: Sensing, outcome: int) -> float:
         """Return the reward of one robot."""

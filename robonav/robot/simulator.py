@@ -203,8 +203,8 @@ def check_actions(actions: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.int6
 
 def check_action(action: Any) -> int:
     """Return one action as a whole number 0 to 5; raise TypeError or ValueError for anything else."""
-    if type(action) is int and 0 <= action <= _fast.BACKWARD:  # the usual case, quickly
-        return action
+    if type(action) in (int, np.int64) and 0 <= action <= _fast.BACKWARD:
+        return int(action)  # the usual cases, quickly
     return int(check_actions(action, ()))
 
 

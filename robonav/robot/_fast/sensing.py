@@ -177,7 +177,7 @@ def sense(
 ):  # fmt: skip
     """What ``robots[start]`` to ``robots[stop - 1]`` read: ranges and walls (K, 9), target region and seen (K,).
 
-    ``robots`` (K,) are rows of the N worlds. Each reads what :func:`robonav.robot.sensors.sense` says, and the
+    ``robots`` (K,) are rows of the N worlds. Each reads what :func:`robonav.robot.environments.sense` says, and the
     rays are made only once. ``noise`` is the standard deviation, in metres, of an error on every range that sees
     something.
     """

@@ -418,7 +418,7 @@ def test_the_specification_is_json_and_makes_the_same_environment(tmp_path):
         assert_same(env.reset(seed=1), again.reset(seed=1))
         for action in (0, 1, 4, 0, 0):
             assert_same(env.step(action), again.step(action))
-    assert env.unwrapped.reflex == Reflex("sector")
+    assert env.unwrapped.settings.reflex == Reflex("sector")
     batch = gymnasium.make_vec(NAME, 2, **settings)
     assert json.loads(batch.spec.to_json())["kwargs"]["reward"] == settings["reward"]
 
