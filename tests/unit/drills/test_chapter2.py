@@ -13,7 +13,8 @@ SEEDS = range(50)
 
 
 def numbers(text: str) -> list[float]:
-    """All numbers of a question's text, in order; indices such as the 0 in G_0 are left out."""
+    """All numbers of a question's text, in order; those of names such as G_0 and TD(0) are left out."""
+    text = text.replace("TD(0)", "")
     return [float(n) for n in re.findall(r"(?<![_\w.])-?\d+\.?\d*", text)]
 
 
@@ -91,3 +92,75 @@ def test_the_improved_cell_points_away_from_the_shortest_path() -> None:
             if distance[reached] != distance[name] - 1:
                 wrong.append(name)
         assert wrong == list(question.asked.right)
+
+
+def test_td_error() -> None:
+    for question in drawn("td-error"):
+        value, following, reward, discount, rate = numbers(question.text)
+        new = (1 - rate) * value + rate * (reward + discount * following)
+        assert question.asked.answer == pytest.approx(new)
+
+
+def test_sarsa_and_q_learning() -> None:
+    for question in drawn("sarsa-and-q-learning"):
+        reward, old, a, b, discount, rate = numbers(question.text)
+        taken = {"a": a, "b": b}[
+            re.search(r"explores with action (\w)", question.text)[1]
+        ]
+        new = [old + rate * (reward + discount * q - old) for q in (taken, max(a, b))]
+        assert np.ravel(question.asked.answer) == pytest.approx(new)
+
+
+def test_monte_carlo_return() -> None:
+    for question in drawn("monte-carlo-return"):
+        steps = re.findall(r"([AB]) \((-?\d+)\)", question.text)
+        asked = re.search(r"count for ([AB])", question.text)[1]
+        discount = numbers(question.text)[-1]
+        first = [state for state, _ in steps].index(asked)
+        total = sum(discount**k * float(r) for k, (_, r) in enumerate(steps[first:]))
+        assert question.asked.answer == pytest.approx(total)
+
+
+def test_epsilon_greedy() -> None:
+    for question in drawn("epsilon-greedy"):
+        *q, epsilon = numbers(question.text)
+        draws = 200_000
+        rng = np.random.default_rng(0)
+        explored = rng.integers(len(q), size=draws)
+        taken = np.where(rng.random(draws) < epsilon, explored, np.argmax(q))
+        share = np.bincount(taken, minlength=len(q)) / draws
+        assert question.asked.answer[0] == pytest.approx(share, abs=0.006)
+        assert sum(question.asked.answer[0]) == pytest.approx(1)
+
+
+def test_belief_after_observation() -> None:
+    for question in drawn("belief-after-observation"):
+        (*given,) = numbers(question.text)
+        belief, door = np.array(given[:3]), np.array(given[3:])
+        rng = np.random.default_rng(0)
+        places = rng.choice(3, p=belief, size=200_000)
+        reported = places[rng.random(len(places)) < door[places]]
+        share = np.bincount(reported, minlength=3) / len(reported)
+        assert question.asked.answer[0] == pytest.approx(share, abs=0.008)
+
+
+def test_belief_after_action() -> None:
+    for question in drawn("belief-after-action"):
+        moves, a, b, c = numbers(question.text)
+        after = [a * (1 - moves), a * moves + b * (1 - moves), b * moves + c]
+        assert question.asked.answer[0] == pytest.approx(after)
+
+
+def test_probability_of_observation() -> None:
+    for question in drawn("probability-of-observation"):
+        left, accuracy = numbers(question.text)
+        heard = left * accuracy + (1 - left) * (1 - accuracy)
+        assert question.asked.answer == pytest.approx(heard)
+
+
+def test_value_from_vectors() -> None:
+    for question in drawn("value-from-vectors"):
+        *entries, belief, rest = numbers(question.text)
+        pairs = zip(entries[::2], entries[1::2], strict=True)
+        best = max(belief * a + rest * b for a, b in pairs)
+        assert question.asked.answer == pytest.approx(best)

@@ -1,0 +1,132 @@
+"""Drills of the page on decision processes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robonav import mdp
+
+from ..question import Number, Question, Table
+from ..registry import drill
+from ..text import sign, terms
+
+Rng = np.random.Generator
+
+
+@drill("decision-processes", "The return of an episode")
+def discounted_return(rng: Rng) -> Question:
+    """Compute the return of a short episode by hand."""
+    rewards = rng.integers(-3, 6, size=4).astype(float)
+    discount = rng.choice([0.5, 0.8, 0.9])
+    returns = mdp.discounted_return(rewards, discount)
+    powers = discount ** np.arange(4)
+    return Question(
+        f"An episode has the rewards ${', '.join(f'{r:g}' for r in rewards)}$. "
+        f"What is its return $G_0$ with $\\gamma = {discount:g}$?",
+        Number(
+            returns[0],
+            wrong={
+                "This is the sum without discount.": rewards.sum(),
+                "The first reward is not discounted: its factor is $\\gamma^0 = 1$.": discount
+                * returns[0],
+                "This is the return after the first step, $G_1$. The first reward counts too.": returns[
+                    1
+                ],
+                "This is the mean of the rewards. The return is a sum.": rewards.mean(),
+                "The discount's power grows by one in each step; here it stays at 1 after the first.": rewards[
+                    0
+                ]
+                + discount * rewards[1:].sum(),
+            },
+        ),
+        f"$G_0 = {terms(rewards, powers)} = {returns[0]:.4g}$.",
+    )
+
+
+@drill("decision-processes", "From one return to the one before")
+def return_backwards(rng: Rng) -> Question:
+    """Use the recursion of the return."""
+    reward, following = float(rng.integers(-4, 5)), round(float(rng.uniform(-6, 9)), 1)
+    discount = rng.choice([0.5, 0.8, 0.9, 0.95])
+    answer = mdp.discounted_return([reward, following], discount)[0]
+    return Question(
+        f"The return from step 8 on is $G_8 = {following:g}$, and step 7 gave the reward $r_7 = {reward:g}$. "
+        f"What is $G_7$ with $\\gamma = {discount:g}$?",
+        Number(
+            answer,
+            wrong={
+                "The return of the next step must be discounted once.": reward
+                + following,
+                "The discount belongs to $G_8$. The reward $r_7$ comes at once.": following
+                + discount * reward,
+                "The reward $r_7$ is not discounted.": discount * (reward + following),
+                "The reward $r_7$ is missing.": discount * following,
+            },
+        ),
+        f"$G_7 = r_7 + \\gamma G_8 = {reward:g} {sign(discount * following)} = {answer:.4g}$.",
+    )
+
+
+def _two_states(rng: Rng) -> tuple[mdp.FiniteMDP, float, float]:
+    """A model in which the only action stays in state 0 with probability p, and else ends; p and its reward."""
+    stay, reward = float(rng.choice([0.5, 0.6, 0.8])), float(rng.integers(1, 6))
+    discount = float(rng.choice([0.5, 0.8, 0.9]))
+    model = mdp.FiniteMDP([[[stay, 1 - stay], [0, 1]]], [[reward], [0]], discount)
+    return model, stay, reward
+
+
+@drill("decision-processes", "The value of a state that is left at random")
+def value_of_a_loop(rng: Rng) -> Question:
+    """Solve Bellman's equation of a policy for one state."""
+    model, stay, reward = _two_states(rng)
+    discount = model.discount
+    value = mdp.policy_evaluation(model, [0, 0])[0]
+    return Question(
+        f"In state A each step gives the reward ${reward:g}$. Then the robot stays in A with probability ${stay:g}$, "
+        f"and else the episode ends. What is $V(A)$ with $\\gamma = {discount:g}$?",
+        Number(
+            value,
+            wrong={
+                "The probability of staying is missing: $V = r + \\gamma V$ would hold if it always stayed.": reward
+                / (1 - discount),
+                "The discount is missing.": reward / (1 - stay),
+                "This is one step only. After it the robot may be in A again.": reward,
+                "This is two steps. The value counts all later steps, so solve the equation for $V(A)$.": reward
+                * (1 + discount * stay),
+                "The probability of ending stands in the place of the probability of staying.": reward
+                / (1 - discount * (1 - stay)),
+            },
+        ),
+        f"$V(A) = {reward:g} + {discount:g} \\cdot {stay:g} \\, V(A)$, "
+        f"so $V(A) = {reward:g} / (1 - {discount * stay:.4g}) = {value:.4g}$.",
+    )
+
+
+@drill("decision-processes", "Advantages of two actions")
+def advantages(rng: Rng) -> Question:
+    """Compute values and advantages of a policy that chooses at random."""
+    q = np.round(rng.uniform(-2, 6, size=2), 1)
+    probability = float(rng.choice([0.2, 0.25, 0.4, 0.7]))
+    value = float(np.dot([probability, 1 - probability], q))
+    return Question(
+        f"A policy takes action a with probability ${probability:g}$ and action b otherwise. "
+        f"$Q(s, a) = {q[0]:g}$ and $Q(s, b) = {q[1]:g}$. Fill in the state's value and both advantages.",
+        Table(
+            ["s"],
+            ["V(s)", "A(s, a)", "A(s, b)"],
+            [[value, q[0] - value, q[1] - value]],
+            wrong={
+                "The value of a policy weights the actions by its probabilities; this is the maximum.": [
+                    [q.max(), q[0] - q.max(), q[1] - q.max()]
+                ],
+                "The actions are not equally probable.": [
+                    [q.mean(), q[0] - q.mean(), q[1] - q.mean()]
+                ],
+                "The advantage is $Q - V$, not $V - Q$.": [
+                    [value, value - q[0], value - q[1]]
+                ],
+            },
+        ),
+        f"$V(s) = {probability:g} \\cdot {q[0]:g} + {1 - probability:g} \\cdot {q[1]:g} = {value:.4g}$. "
+        f"An advantage is $A(s, a) = Q(s, a) - V(s)$: {q[0] - value:.4g} and {q[1] - value:.4g}.",
+    )
