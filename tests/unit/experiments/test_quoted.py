@@ -125,3 +125,48 @@ def test_where_the_policies_of_the_board_lose_most():
     assert success["online", "20, 1 m/s"] == min(
         success["online", setting] for setting in settings
     )
+
+
+def test_how_many_more_learning_steps_the_other_methods_have():
+    """The page that compares four methods: DQN a tenth more than NNQL, NFQ nearly a fifth more."""
+    results = read_results("nnql-steps")
+    steps = {
+        case["robot"]: results.summary("learning steps, whole training", place).mean
+        for place, case in enumerate(results.experiment.cases)
+    }
+    assert steps["dqn"] / steps["nnql"] == pytest.approx(1.10, abs=0.01)
+    assert 1.15 < steps["nfq"] / steps["nnql"] < 1.2
+    assert steps["online"] < steps["nnql"]
+
+
+def test_in_how_many_rows_of_table_5_2_the_rule_is_better():
+    """The rule beats the thesis's four means, and five of the eight rows of the four methods here."""
+    results = read_results("table-5.2")
+    mean = {
+        (case["method"], case["discount"]): results.summary("success", place).mean
+        for place, case in enumerate(results.experiment.cases)
+    }
+    (rule,) = (value for (name, _), value in mean.items() if name == "freer-side")
+    methods = {"nirl", "apprenticeship", "relative_entropy", "scirl"}
+    rows = [value for (name, _), value in mean.items() if name in methods]
+    assert rule > 83
+    assert (len(rows), sum(rule > row for row in rows)) == (8, 5)
+
+
+def test_what_slipping_actions_cost_on_the_board():
+    """The page of the leaderboard: the rule loses 7 points, every learned policy at most 4."""
+    board = read_results("leaderboard")
+    success = {
+        (case["method"], case["setting"]): board.summary("success", place).mean
+        for place, case in enumerate(board.experiment.cases)
+    }
+    lost = {
+        method: success[method, "20 obstacles"]
+        - success[method, "20, a fifth of actions slips"]
+        for method, _ in success
+    }
+    assert round(lost["freer-side"]) == 7
+    assert max(lost[name] for name in set(lost) - {"straight", "freer-side"}) < 4
+    assert (
+        success["nfq", "20, a fifth of actions slips"] > success["nfq", "20 obstacles"]
+    )
