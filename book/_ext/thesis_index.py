@@ -39,16 +39,20 @@ class ThesisIndex(SphinxDirective):
         }.get(kind, sorted({*defined, *used}))
         body = nodes.tbody()
         for number in wanted:
+            named = f"{title.capitalize()} {written(number)}"
             if kind == "equations":
-                first = equation_reference(written(number), self.env.docname)
+                first = [equation_reference(written(number), self.env.docname)]
+            elif kind == "algorithms":
+                link = f"{{prf:ref}}`{named} <alg-{written(number)}>`"
+                first = self.parse_inline(link)[0]
             else:
-                first = nodes.Text(f"{title.capitalize()} {written(number)}")
+                first = [nodes.Text(named)]
             code = self.symbol(number) if kind == "equations" else []
             code = code or self.names(defined.get(number, []))
             others = self.names(used.get(number, []))
             if code and others:
                 code.append(nodes.Text("; used in "))
-            body += _row([first], code + others)
+            body += _row(first, code + others)
         columns = [nodes.colspec(colwidth=width) for width in (15, 85)]
         return [nodes.table("", nodes.tgroup("", *columns, head, body, cols=2))]
 

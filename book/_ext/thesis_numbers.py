@@ -4,6 +4,8 @@ An equation labelled ``eq-2.24`` is shown and referred to as (2.24), so that a r
 book. Every other labelled equation belongs to the book and is counted 1, 2, 3 on its page.
 
 The role ``{thesis}`2.24``` also gives (2.24), but no page needs to show the equation. It is a link if a page does.
+
+An algorithm of the thesis has the label ``alg-8``. The book's search finds it by "Algorithm 8".
 """
 
 from __future__ import annotations
@@ -12,13 +14,14 @@ import re
 from typing import Any
 
 from docutils import nodes
-from sphinx.addnodes import pending_xref
+from sphinx.addnodes import index, pending_xref
 from sphinx.application import Sphinx
 from sphinx.domains.math import MathDomain
 from sphinx.environment import BuildEnvironment
 from sphinx.util.docutils import SphinxRole
 
 THESIS_LABEL = re.compile(r"eq-(\d+\.\d+)")
+ALGORITHM_LABEL = re.compile(r"alg-(\d+)")
 
 
 def thesis_number(label: str) -> str | None:
@@ -75,8 +78,21 @@ def leave_plain(
     return None
 
 
+def index_algorithms(app: Sphinx, doctree: nodes.document) -> None:
+    """Add an index entry "Algorithm 8" to each algorithm of the thesis.
+
+    The search ignores numbers, but compares the whole text searched for with the index entries.
+    """
+    for node in list(doctree.findall(nodes.Element)):
+        match = ALGORITHM_LABEL.fullmatch(node.get("label", ""))
+        if match:
+            entry = ("single", f"Algorithm {match[1]}", node["ids"][0], "main", None)
+            node.parent.insert(node.parent.index(node), index(entries=[entry]))
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     app.add_domain(ThesisMathDomain, override=True)
     app.add_role("thesis", ThesisEquation())
     app.connect("missing-reference", leave_plain)
+    app.connect("doctree-read", index_algorithms)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

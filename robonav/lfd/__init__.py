@@ -1,6 +1,6 @@
 """Chapter 3: learning from demonstration."""
 
-from .astar import GridPlan, Plan, plan, plan_on_grid
+from .astar import GridPlan, Plan, grid_astar, modified_astar, plan, plan_on_grid
 from .behaviour_cloning import behaviour_cloning, labelled_states, learn_policy
 from .computer_expert import ComputerExpert, demonstrate
 from .dagger import DaggerResult, collect_with_expert_labels, dagger
@@ -34,10 +34,12 @@ __all__ = [
     "demonstrate",
     "demonstrate_by_hand",
     "from_minari",
+    "grid_astar",
     "labelled_states",
     "learn_neighbours",
     "learn_policy",
     "load_demonstrations",
+    "modified_astar",
     "path_clearance",
     "plan",
     "plan_on_grid",

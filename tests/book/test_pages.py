@@ -107,6 +107,13 @@ def test_search_finds_a_page(visit: Visit, address: str, size: dict[str, int]) -
     assert visit.errors == []
 
 
+def test_search_for_an_algorithm_finds_it_first(visit: Visit, address: str) -> None:
+    visit.open(f"{address}/search.html?q=Algorithm+8")
+    first = visit.page.wait_for_selector("#search-results ul.search li a")
+    assert first is not None
+    assert "book/nnql.html#alg-8" in (first.get_attribute("href") or "")
+
+
 def test_first_page_leads_into_the_book(visit: Visit, address: str) -> None:
     visit.page.goto(f"{address}/index.html")
     visit.page.wait_for_url("**/book/intro.html")

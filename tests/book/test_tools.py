@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import os
+import re
 from enum import Enum
 from pathlib import Path
 
@@ -16,13 +17,32 @@ import package_code
 import package_digest
 import pytest
 import reference
-from thesis_numbers import thesis_number
+from docutils import nodes
+from sphinx.addnodes import index
+from thesis_numbers import index_algorithms, thesis_number
 
 
 def test_thesis_numbers_are_read_from_labels() -> None:
     assert thesis_number("eq-2.24") == "2.24"
     assert thesis_number("eq-own") is None
     assert thesis_number("my-eq-2.24") is None
+
+
+def test_an_algorithm_of_the_thesis_has_an_entry_for_the_search() -> None:
+    algorithm = nodes.container(ids=["alg-8"], label="alg-8")
+    own = nodes.container(ids=["alg-of-the-book"], label="alg-of-the-book")
+    page = nodes.section("", own, algorithm)
+    index_algorithms(None, page)  # type: ignore[arg-type]
+    entries = [node["entries"] for node in page.findall(index)]
+    assert entries == [[("single", "Algorithm 8", "alg-8", "main", None)]]
+    assert [type(node) for node in page] == [type(own), index, type(algorithm)]
+
+
+def test_each_algorithm_of_the_thesis_stands_on_one_page() -> None:
+    pages = (Path(__file__).parents[2] / "book").glob("*.md")
+    text = "\n".join(page.read_text("utf-8") for page in pages)
+    found = re.findall(r"^:+label: alg-(\d+)$", text, re.MULTILINE)
+    assert sorted(map(int, found)) == list(range(1, 11))
 
 
 @pytest.mark.parametrize(
