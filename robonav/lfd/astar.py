@@ -222,8 +222,10 @@ def modified_astar(
         Batch of one.
     pose : (3,) array
         x, y and heading at the start.
-    speed, margin, caution, cell, limit
+    speed, margin, caution, cell : float
         As in :func:`plan`.
+    limit : int
+        The most nodes to expand.
 
     Returns
     -------

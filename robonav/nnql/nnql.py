@@ -35,6 +35,9 @@ def nnql(
     After each step the network trains on all pairs of state and target that the episode has gathered so far. The
     robot's reflex acts in safe states, where nothing is learned; other environments have no reflex.
 
+    The numbers in the comments are the lines of Algorithm 8. The caller draws the first weights, line 1, and line 7
+    starts a counter of the steps, which the code does not need.
+
     Parameters
     ----------
     passes, tolerance : int, float

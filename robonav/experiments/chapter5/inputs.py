@@ -31,11 +31,11 @@ def with_sensors(case: Case, seed: int, scale: str) -> Numbers:
     """NIRL or cloning with seven sensors or all nine, and with one of two encodings of the target's sector."""
     method, target = str(case["method"]), str(case["target"])
     settings, inputs = tuned(method), encoder(target, SENSORS[int(case["sensors"])])
-    shown = demonstrations(seed)
+    expert = demonstrations(seed)
     policy = (
         cloned_policy(seed, settings, inputs=inputs)
         if method == "cloning"
-        else train_irl("nirl", shown, seed, settings, task=task(encoder=inputs)).policy
+        else train_irl("nirl", expert, seed, settings, task=task(encoder=inputs)).policy
     )
     return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
 
