@@ -100,7 +100,8 @@ def check(
     keys: Annotated[
         list[str] | None,
         typer.Argument(
-            help="Exercises such as 3.2, or chapters such as 3. The default is all of them."
+            help="Exercises such as 3.2, or chapters such as 3; the default is all of them. And your folder, "
+            "notebook or zip file, if it is not exercises/."
         ),
     ] = None,
     submission: Annotated[
@@ -121,14 +122,19 @@ def check(
     from robonav.grading.course import Course
 
     course = Course.around(Path.cwd())
-    wanted = [exercise for key in keys or [] for exercise in course.selected(key)]
+    paths = [Path(key) for key in keys or [] if _is_path(course, key)]
+    names = [key for key in keys or [] if not _is_path(course, key)]
+    if len(paths) + (submission is not None) > 1:
+        raise ValueError("check takes one folder, notebook or zip file at a time")
+    submission = submission or (paths[0] if paths else course.stubs)
+    wanted = [exercise for key in names for exercise in course.selected(key)]
     chosen = list(dict.fromkeys(wanted)) or list(course.exercises.values())
     if case is not None and (case.is_dir() or not case.parent.is_dir()):
         raise ValueError(
             f"case must be a file to write in a folder that exists, got {case}"
         )
-    grade, call = check_submission(course, chosen, submission or course.stubs, case)
-    _tell(course, grade, everything=len(chosen) == len(keys or []))
+    grade, call = check_submission(course, chosen, submission, case)
+    _tell(course, grade, everything=len(chosen) == len(names))
     if call:
         _tell_case(case, call)
     elif any(
@@ -178,6 +184,13 @@ def grade(
             "--practice", help="Continue without a sandbox. The grades do not count."
         ),
     ] = False,
+    new_secret: Annotated[
+        bool,
+        typer.Option(
+            "--new-secret",
+            help="Grade everybody again with another secret than before.",
+        ),
+    ] = False,
 ) -> None:
     """Grade a class. Run the command again to resume: grades that exist are kept."""
     from robonav import progress
@@ -194,7 +207,7 @@ def grade(
             f"this machine has no sandbox, so only --practice works: {sandbox_check.fault('official')}"
         )
     with progress.bar("grading") as report:
-        grade_class(
+        unfinished = grade_class(
             config,
             folder,
             out,
@@ -203,8 +216,15 @@ def grade(
             jobs=jobs,
             scheduler=scheduler,
             progress=report,
+            new_secret=new_secret,
         )
     print(f"{out / 'index.html'}")
+    if unfinished:
+        print(
+            f"The grader failed for {', '.join(unfinished)}. Run the command again to grade them.",
+            file=sys.stderr,
+        )
+        raise typer.Exit(1)
 
 
 @app.command()
@@ -372,12 +392,28 @@ def _write_json(path: Path, content: Any) -> None:
         file.write((json.dumps(content, indent=2) + "\n").encode())
 
 
+def _is_path(course: Any, key: str) -> bool:
+    """Whether an argument of ``check`` is a file or folder, and no exercise."""
+    known = {
+        *course.exercises,
+        *(exercise.name for exercise in course.exercises.values()),
+        *(name for chapter, _ in course.chapters() for name in (chapter, chapter[2:])),
+    }
+    return key not in known and ("/" in key or Path(key).exists())
+
+
 def _tell(course: Any, grade: dict[str, Any], *, everything: bool) -> None:
     """Print a grade for its student. An exercise that was not begun takes one line unless ``everything`` is set."""
+    for problem in grade["problems"]:
+        print(f"Not taken: {problem}.")
+    for note in grade["notes"]:
+        print(f"Note: {note}.")
     for entry in grade["exercises"]:
         exercise = course.exercises[entry["id"]]
+        usual = entry["file"] in ("", exercise.file)
         print(
             f"{entry['id']} {exercise.title}: {_points(entry)} of {entry['max_points']} points"
+            + ("" if usual else f" (from {entry['file']})")
         )
         if entry["state"] == "missing":
             print(

@@ -10,7 +10,7 @@ import ast
 import re
 import sys
 import types
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -80,6 +80,16 @@ def load(folder: Path, where: str, name: str) -> types.ModuleType:
     sys.path += [str(path.parent), str(folder)]
     exec(compile(tree, str(path), "exec"), module.__dict__)
     return module
+
+
+def modules_of_cells(contents: Iterable[bytes]) -> set[str]:
+    """Return the names of the modules that cells of notebooks write with ``%%writefile``."""
+    written = rb"%%(?:write)?file\s+[^\n]*?(\w+)\.py"
+    return {
+        name.decode(errors="replace")
+        for content in contents
+        for name in re.findall(written, content)
+    }
 
 
 def _candidates(folder: Path, chapter: str, name: str) -> list[Path]:

@@ -56,21 +56,31 @@ def check_submission(
     str
         The call in the file as Python code, or an empty string if none was written.
     """
-    known, call = reference(course), ""
-    session = Session(
-        load_submission(path), "official", show=True, instead=["practice"]
-    )
+    loaded, known, call = load_submission(path), reference(course), ""
+    session = Session(loaded, "official", show=True, instead=["practice"])
     entries = []
     try:
         for exercise in exercises:
             evidence = Evidence(known, course.parameters(exercise))
-            entries.append(graded(course, exercise, session, known, evidence=evidence))
+            entry = graded(course, exercise, session, known, evidence=evidence)
+            entries.append(entry | {"file": session.found.get(exercise.id, "")})
             failure = evidence.first_failure()
             if case is not None and failure is not None and not call:
                 call = write_case(case, failure, evidence.names)
     finally:
         session.close()
-    return grade(entries, session.tier), call
+    return grade(entries, session.tier) | remarks(loaded, session), call
+
+
+def remarks(loaded: Submission | Refused, session: Session) -> dict[str, list[str]]:
+    """Return what was taken of a submission in an unusual form, and what was not taken and why."""
+    if isinstance(loaded, Refused):
+        return {"notes": [], "problems": [str(loaded)]}
+    problems = list(loaded.problems)
+    if loaded.files and not session.found and not session.unwritten:
+        names = ", ".join(sorted(loaded.files)[:5])
+        problems.append(f"no function of an exercise was found in {names}")
+    return {"notes": list(loaded.notes), "problems": problems}
 
 
 def graded(

@@ -22,11 +22,12 @@ from filelock import FileLock, Timeout
 from robonav import atomic
 from robonav.progress import Progress
 
-from . import report, submission
+from . import report
 from .cases import seed_of, stretched
-from .check import graded, with_public_feedback
+from .check import graded, remarks, with_public_feedback
 from .course import Course
 from .grade import fault_grade, grade
+from .layouts import Handin, handed_in, passed_over
 from .reference import reference
 from .session import Session
 from .submission import Refused, Submission
@@ -42,7 +43,7 @@ class GradingConfig:
 
     def key(self) -> str:
         """Return a hash of everything that a grade depends on, except the submission."""
-        digest = hashlib.sha256(stretched(self.secret) + self.tier.encode())
+        digest = hashlib.sha256(self.secret_hash().encode() + self.tier.encode())
         for folder, pattern in (
             (self.course.tests, "*"),
             (self.course.solutions, "**/*.py"),
@@ -52,6 +53,14 @@ class GradingConfig:
                 if path.is_file():
                     digest.update(path.name.encode() + path.read_bytes())
         return digest.hexdigest()
+
+    def secret_hash(self) -> str:
+        """Return a hash that tells two secrets apart, or an empty string without a secret.
+
+        No key of the cases follows from it, and it is slow to find the secret by trying words.
+        """
+        key = stretched(self.secret)
+        return hashlib.sha256(b"class/" + key).hexdigest() if self.secret else ""
 
 
 def grade_submission(
@@ -69,62 +78,37 @@ def grade_submission(
         seed = seed_of(config.secret, _digest(loaded))
         entries = [
             graded(course, exercise, session, known, seed=seed)
+            | {"file": session.found.get(exercise.id, "")}
             for exercise in exercises
         ]
         session.close()
         if config.secret:
             entries = with_public_feedback(course, entries, loaded, config.tier)
-        return grade(entries, config.tier)
+        result = grade(entries, config.tier)
     except Exception:  # an error in the grader is not the student's fault
-        return fault_grade(exercises, config.tier)
+        result = fault_grade(exercises, config.tier)
     finally:
         session.close()
+    return result | remarks(loaded, session)
 
 
-def students(folder: Path) -> dict[str, Path]:
-    """Return each student's submission by name: the folders, zip files and notebooks in ``folder``.
+def students(folder: Path) -> dict[str, Handin]:
+    """Return what each student handed in, by name.
 
     Raises
     ------
     ValueError
-        If there is no submission, two have the same name, or a name contains forbidden characters.
+        If there is no submission.
     """
     if not folder.is_dir():
-        raise ValueError(f"the class must be a folder of submissions, got {folder}")
-    found: dict[str, Path] = {}
-    for path in sorted(folder.iterdir()):
-        if not _is_submission(path):
-            continue
-        name = path.name if path.is_dir() else path.stem
-        if not name.isprintable():
-            raise ValueError(
-                f"{name!r} cannot be a student's name: rename that submission"
-            )
-        if name in found:
-            raise ValueError(
-                f"{found[name].name} and {path.name} are both submissions of {name}"
-            )
-        found[name] = path
+        raise ValueError(
+            f"the class must be a folder of submissions, got {folder}"
+            + (": unpack it first" if folder.is_file() else "")
+        )
+    found = handed_in(folder)
     if not found:
         raise ValueError(f"no folder, zip or notebook in {folder}")
     return found
-
-
-def passed_over(folder: Path) -> list[str]:
-    """Return the names in ``folder`` that are not submissions.
-
-    A student may have meant a file such as ``anna.rar`` as a submission.
-    """
-    return sorted(
-        path.name
-        for path in folder.iterdir()
-        if path.name[0] != "." and not _is_submission(path)
-    )
-
-
-def _is_submission(path: Path) -> bool:
-    kept = path.is_dir() or submission.is_zip(path) or path.suffix in submission.KINDS
-    return kept and not path.name.startswith(".")
 
 
 def grade_class(
@@ -137,7 +121,8 @@ def grade_class(
     jobs: int = -1,
     scheduler: str | None = None,
     progress: Progress | None = None,
-) -> None:
+    new_secret: bool = False,
+) -> list[str]:
     """Grade every submission in ``folder`` that is not graded yet, and write all reports to ``out``.
 
     Parameters
@@ -158,33 +143,52 @@ def grade_class(
         Address of a Dask scheduler. Its workers must see this course at the same path.
     progress : Progress, optional
         Called as ``progress(done, total)``.
+    new_secret : bool
+        Whether a class that was graded with another secret is graded again with this one.
+
+    Returns
+    -------
+    list of str
+        The students who must be graded again, because the grader failed.
+
+    Raises
+    ------
+    ValueError
+        If the class, a student's name, the secret or the folder for the reports is not right.
     """
+    if out.resolve().is_relative_to(folder.resolve()):
+        raise ValueError(
+            f"out must not lie in the class folder, where it would be a student, got {out}"
+        )
     submissions = students(folder)
     for name in set(again) - set(submissions):
         raise ValueError(f"no submission of {name} in {folder}")
     with _locked(out):
         atomic.remove_partial_files(out)
+        _remember(out, config, new_secret)
         key, tasks = config.key(), []
-        for name, path in submissions.items():
+        for name, handin in submissions.items():
             entry = {
                 "student": name,
-                "submission": _digest(submission.load_submission(path)),
+                "submission": _digest(handin.load()),
                 "config": key,
             }
             old = _written(out, entry)
             chosen = name in again if again else bool(ids)
             if old is None or chosen:
-                tasks.append((entry, path, old, ids if chosen and old else ()))
+                tasks.append((entry, handin, old, ids if chosen and old else ()))
         for done, record in enumerate(_marked(config, tasks, jobs, scheduler), start=1):
             report.write_student(
                 out / "students" / record["student"], record, config.course
             )
             if progress is not None:
                 progress(done, len(tasks))
-        report.write_class(out, list(submissions), passed_over(folder), config.course)
+        return report.write_class(
+            out, list(submissions), passed_over(folder), config.course
+        )
 
 
-Task = tuple[dict[str, str], Path, dict[str, Any] | None, Collection[str]]
+Task = tuple[dict[str, str], Handin, dict[str, Any] | None, Collection[str]]
 
 
 def _marked(
@@ -196,8 +200,8 @@ def _marked(
     """
     calls = (
         (config, {**entry, "submission": _digest(loaded)}, loaded, old, ids)
-        for entry, path, old, ids in tasks
-        for loaded in [submission.load_submission(path)]
+        for entry, handin, old, ids in tasks
+        for loaded in [handin.load()]
     )
     if scheduler is None:
         from joblib import Parallel, delayed
@@ -235,9 +239,9 @@ def _record(
     new = grade_submission(config, loaded, ids)
     if old is not None and ids:
         fresh = {graded["id"]: graded for graded in new["exercises"]}
-        new = grade(
-            [fresh.get(kept["id"], kept) for kept in old["exercises"]], config.tier
-        )
+        entries = [fresh.get(kept["id"], kept) for kept in old["exercises"]]
+        said = {name: old[name] for name in ("notes", "problems") if name in old}
+        new = grade(entries, config.tier) | said
     return {**entry, **new}
 
 
@@ -262,12 +266,38 @@ def _written(out: Path, entry: dict[str, str]) -> dict[str, Any] | None:
     )
 
 
+def _remember(out: Path, config: GradingConfig, new_secret: bool) -> None:
+    """Write down which secret a class is graded with. Another one is refused, unless it is meant."""
+    path = out / "class.json"
+    try:
+        before = json.loads(path.read_bytes())["secret"]
+    except (OSError, ValueError, KeyError, TypeError):
+        before = config.secret_hash()
+    if before != config.secret_hash() and not new_secret:
+        raise ValueError(
+            f"{out} was graded {'with another' if before else 'without a'} secret; "
+            "give that one, or grade everybody again with --new-secret"
+        )
+    with atomic.atomic_write(path) as file:
+        file.write(json.dumps({"secret": config.secret_hash()}).encode())
+
+
 @contextmanager
 def _locked(out: Path) -> Iterator[None]:
-    """Keep a second run out of the same folder; the system releases the lock of a run that died."""
-    out.mkdir(parents=True, exist_ok=True)
+    """Keep a second run out of the same folder; the system releases the lock of a run that died.
+
+    Raises
+    ------
+    ValueError
+        If another run uses the folder, or it cannot be written to.
+    """
     try:
+        out.mkdir(parents=True, exist_ok=True)
         with FileLock(out / ".lock", timeout=0):
             yield
     except Timeout:
         raise ValueError(f"another run is grading into {out}") from None
+    except OSError as error:
+        raise ValueError(
+            f"cannot write to {out}: {error.strerror or error}. What is graded is kept; run the command again."
+        ) from error

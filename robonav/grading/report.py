@@ -36,18 +36,30 @@ def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
 
 def write_class(
     out: Path, names: Sequence[str], passed_over: Sequence[str], course: Course
-) -> None:
-    """Write the gradebook and the overview of these students, with the names of the files that are not submissions."""
-    rows, counts, earned, totals = (
+) -> list[str]:
+    """Write the gradebook and the overview of these students, with the names of the files that are not submissions.
+
+    Returns
+    -------
+    list of str
+        The students who must be graded again.
+    """
+    rows, counts, earned, totals, unfinished = (
         [],
         {id: Counter[str]() for id in course.exercises},
         Counter[str](),
         [],
+        [],
     )
+    notes: dict[str, list[str]] = {}
+    problems: dict[str, list[str]] = {}
     for name in names:
         record = json.loads((out / "students" / name / "grade.json").read_bytes())
         entries = {entry["id"]: entry for entry in record["exercises"]}
         again = [id for id, entry in entries.items() if entry["points"] is None]
+        unfinished += [name] if again else []
+        notes[name] = record.get("notes", [])
+        problems[name] = record.get("problems", [])
         points = [
             entries[id]["points"] if id in entries else None for id in course.exercises
         ]
@@ -58,6 +70,7 @@ def write_class(
                 record["max_points"],
                 record["tier"],
                 " ".join(again),
+                "; ".join(problems[name]),
                 *points,
             ]
         )
@@ -65,7 +78,8 @@ def write_class(
         for id, entry in entries.items():
             counts[id][entry["state"]] += 1
             earned[id] += entry["points"] or 0
-    _write(out / "gradebook.csv", gradebook(rows, course))
+    # Spreadsheets take a file for UTF-8 only if it begins with this mark.
+    _write(out / "gradebook.csv", "\N{BYTE ORDER MARK}" + gradebook(rows, course))
     shares = {
         id: earned[id] / (course.exercises[id].points * max(len(rows), 1))
         for id in course.exercises
@@ -73,9 +87,10 @@ def write_class(
     page = _page(
         "overview.html", rows=rows, counts=counts, shares=shares, totals=totals, course=course, colours=COLOURS,
         passed_over=[name.encode("utf-8", "replace").decode() for name in passed_over],
-        folders=[f"students/{name}/feedback.html" for name in names],
+        folders=[f"students/{name}/feedback.html" for name in names], notes=notes, problems=problems,
     )  # fmt: skip
     _write(out / "index.html", page)
+    return unfinished
 
 
 def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
@@ -93,14 +108,17 @@ def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
         for entry in record["exercises"]
     ]
     again = [entry["id"] for entry in record["exercises"] if entry["points"] is None]
-    output = (
-        f"To be graded again, because the grader failed: {', '.join(again)}."
-        if again
-        else ""
-    )
+    output = [
+        *(f"Not taken: {problem}." for problem in record.get("problems", [])),
+        *(f"Note: {note}." for note in record.get("notes", [])),
+    ]
+    if again:
+        output.append(
+            f"To be graded again, because the grader failed: {', '.join(again)}."
+        )
     return {
         "score": record["points"],
-        "output": output,
+        "output": "\n".join(output),
         "stdout_visibility": "hidden",
         "tests": tests,
     }
@@ -140,7 +158,8 @@ def gradebook(rows: Sequence[Sequence[Any]], course: Course) -> str:
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(
-        ["student", "points", "max_points", "tier", "grade_again", *course.exercises]
+        ["student", "points", "max_points", "tier", "grade_again", "not_taken"]
+        + [*course.exercises]
     )
     writer.writerows([[_cell(value) for value in row] for row in rows])
     return text.getvalue()

@@ -73,9 +73,8 @@ def main() -> None:
     files = {name: content.tobytes() for name, content in opening["files"].items()}
     with contextlib.suppress(ImportError):
         notebook.transformer()
-    _close_the_gate(
-        {part.removesuffix(".py") for name in files for part in name.split("/")}
-    )
+    own = {part.removesuffix(".py") for name in files for part in name.split("/")}
+    _close_the_gate(own | answers.modules_of_cells(files.values()))
     hardening.limit(opening["limits"])
     frames.write(replies, "ready")
     home = Path.cwd()
