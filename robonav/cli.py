@@ -95,6 +95,18 @@ def exercises_zip(
     students_zip(Course.around(Path.cwd()), path)
 
 
+@exercises.command("nbgrader")
+def exercises_nbgrader(
+    folder: Annotated[Path, typer.Argument(help="The root of an nbgrader course.")],
+) -> None:
+    """Write the assignments of an nbgrader course, each with the tests that its cells call."""
+    from robonav.grading.build import nbgrader_course
+    from robonav.grading.course import Course
+
+    for assignment in nbgrader_course(Course.around(Path.cwd()), folder):
+        print(assignment)
+
+
 @app.command()
 def check(
     keys: Annotated[
@@ -394,12 +406,15 @@ def _write_json(path: Path, content: Any) -> None:
 
 def _is_path(course: Any, key: str) -> bool:
     """Whether an argument of ``check`` is a file or folder, and no exercise."""
+    from robonav.grading.submission import is_handed_in
+
     known = {
         *course.exercises,
         *(exercise.name for exercise in course.exercises.values()),
         *(name for chapter, _ in course.chapters() for name in (chapter, chapter[2:])),
     }
-    return key not in known and ("/" in key or Path(key).exists())
+    named = is_handed_in(key) or "/" in key
+    return key not in known and (named or Path(key).exists())
 
 
 def _tell(course: Any, grade: dict[str, Any], *, everything: bool) -> None:

@@ -115,45 +115,66 @@ def students_zip(course: Course, path: Path) -> None:
 
     It contains stubs, notebooks, and the tests with the answers to the public cases only.
     """
-    tests = [course.tests / name for name in ("manifest.toml", "pytest.ini")] + sorted(
-        course.tests.glob("test_*.py")
-    )
+    content = {
+        name: text.encode()
+        for name, text in built(course).items()
+        if name.startswith("exercises/")
+    }
+    content |= _tests(course)
     with (
-        TemporaryDirectory() as folder,
         atomic_write(path) as file,
         zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive,
     ):
-        recorder = Recorder(course)
-        for exercise in course.exercises.values():
-            if (
-                result := graded(
-                    course,
-                    exercise,
-                    InProcessCalls(solution(course, exercise)),
-                    recorder,
-                )
-            )["state"] != "correct":
-                raise ValueError(
-                    f"the solution of {exercise.id} does not pass: {result['feedback']}"
-                )
-        recorder.write(Path(folder))
-        content = {
-            name: text.encode()
-            for name, text in built(course).items()
-            if name.startswith("exercises/")
-        }
-        content |= {
-            test.relative_to(course.root).as_posix(): test.read_bytes()
-            for test in tests
-        }
-        content |= {
-            f"tests/exercises/recorded/{path.name}": path.read_bytes()
-            for path in sorted(Path(folder).iterdir())
-        }
         for name, text in content.items():
             archive.writestr(
                 zipfile.ZipInfo(f"robonav-exercises/{name}", LONG_AGO), text
             )
+
+
+def nbgrader_course(course: Course, folder: Path) -> list[Path]:
+    """Write the assignments into the root of an nbgrader course, and return their folders.
+
+    Each assignment contains the tests that its cells call. nbgrader gives them to the students with the notebook, and
+    puts them back before it grades.
+    """
+    tests, assignments = _tests(course), []
+    for chapter, exercises in course.chapters():
+        assignment = folder / "source" / chapter
+        names = [
+            *("manifest.toml", "pytest.ini", f"test_{chapter}.py"),
+            *(f"recorded/{exercise.name}.frame" for exercise in exercises),
+        ]
+        files = [f"tests/exercises/{name}" for name in names]
+        content = {name: tests[name] for name in files if name in tests}
+        notebook = f"solutions/nbgrader/source/{chapter}/{chapter}.ipynb"
+        content[f"{chapter}.ipynb"] = built(course)[notebook].encode()
+        for name, text in content.items():
+            with atomic_write(assignment / name) as file:
+                file.write(text)
+        assignments.append(assignment)
+    return assignments
+
+
+def _tests(course: Course) -> dict[str, bytes]:
+    """Return the tests and the recorded answers to the public cases, by their path from the course's root."""
+    recorder = Recorder(course)
+    for exercise in course.exercises.values():
+        calls = InProcessCalls(solution(course, exercise))
+        result = graded(course, exercise, calls, recorder)
+        if result["state"] != "correct":
+            raise ValueError(
+                f"the solution of {exercise.id} does not pass: {result['feedback']}"
+            )
+    files = [course.tests / name for name in ("manifest.toml", "pytest.ini")]
+    files += sorted(course.tests.glob("test_*.py"))
+    content = {
+        path.relative_to(course.root).as_posix(): path.read_bytes() for path in files
+    }
+    with TemporaryDirectory() as folder:
+        recorder.write(Path(folder))
+        for path in sorted(Path(folder).iterdir()):
+            content[f"tests/exercises/recorded/{path.name}"] = path.read_bytes()
+    return content
 
 
 def _generated(course: Course) -> Iterator[Path]:
@@ -196,6 +217,7 @@ def _readme(course: Course) -> str:
             "robonav check 2.1        # one exercise",
             "robonav check 2          # all of chapter 2",
             "robonav check            # all of them",
+            "robonav check work.zip   # what you are about to hand in",
             "robonav check 2.1 --case case.npz    # the first call that fails, as a file for numpy.load",
             "```",
             "",

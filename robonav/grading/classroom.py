@@ -9,6 +9,7 @@ changed or the grader failed.
 from __future__ import annotations
 
 import hashlib
+import importlib.util
 import json
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
@@ -160,6 +161,8 @@ def grade_class(
         raise ValueError(
             f"out must not lie in the class folder, where it would be a student, got {out}"
         )
+    if importlib.util.find_spec("IPython") is None:
+        raise ValueError("notebooks are read with IPython: pip install ipython")
     submissions = students(folder)
     for name in set(again) - set(submissions):
         raise ValueError(f"no submission of {name} in {folder}")

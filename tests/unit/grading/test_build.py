@@ -2,6 +2,7 @@
 
 import ast
 import json
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -198,6 +199,34 @@ def test_a_student_with_the_zip_alone_checks_an_answer(tmp_path):
     assert "Well done" in said
 
 
+@pytest.mark.slow
+def test_an_assignment_of_nbgrader_has_the_tests_that_its_cells_call(tmp_path):
+    """As nbgrader grades it: a copy of the assignment's folder below the course's root, and nothing of this book."""
+    written = build.nbgrader_course(COURSE, tmp_path)
+    assert [folder.name for folder in written] == ["ch2", "ch3", "ch4", "ch5"]
+    graded = tmp_path / "autograded/anna/ch2"
+    shutil.copytree(tmp_path / "source/ch2", graded)
+    cells = json.loads((graded / "ch2.ipynb").read_text("utf-8"))["cells"]
+    keep = [
+        "".join(cell["source"])
+        for cell in cells
+        if cell["id"] in ("answer-2-2", "check-2-2")
+    ]
+    code = "\n".join(
+        [
+            *keep,
+            "from pathlib import Path",
+            "from robonav.grading.course import Course",
+            "assert Course.around(Path.cwd()).root == Path.cwd().resolve()",
+        ]
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=graded, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("✓") == 3
+
+
 def test_a_cell_of_the_notebook_checks_an_answer(capsys):
     from robonav.grading.check import check
     from robonav.grading.reference import solution
@@ -222,6 +251,11 @@ def test_a_cell_of_the_notebook_checks_an_answer(capsys):
             "the secret cannot be read",
         ),
         (["check", "--submission", "/nowhere"], "must be a folder, a zip"),
+        (["check", "nowhere.zip"], "must be a folder, a zip"),
+        (
+            ["check", "exercises", "2.1", "tests"],
+            "one folder, notebook or zip file at a time",
+        ),
     ],
 )
 def test_a_wrong_input_is_one_line_and_code_2(arguments, sentence):

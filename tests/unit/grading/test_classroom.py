@@ -16,7 +16,9 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from typer.testing import CliRunner
 
+from robonav.cli import app
 from robonav.grading import classroom, layouts, sandbox_check, session
 from robonav.grading.classroom import (
     GradingConfig,
@@ -402,6 +404,34 @@ def test_what_gradescope_runs_writes_what_gradescope_reads(tmp_path):
     results = json.loads((tmp_path / "results/results.json").read_text())
     assert results["score"] == 12
     assert [test["number"] for test in results["tests"]] == list(COURSE.exercises)
+
+
+@pytest.mark.parametrize("code", [1, 2])
+def test_gradescope_sees_a_failure_where_the_grader_fails(tmp_path, code):
+    (tmp_path / "submission").mkdir()
+    (tmp_path / "venv/bin").mkdir(parents=True)
+    robonav = tmp_path / "venv/bin/robonav"
+    robonav.write_text(
+        "#!/bin/sh\n"
+        'mkdir -p "$4/students/submission"\n'
+        'echo {} >"$4/students/submission/results.json"\n'
+        f"exit {code}\n"
+    )
+    robonav.chmod(0o755)
+    done = subprocess.run(
+        [COURSE.solutions / "gradescope/run_autograder"],
+        env={**os.environ, "AUTOGRADER_ROOT": str(tmp_path)},
+        capture_output=True,
+    )
+    assert done.returncode != 0
+    assert not (tmp_path / "results/results.json").exists()
+
+
+def test_the_command_fails_where_the_grader_failed(tmp_path, monkeypatch):
+    monkeypatch.setattr(classroom, "grade_class", lambda *args, **options: ["anna"])
+    done = CliRunner().invoke(app, ["grade", str(tmp_path), "--out", "x", "--practice"])
+    assert done.exit_code == 1
+    assert "The grader failed for anna. Run the command again" in done.output
 
 
 def written(out):

@@ -12,7 +12,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
+from robonav.cli import app
 from robonav.grading import answers, sandbox_check
 from robonav.grading.check import InProcessCalls, graded
 from robonav.grading.classroom import GradingConfig, grade_class
@@ -419,3 +421,35 @@ def test_a_class_of_all_kinds_is_graded_and_what_was_not_taken_is_red(tmp_path):
     assert "b.zip was unpacked" in page
     feedback = (tmp_path / "out/students/bo/feedback.html").read_text()
     assert "4 of 4 points, correct, from ch2.ipynb" in feedback
+
+
+@pytest.mark.sandbox
+def test_a_student_sees_at_home_what_will_be_found(tmp_path, monkeypatch):
+    files = {
+        "work/answers.py": RIGHT,
+        "work/ch2/bounds.py": "def bounds(:",
+        "a.7z": b"",
+    }
+    (tmp_path / "work.zip").write_bytes(zipped(files))
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, ["check", "work.zip", "2.1", "2.2", "2.3"])
+    assert done.exit_code == 1
+    lines = done.output.splitlines()
+    assert lines[0].startswith("Not taken: a.7z was not taken: the grader cannot read")
+    assert "2.1 A backup with rewards on transitions: 0 of 4 points" in done.output
+    assert any(
+        line.startswith("2.2 ")
+        and line.endswith("4 of 4 points (from work/answers.py)")
+        for line in lines
+    )
+    assert "SyntaxError" in done.output
+
+
+@pytest.mark.sandbox
+def test_a_submission_without_an_answer_says_so_at_home(tmp_path):
+    (tmp_path / "report.pdf").write_text("")
+    done = CliRunner().invoke(app, ["check", str(tmp_path), "2.2"])
+    assert "Not taken: no Python file or notebook is in it, only report.pdf." in (
+        done.output
+    )
+    assert "The submission was refused" in done.output
