@@ -410,9 +410,14 @@ def _safe(name: str) -> str:
 
 def _shown(name: str) -> str:
     """Return a student's words in characters that every report can hold."""
-    return "".join(c if c.isprintable() else "_" for c in name)[-LONGEST_NAME:]
+    return _printable(name)[-LONGEST_NAME:]
+
+
+def _printable(text: str) -> str:
+    return "".join(c if c.isprintable() else "_" for c in text)
 
 
 def _add(remarks: list[str], remark: str) -> None:
+    remark = _printable(remark)
     if remark not in remarks and len(remarks) <= MOST_REMARKS:
         remarks.append(remark if len(remarks) < MOST_REMARKS else "and more")

@@ -376,13 +376,16 @@ def test_whatever_one_student_hands_in_the_others_are_read(tmp_path):
         deep.mkdir()
     os.mkfifo(folder / "pipe.zip")
     (folder / "link.zip").symlink_to("/etc/passwd")
+    (folder / "odd").mkdir()
+    (folder / "odd/\udcff\n.py").symlink_to("/etc/passwd")
     (folder / "\udcffnobody.py").write_text("x" * (9 << 20))
     loaded = {name: handin.load() for name, handin in handed_in(folder).items()}
-    assert set(loaded) == {"ada", "deep", "pipe", "link", "_nobody"}
+    assert set(loaded) == {"ada", "deep", "pipe", "link", "odd", "_nobody"}
     assert isinstance(loaded.pop("ada"), Submission)
     reasons = {name: str(refused) for name, refused in loaded.items()}
     assert "folders more than 40 deep were not read" in reasons["deep"]
     assert "not a regular file" in reasons["pipe"]
+    assert reasons["odd"] == "__.py is a link that leaves the submission"
     assert reasons["link"] == "link.zip is a link"
     assert "more than 8 MB" in reasons["_nobody"]
 
