@@ -63,7 +63,7 @@ export function corridorPicture(cells, touched = null) {
   const width = CELL * cells.length + 44;
   const left = (place) => 40 + CELL * place;
   const element = svg("svg", { viewBox: `0 0 ${width} 232`, width, height: 232, role: "img" });
-  const say = (x, y, text, more = {}) => svg("text", { x, y, "font-size": 12, "text-anchor": "middle", ...more }, text);
+  const say = (x, y, text, more = {}) => svg("text", { x, y, "font-size": 14, "text-anchor": "middle", ...more }, text);
   const columns = [...cells].map((letter, place) => {
     const x = left(place);
     const column = {

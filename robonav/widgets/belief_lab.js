@@ -60,7 +60,7 @@ function render({ model, el }) {
   };
   set(stage, { tabindex: 0, role: "group", "aria-label": "The corridor. Arrow keys move the robot left and right; down stays and senses.", keydown: keys });
 
-  el.classList.add("robonav", "belief-lab");
+  asWidget(el, "Belief lab", "belief-lab");
   el.replaceChildren(
     h("div", { class: "row" },
       setting("corridor", "corridor", corridors.map(({ name }) => name)),

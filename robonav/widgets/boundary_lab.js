@@ -144,7 +144,7 @@ function render({ model, el }) {
       `At the probe (${probe.map((value) => value.toFixed(2)).join(", ")}) the network answers ${activations.at(-1)[0].toFixed(3)}.`;
   }
 
-  el.classList.add("robonav");
+  asWidget(el, "Boundary lab: a network in the plane");
   el.replaceChildren(
     h("div", { class: "row" }, ...settings.map(({ element }) => element)),
     time.element,

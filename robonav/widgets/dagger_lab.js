@@ -218,7 +218,7 @@ function render({ model, el }) {
   const next = h("button", { type: "button", click: choose }, "Next map where it fails");
   const stage = h("div", { class: "stage", hidden: true }, board.canvas, wheel, told, h("div", { class: "row tools" }, play, back, ask, next));
 
-  el.classList.add("robonav", "imitation", "dagger-lab");
+  asWidget(el, "DAgger lab", "imitation", "dagger-lab");
   el.replaceChildren(h("div", { class: "row" }, first.element), about, panel.element, table.element, stage);
   showTable();
   tell();

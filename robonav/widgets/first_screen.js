@@ -2,6 +2,7 @@
 
 const STEPS_A_SECOND = 8;
 const REST = 1200; // milliseconds between two maps
+const PATIENCE = 300; // steps after which the network has lost its way
 
 function render({ model, el }) {
   const { policy, about, links, keys, obstacles, speed } = model.get("data");
@@ -9,6 +10,8 @@ function render({ model, el }) {
   const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
   let [map, t, last, frame, timer, tally] = [0, 1, 0, 0, 0, { arrived: 0, collided: 0 }];
   let [running, mine] = [!still, false];
+  /** Whether the network has driven for so long that it will not arrive, as behind obstacles that the reader put there. */
+  const isLost = () => !mine && episode.outcome === "running" && episode.step >= PATIENCE;
   const world = () => drawWorld(keys[map % keys.length], { obstacles });
   let episode = makeEpisode(world(), speed);
   const status = h("p", { class: "status", role: "status" });
@@ -28,7 +31,7 @@ function render({ model, el }) {
 
   function say() {
     const record = `${tally.arrived} arrived, ${tally.collided} collided.`;
-    const now = { arrived: "Arrived.", collided: "Collided.", running: mine ? `You steer. ${howToSteer()}` : running ? about : "Stopped." }[episode.outcome];
+    const now = { arrived: "Arrived.", collided: "Collided.", running: isLost() ? `Not arrived after ${PATIENCE} s.` : mine ? `You steer. ${howToSteer()}` : running ? about : "Stopped." }[episode.outcome];
     status.textContent = tally.arrived + tally.collided > 0 ? `${now} So far ${record}` : now;
     board.canvas.setAttribute("aria-label", `Map with ${episode.world.obstacles.length} obstacles and a robot. ${status.textContent}`);
     play.textContent = mine ? "Let the network steer" : running ? "Stop" : "Go on";
@@ -38,8 +41,8 @@ function render({ model, el }) {
     if (t < 1) t = 1;
     episode.go(chosen);
     t = 0;
-    if (episode.outcome !== "running" && episode.steps.length > 0) {
-      tally[episode.outcome] += 1;
+    if (isLost() || (episode.outcome !== "running" && episode.steps.length > 0)) {
+      if (!isLost()) tally[episode.outcome] += 1;
       clearTimeout(timer);
       timer = setTimeout(next, REST);
     }
@@ -58,17 +61,23 @@ function render({ model, el }) {
     frame = 0;
     t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * STEPS_A_SECOND);
     last = time;
-    if (t >= 1 && running && !mine && episode.outcome === "running") step(decide(episode).action);
+    const drives = () => running && !mine && episode.outcome === "running" && !isLost();
+    if (t >= 1 && drives()) step(decide(episode).action);
     board.draw(t);
-    if (t < 1 || (running && !mine && episode.outcome === "running")) wake();
+    if (t < 1 || drives()) wake();
   }
   const wake = () => {
     if (frame) return;
     last = performance.now();
     frame = requestAnimationFrame(tick);
   };
-  const take = (action) => {
+  /** From now on the reader steers, also where the network had lost its way. */
+  const takeOver = () => {
+    if (isLost()) clearTimeout(timer);
     mine = true;
+  };
+  const take = (action) => {
+    takeOver();
     if (episode.outcome === "running") step(action);
     else say();
   };
@@ -79,7 +88,7 @@ function render({ model, el }) {
     if (running) wake();
   } });
   const steer = h("button", { type: "button", click: () => {
-    mine = true;
+    takeOver();
     say();
     board.canvas.focus();
   } }, "Steer it yourself");
@@ -93,13 +102,12 @@ function render({ model, el }) {
   });
   const forgetPads = watchPads(take);
 
-  el.classList.add("robonav", "first-screen");
+  asWidget(el, "A robot that crosses one map after another", "first-screen");
   el.replaceChildren(
     board.canvas,
     h("div", { class: "beside" },
-      status,
       h("div", { class: "row tools" }, play, steer, another),
-      wheel,
+      wheel, status,
       h("p", { class: "hint" }, "Drag an obstacle in front of the robot, or drag the target."),
       h("p", {}, ...links.map(({ text, page }) => h("a", { class: "call", href: page }, text)))));
   say();

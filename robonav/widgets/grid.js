@@ -40,6 +40,8 @@ export function gridPicture({ layout, name, mark = () => {} }) {
   const element = svg("svg", { viewBox: `-2 -2 ${width + 4} ${height + 4}`, width: width + 4, height: height + 4, role: "img", class: "grid" });
   const base = element.appendChild(svg("g", {}));
   base.append(svg("rect", { width, height, fill: PALETTE.OBSTACLE }));
+  const path = element.appendChild(svg("path", { fill: "none", stroke: PALETTE.ORANGE, "stroke-width": 4, "stroke-linejoin": "round", class: "walk still" }));
+  const marks = element.appendChild(svg("g", { class: "marks" })); // over the path, which must not hide a number
   const cells = layout.cells.map((place, state) => {
     const [row, column] = place;
     const [x, y] = middle(place);
@@ -48,22 +50,22 @@ export function gridPicture({ layout, name, mark = () => {} }) {
       x: column * CELL, y: row * CELL, width: CELL, height: CELL, stroke: PALETTE.INK, "stroke-width": 0.8, class: "cell",
       click: () => mark(state),
     });
-    const arrow = svg("path", { d: "M0 15V-11M-6 -5L0 -14L6 -5", fill: "none", stroke: DARK, "stroke-width": 2.4, transform: `translate(${x} ${y - 9})` });
+    const arrow = svg("path", { d: "M0 15V-11M-6 -5L0 -14L6 -5", fill: "none", stroke: DARK, "stroke-width": 2.4, class: "arrow", transform: `translate(${x} ${y - 9})` });
     const text = svg("text", { x, y: y + 25, "text-anchor": "middle", "font-size": 14, style: `fill: ${DARK}` });
-    base.append(box, arrow, text);
+    base.append(box);
+    marks.append(arrow, text);
     if (ends.has(state)) {
       const reward = layout.rewards[state];
       arrow.remove();
-      base.append(svg("rect", { x: x - 26, y: y - 26, width: 52, height: 52, fill: "none", stroke: DARK, "stroke-width": 2, class: "still" }));
+      marks.append(svg("rect", { x: x - 26, y: y - 26, width: 52, height: 52, fill: "none", stroke: DARK, "stroke-width": 2, class: "still" }));
       set(text, { y: y + 6, "font-size": 18 });
       text.textContent = `${reward < 0 ? "−" : reward > 0 ? "+" : ""}${Math.abs(reward)}`;
-      if (/[A-Z]/.test(letter)) base.append(svg("text", { x: x - 22, y: y - 12, "font-size": 14, style: `fill: ${DARK}` }, letter));
+      if (/[A-Z]/.test(letter)) marks.append(svg("text", { x: x - 22, y: y - 12, "font-size": 14, style: `fill: ${DARK}` }, letter));
     } else if (letter !== ".") {
-      base.append(svg("text", { x: x - 25, y: y - 16, "font-size": 14, style: `fill: ${DARK}` }, letter));
+      marks.append(svg("text", { x: x - 25, y: y - 16, "font-size": 14, style: `fill: ${DARK}` }, letter));
     }
     return { box, arrow, text, fixed: ends.has(state) };
   });
-  const path = element.appendChild(svg("path", { fill: "none", stroke: PALETTE.ORANGE, "stroke-width": 4, "stroke-linejoin": "round", class: "still" }));
   const chosen = element.appendChild(svg("rect", { width: CELL - 4, height: CELL - 4, fill: "none", stroke: PALETTE.VERMILION, "stroke-width": 4, class: "still" }));
 
   const show = ({ values, policy, said, walk }, strongest, marked) => {

@@ -86,7 +86,7 @@ function render({ model, el }) {
 
   const learner = learning({ model, learners: data.learners, rows: () => data.grids[chosen[0]].rows, load });
   const workshop = editor({ model, offered: data.solves, rows: () => layout.rows, choices: () => chosen.slice(1).map((at, i) => data.controls[i + 1].options[at]), load });
-  el.classList.add("robonav", "grid-lab");
+  asWidget(el, "Grid lab", "grid-lab");
   el.replaceChildren(
     h("div", { class: "row" }, ...settings.filter((_, which) => data.controls[which].options.length > 1).map(({ element }) => element)), place, pictures, status, workshop, learner.element,
   );

@@ -194,7 +194,7 @@ function render({ model, el }) {
   source.move(settings.source);
   refresh();
   showTable();
-  el.classList.add("robonav", "imitation", "imitation-lab");
+  asWidget(el, "Imitation lab", "imitation", "imitation-lab");
   const kept = drivesList();
   el.replaceChildren(
     h("div", { class: "row" }, source.element, place), about,

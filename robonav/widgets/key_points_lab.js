@@ -249,7 +249,7 @@ function render({ model, el }) {
   const python = h("pre", {});
   const inPython = h("details", {}, h("summary", {}, "The same demonstration in Python"), python);
 
-  el.classList.add("robonav", "key-points-lab");
+  asWidget(el, "Key points lab", "key-points-lab");
   el.replaceChildren(
     board.canvas, told,
     h("div", { class: "row tools" }, add, h("label", {}, h("span", {}, "key point"), list), remove, clearAll),

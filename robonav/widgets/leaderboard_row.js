@@ -95,12 +95,12 @@ function render({ model, el }) {
     },
   });
   const forget = watchRobots(fill);
-  el.classList.add("robonav");
+  asWidget(el, "Your robot on the leaderboard");
   el.replaceChildren(
     h("div", { class: "row tools" }, h("label", {}, h("span", {}, "robot"), which), sets.element, remove,
       h("label", { class: "file" }, h("span", {}, "or weights from a file"), upload)),
     about, note, panel.element, h("div", { class: "board" }, table),
-    h("p", {}, h("a", { href: playground }, "Train a robot of your own")));
+    h("p", {}, h("a", { class: "call", href: playground }, "Train a robot of your own")));
   fill();
   tell();
   return () => {

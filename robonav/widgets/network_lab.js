@@ -127,7 +127,7 @@ function render({ model, el }) {
       `Here the robot ${SAID[action]} (${ACTIONS[action]})${said}.`;
   }
 
-  el.classList.add("robonav");
+  asWidget(el, "Network lab: inside the network that steers");
   el.replaceChildren(
     time.element,
     h("div", { class: "row" },

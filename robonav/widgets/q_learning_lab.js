@@ -251,7 +251,7 @@ const LINES = [
 function lookBack() {
   const board = mapCanvas({ role: "img", "aria-label": "Map" });
   const told = h("p", { class: "told" });
-  const [controls, seconds] = [h("div", { class: "viewer" }), h("div", {})];
+  const [controls, seconds] = [h("fieldset", { class: "viewer", "aria-label": "Look back" }), h("div", {})];
   let [listTime, stepTime] = [null, null];
   const stop = () => [listTime, stepTime].forEach((time) => time?.stop());
   const show = (episode, sentence, second = episode.path.length - 1) => {
@@ -259,13 +259,15 @@ function lookBack() {
     drawPath(board, episode, { second });
     board.canvas.setAttribute("aria-label", `Map with the path of the robot. ${sentence}`);
   };
+  /** Before there is something to look back on: the controls keep their place, and do nothing. */
   const hide = () => {
     stop();
-    controls.replaceChildren();
+    controls.disabled = true;
   };
   /** Opens a list of episodes, at one of them. */
   const open = (run, view, at = 0) => {
     stop();
+    controls.disabled = false;
     const list = view === 0 ? run.episodes : run.tests.filter(({ outcome }) => (outcome === "arrived") === (view === 2));
     const name = view === 0 ? "episode" : "map";
     const text = (frame) => (list.length === 0 ? "none" : `${frame + 1} of ${list.length}, ${ENDINGS[list[frame].outcome]} after ${list[frame].path.length - 1} s`);
@@ -273,6 +275,7 @@ function lookBack() {
       stepTime?.stop();
       seconds.replaceChildren();
       if (list.length === 0) {
+        seconds.replaceChildren(player({ label: "second", count: 1, text: () => "none", change: () => {} }).element);
         told.textContent = `There are no ${VIEWS[view]}.`;
         return;
       }
@@ -288,7 +291,9 @@ function lookBack() {
     controls.replaceChildren(which.element, listTime.element, seconds);
     see(first);
   };
-  return { element: h("div", { class: "grow" }, board.canvas, told, controls), show, open, hide };
+  open({ episodes: [], tests: [] }, 0);
+  hide();
+  return { element: h("div", {}, board.canvas, told, controls), show, open, hide };
 }
 
 const WAITING = "an episode that is still to come";
@@ -432,18 +437,18 @@ function render({ model, el }) {
       ended();
       return "What the robot learned is dropped; its episodes so far stay below, to be looked at.";
     },
+    beside: map.element,
   });
 
   const kernel = severalRobots({ model, form });
 
   panel.element.firstElementChild.after(setting, note); // below Train, which must not move away from under a finger
 
-  el.classList.add("robonav", "q-learning-lab");
+  asWidget(el, "Q-learning lab", "q-learning-lab");
   el.replaceChildren(
     ...(presets.length > 0 ? faults(presets, first, form, tell) : []), form.element,
     h("div", { class: "row tools" }, count.element, button("The thesis's settings", thesis), button("The book's settings", first)),
-    panel.element, results.element,
-    h("div", { class: "row" }, map.element, h("div", { class: "grow" }, small.element, h("div", { class: "row tools" }, save))),
+    panel.element, results.element, small.element, h("div", { class: "row tools" }, save),
     kernel.element);
   tell();
   const world = trainingWorlds(first)(0);

@@ -245,7 +245,7 @@ function render({ model, el }) {
   }
 
   const key = (colour, text) => h("span", { style: `--mark: ${colour}` }, text);
-  el.classList.add("robonav", "reward-lab");
+  asWidget(el, "Reward lab: change a learned reward", "reward-lab");
   el.replaceChildren(
     h("div", { class: "row" }, where.element, ahead.element, attempts.element, colours.element),
     h("div", { class: "row" },

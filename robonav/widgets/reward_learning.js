@@ -116,6 +116,13 @@ function render({ model, el }) {
     drawn.textContent = theta ? `The colours show ${of}, for a robot there that faces the target. ${told}` : `Once a reward is learned, colours will show ${of}.`;
     board.canvas.setAttribute("aria-label", theta ? "Map of the learned reward: blue where the reward of the action is above its mean over the map, red where it is below" : "Map without a reward: nothing is learned yet");
   };
+  const action = choice({ label: "reward of the action", options: [...ACTION_NAMES, "best of the five"], value: 0, change: (index) => {
+    shownAction = index < ACTION_NAMES.length ? index : -1;
+    paint(found?.theta);
+  } });
+  const seen = h("div", {}, board.canvas, drawn, action.element,
+    h("p", { class: "legend" }, h("span", { style: `--mark: ${PALETTE.BLUE}` }, "above the mean"), h("span", { style: `--mark: ${PALETTE.VERMILION}` }, "below the mean"),
+      h("span", { style: "--mark: transparent; --edge: var(--border)" }, "no colour: nothing is in range, so the reflex decides and no reward is asked")));
   const weightsTable = h("table", { class: "results" });
   const table = wide("Weights of the reward", weightsTable);
   const list = (theta) => {
@@ -132,6 +139,7 @@ function render({ model, el }) {
   const results = h("div", {});
   /** A table of the policies in new maps; gives a function that fills it. */
   const trialsTable = (where, name) => {
+    let counted = [];
     const all = [{ name }, ...others];
     const rows = all.map(({ name: title }) => [h("th", { scope: "row" }, title), h("td", {}, "")]);
     const caption = h("caption", {}, "");
@@ -140,13 +148,17 @@ function render({ model, el }) {
       h("tbody", {}, ...rows.map((row) => h("tr", {}, ...row)))));
     const show = (counts, n) => {
       caption.textContent = `${n} of ${maps} new maps: ${where.obstacles} standing and ${where.moving} moving obstacles, ${where.speed} m/s`;
+      counted = counts;
       counts.forEach((count, k) => {
         const [low, high] = wilsonInterval(count, Math.max(1, n)).map((rate) => Math.round(100 * rate));
         rows[k][1].textContent = n ? `${Math.round((100 * count) / n)} % [${low}, ${high}]` : "…";
       });
     };
     show(all.map(() => 0), 0);
-    return { show, say: (sentence) => (caption.textContent = sentence) };
+    const rate = (k) => Math.round((100 * counted[k]) / maps);
+    const straight = 1 + others.findIndex(({ policy }) => policy.rule === "straight");
+    const verdict = () => `It arrives in ${rate(0)} % of ${maps} new maps, one that always goes straight on in ${rate(straight)} %.`;
+    return { show, say: (sentence) => (caption.textContent = sentence), verdict };
   };
   const trialIn = (where) => ({ policies: others.map(({ policy }) => policy), seed, count: maps, conditions: where });
   /** Lets a policy that was learned elsewhere drive the new maps. */
@@ -177,10 +189,10 @@ function render({ model, el }) {
   let kept = ""; // what the browser says where it does not keep the robot
   const trained = () => ({ obstacles: settings.obstacles, moving: settings.moving, speed: settings.speed });
   /** A training in the page with the trial of its policy: `accept` is given the reward as soon as it is learned. */
-  const training = ({ title, action, lines: drawn, name, where, argument, paints, accept, ends }) => {
+  const training = ({ title, action, lines: drawn, name, where, argument, paints, accept, ends, beside = null }) => {
     let there = false;
     return trainingPanel({
-      source, title, action, unit: "iteration", total: () => settings.iterations, lines: drawn,
+      source, title, action, unit: "iteration", total: () => settings.iterations, lines: drawn, beside,
       begin: () => {
         if (complain.textContent) return complain.textContent;
         trial?.cancel();
@@ -199,7 +211,7 @@ function render({ model, el }) {
         }
         if (paints && news.at(-1).theta) paint(news.at(-1).theta);
       },
-      done: ends,
+      done: () => `${ends()} ${tried.verdict()}`.trim(),
       cancelled: () => (there ? "It had learned already, and stays; not all new maps were driven." : "Nothing of this run is kept."),
     });
   };
@@ -208,12 +220,12 @@ function render({ model, el }) {
     title: "Learn a reward and a policy for it, and drive new maps", action: "Learn the reward", lines, name: "your robot", paints: true,
     where: trained, argument: () => ({ settings, seed: settings.seed, reward: null }),
     accept: (result) => learned({ ...result, method: "nirl" }, `NIRL, seed ${settings.seed}`),
-    ends: () => `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept. ${kept}`.trim(),
+    ends: () => `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept. ${kept}`.trim(), beside: seen,
   });
   const again = training({
     title: "Learn a policy for the same reward in other worlds, and drive new maps there", action: "Train a new robot for this reward", lines: lines.slice(2), name: "the new robot", paints: false,
     where: () => second, argument: () => ({ settings: { ...settings, ...second }, seed: settings.seed + 1, reward: found.theta }),
-    accept: () => {}, ends: () => {},
+    accept: () => {}, ends: () => "",
   });
   const weights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl.safetensors", weightsFile({ network: found.network, encoder: settings.encoder, method: found.method })) }, "Download the policy");
   const reward = h("button", { type: "button", disabled: true, click: () => saveFile("my-reward.npz", npz({ reward_weights: { descr: "<f8", shape: [5, found.theta.length / 5], values: [...found.theta] } })) }, "Download the reward");
@@ -222,9 +234,11 @@ function render({ model, el }) {
     const { shape: [rows, width], values } = unpack(inputs);
     return { inputs: Array.from({ length: rows }, (_, t) => values.slice(t * width, (t + 1) * width)), actions: [...unpack(actions).values] };
   });
-  const own = () => decisionsOf(keptDrives().flatMap(effective), settings);
+  /** The reader's drives that arrived: who collides is no expert. */
+  const mine = () => keptDrives().filter(({ outcome }) => outcome === "arrived");
+  const own = () => decisionsOf(mine().flatMap(effective), settings);
   const decisions = (index) => ready[index] ?? own();
-  const names = () => [...sets.map(({ name }) => name), `my own drives (${keptDrives().length})`];
+  const names = () => [...sets.map(({ name }) => name), `my own drives (${mine().length})`];
   const from = choice({ label: "demonstrations", options: names(), change: (index) => {
     chosen = index;
     tell();
@@ -232,20 +246,19 @@ function render({ model, el }) {
   const about = h("p", { class: "about" });
   /** What the chosen demonstrations hold. */
   const tell = () => {
-    const all = sets[chosen]?.demonstrations ?? keptDrives().length;
+    const all = sets[chosen]?.demonstrations ?? mine().length;
     const count = decisions(chosen).actions.length;
-    about.textContent = count === 0 ? NO_DECISION
-      : `${all} ${all === 1 ? "demonstration" : "demonstrations"} with ${count} ${count === 1 ? "decision" : "decisions"} to learn from: steps with something in range.`;
+    const lost = sets[chosen] ? 0 : keptDrives().length - mine().length;
+    about.textContent = (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out. ` : "") + (count === 0 ? NO_DECISION
+      : `${all} ${all === 1 ? "demonstration" : "demonstrations"} with ${count} ${count === 1 ? "decision" : "decisions"} to learn from: steps with something in range.`);
   };
   const forget = watchDrives(() => {
     from.element.querySelector("option:last-child").textContent = names().at(-1);
+    if (!found && mine().length === 1) from.move((chosen = sets.length));
+    if (mine().length === 0) from.move((chosen = Math.min(chosen, sets.length - 1)));
     tell();
   });
-  const action = choice({ label: "reward of the action", options: [...ACTION_NAMES, "best of the five"], value: 0, change: (index) => {
-    shownAction = index < ACTION_NAMES.length ? index : -1;
-    paint(found?.theta);
-  } });
-
+  if (mine().length > 0) from.move((chosen = sets.length));
   const [robots, python] = [numberOfRobots(), { method: 0, asked: 0, hidden: settings.hidden }];
   const kernel = kernelPanel({
     model, title: "The same settings in Python: four methods, several robots", unit: "iteration", total: () => settings.iterations, lines: lines.slice(1),
@@ -255,7 +268,7 @@ function render({ model, el }) {
     ],
     request: () => {
       if (complain.textContent) return complain.textContent;
-      const drives = keptDrives();
+      const drives = mine();
       if (!ready[chosen] && own().actions.length === 0) return NO_DECISION;
       python.asked = python.method;
       return {
@@ -274,7 +287,7 @@ function render({ model, el }) {
   });
 
   const elsewhere = h("div", { hidden: true });
-  el.classList.add("robonav");
+  asWidget(el, "Reward lab: learn a reward from demonstrations");
   el.replaceChildren(
     h("div", { class: "row" }, from.element,
       number("iterations", settings.iterations, { least: 1, most: 1000, hint: "How often the reward is corrected." }, (value) => (settings = { ...settings, iterations: value })),
@@ -282,11 +295,7 @@ function render({ model, el }) {
       number("inverse temperature η", settings.inverseTemperature, { step: 0.5, least: 0, most: 200, hint: "0: actions at random. The larger it is, the more often the robot takes the best action." }, (value) => (settings = { ...settings, inverseTemperature: value })),
       number("seed", 0, { least: 0, most: 1e6, hint: "Another seed draws other random numbers." }, (value) => (settings = { ...settings, seed: value }))),
     about, complain, learn.element,
-    h("div", { class: "row" },
-      h("div", { class: "grow" }, board.canvas, drawn, action.element,
-        h("p", { class: "legend" }, h("span", { style: `--mark: ${PALETTE.BLUE}` }, "above the mean"), h("span", { style: `--mark: ${PALETTE.VERMILION}` }, "below the mean"),
-          h("span", { style: "--mark: transparent; --edge: var(--border)" }, "no colour: nothing is in range, so the reflex decides and no reward is asked"))),
-      h("div", { class: "grow" }, results, h("details", {}, h("summary", {}, "The weights of the reward"), table))),
+    h("div", { class: "row" }, h("div", { class: "grow" }, results, h("details", {}, h("summary", {}, "The weights of the reward"), table))),
     h("div", { class: "row tools" }, weights, reward),
     elsewhere, kernel.element);
   elsewhere.append(

@@ -271,7 +271,7 @@ function render({ model, el }) {
   const cockpit = h("div", { class: "cockpit" }, board.canvas, wheel, status, mineKept.said);
   const forgetPads = watchPads((action) => mine() && steer(action), () => (mine() && episode.outcome === "running" && episode.step > 0) || newMap());
 
-  el.classList.add("robonav", "robot-playground");
+  asWidget(el, "Robot playground", "robot-playground");
   el.replaceChildren(
     h("div", { class: "row tools" }, where.element, who.element, fast.element, h("button", { type: "button", class: "main", click: newMap }, "Drive a new map yourself")),
     h("div", { class: "row" },

@@ -91,7 +91,7 @@ function render({ model, el }) {
     choice({ label, options, value, change: (index) => { chosen[which] = index; offer(); } }));
 
   const workshop = targets({ model, chosen: () => chosen, size: () => world.size, load: (target, run) => load({ ...world, target }, run) });
-  el.classList.add("robonav", "search-lab");
+  asWidget(el, "Search lab", "search-lab");
   el.replaceChildren(h("div", { class: "row" }, ...settings.map(({ element }) => element)), place, pictures, table, workshop.element);
   offer();
   return () => time.stop();

@@ -28,6 +28,12 @@ export const svg = (tag, attributes = {}, ...children) =>
 /** Changes some attributes. */
 export const set = (element, attributes) => furnish(element, attributes, []);
 
+/** Makes an element a widget: its classes, and its name for a screen reader. */
+export function asWidget(el, name, ...classes) {
+  el.classList.add("robonav", ...classes);
+  set(el, { role: "group", "aria-label": name });
+}
+
 /** Lets a finger drag where `holds` says so of its touch; elsewhere it scrolls the page. */
 export function holdFinger(element, holds) {
   element.addEventListener("touchstart", (event) => holds(event.touches[0]) && event.preventDefault(), { passive: false });
@@ -221,7 +227,7 @@ export function networkPicture(sizes, { inputs, outputs, width = 420, height = 4
   for (let l = 0; l < last; l += 1) {
     const [cx, cy] = place(l, 0);
     marks.append(svg("circle", { cx, cy, r: radius, fill: PALETTE.OBSTACLE }));
-    marks.append(svg("text", { x: cx, y: cy + 3.5, "text-anchor": "middle", "font-size": 10, style: "fill: #fff" }, "+1"));
+    marks.append(svg("text", { x: cx, y: cy + 3.5, "text-anchor": "middle", "font-size": 11, style: "fill: #fff" }, "+1"));
   }
   inputs.forEach((name, j) => {
     const [x, y] = place(0, j + 1);

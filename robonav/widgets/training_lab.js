@@ -127,7 +127,7 @@ function render({ model, el }) {
   const drop = h("button", { type: "button", click: () => { kept = null; draw(); } }, "Drop what is kept");
 
   const workshop = trainer({ model, choices: () => chosen.map((at, which) => data.controls[which].options[at]), live: (curves) => { live = curves; draw(); } });
-  el.classList.add("robonav", "training-lab");
+  asWidget(el, "Training lab", "training-lab");
   el.replaceChildren(
     h("div", { class: "row settings" }, ...settings.map(({ element }) => element), keep, drop), time.element,
     status, comparison, h("div", { class: "charts" }, ...charts.map(({ element }) => element)), workshop,

@@ -201,6 +201,12 @@ FAULTS = """(widget) => {
     const texts = [...picture.querySelectorAll("text")].filter((text) => text.textContent.trim());
     const boxes = texts.map((text) => text.getBoundingClientRect());
     boxes.forEach((box, i) => {
+      for (const arrow of picture.querySelectorAll(".arrow")) {
+        const other = arrow.getBoundingClientRect();
+        const across = Math.min(box.right, other.right) - Math.max(box.left, other.left);
+        const down = Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top);
+        if (across > 2 && down > 4) faults.push(`arrow over ${texts[i].textContent}`);
+      }
       const across = box.left > frame.left - 2 && box.right < frame.right + 2;
       const down = box.top > frame.top - 3 && box.bottom < frame.bottom + 3;
       if (!across || !down) faults.push(`clipped: ${texts[i].textContent}`);

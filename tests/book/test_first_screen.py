@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from copy import deepcopy
 
 import pytest
 from browser import DESKTOP, PHONE, Visit
-from mounting import mounted
+from mounting import mounted, mounted_alone
 from playwright.sync_api import Locator, expect
 
 from robonav.benchmark.policies import method
+from robonav.networks import NetworkPolicy
 from robonav.widgets.first_screen import first_screen
 
 ABOUT = "A network steers."
@@ -84,6 +86,33 @@ def test_target_is_dragged(screen):
     screen.page.mouse.move(target[0] - 60, target[1] + 20, steps=4)
     screen.page.mouse.up()
     assert pixels(screen) != before
+
+
+def test_a_robot_that_lost_its_way_is_taken_to_the_next_map(visit):
+    """A network that only turns to the left, before time runs faster."""
+    visit.page.clock.install()
+    network = deepcopy(method("dagger").network)
+    network.biases[-1][:] = [-9, -9, 9, -9, -9]
+    turns = NetworkPolicy(network, encoder=method("dagger").encoder)
+    screen = mounted_alone(visit, first_screen(turns, ABOUT, {}, seed=2015))
+    said = []
+    for _ in range(60):
+        visit.page.clock.run_for(2_000)
+        said.append(screen.locator(".status").inner_text())
+        if "Not arrived" in said[-1]:
+            break
+    assert said[-1].startswith("Not arrived after 300 s.")
+    visit.page.clock.run_for(3_000)
+    expect(screen.locator(".status")).to_contain_text(ABOUT)
+
+
+def test_buttons_are_below_the_map(screen):
+    board, stop = (
+        place.bounding_box()
+        for place in (screen.locator("canvas"), screen.get_by_role("button").first)
+    )
+    if board["x"] + board["width"] > stop["x"]:  # one above the other, on a phone
+        assert stop["y"] - board["y"] - board["height"] < 60
 
 
 def test_one_click_leads_to_training(screen):

@@ -87,11 +87,15 @@ def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
     download.value.save_as(tmp_path / "policy.safetensors")
     assert load_weights(tmp_path / "policy.safetensors").network.sizes == (17, 10, 5)
 
+    verdict = f"It arrives in {rates[0]} % of 100 new maps, one that always goes straight on in {rates[1]} %."
+    expect(lab.locator(".status").nth(1)).to_contain_text(verdict)
+
     set_number(lab, "moving obstacles", 5)
     lab.get_by_role("button", name="Train a new robot for this reward").click()
     expect(lab.locator("caption").first).to_contain_text(
         "100 of 100 new maps: 10 standing and 5 moving", timeout=SLOW
     )
+    expect(lab.locator(".status").last).to_contain_text("straight on in", timeout=SLOW)
 
 
 COLOURS = """(map) => {
@@ -175,6 +179,24 @@ def kept_drives():
             "regions": sensing.target_region.tolist(),
             "seen": sensing.target_seen.astype(int).tolist(),
         }
+
+
+def test_own_drives_are_chosen_and_those_that_collided_left_out(lab):
+    chosen, about = lab.get_by_label("demonstrations"), lab.locator(".about")
+    assert lab.evaluate(MAP_IN_SIGHT) < PHONE["height"] - 100
+    expect(chosen).to_have_value("six")
+    drives = list(kept_drives())
+    lab.page.evaluate(KEPT, [*drives[:1], drives[1] | {"outcome": "collided"}])
+    expect(chosen).to_have_value("my own drives (1)")
+    expect(about).to_contain_text("1 of your drives did not arrive and is left out. 1")
+    lab.page.evaluate(EMPTIED)
+    expect(chosen).to_have_value("six")
+
+
+MAP_IN_SIGHT = """(lab) => {
+  const [button, map] = [".training button", "canvas"].map((what) => lab.querySelector(what).getBoundingClientRect());
+  return map.bottom - button.top;
+}"""
 
 
 def test_own_drives_teach_what_the_same_demonstrations_teach(lab, tmp_path):

@@ -130,8 +130,7 @@ export const explorable = ({ controls, start = () => ({}), draw }) => ({
       said.textContent = picture(state);
     };
     const reset = h("button", { type: "button", click: () => { state = first(); show(); } }, "Reset");
-    el.classList.add("robonav", "explorable");
-    set(el, { role: "group", "aria-label": title });
+    asWidget(el, title, "explorable");
     el.replaceChildren(
       h("p", { class: "title" }, title),
       h("p", { class: "question" }, question),

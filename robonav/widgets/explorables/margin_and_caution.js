@@ -22,7 +22,7 @@ export default explorable({
       const longer = number((100 * (mine.length - shortest.length)) / shortest.length, 1);
       set(board.canvas, { "aria-label": `A map with the expert's path, ${number(mine.length, 0)} m long` });
       return [
-        `Length: ${number(mine.length, 0)} m, which is ${longer} % more than ${number(shortest.length, 0)} m.`,
+        mine === shortest ? `Length: ${number(mine.length, 0)} m, the shortest of all settings.` : `Length: ${number(mine.length, 0)} m, which is ${longer} % more than ${number(shortest.length, 0)} m.`,
         `Nearest to anything: ${number(mine.clearance, 1)} m.`,
       ].join("\n");
     };

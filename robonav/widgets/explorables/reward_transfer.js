@@ -1,11 +1,12 @@
 // A target that moves: the copied actions beside the best ones for the same reward.
 
-/** Makes the letters of a grid large enough for a phone, without the target's; returns a function that leaves the values to the colours. */
+/** Makes the letters of a grid large enough for a phone, without the target's, and moves the arrows from below them; returns a function that leaves the values to the colours. */
 function bare(element) {
   for (const text of element.querySelectorAll("text")) if (text.textContent === "T") text.remove();
   const texts = [...element.querySelectorAll("text")];
   const values = texts.filter((text) => !text.textContent);
   texts.filter((text) => text.textContent).forEach((text) => set(text, { "font-size": 22, dy: 6 }));
+  for (const arrow of element.querySelectorAll(".arrow")) set(arrow, { style: "translate: 6px 17px" });
   return () => values.forEach((text) => (text.textContent = ""));
 }
 

@@ -21,15 +21,15 @@ export default explorable({
     grids.forEach((grid, k) => {
       const nothing = layout.cells.map(() => 0);
       grid.show({ values: nothing, policy: nothing, said: walks[k].name, walk: walks[k].states }, 1, -1);
-      grid.element.querySelectorAll(".cell + path").forEach((arrow) => arrow.remove());
+      grid.element.querySelectorAll(".arrow").forEach((arrow) => arrow.remove());
       for (const text of grid.element.querySelectorAll("text")) {
         if (/^[mrS]$/.test(text.textContent)) set(text, { "font-size": 24, dy: 8 });
         else if (text.textContent !== "+3") text.remove();
         else set(text, { "font-size": 22 });
       }
-      const path = grid.element.querySelector("path.still:last-of-type");
+      const path = grid.element.querySelector(".walk");
       set(path, { stroke: [PALETTE.BLUE, PALETTE.ORANGE][k], "stroke-width": 6 });
-      grids[0].element.append(path);
+      grids[0].element.querySelector(".marks").before(path);
     });
     return ({ discount, ...rewards }) => {
       const mus = walks.map((walk) => collected(walk.kinds, kinds.length, discount));

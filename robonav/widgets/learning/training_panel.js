@@ -58,13 +58,14 @@ function liveCurve({ name, label, note = "", colour = PALETTE.BLUE, low = 0, hig
  * @param {{source: string, title?: string, action: string, busy?: string, unit: string, total: () => number,
  *   lines: {name: string, label: string, note?: string, colour?: string, low?: number, high?: number, text?: (value: number) => string}[],
  *   begin: () => {job: Job, argument: any} | string, live?: (news: any[]) => void, done: (result: any) => string | void,
- *   cancelled?: () => string | void}} options
+ *   cancelled?: () => string | void, beside?: Element | null}} options
  *   source: `model.get("_esm")`; title: what the button starts; busy: a sentence while the job runs; total: how long the
  *   axes are at first; each item of a job's `live` is {at, [name]: value}; a line's note says what it shows;
  *   begin: gives the job, or a sentence that says why there is none; done: may give a sentence to say at the end;
- *   cancelled: may say what is kept of a job that was cancelled; otherwise nothing is
+ *   cancelled: may say what is kept of a job that was cancelled; otherwise nothing is; beside: a picture of what is
+ *   learned, which stands next to the curves, or above them on a narrow screen
  */
-export function trainingPanel({ source, title = "", action, busy = "It learns.", unit, total, lines, begin, live = () => {}, done, cancelled = () => {} }) {
+export function trainingPanel({ source, title = "", action, busy = "It learns.", unit, total, lines, begin, live = () => {}, done, cancelled = () => {}, beside = null }) {
   const curves = lines.map((each) => liveCurve(each, unit));
   const fill = h("div", { class: "fill" });
   const bar = h("div", { class: "progress", role: "progressbar", "aria-label": action, "aria-valuemin": 0, "aria-valuemax": 100, "aria-valuenow": 0 }, fill);
@@ -138,6 +139,6 @@ export function trainingPanel({ source, title = "", action, busy = "It learns.",
   const button = h("button", { type: "button", class: "main", click: () => (running ? cancel() : start()) }, action);
   const element = h("div", { class: "training", role: "group", "aria-label": title || action },
     h("div", { class: "row tools" }, button, h("div", { class: "grow" }, title && h("p", { class: "label" }, title), bar, left)), said,
-    h("div", { class: "row curves" }, ...curves.map((each) => each.element)));
+    h("div", { class: beside ? "seen" : "" }, ...(beside ? [beside] : []), h("div", { class: "row curves" }, ...curves.map((each) => each.element))));
   return { element, button, start, cancel, running: () => running !== null, now: () => curves.map((each) => each.now()) };
 }

@@ -44,6 +44,25 @@ def test_every_widget_is_one_module_without_names_that_clash(tmp_path):
         assert checked.returncode == 0, f"{name}: {checked.stderr}"
 
 
+@pytest.mark.parametrize(
+    "script",
+    [path for path in SCRIPTS if re.search(r"\nfunction render\(", path.read_text())],
+    ids=lambda path: path.stem,
+)
+def test_every_widget_has_a_name_for_screen_readers(script):
+    assert script.read_text("utf-8").count("asWidget(el, ") == 1
+
+
+@pytest.mark.parametrize(
+    "sheet", sorted(HERE.rglob("*.css")), ids=lambda path: path.stem
+)
+def test_styles_do_not_depend_on_their_order(sheet):
+    """Each widget of a page brings ``shared.css`` anew, so a widget's own rules must be stronger than those."""
+    text = re.sub(r"/\*[\s\S]*?\*/|@media[^{]*\{", "", sheet.read_text("utf-8"))
+    for selector in re.findall(r"([^{}]+)\{", text):
+        assert selector.strip().startswith(".robonav"), selector
+
+
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
 def test_nothing_depends_on_jupyterlab(script):
     text = re.sub(r"--jp-[\w-]+", "", script.read_text("utf-8"))  # colours
