@@ -1,0 +1,61 @@
+"""The first minutes of a reader who has never programmed, on a phone: drive three maps, train a robot, and it is good."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from browser import PHONE, chromium, visiting
+from driving import KEYS, WAITS, good_drive, keys_of
+from playwright.sync_api import Locator, Page, expect
+
+NAMES = ("ahead", "left 30°", "left 60°", "right 30°", "right 60°")
+"""The buttons below the map, in the order of ``KEYS``."""
+
+
+def drive_by_touch(lab: Locator, number: int) -> None:
+    """Drive the reader's next map with the buttons below it, as a reader would who sees the way."""
+    lab.get_by_role("button", name="Drive a new map yourself").tap()
+    expect(lab.locator(".kept")).to_contain_text(f"Map {number}.")
+    turns = [NAMES[KEYS.index(key)] for key in keys_of(good_drive(number))]
+    if "waits for you" not in lab.locator(".status").first.inner_text():
+        lab.get_by_role("button", name="ahead").tap()
+    while True:
+        said = str(
+            lab.page.wait_for_function(WAITS, arg=lab.element_handle()).json_value()
+        )
+        if "waits" not in said:
+            break
+        lab.get_by_role("button", name=turns.pop(0)).tap()
+    assert "Arrived" in said
+
+
+def go(page: Page, link: Locator, address: str) -> Locator:
+    """Touch a link, and give the lab of the page that opens."""
+    link.tap()
+    page.wait_for_url(re.compile(re.escape(address)))
+    lab = page.locator(".robonav:not(.explorable)").first
+    lab.wait_for()
+    return lab
+
+
+def test_three_maps_are_driven_and_a_robot_is_trained(site: Path) -> None:
+    with (
+        chromium(viewport=PHONE, has_touch=True, is_mobile=True) as phone,
+        visiting(phone) as visit,
+    ):
+        page = visit.page
+        visit.open(f"{site.as_uri()}/book/intro.html")
+        link = page.get_by_role("link", name="Drive in the playground")
+        lab = go(page, link, "playground.html")
+        for number in (1, 2, 3):
+            drive_by_touch(lab, number)
+        link = lab.get_by_role("link", name="Train a robot on your drives")
+        lab = go(page, link, "policy-learning.html")
+        expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
+        lab.get_by_role("button", name="Train", exact=True).tap()
+        said = lab.locator(".training .status").first
+        expect(said).to_contain_text("always goes straight on")
+        own, straight = map(float, re.findall(r"in ([\d.]+) %", said.inner_text()))
+        assert own > straight + 20
+        assert visit.errors == visit.external == []
