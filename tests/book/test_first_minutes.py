@@ -1,4 +1,4 @@
-"""The first minutes of a reader who has never programmed, on a phone: drive three maps, train a robot, and it is good."""
+"""The first minutes of a reader who has never programmed, on a phone: drive three maps, and train a good robot."""
 
 from __future__ import annotations
 
