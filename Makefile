@@ -1,4 +1,4 @@
-# make open, make book, make lab, make check and make test each set up .venv if it is missing. They need Python 3.11 or later.
+# make open, make book, make lab, make check, make test and make test-all each set up .venv if it is missing. They need Python 3.11 or later.
 #
 #   PYTHON   the interpreter for .venv
 #   PIP_OPTIONS   options of every pip install, for instance an extra index with PyTorch's CPU builds
@@ -22,10 +22,11 @@ INSTALLED := .venv/.installed
 TORCH := $(shell grep '^torch==' requirements.lock)
 EXTRAS := book,lab,grading,cluster,tests,benchmarks,formats,clients
 
-.PHONY: help open install book pdf check test lab lock clean
+.PHONY: help open install book pdf check test test-all lab lock clean
 help:
 	@echo "make open   build the book and open it in the browser"
-	@echo "make test   run every check and every test"
+	@echo "make test   run every check and test, in some ten minutes"
+	@echo "make test-all also run every experiment again at its quick scale"
 	@echo "make book   build the book into _build/html"
 	@echo "make pdf    print the built book to _build/robonav.pdf; needs Chromium"
 	@echo "make check  run lint, types, doctests and quick tests, in at most two minutes"
@@ -72,8 +73,11 @@ check: $(INSTALLED)
 	echo "make check took $$SECONDS seconds"; \
 	exit $$failed
 
-# Each process has one thread, because pytest runs as many processes as there are cores.
-test: $(INSTALLED)
+# Each process has one thread, because pytest runs as many processes as there are cores. Each process takes its share of
+# the tests in order, and then part of another's, so that tests which share a fixture mostly run in the same process.
+test: WHICH := not exhaustive
+test-all: WHICH :=
+test test-all: $(INSTALLED)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
@@ -81,7 +85,7 @@ test: $(INSTALLED)
 	@command -v bwrap >/dev/null || echo "bubblewrap is missing: tests of the strongest sandbox are skipped"
 	@command -v node >/dev/null || echo "Node is missing: tests of the widgets' JavaScript are skipped"
 	@test -e _build/html/index.html || echo "The book is not built: tests of its pages are skipped; run make book first"
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto -rs $(PYTEST_OPTIONS)
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal -rs -m "$(WHICH)" $(PYTEST_OPTIONS)
 
 # The notebooks are copies in plain Markdown, so changes to them change no page of the book.
 lab: $(INSTALLED)

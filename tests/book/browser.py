@@ -19,7 +19,7 @@ from playwright.sync_api import (
     BrowserContext,
     ConsoleMessage,
     Page,
-    Route,
+    Request,
     sync_playwright,
 )
 
@@ -38,6 +38,8 @@ FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
+    "--no-proxy-server",
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE localhost, EXCLUDE 127.0.0.1",
 ]
 LOCAL = re.compile(r"(https?://(localhost|127\.0\.0\.1)[:/]|file:|data:|blob:)")
 DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
@@ -76,19 +78,16 @@ class Visit:
 
 
 def _watch(visit: Visit) -> None:
-    def route(request_route: Route) -> None:
-        address = request_route.request.url
-        if LOCAL.match(address):
-            request_route.continue_()
-        else:
-            visit.external.append(address)
-            request_route.abort()
+    # Requests are not intercepted, because Chromium caches nothing then.
+    def on_request(request: Request) -> None:
+        if not LOCAL.match(request.url):
+            visit.external.append(request.url)
 
     def on_console(message: ConsoleMessage) -> None:
         if message.type == "error":
             visit.errors.append(f"{message.text} ({message.location.get('url', '')})")
 
-    visit.page.route("**/*", route)
+    visit.page.on("request", on_request)
     visit.page.on("console", on_console)
     visit.page.on("pageerror", lambda error: visit.errors.append(str(error)))
 

@@ -19,15 +19,17 @@ from browser import (
     visiting,
 )
 from check_site import pages
+from page_visits import Shown, shown_by
 from playwright.sync_api import BrowserContext, expect
 
 expect.set_options(timeout=PATIENCE)
 PAGES = list(pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))))
 
 
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    if "page_name" in metafunc.fixturenames:
-        metafunc.parametrize("page_name", PAGES)
+@pytest.fixture(scope="session", params=PAGES)
+def page_name(request: pytest.FixtureRequest) -> str:
+    """Each page of the book. Tests of the same page run one after the other, so that they share its visits."""
+    return str(request.param)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -66,6 +68,12 @@ def http(site: Path) -> Iterator[str]:
     """Return the address at which the book is served."""
     with served(site) as address:
         yield address
+
+
+@pytest.fixture(scope="session")
+def shown(context: BrowserContext, site: Path, http: str, page_name: str) -> Shown:
+    """What a page shows in one visit over http and one from disk."""
+    return shown_by(context, http, site.as_uri(), page_name)
 
 
 @pytest.fixture(params=["http", "file"])

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from accessibility import AXE, RUN, ours
 from browser import DESKTOP, PHONE, Visit
 from driving import KEYS
 from mounting import mounted
 from playwright.sync_api import Locator, expect
-from test_accessibility import AXE, RUN, ours
 
 from robonav.benchmark.policies import method
 from robonav.networks.policy import NetworkPolicy

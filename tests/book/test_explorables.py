@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 import yaml
+from accessibility import AXE, RUN
 from browser import DESKTOP, PHONE, ROOT, Visit, tap
 from mounting import mounted_alone
 from playwright.sync_api import Locator, expect
-from test_accessibility import AXE, RUN
 
 from robonav.widgets.explorables import EXPLORABLES, explorable
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from accessibility import AXE, RUN, ours
 from browser import DESKTOP, PHONE, Visit
 from driving import drive_map, fast, good_drive, keys_of, playground
 from mounting import mounted
 from playwright.sync_api import Locator, expect
-from test_accessibility import AXE, RUN, ours
 from test_controls import choose_everything, slide_everything
 
 from robonav.benchmark.policies import method

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from accessibility import AXE, RUN
 from browser import DESKTOP, PHONE, Visit
 from mounting import mounted
 from playwright.sync_api import Locator, expect
-from test_accessibility import AXE, RUN
 
 from robonav import mdp
 from robonav.benchmark.policies import method

@@ -7,10 +7,10 @@ import re
 from collections.abc import Iterator
 
 import pytest
+from accessibility import AXE, RUN, ours
 from browser import DESKTOP, PHONE, Visit, swipe, tap
 from mounting import BLANK, mounted_alone
 from playwright.sync_api import Locator, expect
-from test_accessibility import AXE, RUN, ours
 
 from robonav.lfd import demonstrate_by_hand, sketch
 from robonav.robot import random_worlds

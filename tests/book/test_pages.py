@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
-from browser import DESKTOP, PHONE, ROOT, Visit
+from browser import DESKTOP, PHONE, Visit
 from check_site import faults
 from measure import (
     LARGEST_PAGE,
@@ -16,40 +16,18 @@ from measure import (
     weight,
     weight_of_site,
 )
-
-PICTURES = ROOT / "_build" / "widgets"  # kept, to look at after the tests
-BROKEN = """() => ({
-  formulas: [...document.querySelectorAll("mjx-merror")].map((node) => node.textContent),
-  cut: [...document.querySelectorAll("div.math, div.math mjx-container")]
-    .filter((place) => place.scrollWidth > place.clientWidth + 1).map((place) => place.textContent.slice(0, 60)),
-  pictures: [...document.images].filter((image) => image.complete && !image.naturalWidth).map((image) => image.src),
-  unnamed: [...document.images].filter((image) => !image.alt && image.offsetParent).map((image) => image.src),
-})"""
-OVERHANG = (
-    "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
-)
-ILLEGIBLE = """() => [...document.querySelectorAll(".robonav svg text")].filter((text) => {
-  const picture = text.ownerSVGElement;
-  const [inner, outer] = [text, picture].map((element) => element.getBoundingClientRect());
-  const size = (parseFloat(getComputedStyle(text).fontSize) * outer.width) / (picture.viewBox.baseVal.width || 1);
-  const [across, down] = [["left", "right"], ["top", "bottom"]].map(([low, high]) =>
-    Math.max(outer[low] - inner[low], inner[high] - outer[high]));
-  return text.textContent && inner.width > 0 && (size < 8 || Math.max(across, down) > 2);
-}).map((text) => text.textContent)"""
+from page_visits import Shown
 
 
 def test_page_was_built_whole(site: Path, page_name: str) -> None:
     assert list(faults(page_name)) == []
 
 
-def test_page_is_quiet_and_complete(visit: Visit, address: str, page_name: str) -> None:
-    visit.open(f"{address}/{page_name}.html")
-    assert visit.external == []
-    assert visit.errors == []
-    visit.page.add_style_tag(
-        content="* { content-visibility: visible !important; }"
-    )  # lay out what is far below, too
-    assert visit.page.evaluate(BROKEN) == {
+@pytest.mark.parametrize("where", ["http", "file"])
+def test_page_is_quiet_and_complete(shown: Shown, where: str) -> None:
+    assert shown.external[where] == []
+    assert shown.errors[where] == []
+    assert shown.broken[where] == {
         "formulas": [],
         "cut": [],
         "pictures": [],
@@ -57,43 +35,20 @@ def test_page_is_quiet_and_complete(visit: Visit, address: str, page_name: str) 
     }
 
 
-def test_widgets_take_up_room_and_are_photographed(
-    visit: Visit, http: str, page_name: str
-) -> None:
-    visit.open(f"{http}/{page_name}.html")
-    visit.page.wait_for_function(
-        "() => [...document.querySelectorAll('.widget-subarea > *')].every((widget) => widget.clientHeight > 10)"
-    )
-    for which, widget in enumerate(
-        visit.page.locator(".widget-subarea .robonav").all()
-    ):
-        picture = (
-            PICTURES
-            / f"{page_name.removeprefix('book/').replace('/', '-')}-{which}.png"
-        )
-        widget.screenshot(path=picture)
-        assert picture.stat().st_size > 1_000
-    assert visit.page.evaluate(ILLEGIBLE) == []
+def test_widgets_take_up_room_and_are_photographed(shown: Shown) -> None:
+    assert shown.flat == []
+    assert [size for size in shown.photographs if size <= 1_000] == []
+    assert shown.illegible["http"] == []
 
 
-def test_page_fits_a_phone(visit: Visit, http: str, page_name: str) -> None:
-    visit.page.set_viewport_size(PHONE)
-    visit.open(f"{http}/{page_name}.html")
-    assert visit.page.evaluate(OVERHANG) <= 1
-    assert visit.page.evaluate(ILLEGIBLE) == []
+def test_page_fits_a_phone(shown: Shown) -> None:
+    assert shown.overhang <= 1
+    assert shown.illegible["file"] == []
 
 
-FORMULAS_CUT = """() => [...document.querySelectorAll("mjx-container:not([display])")]
-  .filter((formula) => !formula.closest(".scroll, table, .tableholder"))
-  .filter((formula) => formula.getBoundingClientRect().right > innerWidth)
-  .map((formula) => formula.textContent)"""
-
-
-def test_formulas_in_lines_fit_a_phone(visit: Visit, http: str, page_name: str) -> None:
+def test_formulas_in_lines_fit_a_phone(shown: Shown) -> None:
     """A formula in a line does not scroll: a long one is written as several, between which the line can break."""
-    visit.page.set_viewport_size(PHONE)
-    visit.open(f"{http}/{page_name}.html")
-    assert visit.page.evaluate(FORMULAS_CUT) == []
+    assert shown.formulas_cut == []
 
 
 @pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])

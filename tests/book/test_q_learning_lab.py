@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterator
 
 import pytest
+from accessibility import AXE, RUN
 from browser import DESKTOP, PHONE, Visit, tap
 from mounting import mounted, mounted_alone
 from playwright.sync_api import Locator, expect
 from scipy.stats import binomtest
-from test_accessibility import AXE, RUN
 from test_controls import choose_everything, press_everything
 
 from robonav.networks import NetworkPolicy, load_weights

@@ -13,7 +13,7 @@ import yaml
 from robonav import __version__
 
 ROOT = Path(__file__).resolve().parents[2]
-TARGETS = set(re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text("utf-8"), re.M))
+TARGETS = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text("utf-8"), re.M))
 WITH_COMMANDS = [
     "README.md",
     "CONTRIBUTING.md",
@@ -29,8 +29,8 @@ WITH_COMMANDS = [
 @pytest.mark.parametrize("name", WITH_COMMANDS)
 def test_every_make_command_exists(name: str) -> None:
     text = (ROOT / name).read_text("utf-8")
-    named = set(re.findall(r"(?:^ *|[`\"]|run: |RUN )make ([a-z]+)", text, re.M))
-    named |= set(re.findall(r'"make", "([a-z]+)"', text))
+    named = set(re.findall(r"(?:^ *|[`\"]|run: |RUN )make ([a-z-]+)", text, re.M))
+    named |= set(re.findall(r'"make", "([a-z-]+)"', text))
     assert named or name == "RELEASING.md"
     assert named <= TARGETS
 

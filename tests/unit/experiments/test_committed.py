@@ -1,5 +1,6 @@
 """The results that the pages show: made by the code as it is, and made again at the quick scale."""
 
+import dataclasses
 import json
 import math
 
@@ -71,19 +72,21 @@ def foretold(values, runs, episodes):
     return mean - reach, mean + reach
 
 
-@pytest.mark.parametrize(
-    "name", [name for name in names() if not experiment(name).shortened]
-)
-def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_path):
-    """All of an experiment, run again on this machine, with this code."""
-    known = experiment(name)
-    quick, committed = reproduce(known, tmp_path, jobs=1), read_results(known)
-    episodes = EPISODES.get(name, 100)
-    for case, settings in enumerate(known.cases):
-        for metric in quick.metrics(case):
-            again, values = (
-                results.values(metric, case) for results in (quick, committed)
-            )
+def check_again(known, chosen, seeds, folder):
+    """Run the chosen cases on this machine, with this code, and compare with the committed results."""
+    part = dataclasses.replace(
+        known,
+        cases=[known.cases[case] for case in chosen],
+        seeds=dict(known.seeds) | {"quick": seeds},
+        thesis={},
+    )
+    quick, committed = reproduce(part, folder, jobs=1), read_results(known)
+    episodes = EPISODES.get(known.name, 100)
+    for position, case in enumerate(chosen):
+        settings = known.cases[case]
+        for metric in quick.metrics(position):
+            again = quick.values(metric, position)
+            values = committed.values(metric, case)
             assert again.shape[1:] == values.shape[1:], (settings, metric)
             if values.ndim > 1:  # a curve, by its mean
                 again, values = again.mean(axis=1), values.mean(axis=1)
@@ -92,6 +95,25 @@ def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_pa
                 continue
             low, high = foretold(values, len(again), episodes if metric in RATES else 0)
             assert low <= again.mean() <= high, (settings, metric, values.mean())
+
+
+WHOLE = [name for name in names() if not experiment(name).shortened]
+
+
+@pytest.mark.parametrize("name", WHOLE)
+def test_a_quick_run_of_the_first_and_last_case_falls_where_the_committed_results_foretell(
+    name, tmp_path
+):
+    known = experiment(name)
+    check_again(known, sorted({0, len(known.cases) - 1}), 1, tmp_path)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", WHOLE)
+def test_the_quick_scale_falls_where_the_committed_results_foretell(name, tmp_path):
+    """All cases of an experiment with all seeds of the quick scale."""
+    known = experiment(name)
+    check_again(known, range(len(known.cases)), known.seeds["quick"], tmp_path)
 
 
 @pytest.mark.parametrize(

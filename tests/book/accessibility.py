@@ -1,0 +1,54 @@
+"""Find faults of accessibility with axe-core."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from playwright.sync_api import Page
+
+AXE = Path(__file__).parent / "third-party" / "axe.min.js"
+RUN = """async (rules) => {
+  const only = rules ? { runOnly: { type: "rule", values: rules } } : {};
+  const { violations } = await axe.run(document, { resultTypes: ["violations"], ...only });
+  return violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .flatMap(({ id, nodes }) => nodes.map(({ target, html }) => [id, target.flat().join(" "), html.slice(0, 160)]));
+}"""
+
+# The theme's own faults: the rule, and a part of the element's selector or of its source.
+BASELINE = [
+    ("label-content-name-mismatch", "search-button-field"),
+    ("label-content-name-mismatch", "theme-switch-button"),
+    ("label-content-name-mismatch", 'aria-label="Toggle hidden content"'),
+    ("aria-required-children", "citation-list"),
+]
+
+
+# The rules that depend on the colour scheme.
+COLOURS = [
+    "color-contrast",
+    "link-in-text-block",
+]
+
+
+def ours(violation: list[str]) -> bool:
+    """Whether a violation is not in the baseline."""
+    rule, selector, source = violation
+    return not any(
+        rule == known and (part in selector or part in source)
+        for known, part in BASELINE
+    )
+
+
+def violations(page: Page, rules: Sequence[str] | None = None) -> list[list[str]]:
+    """Return what axe-core finds serious or critical on a page, apart from the theme's own faults.
+
+    With ``rules``, only these of axe-core's rules are tested.
+    """
+    page.evaluate(
+        "() => { window.define = undefined; }"
+    )  # else axe hands itself to require.js
+    page.evaluate(AXE.read_text("utf-8"))
+    found = page.evaluate(RUN, None if rules is None else list(rules))
+    return [violation for violation in found if ours(violation)]
