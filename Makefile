@@ -26,7 +26,7 @@ EXTRAS := book,lab,grading,cluster,tests,benchmarks,formats,clients
 help:
 	@echo "make open   build the book and open it in the browser"
 	@echo "make test   run every check and test, in some ten minutes"
-	@echo "make test-all also run every experiment again at its quick scale"
+	@echo "make test-all also run every experiment again, and open every page in the dark"
 	@echo "make book   build the book into _build/html"
 	@echo "make pdf    print the built book to _build/robonav.pdf; needs Chromium"
 	@echo "make check  run lint, types, doctests and quick tests, in at most two minutes"

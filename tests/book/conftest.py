@@ -19,7 +19,7 @@ from browser import (
     visiting,
 )
 from check_site import pages
-from page_visits import Shown, shown_by
+from page_visits import Shown, from_disk, over_http
 from playwright.sync_api import BrowserContext, expect
 
 expect.set_options(timeout=PATIENCE)
@@ -71,9 +71,27 @@ def http(site: Path) -> Iterator[str]:
 
 
 @pytest.fixture(scope="session")
-def shown(context: BrowserContext, site: Path, http: str, page_name: str) -> Shown:
-    """What a page shows in one visit over http and one from disk."""
-    return shown_by(context, http, site.as_uri(), page_name)
+def shown(context: BrowserContext, site: Path, page_name: str) -> Shown:
+    """What a page shows from disk."""
+    return from_disk(context, site.as_uri(), page_name)
+
+
+@pytest.fixture(
+    scope="session",
+    params=[
+        pytest.param(name, marks=pytest.mark.exhaustive if number % 3 else ())
+        for number, name in enumerate(PAGES)
+    ],
+)
+def some_page(request: pytest.FixtureRequest) -> str:
+    """Every third page of the book; `make test-all` takes each."""
+    return str(request.param)
+
+
+@pytest.fixture(scope="session")
+def served_dark(context: BrowserContext, http: str, some_page: str) -> Shown:
+    """What a page shows over http, in the dark."""
+    return over_http(context, http, some_page)
 
 
 @pytest.fixture(params=["http", "file"])

@@ -1,12 +1,13 @@
-"""What a page of the book does and shows, in one visit over http and one from disk.
+"""What a page of the book does and shows, from disk and over http.
 
-The first visit is on a light desktop, the second on a dark phone, whose window then becomes a desktop's. The tests of a
-page share both visits, because most of their time is the page's loading. In the dark, axe-core looks at colours only,
-because the colour scheme changes only those.
+The visit from disk is on a phone, whose window then becomes a desktop's. The visit over http is on a dark desktop. The
+tests of a page share its visits, because most of their time is the page's loading. In the dark, axe-core looks at
+colours only, because the colour scheme changes only those.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from accessibility import COLOURS, violations
@@ -46,41 +47,43 @@ FORMULAS_CUT = """() => [...document.querySelectorAll("mjx-container:not([displa
 
 @dataclass
 class Shown:
-    """Faults of a page. Dictionaries have the visits' names, ``http`` and ``file``, or the colour schemes."""
+    """Faults of a page in one visit, and the sizes of the pictures taken of its widgets."""
 
-    external: dict[str, list[str]] = field(default_factory=dict)
-    errors: dict[str, list[str]] = field(default_factory=dict)
-    broken: dict[str, dict[str, list[str]]] = field(default_factory=dict)
-    illegible: dict[str, list[str]] = field(default_factory=dict)
-    violations: dict[str, list[list[str]]] = field(default_factory=dict)
+    external: list[str] = field(default_factory=list)
+    errors: list[str] = field(default_factory=list)
+    broken: dict[str, list[str]] = field(default_factory=dict)
+    violations: list[list[str]] = field(default_factory=list)
+    illegible: dict[str, list[str]] = field(default_factory=dict)  # by screen
     flat: list[str] = field(default_factory=list)
-    photographs: list[int] = field(default_factory=list)  # sizes in bytes
+    photographs: list[int] = field(default_factory=list)  # bytes
     overhang: int = 0
     formulas_cut: list[str] = field(default_factory=list)
 
 
-def shown_by(context: BrowserContext, http: str, disk: str, page_name: str) -> Shown:
-    """Visit a page over http and from disk."""
+def from_disk(context: BrowserContext, folder: str, page_name: str) -> Shown:
+    """Visit a page from disk, on a phone and then on a desktop."""
     shown = Shown()
     with visiting(context) as visit:
-        visit.page.set_viewport_size(DESKTOP)
-        visit.open(f"{http}/{page_name}.html")
-        _photograph(visit, page_name, shown)
-        shown.illegible["http"] = visit.page.evaluate(ILLEGIBLE)
-        _note_errors(visit, "http", shown)
-        shown.violations["light"] = violations(visit.page)
-        shown.broken["http"] = _broken(visit)
-    with visiting(context) as visit:
-        visit.page.emulate_media(color_scheme="dark")
         visit.page.set_viewport_size(PHONE)
-        visit.open(f"{disk}/{page_name}.html")
+        visit.open(f"{folder}/{page_name}.html")
         shown.overhang = visit.page.evaluate(OVERHANG)
-        shown.illegible["file"] = visit.page.evaluate(ILLEGIBLE)
+        shown.illegible["phone"] = visit.page.evaluate(ILLEGIBLE)
         shown.formulas_cut = visit.page.evaluate(FORMULAS_CUT)
         visit.page.set_viewport_size(DESKTOP)
-        _note_errors(visit, "file", shown)
-        shown.violations["dark"] = violations(visit.page, COLOURS)
-        shown.broken["file"] = _broken(visit)
+        _photograph(visit, page_name, shown)
+        shown.illegible["desktop"] = visit.page.evaluate(ILLEGIBLE)
+        _examine(visit, shown)
+    return shown
+
+
+def over_http(context: BrowserContext, address: str, page_name: str) -> Shown:
+    """Visit a page over http, on a desktop in the dark."""
+    shown = Shown()
+    with visiting(context) as visit:
+        visit.page.emulate_media(color_scheme="dark")
+        visit.page.set_viewport_size(DESKTOP)
+        visit.open(f"{address}/{page_name}.html")
+        _examine(visit, shown, COLOURS)
     return shown
 
 
@@ -91,22 +94,17 @@ def _photograph(visit: Visit, page_name: str, shown: Shown) -> None:
     except PlaywrightTimeout:
         shown.flat = visit.page.evaluate(FLAT)
     place = page_name.removeprefix("book/").replace("/", "-")
-    for which, widget in enumerate(
-        visit.page.locator(".widget-subarea .robonav").all()
-    ):
+    widgets = visit.page.locator(".widget-subarea .robonav")
+    for which, widget in enumerate(widgets.all()):
         picture = PICTURES / f"{place}-{which}.png"
         widget.screenshot(path=picture)
         shown.photographs.append(picture.stat().st_size)
 
 
-def _note_errors(visit: Visit, where: str, shown: Shown) -> None:
-    """Note what the page requested and which errors it had, and stop its motion for axe-core, which is not its own."""
-    shown.external[where] = list(visit.external)
-    shown.errors[where] = list(visit.errors)
+def _examine(visit: Visit, shown: Shown, rules: Sequence[str] | None = None) -> None:
+    """Note errors before axe-core runs, because its own are not the page's, and look for what is broken at last."""
+    shown.external, shown.errors = list(visit.external), list(visit.errors)
     visit.page.emulate_media(reduced_motion="reduce")
-
-
-def _broken(visit: Visit) -> dict[str, list[str]]:
-    """Look for broken parts with the whole page laid out."""
+    shown.violations = violations(visit.page, rules)
     visit.page.add_style_tag(content=UNFOLDED)
-    return dict(visit.page.evaluate(BROKEN))
+    shown.broken = visit.page.evaluate(BROKEN)
