@@ -35,6 +35,7 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
     """The lab on the opened page: served to a desktop, or from disk on a phone."""
     desktop = request.param == "desktop"
     visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
+    visit.leave_formulas()
     visit.open(
         f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/partial-observation.html"
     )

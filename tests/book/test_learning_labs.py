@@ -24,6 +24,7 @@ NAMES = [experiment.name for experiment in labs.EXPERIMENTS]
 def page(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Locator]:
     desktop = request.param == "desktop"
     visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
+    visit.leave_formulas()
     visit.open(
         f"{request.getfixturevalue('http') if desktop else site.as_uri()}/book/learning-labs.html"
     )

@@ -28,6 +28,7 @@ def labs(
     """The boundary lab and the network lab on the opened page: served to a desktop, or from disk on a phone."""
     desktop = request.param == "desktop"
     visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
+    visit.leave_formulas()
     visit.open(
         f"{request.getfixturevalue('http') if desktop else site.as_uri()}/{PAGE}"
     )
