@@ -170,3 +170,16 @@ def test_what_slipping_actions_cost_on_the_board():
     assert (
         success["nfq", "20, a fifth of actions slips"] > success["nfq", "20 obstacles"]
     )
+
+
+def test_how_far_the_agreement_is_from_the_thesis():
+    """Two pages: with the shortest-path expert it is two points higher, and 83.62 % lies outside the interval."""
+    results = read_results("table-3.3")
+    (case,) = [
+        place
+        for place, case in enumerate(results.experiment.cases)
+        if case["expert"] == "shortest path" and case["iterations"] == 300
+    ]
+    found = results.summary("accuracy", case)
+    assert round(found.mean - 83.62) == 2
+    assert found.low > 83.62
