@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from robonav.networks import random_network
@@ -12,18 +10,10 @@ from robonav.networks.optimisers import lbfgs, one_hot
 from robonav.networks.policy import NetworkPolicy
 from robonav.progress import Progress
 from robonav.robot import Encoder
-from robonav.validation import check_instance, check_integer, checks
+from robonav.validation import check_instance
 
+from ._arguments import checked
 from .demonstrations import LEARNED, Demonstrations
-
-checked = checks(
-    {
-        "demonstrations": partial(check_instance, kind=Demonstrations),
-        "hidden": partial(check_integer, at_least=1),
-        "encoder": partial(check_instance, kind=Encoder),
-    }
-)
-"""Decorate a function of these arguments so that they are checked before it runs."""
 
 
 @checked

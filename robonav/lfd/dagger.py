@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -37,14 +36,12 @@ from robonav.robot import (
 )
 from robonav.validation import (
     check_array,
-    check_callable,
     check_generator,
-    check_instance,
     check_integer,
     check_real,
-    checks,
 )
 
+from ._arguments import checked
 from .behaviour_cloning import learn_policy
 from .computer_expert import ComputerExpert
 from .demonstrations import (
@@ -57,55 +54,6 @@ from .demonstrations import (
 )
 
 TEMPERATURE = 0.4
-
-
-def check_rounds(name: str, rounds: Sequence[Worlds]) -> Sequence[Worlds]:
-    """Return the batches of worlds of DAgger's rounds if they are that."""
-    for number, worlds in enumerate(check_instance(name, rounds, Sequence)):
-        check_instance(f"{name}[{number}]", worlds, Worlds)
-    return rounds
-
-
-checked = checks(
-    {
-        "rounds": check_rounds,
-        "policy": partial(check_callable, call="policy(sensing, rng)"),
-        "expert": partial(check_callable, call="expert(simulator, robots)"),
-        "temperature": partial(check_real, at_least=0),
-        "max_steps": partial(check_integer, at_least=1),
-    }
-)
-"""Decorate a function of these arguments so that they are checked before it runs."""
-
-
-@dataclass(frozen=True, eq=False)
-class DaggerResult:
-    """The policies and datasets of all rounds of DAgger. Round 0 is behaviour cloning of the first demonstrations.
-
-    Attributes
-    ----------
-    policies : tuple of NetworkPolicy
-        The policy trained in each round. The last one is the result.
-    demonstrations : tuple of Demonstrations
-        The aggregate that each of these policies was trained on.
-
-    Examples
-    --------
-    >>> from robonav.lfd import dagger, demonstrate
-    >>> from robonav.robot import random_worlds
-    >>> demonstrations = demonstrate(random_worlds(2, obstacles=10, seed=1))
-    >>> result = dagger(demonstrations, [random_worlds(2, obstacles=10, seed=2)], iterations=10)
-    >>> len(result.policies)
-    2
-    """
-
-    policies: tuple[NetworkPolicy, ...]
-    demonstrations: tuple[Demonstrations, ...]
-
-    @property
-    def policy(self) -> NetworkPolicy:
-        """The policy of the last round."""
-        return self.policies[-1]
 
 
 @checked
@@ -315,6 +263,36 @@ def collect_with_expert_labels(
     beta = check_real("beta", beta, at_least=0, at_most=1)
     rng = check_generator("seed", seed)
     return labelled_rollout(simulator, policy, expert or ComputerExpert(), beta, rng)
+
+
+@dataclass(frozen=True, eq=False)
+class DaggerResult:
+    """The policies and datasets of all rounds of DAgger. Round 0 is behaviour cloning of the first demonstrations.
+
+    Attributes
+    ----------
+    policies : tuple of NetworkPolicy
+        The policy trained in each round. The last one is the result.
+    demonstrations : tuple of Demonstrations
+        The aggregate that each of these policies was trained on.
+
+    Examples
+    --------
+    >>> from robonav.lfd import dagger, demonstrate
+    >>> from robonav.robot import random_worlds
+    >>> demonstrations = demonstrate(random_worlds(2, obstacles=10, seed=1))
+    >>> result = dagger(demonstrations, [random_worlds(2, obstacles=10, seed=2)], iterations=10)
+    >>> len(result.policies)
+    2
+    """
+
+    policies: tuple[NetworkPolicy, ...]
+    demonstrations: tuple[Demonstrations, ...]
+
+    @property
+    def policy(self) -> NetworkPolicy:
+        """The policy of the last round."""
+        return self.policies[-1]
 
 
 def beta_schedule(decay: float, rounds: int) -> list[float]:

@@ -7,9 +7,12 @@ discount gamma. The action values of values V are
 
 The optimal values solve Bellman's optimality equation, and the values of a policy pi solve a linear one:
 
-    V*(s)  = max over a of Q*(s, a),      V_pi(s) = Q_pi(s, pi(s)).
+    V*(s)   = max over a of Q*(s, a)
+    V_pi(s) = Q_pi(s, pi(s)),      in matrices  V_pi = r_pi + gamma T_pi V_pi.
 
-- Value iteration (Algorithm 2) replaces V by the maximum of its action values, again and again.
+- Value iteration (Algorithm 2) replaces V by the maximum of its action values, again and again. With
+  gamma < 1 each sweep brings V closer to V*, by the factor gamma or more. The change in the last sweep therefore bounds
+  the distance to V*.
 - Policy iteration (Algorithm 1) solves the linear equation for its policy, and then takes the best action of every
   state. It repeats both until no action changes.
 - Modified policy iteration only approaches the solution of the linear equation, by a few sweeps.
@@ -153,9 +156,9 @@ def policy_iteration(
     policy = np.asarray(start)  # 1 and 2
     values = np.zeros(mdp.n_states)  # 3
     for iteration in range(1, max_iterations + 1):  # 4: repeat
-        # 5 to 8: the values of the policy, by solving V = r_pi + discount * T_pi V
+        # 5 to 8: the values of the policy, the solution of V = r_pi + discount * T_pi V
         values = policy_evaluation(mdp, policy, guess=values)
-        # 9: its greedy policy, Eq. (2.25)
+        # 9: its greedy policy, Eq. (2.25): the argmax of q where that gains something
         q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
         improved, gain = improve(mdp, policy, values, q, tolerance)
         previous, policy = policy, improved  # 10

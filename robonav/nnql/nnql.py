@@ -1,4 +1,14 @@
-"""Neural-network Q-learning, its online form, and navigation with what they learned (sections 4.4.5, 4.5.3)."""
+"""Neural-network Q-learning, its online form, and navigation with what they learned (sections 4.4.5, 4.5.3).
+
+A network computes the Q-values of a state s, one output for each action. After a step by action a to s' with reward r,
+the value of this action moves towards a target, as in Q-learning:
+
+    Q(s, a) <- Q(s, a) + alpha * (r + gamma * max over a' of Q(s', a') - Q(s, a))                      (4.9)
+
+The outputs are sigmoids, so these values are rescaled into [0, 1]. The network then learns to answer s with them, by
+stochastic gradient descent on the cross-entropy, Eqs. (4.11) and (4.12). :func:`nnql` trains on all pairs of s and
+rescaled values that the episode has gathered so far, and :func:`online` on the latest pair alone.
+"""
 
 from __future__ import annotations
 
