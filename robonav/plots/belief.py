@@ -190,92 +190,68 @@ def plot_uncertainty(axes: Axes, entropies: Mapping[str, ArrayLike]) -> None:
     axes.legend()
 
 
+# Rows of Fig. 2.3 from top to bottom: height, letter and colour.
+POMDP_ROWS = {
+    "action": (3.0, "A", style.ORANGE),
+    "belief": (2.0, "b", style.BLUE),
+    "observation": (1.0, "O", style.GREEN),
+    "state": (0.0, "S", style.GREY),
+    "reward": (-1.0, "R", style.VERMILION),
+}
+WITHIN_A_STEP = (
+    ("state", "observation"),
+    ("observation", "belief"),
+    ("belief", "action"),
+    ("state", "reward"),
+    ("action", "reward"),
+)
+TO_THE_NEXT_STEP = (
+    ("state", "state"),
+    ("belief", "belief"),
+    ("action", "state"),
+    ("action", "observation"),
+    ("action", "belief"),
+)
+
+
 def draw_pomdp(axes: Axes) -> None:
     """Draw the states, observations, beliefs, actions and rewards of some steps, with their dependences (Fig. 2.3)."""
-    rows = {
-        "action": 3.0,
-        "belief": 2.0,
-        "observation": 1.0,
-        "state": 0.0,
-        "reward": -1.0,
-    }
-    names = {
-        "action": "A",
-        "belief": "b",
-        "observation": "O",
-        "state": "S",
-        "reward": "R",
-    }
-    colours = {
-        "action": style.ORANGE,
-        "belief": style.BLUE,
-        "observation": style.GREEN,
-        "state": style.GREY,
-        "reward": style.VERMILION,
-    }
-    times = ("t-1", "t", "t+1")
-
-    def node(kind: str, time: int) -> tuple[float, float]:
-        return 2.6 * time + (0.9 if kind in ("action", "reward") else 0.0), rows[kind]
-
-    arrows: list[tuple[tuple[str, int], tuple[str, int]]] = []
-    for time in range(len(times)):
-        arrows += [
-            (("state", time), ("observation", time)),
-            (("observation", time), ("belief", time)),
-        ]
-        arrows += [
-            (("belief", time), ("action", time)),
-            (("state", time), ("reward", time)),
-        ]
-        arrows += [(("action", time), ("reward", time))]
-        if time + 1 < len(times):
-            arrows += [
-                (("state", time), ("state", time + 1)),
-                (("belief", time), ("belief", time + 1)),
-            ]
-            arrows += [
-                (("action", time), (kind, time + 1))
-                for kind in ("state", "observation", "belief")
-            ]
-    for start, end in arrows:
-        bent = 0.22 if start[0] == "action" and end[0] == "reward" else 0.0
-        axes.add_patch(
-            FancyArrowPatch(
-                node(*start),
-                node(*end),
-                arrowstyle="-|>",
-                mutation_scale=10,
-                color=style.INK,
-                linewidth=0.9,
-                shrinkA=14,
-                shrinkB=14,
-                connectionstyle=f"arc3,rad={-bent}",
-            )
-        )
-    for kind, letter in names.items():
-        for time, index in enumerate(times):
-            x, y = node(kind, time)
-            hidden = kind == "state"
+    for time in range(3):
+        for start, end in WITHIN_A_STEP:
+            _draw_dependence(axes, (start, time), (end, time))
+        for start, end in TO_THE_NEXT_STEP if time < 2 else ():
+            _draw_dependence(axes, (start, time), (end, time + 1))
+    times = ("t-1", "t", "t+1", "t+2")
+    for kind, (_, letter, colour) in POMDP_ROWS.items():
+        for time in range(3):
+            x, y = _place(kind, time)
             axes.plot(
-                x, y, "o", markersize=26, markerfacecolor=to_rgba(colours[kind], 0.15), markeredgecolor=colours[kind],
-                markeredgewidth=1.5, linestyle="none",
+                x, y, "o", markersize=26, markerfacecolor=to_rgba(colour, 0.15),
+                markeredgecolor=colour, markeredgewidth=1.5, linestyle="none",
             )  # fmt: skip
-            if kind == "reward":  # the reward of a step comes with the next state
-                index = ("t", "t+1", "t+2")[time]
+            # the reward of a step comes with the next state
+            index = times[time + 1] if kind == "reward" else times[time]
             axes.annotate(f"${letter}_{{{index}}}$", (x, y), ha="center", va="center")
-            if hidden and time == 0:
-                axes.annotate(
-                    "hidden", (x - 1.15, y), ha="center", va="center", style="italic"
-                )
-        first = node(kind, 0)[0]
-        if kind != "state":
-            axes.annotate(
-                kind,
-                (first - 1.15, rows[kind]),
-                ha="center",
-                va="center",
-                style="italic",
-            )
+        x, y = _place(kind, 0)
+        name = "hidden" if kind == "state" else kind
+        axes.annotate(name, (x - 1.15, y), ha="center", va="center", style="italic")
     axes.set(xlim=(-1.9, 6.6), ylim=(-1.5, 3.5), aspect="equal")
     axes.axis("off")
+
+
+def _place(kind: str, time: int) -> tuple[float, float]:
+    """Return where the circle of a kind and time stands: actions and rewards lie between two steps."""
+    between = 0.9 if kind in ("action", "reward") else 0.0
+    return 2.6 * time + between, POMDP_ROWS[kind][0]
+
+
+def _draw_dependence(axes: Axes, start: tuple[str, int], end: tuple[str, int]) -> None:
+    """Draw an arrow between two circles; that from an action to its reward bends around the circles between them."""
+    bend = -0.22 if (start[0], end[0]) == ("action", "reward") else 0.0
+    axes.add_patch(
+        FancyArrowPatch(
+            _place(*start), _place(*end), arrowstyle="-|>", mutation_scale=10,
+            color=style.INK, linewidth=0.9, shrinkA=14, shrinkB=14,
+            connectionstyle=f"arc3,rad={bend}",
+        )
+    )  # fmt: skip
