@@ -200,7 +200,8 @@ def _worlds(
     for episode in about:
         if episode.get("seed") is None:
             raise ValueError(
-                "dataset must have a seed for each episode, got one without"
+                "dataset must have a seed for each episode, got one without. Minari drops the seeds of episodes that "
+                "are added to a dataset: keep each recording as a dataset, and concatenate the demonstrations"
             )
         env.reset(seed=int(episode["seed"]))
         worlds.append(env.world)

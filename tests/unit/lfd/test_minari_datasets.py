@@ -5,7 +5,7 @@ import minari
 import numpy as np
 import pytest
 
-from robonav.lfd import demonstrate, from_minari, record, to_minari
+from robonav.lfd import concatenate, demonstrate, from_minari, record, to_minari
 from robonav.robot import Action, random_worlds, turn_to_clearer_side
 from robonav.robot.environments import as_sensing
 
@@ -94,3 +94,30 @@ def test_a_dataset_of_another_environment_is_refused():
     env.close()
     with pytest.raises(ValueError, match="observations of robonav/Navigation-v0"):
         from_minari(dataset)
+
+
+def test_a_recording_is_continued_in_a_second_dataset():
+    """Minari drops the seeds of episodes that are added, so the error says what to do instead."""
+    collector = minari.DataCollector(
+        gymnasium.make("robonav/Navigation-v0", max_episode_steps=20),
+        record_infos=True,
+    )
+
+    def collect(seeds):
+        for seed in seeds:
+            collector.reset(seed=seed)
+            ended = False
+            while not ended:
+                _, _, terminated, truncated, _ = collector.step(0)
+                ended = terminated or truncated
+
+    collect([1, 2])
+    first = collector.create_dataset("robonav/first-v0")
+    collect([3])
+    second = collector.create_dataset("robonav/second-v0")
+    both = concatenate([from_minari(first), from_minari(second)])
+    assert len(both.worlds) == 3
+    collect([4])
+    collector.add_to_dataset(first)
+    with pytest.raises(ValueError, match="keep each recording as a dataset"):
+        from_minari(first)
