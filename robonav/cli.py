@@ -18,6 +18,8 @@ from robonav.errors import WorkerLost
 if TYPE_CHECKING:
     from robonav.experiments.runner.experiment import Experiment, Results
 
+STANDARD_OUTPUT = Path("-")
+
 app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
@@ -252,7 +254,9 @@ def reproduce(
     ] = Path("results"),
     json_file: Annotated[
         Path | None,
-        typer.Option("--json", help="Also write the results to this file."),
+        typer.Option(
+            "--json", help="Also write the results to this file; - is standard output."
+        ),
     ] = None,
     scale: Annotated[
         str, typer.Option(help="quick, or thesis for as many runs as the thesis made.")
@@ -272,7 +276,7 @@ def reproduce(
 ) -> None:
     """Reproduce a table or figure of the thesis. An interrupted run resumes when it is started again."""
     from robonav import experiments
-    from robonav.experiments.runner.report import as_json
+    from robonav.experiments.runner.report import as_json, as_text
 
     if show or not name:
         for known in experiments.names():
@@ -284,21 +288,23 @@ def reproduce(
         for one in (experiments.names() if name == "all" else [name])
     ]
     how = {"scale": scale, "backend": backend, "scheduler": scheduler, "jobs": jobs}
-    done = [_reproduced(experiment, out, **how) for experiment in chosen]
+    done = []
+    for experiment in chosen:
+        results = _reproduced(experiment, out, **how)
+        _print_beside(json_file, as_text(results))
+        done.append(results)
     if json_file is not None:
         _write_json(json_file, as_json(done))
 
 
 def _reproduced(experiment: Experiment, out: Path, **how: Any) -> Results:
-    """Run one experiment with a progress bar, keep its figure, and print its results."""
+    """Run one experiment with a progress bar, and keep its figure."""
     from robonav import experiments, progress
-    from robonav.experiments.runner.report import as_text
     from robonav.plots.experiments import save_figure
 
     with progress.bar(experiment.name) as report:
         results = experiments.reproduce(experiment, out, progress=report, **how)
     save_figure(results, out)
-    print(as_text(results))
     return results
 
 
@@ -320,7 +326,10 @@ def navigate(
     worlds: Annotated[int, typer.Option(help="Number of random worlds.")] = 200,
     seed: Annotated[int, typer.Option(help="Seed of the random worlds.")] = 0,
     json_file: Annotated[
-        Path | None, typer.Option("--json", help="Also write the result to this file.")
+        Path | None,
+        typer.Option(
+            "--json", help="Also write the result to this file; - is standard output."
+        ),
     ] = None,
     show: Annotated[
         bool, typer.Option("--list", help="List the methods, and exit.")
@@ -344,9 +353,10 @@ def navigate(
         seed=seed,
     )
     rate, (low, high) = result["success"], result["interval"]
-    print(
+    _print_beside(
+        json_file,
         f"{method}: {100 * rate:.1f} % of {worlds} worlds arrive (95 % interval {100 * low:.1f} to {100 * high:.1f}), "
-        f"{result['outcomes']['collided']} collide, {result['outcomes']['out of steps']} run out of steps"
+        f"{result['outcomes']['collided']} collide, {result['outcomes']['out of steps']} run out of steps",
     )
     if json_file is not None:
         _write_json(json_file, result)
@@ -363,7 +373,9 @@ def leaderboard(
     ),
     json_file: Annotated[
         Path | None,
-        typer.Option("--json", help="Also write the results to this file."),
+        typer.Option(
+            "--json", help="Also write the results to this file; - is standard output."
+        ),
     ] = None,
     scale: Annotated[
         str, typer.Option(help="quick, or thesis for all worlds of the leaderboard.")
@@ -382,7 +394,8 @@ def leaderboard(
     _check_json(json_file)
     with progress.bar("leaderboard") as report:
         results = experiments.reproduce(board(names), out, scale=scale, progress=report)
-    print(as_table(results, "success", rows="method", columns="setting"))
+    table = as_table(results, "success", rows="method", columns="setting")
+    _print_beside(json_file, table)
     if json_file is not None:
         _write_json(json_file, as_json([results]))
 
@@ -391,7 +404,7 @@ def _check_json(path: Path | None) -> None:
     """Fail before the work starts if the file cannot be written after it."""
     from robonav.experiments.runner.results import check_writable
 
-    if path is not None:
+    if path is not None and path != STANDARD_OUTPUT:
         if path.is_dir():
             raise ValueError(f"json must be a file to write, got the folder {path}")
         check_writable("json", path.parent)
@@ -400,8 +413,17 @@ def _check_json(path: Path | None) -> None:
 def _write_json(path: Path, content: Any) -> None:
     from robonav import atomic
 
+    text = json.dumps(content, indent=2) + "\n"
+    if path == STANDARD_OUTPUT:
+        sys.stdout.write(text)
+        return
     with atomic.atomic_write(path) as file:
-        file.write((json.dumps(content, indent=2) + "\n").encode())
+        file.write(text.encode())
+
+
+def _print_beside(json_file: Path | None, text: str) -> None:
+    """Print results for people: to standard output, or to standard error if that takes the JSON."""
+    print(text, file=sys.stderr if json_file == STANDARD_OUTPUT else sys.stdout)
 
 
 def _is_path(course: Any, key: str) -> bool:

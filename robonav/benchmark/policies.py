@@ -72,7 +72,10 @@ def method(name: str) -> Policy:
     if name in BASELINES:
         return BASELINES[name]
     path = _shipped().get(name, Path(name))
-    if path.suffix not in (".safetensors", ".py") or not path.is_file():
+    is_file_name = path.suffix in (".safetensors", ".py")
+    if is_file_name and not path.is_file():
+        raise ValueError(f"method must name a file that exists, got {name!r}")
+    if not is_file_name:
         known = ", ".join(methods())
         raise ValueError(
             f"method must be one of {known}, or a file that ends in .safetensors or .py, got {name!r}"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 from typer.testing import CliRunner
 
@@ -31,3 +33,18 @@ def test_help_is_for_users() -> None:
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_of_command(command: str) -> None:
     assert "Usage:" in output(command, "--help")
+
+
+def test_json_goes_to_standard_output_alone(tmp_path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    arguments = ["navigate", "--method", "straight", "--worlds", "3", "--json", "-"]
+    done = CliRunner().invoke(app, arguments)
+    assert json.loads(done.stdout)["method"] == "straight"
+    assert "of 3 worlds arrive" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["none.safetensors", "none.py"])
+def test_a_missing_file_of_a_method_is_said_to_be_missing(name) -> None:
+    done = CliRunner().invoke(app, ["navigate", "--method", name])
+    assert str(done.exception) == f"method must name a file that exists, got {name!r}"

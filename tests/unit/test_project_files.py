@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
+import sys
 import tomllib
+from importlib import metadata
 from pathlib import Path
 
 import pytest
 import yaml
+from packaging.version import Version
 
 from robonav import __version__
 
@@ -55,7 +59,8 @@ def test_workflows_check_out_and_run_what_this_machine_runs(path: Path) -> None:
     for job in jobs.values():
         steps = [step.get("uses", step.get("run", "")) for step in job["steps"]]
         assert steps[0].startswith("actions/checkout@")
-        assert any(step.startswith((".ci/run", "make ")) for step in steps)
+        runs = (".ci/run", "make ", "python -m pytest ")
+        assert any(step.startswith(runs) for step in steps)
 
 
 def test_the_container_of_editors_is_the_image() -> None:
@@ -65,3 +70,22 @@ def test_the_container_of_editors_is_the_image() -> None:
     assert f"USER {about['remoteUser']}" in text
     copied = re.findall(r"^COPY (?:--\S+ )?(\S+) ", text, re.M)
     assert all((ROOT / source).exists() for source in copied)
+
+
+def test_the_lowest_versions_are_versions_that_exist_for_this_machine() -> None:
+    """Each library that the package needs has one lowest version, no newer than the one in use."""
+    script = ROOT / ".ci" / "lowest-versions"
+    made = subprocess.run([sys.executable, script, "formats"], capture_output=True, text=True, check=True)  # fmt: skip
+    lowest = dict(line.split("==") for line in made.stdout.split())
+    assert {"numpy", "numba", "torch", "gymnasium", "minari", "onnx"} <= set(lowest)
+    for name, version in lowest.items():
+        assert Version(metadata.version(name)) >= Version(version), name
+
+
+def test_workflows_name_extras_that_exist() -> None:
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"][
+        "optional-dependencies"
+    ]
+    for path in ROOT.glob(".github/workflows/*.yml"):
+        for named in re.findall(r'"\.\[([\w,]+)\]"', path.read_text("utf-8")):
+            assert set(named.split(",")) <= set(extras)
