@@ -40,27 +40,25 @@ def _close_cells(kinds, shapes, centres, size, spare, closed):
         if kinds[m] == NOTHING:
             continue
         c, s = math.cos(shapes[m, 2]), math.sin(shapes[m, 2])
-        reach = reach_of(kinds[m], shapes[m, 0], shapes[m, 1]) + spare
+        half_length, half_width = shapes[m, 0], shapes[m, 1]
+        x, y = centres[m, 0], centres[m, 1]
+        reach = reach_of(kinds[m], half_length, half_width) + spare
+        first = max(math.ceil(y - reach), 0)
+        last = min(math.floor(y + reach) + 1, cells)
         for i in range(
-            max(math.ceil(centres[m, 0] - reach), 0),
-            min(math.floor(centres[m, 0] + reach) + 1, cells),
+            max(math.ceil(x - reach), 0), min(math.floor(x + reach) + 1, cells)
         ):
-            for j in range(
-                max(math.ceil(centres[m, 1] - reach), 0),
-                min(math.floor(centres[m, 1] + reach) + 1, cells),
-            ):
-                dx, dy = i - centres[m, 0], j - centres[m, 1]
-                if kinds[m] == CIRCLE:
-                    near = dx * dx + dy * dy < reach * reach
-                else:
-                    near = (
-                        box_distance(
-                            c * dx + s * dy, c * dy - s * dx, shapes[m, 0], shapes[m, 1]
-                        )
-                        < spare
-                    )
-                if near:
-                    closed[i, j] = True
+            row, dx = closed[i, first:last], i - x
+            # loops without branches, which the compiler turns into vector instructions
+            if kinds[m] == CIRCLE:
+                for k in range(len(row)):
+                    dy = (first + k) - y
+                    row[k] |= dx * dx + dy * dy < reach * reach
+            else:
+                for k in range(len(row)):
+                    dy = (first + k) - y
+                    along, across = c * dx + s * dy, c * dy - s * dx
+                    row[k] |= box_distance(along, across, half_length, half_width) < spare  # fmt: skip
 
 
 @compiled
@@ -127,6 +125,9 @@ def _draw_obstacle(key, number, m, circle, size, starts, targets, shapes, centre
         for points in (starts, targets):
             for p in range(len(points)):
                 x, y = points[p, 0] - centres[m, 0], points[p, 1] - centres[m, 1]
+                far = KEEP_OUT + reach + 1e-3  # no need to look closer
+                if x * x + y * y > far * far:
+                    continue
                 clear = (
                     clear and swept_distance(kind, shapes[m], x, y, x, y) >= KEEP_OUT
                 )

@@ -102,19 +102,30 @@ def swept_distance(kind, shape, x0, y0, x1, y1):
 
 
 @compiled
+def passes_by(near, x0, y0, x1, y1):
+    """Whether a segment lies on one side of a square of half side ``near`` about the origin."""
+    return (
+        min(x0, x1) > near
+        or max(x0, x1) < -near
+        or min(y0, y1) > near
+        or max(y0, y1) < -near
+    )
+
+
+@compiled
+def border_clearance(size, x0, y0, x1, y1):
+    """Least distance to a border on the way from (x0, y0) to (x1, y1)."""
+    return min(x0, size - x0, y0, size - y0, x1, size - x1, y1, size - y1)
+
+
+@compiled
 def swept_clearance(kinds, shapes, before, after, size, x0, y0, x1, y1, limit):
     """Least distance to any obstacle (M of them) or border during one step, at most ``limit``.
 
     Obstacles go from ``before`` to ``after`` (M, 2) while the robot goes from (x0, y0) to (x1, y1), both straight and
     at constant speed: seen from the obstacle the robot goes along a segment.
     """
-    least = min(
-        min(x1, size - x1),
-        min(y1, size - y1),
-        min(x0, size - x0),
-        min(y0, size - y0),
-        limit,
-    )
+    least = min(border_clearance(size, x0, y0, x1, y1), limit)
     for m in range(len(kinds)):
         if kinds[m] == NOTHING:
             continue
@@ -122,12 +133,7 @@ def swept_clearance(kinds, shapes, before, after, size, x0, y0, x1, y1, limit):
         bx, by = x1 - after[m, 0], y1 - after[m, 1]
         # no root: a box reaches less far than the sum of its halves
         near = shapes[m, 0] + shapes[m, 1] + least
-        if (
-            min(ax, bx) > near
-            or max(ax, bx) < -near
-            or min(ay, by) > near
-            or max(ay, by) < -near
-        ):
+        if passes_by(near, ax, ay, bx, by):
             continue
         least = min(least, swept_distance(kinds[m], shapes[m], ax, ay, bx, by))
     return max(least, 0.0)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from robonav.compilation import compiler
 
 from . import constants, geometry, random_numbers, sensing
@@ -24,7 +22,13 @@ from .constants import (
     TURN_PROBABILITY,
     TURNS,
 )
-from .geometry import micrometres, reach_of, swept_clearance
+from .geometry import (
+    border_clearance,
+    micrometres,
+    passes_by,
+    reach_of,
+    swept_distance,
+)
 from .random_numbers import DRIFTING, SLIPPING, uniform
 from .sensing import target_region
 
@@ -49,25 +53,26 @@ def turned_to_target(command, heading, dx, dy):
     return wrap(heading + SECTOR * (target_region(dx, dy, heading) - 1))
 
 
+# The kernels get the arrays of all worlds and the number i of one: to cut a row out of an array for each robot would
+# count references to the array, in turn with the other threads, and take longer than the work.
+
+
 @compiled
-def drift_world(kinds, shapes, speeds, key, step, size, centres, headings):
-    """Moving obstacles go one second on, turn at random, bounce off the borders."""
-    for m in range(len(kinds)):
-        if kinds[m] == NOTHING or speeds[m] == 0.0:
-            continue
-        heading = headings[m]
-        if uniform(key, DRIFTING, step, m, 0) < TURN_PROBABILITY:
-            heading = math.pi * (2.0 * uniform(key, DRIFTING, step, m, 1) - 1.0)
-        x = centres[m, 0] + speeds[m] * math.cos(heading)
-        y = centres[m, 1] + speeds[m] * math.sin(heading)
-        reach = reach_of(kinds[m], shapes[m, 0], shapes[m, 1])
-        if x < reach or x > size - reach:
-            x = 2.0 * reach - x if x < reach else 2.0 * (size - reach) - x
-            heading = wrap(math.pi - heading)
-        if y < reach or y > size - reach:
-            y = 2.0 * reach - y if y < reach else 2.0 * (size - reach) - y
-            heading = -heading
-        centres[m, 0], centres[m, 1], headings[m] = x, y, heading
+def drift_obstacle(i, m, kinds, shapes, speeds, keys, step, size, centres, headings):
+    """Let obstacle m of world i go on for one second: it may turn at random, and borders reflect it."""
+    heading = headings[i, m]
+    if uniform(keys[i], DRIFTING, step, m, 0) < TURN_PROBABILITY:
+        heading = math.pi * (2.0 * uniform(keys[i], DRIFTING, step, m, 1) - 1.0)
+    x = centres[i, m, 0] + speeds[i, m] * math.cos(heading)
+    y = centres[i, m, 1] + speeds[i, m] * math.sin(heading)
+    reach = reach_of(kinds[i, m], shapes[i, m, 0], shapes[i, m, 1])
+    if x < reach or x > size - reach:
+        x = 2.0 * reach - x if x < reach else 2.0 * (size - reach) - x
+        heading = wrap(math.pi - heading)
+    if y < reach or y > size - reach:
+        y = 2.0 * reach - y if y < reach else 2.0 * (size - reach) - y
+        heading = -heading
+    centres[i, m, 0], centres[i, m, 1], headings[i, m] = x, y, heading
 
 
 @compiled
@@ -86,16 +91,11 @@ def slipped(action, slip, key, step):
 def drift(start, stop, kinds, shapes, speeds, keys, steps, size, centres, headings):
     """Moving obstacles of worlds ``start`` to ``stop`` alone, one second on."""
     for i in range(start, stop):
-        drift_world(
-            kinds[i],
-            shapes[i],
-            speeds[i],
-            keys[i],
-            steps[i],
-            size,
-            centres[i],
-            headings[i],
-        )
+        for m in range(kinds.shape[1]):
+            if kinds[i, m] != NOTHING and speeds[i, m] != 0.0:
+                drift_obstacle(
+                    i, m, kinds, shapes, speeds, keys, steps[i], size, centres, headings
+                )  # fmt: skip
 
 
 @compiled
@@ -108,7 +108,6 @@ def step(
     A collision anywhere along the way counts. ``slip`` is (6, 6), or (0, 0) for none; where a robot slips, ``actions``
     (K,) gets what it did instead. Robots whose outcome is no longer RUNNING stand still.
     """
-    before = np.empty_like(centres[0])
     for j in range(start, stop):
         i = robots[j]
         if outcome[i] != RUNNING:
@@ -127,31 +126,23 @@ def step(
         heading = wrap(heading + TURNS[action])
         length = -speed if action == BACKWARD else speed
         x1, y1 = x + length * math.cos(heading), y + length * math.sin(heading)
-        # a slice assignment would compile the text of its error, for three seconds
-        for m in range(len(before)):
-            before[m, 0], before[m, 1] = centres[i, m, 0], centres[i, m, 1]
-        drift_world(
-            kinds[i],
-            shapes[i],
-            speeds[i],
-            keys[i],
-            steps[i],
-            size,
-            centres[i],
-            headings[i],
-        )
-        clearance = swept_clearance(
-            kinds[i],
-            shapes[i],
-            before,
-            centres[i],
-            size,
-            x,
-            y,
-            x1,
-            y1,
-            COLLISION_DISTANCE + 1e-3,
-        )
+        clearance = border_clearance(size, x, y, x1, y1)
+        clearance = min(clearance, COLLISION_DISTANCE + 1e-3)  # more does not matter
+        for m in range(kinds.shape[1]):
+            if kinds[i, m] == NOTHING:
+                continue
+            # seen from the obstacle, which goes straight too, the robot goes along a segment
+            ax, ay = x - centres[i, m, 0], y - centres[i, m, 1]
+            if speeds[i, m] != 0.0:
+                drift_obstacle(
+                    i, m, kinds, shapes, speeds, keys, steps[i], size, centres, headings
+                )  # fmt: skip
+            bx, by = x1 - centres[i, m, 0], y1 - centres[i, m, 1]
+            near = shapes[i, m, 0] + shapes[i, m, 1] + clearance
+            if not passes_by(near, ax, ay, bx, by):
+                distance = swept_distance(kinds[i, m], shapes[i, m], ax, ay, bx, by)
+                clearance = min(clearance, distance)
+        clearance = max(clearance, 0.0)
         poses[i, 0], poses[i, 1], poses[i, 2] = x1, y1, heading
         steps[i] += 1
         if micrometres(clearance) < COLLISION_DISTANCE:

@@ -38,14 +38,19 @@ def _see(ranges, sector, distance):
 
 
 @compiled
-def _see_on_border(ranges, border, distance):
-    """Something on the ray between sectors ``border`` and ``border + 1`` is seen by both."""
-    _see(ranges, border, distance)
-    _see(ranges, (border + 1) % SENSORS, distance)
+def _see_on_rays(ranges, along):
+    """Let both sectors beside each ray see what is on it; ray k lies between sectors k and k + 1.
+
+    ``along`` (9,) has the distances along the rays, infinity where nothing is. The loops that fill it have no branches,
+    so that the compiler turns them into vector instructions.
+    """
+    ranges[0] = min(ranges[0], along[0], along[SENSORS - 1])
+    for k in range(1, SENSORS):
+        ranges[k] = min(ranges[k], along[k], along[k - 1])
 
 
 @compiled
-def _see_circle(ranges, rays, x, y, radius):
+def _see_circle(ranges, cosines, sines, along, x, y, radius):
     """A circle centred at (x, y) in the robot's frame."""
     distance = math.hypot(x, y)
     if distance <= radius:
@@ -53,15 +58,19 @@ def _see_circle(ranges, rays, x, y, radius):
         return
     _see(ranges, _sector(x, y), distance - radius)
     for k in range(SENSORS):
-        along = x * rays[k, 0] + y * rays[k, 1]
-        across = x * rays[k, 1] - y * rays[k, 0]
+        ahead = x * cosines[k] + y * sines[k]
+        across = x * sines[k] - y * cosines[k]
         half_chord2 = radius * radius - across * across
-        if along > 0.0 and half_chord2 >= 0.0:
-            _see_on_border(ranges, k, along - math.sqrt(half_chord2))
+        meets = ahead > 0.0 and half_chord2 >= 0.0
+        root = math.sqrt(half_chord2 if half_chord2 >= 0.0 else 0.0)
+        along[k] = ahead - root if meets else math.inf
+    _see_on_rays(ranges, along)
 
 
 @compiled
-def _see_rectangle(ranges, rays, x, y, half_length, half_width, turned):
+def _see_rectangle(
+    ranges, cosines, sines, along, x, y, half_length, half_width, turned
+):
     """A rectangle centred at (x, y) in the robot's frame, its length turned by ``turned`` against the heading."""
     c, s = math.cos(turned), math.sin(turned)
     px, py = -(c * x + s * y), -(c * y - s * x)  # the robot in the rectangle's frame
@@ -70,59 +79,59 @@ def _see_rectangle(ranges, rays, x, y, half_length, half_width, turned):
         return
     nx = min(max(px, -half_length), half_length) - px
     ny = min(max(py, -half_width), half_width) - py
-    _see(ranges, _sector(c * nx - s * ny, s * nx + c * ny), math.hypot(nx, ny))
+    distance = math.hypot(nx, ny)
+    if distance > SENSOR_RANGE + 1e-6:  # and every ray is longer
+        return
+    _see(ranges, _sector(c * nx - s * ny, s * nx + c * ny), distance)
     for k in range(SENSORS):
-        dx, dy = c * rays[k, 0] + s * rays[k, 1], c * rays[k, 1] - s * rays[k, 0]
-        enter, leave = box_entry(px, py, dx, dy, half_length, half_width)
-        if 0.0 <= enter <= leave:
-            _see_on_border(ranges, k, enter)
+        dx = c * cosines[k] + s * sines[k]
+        dy = c * sines[k] - s * cosines[k]
+        enter_x, leave_x = _slab(px, dx, half_length)
+        enter_y, leave_y = _slab(py, dy, half_width)
+        enter, leave = max(enter_x, enter_y), min(leave_x, leave_y)
+        along[k] = enter if 0.0 <= enter <= leave else math.inf
+    _see_on_rays(ranges, along)
 
 
 @compiled
-def _sector_rays():
-    """Directions (9, 2) of the rays between neighbouring sectors, in the robot's frame."""
-    rays = np.empty((SENSORS, 2))
-    for k in range(SENSORS):
-        rays[k, 0], rays[k, 1] = (
-            math.cos((k + 0.5) * SECTOR),
-            math.sin((k + 0.5) * SECTOR),
-        )
-    return rays
+def _slab(position, direction, half):
+    """Where a line enters and leaves the strip from -half to half, as ``box_entry`` says, without a branch."""
+    t0, t1 = (-half - position) / direction, (half - position) / direction
+    inside, along = abs(position) <= half, direction == 0.0
+    enter = (-math.inf if inside else math.inf) if along else min(t0, t1)
+    leave = (math.inf if inside else -math.inf) if along else max(t0, t1)
+    return enter, leave
 
 
 @compiled
-def _sense_obstacles(kinds, shapes, centres, x, y, heading, rays, ranges):
-    """Least distance in each sector to the obstacles of one world.
+def _sense_obstacles(
+    i, kinds, shapes, centres, x, y, heading, cosines, sines, along, ranges
+):
+    """Least distance in each sector to the obstacles of world i.
 
     Seen from outside, a convex shape's distance falls and then rises with the bearing. So its least distance in a
     sector is that of its nearest point, if the sector holds it, or else lies on one of the sector's two rays.
     """
     c, s = math.cos(heading), math.sin(heading)
-    for m in range(len(kinds)):
-        kind = kinds[m]
-        if kind == NOTHING:
-            continue
-        dx, dy = centres[m, 0] - x, centres[m, 1] - y
-        near = SENSOR_RANGE + shapes[m, 0] + shapes[m, 1]
-        if dx * dx + dy * dy >= near * near:
+    for m in range(kinds.shape[1]):
+        kind = kinds[i, m]
+        half_length, half_width = shapes[i, m, 0], shapes[i, m, 1]
+        dx, dy = centres[i, m, 0] - x, centres[i, m, 1] - y
+        near = SENSOR_RANGE + half_length + half_width
+        if kind == NOTHING or dx * dx + dy * dy >= near * near:
             continue
         forward, left = c * dx + s * dy, c * dy - s * dx
         if kind == CIRCLE:
-            _see_circle(ranges, rays, forward, left, shapes[m, 0])
+            _see_circle(ranges, cosines, sines, along, forward, left, half_length)
         else:
+            turned = shapes[i, m, 2] - heading
             _see_rectangle(
-                ranges,
-                rays,
-                forward,
-                left,
-                shapes[m, 0],
-                shapes[m, 1],
-                shapes[m, 2] - heading,
-            )
+                ranges, cosines, sines, along, forward, left, half_length, half_width, turned
+            )  # fmt: skip
 
 
 @compiled
-def _sense_borders(size, x, y, heading, rays, ranges, walls):
+def _sense_borders(size, x, y, heading, cosines, sines, ranges, walls):
     """Let the map's borders shorten the ranges; where one is the nearest thing, the wall flag is set.
 
     In a sector the nearest border point is a wall's nearest point or lies on one of the sector's rays.
@@ -144,7 +153,8 @@ def _sense_borders(size, x, y, heading, rays, ranges, walls):
         if distance < ranges[sector]:
             ranges[sector], walls[sector] = distance, True
     for k in range(SENSORS):
-        dx, dy = c * rays[k, 0] - s * rays[k, 1], s * rays[k, 0] + c * rays[k, 1]
+        dx = c * cosines[k] - s * sines[k]
+        dy = s * cosines[k] + c * sines[k]
         _, distance = box_entry(x - size / 2, y - size / 2, dx, dy, size / 2, size / 2)
         for sector in (k, (k + 1) % SENSORS):
             if distance < ranges[sector]:
@@ -152,15 +162,13 @@ def _sense_borders(size, x, y, heading, rays, ranges, walls):
 
 
 @compiled
-def _read_out(key, step, noise, ranges, walls):
-    """Round the ranges of a robot to micrometres, and let noise disturb those that see something."""
-    for k in range(SENSORS):
-        distance = micrometres(ranges[k])
-        if noise > 0.0 and distance < SENSOR_RANGE:
-            error = noise * normal(key, SENSING, step, k)
-            distance = micrometres(min(max(distance + error, 0.0), SENSOR_RANGE))
-        ranges[k] = distance
-        walls[k] = walls[k] and distance < SENSOR_RANGE
+def _with_error(distance, keys, i, step, k, noise):
+    """Round a distance to a micrometre, and let noise disturb it if something is seen."""
+    distance = micrometres(distance)
+    if noise > 0.0 and distance < SENSOR_RANGE:
+        error = noise * normal(keys[i], SENSING, step, k)
+        distance = micrometres(min(max(distance + error, 0.0), SENSOR_RANGE))
+    return distance
 
 
 @compiled
@@ -177,21 +185,29 @@ def sense(
 ):  # fmt: skip
     """What ``robots[start]`` to ``robots[stop - 1]`` read: ranges and walls (K, 9), target region and seen (K,).
 
-    ``robots`` (K,) are rows of the N worlds. Each reads what :func:`robonav.robot.environments.sense` says, and the
-    rays are made only once. ``noise`` is the standard deviation, in metres, of an error on every range that sees
-    something.
+    ``robots`` (K,) are rows of the N worlds. Each reads what :func:`robonav.robot.environments.sense` says. The rays
+    are made only once, and no row is cut out of an array: ``motion.py`` says why. ``noise`` is the standard deviation,
+    in metres, of an error on every range that sees something.
     """
-    rays = _sector_rays()
+    cosines, sines, along = np.empty(SENSORS), np.empty(SENSORS), np.empty(SENSORS)
+    for k in range(SENSORS):  # directions of the rays between neighbouring sectors
+        cosines[k], sines[k] = math.cos((k + 0.5) * SECTOR), math.sin((k + 0.5) * SECTOR)  # fmt: skip
+    near, border = np.empty(SENSORS), np.empty(SENSORS, dtype=np.bool_)
     for j in range(start, stop):
         i = robots[j]
         x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
-        ranges[j] = SENSOR_RANGE
-        walls[j] = False
+        for k in range(SENSORS):
+            near[k], border[k] = SENSOR_RANGE, False
         _sense_obstacles(
-            kinds[i], shapes[i], centres[i], x, y, heading, rays, ranges[j]
+            i, kinds, shapes, centres, x, y, heading, cosines, sines, along, near
         )
-        _sense_borders(size, x, y, heading, rays, ranges[j], walls[j])
-        _read_out(keys[i], steps[i], noise, ranges[j], walls[j])
+        _sense_borders(size, x, y, heading, cosines, sines, near, border)
+        for k in range(SENSORS):
+            distance = near[k]
+            if distance < SENSOR_RANGE:  # otherwise rounding and noise change nothing
+                distance = _with_error(distance, keys, i, steps[i], k, noise)
+            ranges[j, k] = distance
+            walls[j, k] = border[k] and distance < SENSOR_RANGE
         dx, dy = targets[i, 0] - x, targets[i, 1] - y
         seen[j] = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
         region[j] = target_region(dx, dy, heading)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -12,6 +13,8 @@ from hypothesis import strategies as st
 
 from robonav.robot import SENSOR_RANGE, Simulator, make_world, random_worlds, sense
 from robonav.robot._fast import CIRCLE, SECTOR, SENSORS
+from robonav.robot._fast.geometry import box_entry
+from robonav.robot._fast.sensing import _slab
 
 SEGMENTS = (
     512  # a quarter circle; inscribed and circumscribed polygons bound the true circle
@@ -295,3 +298,19 @@ def test_circles_agree_with_shapely_to_the_micrometre():
             )
             assert (bound[grazing] - MICROMETRE <= ranges[grazing]).all()
             assert (ranges[grazing] <= expected[grazing] + MICROMETRE).all()
+
+
+def test_strips_without_branches_are_the_box_of_the_geometry():
+    numbers = [-7.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 7.0]
+    misses = 0
+    for x, y, dx, dy in itertools.product(numbers, repeat=4):
+        if dx == dy == 0.0:
+            continue  # no ray
+        enter, leave = box_entry(x, y, dx, dy, 2.0, 1.0)
+        (enter_x, leave_x), (enter_y, leave_y) = _slab(x, dx, 2.0), _slab(y, dy, 1.0)
+        entered, left = max(enter_x, enter_y), min(leave_x, leave_y)
+        hit = 0.0 <= enter <= leave
+        assert (0.0 <= entered <= left) == hit
+        assert not hit or entered == enter
+        misses += not hit
+    assert 1000 < misses < 6000
