@@ -11,6 +11,7 @@ import re
 import sys
 import types
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -84,11 +85,13 @@ def load(folder: Path, where: str, name: str) -> types.ModuleType:
 
 def modules_of_cells(contents: Iterable[bytes]) -> set[str]:
     """Return the names of the modules that cells of notebooks write with ``%%writefile``."""
-    written = rb"%%(?:write)?file\s+[^\n]*?(\w+)\.py"
+    written = re.compile(
+        rb"%%(?:write)?file[ \t]+(?:-a[ \t]+)?([^\s\"\\]{1,200}\.py)\b"
+    )
     return {
-        name.decode(errors="replace")
+        Path(name.decode(errors="replace")).stem
         for content in contents
-        for name in re.findall(written, content)
+        for name in written.findall(content)
     }
 
 
@@ -169,17 +172,12 @@ def _write_files_of_cells(folder: Path) -> Iterator[tuple[str, str]]:
             continue
         for name, text, append in notebook.written_files(cells):
             target = path.parent / Path(name).name
-            if target.suffix != ".py" or not _may_be_written(target):
-                continue
-            with target.open("a" if append else "w", encoding="utf-8") as file:
-                file.write(text)
-            yield str(target.relative_to(folder)), str(path.relative_to(folder))
+            with suppress(OSError, SyntaxError, ValueError, RecursionError):
+                if target.suffix == ".py" and _may_be_written(target):
+                    with target.open("a" if append else "w", encoding="utf-8") as file:
+                        file.write(text)
+                    yield str(target.relative_to(folder)), str(path.relative_to(folder))
 
 
 def _may_be_written(path: Path) -> bool:
-    if not path.exists():
-        return True
-    try:
-        return _state(path, path.stem.casefold()) == "unwritten"
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return False
+    return not path.exists() or _state(path, path.stem.casefold()) == "unwritten"

@@ -14,7 +14,7 @@ from robonav.atomic import atomic_write
 
 from . import sandbox_check, submission
 from .cases import generator, outcome, secret_from, seed_of
-from .check import with_public_feedback
+from .check import remarks, with_public_feedback
 from .course import Course, Exercise
 from .evidence import Evidence
 from .grade import Part, exercise_grade, grade
@@ -141,7 +141,8 @@ class Run:
 
     def grade(self) -> dict[str, Any]:
         """Return the grade of all requested exercises."""
-        return grade(self.entries, self.session.tier)
+        said = remarks(self.loaded, self.session)
+        return grade(self.entries, self.session.tier) | said
 
     def _graded(self) -> list[dict[str, Any]]:
         """Return the entries of all requested exercises in the manifest's order, with their feedback."""
@@ -164,6 +165,8 @@ class Run:
         terminalreporter.section(
             f"{result['points']} of {result['max_points']} points ({result['tier']} sandbox)"
         )
+        for problem in result["problems"]:
+            terminalreporter.line(f"Not taken: {problem}.")
         for entry in result["exercises"]:
             points = "?" if entry["points"] is None else entry["points"]
             title = self.course.exercises[entry["id"]].title
