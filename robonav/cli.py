@@ -447,10 +447,10 @@ def _tell(course: Any, grade: dict[str, Any], *, everything: bool) -> None:
         print(f"Note: {note}.")
     for entry in grade["exercises"]:
         exercise = course.exercises[entry["id"]]
-        usual = entry["file"] in ("", exercise.file)
+        file = grade["files"].get(entry["id"], exercise.file)
         print(
             f"{entry['id']} {exercise.title}: {_points(entry)} of {entry['max_points']} points"
-            + ("" if usual else f" (from {entry['file']})")
+            + ("" if file == exercise.file else f" (from {file})")
         )
         if entry["state"] == "missing":
             print(

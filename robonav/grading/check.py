@@ -62,8 +62,7 @@ def check_submission(
     try:
         for exercise in exercises:
             evidence = Evidence(known, course.parameters(exercise))
-            entry = graded(course, exercise, session, known, evidence=evidence)
-            entries.append(entry | {"file": session.found.get(exercise.id, "")})
+            entries.append(graded(course, exercise, session, known, evidence=evidence))
             failure = evidence.first_failure()
             if case is not None and failure is not None and not call:
                 call = write_case(case, failure, evidence.names)
@@ -72,15 +71,23 @@ def check_submission(
     return grade(entries, session.tier) | remarks(loaded, session), call
 
 
-def remarks(loaded: Submission | Refused, session: Session) -> dict[str, list[str]]:
-    """Return what was taken of a submission in an unusual form, and what was not taken and why."""
+def remarks(loaded: Submission | Refused, session: Session) -> dict[str, Any]:
+    """Return how a submission was taken.
+
+    Returns
+    -------
+    dict
+        ``files`` has the file with the answer by exercise, ``notes`` what was taken in an unusual form, and
+        ``problems`` what was not taken and why.
+    """
     if isinstance(loaded, Refused):
-        return {"notes": [], "problems": [str(loaded)]}
+        return {"files": {}, "notes": [], "problems": [str(loaded)]}
     problems = list(loaded.problems)
     if loaded.files and not session.found and not session.unwritten:
         names = ", ".join(sorted(loaded.files)[:5])
         problems.append(f"no function of an exercise was found in {names}")
-    return {"notes": list(loaded.notes), "problems": problems}
+    files = dict(sorted(session.found.items()))
+    return {"files": files, "notes": list(loaded.notes), "problems": problems}
 
 
 def graded(

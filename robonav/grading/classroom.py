@@ -79,7 +79,6 @@ def grade_submission(
         seed = seed_of(config.secret, _digest(loaded))
         entries = [
             graded(course, exercise, session, known, seed=seed)
-            | {"file": session.found.get(exercise.id, "")}
             for exercise in exercises
         ]
         session.close()
@@ -244,7 +243,8 @@ def _record(
         fresh = {graded["id"]: graded for graded in new["exercises"]}
         entries = [fresh.get(kept["id"], kept) for kept in old["exercises"]]
         said = {name: old[name] for name in ("notes", "problems") if name in old}
-        new = grade(entries, config.tier) | said
+        files = {**old.get("files", {}), **new.get("files", {})}
+        new = grade(entries, config.tier) | said | {"files": files}
     return {**entry, **new}
 
 
