@@ -125,7 +125,9 @@ function render({ model, el }) {
       h("span", { style: "--mark: transparent; --edge: var(--border)" }, "no colour: nothing is in range, so the reflex decides and no reward is asked")));
   const weightsTable = h("table", { class: "results" });
   const table = wide("Weights of the reward", weightsTable);
+  const listed = h("details", { hidden: true }, h("summary", {}, "The weights of the reward"), table);
   const list = (theta) => {
+    listed.hidden = false;
     const names = featureNames(settings.encoder);
     const strongest = Math.max(1e-12, ...theta.map(Math.abs));
     const cell = (value) => h("td", { style: `background: color-mix(in srgb, ${value > 0 ? PALETTE.BLUE : PALETTE.VERMILION} ${Math.round((45 * Math.abs(value)) / strongest)}%, transparent)` }, value.toFixed(2));
@@ -295,7 +297,7 @@ function render({ model, el }) {
       number("inverse temperature η", settings.inverseTemperature, { step: 0.5, least: 0, most: 200, hint: "0: actions at random. The larger it is, the more often the robot takes the best action." }, (value) => (settings = { ...settings, inverseTemperature: value })),
       number("seed", 0, { least: 0, most: 1e6, hint: "Another seed draws other random numbers." }, (value) => (settings = { ...settings, seed: value }))),
     about, complain, learn.element,
-    h("div", { class: "row" }, h("div", { class: "grow" }, results, h("details", {}, h("summary", {}, "The weights of the reward"), table))),
+    h("div", { class: "row" }, h("div", { class: "grow" }, results, listed)),
     h("div", { class: "row tools" }, weights, reward),
     elsewhere, kernel.element);
   elsewhere.append(

@@ -110,3 +110,33 @@ def test_every_control_does_something(visit: Visit, site: Path, page: str) -> No
         asked.locator(".guess input").first.check(force=True)
         expect(asked.locator(".guess .told")).to_contain_text("try it")
     assert visit.errors == []
+
+
+OPENED = (
+    "(lab) => lab.querySelectorAll('details').forEach((fold) => { fold.open = true; })"
+)
+SMALL = """(lab) => {
+  const seen = (part) => part.checkVisibility() && part.getBoundingClientRect().width > 0;
+  const faults = [];
+  for (const text of lab.querySelectorAll("svg text")) {
+    const { a, b } = text.getScreenCTM();
+    const size = parseFloat(getComputedStyle(text).fontSize) * Math.hypot(a, b);
+    if (seen(text) && text.textContent.trim() && size < 9) faults.push(`${text.textContent}: ${size.toFixed(1)} px`);
+  }
+  for (const control of lab.querySelectorAll("button, select, input, summary, a[href]")) {
+    const target = ["radio", "checkbox"].includes(control.type) ? control.closest("label") : control;
+    const { width, height } = target.getBoundingClientRect();
+    if (seen(control) && Math.min(width, height) < 24) faults.push(`${control.outerHTML}: ${width} x ${height} px`);
+  }
+  return faults;
+}"""
+"""Words in pictures of less than nine pixels, and controls of less than 24."""
+
+
+@pytest.mark.parametrize("page", WITH_WIDGETS)
+def test_labs_are_large_enough_for_a_phone(visit: Visit, site: Path, page: str) -> None:
+    visit.page.set_viewport_size(PHONE)
+    visit.open(f"{site.as_uri()}/book/{page}.html")
+    for lab in visit.page.locator(".robonav:not(.explorable)").all():
+        lab.evaluate(OPENED)
+        assert lab.evaluate(SMALL) == []

@@ -24,6 +24,8 @@ export const decisionsOf = (steps, { encoder }) => ({
   actions: steps.map(({ action }) => action),
 });
 
+const TIE = 1e-12; // how far apart rounding brings two balanced accuracies that are equal; the first of them is kept
+
 /** Boltzmann policy, Eq. (5.10). @param {ArrayLike<number>} values */
 export const boltzmann = (values, inverseTemperature) => softmax(values.map((value) => inverseTemperature * value));
 
@@ -223,7 +225,7 @@ export function* nirl(expert, settings, seed, reward = null) {
     }
     answers = answersIn(network, expert.inputs);
     const balanced = balancedAccuracy(answers.greedy, expert.actions, balance);
-    if (balanced > best.balanced) best = { network: flattened(network), theta: weights, balanced, iteration };
+    if (balanced > best.balanced + TIE) best = { network: flattened(network), theta: weights, balanced, iteration };
     yield { iteration, iterations, margin, cost, balanced, arrived: rollout.arrived, collided: rollout.collided, theta: weights };
   }
   return best;
