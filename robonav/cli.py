@@ -208,7 +208,7 @@ def grade(
 ) -> None:
     """Grade a class. Run the command again to resume: grades that exist are kept."""
     from robonav import progress
-    from robonav.grading import sandbox_check
+    from robonav.grading import paths, sandbox_check
     from robonav.grading.cases import secret_from
     from robonav.grading.classroom import GradingConfig, grade_class
     from robonav.grading.course import Course
@@ -220,7 +220,7 @@ def grade(
         raise ValueError(
             f"this machine has no sandbox, so only --practice works: {sandbox_check.fault('official')}"
         )
-    with progress.bar("grading") as report:
+    with paths.without_submissions(folder), progress.bar("grading") as report:
         unfinished = grade_class(
             config,
             folder,

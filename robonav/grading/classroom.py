@@ -23,7 +23,7 @@ from filelock import FileLock, Timeout
 from robonav import atomic
 from robonav.progress import Progress
 
-from . import report
+from . import paths, report
 from .cases import seed_of, stretched
 from .check import graded, remarks, with_public_feedback
 from .course import Course
@@ -165,7 +165,8 @@ def grade_class(
     submissions = students(folder)
     for name in set(again) - set(submissions):
         raise ValueError(f"no submission of {name} in {folder}")
-    with _locked(out):
+    _check_course(config.course, folder)
+    with paths.without_submissions(folder), _locked(out):
         atomic.remove_partial_files(out)
         _remember(out, config, new_secret)
         key, tasks = config.key(), []
@@ -179,7 +180,9 @@ def grade_class(
             chosen = name in again if again else bool(ids)
             if old is None or chosen:
                 tasks.append((entry, handin, old, ids if chosen and old else ()))
-        for done, record in enumerate(_marked(config, tasks, jobs, scheduler), start=1):
+        for done, record in enumerate(
+            _marked(config, folder, tasks, jobs, scheduler), start=1
+        ):
             report.write_student(
                 out / "students" / record["student"], record, config.course
             )
@@ -194,7 +197,11 @@ Task = tuple[dict[str, str], Handin, dict[str, Any] | None, Collection[str]]
 
 
 def _marked(
-    config: GradingConfig, tasks: Sequence[Task], jobs: int, scheduler: str | None
+    config: GradingConfig,
+    folder: Path,
+    tasks: Sequence[Task],
+    jobs: int,
+    scheduler: str | None,
 ) -> Iterator[dict[str, Any]]:
     """Yield each task's record when it is done.
 
@@ -217,6 +224,7 @@ def _marked(
     except ImportError:
         raise ValueError("a scheduler needs dask: pip install distributed") from None
     with Client(scheduler) as client:
+        _check_workers(client, folder)
         at_once = 4 * sum(client.nthreads().values()) + 4
         running = as_completed(
             [
@@ -228,6 +236,24 @@ def _marked(
             yield future.result()
             for call in islice(calls, 1):
                 running.add(client.submit(_record, *call, pure=False))
+
+
+def _check_course(course: Course, folder: Path) -> None:
+    """Refuse tests that a student could have handed in, because they run outside the sandbox."""
+    if course.root.resolve().is_relative_to(folder.resolve()):
+        raise ValueError(
+            f"the tests in {course.tests} lie in the folder of submissions: run this in your own checkout"
+        )
+
+
+def _check_workers(client: Any, folder: Path) -> None:
+    """Refuse Dask workers that could import a module from a submission or from the folder they were started in."""
+    for worker, entries in client.run(paths.unsafe_here, str(folder)).items():
+        if entries:
+            raise ValueError(
+                f"the Dask worker {worker} imports modules from {entries[0] or 'its current folder'!r}: "
+                "start the workers with PYTHONSAFEPATH=1, in another folder than the class"
+            )
 
 
 def _record(
