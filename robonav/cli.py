@@ -220,6 +220,8 @@ def grade(
         raise ValueError(
             f"this machine has no sandbox, so only --practice works: {sandbox_check.fault('official')}"
         )
+    if config.tier == "practice" and config.secret:
+        raise ValueError("without a sandbox no secret is safe: give none")
     with paths.without_submissions(folder), progress.bar("grading") as report:
         unfinished = grade_class(
             config,

@@ -130,7 +130,7 @@ def with_public_feedback(
     try:
         return [
             entry
-            if entry["state"] in ("correct", "missing", "grader-fault")
+            if entry["state"] in ("correct", "missing", "timeout", "grader-fault")
             else _publicly_explained(course, entry, session, known)
             for entry in entries
         ]

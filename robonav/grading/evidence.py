@@ -79,9 +79,12 @@ class Evidence:
         self.observations.append(Observation(case, got, expected, verdict, at))
 
     def judge(self, verdict: Literal["right", "wrong"]) -> None:
-        """Say whether the last answer was right."""
-        if self.observations[-1].verdict != "asked":
-            self.observations[-1].verdict = verdict
+        """Say whether the last answer was right. Of a right one, only the places that counted are kept."""
+        last = self.observations[-1]
+        if last.verdict != "asked":
+            last.verdict = verdict
+        if verdict == "right":
+            last.got = last.counted(last.got)
 
     def leave_free(self) -> None:
         """Mark the last call as one with several right answers, in which wrong ones may agree by chance."""

@@ -19,6 +19,9 @@ import numpy as np
 PREFIX = struct.Struct(">II")  # bytes of the header, bytes of all arrays together
 MOST_HEADER = 1 << 20
 MOST_ARRAYS = 1 << 26
+MOST_ANSWER = (
+    1 << 22
+)  # bytes of the arrays in an answer, of which the grader keeps many
 MOST_DEPTH = 16
 MOST_AXES = 8
 DTYPES = (
@@ -113,13 +116,14 @@ def read(stream: BinaryIO) -> Any:
     return receive(lambda size: _exactly(stream, size))
 
 
-def receive(exactly: Callable[[int], bytes]) -> Any:
+def receive(exactly: Callable[[int], bytes], most: int = MOST_ARRAYS) -> Any:
     """Receive one frame with a function that returns a given number of bytes.
 
-    The function is never asked for more bytes than a frame may have.
+    The function is never asked for more bytes than a frame may have, with at most ``most`` in its arrays.
     """
     prefix = exactly(PREFIX.size)
-    return decode(prefix + exactly(sum(_check_sizes(*PREFIX.unpack(prefix)))))
+    sizes = _check_sizes(*PREFIX.unpack(prefix), most=most)
+    return decode(prefix + exactly(sum(sizes)))
 
 
 def _exactly(stream: BinaryIO, size: int) -> bytes:
@@ -132,8 +136,8 @@ def _exactly(stream: BinaryIO, size: int) -> bytes:
     return bytes(parts)
 
 
-def _check_sizes(header: int, arrays: int) -> tuple[int, int]:
-    if header > MOST_HEADER or arrays > MOST_ARRAYS:
+def _check_sizes(header: int, arrays: int, most: int = MOST_ARRAYS) -> tuple[int, int]:
+    if header > MOST_HEADER or arrays > most:
         raise FrameError(f"{header + arrays} bytes are too many for one frame")
     return header, arrays
 

@@ -117,13 +117,22 @@ CALL, ARCHITECTURE, FIRST_ARGUMENT, SECOND_ARGUMENT = 0, 4, 16, 24
 PR_SET_SECCOMP, PR_SET_NO_NEW_PRIVS, FILTER_MODE = 22, 38, 2
 LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
 # Landlock: execute, read a file, list a folder; all of its first version
-READ, ALL_OF_IT = (
+READ, ALL_OF_IT, LIST = (
     0b1101,
     (1 << 13) - 1,
+    0b1000,
 )
 # Users that no system assigns, and users that no container assigns, which has few.
 USERS, CONTAINER_USERS = range(2_000_000, 4_000_000), range(62_000, 65_000)
 OF_A_FILE = 0b111  # execute, write, read: the rights of a file; the others are rights of folders
+
+
+def most_tasks() -> int:
+    """Return how many processes and threads the user may have: few if it is this sandbox's, and else a safe number."""
+    own = os.name == "posix" and any(
+        os.getuid() in users for users in (USERS, CONTAINER_USERS)
+    )
+    return 64 if own else 4096
 
 
 def limit(amounts: Mapping[str, int]) -> None:
@@ -189,13 +198,33 @@ def filter_calls() -> bool:
     return ctypes.CDLL(None).prctl(PR_SET_SECCOMP, FILTER_MODE, described, 0, 0) == 0
 
 
-def restrict_files(readable: Iterable[str], writable: Iterable[str]) -> bool:
+def all_but(folder: str, hidden: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Return what may be read of a folder so that ``hidden`` folders in it may not, and which folders may be listed.
+
+    Landlock can allow folders, but cannot refuse a folder inside one that it allows.
+    """
+    inside = [one for one in hidden if one.startswith(folder + os.sep)]
+    if not inside:
+        return [folder], []
+    readable, listed = [], [folder]
+    for entry in os.scandir(folder):
+        if entry.path not in inside and not entry.is_symlink():
+            below = all_but(entry.path, inside)
+            readable += below[0]
+            listed += below[1]
+    return readable, listed
+
+
+def restrict_files(
+    readable: Iterable[str], writable: Iterable[str], listed: Iterable[str] = ()
+) -> bool:
     """Hide all other folders and files from this process with Landlock. Return whether this kernel supports it."""
     call = ctypes.CDLL(None, use_errno=True).syscall
     rules = call(LANDLOCK_CREATE, struct.pack("=Q", ALL_OF_IT), ctypes.c_size_t(8), 0)
     if rules < 0:
         return False
-    for paths, rights in ((readable, READ), (writable, ALL_OF_IT)):
+    granted = ((readable, READ), (writable, ALL_OF_IT), (listed, LIST))
+    for paths, rights in granted:
         for path in paths:
             if not os.path.exists(path):
                 continue

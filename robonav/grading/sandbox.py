@@ -197,7 +197,7 @@ class Worker:
             wait([], [requests])
             with suppress(BlockingIOError):
                 rest = rest[os.write(requests, rest[:CHUNK]) :]
-        return frames.receive(exactly)
+        return frames.receive(exactly, frames.MOST_ANSWER)
 
     def _exchange_watched(self, frame: bytes, seconds: float) -> Any:
         """Send and receive on systems that cannot wait for a pipe: a timer kills the worker, which ends the stream."""
@@ -322,7 +322,9 @@ def _restricted(python: str, limits: Limits) -> Worker:
     os.chown(folder, user, user)
     reader, lifeline = os.pipe()
     readable = [*LOADER, *_interpreter(python), *_numpy(), _stage(), "/dev/urandom"]
-    code = f"supervisor.supervise({user}, {reader}, {readable!r}, {folder!r})"
+    seen = list(dict.fromkeys(map(os.path.realpath, readable)))
+    hidden = list(map(os.path.realpath, _package_folders(python)))
+    code = f"supervisor.supervise({user}, {reader}, {seen}, {hidden}, {folder!r})"
     process = _spawn(_python(python, _stage(), code), folder=folder, keep=[reader])
     os.close(reader)
 
@@ -503,6 +505,9 @@ def _staged() -> tempfile.TemporaryDirectory[str]:
         for name in STAGED_IPYTHON:
             copied = Path(folder.name, "IPython", name)
             copied.parent.mkdir(parents=True)
+            # A package of its own: where another IPython is on the path, it may be one that the worker cannot read.
+            for folder_above in (copied.parent, copied.parent.parent):
+                (folder_above / "__init__.py").touch()
             shutil.copy(Path(ipython.origin).parent / name, copied)
     for path in [folder.name, *map(str, Path(folder.name).rglob("*"))]:
         os.chmod(path, 0o755)

@@ -205,7 +205,8 @@ class Session:
                 "printed": str(printed),
                 **rest,
             } if number == self._asked and not rest:
-                self.changed = [n for n in changed if isinstance(n, int)]
+                places = range(len(request.get("args", ())))
+                self.changed = [n for n in changed if type(n) is int and n in places]
                 self.printed = printed[:MOST_TEXT] if self._show else ""
                 return value
             case {

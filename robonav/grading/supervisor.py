@@ -15,13 +15,24 @@ from contextlib import suppress
 from . import hardening, worker
 
 
-def supervise(user: int, lifeline: int, readable: Sequence[str], folder: str) -> None:
-    """Run the worker as ``user``, who sees only ``readable`` and ``folder``, until it ends."""
+def supervise(
+    user: int,
+    lifeline: int,
+    readable: Sequence[str],
+    hidden: Sequence[str],
+    folder: str,
+) -> None:
+    """Run the worker as ``user``, who sees only ``readable`` without ``hidden``, and ``folder``, until it ends."""
     if (child := os.fork()) == 0:
         try:
             os.close(lifeline)
             hardening.become(user)
-            if hardening.restrict_files(readable, [folder, os.devnull]):
+            seen, listed = [], []
+            for path in readable:
+                below = hardening.all_but(path, hidden)
+                seen += below[0]
+                listed += below[1]
+            if hardening.restrict_files(seen, [folder, os.devnull], listed):
                 worker.main()
         finally:
             os._exit(0)

@@ -14,6 +14,8 @@ import errno
 import importlib.abc
 import io
 import os
+import select
+import signal
 import sys
 import traceback
 from collections.abc import Callable, Mapping, Sequence
@@ -24,6 +26,7 @@ from . import answers, frames, hardening, notebook
 from .removal import empty
 
 ALLOWED = {"numpy", *sys.stdlib_module_names}
+MOST_ENTRIES = 10_000  # files and folders of one exercise
 MOST_TEXT = 2_000  # characters of an error message, and of what one call prints
 
 
@@ -76,6 +79,7 @@ def main() -> None:
     own = {part.removesuffix(".py") for name in files for part in name.split("/")}
     _close_the_gate(own | answers.modules_of_cells(files.values()))
     hardening.limit(opening["limits"])
+    hardening.limit({"NPROC": hardening.most_tasks()})
     frames.write(replies, "ready")
     home = Path.cwd()
     try:
@@ -83,7 +87,9 @@ def main() -> None:
             request = frames.read(requests)
             os.chdir(_unpacked(home, files))
             if opening["fork"]:
-                status = _serve_in_child(requests, replies, request, opening["show"])
+                status = _serve_in_child(
+                    requests, replies, request, opening["show"], home
+                )
                 os.chdir(home)
                 # Before the reply, so that the time for this belongs to the exercise that wrote the files.
                 empty(home)
@@ -135,7 +141,11 @@ def _close_the_gate(own: set[str]) -> None:
 
 
 def _serve_in_child(
-    requests: BinaryIO, replies: BinaryIO, request: dict[str, Any], show: bool
+    requests: BinaryIO,
+    replies: BinaryIO,
+    request: dict[str, Any],
+    show: bool,
+    home: Path,
 ) -> int:
     """Serve one exercise in a child process and return its exit code."""
     if (child := os.fork()) == 0:
@@ -146,8 +156,24 @@ def _serve_in_child(
             status = 0
         finally:
             os._exit(status)
+    _watch(child, home)
     _, status = os.waitpid(child, 0)
     return os.waitstatus_to_exitcode(status)
+
+
+def _watch(child: int, home: Path) -> None:
+    """Wait for a child process, and kill it if it fills the system's memory with files.
+
+    A file system in memory counts the bytes of files, but not the files. On a disk they do no such harm.
+    """
+    if not os.path.ismount(home):
+        return
+    ended = os.pidfd_open(child)
+    while not select.select([ended], [], [], 0.1)[0]:
+        state = os.statvfs(home)
+        if state.f_files - state.f_ffree > MOST_ENTRIES:
+            os.kill(child, signal.SIGKILL)
+    os.close(ended)
 
 
 def _serve(

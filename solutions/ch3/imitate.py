@@ -2,9 +2,11 @@
 effective steps. Train a network like that of exercise 3.1 on them, with hyperbolic
 tangents in the hidden layers and a softmax at the end, and return its weights. Any
 method is fine: gradient descent on the gradients of exercise 3.3, momentum,
-mini-batches. The check measures how often your network agrees with the expert in new
-steps, and it drives robots with it through new worlds, where the action of the largest
-output is taken. The training may take three seconds.
+mini-batches. Nobody knows in which order the nine range sensors of a robot are wired,
+so that weights found for one robot are of no use to the next. The check measures how
+often your network agrees with the expert in new steps, and it drives robots with it
+through new worlds, where the action of the largest output is taken. The training may
+take three seconds.
 """
 
 import numpy as np
@@ -18,9 +20,9 @@ def imitate(
 
     Parameters
     ----------
-    inputs : (M, 12), a state in each row: nine degrees of danger over 7, cosine and
-        sine of the direction of the target's sector, and whether the target is in
-        range.
+    inputs : (M, 12), a state in each row: nine degrees of danger over 7, in the order
+        in which this robot's sensors are wired, cosine and sine of the direction of the
+        target's sector, and whether the target is in range.
     labels : (M,), the expert's action, 0 to 4: F, L30, L60, R30, R60.
 
     Returns

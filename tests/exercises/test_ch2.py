@@ -412,28 +412,28 @@ def arrivals(answer, worlds):
 
 
 def steers(answer, rng, obstacles, least):
-    """Require that many of 60 robots arrive."""
+    """Require that many of 200 robots arrive. Among fewer, a robot that goes straight could pass by luck."""
     from robonav.robot import random_worlds
 
-    arrived = arrivals(answer, random_worlds(60, obstacles, seed=rng))
+    arrived = arrivals(answer, random_worlds(200, obstacles, seed=rng))
     answer.check(
-        arrived >= least, f"expected {least} arrivals in 60 worlds, got {arrived}"
+        arrived >= least, f"expected {least} arrivals in 200 worlds, got {arrived}"
     )
 
 
 @pytest.mark.part("2.9", points=2)
 def test_steer_among_some_obstacles(answer, rng):
     """Arrives in three of four worlds with five obstacles; a robot that goes straight arrives in three of five."""
-    steers(answer, rng, 5, 45)
+    steers(answer, rng, 5, 150)
 
 
 @pytest.mark.part("2.9", points=2)
 def test_steer_among_more_obstacles(answer, rng):
     """Arrives in three of four worlds with ten obstacles; a robot that goes straight arrives in two of five."""
-    steers(answer, rng, 10, 45)
+    steers(answer, rng, 10, 150)
 
 
 @pytest.mark.part("2.9", points=4)
 def test_steer_among_many_obstacles(answer, rng):
     """Arrives in seven of ten worlds with fifteen obstacles; a robot that goes straight arrives in one of five."""
-    steers(answer, rng, 15, 42)
+    steers(answer, rng, 15, 140)

@@ -1,6 +1,7 @@
 """Every exercise: its solution scores full, however written; its known mistakes score less and get their hints."""
 
 import inspect
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -187,3 +188,19 @@ def test_answers_known_by_heart_earn_nothing_on_other_cases(exercise):
     assert grade(exercise, learned)["points"] == exercise.points
     assert grade(exercise, repeated)["points"] == exercise.points
     assert grade(exercise, repeated, b"another")["points"] == 0
+
+
+def test_the_public_answers_in_their_order_earn_nothing_on_other_cases(exercise):
+    """As a submission would answer that counts its calls. Nothing is right whatever the case is."""
+    function, known = solution(COURSE, exercise), []
+
+    def learned(*arguments):
+        known.append(function(*arguments))
+        return known[-1]
+
+    assert grade(exercise, learned)["points"] == exercise.points
+    count = itertools.count()
+    repeated = grade(
+        exercise, lambda *_: known[next(count) % len(known)], b"another secret"
+    )
+    assert repeated["points"] == 0
