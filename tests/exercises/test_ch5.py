@@ -328,8 +328,8 @@ def recovered(answer, rng, elsewhere, least):
     Each grid has another number of kinds of ground, in another order, so that no weights are right by heart.
     """
     discount, gains = 0.9, []
-    for _ in range(3):
-        order = rng.permutation(rng.integers(4, 7))
+    for _ in range(4):
+        order = rng.permutation(rng.integers(4, 6))
         transitions, features = ground(rng, order=order)
         theta = np.append(rng.uniform(-1.0, 0.0, size=len(order) - 1), 1.0)[order]
         flow = optimal(transitions, features @ theta, discount)

@@ -1,6 +1,7 @@
 """Submissions that attack the grader: none earns a point, hangs, or touches the exercise next to it.
 
 Each attack stands in ``improve.py``; the submission's other exercise, ``bounds``, is honest and must score full.
+``ATTACKS.md`` beside this file lists all attempts and what became of them.
 """
 
 import os
@@ -130,14 +131,14 @@ TAMPERS = {
     "claims an error of its own": SENDS
     + """
     def improve(*a):
-        send(frame({"dict": {"id": 2, "raised": {"dict": {"kind": 1, "message": [], "where": "nowhere"}}}}))
+        send(frame({"dict": {"id": 3, "raised": {"dict": {"kind": 1, "message": [], "where": "nowhere"}}}}))
         return 0
     """,
     "claims an error in no file": SENDS
     + """
     def improve(*a):
         where = {"dict": {"kind": "ValueError", "message": "", "where": [[], 1]}}
-        for number in range(2, 50): send(frame({"dict": {"id": number, "raised": where}}))
+        for number in range(3, 50): send(frame({"dict": {"id": number, "raised": where}}))
     """,
     "answers with an array for a number": SENDS
     + """
@@ -171,13 +172,13 @@ TAMPERS = {
     "declares a huge array": SENDS
     + """
     def improve(*a):
-        send(frame({"dict": {"id": 2, "value": {"array": 0}}}, [["<f8", [1 << 40]]]))
+        send(frame({"dict": {"id": 3, "value": {"array": 0}}}, [["<f8", [1 << 40]]]))
         return 0
     """,
     "sends part of a frame": SENDS
     + """
     def improve(*a):
-        send(frame({"dict": {"id": 2, "value": 0}})[:-3])
+        send(frame({"dict": {"id": 3, "value": 0}})[:-3])
         os._exit(0)
     """,
 }
@@ -314,7 +315,7 @@ VALUES = {
     + """
     def improve(*a):
         many = [{"array": 0}] * 60_000
-        for number in range(2, 50):
+        for number in range(3, 50):
             send(frame({"dict": {"id": number, "value": many}}, [["|u1", [1 << 20]]], bytes(1 << 20)))
     """,
     "a class": "class improve:\n    def __init__(self, *a): pass",
@@ -338,7 +339,7 @@ RESOURCES = {
     + """
     def improve(*a):
         import time
-        for byte in frame({"dict": {"id": 2, "value": 0}}) * 100: send(bytes([byte])); time.sleep(0.2)
+        for byte in frame({"dict": {"id": 3, "value": 0}}) * 100: send(bytes([byte])); time.sleep(0.2)
     """,
     "a fork bomb": "import os\ndef improve(*a):\n    while True: os.fork()",
     "a fork bomb that forgives": """
@@ -414,11 +415,86 @@ GAMES = {
     "gives its inputs back": "def improve(q, policy, tolerance): return q",
 }
 
+FORGERIES = {
+    "says that it changed an argument that is none": SENDS
+    + """
+    def improve(*a):
+        came = {"value": {"array": 0}, "changed": [-1000, True, 10**9], "printed": ""}
+        for number in range(3, 50): send(frame({"dict": {"id": number, **came}}, [["<i8", [8]]], bytes(64)))
+    """,
+    "raises an error in no line": SENDS
+    + """
+    def improve(*a):
+        error = {"dict": {"kind": "<b>" * 9000, "message": "=1+1", "where": {"array": 0}}}
+        for number in range(3, 50):
+            send(frame({"dict": {"id": number, "raised": error, "printed": ""}}, [["|u1", [1]]], b"a"))
+    """,
+    "says twice which request it answers": SENDS
+    + """
+    def improve(*a):
+        for number in range(3, 50):
+            reply = b'{"id":0,"id":%d,"value":0,"changed":[],"printed":""}' % number
+            header = b'{"value":{"dict":' + reply + b'},"arrays":[],"arrays":[]}'
+            send(struct.pack(">II", len(header), 0) + header)
+    """,
+    "sends a header nested without end": SENDS
+    + """
+    def improve(*a):
+        header = b'{"value":' + b'[' * 400_000 + b']' * 400_000 + b',"arrays":[]}'
+        send(struct.pack(">II", len(header), 0) + header)
+    """,
+    "sends a number of a million digits": SENDS
+    + """
+    def improve(*a):
+        header = b'{"value":' + b'9' * 1_000_000 + b',"arrays":[]}'
+        send(struct.pack(">II", len(header), 0) + header)
+    """,
+}
+
+SHARED = {
+    "threads with tiny stacks": """
+        import threading, time
+        threading.stack_size(32768)
+        def improve(*a):
+            while True: threading.Thread(target=time.sleep, args=(60,)).start()
+    """,
+    "many empty folders": """
+        import os
+        def improve(*a):
+            n = 0
+            while True: os.mkdir(f"folder{n}"); n += 1
+    """,
+    "a lease on a file of the host": """
+        import fcntl, os
+        def improve(*a): fcntl.fcntl(open(os.__file__), 1024, fcntl.F_RDLCK); return 0
+    """,
+    "takes its parent's open files": """
+        import ctypes, os
+        def improve(*a):
+            call = ctypes.CDLL(None).syscall
+            parent = call(434, os.getppid(), 0)
+            return max(call(438, parent, number, 0) for number in range(8))
+    """,
+    "32-bit system calls": """
+        import ctypes, mmap
+        def improve(*a):
+            code = mmap.mmap(-1, 4096, prot=7)
+            code.write(bytes.fromhex("b802000000cd80c3"))
+            return ctypes.CFUNCTYPE(ctypes.c_int)(ctypes.addressof(ctypes.c_char.from_buffer(code)))()
+    """,
+    "reads the packages of the host": """
+        import glob
+        def improve(*a):
+            for path in glob.glob("/usr/lib/python3*/dist-packages/**/*.py", recursive=True):
+                return int(bool(open(path).read()))
+    """,
+}  # fmt: skip
+
 # What is tried where: values are judged by the same code in every tier; a plain process sees the disk, and may signal
 # its owner's processes.
 KINDS = {
-    "official": (EXITS, TAMPERS, STEALS, VALUES, RESOURCES, GAMES),
-    "restricted": (EXITS, STEALS, RESOURCES),
+    "official": (EXITS, TAMPERS, FORGERIES, STEALS, VALUES, RESOURCES, SHARED, GAMES),
+    "restricted": (EXITS, FORGERIES, STEALS, RESOURCES, SHARED),
     "practice": (EXITS, TAMPERS),
 }
 NOT_IN_PRACTICE = {"kills all"}

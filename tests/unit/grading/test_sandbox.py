@@ -135,6 +135,39 @@ def test_folders_in_folders_in_folders_are_removed(start, temporary):
     assert left == []
 
 
+MANY = b"""
+import os
+def echo():
+    n = 0
+    while True:
+        os.close(os.open(f"file{n}", os.O_CREAT))
+        n += 1
+"""
+
+
+def test_files_that_only_fill_the_system_s_memory_are_not_made_without_end():
+    """A file system in memory counts the bytes of files, not the files."""
+    if fault := sandbox_check.fault("official"):
+        pytest.skip(fault)
+    worker = loaded(sandbox.start("official", {"ch2/echo.py": MANY}, Limits()))
+    try:
+        assert ask(worker) == {"ended": -9}
+    finally:
+        worker.kill()
+
+
+def test_what_landlock_must_hide_in_a_folder_that_it_allows(tmp_path):
+    for name in ("lib/site-packages/robonav", "lib/json", "lib/deep/dist-packages"):
+        (tmp_path / name).mkdir(parents=True)
+    (tmp_path / "lib/link").symlink_to(tmp_path)
+    library = str(tmp_path / "lib")
+    hidden = [f"{library}/site-packages", f"{library}/deep/dist-packages"]
+    readable, listed = hardening.all_but(library, hidden)
+    assert readable == [f"{library}/json"]
+    assert sorted(listed) == [library, f"{library}/deep"]
+    assert hardening.all_but("/elsewhere", hidden) == (["/elsewhere"], [])
+
+
 def test_a_deadline_ends_everything_at_once(start):
     worker = loaded(start({"ch2/echo.py": b"def echo():\n    while True: pass"}))
     begin = time.monotonic()

@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 
 from robonav.grading import sandbox_check
-from robonav.grading.cases import PUBLIC, seed_of, stretched
+from robonav.grading.cases import PUBLIC, parts_of, seed_of, stretched
 from robonav.grading.check import graded
 from robonav.grading.classroom import GradingConfig, grade_submission
 from robonav.grading.course import Course
+from robonav.grading.evidence import Evidence
 from robonav.grading.grade import Unaccepted
 from robonav.grading.reference import Solutions, solution
+from robonav.grading.session import Answer
 from robonav.grading.submission import Refused, Submission
 
 COURSE = Course.around(Path(__file__).parent)
@@ -190,3 +192,28 @@ def test_a_refused_submission_is_told_why_under_a_secret():
     grade = grade_submission(config, Refused("it is a link"), [IMPROVE.id])
     (entry,) = grade["exercises"]
     assert entry["feedback"].count("it is a link") == 1
+
+
+def test_of_a_right_answer_only_what_counted_is_kept():
+    """Else large values beside the right one would fill the grader's memory."""
+    bounds, evidence = COURSE.named("bounds"), Evidence(SOLUTIONS)
+
+    def answer(previous, values, discount):
+        right = solution(COURSE, bounds)(previous, values, discount)
+        return right[0], np.zeros(1000)
+
+    test = next(test for test, _ in parts_of(COURSE, bounds))
+    name = test.__name__
+    test(Answer(Replies(answer), evidence, bounds, name), np.random.default_rng(0))
+    assert len(evidence.observations) == 10
+    assert max(np.size(one.got[1]) for one in evidence.observations) == 6
+
+
+def test_weights_that_overflow_are_no_fault_of_the_grader():
+    recover = COURSE.named("recover")
+
+    def answer(transitions, features, paths, discount):
+        return np.resize([1e308, -1e308], features.shape[1])
+
+    result = graded(COURSE, recover, Replies(answer), SOLUTIONS)
+    assert result["state"] in ("wrong", "partial")
