@@ -122,7 +122,8 @@ def receive(exactly: Callable[[int], bytes], most: int = MOST_ARRAYS) -> Any:
     The function is never asked for more bytes than a frame may have, with at most ``most`` in its arrays.
     """
     prefix = exactly(PREFIX.size)
-    sizes = _check_sizes(*PREFIX.unpack(prefix), most=most)
+    header, arrays = PREFIX.unpack(prefix)
+    sizes = _check_sizes(header, arrays, most)
     return decode(prefix + exactly(sum(sizes)))
 
 
