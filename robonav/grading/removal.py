@@ -36,6 +36,8 @@ def _removed(entry: os.DirEntry[str], names: Iterator[Path]) -> bool:
     """Delete a file or an empty folder, or empty a folder by one level. Return whether anything changed."""
     if not entry.is_dir(follow_symlinks=False):
         return _done(os.unlink, entry.path)
+    if _done(os.rmdir, entry.path):  # most are empty, and there may be many
+        return True
     _done(os.chmod, entry.path, 0o700)
     changed = False
     for inner in _entries(entry.path):

@@ -458,12 +458,6 @@ SHARED = {
         def improve(*a):
             while True: threading.Thread(target=time.sleep, args=(60,)).start()
     """,
-    "many empty folders": """
-        import os
-        def improve(*a):
-            n = 0
-            while True: os.mkdir(f"folder{n}"); n += 1
-    """,
     "a lease on a file of the host": """
         import fcntl, os
         def improve(*a): fcntl.fcntl(open(os.__file__), 1024, fcntl.F_RDLCK); return 0
@@ -490,10 +484,30 @@ SHARED = {
     """,
 }  # fmt: skip
 
+# Folders without end: on a disk, nothing but the time limit ends it, and the removal takes long.
+IN_MEMORY = {
+    "many empty folders": """
+        import os
+        def improve(*a):
+            n = 0
+            while True: os.mkdir(f"folder{n}"); n += 1
+    """,
+}
+
 # What is tried where: values are judged by the same code in every tier; a plain process sees the disk, and may signal
 # its owner's processes.
 KINDS = {
-    "official": (EXITS, TAMPERS, FORGERIES, STEALS, VALUES, RESOURCES, SHARED, GAMES),
+    "official": (
+        EXITS,
+        TAMPERS,
+        FORGERIES,
+        STEALS,
+        VALUES,
+        RESOURCES,
+        SHARED,
+        IN_MEMORY,
+        GAMES,
+    ),
     "restricted": (EXITS, FORGERIES, STEALS, RESOURCES, SHARED),
     "practice": (EXITS, TAMPERS),
 }
