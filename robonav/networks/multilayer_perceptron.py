@@ -197,7 +197,7 @@ def backpropagate(weights: Layers, a: list[Array], delta: Array) -> Gradient:
     """
     gradient = Gradient([], [])
     for layer in reversed(range(len(weights))):
-        # Here delta holds the errors delta(l+1) of the layer to which weights[layer] lead.
+        # delta holds the errors delta(l+1) of the layer that weights[layer] lead to
         dW = delta.T @ a[layer]  # Eqs. (3.15), (3.25) and (3.26): delta(l+1) a(l)^T
         gradient.weights.insert(0, dW)  # in front of those of the later layers
         gradient.biases.insert(0, delta.sum(axis=0))
