@@ -20,6 +20,7 @@ export REPOSITORY
 BIN := .venv/bin
 INSTALLED := .venv/.installed
 TORCH := $(shell grep '^torch==' requirements.lock)
+PROCESSES = $(shell $(BIN)/python -c 'import os; print(os.cpu_count() + 1)')
 EXTRAS := book,lab,grading,cluster,tests,benchmarks,formats,clients
 
 .PHONY: help open install book pdf check test test-all lab lock clean
@@ -73,8 +74,9 @@ check: $(INSTALLED)
 	echo "make check took $$SECONDS seconds"; \
 	exit $$failed
 
-# Each process has one thread, because pytest runs as many processes as there are cores. Each process takes its share of
-# the tests in order, and then part of another's, so that tests which share a fixture mostly run in the same process.
+# There is one process more than there are cores, because many tests wait for a browser or for a time limit, and each
+# process has one thread. It takes its share of the tests in order, and then part of another's, so that tests which share
+# a fixture mostly run in the same process.
 test: WHICH := not exhaustive
 test-all: WHICH :=
 test test-all: $(INSTALLED)
@@ -85,7 +87,7 @@ test test-all: $(INSTALLED)
 	@command -v bwrap >/dev/null || echo "bubblewrap is missing: tests of the strongest sandbox are skipped"
 	@command -v node >/dev/null || echo "Node is missing: tests of the widgets' JavaScript are skipped"
 	@test -e _build/html/index.html || echo "The book is not built: tests of its pages are skipped; run make book first"
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal -rs -m "$(WHICH)" $(PYTEST_OPTIONS)
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(PROCESSES) --dist worksteal -rs -m "$(WHICH)" $(PYTEST_OPTIONS)
 
 # The notebooks are copies in plain Markdown, so changes to them change no page of the book.
 lab: $(INSTALLED)
