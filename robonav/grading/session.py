@@ -5,7 +5,8 @@ from __future__ import annotations
 import itertools
 import re
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, Protocol
 
@@ -76,6 +77,7 @@ class Session:
         self._failed: dict[str, Unaccepted] = {}
         self.found: dict[str, str] = {}  # the file with the answer, by exercise
         self.unwritten: set[str] = set()  # exercises whose function is as handed out
+        self._looked = False
         self._left: dict[str, float] = {}  # seconds by exercise
         self._asked = 0
 
@@ -120,23 +122,34 @@ class Session:
             self._failed[exercise.id] = failure
             raise
 
+    def look(self, exercises: Iterable[Exercise]) -> None:
+        """Find the files with the answers before any of the student's code runs, which could name any file later."""
+        for exercise in exercises if self._refused is None else ():
+            with suppress(Unaccepted):
+                self._find(exercise)
+            self._dismiss()
+        self._looked = True
+
     def _load(self, exercise: Exercise) -> None:
+        path = self._find(exercise)
+        self._ask(exercise, {"do": "load", "path": path, "name": exercise.name})
+
+    def _find(self, exercise: Exercise) -> str:
+        """Return the path of the file with the answer, and note which file of the submission it is."""
         if self._worker is None:
             self._worker = self._start()
         self._serving = exercise
-        name = exercise.name
-        found = self._ask(
-            exercise, {"do": "find", "chapter": exercise.chapter, "name": name}
-        )
-        match found:
+        request = {"do": "find", "chapter": exercise.chapter, "name": exercise.name}
+        match self._ask(exercise, request):
             case {"path": "", "unwritten": str(unwritten)}:
-                if unwritten:
+                if unwritten and not self._looked:
                     self.unwritten.add(exercise.id)
                 raise Unaccepted("missing", "Not attempted.")
             case {"path": str(path), "origin": str(origin)}:
-                if origin in self._files:
+                if origin in self._files and not self._looked:
                     self.found[exercise.id] = origin
-                self._ask(exercise, {"do": "load", "path": path, "name": name})
+                return path
+        raise Unaccepted("error", "The reply does not belong to the request.")
 
     def _start(self) -> Worker:
         while True:

@@ -174,6 +174,40 @@ def test_feedback_is_the_same_under_every_secret(leak):
     assert "On the public cases, as with robonav check:" in entries[0]["feedback"]
 
 
+SPEAKS_FOR_THE_NEXT = """
+import json, os, struct, sys
+def send(value):
+    header = json.dumps({"value": value, "arrays": []}).encode()
+    for descriptor in range(3, 20):
+        try: os.write(descriptor, struct.pack(">II", len(header), 0) + header)
+        except OSError: pass
+def stay(status):
+    send({"dict": {"ended": 0}})
+    found = {"dict": {"path": "a.py", "origin": "a.py", "unwritten": ""}}
+    send({"dict": {"id": number + 1, "value": found, "changed": [], "printed": ""}})
+    while True: pass
+os._exit = stay
+def improve(q, policy, tolerance):
+    global number
+    number = sys._getframe(1).f_locals["request"]["id"]
+    return 0
+"""
+
+
+@pytest.mark.sandbox
+def test_which_file_holds_an_answer_is_found_before_any_code_runs():
+    """A process that says it has ended, and stays, could name one of 200 files for the next exercise."""
+    if fault := sandbox_check.fault("official"):
+        pytest.skip(fault)
+    bounds = (COURSE.solutions / "ch2/bounds.py").read_bytes()
+    files = {IMPROVE.file: SPEAKS_FOR_THE_NEXT.encode(), "a.py": b""}
+    loaded = Submission(files | {"ch2/bounds.py": bounds})
+    config = GradingConfig(COURSE, "official", b"a secret")
+    grade = grade_submission(config, loaded, ["2.2", "2.3"])
+    named = [entry["file"] for entry in grade["exercises"]]
+    assert named == [IMPROVE.file, "ch2/bounds.py"]
+
+
 @pytest.mark.sandbox
 def test_the_public_cases_tell_what_is_wrong_under_a_secret():
     if fault := sandbox_check.fault("official"):
