@@ -168,7 +168,10 @@ def _watch(child: int, home: Path) -> None:
     """
     if not os.path.ismount(home):
         return
-    ended = os.pidfd_open(child)
+    try:
+        ended = os.pidfd_open(child)
+    except OSError:  # a kernel before 5.3
+        return
     while not select.select([ended], [], [], 0.1)[0]:
         state = os.statvfs(home)
         if state.f_files - state.f_ffree > MOST_ENTRIES:
