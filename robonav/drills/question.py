@@ -32,6 +32,7 @@ class Verdict:
 
 
 RIGHT = Verdict(True)
+_Flat = list[float]
 
 
 @dataclass(frozen=True)
@@ -212,8 +213,8 @@ class Table:
     tolerance : float
         How much each number may differ.
     wrong : mapping of str to sequence of sequence of float
-        Usual wrong tables by their hint. The hint is given if the answer agrees with the wrong table in all cells in
-        which that table is wrong.
+        Usual wrong tables by their hint. An answer gets the hint of the table that it equals, or else of the first
+        table with which it agrees in all cells in which that table is wrong.
 
     Examples
     --------
@@ -231,20 +232,24 @@ class Table:
     def judge(self, answer: Sequence[Sequence[float]]) -> Verdict:
         """Compare a table with the right one, then with the usual wrong ones."""
         given, right = _flat(answer), _flat(self.answer)
-        if all(self._is(a, b) for a, b in zip(given, right, strict=True)):
+        if self._equals(given, right, right):
             return RIGHT
-        for hint, table in self.wrong.items():
-            differing = [
-                (own, number)
-                for own, number, good in zip(given, _flat(table), right, strict=True)
-                if not self._is(number, good)
-            ]
-            if differing and all(self._is(own, number) for own, number in differing):
-                return Verdict(False, hint)
+        for agrees in (self._equals, self._makes_its_mistakes):
+            for hint, table in self.wrong.items():
+                if agrees(given, _flat(table), right):
+                    return Verdict(False, hint)
         return Verdict(False)
 
     def _is(self, number: float, answer: float) -> bool:
         return abs(number - answer) <= self.tolerance
+
+    def _equals(self, given: _Flat, table: _Flat, right: _Flat) -> bool:
+        return all(self._is(a, b) for a, b in zip(given, table, strict=True))
+
+    def _makes_its_mistakes(self, given: _Flat, table: _Flat, right: _Flat) -> bool:
+        cells = zip(given, table, right, strict=True)
+        mistaken = [(a, b) for a, b, good in cells if not self._is(b, good)]
+        return bool(mistaken) and all(self._is(a, b) for a, b in mistaken)
 
     @property
     def clear(self) -> bool:

@@ -27,12 +27,14 @@ const JUDGES = {
   table({ answer, tolerance, wrong }, given) {
     const is = (a, b) => Math.abs(a - b) <= tolerance;
     const [own, right] = [flat(given), flat(answer)];
-    if (own.every((number, k) => is(number, right[k]))) return RIGHT;
-    const fits = ([, table]) => {
-      const cells = flat(table).map((number, k) => [number, k]).filter(([number, k]) => !is(number, right[k]));
-      return cells.length > 0 && cells.every(([number, k]) => is(own[k], number));
+    const equals = (cells) => own.every((number, k) => is(number, cells[k]));
+    const makesItsMistakes = (cells) => {
+      const mistaken = own.filter((_, k) => !is(cells[k], right[k]));
+      return mistaken.length > 0 && own.every((number, k) => is(cells[k], right[k]) || is(number, cells[k]));
     };
-    return wrongWith(wrong.find(fits)?.[0]);
+    if (equals(right)) return RIGHT;
+    const hint = (agrees) => wrong.find(([, table]) => agrees(flat(table)))?.[0];
+    return wrongWith(hint(equals) ?? hint(makesItsMistakes));
   },
 };
 

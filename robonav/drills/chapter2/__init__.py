@@ -4,3 +4,4 @@ from . import decision_processes as decision_processes
 from . import dynamic_programming as dynamic_programming
 from . import model_free_learning as model_free_learning
 from . import partial_observation as partial_observation
+from . import robot as robot

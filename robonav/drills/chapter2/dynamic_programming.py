@@ -106,7 +106,8 @@ def improved_cell(rng: Rng) -> Question:
         shown[i][j] = mdp.gridworld.ARROWS[policy[s]]
     name = letters[changed]
     return Question(
-        "The goal G gives the reward 1 and ends the episode; steps never slip. One arrow of this policy is not greedy "
+        "The goal G gives the reward 1 and ends the episode; steps never slip. One arrow of this "
+        "policy is not greedy "
         "with respect to the optimal values. Which cell's arrow does an improvement change?",
         Place([*letters], [name]),
         f"In {name} the greedy action is {mdp.gridworld.ARROWS[best.policy[changed]]}: "

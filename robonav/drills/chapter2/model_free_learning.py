@@ -50,7 +50,8 @@ def td_error(rng: Rng) -> Question:
             },
         ),
         f"The target is ${reward:g} {sign(discount * following)} = {target:.4g}$, so the TD error is "
-        f"${target:.4g} {sign(-value)} = {error:.4g}$, and $V(s) = {value:g} {sign(rate * error)} = {values[0]:.4g}$.",
+        f"${target:.4g} {sign(-value)} = {error:.4g}$, and $V(s) = {value:g} {sign(rate * error)} = "
+        f"{values[0]:.4g}$.",
     )
 
 

@@ -39,7 +39,8 @@ def belief_after_observation(rng: Rng) -> Question:
                 ],
             },
         ),
-        f"The products are ${', '.join(f'{j:.4g}' for j in joint)}$. Their sum is ${probability:.4g}$, and divided by "
+        f"The products are ${', '.join(f'{j:.4g}' for j in joint)}$. Their sum is "
+        f"${probability:.4g}$, and divided by "
         f"it they are ${', '.join(f'{p:.4g}' for p in posterior)}$.",
     )
 

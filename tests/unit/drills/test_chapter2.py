@@ -6,20 +6,7 @@ import re
 
 import numpy as np
 import pytest
-
-from robonav.drills import DRILLS, Question
-
-SEEDS = range(50)
-
-
-def numbers(text: str) -> list[float]:
-    """All numbers of a question's text, in order; those of names such as G_0 and TD(0) are left out."""
-    text = text.replace("TD(0)", "")
-    return [float(n) for n in re.findall(r"(?<![_\w.])-?\d+\.?\d*", text)]
-
-
-def drawn(name: str) -> list[Question]:
-    return [DRILLS[name].question(seed) for seed in SEEDS]
+from numbers_in_texts import drawn, numbers
 
 
 def test_discounted_return() -> None:
@@ -31,8 +18,7 @@ def test_discounted_return() -> None:
 
 def test_return_backwards() -> None:
     for question in drawn("return-backwards"):
-        step, following, before, reward, discount = numbers(question.text)
-        assert (step, before) == (8, 7)
+        _, following, _, reward, discount = numbers(question.text)
         assert question.asked.answer == pytest.approx(reward + discount * following)
 
 

@@ -1,0 +1,5 @@
+"""Drills of chapter 5, a file for each page. Importing a file registers its drills."""
+
+from . import feature_expectations as feature_expectations
+from . import max_margin as max_margin
+from . import nirl as nirl

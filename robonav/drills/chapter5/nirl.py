@@ -1,0 +1,141 @@
+"""Drills of the page on neural inverse reinforcement learning."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robonav import nirl
+
+from ..question import Number, Question, Table
+from ..registry import drill
+from ..text import sign
+
+Rng = np.random.Generator
+
+
+@drill("nirl", "A Boltzmann policy")
+def boltzmann(rng: Rng) -> Question:
+    """Compute probabilities from the inverse temperature."""
+    q = rng.choice(np.arange(1, 10), size=2, replace=False) / 10
+    eta = float(rng.choice([2.0, 5.0, 10.0]))
+    p = nirl.boltzmann_policy(q, eta)
+    hot = nirl.boltzmann_policy(q, 1 / eta)
+    exponent = -eta * (q[0] - q[1])
+    return Question(
+        f"$Q(s, a) = {q[0]:g}$ and $Q(s, b) = {q[1]:g}$. Which probabilities does Eq. (5.10) give "
+        f"with $\\eta = {eta:g}$?",
+        Table(
+            ["probability"],
+            ["a", "b"],
+            [p.tolist()],
+            wrong={
+                "Here $\\eta$ is an inverse temperature: it multiplies the values.": [
+                    hot.tolist()
+                ],
+                "This is in proportion to the values, not to their exponentials.": [
+                    (q / q.sum()).tolist()
+                ],
+                "The larger value has the larger probability.": [p[::-1].tolist()],
+            },
+        ),
+        f"$P(a) = 1 / (1 + e^{{-{eta:g} ({q[0]:g} - {q[1]:g})}}) = 1 / (1 + e^{{{exponent:.4g}}}) = "
+        f"{p[0]:.4g}$, and b "
+        "has the rest.",
+    )
+
+
+@drill("nirl", "A SARSA target")
+def sarsa_target(rng: Rng) -> Question:
+    """Compute the target of one output under a learned reward."""
+    q, next_q = np.round(rng.uniform(0.1, 0.9, size=2), 2)
+    reward = round(float(rng.uniform(0, 1)), 2)
+    alpha, gamma = float(rng.choice([0.5, 0.8])), float(rng.choice([0.65, 0.9]))
+    answer = float(
+        nirl.sarsa_targets(
+            [q], [reward], [next_q], learning_rate=alpha, discount=gamma
+        )[0]
+    )
+    target = reward + gamma * next_q
+    return Question(
+        f"$Q(s_t, a_t) = {q:g}$, the learned reward of the step is ${reward:g}$, and $Q(s_{{t+1}}, "
+        f"a_{{t+1}}) = {next_q:g}$. "
+        f"What is the target by Eq. (5.16), with $\\alpha = {alpha:g}$ and $\\gamma = {gamma:g}$?",
+        Number(
+            answer,
+            wrong={
+                "This is what the target is with $\\alpha = 1$.": target,
+                "The discount is missing.": q + alpha * (reward + next_q - q),
+                "The old value is missing in the TD error.": q + alpha * target,
+                "The reward is missing.": q + alpha * (gamma * next_q - q),
+            },
+        ),
+        f"${q:g} + {alpha:g} \\, ({reward:g} {sign(gamma * next_q)} {sign(-q)}) = {answer:.4g}$.",
+    )
+
+
+@drill("nirl", "Plain and balanced accuracy")
+def two_accuracies(rng: Rng) -> Question:
+    """Compute both accuracies from a confusion matrix."""
+    often, seldom = int(rng.choice([40, 60, 80, 90])), int(rng.choice([5, 10, 20]))
+    hit_often = int(often * rng.choice([0.8, 0.9, 1.0]))
+    hit_seldom = int(seldom * rng.choice([0.0, 0.2, 0.4, 0.6]))
+    own = np.repeat([0, 1], [often, seldom])
+    predicted = np.concatenate(
+        [
+            np.repeat([0, 1], [hit_often, often - hit_often]),
+            np.repeat([1, 0], [hit_seldom, seldom - hit_seldom]),
+        ]
+    )
+    plain = float(nirl.accuracy(predicted, own))
+    balanced = float(nirl.balanced_accuracy(predicted, own))
+    return Question(
+        f"The expert took F in {often} decisions and L30 in {seldom}. A policy predicts {hit_often} of the F and "
+        f"{hit_seldom} of the L30. What are its accuracy and its balanced accuracy, from 0 to 1?",
+        Table(
+            ["value"],
+            ["accuracy", "balanced accuracy"],
+            [[plain, balanced]],
+            wrong={
+                "The two are exchanged: the balanced accuracy is the mean of the two actions' shares.": [
+                    [balanced, plain]
+                ],
+                "The balanced accuracy gives both actions the same weight.": [
+                    [plain, plain]
+                ],
+                "The accuracy counts decisions, not actions.": [[balanced, balanced]],
+            },
+        ),
+        f"Accuracy: $({hit_often} + {hit_seldom}) / {often + seldom} = {plain:.4g}$. Balanced: "
+        f"$({hit_often / often:.3g} + {hit_seldom / seldom:.3g}) / 2 = {balanced:.4g}$.",
+    )
+
+
+@drill("nirl", "A learned reward on the unit interval")
+def scaled_rewards(rng: Rng) -> Question:
+    """Map rewards into the network's range."""
+    rewards = np.array([-1.0, 1.0, 0.0]) * float(rng.choice([2.0, 4.0, 5.0]))
+    rewards[2] = float(rng.choice([-1.0, 0.5, 1.0, 1.5]))
+    rewards[1] *= float(rng.choice([0.5, 0.25]))
+    scaled = nirl.scale_to_unit_interval(rewards, percentile=100)
+    scale = abs(rewards).max()
+    low, high = rewards.min(), rewards.max()
+    return Question(
+        f"The learned rewards of three steps are ${', '.join(f'{r:g}' for r in rewards)}$. Divide "
+        f"them by the largest "
+        "absolute value and map the result so that 0 becomes 1/2. What are they then?",
+        Table(
+            ["reward"],
+            ["step 1", "step 2", "step 3"],
+            [scaled.tolist()],
+            wrong={
+                "These are only divided. They must lie between 0 and 1, with 0 at 1/2.": [
+                    (rewards / scale).tolist()
+                ],
+                "This maps the least to 0 and the largest to 1, so 0 does not become 1/2.": [
+                    ((rewards - low) / (high - low)).tolist()
+                ],
+            },
+        ),
+        "$(r / " + f"{scale:g}" + " + 1) / 2$: "
+        f"{', '.join(f'{r:.4g}' for r in scaled)}.",
+    )
