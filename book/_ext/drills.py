@@ -13,7 +13,10 @@ import json
 import re
 from html import escape
 from pathlib import Path
+from typing import Any
 
+import yaml
+from check_site import ROOT, pages
 from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
@@ -25,6 +28,7 @@ from robonav.widgets.shared import front_end, style_sheet
 
 QUESTIONS = 100  # of each drill
 FOLDER = "drills"
+MARK = "drills"  # the class of what the directives make
 
 
 def script(drill: Drill) -> str:
@@ -65,11 +69,9 @@ class _Drills(SphinxDirective):
 
     def raw(self, text: str) -> nodes.Node:
         """Return HTML, after noting that the page depends on the package's drills."""
-        for path in Path(robonav.drills.__file__).parent.glob("*.py"):
+        for path in Path(robonav.drills.__file__).parent.rglob("*.py"):
             self.env.note_dependency(str(path))
-        # the page then loads MathJax, which the questions need
-        self.env.get_domain("math").data["has_equations"][self.env.docname] = True  # type: ignore[attr-defined]
-        return nodes.raw("", text, format="html")
+        return nodes.container("", nodes.raw("", text, format="html"), classes=[MARK])
 
 
 class PageDrills(_Drills):
@@ -90,8 +92,11 @@ class Progress(_Drills):
         parts: list[nodes.Node] = [
             self.raw(f'<p class="drills-summary" data-drills="{" ".join(DRILLS)}"></p>')
         ]
-        for page in dict.fromkeys(drill.page for drill in DRILLS.values()):
+        contents = yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))
+        for page in (address.rpartition("/")[2] for address in pages(contents)):
             drills = of_page(page)
+            if not drills:
+                continue
             names = " ".join(drill.name for drill in drills)
             parts += self.parse_text_to_nodes(f"**{{doc}}`/book/{page}`**")
             parts.append(
@@ -99,6 +104,13 @@ class Progress(_Drills):
             )
             parts += [self.raw(folded(drill, self.static())) for drill in drills]
         return parts
+
+
+def load_mathjax(app: Sphinx, doctree: nodes.document) -> None:
+    """Let a page with drills load MathJax, even if its own text has no formula."""
+    if any(MARK in part["classes"] for part in doctree.findall(nodes.container)):
+        math: Any = app.env.get_domain("math")
+        math.data["has_equations"][app.env.docname] = True
 
 
 def write_files(app: Sphinx, error: Exception | None) -> None:
@@ -118,5 +130,6 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_directive("progress", Progress)
     app.add_js_file("drills.js")
     app.add_css_file("drills.css")
+    app.connect("doctree-read", load_mathjax)
     app.connect("build-finished", write_files)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

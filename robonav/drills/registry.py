@@ -72,7 +72,7 @@ class Drill:
 
 
 DRILLS: dict[str, Drill] = {}
-"""All drills by name, in the order of the book."""
+"""All drills by name, chapter by chapter."""
 
 
 def drill(

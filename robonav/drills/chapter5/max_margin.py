@@ -30,7 +30,7 @@ def margin_of_one(rng: Rng) -> Question:
         "Which weights with $\\|\\theta\\| \\leq 1$ give the largest margin, and how large is it?",
         Table(
             ["answer"],
-            ["theta 1", "theta 2", "margin"],
+            ["$\\theta_1$", "$\\theta_2$", "margin"],
             [[*best.weights.tolist(), best.margin]],
             wrong={
                 "The weights must have length 1: divide by the length.": [
@@ -144,7 +144,12 @@ def into_the_ball(rng: Rng) -> Question:
         f"A subgradient step has made the weights $({weights[0]:g}, {weights[1]:g})$. What are the "
         f"nearest weights with "
         "$\\|\\theta\\| \\leq 1$?",
-        Table(["theta"], ["1", "2"], [projected.tolist()], wrong=wrong),
+        Table(
+            ["weights"],
+            ["$\\theta_1$", "$\\theta_2$"],
+            [projected.tolist()],
+            wrong=wrong,
+        ),
         f"Their length is ${length:g}$. "
         + (
             f"Divided by it they are ${_pair(projected)}$."
