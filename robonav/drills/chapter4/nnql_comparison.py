@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..question import Number, Question, Table
@@ -33,11 +35,14 @@ def two_targets(rng: Rng) -> Question:
         next_states=torch.zeros(1, 1),
         terminal=torch.tensor([False]),
     )
-    networks = [lambda _, q=q: torch.from_numpy(q)[None] for q in (own, other)]
-    plain, double = (
-        float(targets(*networks, batch, discount)[0])
-        for targets in (dqn_targets, double_dqn_targets)
-    )
+
+    def always(values: Any) -> Any:
+        """A network that gives these values in every state."""
+        return lambda states: torch.from_numpy(values)[None]
+
+    networks = always(own), always(other)
+    plain = float(dqn_targets(*networks, batch, discount)[0])
+    double = float(double_dqn_targets(*networks, batch, discount)[0])
     largest = reward + discount * own.max()
     shown = [", ".join(f"{value:.2g}" for value in q) for q in (own, other)]
     best = int(own.argmax())

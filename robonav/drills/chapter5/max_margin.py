@@ -121,10 +121,8 @@ def projection(rng: Rng) -> Question:
 @drill("max-margin", "Back into the unit ball")
 def into_the_ball(rng: Rng) -> Question:
     """Project weights that are too long."""
-    weights = np.array(
-        rng.choice([[3, 4], [6, 8], [-3, 4], [0.3, 0.4], [5, 12], [0.6, -0.8]]), float
-    )
-    weights = weights * float(rng.choice([0.5, 1.0]))
+    pairs = np.array([[3, 4], [6, 8], [-3, 4], [0.3, 0.4], [5, 12], [0.6, -0.8]])
+    weights = rng.choice(pairs) * rng.choice([0.5, 1.0])
     projected = nirl.project_to_unit_ball(weights)
     length = float(np.linalg.norm(weights))
     wrong = {
