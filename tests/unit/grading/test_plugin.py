@@ -68,7 +68,10 @@ def submit(folder, **files):
 def test_solutions_score_full_in_the_agreed_format(tmp_path):
     code, output, grade = run(TESTS, "--submission", COURSE.solutions, folder=tmp_path)
     assert code == 0
-    assert list(grade) == ["points", "max_points", "tier", "exercises"]
+    assert list(grade) == [
+        *("points", "max_points", "tier", "exercises"),
+        *("files", "notes", "problems"),
+    ]
     assert grade["tier"] == "official"
     assert (
         grade["points"]
