@@ -172,7 +172,9 @@ def test_a_reply_that_claims_to_have_printed_is_not_believed():
         forks = False
 
         def ask(self, request, seconds):
-            said = {"value": None, "changed": [], "printed": "a secret case"}
+            found = {"path": "ch2/improve.py", "origin": "", "unwritten": ""}
+            value = found if request["do"] == "find" else None
+            said = {"value": value, "changed": [], "printed": "a secret case"}
             return {"id": request["id"], **said}
 
         def end(self):
