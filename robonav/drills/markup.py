@@ -15,9 +15,30 @@ def _parser() -> Any:
 
     def formula(text: str, options: dict[str, Any]) -> str:
         escaped = text.replace("&", "&amp;").replace("<", "&lt;")
-        return rf"\[{escaped}\]" if options["display_mode"] else rf"\({escaped}\)"
+        if options["display_mode"]:
+            return rf"\[{escaped}\]"
+        return " ".join(rf"\({part}\)" for part in sides(escaped))
 
     return MarkdownIt("commonmark").use(dollarmath_plugin, renderer=formula)
+
+
+def sides(formula: str) -> list[str]:
+    """Return a formula in parts, each beginning with an equals sign: a line can break between them.
+
+    Examples
+    --------
+    >>> sides("G_0 = 4 + 1 = 5")
+    ['G_0', '= 4 + 1', '= 5']
+    >>> sides(r"\\sum_{k = 1}^n k")
+    ['\\\\sum_{k = 1}^n k']
+    """
+    parts, depth, start = [], 0, 0
+    for at, letter in enumerate(formula):
+        depth += (letter == "{") - (letter == "}")
+        if depth == 0 and formula.startswith(" = ", at):
+            parts.append(formula[start:at])
+            start = at + 1
+    return [*parts, formula[start:]]
 
 
 @cache

@@ -110,6 +110,16 @@ def drill(
 def of_page(page: str) -> list[Drill]:
     """Return the drills of a page.
 
+    Parameters
+    ----------
+    page : str
+        The page's name, such as "dynamic-programming".
+
+    Returns
+    -------
+    list of Drill
+        Empty if the page has none.
+
     Examples
     --------
     >>> [drill.page for drill in of_page("dynamic-programming")][:1]

@@ -99,10 +99,27 @@ def _watch(visit: Visit) -> None:
     visit.page.on("pageerror", lambda error: visit.errors.append(str(error)))
 
 
+_running: list[Playwright] = []
+
+
+@contextmanager
+def driver() -> Iterator[Playwright]:
+    """Start Playwright, or give the one that runs already, since a thread can have only one."""
+    if _running:
+        yield _running[0]
+        return
+    with sync_playwright() as playwright:
+        _running.append(playwright)
+        try:
+            yield playwright
+        finally:
+            _running.remove(playwright)
+
+
 @contextmanager
 def chromium(**options: Any) -> Iterator[BrowserContext]:
     """Start a new browser. ``options`` are Playwright's, such as ``viewport`` or ``color_scheme``."""
-    with tempfile.TemporaryDirectory() as profile, sync_playwright() as playwright:
+    with tempfile.TemporaryDirectory() as profile, driver() as playwright:
         context = playwright.chromium.launch_persistent_context(
             profile, executable_path=executable(), headless=True, args=FLAGS, **options
         )

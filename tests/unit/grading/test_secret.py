@@ -204,8 +204,7 @@ def test_which_file_holds_an_answer_is_found_before_any_code_runs():
     loaded = Submission(files | {"ch2/bounds.py": bounds})
     config = GradingConfig(COURSE, "official", b"a secret")
     grade = grade_submission(config, loaded, ["2.2", "2.3"])
-    named = [entry["file"] for entry in grade["exercises"]]
-    assert named == [IMPROVE.file, "ch2/bounds.py"]
+    assert list(grade["files"].values()) == [IMPROVE.file, "ch2/bounds.py"]
 
 
 @pytest.mark.sandbox
