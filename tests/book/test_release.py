@@ -12,9 +12,9 @@ from pathlib import Path
 import edit_page
 import print_book
 import pytest
-from packaging.requirements import Requirement
 import release
 from browser import executable
+from packaging.requirements import Requirement
 
 from robonav import __version__
 
