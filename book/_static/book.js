@@ -16,10 +16,17 @@ document.addEventListener("click", (event) => {
   setTimeout(() => URL.revokeObjectURL(file.href), 1000);
 });
 
-// A table or an output that is wider than the page says so.
+// A table or an output that is wider than the page says so. The line that says it changes the height, so only a new width
+// is looked at: else the two would change each other for ever.
 document.addEventListener("DOMContentLoaded", () => {
+  const widths = new WeakMap();
   const watch = new ResizeObserver((entries) => {
-    for (const { target } of entries) target.toggleAttribute("data-cut", target.scrollWidth > target.clientWidth + 1);
+    for (const { target } of entries) {
+      if (widths.get(target) === target.clientWidth) continue;
+      widths.set(target, target.clientWidth);
+      target.removeAttribute("data-cut");
+      target.toggleAttribute("data-cut", target.scrollWidth > target.clientWidth + 1);
+    }
   });
   for (const place of document.querySelectorAll(".pst-scrollable-table-container, .cell_output pre")) watch.observe(place);
 });

@@ -110,3 +110,21 @@ def test_trainings_that_are_measured_are_on_their_pages(
 ) -> None:
     visit.open(f"{http}/{training.page}.html")
     assert training.button(visit.page).is_enabled()
+
+
+HEIGHTS = """async () => {
+  const heights = new Set();
+  for (let frame = 0; frame < 20; frame += 1) {
+    await new Promise((resolve) => requestAnimationFrame(resolve));
+    heights.add(document.body.scrollHeight);
+  }
+  return heights.size;
+}"""
+
+
+def test_a_page_at_rest_keeps_its_height(visit: Visit, http: str) -> None:
+    """A line that says that an output scrolls must not make the output change for ever."""
+    visit.page.set_viewport_size(PHONE)
+    visit.leave_formulas()
+    visit.open(f"{http}/book/neural-network.html")
+    assert visit.page.evaluate(HEIGHTS) == 1
