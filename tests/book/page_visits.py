@@ -39,10 +39,16 @@ ILLEGIBLE = """() => [...document.querySelectorAll(".robonav svg text")].filter(
     Math.max(outer[low] - inner[low], inner[high] - outer[high]));
   return text.textContent && inner.width > 0 && (size < 8 || Math.max(across, down) > 2);
 }).map((text) => text.textContent)"""
-FORMULAS_CUT = """() => [...document.querySelectorAll("mjx-container:not([display])")]
-  .filter((formula) => !formula.closest(".scroll, table, .tableholder"))
-  .filter((formula) => formula.getBoundingClientRect().right > innerWidth)
-  .map((formula) => formula.textContent)"""
+FORMULAS_CUT = """() => {
+  const folded = [...document.querySelectorAll("details:not([open], .drill, .drill *)")]; // test_drills.py opens drills
+  for (const part of folded) part.open = true;
+  const cut = [...document.querySelectorAll("mjx-container:not([display])")]
+    .filter((formula) => formula.checkVisibility() && !formula.closest(".scroll, table, .tableholder"))
+    .filter((formula) => formula.getBoundingClientRect().right > innerWidth)
+    .map((formula) => formula.textContent);
+  for (const part of folded) part.open = false;
+  return cut;
+}"""
 
 
 @dataclass
