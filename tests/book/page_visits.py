@@ -39,6 +39,9 @@ ILLEGIBLE = """() => [...document.querySelectorAll(".robonav svg text")].filter(
     Math.max(outer[low] - inner[low], inner[high] - outer[high]));
   return text.textContent && inner.width > 0 && (size < 8 || Math.max(across, down) > 2);
 }).map((text) => text.textContent)"""
+THEME_WAITS = 600
+"""Milliseconds after which the theme has looked which code scrolls at a new width, and lets Tab reach it."""
+
 FORMULAS_CUT = """() => {
   const folded = [...document.querySelectorAll("details:not([open], .drill, .drill *)")]; // test_drills.py opens drills
   for (const part of folded) part.open = true;
@@ -76,6 +79,7 @@ def from_disk(context: BrowserContext, folder: str, page_name: str) -> Shown:
         shown.illegible["phone"] = visit.page.evaluate(ILLEGIBLE)
         shown.formulas_cut = visit.page.evaluate(FORMULAS_CUT)
         visit.page.set_viewport_size(DESKTOP)
+        visit.page.wait_for_timeout(THEME_WAITS)
         _photograph(visit, page_name, shown)
         shown.illegible["desktop"] = visit.page.evaluate(ILLEGIBLE)
         _examine(visit, shown)
