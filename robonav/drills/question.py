@@ -35,6 +35,10 @@ RIGHT = Verdict(True)
 _Flat = list[float]
 
 
+def _near(number: float, answer: float, tolerance: float) -> bool:
+    return abs(number - answer) <= tolerance
+
+
 @dataclass(frozen=True)
 class Number:
     """A number is asked for.
@@ -64,15 +68,14 @@ class Number:
 
     def judge(self, answer: float) -> Verdict:
         """Compare a number with the right one, then with the usual wrong ones."""
-        if self._is(self.answer, answer):
+        if _near(self.answer, answer, self.tolerance):
             return RIGHT
         hints = (
-            hint for hint, number in self.wrong.items() if self._is(number, answer)
+            hint
+            for hint, number in self.wrong.items()
+            if _near(number, answer, self.tolerance)
         )
         return Verdict(False, next(hints, ""))
-
-    def _is(self, number: float, answer: float) -> bool:
-        return abs(number - answer) <= self.tolerance
 
     @property
     def clear(self) -> bool:
@@ -241,7 +244,7 @@ class Table:
         return Verdict(False)
 
     def _is(self, number: float, answer: float) -> bool:
-        return abs(number - answer) <= self.tolerance
+        return _near(number, answer, self.tolerance)
 
     def _equals(self, given: _Flat, table: _Flat, right: _Flat) -> bool:
         return all(self._is(a, b) for a, b in zip(given, table, strict=True))

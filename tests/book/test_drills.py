@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from browser import DESKTOP, PHONE, Visit
 from playwright.sync_api import Locator, expect
@@ -63,10 +65,10 @@ def give_right_answer(visit: Visit, place: Locator) -> None:
 @pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
 @pytest.mark.parametrize("page_of_drills", PAGES_WITH_DRILLS)
 def test_each_drill_is_answered_by_keyboard(
-    visit: Visit, site: object, page_of_drills: str, size: dict[str, int]
+    visit: Visit, site: Path, page_of_drills: str, size: dict[str, int]
 ) -> None:
     visit.page.set_viewport_size(size)
-    visit.open(f"{site.as_uri()}/book/{page_of_drills}.html")  # type: ignore[attr-defined]
+    visit.open(f"{site.as_uri()}/book/{page_of_drills}.html")
     visit.page.evaluate("localStorage.removeItem('robonav-drills')")
     names = [drill.name for drill in DRILLS.values() if drill.page == page_of_drills]
     for name in names:
@@ -85,9 +87,9 @@ def test_each_drill_is_answered_by_keyboard(
 
 
 def test_three_in_a_row_are_mastered_and_a_mistake_begins_anew(
-    visit: Visit, site: object
+    visit: Visit, site: Path
 ) -> None:
-    visit.open(f"{site.as_uri()}/book/dynamic-programming.html")  # type: ignore[attr-defined]
+    visit.open(f"{site.as_uri()}/book/dynamic-programming.html")
     visit.page.evaluate("localStorage.removeItem('robonav-drills')")
     place = open_drill(visit, "bellman-backup")
     for _ in range(3):
@@ -95,7 +97,7 @@ def test_three_in_a_row_are_mastered_and_a_mistake_begins_anew(
         expect(place.locator(".verdict")).to_have_text("Right.")
         place.get_by_role("button", name="Next question").click()
     expect(place.locator(".drill-standing")).to_contain_text("mastered; comes back")
-    visit.page.goto(f"{site.as_uri()}/book/my-progress.html")  # type: ignore[attr-defined]
+    visit.page.goto(f"{site.as_uri()}/book/my-progress.html")
     summary = visit.page.locator(".drills-summary").first
     expect(summary).to_contain_text(f"1 of {len(DRILLS)} mastered")
     place = open_drill(visit, "bellman-backup")
@@ -106,9 +108,9 @@ def test_three_in_a_row_are_mastered_and_a_mistake_begins_anew(
 
 
 def test_what_is_no_number_gets_a_sentence_and_costs_nothing(
-    visit: Visit, site: object
+    visit: Visit, site: Path
 ) -> None:
-    visit.open(f"{site.as_uri()}/book/dynamic-programming.html")  # type: ignore[attr-defined]
+    visit.open(f"{site.as_uri()}/book/dynamic-programming.html")
     visit.page.evaluate("localStorage.removeItem('robonav-drills')")
     place = open_drill(visit, "stopping-bound")
     place.get_by_label("Your answer").fill("a third")

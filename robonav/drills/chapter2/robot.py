@@ -93,9 +93,7 @@ def sector_of_point(rng: Rng) -> Question:
     sensing = robot.sense(world, [(50, 50, math.radians(heading))])
     sector = int(sensing.target_region[0])
     mirrored = 1 if sector == 1 else 11 - sector
-    without = int(
-        robot.sense(robot.make_world(target=target), [(50, 50, 0)]).target_region[0]
-    )
+    without = int(robot.sense(world, [(50, 50, 0)]).target_region[0])
     wrong = {}
     if mirrored != sector:
         wrong[str(mirrored)] = (

@@ -65,7 +65,7 @@ def of_two_trajectories(rng: Rng) -> Question:
                 "This is the sum over both demonstrations. The estimate is their mean.": sum(
                     sums
                 ),
-                "The discount begins anew in each demonstration.": float(
+                "The discount starts again in each demonstration.": float(
                     feature @ discount ** np.arange(len(feature))
                 )
                 / 2,
