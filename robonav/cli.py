@@ -72,18 +72,49 @@ def exercises_build(
             "--check", help="Write nothing. Exit with 1 if a file is out of date."
         ),
     ] = False,
+    variant: Annotated[
+        str | None,
+        typer.Option(
+            help="Any text. It chooses other details of each exercise, for a term or a student: the exercises go "
+            "into OUT, with their solutions, tests, notebooks, and a zip file for students."
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(help="The folder for the variant. Only with --variant."),
+    ] = None,
 ) -> None:
-    """Write exercises/ and the nbgrader notebooks from solutions/."""
+    """Write exercises/ and the nbgrader notebooks from solutions/, or a variant of all exercises into a folder."""
     from robonav.grading import build
     from robonav.grading.course import Course
 
     course = Course.around(Path.cwd())
+    if variant is not None or out is not None:
+        _build_variant(course, variant, out, check)
+        return
     changed = build.outdated(course) if check else build.build(course)
     for name in changed:
         print(f"{'out of date' if check else 'written'}: {name}")
     if check and changed:
         print("run: robonav exercises build")
         raise typer.Exit(1)
+
+
+def _build_variant(
+    course: Any, variant: str | None, out: Path | None, check: bool
+) -> None:
+    """Write a variant of the exercises, and say which exercises have none."""
+    from robonav.grading import build, variants
+
+    if variant is None or out is None or check:
+        raise ValueError("a variant needs both --variant and --out, and no --check")
+    made = variants.write(course, variant, out)
+    build.students_zip(made, out / "robonav-exercises.zip")
+    print(f"{len(made.exercises)} exercises in {out}")
+    print(f"for students: {out / 'robonav-exercises.zip'}")
+    if left_out := variants.without_variants(course):
+        names = ", ".join(exercise.id for exercise in left_out)
+        print(f"left out, because they have no variants yet: {names}")
 
 
 @exercises.command("zip")
@@ -192,6 +223,12 @@ def grade(
         str | None,
         typer.Option(help="Address of a Dask scheduler that does the work."),
     ] = None,
+    variant: Annotated[
+        str | None,
+        typer.Option(
+            help="The text that chose the variant of the exercises, as for robonav exercises build."
+        ),
+    ] = None,
     practice: Annotated[
         bool,
         typer.Option(
@@ -208,12 +245,14 @@ def grade(
 ) -> None:
     """Grade a class. Run the command again to resume: grades that exist are kept."""
     from robonav import progress
-    from robonav.grading import paths, sandbox_check
+    from robonav.grading import paths, sandbox_check, variants
     from robonav.grading.cases import secret_from
     from robonav.grading.classroom import GradingConfig, grade_class
     from robonav.grading.course import Course
 
     course = Course.around(Path(__file__).parent, Path.cwd())
+    if variant is not None:
+        course = variants.course_for(course, variant, folder, out)
     ids = [course.named(key).id for key in exercise or []]
     config = GradingConfig(course, sandbox_check.best(), secret_from(secret))
     if config.tier == "practice" and not practice:

@@ -4,6 +4,8 @@
 it stands on, or to the page that it names, with difficulty and time; each entry is a link. The manifest
 ``tests/exercises/manifest.toml`` says which page an exercise belongs to.
 
+``make book EXERCISES=DIR`` shows the variant of the exercises in that folder instead of the book's.
+
 Each exercise shows its question and the file that students fill in, from ``exercises/``. The instructors' build,
 ``make book SOLUTIONS=1``, also has its solution and the known mistakes with their hints in a folded section. No other
 build contains them.
@@ -29,12 +31,16 @@ class CourseExercises(SphinxDirective):
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
-        course = Course.around()
+        course = Course.of_book()
         chosen = [
             exercise
             for exercise in course.exercises.values()
             if exercise.chapter == self.arguments[0]
         ]
+        if not chosen and course != Course.around():
+            return self.parse_text_to_nodes(
+                "This term has no exercise of this chapter."
+            )
         if not chosen:
             raise self.error(f"no chapter {self.arguments[0]} in the manifest")
         self.env.note_dependency(str(course.tests / "manifest.toml"))
@@ -87,13 +93,19 @@ class CourseExercises(SphinxDirective):
 
 
 def exercises_of(course: Course, page: str) -> str:
-    """Return the list of the exercises that belong to a page, in MyST Markdown; empty if there is none."""
-    return "\n".join(
+    """Return the list of the exercises that belong to a page, in MyST Markdown; empty if there is none.
+
+    In a variant of the course, which may leave exercises out, a sentence says so.
+    """
+    listed = "\n".join(
         f"- {{ref}}`{exercise.id} {exercise.title} <exercise-{exercise.id.replace('.', '-')}>`: "
         f"{exercise.difficulty}, about {exercise.minutes} minutes"
         for exercise in course.exercises.values()
         if exercise.page == page
     )
+    if not listed and course != Course.around() and exercises_of(Course.around(), page):
+        return "No exercise of this term belongs to this page."
+    return listed
 
 
 class PageExercises(SphinxDirective):
@@ -102,7 +114,7 @@ class PageExercises(SphinxDirective):
     optional_arguments = 1
 
     def run(self) -> list[nodes.Node]:
-        course = Course.around()
+        course = Course.of_book()
         here = self.env.docname.rpartition("/")[2]
         page = self.arguments[0] if self.arguments else here
         self.env.note_dependency(str(course.tests / "manifest.toml"))

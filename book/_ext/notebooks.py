@@ -191,7 +191,7 @@ def attach_pictures(cell: nbformat.NotebookNode, folder: Path) -> None:
 
 def _exercises(match: re.Match[str], page: str) -> str:
     """Return the exercises that a directive lists: those of the page it stands on, or of the page that it names."""
-    return exercises_of(Course.around(), match["page"] or page)
+    return exercises_of(Course.of_book(), match["page"] or page)
 
 
 def _drills(page: str) -> str:

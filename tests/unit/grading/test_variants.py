@@ -1,0 +1,345 @@
+"""Variants: every combination of knobs is an exercise of its own, and the book's answers do not solve it."""
+
+import functools
+import inspect
+import itertools
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robonav.grading import variants
+from robonav.grading.cases import PUBLIC, generator, parts_of
+from robonav.grading.check import InProcessCalls, graded
+from robonav.grading.course import Course, trusted
+from robonav.grading.evidence import Evidence
+from robonav.grading.grade import Unaccepted
+from robonav.grading.reference import Solutions, mistakes, solution
+from robonav.grading.session import Answer
+
+COURSE = Course.around(Path(__file__).parent)
+ROBONAV = str(Path(sys.executable).with_name("robonav"))
+VARIED = [e for e in COURSE.exercises.values() if variants.knobs(COURSE, e)]
+
+
+@pytest.fixture(params=VARIED, ids=lambda exercise: exercise.name)
+def exercise(request):
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """All variants of an exercise that are tried: values, course and the reference of its answers."""
+
+    @functools.cache
+    def of(exercise):
+        found = []
+        for values in variants.combinations(variants.knobs(COURSE, exercise)):
+            folder = tmp_path_factory.mktemp(exercise.name)
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(os, "fsync", lambda file: None)  # many small files
+                course = variants.write_values(COURSE, {exercise.id: values}, folder)
+            found.append((values, course, Solutions(course)))
+        return found
+
+    return of
+
+
+def passes(course, known, exercise, function):
+    """Whether a function passes all parts; it ends at the first one that it does not pass."""
+    calls, evidence = InProcessCalls(function), Evidence(known)
+    for test, _ in parts_of(course, exercise):
+        answer = Answer(calls, evidence, exercise, test.__name__)
+        try:
+            with np.errstate(all="ignore"):
+                test(answer, generator(PUBLIC, test.__name__))
+        except Unaccepted:
+            return False
+    return True
+
+
+def test_with_the_books_values_nothing_changes(exercise, tmp_path):
+    values = variants.book(variants.knobs(COURSE, exercise))
+    assert variants.rendered(COURSE, exercise, values) == variants.texts(
+        COURSE, exercise
+    )
+    course = variants.write_values(COURSE, {exercise.id: values}, tmp_path)
+    for folder, file in (
+        ("solutions", exercise.file),
+        ("solutions/wrong", exercise.file),
+        ("exercises", exercise.file),
+    ):
+        ours, books = (c.root / folder / file for c in (course, COURSE))
+        assert ours.read_bytes() == books.read_bytes()
+
+
+def test_all_chapters_with_the_books_values_are_the_books(tmp_path):
+    """Where every exercise of a chapter has knobs, tests and notebooks are the same bytes, too."""
+    values = {e.id: variants.book(variants.knobs(COURSE, e)) for e in VARIED}
+    course = variants.write_values(COURSE, values, tmp_path)
+    for chapter, exercises in COURSE.chapters():
+        if {e.id for e in exercises} <= set(values):
+            for name in (
+                f"tests/exercises/test_{chapter}.py",
+                f"exercises/{chapter}.ipynb",
+                f"solutions/nbgrader/source/{chapter}/{chapter}.ipynb",
+            ):
+                assert (course.root / name).read_bytes() == (
+                    COURSE.root / name
+                ).read_bytes()
+
+
+def test_every_exercise_with_variants_has_three_knobs(exercise):
+    of = variants.knobs(COURSE, exercise)
+    assert len(of) >= 3
+    assert len({knob.name for knob in of}) == len(of)
+    assert all(len(set(knob.values)) >= 2 for knob in of)
+
+
+@pytest.mark.slow
+def test_a_solution_passes_its_own_variant_and_no_other(exercise, made):
+    found = made(exercise)
+    functions = [solution(course, exercise) for _, course, _ in found]
+    for (values, course, known), function in zip(found, functions, strict=True):
+        assert passes(course, known, exercise, function), values
+    for (one, course, known), (two, function) in itertools.product(
+        found, zip((values for values, _, _ in found), functions, strict=True)
+    ):
+        if one != two:
+            assert not passes(course, known, exercise, function), (
+                f"the solution of {two} passes {one}"
+            )
+
+
+@pytest.mark.slow
+def test_known_mistakes_are_hinted_in_every_variant(exercise, made):
+    tried = variants.covering([values for values, _, _ in made(exercise)])
+    for values, course, known in made(exercise):
+        if values not in tried or values == tried[0]:
+            continue  # the book's are in test_exercises
+        assert len(mistakes(course, exercise)) >= 3
+        for name, function in mistakes(course, exercise).items():
+            with np.errstate(all="ignore"):
+                result = graded(course, exercise, InProcessCalls(function), known)
+            assert result["points"] < exercise.points, (name, values)
+            if exercise.difficulty == "open task":
+                continue
+            said = {
+                line.partition("Hint: ")[2]
+                for line in result["feedback"].splitlines()
+                if "Hint: " in line
+            }
+            hint = " ".join((inspect.getdoc(function) or "").split())
+            assert said == {hint}, (name, values, result["feedback"])
+            unsaid = result["feedback"].count("The same error as above.")
+            failed = result["feedback"].count("✗")
+            assert result["feedback"].count("Hint: ") + unsaid == failed
+
+
+@pytest.mark.slow
+def test_a_stub_scores_nothing_and_fits_the_page(exercise, made):
+    for _, course, known in made(exercise):
+        stub = course.stubs / exercise.file
+        text = stub.read_text("utf-8")
+        assert "SOLUTION" not in text
+        too_wide = [line for line in text.splitlines() if len(line) > 88]
+        assert [line for line in too_wide if not line.startswith("$$")] == []
+        function = getattr(trusted(stub), exercise.name)
+        result = graded(course, exercise, InProcessCalls(function), known)
+        assert (result["points"], result["state"]) == (0, "missing")
+        names = list(inspect.signature(function).parameters)
+        assert course.parameters(exercise) == names
+        assert all(f"{name} :" in text or f"{name}," in text for name in names)
+
+
+@pytest.mark.slow
+def test_every_variant_asks_for_something_else(exercise, made):
+    asked = [
+        (course.stubs / exercise.file).read_text("utf-8")
+        for _, course, _ in made(exercise)
+    ]
+    assert len(set(asked)) == len(asked)
+
+
+def test_a_secret_never_chooses_the_books_exercise_and_another_chooses_others(exercise):
+    of = variants.knobs(COURSE, exercise)
+    secrets = [f"term {number}" for number in range(6)]
+    found = [variants.chosen(secret, exercise, of) for secret in secrets]
+    assert found == [variants.chosen(secret, exercise, of) for secret in secrets]
+    assert variants.book(of) not in found
+    assert len({tuple(values.items()) for values in found}) > 1
+    assert all(values[knob.name] in knob.values for values in found for knob in of)
+
+
+def test_fragments_that_stand_nowhere_or_overlap_are_refused(monkeypatch):
+    exercise = COURSE.named("2.2")
+    ties, *others = variants.knobs(COURSE, exercise)
+    values = {knob.name: knob.values[-1] for knob in (ties, *others)}
+
+    def refused(*of):
+        monkeypatch.setattr(variants, "knobs", lambda course, exercise: of)
+        return pytest.raises(ValueError, match="knob")
+
+    stale = replace(ties, source=(("no such words", "others"),))
+    with refused(stale, *others) as caught:
+        variants.rendered(COURSE, exercise, values)
+    assert "a text that does not stand there: 'no such words'" in str(caught.value)
+    twice = replace(ties, name="again")
+    with refused(ties, twice, *others) as caught:
+        variants.rendered(COURSE, exercise, {**values, "again": "highest"})
+    assert "knobs ties and again change the same place" in str(caught.value)
+    with pytest.raises(ValueError, match="2 fragments, got"):
+        replace(ties, source=(("one fragment",),))
+    with pytest.raises(ValueError, match="an entry for each value but the first, 1"):
+        replace(ties, hints=())
+
+
+def run(*arguments, cwd=COURSE.root, **environment):
+    done = subprocess.run(
+        [ROBONAV, *map(str, arguments)],
+        cwd=cwd,
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+def test_a_wrong_input_is_one_sentence(tmp_path):
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full/thesis.txt").write_text("precious")
+    for arguments, sentence in (
+        (["--variant", "x"], "a variant needs both --variant and --out"),
+        (["--out", tmp_path], "a variant needs both --variant and --out"),
+        (["--variant", " ", "--out", tmp_path / "new"], "must be a text, got an empty"),
+        (["--variant", "x", "--out", tmp_path / "full"], "must be a new folder"),
+        (["--variant", "x", "--out", COURSE.root], "must be a new folder"),
+    ):
+        code, said = run("exercises", "build", *arguments)
+        assert (code, sentence in said, "Traceback" in said) == (2, True, False), said
+    assert (tmp_path / "full/thesis.txt").read_text() == "precious"
+
+
+@pytest.mark.slow
+def test_a_term_with_a_variant(tmp_path):
+    """An instructor builds it, students check and hand in, and the class is graded."""
+    out, unpacked = tmp_path / "term", tmp_path / "home"
+    code, said = run("exercises", "build", "--variant", "autumn", "--out", out)
+    assert code == 0, said
+    left_out = [e.id for e in variants.without_variants(COURSE)]
+    assert ("left out" in said) == bool(left_out)
+    assert all(id in said for id in left_out)
+    again = tmp_path / "again"
+    run("exercises", "build", "--variant", "autumn", "--out", again)
+    for path in out.rglob("*"):
+        twin = again / path.relative_to(out)
+        assert path.is_dir() or path.read_bytes() == twin.read_bytes()
+    values = json.loads((out / "variant.json").read_text())
+    assert list(values) == [e.id for e in VARIED]
+    subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "zipfile",
+            "-e",
+            out / "robonav-exercises.zip",
+            unpacked,
+        ],
+        check=True,
+    )
+    home = unpacked / "robonav-exercises"
+    files = [path for path in home.rglob("*") if path.is_file()]
+    assert not [path for path in files if "solution" in str(path.relative_to(home))]
+    assert not [path for path in files if b"### BEGIN" in path.read_bytes()]
+    assert not list(home.rglob("variant.json"))
+    code, said = run("check", "2.2", cwd=home)
+    assert (code, "Not begun: write improve" in said) == (1, True), said
+    own = (out / "solutions/ch2/improve.py").read_text()
+    (home / "exercises/ch2/improve.py").write_text(own)
+    assert run("check", "2.2", cwd=home)[0] == 0
+    books = (COURSE.solutions / "ch2/improve.py").read_text()
+    (home / "exercises/ch2/improve.py").write_text(books)
+    code, said = run("check", "2.2", cwd=home)
+    assert (code, "Hint: " in said) == (1, True), said
+
+    hand_in = {"ada": own, "bo": books}
+    for name, text in hand_in.items():
+        (tmp_path / f"class/{name}").mkdir(parents=True)
+        (tmp_path / f"class/{name}/improve.py").write_text(text)
+    grade = ["grade", tmp_path / "class", "--out", tmp_path / "graded", "--jobs", 1]
+    if "--practice" not in grade and not _sandbox():
+        grade.append("--practice")
+    code, said = run(*grade, "--variant", "autumn", "--exercise", "2.2")
+    assert code == 0, said
+    points = {
+        name: {
+            entry["id"]: entry["points"]
+            for entry in json.loads(
+                (tmp_path / f"graded/students/{name}/grade.json").read_text()
+            )["exercises"]
+        }
+        for name in hand_in
+    }
+    assert points["ada"]["2.2"] == 4
+    assert points["bo"]["2.2"] < 4
+    assert set(points["ada"]) == set(values)
+    code, said = run(*grade, "--variant", "spring")
+    assert (code, "was graded with another variant" in said) == (2, True), said
+
+
+def _sandbox():
+    from robonav.grading import sandbox_check
+
+    return sandbox_check.best() != "practice"
+
+
+def test_a_class_graded_without_a_variant_is_not_graded_with_one(tmp_path):
+    (tmp_path / "out/students").mkdir(parents=True)
+    with pytest.raises(ValueError, match="was graded without a variant"):
+        variants.course_for(COURSE, "x", tmp_path / "class", tmp_path / "out")
+    with pytest.raises(ValueError, match="must not lie in the class folder"):
+        variants.course_for(COURSE, "x", tmp_path, tmp_path / "out")
+
+
+PAGE = """
+import sys
+sys.path.insert(0, {folder!r})
+extensions = ["myst_nb", "sphinx_exercise", "sphinx_design", "course_exercises"]
+myst_enable_extensions = ["dollarmath"]
+nb_execution_mode = "off"
+suppress_warnings = ["myst.xref_missing"]
+"""
+
+
+@pytest.mark.slow
+def test_the_page_shows_the_variant(tmp_path):
+    pytest.importorskip("sphinx_exercise")
+    exercise = COURSE.named("2.2")
+    values = variants.chosen("autumn", exercise, variants.knobs(COURSE, exercise))
+    made = variants.write_values(COURSE, {"2.2": values}, tmp_path / "term")
+    book = tmp_path / "book"
+    book.mkdir()
+    (book / "conf.py").write_text(PAGE.format(folder=str(COURSE.root / "book/_ext")))
+    (book / "index.md").write_text((COURSE.root / "book/exercises-2.md").read_text())
+    for page in ("dynamic-programming", "nirl"):
+        text = "---\norphan: true\n---\n# A page\n\n```{exercises}\n```\n"
+        (book / f"{page}.md").write_text(text)
+    subprocess.run(
+        [sys.executable, "-m", "sphinx", "-q", "-b", "html", book, tmp_path / "built"],
+        env={**os.environ, "EXERCISES": str(made.root)},
+        check=True,
+        capture_output=True,
+    )
+    page = (tmp_path / "built/index.html").read_text()
+    assert "Improvement where actions tie" in page
+    assert "A backup with rewards" not in page
+    listed = (tmp_path / "built/dynamic-programming.html").read_text()
+    assert "2.2 Improvement where actions tie" in listed
+    assert "2.3" not in listed
+    nothing = (tmp_path / "built/nirl.html").read_text()
+    assert "No exercise of this term belongs to this page." in nothing
