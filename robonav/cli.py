@@ -31,6 +31,11 @@ exercises = typer.Typer(
     no_args_is_help=True, help="Make the students' exercises from the solutions."
 )
 app.add_typer(exercises, name="exercises")
+drills = typer.Typer(
+    no_args_is_help=True,
+    help="Make question banks and exams of drills, which draw new numbers for each question.",
+)
+app.add_typer(drills, name="drills")
 
 
 def _version(wanted: bool) -> None:
@@ -138,6 +143,65 @@ def exercises_nbgrader(
 
     for assignment in nbgrader_course(Course.around(Path.cwd()), folder):
         print(assignment)
+
+
+Chapters = Annotated[
+    list[int] | None,
+    typer.Option("--chapter", help="Only drills of this chapter. May be repeated."),
+]
+Pages = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--page",
+        help="Only drills of this page, such as dynamic-programming. May be repeated.",
+    ),
+]
+
+
+@drills.command("list")
+def drills_list(chapter: Chapters = None, page: Pages = None) -> None:
+    """List the drills: name, page, and what a student can do who masters it."""
+    from robonav.drills.export import selected
+
+    for one in selected(chapter or (), page or ()):
+        print(f"{one.name:26} {one.page:22} {one.goal}")
+
+
+@drills.command("export")
+def drills_export(
+    file: Annotated[Path, typer.Argument(help="The file to write.")],
+    format: Annotated[
+        str,
+        typer.Option(
+            help="moodle (an .xml file for Moodle's question bank). By default the ending of the file's name tells."
+        ),
+    ] = "",
+    chapter: Chapters = None,
+    page: Pages = None,
+    drill: Annotated[
+        list[str] | None,
+        typer.Option(help="This drill. May be repeated. See: robonav drills list"),
+    ] = None,
+    each: Annotated[int, typer.Option(help="Questions of each drill.")] = 1,
+    seed: Annotated[
+        int,
+        typer.Option(help="Makes the numbers: the same seed, the same questions."),
+    ] = 0,
+    title: Annotated[
+        str, typer.Option(help="The title of the question bank.")
+    ] = "robonav",
+    force: Annotated[
+        bool, typer.Option("--force", help="Write over a file that exists.")
+    ] = False,
+) -> None:
+    """Write questions of drills as a question bank for Moodle. All drills take part unless you choose."""
+    from robonav.drills.export import drawn, files, moodle_xml, selected
+
+    files.format_of(file, format)
+    files.check_free(file, force=force)
+    questions = drawn(selected(chapter or (), page or (), drill or ()), seed, each)
+    files.write({file: moodle_xml(questions, title)})
+    print(f"{file}: {len(questions)} questions")
 
 
 @app.command()

@@ -70,6 +70,27 @@ def html(text: str) -> str:
     return str(parser.render(text))
 
 
+def block(text: str) -> str:
+    r"""Return Markdown as HTML paragraphs.
+
+    Parameters
+    ----------
+    text : str
+        Markdown.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> block("One."), block("One.\n\nTwo.")
+    ('<p>One.</p>', '<p>One.</p>\n<p>Two.</p>\n')
+    """
+    rendered = html(text)
+    return rendered if rendered.startswith("<p>") else f"<p>{rendered}</p>"
+
+
 def _asked(asked: Asked) -> dict[str, Any]:
     """The kind of answer as JSON; texts that a reader sees are HTML."""
     if isinstance(asked, Number):

@@ -10,7 +10,15 @@ from typer.testing import CliRunner
 from robonav import __version__
 from robonav.cli import app
 
-COMMANDS = ["check", "grade", "reproduce", "navigate", "leaderboard", "exercises"]
+COMMANDS = [
+    "check",
+    "grade",
+    "reproduce",
+    "navigate",
+    "leaderboard",
+    "exercises",
+    "drills",
+]
 
 
 def output(*arguments: str) -> str:

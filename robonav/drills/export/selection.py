@@ -1,0 +1,159 @@
+"""Which drills are exported, and the questions that they draw."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from robonav.validation import check_integer
+
+from ..question import Question
+from ..registry import DRILLS, Drill
+
+TRIES = (
+    20  # how often another question is drawn in the place of one that was drawn before
+)
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A question that a drill has drawn.
+
+    Attributes
+    ----------
+    drill : Drill
+        The drill.
+    number : int
+        The question's number among those of its drill, from 1 on.
+    question : Question
+        The question.
+    """
+
+    drill: Drill
+    number: int
+    question: Question
+
+    @property
+    def name(self) -> str:
+        """A name of letters, digits and hyphens, such as "td-error-1"."""
+        return f"{self.drill.name}-{self.number}"
+
+
+def chapter_of(drill: Drill) -> int:
+    """Return the number of the chapter that a drill belongs to.
+
+    Parameters
+    ----------
+    drill : Drill
+
+    Returns
+    -------
+    int
+
+    Examples
+    --------
+    >>> chapter_of(DRILLS["td-error"])
+    2
+    """
+    package = drill.draw.__module__.split(".")[2]
+    return int(package.removeprefix("chapter"))
+
+
+def _unknown(kind: str, names: Sequence[object], known: Sequence[object]) -> None:
+    for name in names:
+        if name not in known:
+            raise ValueError(
+                f"there is no {kind} {name}; known are {', '.join(map(str, known))}"
+            )
+
+
+def selected(
+    chapters: Sequence[int] = (), pages: Sequence[str] = (), drills: Sequence[str] = ()
+) -> list[Drill]:
+    """Return the drills of chapters and pages, and those named, in the order of the book.
+
+    Parameters
+    ----------
+    chapters : sequence of int, optional
+        Numbers of chapters.
+    pages : sequence of str, optional
+        Names of pages, such as "dynamic-programming".
+    drills : sequence of str, optional
+        Names of drills, such as "td-error".
+
+    Returns
+    -------
+    list of Drill
+        All drills if nothing is named.
+
+    Raises
+    ------
+    ValueError
+        If a chapter, page or drill does not exist.
+
+    Examples
+    --------
+    >>> [drill.name for drill in selected(drills=["td-error", "softmax"])]
+    ['td-error', 'softmax']
+    >>> len(selected()) == len(DRILLS)
+    True
+    """
+    every = list(DRILLS.values())
+    _unknown("chapter", chapters, sorted({chapter_of(one) for one in every}))
+    _unknown("page", pages, list(dict.fromkeys(one.page for one in every)))
+    _unknown("drill", drills, list(DRILLS))
+    if not (chapters or pages or drills):
+        return every
+    return [
+        one
+        for one in every
+        if chapter_of(one) in chapters or one.page in pages or one.name in drills
+    ]
+
+
+def drawn(drills: Sequence[Drill], seed: int = 0, each: int = 1) -> list[Drawn]:
+    """Draw questions of drills, no two of them alike.
+
+    A drill's questions depend on its name and on the seed alone, so they stay the same if other drills are added.
+
+    Parameters
+    ----------
+    drills : sequence of Drill
+    seed : int, default 0
+        Makes the numbers.
+    each : int, default 1
+        Questions of each drill. A drill that has fewer, such as one that asks for the steps of one algorithm, gives all
+        that it has.
+
+    Returns
+    -------
+    list of Drawn
+
+    Examples
+    --------
+    >>> [one.name for one in drawn(selected(drills=["td-error"]), seed=3, each=2)]
+    ['td-error-1', 'td-error-2']
+    """
+    check_integer("seed", seed, at_least=0)
+    check_integer("each", each, at_least=1)
+    return [
+        Drawn(drill, number, question)
+        for drill in drills
+        for number, question in enumerate(_different(drill, seed, each), start=1)
+    ]
+
+
+def _different(drill: Drill, seed: int, count: int) -> list[Question]:
+    """The first questions of a drill that differ from each other."""
+    questions: dict[str, Question] = {}
+    name = zlib.crc32(drill.name.encode())
+    for k in range(count + TRIES):
+        if len(questions) == count:
+            break
+        state = np.random.SeedSequence([seed, name, k]).generate_state(1)
+        question = drill.question(int(state[0]))
+        questions.setdefault(repr(question), question)
+    return list(questions.values())
