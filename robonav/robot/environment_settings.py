@@ -1,7 +1,7 @@
-"""What surrounds the environments: their arguments, checked, and one robot's rows of what holds many robots.
+"""What surrounds the environments: their arguments, checked, and one robot as a batch of one.
 
-The simulator, reflexes and reward functions hold arrays whose rows are robots. :class:`NavigationEnv` has one robot. It
-takes its row of a world from here, and asks reflex and reward about its row.
+The simulator, reflexes, rewards and policies take arrays whose rows are robots. :class:`NavigationEnv` has one robot,
+and asks reflex and reward about one row.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from robonav.validation import (
 )
 
 from ._fast.constants import NO_REFLEX
+from .physics import Array, Flags
 from .rollout import REFLEX, ReflexRule
 from .simulator import (
     DIRECTIONS,
@@ -48,9 +49,7 @@ from .worlds import (
     random_keys,
 )
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Obstacles = tuple[Array, Array, Array]  # kinds (M,), shapes (M, 3), centres (M, 2)
+WorldsOrFile = Worlds | str | Path
 
 Reward = Callable[[Sensing, Sensing, NDArray[np.int8]], ArrayLike]
 """``reward(before, after, outcome) -> (N,)``: from what N robots sensed before and after a step, and the outcomes."""
@@ -92,57 +91,37 @@ def arrival_or_collision(
     return REWARD_OF_OUTCOME[outcome]
 
 
-@dataclass(eq=False)
-class Map:
-    """The map of one robot: one world, taken out of its batch. Its obstacles may move.
-
-    Attributes
-    ----------
-    kinds, shapes, centres : (M,), (M, 3) and (M, 2) arrays
-        Of M obstacles, see :class:`Worlds`.
-    headings, speeds : (M,) arrays
-        Of their motion.
-    size : float
-        Length of the map's sides in metres.
-    key : (2,) array
-        Random numbers of the episode are a hash of it.
-    start : (x, y, heading)
-        Pose of the robot at the start; it faces its target.
-    target : (x, y)
-
-    Examples
-    --------
-    >>> from robonav.robot import make_world
-    >>> Map.of(make_world(circles=[(58, 50, 2)])).centres
-    array([[58., 50.]])
-    """
-
-    kinds: Array
-    shapes: Array
-    centres: Array
-    headings: Array
-    speeds: Array
-    size: float
-    key: NDArray[np.uint32]
-    start: tuple[float, float, float]
-    target: tuple[float, float]
-
-    def __post_init__(self) -> None:
-        self.obstacles: Obstacles = self.kinds, self.shapes, self.centres
-        self.moving = bool(self.speeds.any())
-
-    @staticmethod
-    def of(world: Worlds) -> Map:
-        """Return the map of a batch of one world, which stays as it is."""
-        return Map(
-            world.kinds[0], world.shapes[0], world.centres[0].copy(), world.headings[0].copy(), world.speeds[0],
-            world.size, world.keys[0], tuple(world.start_poses[0].tolist()), tuple(world.targets[0].tolist()),
-        )  # fmt: skip
-
-
 def sensing_of_one(ranges: Array, walls: Flags, region: int, seen: bool) -> Sensing:
     """Return what one robot senses as reflexes, rewards and policies take it; ``region`` is 0 to 8."""
     return Sensing(ranges[None], walls[None], np.array([region + 1]), np.array([seen]))
+
+
+def as_sensing(observation: dict[str, Any]) -> Sensing:
+    """Turn an environment's observation into the batch that encoders and policies take.
+
+    Parameters
+    ----------
+    observation : dict
+        Of one robot, or of N from the vector environment.
+
+    Returns
+    -------
+    Sensing
+        One row, or N.
+
+    Examples
+    --------
+    >>> from robonav.robot.environments import NavigationEnv, as_sensing
+    >>> observation, _ = NavigationEnv().reset(seed=0)
+    >>> as_sensing(observation).ranges.shape
+    (1, 9)
+    """
+    return Sensing(
+        np.atleast_2d(observation["ranges"]),
+        np.atleast_2d(observation["walls"]).astype(bool),
+        np.atleast_1d(observation["target_region"]) + 1,
+        np.atleast_1d(observation["target_seen"]).astype(bool),
+    )
 
 
 def while_running(step: Callable[[Any, int], Any]) -> Callable[[Any, int], Any]:
@@ -160,7 +139,7 @@ def while_running(step: Callable[[Any, int], Any]) -> Callable[[Any, int], Any]:
     return checked
 
 
-def as_worlds(given: Worlds | str | Path | None) -> Worlds | None:
+def as_worlds(given: WorldsOrFile | None) -> Worlds | None:
     """Return the worlds given, or those of the file with this name; there must be at least one."""
     if given is None:
         return None
@@ -233,9 +212,11 @@ class NavigationSettings:
             random_keys(generators), self.obstacles, self.moving, self.starts, self.targets, self.moving_speeds
         )  # fmt: skip
 
-    def reflex_of_one(self, sensing: Sensing, speed: float) -> int:
+    def reflex_of_one(self, sensing: Sensing) -> int:
         """Return the action of one robot's reflex, -1 where the action given counts."""
-        return NO_REFLEX if self.reflex is None else int(self.reflex(sensing, speed)[0])
+        if self.reflex is None:
+            return NO_REFLEX
+        return int(self.reflex(sensing, self.speed)[0])
 
     def reward_of_one(self, before: Sensing, after: Sensing, outcome: int) -> float:
         """Return the reward of one robot."""
@@ -255,7 +236,7 @@ def check_settings(
     starts: Sequence[tuple[float, float]] = (START,),
     targets: Sequence[tuple[float, float]] = (TARGET,),
     moving_speeds: tuple[float, float] = MOVING_SPEEDS,
-    worlds: Worlds | str | Path | None = None,
+    worlds: WorldsOrFile | None = None,
     speed: float = 2.0,
     slip: ArrayLike | None = None,
     noise: float = 0.0,
@@ -309,3 +290,11 @@ def worlds_in(
             f"options['worlds'] must hold {number} worlds, got {len(worlds)}"
         )
     return worlds
+
+
+def check_render_mode(given: str | None, metadata: dict[str, Any]) -> str | None:
+    """Return the render mode, if it is one of the environment's, or None."""
+    mode: str | None = check_one_of(
+        "render_mode", given, [None, *metadata["render_modes"]]
+    )
+    return mode

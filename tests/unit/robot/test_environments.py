@@ -17,10 +17,10 @@ from robonav.robot import (
     Outcome,
     Reflex,
     Simulator,
-    environments,
     make_world,
     neighbour_slip,
     obstacle_tracks,
+    physics,
     random_worlds,
     sense,
 )
@@ -452,7 +452,7 @@ def test_one_robot_senses_what_the_batch_senses_to_the_bit(noise):
     assert expected.walls.any(), "no border in range"
     assert (expected.ranges == 0).any(), "no robot in an obstacle"
     for i, pose in enumerate(poses.tolist()):
-        ranges, walls, region, seen = environments.sense(
+        ranges, walls, region, seen = physics.sense(
             one_map(worlds, i), worlds.size, tuple(pose), tuple(worlds.targets[i].tolist()), noise, worlds.keys[i], 0
         )  # fmt: skip
         np.testing.assert_array_equal(ranges, expected.ranges[i])
@@ -469,7 +469,7 @@ def test_obstacles_of_one_map_drift_as_in_the_batch_to_the_bit():
     for i in range(100):
         obstacles, headings = one_map(worlds, i), worlds.headings[i].copy()
         for step in range(steps):
-            environments.drift(
+            physics.drift(
                 obstacles, headings, worlds.speeds[i], worlds.size, worlds.keys[i], step
             )
             np.testing.assert_array_equal(obstacles[2], tracks[i, step + 1])
@@ -481,7 +481,7 @@ def test_clearance_of_one_step_is_the_compiled_one_to_the_bit():
     collisions = 0
     for i, (start, end) in enumerate(zip(poses.tolist(), ends.tolist(), strict=True)):
         obstacles = kinds, shapes, centres = one_map(worlds, i)
-        environments.drift(
+        physics.drift(
             obstacles, worlds.headings[i].copy(), worlds.speeds[i], worlds.size, worlds.keys[i], 0,
         )  # fmt: skip
         expected = micrometres(
@@ -489,7 +489,7 @@ def test_clearance_of_one_step_is_the_compiled_one_to_the_bit():
                 kinds, shapes, worlds.centres[i], centres, worlds.size, *start[:2], *end[:2], 1.001,
             )
         )  # fmt: skip
-        got = environments.least_clearance(
+        got = physics.least_clearance(
             obstacles, worlds.centres[i], worlds.size, tuple(start[:2]), tuple(end[:2])
         )
         assert min(got, 1.001) == expected
@@ -503,7 +503,7 @@ def test_one_action_slips_as_in_the_batch():
     for action in range(6):
         simulator = Simulator(worlds, slip=slip)
         executed = simulator.step(np.full(len(worlds), action))
-        slipped = [environments.slip_to(action, slip, key, 0) for key in worlds.keys]
+        slipped = [physics.slip_to(action, slip, key, 0) for key in worlds.keys]
         np.testing.assert_array_equal(slipped, executed)
     assert len(set(slipped)) == 1  # B never slips
 
