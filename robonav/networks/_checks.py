@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import partial, wraps
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
@@ -89,6 +89,23 @@ def checked_inputs(x: ArrayLike, units: int) -> Array:
             f"x must hold {units} inputs along its last axis, got shape {inputs.shape}"
         )
     return inputs
+
+
+def takes_inputs(
+    propagate: Callable[[Any, Array], Any],
+) -> Callable[[Any, ArrayLike], Any]:
+    """Decorate a network's pass over inputs (..., m, s[0]): it checks them, and takes a single input (s[0],) too."""
+
+    @wraps(propagate)
+    def checked(network: Any, x: ArrayLike) -> tuple[list[Array], Array]:
+        """Make the pass; a single input is a batch of one."""
+        inputs = checked_inputs(x, network.sizes[0])
+        if inputs.ndim > 1:
+            return propagate(network, inputs)
+        a, z = propagate(network, inputs[None])
+        return [layer[..., 0, :] for layer in a], z[..., 0, :]
+
+    return checked
 
 
 def _checked_sizes(name: str, sizes: Any) -> list[int]:

@@ -191,32 +191,6 @@ Examples
 (1,)
 """
 
-HELP["mean_gradient"] = """
-Parameters
-----------
-network : Network
-    A single network.
-total : Gradient
-    Summed over the examples, from :func:`backpropagate`.
-m : int
-    Number of examples.
-decay : float
-    What the weights are multiplied by. The biases do not decay.
-
-Returns
--------
-Gradient
-
-Examples
---------
->>> import numpy as np
->>> from robonav.networks import Gradient, Network
->>> network = Network((np.array([[2.0]]),), (np.array([0.0]),))
->>> total = Gradient([np.array([[6.0]])], [np.array([4.0])])
->>> mean_gradient(network, total, 2, decay=0.5).weights
-[array([[4.]])]
-"""
-
 HELP["squared_error_gradient"] = """
 Returns
 -------

@@ -8,18 +8,15 @@ A network learns the exclusive or of two bits:
 >>> network.forward(x).round(1).tolist()
 [[0.0], [1.0], [1.0], [0.0]]
 
-Examples are rows. With m examples and s[l] units in layer l, a network with one hidden layer looks like this::
+In this file an example is a row: row k of ``x``, ``y``, ``a[l]`` and ``delta`` belongs to example k. Layers count from
+0, and ``weights[l][i, j]`` leads from unit j of layer l to unit i of layer l + 1. For m examples, and s[l] units in
+layer l::
 
-    inputs   a[0] = x      (m, s[0])
-                |   z = a[0] @ weights[0].T + biases[0]    weights[0] (s[1], s[0]), biases[0] (s[1],)
-    hidden   a[1] = f(z)   (m, s[1])
-                |   z = a[1] @ weights[1].T + biases[1]    weights[1] (s[2], s[1]), biases[1] (s[2],)
-    outputs  a[2] = f(z)   (m, s[2])
+    inputs   a[0] = x                                           (m, s[0])
+    hidden   a[1] = sigmoid(a[0] @ weights[0].T + biases[0])    (m, s[1])
+    outputs  a[2] = sigmoid(a[1] @ weights[1].T + biases[1])    (m, s[2])
 
-Row k of each ``a[l]`` belongs to example k, and ``weights[l][i, j]`` leads from unit j of layer l to unit i of layer
-l + 1. The thesis writes one example as a column, z = W a + b. Transposed, this is the line above, which computes all
-examples at once. The thesis also counts layers from 1: ``a[0]`` is its a(1), and ``weights[0]`` its W(1). The numbers
-of equations are the thesis's. The book's page "A neural network, by hand" derives them in the order of this file.
+The numbers at the ends of lines are those of the thesis's equations. They say the same for one example as a column.
 """
 
 from __future__ import annotations
@@ -34,20 +31,43 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit
 
-from ._checks import checked_inputs, keep_layers
+from ._checks import keep_layers, takes_inputs
 
 Array = NDArray[np.float64]
 Layers = Sequence[Any]  # one array for each layer but the last, in NumPy or torch
 
-# 1. The network is its weights and biases.
+# 1. Forward: from the inputs to the outputs, layer by layer.
+
+
+def sigmoid(z: Array) -> Array:
+    """Sigmoid activation function, Eq. (3.4). Its values lie between 0 and 1."""
+    return expit(z)  # Eq. (3.4): 1 / (1 + exp(-z)), without overflow
+
+
+def sigmoid_slope(a: Array) -> Array:
+    """Derivative f'(z) of the sigmoid, Eq. (3.5), from the activation a = f(z)."""
+    return a * (1 - a)  # Eq. (3.5)
+
+
+def propagate(
+    weights: Layers, biases: Layers, x: Any, f: Callable[[Any], Any] = sigmoid
+) -> tuple[list[Any], Any]:
+    """Forward propagation, Eq. (3.3): activations of all layers, and the sums z of the last one.
+
+    The lines serve NumPy arrays and, with ``f=torch.sigmoid``, torch tensors.
+    """
+    a = [x]
+    for W, b in zip(weights, biases, strict=True):
+        z = a[-1] @ W.T + b  # Eq. (3.3)
+        a.append(f(z))
+    return a, z
 
 
 @dataclass(frozen=True, eq=False)
 class Network:
-    """A fully connected network of sigmoid units.
+    """A fully connected network of sigmoid units: its weights and biases.
 
-    Its arrays cannot be changed: a step of learning makes a new network. (Eq. (3.18) writes the biases as column 0 of
-    the weights. :class:`robonav.networks.NetworkStack` holds many networks of one shape.)
+    The arrays cannot be changed: a step of learning makes a new network.
 
     Parameters
     ----------
@@ -72,7 +92,7 @@ class Network:
     biases: tuple[Array, ...]
 
     def __post_init__(self) -> None:
-        keep_layers(self)
+        keep_layers(self)  # copies, whose shapes are checked
 
     @property
     def sizes(self) -> tuple[int, ...]:
@@ -96,12 +116,9 @@ class Network:
         """Return the weighted sums z (..., m, s[-1]) of the output layer, before its sigmoid."""
         return self._propagate(x)[1]
 
-    def _propagate(self, x: ArrayLike) -> tuple[list[Array], Array]:
-        inputs = checked_inputs(x, self.sizes[0])
-        if inputs.ndim > 1:
-            return propagate(self.weights, self.biases, inputs)
-        a, z = propagate(self.weights, self.biases, inputs[None])  # a batch of one
-        return [layer[0] for layer in a], z[0]
+    @takes_inputs  # one row or many
+    def _propagate(self, x: Array) -> tuple[list[Array], Array]:
+        return propagate(self.weights, self.biases, x)
 
 
 def random_network(
@@ -120,34 +137,7 @@ def random_network(
     return Network(tuple(weights), tuple(biases))
 
 
-# 2. Forward: from the inputs to the outputs, layer by layer.
-
-
-def sigmoid(z: Array) -> Array:
-    """Sigmoid activation function, Eq. (3.4). Its values lie between 0 and 1."""
-    return expit(z)  # Eq. (3.4): 1 / (1 + exp(-z)), without overflow
-
-
-def sigmoid_slope(a: Array) -> Array:
-    """Derivative f'(z) of the sigmoid, Eq. (3.5), from the activation a = f(z) that the forward pass has computed."""
-    return a * (1 - a)  # Eq. (3.5)
-
-
-def propagate(
-    weights: Layers, biases: Layers, x: Any, f: Callable[[Any], Any] = sigmoid
-) -> tuple[list[Any], Any]:
-    """Forward propagation, Eq. (3.3): activations of all layers, and the sums z of the last one.
-
-    The lines serve NumPy arrays and, with ``f=torch.sigmoid``, torch tensors.
-    """
-    a = [x]
-    for W, b in zip(weights, biases, strict=True):
-        z = a[-1] @ W.T + b  # Eq. (3.3): z(l+1) = W(l) a(l) + b(l)
-        a.append(f(z))  # a(l+1) = f(z(l+1))
-    return a, z
-
-
-# 3. Cost: how wrong the outputs are. Weight decay (lambda) keeps the weights small.
+# 2. Cost: how wrong the outputs are. Weight decay (lambda) keeps the weights small.
 
 
 def squared_error(output: Array, label: Array) -> Array:
@@ -178,7 +168,7 @@ def cross_entropy_cost(
     return float((error + regularisation / 2 * squares) / len(x))  # Eq. (3.22)
 
 
-# 4. Backward: from the errors of the outputs to the gradient of the cost.
+# 3. Backward: from the errors of the outputs to the gradient of the cost.
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,51 +182,44 @@ class Gradient:
 def backpropagate(weights: Layers, a: list[Array], delta: Array) -> Gradient:
     """Backpropagation with matrices, Eqs. (3.14), (3.15), (3.24), (3.25) and (3.26), summed over the examples.
 
-    The error delta of a layer (m, s[l]) is the derivative of the cost by its weighted sums z. The caller gives that of
-    the output layer. The chain rule carries it back, with the weights that carried the activations forward.
+    The error ``delta`` of a layer (m, s[l]) is the derivative of the cost by its sums z. The caller gives that of the
+    outputs. The weights that carried the activations forward carry it back.
     """
-    gradient = Gradient([], [])
+    dW, db = [], []
     for layer in reversed(range(len(weights))):
-        # delta holds the errors delta(l+1) of the layer that weights[layer] lead to
-        dW = delta.T @ a[layer]  # Eqs. (3.15), (3.25) and (3.26): delta(l+1) a(l)^T
-        gradient.weights.insert(0, dW)  # in front of those of the later layers
-        gradient.biases.insert(0, delta.sum(axis=0))
-        if layer > 0:  # delta(l) = (W(l)^T delta(l+1)) * f'(z(l))
+        dW.append(delta.T @ a[layer])  # Eqs. (3.15), (3.25) and (3.26)
+        db.append(delta.sum(axis=0))
+        if layer > 0:  # inputs have no error
             back = delta @ weights[layer]
             delta = back * sigmoid_slope(a[layer])  # Eqs. (3.14) and (3.24)
-    return gradient
-
-
-def mean_gradient(
-    network: Network, total: Gradient, m: int, *, decay: float
-) -> Gradient:
-    """Gradient of a cost with weight decay, Eqs. (3.9) and (3.27), from its sum over m examples."""
-    pairs = zip(network.weights, total.weights, strict=True)
-    dW = [dw / m + decay * W for W, dw in pairs]  # Eqs. (3.9) and (3.27)
-    return Gradient(dW, [db / m for db in total.biases])  # biases do not decay
+    return Gradient(dW[::-1], db[::-1])  # the first layer first
 
 
 def squared_error_gradient(
     network: Network, x: Array, y: Array, *, regularisation: float = 0.0
 ) -> Gradient:
-    """Gradient of the squared-error cost, from the output errors of Eq. (3.13)."""
+    """Gradient of the squared-error cost with weight decay, Eqs. (3.9) and (3.13)."""
     a, _ = propagate(network.weights, network.biases, x)
     delta = -(y - a[-1]) * sigmoid_slope(a[-1])  # Eq. (3.13)
-    total = backpropagate(network.weights, a, delta)
-    return mean_gradient(network, total, len(x), decay=regularisation)
+    total, m = backpropagate(network.weights, a, delta), len(x)
+    layers = zip(network.weights, total.weights, strict=True)
+    weights = [dW / m + regularisation * W for W, dW in layers]  # Eq. (3.9)
+    return Gradient(weights, [db / m for db in total.biases])  # biases do not decay
 
 
 def cross_entropy_gradient(
     network: Network, x: Array, y: Array, *, regularisation: float = 0.0
 ) -> Gradient:
-    """Gradient of the cross-entropy cost, from the output errors of Eq. (3.23)."""
+    """Gradient of the cross-entropy cost with weight decay, Eqs. (3.23) and (3.27)."""
     a, _ = propagate(network.weights, network.biases, x)
     delta = a[-1] - y  # Eq. (3.23): the slope of the sigmoid cancels
-    total = backpropagate(network.weights, a, delta)
-    return mean_gradient(network, total, len(x), decay=regularisation / len(x))
+    total, m = backpropagate(network.weights, a, delta), len(x)
+    layers = zip(network.weights, total.weights, strict=True)
+    weights = [dW / m + regularisation / m * W for W, dW in layers]  # Eq. (3.27)
+    return Gradient(weights, [db / m for db in total.biases])
 
 
-# 5. Downhill: one step against the gradient, and the two loops that repeat it.
+# 4. Downhill: one step against the gradient, and the two loops that repeat it.
 
 
 def descend(

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ._checks import checked_inputs, keep_layers
+from ._checks import keep_layers, takes_inputs
 from ._fast.stacks import propagate_stack
 from .multilayer_perceptron import Array, Network
 
@@ -58,12 +57,9 @@ class NetworkStack(Network):
             [bias[index] for bias in self.biases],
         )
 
-    def _propagate(self, x: ArrayLike) -> tuple[list[Array], Array]:
-        inputs = checked_inputs(x, self.sizes[0])
-        if inputs.ndim > 1:
-            return propagate_stack(self.weights, self.biases, inputs)
-        a, z = propagate_stack(self.weights, self.biases, inputs[None])
-        return [layer[..., 0, :] for layer in a], z[..., 0, :]
+    @takes_inputs
+    def _propagate(self, x: Array) -> tuple[list[Array], Array]:
+        return propagate_stack(self.weights, self.biases, x)
 
 
 def network_of(weights: Sequence[Array], biases: Sequence[Array]) -> Network:

@@ -17,8 +17,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._fast.constants import (
     ARRIVAL_DISTANCE,  # 3 m
+    ARRIVED,
+    COLLIDED,
     COLLISION_DISTANCE,  # 1 m
     NO_REFLEX,  # -1
+    OUT_OF_STEPS,
+    RUNNING,
     SECTOR,  # 40 degrees
     SENSOR_RANGE,  # 10 m
 )
@@ -36,12 +40,13 @@ from .environment_settings import (
 )
 from .physics import TURNS, Map, slip_to, wrap
 from .rollout import REFLEX, ReflexRule
-from .simulator import Action, Outcome
+from .simulator import Action
 from .worlds import MOVING_SPEEDS, START, TARGET
 
 __all__ = ["NavigationEnv", "as_sensing"]
 
-Observation = Info = dict[str, Any]
+Observation = dict[str, Any]
+Info = dict[str, Any]
 
 
 class NavigationEnv(gymnasium.Env):
@@ -179,7 +184,7 @@ class NavigationEnv(gymnasium.Env):
                 "target_seen": spaces.Discrete(2),
             }
         )
-        self.outcome: Outcome | None = None  # no episode before the first reset
+        self.outcome: Any = None  # no episode before the first reset
         self._window: Any = None
 
     def reset(
@@ -191,7 +196,7 @@ class NavigationEnv(gymnasium.Env):
         self.world = given or self.settings.next_worlds([self.np_random])
         self.map = Map.of(self.world)
         self.pose = self.map.start  # x, y and heading
-        self.steps, self.outcome = 0, Outcome.RUNNING
+        self.steps, self.outcome = 0, RUNNING
         observation = self._sense()
         if self.render_mode == "human":
             self.render()
@@ -225,12 +230,12 @@ class NavigationEnv(gymnasium.Env):
         clearance = self.map.least_clearance(centres_before, (x, y), (x1, y1))
         truncated = self.steps >= settings.max_episode_steps
         if clearance < COLLISION_DISTANCE:
-            self.outcome = Outcome.COLLIDED
+            self.outcome = COLLIDED
         elif self.map.distance_to_target(x1, y1) <= ARRIVAL_DISTANCE:
-            self.outcome = Outcome.ARRIVED
+            self.outcome = ARRIVED
         elif truncated:
-            self.outcome = Outcome.OUT_OF_STEPS
-        terminated = self.outcome in (Outcome.COLLIDED, Outcome.ARRIVED)
+            self.outcome = OUT_OF_STEPS
+        terminated = self.outcome in (COLLIDED, ARRIVED)
 
         # 4. The robot senses again. The reward may depend on what it sensed before, too.
         observation = self._sense()
@@ -255,7 +260,7 @@ class NavigationEnv(gymnasium.Env):
 
     def _info(self, reflex: int) -> Info:
         return {
-            "outcome": int(self.outcome),
+            "outcome": self.outcome,
             "reflex": reflex,
             "pose": np.array(self.pose),
         }
