@@ -71,7 +71,7 @@ def two_targets(rng: Rng) -> Question:
             },
         ),
         f"DQN: ${reward:g} {sign(discount * other.max())} = {plain:.4g}$, with the largest value of "
-        f"the target network. "
+        "the target network. "
         f"Double DQN: the trained network prefers action {best + 1}, which the target network values at "
         f"${other[best]:.2g}$: ${reward:g} {sign(discount * other[best])} = {double:.4g}$.",
     )
@@ -103,4 +103,142 @@ def lifted_maximum(rng: Rng) -> Question:
         ),
         f"In three of four cases the larger estimate is ${value + error:.4g}$, in one it is ${value - error:.4g}$: "
         f"$(3 \\cdot {value + error:.4g} {sign(value - error)}) / 4 = {answer:.4g}$.",
+    )
+
+
+@drill("nnql-comparison", "Targets of NFQ")
+def targets_of_nfq(rng: Rng) -> Question:
+    """Compute the clipped targets of three transitions."""
+    import torch
+
+    from robonav.networks import Network
+    from robonav.nnql import nfq_targets
+    from robonav.nnql.dqn import Batch
+
+    values = rng.choice([0.2, 0.4, 0.5, 0.6, 0.8, 0.9], size=3, replace=False)
+    discount = float(rng.choice([0.6, 0.7, 0.9]))
+    rewards = np.array(
+        [rng.choice([0.4, 0.5, 0.6]), rng.choice([-0.5, -0.2, 0.0]), 1.0]
+    )
+    terminal = np.array([False, False, True])
+    logits = np.log(values / (1 - values))
+    network = Network((np.stack([logits, logits - 1]),), (np.zeros(2),))
+    transitions = Batch(
+        states=torch.zeros(3, 3),
+        actions=torch.zeros(3, dtype=torch.int64),
+        rewards=torch.from_numpy(rewards),
+        next_states=torch.eye(3, dtype=torch.float64),
+        terminal=torch.from_numpy(terminal),
+    )
+    answer = nfq_targets(network, transitions, discount).tolist()
+    future = discount * values
+    raw = rewards + np.where(terminal, 0, future)
+    wrong = {
+        "The arrival ends the episode: no future value is added to its reward.": (
+            rewards + future
+        ).tolist(),
+        "The discount is missing.": np.clip(
+            rewards + np.where(terminal, 0, values), 0, 1
+        ).tolist(),
+    }
+    if not np.allclose(answer, raw):
+        wrong["Targets are clipped into the range of the outputs, 0 to 1."] = (
+            raw.tolist()
+        )
+    shown = "; ".join(
+        f"${reward:g}$ and ${value:g}$"
+        for reward, value in zip(rewards, values, strict=True)
+    )
+    sums = ", ".join(
+        f"${reward:g} {sign(later)} = {reward + later:.3g}$"
+        for reward, later in zip(rewards[:2], future[:2], strict=True)
+    )
+    return Question(
+        "A sweep of NFQ computes the targets of three transitions. Each has a reward, and the largest value of the "
+        f"network in the next state: {shown}. The third one is an arrival. What are the targets, with "
+        f"$\\gamma = {discount:g}$?",
+        Table(
+            ["target"],
+            ["first", "second", "third"],
+            [answer],
+            wrong={hint: [table] for hint, table in wrong.items()},
+        ),
+        f"Before clipping the first two are {sums}. The arrival has its reward, 1. Clipped: "
+        + ", ".join(f"{target:.3g}" for target in answer)
+        + ".",
+    )
+
+
+@drill("nnql-comparison", "On how many pairs does each method train?")
+def pairs_of_methods(rng: Rng) -> Question:
+    """Say how many pairs or transitions the training of each method uses at once."""
+    episodes, decisions = int(rng.integers(5, 21)), int(rng.integers(10, 41))
+    batch = int(rng.choice([16, 32, 64]))
+    whole = episodes * decisions
+    if len({1, decisions, whole, batch}) < 4 or whole <= 2 * batch:
+        return pairs_of_methods(rng)
+    return Question(
+        f"Each of ${episodes}$ episodes had ${decisions}$ decisions, and the last one has just been made. NFQ now "
+        f"fits its network, and DQN draws batches of ${batch}$. On how many pairs or transitions does the next "
+        "training step of each method work: the pass of online learning and of NNQL, the fit of NFQ, the update of "
+        "DQN?",
+        Table(
+            ["online", "NNQL", "NFQ", "DQN"],
+            ["number"],
+            [[1], [decisions], [whole], [batch]],
+            tolerance=0.1,
+            wrong={
+                "NNQL forgets its pairs when an episode ends.": [
+                    [1],
+                    [whole],
+                    [whole],
+                    [batch],
+                ],
+                "Online learning trains on the latest pair alone.": [
+                    [decisions],
+                    [decisions],
+                    [whole],
+                    [batch],
+                ],
+                "NFQ keeps the transitions of all episodes.": [
+                    [1],
+                    [decisions],
+                    [decisions],
+                    [batch],
+                ],
+                "DQN keeps all transitions, but each update takes only a batch of them.": [
+                    [1],
+                    [decisions],
+                    [whole],
+                    [whole],
+                ],
+            },
+        ),
+        f"Online: the latest pair. NNQL: the ${decisions}$ pairs of this episode. NFQ: all "
+        f"${episodes} \\cdot {decisions} = {whole}$ transitions. DQN: a batch of ${batch}$ of them.",
+    )
+
+
+@drill("nnql-comparison", "How surely is one method better?")
+def better_robot(rng: Rng) -> Question:
+    """Compute the probability that a robot of one method beats one of another."""
+    ours = np.sort(rng.integers(88, 100, size=4))
+    theirs = np.sort(rng.integers(86, 99, size=3))
+    wins = int((ours[:, None] > theirs).sum())
+    ties = int((ours[:, None] == theirs).sum())
+    answer, pairs = (wins + ties / 2) / 12, 12
+    if wins == pairs:
+        return better_robot(rng)
+    wrong = {
+        "This is the probability that the other method is better.": 1 - answer,
+    }
+    if ties:
+        wrong["A tie counts one half."] = wins / pairs
+    return Question(
+        f"Four robots of one method arrive in ${', '.join(map(str, ours))}$ % of the maps, and three robots of another "
+        f"in ${', '.join(map(str, theirs))}$ %. What is the probability of improvement of the first method over the "
+        "second?",
+        Number(answer, wrong=wrong),
+        f"Of ${pairs}$ pairs of robots the first wins ${wins}$ and ties in ${ties}$: "
+        f"$({wins} + {ties} / 2) / {pairs} = {answer:.3g}$.",
     )

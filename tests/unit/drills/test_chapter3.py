@@ -79,3 +79,143 @@ def test_degrees_of_danger_by_the_table_of_a_sensor_that_sees_30_centimetres() -
         ):
             low, high = rows[7 - degree]
             assert low <= metres * 3 < high
+
+
+def confusion(picture: str) -> np.ndarray:
+    """The counts in the picture of a confusion matrix, by row and column."""
+    title = re.search(r'aria-label="([^"]*)"', picture)[1]
+    return np.array(
+        [
+            [int(n) for n in row.split(",")]
+            for row in re.findall(r"expert \w+: ([\d, ]+)", title)
+        ]
+    )
+
+
+def test_agreement_by_counting_states() -> None:
+    for question in drawn("agreement-of-two"):
+        counts = confusion(question.picture)
+        drawn_counts = re.findall(r">(\d+)<", question.picture)
+        assert [int(n) for n in drawn_counts] == counts.ravel().tolist()
+        states = [
+            (i, j) for i in range(3) for j in range(3) for _ in range(counts[i, j])
+        ]
+        network = np.mean([expert == chosen for expert, chosen in states])
+        straight = np.mean([expert == 0 for expert, _ in states])
+        assert np.ravel(question.asked.answer) == pytest.approx([network, straight])
+
+
+def test_least_recalled() -> None:
+    for question in drawn("least-recalled"):
+        missed = [
+            1 - row[k] / sum(row) for k, row in enumerate(confusion(question.picture))
+        ]
+        assert question.asked.right == [("F", "L30", "R30")[int(np.argmax(missed))]]
+
+
+def test_regularisation_is_chosen_on_other_demonstrations() -> None:
+    for question in drawn("chosen-regularisation"):
+        rows = re.findall(
+            r"lambda = ([\d.]+)\$: \$[\d.]+\$ and \$([\d.]+)\$", question.text
+        )
+        best = min(rows, key=lambda row: float(row[1]))[0]
+        assert question.asked.right == rf"$\lambda = {best}$"
+
+
+def test_wilsons_condition_and_interval_agree() -> None:
+    for question in drawn("rate-in-interval"):
+        k, n, level, p = numbers(question.text)[:4]
+        assert level == 95
+        (gap,), (limit,), (inside,) = question.asked.answer
+        assert gap == pytest.approx(abs(k / n - p))
+        assert limit**2 * n / (p * (1 - p)) == pytest.approx(1.96**2)
+        assert inside == (gap <= limit)
+
+
+def test_perfect_test_solves_wilsons_condition() -> None:
+    for question in drawn("perfect-test"):
+        n = numbers(question.text)[0]
+        p = question.asked.answer
+        assert 1 - p == pytest.approx(1.96 * math.sqrt(p * (1 - p) / n), rel=1e-4)
+
+
+def test_lucky_test_over_many_tests() -> None:
+    rng = np.random.default_rng(0)
+    for question in drawn("lucky-test")[:10]:
+        one_in, maps = (int(n) for n in numbers(question.text))
+        failed = rng.integers(one_in, size=(200_000, maps)) == 0
+        share = 1 - failed.any(axis=1).mean()
+        assert question.asked.answer == pytest.approx(share, abs=0.006)
+
+
+def test_stacked_shapes() -> None:
+    for question in drawn("stacked-shapes"):
+        steps = np.reshape(numbers(question.text), (3, 3))
+        rows = steps[:, 0].sum() - steps[:, 1:].sum()
+        columns = 11 if "the thesis's" in question.text else 12
+        assert question.asked.answer == [[rows, columns], [rows, 5]]
+
+
+def test_penalty() -> None:
+    for question in drawn("penalty"):
+        pairs, squares, decay = numbers(question.text)
+        assert 2 * pairs * question.asked.answer == pytest.approx(decay * squares)
+
+
+def test_two_bounds() -> None:
+    for question in drawn("two-bounds"):
+        steps, _, error, _ = numbers(question.text)
+        expected = [sum([error] * int(steps)) * steps, sum([error] * int(steps))]
+        assert np.ravel(question.asked.answer) == pytest.approx(expected)
+
+
+def test_compounding_over_many_episodes() -> None:
+    rng = np.random.default_rng(0)
+    for question in drawn("compounding")[:10]:
+        error, steps = numbers(question.text)
+        errs = rng.random((400_000, int(steps))) < error
+        errors = np.logical_or.accumulate(errs, axis=1).sum(axis=1).mean()
+        assert question.asked.answer == pytest.approx(errors, abs=0.01)
+
+
+def test_dagger_examples() -> None:
+    for question in drawn("dagger-examples"):
+        first, added = re.search(
+            r"give (.*?) effective pairs(.*)\. On", question.text
+        ).groups()
+        rounds = numbers(added.replace("Rounds 1, 2 and 3", ""))
+        last = int(re.search(r"pi_(\d)", question.text)[1])
+        assert question.asked.answer == numbers(first)[0] + sum(rounds[:last])
+
+
+def test_labelled_state() -> None:
+    for question in drawn("labelled-state"):
+        (nearest,) = numbers(question.text.replace(r"\beta = 0", ""))
+        expert = re.search(r"the expert (\w+)", question.text)[1]
+        expected = f"the state, with {expert}" if nearest < 10 else "nothing"
+        assert question.asked.right == expected
+
+
+def test_mixture_of_rounds_by_drawing_who_steers() -> None:
+    rng = np.random.default_rng(0)
+    for question in drawn("mixture-of-rounds")[:10]:
+        decay = numbers(question.text)[0]
+        for i, learner in enumerate(question.asked.answer[0]):
+            experts = (rng.random((200_000, i)) < decay).all(axis=1)
+            assert learner == pytest.approx(1 - experts.mean(), abs=0.006)
+
+
+def test_share_of_other_data() -> None:
+    for question in drawn("share-of-other-data"):
+        _, few, _, control, _, _, aggregated = numbers(question.text)
+        (more,), (other,) = question.asked.answer
+        assert few + more == control
+        assert control + other == aggregated
+
+
+def test_vote_of_neighbours() -> None:
+    for question in drawn("vote-of-neighbours"):
+        pairs = re.findall(r"\$([\d.]+)\$ \((\w+)\)", question.text)
+        k = int(numbers(question.text)[-1])
+        voters = [name for _, name in sorted(pairs, key=lambda p: float(p[0]))[:k]]
+        assert question.asked.right == max(voters, key=voters.count)
