@@ -12,7 +12,14 @@ from .leaderboard import (
     shortest_paths,
     spl,
 )
-from .policies import BASELINES, evaluate, fingerprint, method, methods
+from .policies import (
+    BASELINES,
+    evaluate,
+    fingerprint,
+    method,
+    methods,
+    success_interval,
+)
 
 __all__ = [
     "BASELINES",
@@ -30,4 +37,5 @@ __all__ = [
     "outcome_rates",
     "shortest_paths",
     "spl",
+    "success_interval",
 ]

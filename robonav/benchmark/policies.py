@@ -138,14 +138,12 @@ def evaluate(
     >>> result["outcomes"]
     {'arrived': 7, 'collided': 13, 'out of steps': 0}
     """
-    from scipy.stats import binomtest
-
     policy = method(name)
     navigation = navigate(
         policy, random_worlds(worlds, obstacles, moving, seed=seed), speed
     )
     arrived = navigation.success
-    interval = binomtest(int(arrived.sum()), worlds).proportion_ci(method="wilson")
+    low, high = success_interval(int(arrived.sum()), worlds)
     return {
         "method": name,
         "obstacles": obstacles,
@@ -155,7 +153,7 @@ def evaluate(
         "seed": seed,
         "success": float(arrived.mean()),
         "collision": float(navigation.collision.mean()),
-        "interval": [float(interval.low), float(interval.high)],
+        "interval": [low, high],
         "outcomes": {
             outcome: int((navigation.outcome == outcome).sum())
             for outcome in OUTCOMES[1:].tolist()
@@ -164,6 +162,33 @@ def evaluate(
         if arrived.any()
         else None,
     }
+
+
+def success_interval(arrived: int, worlds: int) -> tuple[float, float]:
+    """Return Wilson's 95 % interval of a success rate.
+
+    Parameters
+    ----------
+    arrived : int
+        The number of episodes that arrived.
+    worlds : int
+        The number of all episodes.
+
+    Returns
+    -------
+    tuple of two floats
+        The bounds, in [0, 1].
+
+    Examples
+    --------
+    >>> low, high = success_interval(8, 8)
+    >>> round(low, 2), high
+    (0.68, 1.0)
+    """
+    from scipy.stats import binomtest
+
+    interval = binomtest(arrived, worlds).proportion_ci(method="wilson")
+    return float(interval.low), float(interval.high)
 
 
 def _shipped() -> dict[str, Path]:

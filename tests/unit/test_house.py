@@ -39,7 +39,7 @@ ALLOWED = {
     "plots": CHAPTERS | {"experiments", "benchmark"},
     "widgets": CHAPTERS | {"experiments", "benchmark", "plots"},
     "grading": CHAPTERS,
-    "drills": CHAPTERS,
+    "drills": CHAPTERS | {"experiments", "benchmark"},
     "cli": CHAPTERS
     | {"experiments", "benchmark", "plots", "widgets", "grading", "drills"},
 }

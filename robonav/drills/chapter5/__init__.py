@@ -3,3 +3,5 @@
 from . import feature_expectations as feature_expectations
 from . import max_margin as max_margin
 from . import nirl as nirl
+from . import nirl_comparison as nirl_comparison
+from . import why_learn_the_reward as why_learn_the_reward

@@ -1,0 +1,3 @@
+"""Drills of chapter 1. Importing a file registers its drills."""
+
+from . import introduction as introduction

@@ -1,0 +1,412 @@
+"""Drills of the introduction."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from robonav import robot
+from robonav.robot.encoding import DANGER_BORDERS, LFD_SENSORS, NNQL_SENSORS
+
+from ..pictures import label, picture, place
+from ..question import Choice, Number, Order, Place, Question
+from ..registry import drill
+
+Rng = np.random.Generator
+
+GUIDED, MOBILE, ARM = (
+    "An automated guided vehicle",
+    "An autonomous mobile robot",
+    "An arm that needs no sensors",
+)
+WAYS = {
+    GUIDED: (
+        "It follows a wire in the floor",
+        "It follows a line that was painted for it",
+        "It goes from one magnet in the floor to the next",
+        "It runs along a reflecting strip",
+    ),
+    MOBILE: (
+        "It chooses its way from what a laser shows",
+        "It decides at each moment where to go, by its sonar",
+        "It finds its own way with two cameras",
+        "It plans its way anew when a door is closed",
+    ),
+    ARM: (
+        "It is bolted to the floor and repeats a programmed motion",
+        "Each part is brought to it, and it does not move from its place",
+    ),
+}
+HABITS = {
+    GUIDED: (
+        "A bumper stops it at an obstacle",
+        "It waits until somebody has taken the obstacle away",
+        "Sensors at its front make it slow down",
+    ),
+    MOBILE: (
+        "It goes around an obstacle",
+        "A bumper stops it, and then it takes another way",
+        "It slows down and passes an obstacle",
+    ),
+    ARM: ("It stops if somebody opens the fence",),
+}
+KINDS = {
+    GUIDED: "Its way was laid out for it, and it cannot leave it.",
+    MOBILE: "It senses its surroundings and decides for itself where to go.",
+    ARM: "It stays where it is, and each of its motions was programmed.",
+}
+NOT_THIS = {
+    GUIDED: "An automated guided vehicle follows a way that somebody has laid out.",
+    MOBILE: "Sensors are not enough. An autonomous mobile robot decides for itself where to go.",
+    ARM: "Such an arm does not move from its place.",
+}
+
+
+@drill("introduction", "Guided vehicle or autonomous robot?")
+def guided_or_autonomous(rng: Rng) -> Question:
+    """Tell an automated guided vehicle from an autonomous mobile robot."""
+    kind = str(rng.choice([GUIDED, MOBILE, ARM], p=[0.45, 0.45, 0.1]))
+    where = rng.choice(["factory", "hospital", "warehouse", "laboratory"])
+    way, habit = rng.choice(WAYS[kind]), rng.choice(HABITS[kind])
+    return Question(
+        f"A machine works in a {where}. {way}. {habit}. What is it?",
+        Choice(kind, {other: NOT_THIS[other] for other in KINDS if other != kind}),
+        KINDS[kind],
+    )
+
+
+COMPETENCES = {
+    "perception": (
+        "What is around me?",
+        "A robot tells a wall from a person in the reading of its laser",
+        "A robot turns echoes into the distances of the nearest things",
+        "A robot recognises in a camera's picture that the door before it is open",
+    ),
+    "exploration": (
+        "Where should I go next, knowing little?",
+        "A robot goes to the part of a cellar of which it knows least",
+        "A robot tries an action whose value it does not know yet",
+        "A robot searches an unknown building and decides which corridor to look into first",
+    ),
+    "mapping": (
+        "What does this place look like as a whole?",
+        "A robot joins all its readings into a plan of the floor",
+        "A robot marks in a grid which cells are free and which are not",
+        "A robot notes where the walls of all rooms stand, for later journeys",
+    ),
+    "localisation": (
+        "Where am I?",
+        "A robot has a plan of the building, is switched on, and finds out in which room it stands",
+        "A robot compares its readings with a map, to find its own position in it",
+        "A robot counts the turns of its wheels, to know how far it is from where it began",
+    ),
+    "path planning": (
+        "Which way leads to the goal?",
+        "A robot with a complete map searches for the shortest way to the lift before it moves",
+        "A robot runs A* on a grid",
+        "A robot chooses between two corridors that both lead to its goal on the map",
+    ),
+    "path execution": (
+        "Which motion now, given what I sense now?",
+        "A box stands on the planned way, and within a second the robot turns 30 degrees to the left",
+        "A robot keeps to a given path although its wheels slip",
+        "A robot has to choose between turning left and going on, with a wall 3 m ahead",
+    ),
+}
+
+
+OURS = {
+    "perception": "Our robot has it: nine sensors, each for a sector of 40 degrees.",
+    "exploration": "Our robot has it in chapters 4 and 5, where it tries actions.",
+    "mapping": "Our robot does without it: it keeps no map.",
+    "localisation": "Our robot does without it: its policy knows only in which sector the target lies.",
+    "path planning": "Our robot leaves it to the expert of chapter 3, who sees the whole map.",
+    "path execution": "Our robot learns it in every chapter.",
+}
+
+
+@drill("introduction", "Which competence is at work?")
+def which_competence(rng: Rng) -> Question:
+    """Name the competence of navigation that a situation needs."""
+    right = str(rng.choice([*COMPETENCES]))
+    _, *situations = COMPETENCES[right]
+    others = rng.choice(
+        [name for name in COMPETENCES if name != right], 3, replace=False
+    )
+    return Question(
+        f"{rng.choice(situations)}. Which competence of navigation is this?",
+        Choice(
+            right,
+            {
+                str(other): f"{str(other).capitalize()} answers another question, "
+                f'"{COMPETENCES[str(other)][0]}".'
+                for other in others
+            },
+        ),
+        f'{right.capitalize()} answers the question "{COMPETENCES[right][0]}" {OURS[right]}',
+    )
+
+
+IMITATION, TRIALS, INVERSE = (
+    "Learning from demonstration",
+    "Reinforcement learning",
+    "Inverse reinforcement learning",
+)
+GIVEN = {
+    IMITATION: (
+        (
+            "An expert can drive the robot well",
+            "A person steers the robot through many rooms without an error",
+            "A planner that knows all maps can act as the expert",
+        ),
+        (
+            "every collision would destroy the robot, so it must not practise",
+            "there is no time for trials, and the robot stays in rooms like those of the expert",
+            "a policy is needed within a minute, for places like those that were shown",
+        ),
+        "Imitation needs an expert and no trials of the robot's own. It holds in states like those "
+        "that the expert visited.",
+    ),
+    TRIALS: (
+        (
+            "Nobody knows how to do the task",
+            "No expert is at hand",
+            "The robot has a shape that nobody has ever driven",
+        ),
+        (
+            "a simulator allows a million collisions, and everybody agrees on what each step is worth",
+            "the robot may fail as often as it likes, and it is easy to score what it does",
+            "trials cost nothing, and the reward has three lines",
+        ),
+        "Trial and error needs no expert, but a reward that describes the task, and many trials.",
+    ),
+    INVERSE: (
+        (
+            "An expert drives with a few errors",
+            "People show how to do it, and contradict each other now and then",
+            "An expert drives well, but cannot say by which rule",
+        ),
+        (
+            "the robot may practise, nobody manages to write a reward down, and other robots must do the task later at "
+            "another speed",
+            "every reward that was written by hand led to circles; the robot may practise, and should become better "
+            "than what it was shown",
+            "the robot may practise; what is wanted is a statement of the aim that can train a robot of another size",
+        ),
+        "The reward is inferred from the demonstrations. It states the aim, and other robots can be trained with it.",
+    ),
+}
+WEAKNESS = {
+    IMITATION: {
+        TRIALS: "There is no expert here whom the robot could imitate.",
+        INVERSE: "A copied policy holds for this robot in such places. It does not state the aim.",
+    },
+    TRIALS: {
+        IMITATION: "Trial and error needs many trials, and here there can be none.",
+        INVERSE: "It needs a reward that somebody has written down.",
+    },
+    INVERSE: {
+        IMITATION: "It needs a reward that is inferred, and then many trials. Here there can be none.",
+        TRIALS: "It infers the reward from demonstrations, and here there are none.",
+    },
+}
+
+
+@drill("introduction", "Which way to learn?")
+def which_way_to_learn(rng: Rng) -> Question:
+    """Choose one of the three ways to learn a policy by what is given."""
+    right = str(rng.choice([*GIVEN]))
+    experts, circumstances, why = GIVEN[right]
+    return Question(
+        f"{rng.choice(experts)}; {rng.choice(circumstances)}. Which of the three ways fits best?",
+        Choice(
+            right, {other: WEAKNESS[other][right] for other in GIVEN if other != right}
+        ),
+        why,
+    )
+
+
+TURNS = {
+    "a robot's step": (
+        (
+            "The sensors report what is around the robot",
+            "The readings are encoded as a state",
+            "The policy chooses an action for this state",
+            "The robot moves",
+        ),
+        (
+            "There is nothing to encode before the sensors have reported.",
+            "A policy reads the encoded state, so the state comes first.",
+            "The robot moves as the policy has chosen, so the choice comes first.",
+        ),
+    ),
+    "learning from demonstration": (
+        (
+            "An expert drives through maps",
+            "Pairs of state and action are recorded",
+            "A network is trained to give the expert's action in each state",
+            "The network drives in a map that nobody has shown",
+        ),
+        (
+            "Without an expert's episode there is nothing to record.",
+            "A network is trained on recorded pairs, so these come first.",
+            "Only a trained network can drive.",
+        ),
+    ),
+    "reinforcement learning": (
+        (
+            "The robot chooses an action with its present values",
+            "It moves, and receives a reward and a new state",
+            "The value of the action is updated with the reward",
+            "The network is trained on the updated value",
+        ),
+        (
+            "A reward follows an action, so the choice comes first.",
+            "An update needs the reward, so the step comes first.",
+            "The network is trained on the new value, so the update comes first.",
+        ),
+    ),
+    "inverse reinforcement learning": (
+        (
+            "An expert gives demonstrations",
+            "A reward is found under which the expert is better than the robot's policy",
+            "The policy is trained with this reward",
+            "The new policy is compared with the expert again",
+        ),
+        (
+            "The reward is inferred from demonstrations, so these come first.",
+            "The policy is trained with the reward, so the reward comes first.",
+            "Only a trained policy can be compared.",
+        ),
+    ),
+}
+
+
+@drill("introduction", "One round, in order")
+def one_round_in_order(rng: Rng) -> Question:
+    """Put the steps of a way to learn in order."""
+    name = str(rng.choice([*TURNS]))
+    steps, hints = TURNS[name]
+    first, last = sorted(rng.choice(len(steps) + 1, size=2, replace=False))
+    if last - first < 3:
+        first, last = 0, len(steps)
+    shown = steps[first:last]
+    before = {(k, k + 1): hints[first + k] for k in range(len(shown) - 1)}
+    of = (
+        "What belongs to a robot's step"
+        if name == "a robot's step"
+        else f"What belongs to {name}"
+    )
+    return Question(
+        f"{of}? Put these parts in order.",
+        Order(shown, "Each part uses the result of the part before it.", before),
+        "; ".join(f"{k + 1}. {step}" for k, step in enumerate(shown)) + ".",
+    )
+
+
+MIDDLE, RADIUS = 140.0, 120.0
+
+
+def _sectors(heading: float) -> str:
+    """Nine sectors around the robot, in the map's directions; sector 1 looks ahead."""
+    parts = []
+    for k in range(9):
+        low, high = (heading + 40 * k + half for half in (-20, 20))
+        ends = [
+            (
+                MIDDLE + RADIUS * math.cos(math.radians(angle)),
+                MIDDLE - RADIUS * math.sin(math.radians(angle)),
+            )
+            for angle in (low, high)
+        ]
+        (a, b), (c, d) = ends
+        path = (
+            f'<path d="M{MIDDLE:g} {MIDDLE:g}L{a:.1f} {b:.1f}A{RADIUS:g} {RADIUS:g} 0 0 0 {c:.1f} {d:.1f}Z" '
+            'fill="transparent"/>'
+        )
+        middle = math.radians(heading + 40 * k)
+        at = (
+            MIDDLE + 0.75 * RADIUS * math.cos(middle),
+            MIDDLE - 0.75 * RADIUS * math.sin(middle),
+        )
+        parts.append(place(f"sector {k + 1}", path, label(*at, str(k + 1))))
+    tip = math.radians(heading)
+    line = (
+        f'<path d="M{MIDDLE:g} {MIDDLE:g}L{MIDDLE + 55 * math.cos(tip):.1f} {MIDDLE - 55 * math.sin(tip):.1f}" '
+        'stroke-width="4"/>'
+    )
+    return picture(
+        2 * MIDDLE,
+        2 * MIDDLE,
+        *parts,
+        line,
+        title=f"A robot with the heading {heading:g} degrees and its nine sectors, numbered "
+        f"counter-clockwise from ahead. "
+        "The map's x axis points to the right, its y axis upwards.",
+    )
+
+
+@drill("introduction", "Which sensor reports it?")
+def which_sensor_reports(rng: Rng) -> Question:
+    """Click on the sector in which an obstacle lies."""
+    heading = int(rng.choice([0, 30, 60, 90, 120, 180, 210, 270]))
+    bearing, distance = int(rng.integers(-17, 18)) * 10, int(rng.integers(4, 9))
+    if (bearing - 20) % 40 in (0, 10, 30):  # a border lies too near
+        bearing = 40 * (bearing // 40)
+    angle = math.radians(heading + bearing)
+    dx, dy = (round(distance * part(angle), 1) for part in (math.cos, math.sin))
+    pose = (50, 50, math.radians(heading))
+    world = robot.make_world(circles=[(50 + dx, 50 + dy, 0.1)])
+    sector = int(robot.sense(world, [pose]).ranges[0].argmin()) + 1
+    mirrored = 1 if sector == 1 else 11 - sector
+    without = int(robot.sense(world, [(50, 50, 0)]).ranges[0].argmin()) + 1
+    wrong = {}
+    if without != sector:
+        wrong[f"sector {without}"] = (
+            "Sectors turn with the robot. Its heading is not 0° here."
+        )
+    if mirrored != sector:
+        wrong[f"sector {mirrored}"] = (
+            "Left and right are exchanged: sectors are numbered counter-clockwise."
+        )
+    return Question(
+        f"The robot's heading is ${heading}°$. A post stands ${dx:g}$ m from it in the direction of x "
+        f"and ${dy:g}$ m in "
+        "the direction of y. Click on the sector whose sensor reports it.",
+        Place([f"sector {k}" for k in range(1, 10)], [f"sector {sector}"], wrong),
+        f"The post lies in the direction ${(heading + bearing) % 360}°$ of the map, and that is "
+        f"${bearing}°$ from ahead. "
+        f"Sector 1 reaches from $-20°$ to $20°$, and the others follow counter-clockwise: sector {sector}.",
+        _sectors(heading),
+    )
+
+
+@drill("introduction", "How many situations would a program have to list?")
+def situations_to_list(rng: Rng) -> Question:
+    """Count the situations that a programmer would have to foresee."""
+    sensors = int(rng.choice([3, 4, 5, len(NNQL_SENSORS), len(LFD_SENSORS)]))
+    degrees = int(rng.choice([2, 3, 4, len(DANGER_BORDERS) + 1]))
+    sectors = 9
+    answer = int(np.prod([degrees] * sensors, dtype=object)) * sectors
+    listed = sensors * degrees * sectors
+    return Question(
+        f"A robot has {sensors} sensors, and each reports one of {degrees} degrees of danger. The "
+        f"target lies in one of "
+        f"{sectors} sectors. In how many situations does a program that lists all of them have to say what to do?",
+        Number(
+            float(answer),
+            tolerance=0.5,
+            wrong={
+                "Every combination of readings is a situation of its own: multiply, do not add.": float(
+                    listed
+                ),
+                "The target's sector is missing.": float(answer // sectors),
+                "Base and exponent are exchanged: each sensor multiplies the number by its degrees.": float(
+                    sensors**degrees * sectors
+                ),
+            },
+        ),
+        f"${degrees}^{{{sensors}}} \\cdot {sectors} = {answer}$. A learned policy generalises from a "
+        f"small part of them.",
+    )

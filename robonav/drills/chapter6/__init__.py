@@ -1,0 +1,3 @@
+"""Drills of chapter 6. Importing a file registers its drills."""
+
+from . import conclusions as conclusions

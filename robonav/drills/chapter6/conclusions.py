@@ -1,0 +1,131 @@
+"""Drills of the conclusions: what numbers of a comparison say."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robonav.benchmark import success_interval
+
+from ..question import Choice, Number, Question, Table
+from ..registry import drill
+from ..text import sign
+
+Rng = np.random.Generator
+
+
+@drill("conclusions", "How much better than the rule?")
+def failures_avoided(rng: Rng) -> Question:
+    """Compare a policy with a baseline by its failures."""
+    rule = int(rng.integers(40, 95))
+    learned = int(rng.integers(rule + 2, 100))
+    answer = (learned - rule) / (100 - rule)
+    return Question(
+        f"A rule of three lines arrives in {rule} % of the maps, a learned policy in {learned} %. Which share of the "
+        "rule's failures does the learned policy avoid, from 0 to 1?",
+        Number(
+            answer,
+            wrong={
+                "This is the difference of the success rates. Divide it by the rule's failures.": (
+                    learned - rule
+                )
+                / 100,
+                "This compares the successes. The question is about the failures.": (
+                    learned - rule
+                )
+                / rule,
+                "This is the share of the failures that is left.": 1 - answer,
+            },
+        ),
+        f"The failures fall from {100 - rule} % to {100 - learned} %, and $({100 - rule} - {100 - learned}) / "
+        f"{100 - rule} = {answer:.4g}$.",
+    )
+
+
+@drill("conclusions", "Which change made the difference?")
+def effects_of_two_changes(rng: Rng) -> Question:
+    """Compute the effect of each of two changes from all four combinations."""
+    base = int(rng.integers(40, 70))
+    expert, network = (int(n) for n in rng.integers(-4, 26, size=2))
+    together = int(rng.choice([-6, -4, 4, 6]))
+    rates = np.array(
+        [[base, base + network], [base + expert, base + expert + network + together]]
+    )
+    effects = [
+        float((rates[1] - rates[0]).mean()),
+        float((rates[:, 1] - rates[:, 0]).mean()),
+    ]
+    alone = [float(rates[1, 0] - rates[0, 0]), float(rates[0, 1] - rates[0, 0])]
+    larger = "the expert" if effects[0] > effects[1] else "the algorithm"
+    if effects[0] == effects[1]:
+        larger = "neither"
+    return Question(
+        f"Success in per cent: old expert and old algorithm {rates[0, 0]}, old expert and new algorithm {rates[0, 1]}, "
+        f"new expert and old algorithm {rates[1, 0]}, new expert and new algorithm {rates[1, 1]}. By how many points "
+        "does each change raise the success, on average over the other one?",
+        Table(
+            ["points"],
+            ["new expert", "new algorithm"],
+            [effects],
+            wrong={
+                "The two effects are exchanged.": [effects[::-1]],
+                "Each change is tested once with the old and once with the new other part. Take the mean of both.": [
+                    alone
+                ],
+            },
+        ),
+        f"Expert: $({rates[1, 0] - rates[0, 0]} {sign(rates[1, 1] - rates[0, 1])}) / 2 = {effects[0]:g}$. Algorithm: "
+        f"$({rates[0, 1] - rates[0, 0]} {sign(rates[1, 1] - rates[1, 0])}) / 2 = {effects[1]:g}$. The larger effect is "
+        f"that of {larger}.",
+    )
+
+
+FIRST, SECOND, OPEN = (
+    "The first policy is better",
+    "The second policy is better",
+    "The test does not show which is better",
+)
+
+
+@drill("conclusions", "Is the difference more than chance?")
+def more_than_chance(rng: Rng) -> Question:
+    """Judge a difference of success rates by the number of maps."""
+    while True:
+        maps = int(rng.choice([20, 50, 100, 400, 1000]))
+        rates = rng.choice(np.arange(60, 98), size=2, replace=False) / 100
+        arrived = [int(n) for n in np.round(rates * maps)]
+        (low, high), (other_low, other_high) = (
+            success_interval(n, maps) for n in arrived
+        )
+        half = max(high - low, other_high - other_low) / 2
+        gap = abs(arrived[0] - arrived[1]) / maps
+        if arrived[0] != arrived[1] and (gap < half or gap > 3 * half):
+            break
+    if low > other_high:
+        right = FIRST
+    elif other_low > high:
+        right = SECOND
+    else:
+        right = OPEN
+    intervals = (
+        f"{100 * low:.1f} to {100 * high:.1f} %",
+        f"{100 * other_low:.1f} to {100 * other_high:.1f} %",
+    )
+    apart = f"The 95 % intervals are {intervals[0]} and {intervals[1]}: "
+    hints = {
+        FIRST: "it arrives less often." if arrived[0] < arrived[1] else "they overlap.",
+        SECOND: "it arrives less often."
+        if arrived[1] < arrived[0]
+        else "they overlap.",
+        OPEN: "they do not overlap.",
+    }
+    return Question(
+        f"In {maps} new maps the first policy arrives {arrived[0]} times and the second {arrived[1]} "
+        f"times. Compare their "
+        "95 % intervals, about $p \\pm 2 \\sqrt{p (1 - p) / n}$. What does the test show?",
+        Choice(
+            right,
+            {option: apart + hint for option, hint in hints.items() if option != right},
+            order=(FIRST, SECOND, OPEN),
+        ),
+        f"{apart}{'they overlap' if right == OPEN else 'they do not overlap'}.",
+    )
