@@ -14,6 +14,7 @@ import typer
 
 from robonav._version import __version__
 from robonav.errors import WorkerLost
+from robonav.grading.commands import gradebook
 
 if TYPE_CHECKING:
     from robonav.experiments.runner.experiment import Experiment, Results
@@ -36,6 +37,7 @@ drills = typer.Typer(
     help="Make question banks and exams of drills, which draw new numbers for each question.",
 )
 app.add_typer(drills, name="drills")
+app.add_typer(gradebook, name="gradebook")
 
 
 def _version(wanted: bool) -> None:
@@ -312,11 +314,14 @@ def grade(
     from robonav.grading import paths, sandbox_check, variants
     from robonav.grading.cases import secret_from
     from robonav.grading.classroom import GradingConfig, grade_class
+    from robonav.grading.commands import write_all
     from robonav.grading.course import Course
+    from robonav.grading.rules import read_rules
 
     course = Course.around(Path(__file__).parent, Path.cwd())
     if variant is not None:
         course = variants.course_for(course, variant, folder, out)
+    read_rules(out, course)  # a fault in them is told before the work, not after it
     ids = [course.named(key).id for key in exercise or []]
     config = GradingConfig(course, sandbox_check.best(), secret_from(secret))
     if config.tier == "practice" and not practice:
@@ -337,6 +342,7 @@ def grade(
             progress=report,
             new_secret=new_secret,
         )
+    write_all(out)
     print(f"{out / 'index.html'}")
     if unfinished:
         print(

@@ -147,7 +147,9 @@ def _publicly_explained(
     said = f"On the public cases, as with robonav check:\n{public['feedback']}"
     if public["state"] == "correct":
         said = "On the public cases, all parts are right."
-    return {**entry, "feedback": f"{entry['feedback']}\n{said}"}
+    hints = {part["test"]: part["hint"] for part in public["parts"]}
+    parts = [{**part, "hint": hints.get(part["test"], "")} for part in entry["parts"]]
+    return {**entry, "feedback": f"{entry['feedback']}\n{said}", "parts": parts}
 
 
 class InProcessCalls:

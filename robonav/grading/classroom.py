@@ -11,6 +11,8 @@ from __future__ import annotations
 import hashlib
 import importlib.util
 import json
+import platform
+from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -18,15 +20,18 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from filelock import FileLock, Timeout
 
 from robonav import atomic
+from robonav._version import __version__
 from robonav.progress import Progress
 
-from . import paths, report
-from .cases import seed_of, stretched
+from . import ledger, paths, report
+from .cases import PUBLIC, seed_of, stretched
 from .check import graded, remarks, with_public_feedback
 from .course import Course
+from .evidence import Evidence
 from .grade import fault_grade, grade
 from .layouts import Handin, handed_in, passed_over
 from .reference import reference
@@ -75,12 +80,20 @@ def grade_submission(
         if not ids or exercise.id in ids
     ]
     session, known = Session(loaded, config.tier), reference(course)
+    seed, began = seed_of(config.secret, _digest(loaded)), ledger.now()
+    evidence = {e.id: Evidence(known, course.parameters(e)) for e in exercises}
     try:
-        seed = seed_of(config.secret, _digest(loaded))
         if config.secret:
             session.look(exercises)
         entries = [
-            graded(course, exercise, session, known, seed=seed)
+            graded(
+                course,
+                exercise,
+                session,
+                known,
+                seed=seed,
+                evidence=evidence[exercise.id],
+            )
             for exercise in exercises
         ]
         session.close()
@@ -91,7 +104,8 @@ def grade_submission(
         result = fault_grade(exercises, config.tier)
     finally:
         session.close()
-    return result | remarks(loaded, session)
+    result |= remarks(loaded, session)
+    return result | {"run": _run(result, loaded, seed, began, evidence)}
 
 
 def students(folder: Path) -> dict[str, Handin]:
@@ -185,15 +199,20 @@ def grade_class(
         for done, record in enumerate(
             _marked(config, folder, tasks, jobs, scheduler), start=1
         ):
+            # First the log, so that there is no grade of which it knows nothing.
+            ledger.append(out, "graded", _logged(record))
             report.write_student(
                 out / "students" / record["student"], record, config.course
             )
             if progress is not None:
                 progress(done, len(tasks))
+        _tell(out, submissions)
         return report.write_class(
             out, list(submissions), passed_over(folder), config.course
         )
 
+
+HANDED_IN = "handed-in.json"
 
 Task = tuple[dict[str, str], Handin, dict[str, Any] | None, Collection[str]]
 
@@ -274,6 +293,60 @@ def _record(
         files = {**old.get("files", {}), **new.get("files", {})}
         new = grade(entries, config.tier) | said | {"files": files}
     return {**entry, **new}
+
+
+def _run(
+    result: dict[str, Any],
+    loaded: Submission | Refused,
+    seed: bytes,
+    began: str,
+    evidence: dict[str, Evidence],
+) -> dict[str, Any]:
+    """Return what was run: files, seed, versions, and the number of calls of each part."""
+    files = loaded.files if isinstance(loaded, Submission) else {}
+    used = set(result["files"].values())
+    return {
+        "began": began,
+        "seed": "public" if seed == PUBLIC else seed.hex(),
+        "versions": {
+            "python": platform.python_version(),
+            "numpy": np.__version__,
+            "robonav": __version__,
+        },
+        "files": {
+            name: hashlib.sha256(content).hexdigest()
+            for name, content in files.items()
+            if name in used
+        },
+        "calls": {
+            id: dict(Counter(call.case.part for call in seen.observations))
+            for id, seen in evidence.items()
+        },
+    }
+
+
+def _logged(record: dict[str, Any]) -> dict[str, Any]:
+    """Take the description of the run out of a record, and return it with the results for the log."""
+    run = record.pop("run", {})
+    kept = ("student", "submission", "config", "tier", "points", "max_points")
+    entries = [
+        {name: entry.get(name) for name in ("id", "points", "state", "parts")}
+        for entry in record["exercises"]
+        if not run or entry["id"] in run["calls"]
+    ]
+    where = record.get("files", {})
+    return (
+        {name: record[name] for name in kept}
+        | {"exercises": entries, "where": where}
+        | run
+    )
+
+
+def _tell(out: Path, submissions: dict[str, Handin]) -> None:
+    """Write down whose submissions these are and when they were handed in, for the gradebook."""
+    told = {name: handin.told() for name, handin in submissions.items()}
+    with atomic.atomic_write(out / HANDED_IN) as file:
+        file.write(json.dumps(told, indent=1, ensure_ascii=False).encode())
 
 
 def _digest(loaded: Submission | Refused) -> str:

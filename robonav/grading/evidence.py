@@ -112,9 +112,9 @@ class Evidence:
             if one.case.part == part.test and one.verdict == "wrong"
         ]
         hint = self._hint(failed[0]) if failed else None
-        return (
-            replace(part, feedback=f"{part.feedback}\nHint: {hint}") if hint else part
-        )
+        if not hint:
+            return part
+        return replace(part, feedback=f"{part.feedback}\nHint: {hint}", hint=hint)
 
     def _hint(self, observation: Observation) -> str | None:
         """Return the hint of the known mistake that fits this call and contradicts no other."""

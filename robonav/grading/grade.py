@@ -71,6 +71,7 @@ class Part:
     state: State
     feedback: str
     test: str = ""  # name of the part's test function
+    hint: str = ""  # for the mistake that the answers show
 
 
 def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
@@ -91,6 +92,16 @@ def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
         "feedback": "Not attempted."
         if _state(parts) == "missing"
         else printable("\n".join(map(_line, _once(parts)))),
+        "parts": [
+            {
+                "test": part.test,
+                "name": part.name,
+                "points": part.points,
+                "state": part.state,
+                "hint": part.hint,
+            }
+            for part in parts
+        ],
     }
 
 

@@ -13,15 +13,15 @@ from __future__ import annotations
 
 import re
 from collections import Counter, defaultdict
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from . import submission
 from .submission import Refused, Submission
 
 LAYOUTS = [
-    re.compile(r"(?P<student>[^_]+)(_LATE)?_(?P<user>\d+)_\d+_(?P<file>.+)"),
+    re.compile(r"(?P<student>[^_]+)(?P<late>_LATE)?_(?P<user>\d+)_\d+_(?P<file>.+)"),
     re.compile(
         r"(?P<student>.+)_(?P<user>\d+)_assignsubmission_(file|onlinetext)(_(?P<file>.*))?"
     ),
@@ -43,10 +43,23 @@ class Handin:
         What the student handed in.
     notes : list of str
         How it was told from the other students' files.
+    people : list of str
+        The names, numbers and addresses of its authors, as far as the platform tells them.
+    submitted : str
+        When it was handed in, as the platform writes it, or an empty string.
+    late : bool
+        Whether the platform calls it late.
     """
 
     parts: dict[str, Path] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    people: list[list[str]] = field(default_factory=list)
+    submitted: str = ""
+    late: bool = False
+
+    def told(self) -> dict[str, Any]:
+        """Return whose it is and when it was handed in, for the gradebook."""
+        return {"people": self.people, "submitted": self.submitted, "late": self.late}
 
     def load(self) -> Submission | Refused:
         """Return the submission, or the reason why it is refused."""
@@ -65,13 +78,22 @@ def handed_in(folder: Path) -> dict[str, Handin]:
         if person := _person(path):
             student, user, date, name = person
             people[student, user][date].append((name, path))
-    names, found = _names(folder), dict[str, Handin]()
+    listed, found = _listed(folder), dict[str, Handin]()
     same = Counter(student for student, _ in people)
     for (student, user), attempts in sorted(people.items()):
         handin = Handin(notes=_notes_on(attempts))
         for name, path in attempts[max(attempts)]:
             handin.parts[name if name not in handin.parts else path.name] = path
-        name = student or names.get(user, f"submission_{user}")
+            handin.late |= "_LATE_" in path.name
+        handin.submitted = max(attempts)
+        handin.people = [[student, *([f"#{user}"] if user else [])]] if student else []
+        name = student or f"submission_{user}"
+        if not student and user in listed and listed[user].people:
+            name = " and ".join(names[0] for names in listed[user].people)
+            handin.people, handin.submitted = (
+                listed[user].people,
+                listed[user].submitted,
+            )
         if same[student] > 1 and student and user:
             name = f"{student} ({user})"
         name = _printable(name, handin)
@@ -126,26 +148,25 @@ def _notes_on(attempts: dict[str, list[tuple[str, Path]]]) -> list[str]:
     return notes
 
 
-def _names(folder: Path) -> dict[str, str]:
-    """Return the students' names by the number of the submission, from Gradescope's list."""
+def _listed(folder: Path) -> dict[str, Handin]:
+    """Return the authors and the times by the number of the submission, from Gradescope's list."""
     try:
         lines = (folder / METADATA).read_text("utf-8", "replace").splitlines()
     except OSError:
         return {}
-    return {
-        number: " and ".join(names) for number, names in _submitters(lines) if names
-    }
-
-
-def _submitters(lines: list[str]) -> Iterator[tuple[str, list[str]]]:
-    number, names = "", list[str]()
+    found, current = dict[str, Handin](), Handin()
     for line in lines:
         if match := re.match(r"['\"]?submission_(\d+)['\"]?:", line):
-            yield number, names
-            number, names = match[1], []
-        elif match := re.match(r"\s*-?\s*:name: (.+)", line):
-            names.append(match[1].strip(" '\"").replace("/", "_"))
-    yield number, names
+            found[match[1]] = current = Handin()
+        elif match := re.match(r"\s*(-?)\s*:(name|sid|email|created_at): (.+)", line):
+            value = match[3].strip(" '\"")
+            if match[2] == "name":
+                current.people.append([value.replace("/", "_")])
+            elif match[2] == "created_at":
+                current.submitted = value
+            elif current.people:
+                current.people[-1].append(value)
+    return found
 
 
 def _printable(name: str, handin: Handin) -> str:

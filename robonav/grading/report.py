@@ -26,12 +26,10 @@ COLOURS = dict(
 
 def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
     """Write all files of one student. The last one is grade.json, so where it exists all others are complete."""
-    _write(
-        folder / "feedback.html", _page("feedback.html", record=record, course=course)
-    )
-    _write(folder / "results.json", _json(gradescope(record, course)))
-    _write(folder / "junit.xml", junit(record, course))
-    _write(folder / "grade.json", _json(record))
+    write(folder / "feedback.html", feedback(record, course))
+    write(folder / "results.json", _json(gradescope(record, course)))
+    write(folder / "junit.xml", junit(record, course))
+    write(folder / "grade.json", _json(record))
 
 
 def write_class(
@@ -78,19 +76,23 @@ def write_class(
         for id, entry in entries.items():
             counts[id][entry["state"]] += 1
             earned[id] += entry["points"] or 0
-    # Spreadsheets take a file for UTF-8 only if it begins with this mark.
-    _write(out / "gradebook.csv", "\N{BYTE ORDER MARK}" + gradebook(rows, course))
+    write(out / "gradebook.csv", gradebook(rows, course))
     shares = {
         id: earned[id] / (course.exercises[id].points * max(len(rows), 1))
         for id in course.exercises
     }
-    page = _page(
+    overview = page(
         "overview.html", rows=rows, counts=counts, shares=shares, totals=totals, course=course, colours=COLOURS,
         passed_over=[name.encode("utf-8", "replace").decode() for name in passed_over],
         folders=[f"students/{name}/feedback.html" for name in names], notes=notes, problems=problems,
     )  # fmt: skip
-    _write(out / "index.html", page)
+    write(out / "index.html", overview)
     return unfinished
+
+
+def feedback(record: dict[str, Any], course: Course, account: Any = None) -> str:
+    """Return the feedback page of a student, with the marks that count where there is an account of them."""
+    return page("feedback.html", record=record, course=course, account=account)
 
 
 def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:
@@ -155,14 +157,22 @@ def junit(record: dict[str, Any], course: Course) -> str:
 
 def gradebook(rows: Sequence[Sequence[Any]], course: Course) -> str:
     """Return the gradebook as CSV, one line per student. Spreadsheets read no cell as a formula."""
+    headings = ["student", "points", "max_points", "tier", "grade_again", "not_taken"]
+    return csv_text([headings + [*course.exercises], *rows])
+
+
+def csv_text(rows: Sequence[Sequence[Any]]) -> str:
+    """Return rows as CSV. Spreadsheets read no cell as a formula, and the text as UTF-8.
+
+    Examples
+    --------
+    >>> csv_text([["=1+1", 2]])
+    "\\ufeff'=1+1,2\\r\\n"
+    """
     text = io.StringIO()
-    writer = csv.writer(text)
-    writer.writerow(
-        ["student", "points", "max_points", "tier", "grade_again", "not_taken"]
-        + [*course.exercises]
-    )
-    writer.writerows([[_cell(value) for value in row] for row in rows])
-    return text.getvalue()
+    csv.writer(text).writerows([[_cell(value) for value in row] for row in rows])
+    # Spreadsheets take a file for UTF-8 only if it begins with this mark.
+    return "\N{BYTE ORDER MARK}" + text.getvalue()
 
 
 def _cell(value: Any) -> Any:
@@ -174,7 +184,8 @@ def _cell(value: Any) -> Any:
     )
 
 
-def _page(name: str, **content: Any) -> str:
+def page(name: str, **content: Any) -> str:
+    """Return a page made from the template with this name. Whatever it shows is escaped."""
     import jinja2
 
     folder = Path(__file__).with_name("templates")
@@ -191,6 +202,7 @@ def _json(value: Any) -> str:
     return json.dumps(value, indent=1, ensure_ascii=False) + "\n"
 
 
-def _write(path: Path, text: str) -> None:
+def write(path: Path, text: str) -> None:
+    """Write a text file, whole or not at all."""
     with atomic_write(path) as file:
         file.write(text.encode())

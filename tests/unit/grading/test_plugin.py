@@ -80,7 +80,7 @@ def test_solutions_score_full_in_the_agreed_format(tmp_path):
     )
     assert [entry["id"] for entry in grade["exercises"]] == list(COURSE.exercises)
     assert all(
-        list(entry) == ["id", "points", "max_points", "state", "feedback"]
+        list(entry) == ["id", "points", "max_points", "state", "feedback", "parts"]
         for entry in grade["exercises"]
     )
     assert {entry["state"] for entry in grade["exercises"]} == {"correct"}

@@ -1,0 +1,189 @@
+"""The commands ``robonav gradebook``. Each imports what it needs when it runs."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from .gradebook import Gradebook
+
+gradebook = typer.Typer(
+    no_args_is_help=True,
+    help="Marks that can be defended: roster, deadlines, changes by hand, objections, exports.",
+)
+Graded = Annotated[
+    Path, typer.Argument(help="The folder that robonav grade wrote its grades to.")
+]
+Who = Annotated[
+    str, typer.Argument(help="The student's id, name, login or email address.")
+]
+Which = Annotated[str, typer.Argument(help="The exercise, such as 2.3.")]
+
+
+@gradebook.command()
+def start(
+    graded: Graded,
+    roster: Annotated[
+        Path | None,
+        typer.Option(
+            help="The class as CSV: an export of Moodle, Canvas, Gradescope or GitHub Classroom, or your own file."
+        ),
+    ] = None,
+) -> None:
+    """Put the roster and a commented file of rules into the folder of grades."""
+    from robonav.atomic import atomic_write
+
+    from .gradebook import ROSTER
+    from .roster import read_roster
+    from .rules import RULES, TEMPLATE
+
+    if roster is not None:
+        students = read_roster(roster)
+        content = roster.read_bytes()
+        with atomic_write(graded / ROSTER) as file:
+            file.write(content)
+        print(f"{len(students)} students: {graded / ROSTER}")
+    if not (graded / RULES).exists():
+        with atomic_write(graded / RULES) as file:
+            file.write(TEMPLATE.encode())
+    print(f"deadlines, groups, extensions: {graded / RULES}")
+
+
+@gradebook.command()
+def update(graded: Graded) -> None:
+    """Write the marks and the statistics anew, after a change of the roster or the rules."""
+    _tell(write_all(graded))
+    print(graded / "marks.html")
+
+
+@gradebook.command("mark")
+def mark_by_hand(
+    graded: Graded,
+    student: Who,
+    exercise: Which,
+    points: Annotated[
+        str,
+        typer.Argument(
+            help="The points that count, before lateness; or grader, to take a change back."
+        ),
+    ],
+    reason: Annotated[str, typer.Option(help="Why. It is kept in the log.")],
+    by: Annotated[str, typer.Option(help="Who decided. It is kept in the log.")],
+) -> None:
+    """Change a mark by hand. The change stays when the class is graded again."""
+    from .gradebook import change, plain
+
+    book = _book(graded)
+    account, id = book.account(student), book.course.named(exercise).id
+    if id not in account.marks:
+        raise ValueError(f"{account.student.id} has no mark for {id}")
+    try:
+        given = None if points == "grader" else float(points)
+    except ValueError:
+        raise ValueError(
+            f"points must be a number, or grader to take a change back, got {points}"
+        ) from None
+    change(book, account, id, given, reason, by)
+    mark = write_all(graded).account(account.student.id).marks[id]
+    print(
+        f"{account.student.id} {id}: {plain(mark.points)} of {mark.most} points count"
+    )
+
+
+@gradebook.command()
+def explain(
+    graded: Graded,
+    student: Who,
+    exercise: Which,
+    repeat: Annotated[
+        Path | None,
+        typer.Option(
+            help="The folder of submissions: run the exercise again on the same cases, and show those that failed."
+        ),
+    ] = None,
+) -> None:
+    """Say how a mark came about: file, hash, runs, cases, seed, versions, sandbox, messages, changes."""
+    from . import objection, paths
+
+    book = _book(graded)
+    account, chosen = book.account(student), book.course.named(exercise)
+    print(objection.explain(book, account, chosen))
+    if repeat is not None:
+        with paths.without_submissions(repeat):
+            print(objection.repeat(book, account, chosen, repeat))
+
+
+@gradebook.command()
+def export(
+    graded: Graded,
+    file: Annotated[Path, typer.Argument(help="The CSV file to write.")],
+    platform: Annotated[
+        str, typer.Option("--format", help="moodle, canvas or gradescope.")
+    ],
+    title: Annotated[
+        str,
+        typer.Option(
+            help="The assignment as the platform calls it; on Canvas with its number, as in 'Chapter 2 (1234)'."
+        ),
+    ] = "Exercises",
+) -> None:
+    """Write the marks as a learning platform imports them. Marks that are not settled stay empty."""
+    from . import exports
+    from .report import write
+
+    book = _book(graded)
+    write(file, exports.marks_for(book, platform, title))
+    print(file)
+    if names := exports.unsettled(book):
+        print(f"Left empty, because they are not settled: {', '.join(names)}.", file=sys.stderr)  # fmt: skip
+        raise typer.Exit(1)
+
+
+@gradebook.command()
+def feedback(
+    graded: Graded,
+    folder: Annotated[Path, typer.Argument(help="The folder for the zip files.")],
+) -> None:
+    """Write a zip file for each student: the feedback page and the marks that count."""
+    from .exports import write_feedback
+
+    print(f"{len(write_feedback(_book(graded), folder))} zip files in {folder}")
+
+
+def write_all(folder: Path) -> Gradebook:
+    """Write the marks and the statistics of a class, and return the gradebook.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> write_all(Path(tempfile.mkdtemp()))
+    Traceback (most recent call last):
+    ValueError: ... holds no grades; make them with robonav grade
+    """
+    from .class_statistics import write_statistics
+    from .gradebook import write_gradebook
+
+    book = _book(folder)
+    write_gradebook(book)
+    write_statistics(book)
+    return book
+
+
+def _book(folder: Path) -> Gradebook:
+    from .course import Course
+    from .gradebook import read_gradebook
+
+    return read_gradebook(folder, Course.around(Path(__file__).parent, Path.cwd()))
+
+
+def _tell(book: Gradebook) -> None:
+    """Print what is not settled."""
+    for problem in book.problems:
+        print(problem, file=sys.stderr)
+    for account in book.accounts:
+        for problem in account.problems:
+            print(f"{account.student.name}: {problem}", file=sys.stderr)

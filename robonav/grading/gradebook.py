@@ -1,0 +1,427 @@
+"""The marks of a class: what the grader gave, what was changed by hand, what lateness costs, and what counts.
+
+Everything is computed anew from four things: the grades in ``students/``, the log, the roster and the rules. None of
+them is changed here, so that grading again never overwrites a decision.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from . import ledger
+from .classroom import HANDED_IN
+from .course import Course
+from .ledger import Log
+from .report import csv_text, page, write
+from .roster import Matching, Student, forms, match, one, read_roster
+from .rules import Late, Rules, read_rules
+
+ROSTER = "roster.csv"
+
+
+@dataclass(frozen=True, eq=False)
+class Mark:
+    """What a student gets for an exercise.
+
+    Attributes
+    ----------
+    exercise : str
+        The id of the exercise.
+    most : int
+        Its points.
+    graded : float or None
+        What the grader gave. None if there is no grade.
+    state : str
+        The state of the exercise in the grade.
+    by_hand : dict or None
+        The last change by hand, which counts instead.
+    late : Late
+        How late it was.
+    """
+
+    exercise: str
+    most: int
+    graded: float | None
+    state: str
+    by_hand: Mapping[str, Any] | None = None
+    late: Late = field(default_factory=Late)
+
+    @property
+    def before(self) -> float | None:
+        """The points before lateness is taken off."""
+        return self.graded if self.by_hand is None else self.by_hand["points"]
+
+    @property
+    def points(self) -> float | None:
+        """The points that count."""
+        if self.before is None:
+            return None
+        return round(self.before * (1 - self.late.share), 2)
+
+    @property
+    def graded_since(self) -> bool:
+        """Whether the grader has given other points since the change by hand."""
+        return self.by_hand is not None and self.by_hand["graded"] != self.graded
+
+
+@dataclass(frozen=True, eq=False)
+class Account:
+    """All marks of a student.
+
+    Attributes
+    ----------
+    student : Student
+        The student.
+    submission : str
+        The submission that counts, or an empty string.
+    marks : dict of str to Mark
+        The marks by exercise.
+    problems : list of str
+        What keeps the marks from being final.
+    """
+
+    student: Student
+    submission: str
+    marks: dict[str, Mark]
+    problems: list[str] = field(default_factory=list)
+
+    @property
+    def points(self) -> float:
+        """The sum of the points that count."""
+        return round(math.fsum(mark.points or 0 for mark in self.marks.values()), 2)
+
+    @property
+    def most(self) -> int:
+        """The sum of all points."""
+        return sum(mark.most for mark in self.marks.values())
+
+    @property
+    def free_days(self) -> int:
+        """How many free days the student used."""
+        late = [mark.late for mark in self.marks.values()]
+        return sum(free for _, _, free in {(x.deadline, x.days, x.free) for x in late})
+
+
+@dataclass(frozen=True, eq=False)
+class Gradebook:
+    """The marks of a class.
+
+    Attributes
+    ----------
+    folder : Path
+        The folder of grades.
+    course : Course
+        The course.
+    accounts : list of Account
+        The marks by student, in the roster's order.
+    problems : list of str
+        What is not certain about the class as a whole.
+    log : Log
+        What was graded and changed.
+    grades : dict of str to dict
+        The grades by submission.
+    """
+
+    folder: Path
+    course: Course
+    accounts: list[Account]
+    problems: list[str]
+    log: Log
+    grades: dict[str, dict[str, Any]]
+
+    def account(self, word: str) -> Account:
+        """Return the account of the student with this id, name, login or address."""
+        student = one((account.student for account in self.accounts), word)
+        return next(one for one in self.accounts if one.student is student)
+
+
+def read_gradebook(folder: Path, course: Course) -> Gradebook:
+    """Compute the marks of a class from its grades, log, roster and rules.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder that ``robonav grade`` wrote. Without a roster each submission is a student.
+    course : Course
+        The course.
+
+    Returns
+    -------
+    Gradebook
+        The marks.
+
+    Raises
+    ------
+    ValueError
+        If the folder holds no grades, or the roster or the rules are not right.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> read_gradebook(folder, Course.around(folder))
+    Traceback (most recent call last):
+    ValueError: ... holds no grades; make them with robonav grade
+    """
+    rules, log = read_rules(folder, course), ledger.read(folder)
+    handed_in = _handed_in(folder)
+    grades = {
+        name: grade for name in handed_in if (grade := _grade(folder, name)) is not None
+    }
+    same = {name: grade["submission"] for name, grade in grades.items()}
+    people = {name: told["people"] for name, told in handed_in.items()}
+    if (folder / ROSTER).exists():
+        students = _in_groups(read_roster(folder / ROSTER), rules)
+        matching = match(students, people, rules.matches, same)
+    else:
+        students = [
+            Student(name, name, names=frozenset(forms(name))) for name in handed_in
+        ]
+        students = _in_groups(students, rules)
+        matching = Matching({name: name for name in handed_in}, [], set())
+        if rules.groups:
+            decided = {**{s.id: s.id for s in students}, **rules.matches}
+            matching = match(students, people, decided, same)
+    problems = list(matching.problems)
+    problems += [
+        f"{name} is not graded yet: run robonav grade again"
+        for name in handed_in
+        if name not in grades
+    ]
+    problems += [
+        f"Line {number} of {ledger.LOG} was changed by something else than robonav."
+        for number in log.broken
+    ]
+    problems += [
+        f"The rules name {who}, who is not in the roster."
+        for who in _named(rules) - {s.id for s in students}
+    ]
+    book = Gradebook(folder, course, [], problems, log, grades)
+    earlier = _earlier(folder, rules, course)
+    for student in students:
+        used = sum(one.get(student.id, 0) for one in earlier)
+        told = handed_in.get(matching.submissions.get(student.id, ""), {})
+        book.accounts.append(
+            _account(book, student, matching, told, rules, rules.free_days - used)
+        )
+    return book
+
+
+def change(
+    book: Gradebook,
+    account: Account,
+    exercise: str,
+    points: float | None,
+    reason: str,
+    by: str,
+) -> dict[str, Any]:
+    """Change a mark by hand, or take the change back. The log keeps all changes.
+
+    Parameters
+    ----------
+    book : Gradebook
+        The marks as they are.
+    account : Account
+        The student.
+    exercise : str
+        The id of the exercise.
+    points : float or None
+        The points that count, before lateness is taken off. None takes earlier changes back.
+    reason : str
+        Why.
+    by : str
+        Who decided.
+
+    Returns
+    -------
+    dict
+        What the log records.
+
+    Raises
+    ------
+    ValueError
+        If the points are not possible, or reason or name are missing.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> account = Account(Student("ada"), "", {"2.1": Mark("2.1", 4, 1, "partial")})
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> book = Gradebook(folder, Course.around(folder), [account], [], ledger.read(folder), {})
+    >>> change(book, account, "2.1", 3, "right idea", "Dr B.")["points"]
+    3
+    """
+    mark = account.marks[exercise]
+    if points is not None and not 0 <= points <= mark.most:
+        raise ValueError(f"points of {exercise} must be from 0 to {mark.most}, got {points:g}")  # fmt: skip
+    for name, value in (("a reason", reason), ("the name of who decides", by)):
+        if not value.strip():
+            raise ValueError(f"a mark that is changed by hand needs {name}")
+    event = {
+        "student": account.student.id,
+        "exercise": exercise,
+        "points": points,
+        "graded": mark.graded,
+        "reason": reason,
+        "by": by,
+    }
+    return ledger.append(book.folder, "mark", event)
+
+
+def write_gradebook(book: Gradebook) -> None:
+    """Write ``marks.html`` and ``marks.csv``. Each file is whole or not there.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> write_gradebook(Gradebook(folder, Course.around(folder), [], [], ledger.read(folder), {}))
+    >>> sorted(path.name for path in folder.iterdir())
+    ['marks.csv', 'marks.html']
+    """
+    exercises = _exercises(book)
+    rows: list[list[Any]] = [
+        ["student", "name", "group", "submission", "points", "max_points", "changed_by_hand", "late", "problems"]
+        + exercises
+    ]  # fmt: skip
+    for account in book.accounts:
+        marks = account.marks
+        rows.append(
+            [
+                account.student.id,
+                account.student.name,
+                account.student.group,
+                account.submission,
+                account.points,
+                account.most,
+                " ".join(id for id, mark in marks.items() if mark.by_hand),
+                " ".join(id for id, mark in marks.items() if mark.late.days),
+                "; ".join(account.problems),
+                *(marks[id].points if id in marks else None for id in exercises),
+            ]
+        )
+    write(book.folder / "marks.csv", csv_text(rows))
+    write(
+        book.folder / "marks.html",
+        page("marks.html", book=book, exercises=exercises, plain=plain),
+    )
+
+
+def plain(points: float | None) -> str:
+    """Return points as people write them.
+
+    Examples
+    --------
+    >>> plain(3.0), plain(2.25), plain(None)
+    ('3', '2.25', '–')
+    """
+    return "–" if points is None else f"{points:g}"
+
+
+def _exercises(book: Gradebook) -> list[str]:
+    return list(dict.fromkeys(id for account in book.accounts for id in account.marks))
+
+
+def _handed_in(folder: Path) -> dict[str, dict[str, Any]]:
+    try:
+        return json.loads((folder / HANDED_IN).read_bytes())
+    except (OSError, ValueError):
+        raise ValueError(
+            f"{folder} holds no grades; make them with robonav grade"
+        ) from None
+
+
+def _grade(folder: Path, name: str) -> dict[str, Any] | None:
+    try:
+        return json.loads((folder / "students" / name / "grade.json").read_bytes())
+    except (OSError, ValueError):
+        return None
+
+
+def _in_groups(students: list[Student], rules: Rules) -> list[Student]:
+    """Return the students with the groups of the rules, which count more than those of the roster."""
+    of = {who: group for group, members in rules.groups.items() for who in members}
+    return [replace(s, group=of.get(s.id, s.group)) for s in students]
+
+
+def _named(rules: Rules) -> set[str]:
+    members = {who for members in rules.groups.values() for who in members}
+    return members | {extension["student"] for extension in rules.extensions}
+
+
+def _earlier(folder: Path, rules: Rules, course: Course) -> list[dict[str, int]]:
+    """Return the free days that each student used in earlier folders of grades."""
+    used = []
+    for name in rules.earlier:
+        place = folder / name
+        if place.resolve() == folder.resolve():
+            raise ValueError(f"earlier must name other folders of grades, got {name}")
+        book = read_gradebook(place, course)
+        used.append({one.student.id: one.free_days for one in book.accounts})
+    return used
+
+
+def _account(
+    book: Gradebook,
+    student: Student,
+    matching: Matching,
+    told: Mapping[str, Any],
+    rules: Rules,
+    free: int,
+) -> Account:
+    submission, problems = matching.submissions.get(student.id, ""), list[str]()
+    grade = book.grades.get(submission)
+    entries = {e["id"]: e for e in grade["exercises"]} if grade else {}
+    if student.id in matching.unsettled:
+        problems.append("It is not certain which submission is this student's.")
+    if grade and grade["tier"] == "practice":
+        problems.append("Graded for practice, without a sandbox: these are no marks.")
+    changes = _changes(book.log.of_kind("mark"), {student.id, submission} - {""})
+    late = dict[str, Late]()
+    if submission and rules.deadlines:
+        written = told.get("submitted") or student.submitted
+        time = rules.submitted.get(submission) or rules.time(written)
+        answered = [id for id, e in entries.items() if e["state"] != "missing"]
+        if time is not None:
+            late = rules.lateness(student.id, answered, time, max(free, 0))
+        elif any(rules.due(student.id, id) for id in answered):
+            how = f" from {written!r}" if written else ""
+            said = ", and the platform calls it late" if told.get("late") else ""
+            problems.append(f"It cannot be told{how} when it was handed in{said}.")
+    graded = {e["id"] for one in book.grades.values() for e in one["exercises"]}
+    assigned = set(entries) or graded or set(book.course.exercises)
+    marks = {}
+    for id, exercise in book.course.exercises.items():
+        entry = entries.get(id)
+        if rules.exercises and id not in rules.exercises:
+            continue
+        if id not in assigned and id not in changes:
+            continue
+        marks[id] = Mark(
+            id,
+            entry["max_points"] if entry else exercise.points,
+            entry["points"] if entry else None,
+            entry["state"] if entry else "missing",
+            changes.get(id),
+            late.get(id, Late()),
+        )
+        if marks[id].state == "grader-fault" and id not in changes:
+            problems.append(f"The grader failed in {id}: run robonav grade again.")
+        if marks[id].graded_since:
+            problems.append(
+                f"{id} was graded again since its mark was changed by hand: look whether the change still holds."
+            )
+    return Account(student, submission, marks, problems)
+
+
+def _changes(
+    events: Iterable[dict[str, Any]], ids: set[str]
+) -> dict[str, dict[str, Any]]:
+    """Return the last change of each exercise by hand, unless it was taken back."""
+    found = {event["exercise"]: event for event in events if event["student"] in ids}
+    return {id: event for id, event in found.items() if event["points"] is not None}
