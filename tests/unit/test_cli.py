@@ -18,6 +18,7 @@ COMMANDS = [
     "leaderboard",
     "exercises",
     "drills",
+    "gradebook",
 ]
 
 
