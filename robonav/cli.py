@@ -175,7 +175,8 @@ def drills_export(
     format: Annotated[
         str,
         typer.Option(
-            help="moodle (an .xml file for Moodle's question bank). By default the ending of the file's name tells."
+            help="moodle (.xml, Moodle's question bank) or qti (.zip, for Canvas and Blackboard). "
+            "By default the ending of the file's name tells."
         ),
     ] = "",
     chapter: Chapters = None,
@@ -189,6 +190,12 @@ def drills_export(
         int,
         typer.Option(help="Makes the numbers: the same seed, the same questions."),
     ] = 0,
+    platform: Annotated[
+        str,
+        typer.Option(
+            help="For qti: canvas (QTI 1.2), or blackboard (QTI 2.1), which others read, too."
+        ),
+    ] = "canvas",
     title: Annotated[
         str, typer.Option(help="The title of the question bank.")
     ] = "robonav",
@@ -196,13 +203,18 @@ def drills_export(
         bool, typer.Option("--force", help="Write over a file that exists.")
     ] = False,
 ) -> None:
-    """Write questions of drills as a question bank for Moodle. All drills take part unless you choose."""
-    from robonav.drills.export import drawn, files, moodle_xml, selected
+    """Write questions of drills as a question bank. All drills take part unless you choose."""
+    from robonav.drills.export import drawn, files, moodle_xml, qti_zip, selected
 
-    files.format_of(file, format)
+    kind = files.format_of(file, format)
     files.check_free(file, force=force)
     questions = drawn(selected(chapter or (), page or (), drill or ()), seed, each)
-    files.write({file: moodle_xml(questions, title)})
+    content = (
+        moodle_xml(questions, title)
+        if kind == "moodle"
+        else qti_zip(questions, title, platform)
+    )
+    files.write({file: content})
     print(f"{file}: {len(questions)} questions")
 
 

@@ -91,7 +91,7 @@ def test_tables_as_moodle_reads_them(bank, nodes) -> None:
             assert weight == "1"
             value, tolerance = first.removeprefix("=").split(":")
             assert float(value) == pytest.approx(float(number), abs=1e-8)
-            assert float(tolerance) == asked.tolerance
+            assert float(tolerance) == pytest.approx(asked.tolerance)
             for other in others:
                 found = re.fullmatch(rf"%0%({NUMBER}):({NUMBER})#(.*)", other)
                 assert found

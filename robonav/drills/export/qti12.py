@@ -1,0 +1,196 @@
+"""Items in QTI 1.2, as Canvas reads it.
+
+The vocabulary is that of Canvas's own exports. Canvas takes each condition of a numerical item for a right answer, so
+hints of wrong numbers stand in the feedback for all wrong answers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from xml.etree import ElementTree
+
+from ..markup import html
+from ..question import Number, Order
+from .answers import Option, number_text
+from .items import Item
+
+Element = ElementTree.Element
+NAMESPACE = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
+RESPONSE = "response1"
+ANY = ""  # a condition that every answer meets
+_Writer = Callable[[Item, Element, Element], dict[str, str]]
+
+
+def assessment(items: Sequence[Item], title: str) -> Element:
+    """Return items as one QTI 1.2 assessment.
+
+    Parameters
+    ----------
+    items : sequence of Item
+    title : str
+
+    Returns
+    -------
+    Element
+
+    Examples
+    --------
+    >>> from robonav.drills.export import drawn, selected
+    >>> from robonav.drills.export.items import items
+    >>> root = assessment(items(drawn(selected(drills=["td-error"]))), "Robots")
+    >>> [item.get("ident") for item in root.iter("item")]
+    ['td-error-1']
+    """
+    root = ElementTree.Element("questestinterop", xmlns=NAMESPACE)
+    test = _child(root, "assessment", ident="assessment", title=title)
+    section = _child(test, "section", ident="root_section")
+    section.extend(_item(item) for item in items)
+    return root
+
+
+def _child(node: Element, tag: str, text: str = "", **attributes: str) -> Element:
+    child = ElementTree.SubElement(node, tag, attributes)
+    child.text = text or None
+    return child
+
+
+def _html(node: Element, text: str) -> None:
+    _child(_child(node, "material"), "mattext", text, texttype="text/html")
+
+
+def _item(item: Item) -> Element:
+    node = ElementTree.Element("item", ident=item.name, title=item.title)
+    kind, write = _kind(item)
+    fields = _child(_child(node, "itemmetadata"), "qtimetadata")
+    for label, entry in (
+        ("question_type", kind),
+        ("points_possible", str(item.points)),
+    ):
+        field = _child(fields, "qtimetadatafield")
+        _child(field, "fieldlabel", label)
+        _child(field, "fieldentry", entry)
+    presentation = _child(node, "presentation")
+    _html(presentation, item.text)
+    processing = _child(node, "resprocessing")
+    outcomes = _child(processing, "outcomes")
+    _child(
+        outcomes,
+        "decvar",
+        maxvalue="100",
+        minvalue="0",
+        varname="SCORE",
+        vartype="Decimal",
+    )
+    _condition(processing, shows="general_fb")
+    feedback = {"general_fb": item.explanation}
+    feedback |= write(item, presentation, processing)
+    if item.mistakes:
+        _condition(processing, shows="general_incorrect_fb")
+        feedback["general_incorrect_fb"] = item.mistakes
+    for name, text in feedback.items():
+        _html(_child(_child(node, "itemfeedback", ident=name), "flow_mat"), text)
+    return node
+
+
+def _kind(item: Item) -> tuple[str, _Writer]:
+    if isinstance(item.asked, Number):
+        return "numerical_question", _number
+    if isinstance(item.asked, Order):
+        return "matching_question", _order
+    return "multiple_choice_question", _choice
+
+
+def _condition(
+    processing: Element,
+    ident: str = ANY,
+    answer: str = ANY,
+    *,
+    score: str = "",
+    adds: bool = False,
+    shows: str = "",
+) -> Element:
+    """A condition on the answer, and what happens if it holds."""
+    last = bool(score) and not adds
+    condition = _child(
+        processing, "respcondition", **{"continue": "No" if last else "Yes"}
+    )
+    variable = _child(condition, "conditionvar")
+    if ident:
+        _child(variable, "varequal", answer, respident=ident)
+    elif not score:
+        _child(variable, "other")
+    if score:
+        _child(
+            condition,
+            "setvar",
+            score,
+            action="Add" if adds else "Set",
+            varname="SCORE",
+        )
+    if shows:
+        _child(condition, "displayfeedback", feedbacktype="Response", linkrefid=shows)
+    return variable
+
+
+def _number(item: Item, presentation: Element, processing: Element) -> dict[str, str]:
+    asked = item.asked
+    assert isinstance(asked, Number)
+    response = _child(
+        presentation, "response_str", ident=RESPONSE, rcardinality="Single"
+    )
+    field = _child(response, "render_fib", fibtype="Decimal")
+    _child(field, "response_label", ident="answer1")
+    either = _child(_condition(processing, score="100"), "or")
+    _child(either, "varequal", number_text(asked.answer), respident=RESPONSE)
+    within = _child(either, "and")
+    low, high = asked.answer - asked.tolerance, asked.answer + asked.tolerance
+    _child(within, "vargte", number_text(low), respident=RESPONSE)
+    _child(within, "varlte", number_text(high), respident=RESPONSE)
+    return {}
+
+
+def _labels(response: Element, texts: Sequence[str]) -> None:
+    choices = _child(response, "render_choice")
+    for number, text in enumerate(texts, start=1):
+        _html(_child(choices, "response_label", ident=_ident(number)), html(text))
+
+
+def _ident(number: int) -> str:
+    return str(1000 + number)
+
+
+def _choice(item: Item, presentation: Element, processing: Element) -> dict[str, str]:
+    asked = item.asked
+    assert isinstance(asked, list)
+    response = _child(
+        presentation, "response_lid", ident=RESPONSE, rcardinality="Single"
+    )
+    _labels(response, [option.text for option in asked])
+    feedback = {}
+    numbered: list[tuple[str, Option]] = [
+        (_ident(k), option) for k, option in enumerate(asked, start=1)
+    ]
+    for ident, option in numbered:
+        if option.hint:
+            feedback[f"{ident}_fb"] = f"<p>{html(option.hint)}</p>"
+            _condition(processing, RESPONSE, ident, shows=f"{ident}_fb")
+    for ident, option in numbered:
+        if option.right:
+            _condition(processing, RESPONSE, ident, score="100")
+    return feedback
+
+
+def _order(item: Item, presentation: Element, processing: Element) -> dict[str, str]:
+    """Canvas has no order in QTI 1.2: each place in the order is matched with its step."""
+    asked = item.asked
+    assert isinstance(asked, Order)
+    shown = sorted(asked.steps)
+    for place, step in enumerate(asked.steps, start=1):
+        ident = f"response_{place}"
+        response = _child(presentation, "response_lid", ident=ident)
+        _html(response, f"Step {place}")
+        _labels(response, shown)
+        right = _ident(shown.index(step) + 1)
+        part = f"{100 / len(shown):.2f}"
+        _condition(processing, ident, right, score=part, adds=True)
+    return {}

@@ -1,0 +1,228 @@
+"""Items and tests in QTI 2.1, as Blackboard and others read it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree import ElementTree
+
+from ..markup import html
+from ..question import Number, Order
+from .answers import Option, number_text
+from .items import Item
+
+Element = ElementTree.Element
+NAMESPACE = "http://www.imsglobal.org/xsd/imsqti_v2p1"
+RESPONSE = "RESPONSE"
+
+
+def test(files: Sequence[str], title: str) -> Element:
+    """Return a test of items.
+
+    Parameters
+    ----------
+    files : sequence of str
+        The names of the items' files, beside the test's.
+    title : str
+
+    Returns
+    -------
+    Element
+
+    Examples
+    --------
+    >>> [node.get("href") for node in test(["a.xml"], "Robots").iter("assessmentItemRef")]
+    ['a.xml']
+    """
+    root = ElementTree.Element(
+        "assessmentTest", xmlns=NAMESPACE, identifier="test", title=title
+    )
+    part = _child(
+        root,
+        "testPart",
+        identifier="part",
+        navigationMode="nonlinear",
+        submissionMode="simultaneous",
+    )
+    section = _child(
+        part, "assessmentSection", identifier="section", title=title, visible="true"
+    )
+    for file in files:
+        name = file.removesuffix(".xml")
+        _child(section, "assessmentItemRef", identifier=name, href=file)
+    return root
+
+
+def assessment_item(item: Item) -> Element:
+    """Return one item.
+
+    Parameters
+    ----------
+    item : Item
+
+    Returns
+    -------
+    Element
+
+    Examples
+    --------
+    >>> from robonav.drills.export import drawn, selected
+    >>> from robonav.drills.export.items import items
+    >>> root = assessment_item(items(drawn(selected(drills=["td-error"])))[0])
+    >>> root.find("responseDeclaration").get("baseType")
+    'float'
+    """
+    root = ElementTree.Element(
+        "assessmentItem",
+        xmlns=NAMESPACE,
+        identifier=item.name,
+        title=item.title,
+        adaptive="false",
+        timeDependent="false",
+    )
+    asked = item.asked
+    if isinstance(asked, Number):
+        kind, cardinality, correct = "float", "single", [number_text(asked.answer)]
+    elif isinstance(asked, Order):
+        shown = sorted(asked.steps)
+        kind, cardinality = "identifier", "ordered"
+        correct = [_ident(shown.index(step)) for step in asked.steps]
+    else:
+        kind, cardinality = "identifier", "single"
+        correct = [_ident(k) for k, option in enumerate(asked) if option.right]
+    _declarations(root, item, kind, cardinality, correct)
+    _body(root, item)
+    _processing(root, asked, correct)
+    _feedback(root, item)
+    return root
+
+
+def _child(node: Element, tag: str, text: str = "", **attributes: str) -> Element:
+    child = ElementTree.SubElement(node, tag, attributes)
+    child.text = text or None
+    return child
+
+
+def _html(node: Element, tag: str, text: str) -> None:
+    """Add an element with HTML in it."""
+    node.append(ElementTree.fromstring(f"<{tag}>{text}</{tag}>"))
+
+
+def _ident(place: int) -> str:
+    return f"answer_{place + 1}"
+
+
+def _declarations(
+    root: Element, item: Item, kind: str, cardinality: str, correct: Sequence[str]
+) -> None:
+    response = _child(
+        root,
+        "responseDeclaration",
+        identifier=RESPONSE,
+        cardinality=cardinality,
+        baseType=kind,
+    )
+    right = _child(response, "correctResponse")
+    for value in correct if cardinality == "ordered" else correct[:1]:
+        _child(right, "value", value)
+    for name, default in (("SCORE", "0"), ("MAXSCORE", str(item.points))):
+        outcome = _child(
+            root,
+            "outcomeDeclaration",
+            identifier=name,
+            cardinality="single",
+            baseType="float",
+        )
+        _child(_child(outcome, "defaultValue"), "value", default)
+    for name in ("FEEDBACKBASIC", "FEEDBACK"):
+        _child(
+            root,
+            "outcomeDeclaration",
+            identifier=name,
+            cardinality="single",
+            baseType="identifier",
+        )
+
+
+def _body(root: Element, item: Item) -> None:
+    body, asked = _child(root, "itemBody"), item.asked
+    _html(body, "div", item.text)
+    if isinstance(asked, Number):
+        paragraph = _child(body, "p")
+        _child(paragraph, "textEntryInteraction", responseIdentifier=RESPONSE)
+        return
+    if isinstance(asked, Order):
+        kind, texts = "orderInteraction", sorted(asked.steps)
+    else:
+        kind, texts = "choiceInteraction", [option.text for option in asked]
+    choices = _child(body, kind, responseIdentifier=RESPONSE, shuffle="true")
+    if kind == "choiceInteraction":
+        choices.set("maxChoices", "1")
+    for place, text in enumerate(texts):
+        choice = _child(choices, "simpleChoice", identifier=_ident(place))
+        _html(choice, "p", html(text))
+
+
+def _condition(asked: Number | list[Option] | Order, correct: Sequence[str]) -> Element:
+    """When an answer is right."""
+    if isinstance(asked, Number):
+        tolerance = number_text(asked.tolerance)
+        equal = ElementTree.Element(
+            "equal", toleranceMode="absolute", tolerance=f"{tolerance} {tolerance}"
+        )
+        _child(equal, "variable", identifier=RESPONSE)
+        _child(equal, "correct", identifier=RESPONSE)
+        return equal
+    if isinstance(asked, Order) or len(correct) == 1:
+        match = ElementTree.Element("match")
+        _child(match, "variable", identifier=RESPONSE)
+        _child(match, "correct", identifier=RESPONSE)
+        return match
+    either = ElementTree.Element("or")
+    for value in correct:
+        match = _child(either, "match")
+        _child(match, "variable", identifier=RESPONSE)
+        _child(match, "baseValue", value, baseType="identifier")
+    return either
+
+
+def _processing(
+    root: Element, asked: Number | list[Option] | Order, correct: Sequence[str]
+) -> None:
+    processing = _child(root, "responseProcessing")
+    condition = _child(processing, "responseCondition")
+    right = _child(condition, "responseIf")
+    right.append(_condition(asked, correct))
+    score = _child(right, "setOutcomeValue", identifier="SCORE")
+    _child(score, "variable", identifier="MAXSCORE")
+    for node, value in (
+        (right, "correct"),
+        (_child(condition, "responseElse"), "incorrect"),
+    ):
+        outcome = _child(node, "setOutcomeValue", identifier="FEEDBACKBASIC")
+        _child(outcome, "baseValue", value, baseType="identifier")
+    if isinstance(asked, list):
+        outcome = _child(processing, "setOutcomeValue", identifier="FEEDBACK")
+        _child(outcome, "variable", identifier=RESPONSE)
+
+
+def _feedback(root: Element, item: Item) -> None:
+    """The explanation for everybody, and the hints for those who were wrong."""
+    texts = [
+        ("FEEDBACKBASIC", "correct", item.explanation),
+        ("FEEDBACKBASIC", "incorrect", item.mistakes + item.explanation),
+    ]
+    if isinstance(item.asked, list):
+        texts += [
+            ("FEEDBACK", _ident(place), f"<p>{html(option.hint)}</p>")
+            for place, option in enumerate(item.asked)
+            if option.hint
+        ]
+    for outcome, ident, text in texts:
+        feedback = _child(
+            root,
+            "modalFeedback",
+            outcomeIdentifier=outcome,
+            identifier=ident,
+            showHide="show",
+        )
+        _html(feedback, "div", text)

@@ -1,0 +1,199 @@
+"""QTI packages: each answer against the question's own, and whole packages by a checker of somebody else."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from xml.etree import ElementTree
+
+import pytest
+
+from robonav.drills import Choice, Number, Order, Place, Table
+from robonav.drills.export import Drawn, drawn, qti_zip, selected
+from robonav.drills.export.items import Item, items
+from robonav.drills.markup import html
+
+QTI = "{http://www.imsglobal.org/xsd/imsqti_v2p1}"
+CANVAS = "{http://www.imsglobal.org/xsd/ims_qtiasiv1p2}"
+
+
+@pytest.fixture(scope="module")
+def bank() -> list[Drawn]:
+    return drawn(selected(), seed=1, each=2)
+
+
+@pytest.fixture(scope="module")
+def made(bank: list[Drawn]) -> dict[str, Item]:
+    return {item.name: item for item in items(bank)}
+
+
+@pytest.fixture(scope="module", params=["canvas", "blackboard"])
+def package(bank: list[Drawn], request) -> zipfile.ZipFile:
+    return zipfile.ZipFile(io.BytesIO(qti_zip(bank, "Robots", request.param)))
+
+
+@pytest.fixture(scope="module")
+def canvas(bank: list[Drawn]) -> dict[str, ElementTree.Element]:
+    content = zipfile.ZipFile(io.BytesIO(qti_zip(bank))).read(
+        "questions/assessment.xml"
+    )
+    root = ElementTree.fromstring(content)
+    return {item.get("ident", ""): item for item in root.iter(f"{CANVAS}item")}
+
+
+@pytest.fixture(scope="module")
+def blackboard(bank: list[Drawn]) -> dict[str, ElementTree.Element]:
+    package = zipfile.ZipFile(io.BytesIO(qti_zip(bank, platform="blackboard")))
+    roots = {
+        name.split("/")[1].removesuffix(".xml"): ElementTree.fromstring(
+            package.read(name)
+        )
+        for name in package.namelist()
+        if name.endswith(".xml") and name.startswith("questions/")
+    }
+    del roots["test"]
+    return roots
+
+
+def texts(node: ElementTree.Element, path: str) -> list[str]:
+    return ["".join(one.itertext()) for one in node.iterfind(path)]
+
+
+def test_there_is_an_item_for_each_answer(bank, made, canvas, blackboard) -> None:
+    count = sum(
+        len(one.question.asked.rows) * len(one.question.asked.columns)
+        if isinstance(one.question.asked, Table)
+        else 1
+        for one in bank
+    )
+    assert len(made) == len(canvas) == len(blackboard) == count
+    assert set(made) == set(canvas) == set(blackboard)
+
+
+def test_the_cells_of_a_table_are_asked_for_one_by_one(bank, made) -> None:
+    for one in bank:
+        if isinstance(one.question.asked, Table):
+            right = [float(x) for row in one.question.asked.answer for x in row]
+            fields = [
+                item.asked for name, item in made.items() if name[:-2] == one.name
+            ]
+            assert [field.answer for field in fields] == right
+            assert all(field.clear for field in fields)
+
+
+def test_canvas_accepts_what_the_question_accepts(made, canvas) -> None:
+    for name, item in made.items():
+        node = canvas[name]
+        right = node.findall(f".//{CANVAS}setvar/..")
+        if isinstance(item.asked, Number):
+            low = float(texts(node, f".//{CANVAS}vargte")[0])
+            high = float(texts(node, f".//{CANVAS}varlte")[0])
+            assert len(right) == 1  # another would count as right, too
+            assert item.asked.judge((low + high) / 2).right
+            assert high - low == pytest.approx(2 * item.asked.tolerance)
+            assert not any(low <= wrong <= high for wrong in item.asked.wrong.values())
+            continue
+        labels = {
+            label.get("ident"): "".join(label.itertext())
+            for label in node.iter(f"{CANVAS}response_label")
+        }
+        chosen = [
+            labels[condition.findtext(f".//{CANVAS}varequal") or ""]
+            for condition in right
+        ]
+        if isinstance(item.asked, Order):
+            assert chosen == [html(step) for step in item.asked.steps]
+        else:
+            assert chosen == [html(one.text) for one in item.asked if one.right]
+
+
+def test_blackboard_accepts_what_the_question_accepts(made, blackboard) -> None:
+    for name, item in made.items():
+        node = blackboard[name]
+        right = texts(node, f"{QTI}responseDeclaration/{QTI}correctResponse/{QTI}value")
+        if isinstance(item.asked, Number):
+            equal = node.find(f".//{QTI}equal")
+            assert equal is not None
+            assert item.asked.judge(float(right[0])).right
+            below, above = map(float, equal.get("tolerance", "").split())
+            assert [below, above] == pytest.approx([item.asked.tolerance] * 2)
+            continue
+        shown = {
+            choice.get("identifier"): "".join(choice.itertext())
+            for choice in node.iter(f"{QTI}simpleChoice")
+        }
+        steps = item.asked.steps if isinstance(item.asked, Order) else None
+        wanted = (
+            [html(step) for step in steps]
+            if steps
+            else [html(one.text) for one in item.asked if one.right][:1]
+        )
+        plain = [
+            "".join(ElementTree.fromstring(f"<p>{one}</p>").itertext())
+            for one in wanted
+        ]
+        assert [shown[one] for one in right] == plain
+
+
+def test_an_order_is_not_given_away(made, canvas, blackboard) -> None:
+    for name, item in made.items():
+        if isinstance(item.asked, Order):
+            shown = texts(blackboard[name], f".//{QTI}simpleChoice")
+            assert shown == sorted(shown)
+            first = canvas[name].find(f".//{CANVAS}render_choice")
+            assert first is not None
+            assert texts(first, f".//{CANVAS}mattext") == shown
+
+
+def test_every_item_has_its_explanation_and_hints(made, canvas, blackboard) -> None:
+    for name, item in made.items():
+        shown = {
+            node.get("ident"): "".join(node.itertext())
+            for node in canvas[name].iter(f"{CANVAS}itemfeedback")
+        }
+        assert item.explanation in shown["general_fb"]
+        linked = {
+            node.get("linkrefid")
+            for node in canvas[name].iter(f"{CANVAS}displayfeedback")
+        }
+        assert linked == set(shown)
+        hints = item.mistakes or any(
+            option.hint for option in item.asked if isinstance(item.asked, list)
+        )
+        feedback = blackboard[name].findall(f"{QTI}modalFeedback")
+        assert len(feedback) >= 2
+        if hints and not item.mistakes:
+            assert len(shown) > 1
+            assert len(feedback) > 2
+
+
+def test_pictures_are_in_the_package(package, bank) -> None:
+    pictures = {name for name in package.namelist() if name.endswith(".png")}
+    assert len(pictures) >= sum(bool(one.question.picture) for one in bank)
+    for name in pictures:
+        assert package.read(name).startswith(b"\x89PNG")
+
+
+def test_another_checker_finds_nothing(package, tmp_path) -> None:
+    checker = pytest.importorskip("qti_package_maker.common.package_integrity")
+    path = tmp_path / "bank.zip"
+    with zipfile.ZipFile(path, "w") as copy:
+        for name in package.namelist():
+            copy.writestr(name, package.read(name))
+    assert checker.check_package(str(path)) == []
+
+
+def test_same_seed_same_file() -> None:
+    chosen = selected(pages=["dynamic-programming"])
+    assert qti_zip(drawn(chosen, 5)) == qti_zip(drawn(chosen, 5))
+    assert qti_zip(drawn(chosen, 5)) != qti_zip(drawn(chosen, 6))
+
+
+def test_a_platform_is_known_or_refused() -> None:
+    with pytest.raises(ValueError, match="platform must be one of canvas, blackboard"):
+        qti_zip(drawn(selected(drills=["td-error"])), platform="sakai")
+
+
+def test_kinds_of_answers_all_occur(bank) -> None:
+    kinds = {type(one.question.asked) for one in bank}
+    assert kinds == {Number, Choice, Place, Order, Table}
