@@ -1,6 +1,6 @@
 """Chapter 3: learning from demonstration."""
 
-from .astar import GridPlan, Plan, grid_astar, modified_astar, plan, plan_on_grid
+from .astar import grid_astar, modified_astar
 from .behaviour_cloning import behaviour_cloning, labelled_states, learn_policy
 from .computer_expert import ComputerExpert, demonstrate
 from .dagger import DaggerResult, collect_with_expert_labels, dagger
@@ -16,6 +16,7 @@ from .human_expert import (
 )
 from .minari_datasets import from_minari, to_minari
 from .nearest_neighbours import NeighbourPolicy, learn_neighbours
+from .planning import GridPlan, Plan, plan, plan_on_grid
 
 __all__ = [
     "ComputerExpert",

@@ -19,8 +19,8 @@ from robonav.robot.worlds import LARGEST_MAP
 from robonav.validation import check_instance, check_real
 
 from . import _fast
-from .astar import MOVE, as_single_steps, plan, steps_in_move
 from .demonstrations import Actions, Demonstrations, record
+from .planning import MOVE, as_single_steps, plan, steps_in_move
 
 MARGIN = (
     3.0  # metres that plans keep from obstacles; no setting changes the policy more

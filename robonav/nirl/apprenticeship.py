@@ -46,51 +46,6 @@ PolicyExpectations = Callable[[Decisions, int, float], Floats]
 """``expectations(decisions, n_actions, discount) -> (A (k + 1),)``: estimated feature expectations."""
 
 
-@dataclass(frozen=True, eq=False)
-class Apprenticeship:
-    """The result of :func:`apprenticeship_learning` after n iterations.
-
-    Attributes
-    ----------
-    policies : tuple
-        n + 1 policies, the initial one first.
-    expectations : (n + 1, K) array
-        Their feature expectations.
-    weights : (n, K) array
-        The reward for which each policy after the first is the best one.
-    distances : (n + 1,) array
-        Distance of the expert's feature expectations from those of the nearest mixture of the first 1, 2, ... policies.
-    expert : (K,) array
-        The expert's feature expectations.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.nirl import apprenticeship_learning
-    >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])  # feature expectations of three policies
-    >>> solve = lambda weights: ((k := int((corners @ weights).argmax())), corners[k])
-    >>> found = apprenticeship_learning([0.5, 0.5], solve, (0, corners[0]), iterations=3)
-    >>> found.mixture.round(2)[:3]
-    array([0. , 0.5, 0.5])
-    """
-
-    policies: tuple[Any, ...]
-    expectations: Floats
-    weights: Floats
-    distances: Floats
-    expert: Floats
-
-    @property
-    def closest(self) -> int:
-        """The policy whose feature expectations are nearest to the expert's."""
-        return int(np.linalg.norm(self.expectations - self.expert, axis=1).argmin())
-
-    @property
-    def mixture(self) -> Floats:
-        """Probabilities (n + 1,) of the policies in the mixture nearest to the expert, see :func:`nearest_mixture`."""
-        return nearest_mixture(self.expert, self.expectations)
-
-
 def project(mean: Floats, found: Floats, expert: Floats) -> Floats:
     """The point nearest to the expert on the segment from ``mean`` to ``found`` (Abbeel and Ng 2004, section 3.1).
 
@@ -425,3 +380,48 @@ def apprenticeship(
             episodes.append(task.rollout(exploring_policy(network, eta), rng))
         found.append(expectations(episodes[-1], n_actions, discount))  # 5, 6
     return record.result(score)
+
+
+@dataclass(frozen=True, eq=False)
+class Apprenticeship:
+    """The result of :func:`apprenticeship_learning` after n iterations.
+
+    Attributes
+    ----------
+    policies : tuple
+        n + 1 policies, the initial one first.
+    expectations : (n + 1, K) array
+        Their feature expectations.
+    weights : (n, K) array
+        The reward for which each policy after the first is the best one.
+    distances : (n + 1,) array
+        Distance of the expert's feature expectations from those of the nearest mixture of the first 1, 2, ... policies.
+    expert : (K,) array
+        The expert's feature expectations.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import apprenticeship_learning
+    >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])  # feature expectations of three policies
+    >>> solve = lambda weights: ((k := int((corners @ weights).argmax())), corners[k])
+    >>> found = apprenticeship_learning([0.5, 0.5], solve, (0, corners[0]), iterations=3)
+    >>> found.mixture.round(2)[:3]
+    array([0. , 0.5, 0.5])
+    """
+
+    policies: tuple[Any, ...]
+    expectations: Floats
+    weights: Floats
+    distances: Floats
+    expert: Floats
+
+    @property
+    def closest(self) -> int:
+        """The policy whose feature expectations are nearest to the expert's."""
+        return int(np.linalg.norm(self.expectations - self.expert, axis=1).argmin())
+
+    @property
+    def mixture(self) -> Floats:
+        """Probabilities (n + 1,) of the policies in the mixture nearest to the expert, see :func:`nearest_mixture`."""
+        return nearest_mixture(self.expert, self.expectations)
