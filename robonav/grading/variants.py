@@ -434,7 +434,7 @@ def _check_that_all_stand(exercise: Exercise, of: Sequence[Knob], plain: Texts) 
 
 
 def _wrapped_lines(source: str) -> str:
-    """Return a source whose question has no line that is too long."""
+    """Return a source whose question and docstrings have no line that is too long."""
     head = ast.parse(source).body[0].end_lineno
     lines = source.splitlines()
     paragraphs = "\n".join(lines[:head]).split("\n\n")
@@ -444,7 +444,16 @@ def _wrapped_lines(source: str) -> str:
             paragraphs[number] = textwrap.fill(
                 paragraph, WIDTH, break_long_words=False, break_on_hyphens=False
             )
-    return "\n".join(["\n\n".join(paragraphs), *lines[head:], ""])
+    body, told = lines[head:], True
+    for number, line in enumerate(body):
+        told = told and "### BEGIN" not in line
+        if told and len(line) > WIDTH:
+            indent = " " * (len(line) - len(line.lstrip()))
+            deeper = indent + " " * 4 if re.match(r"\s+[\w, ]+ : ", line) else indent
+            body[number] = textwrap.fill(
+                line.strip(), WIDTH, initial_indent=indent, subsequent_indent=deeper
+            )
+    return "\n".join(["\n\n".join(paragraphs), *body, ""])
 
 
 def _signature(source: str, name: str) -> list[str]:
