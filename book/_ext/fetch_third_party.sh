@@ -15,21 +15,11 @@ get() { # NAME@VERSION FOLDER
   mkdir -p "$work/$2" && tar xzf "$work/$tarball" -C "$work/$2" --strip-components=1
 }
 
-get requirejs@2.3.8 requirejs
-get @jupyter-widgets/html-manager@1.0.15 html-manager
-get anywidget@0.11.0 anywidget
 get mathjax@3.2.2 mathjax
 get axe-core@4.14.1 axe-core
 
 keep="$work/keep"
-mkdir -p "$keep"/{requirejs,anywidget,html-manager,mathjax/{output/chtml/fonts,input/tex,a11y,sre/mathmaps}}
-
-cp "$work/requirejs/require.js" "$keep/requirejs/"
-
-cp "$work/anywidget/dist/index.js" "$work/anywidget/LICENSE" "$keep/anywidget/"
-
-cp "$work"/html-manager/dist/embed-amd.js "$work"/html-manager/dist/*.woff2 "$keep/html-manager/"
-cp "$work/html-manager/dist/embed.js.LICENSE.txt" "$keep/html-manager/BUNDLED-LICENSES.txt"
+mkdir -p "$keep"/mathjax/{output/chtml/fonts,input/tex,a11y,sre/mathmaps}
 
 mj="$work/mathjax/es5"
 cp "$mj/tex-mml-chtml.js" "$work/mathjax/LICENSE" "$keep/mathjax/"
@@ -38,9 +28,6 @@ cp -r "$mj/input/tex/extensions" "$keep/mathjax/input/tex/"
 cp "$mj"/a11y/*.js "$keep/mathjax/a11y/"
 cp "$mj"/sre/mathmaps/{base,en,fr}.json "$keep/mathjax/sre/mathmaps/"
 
-for folder in requirejs anywidget html-manager mathjax; do
-  mkdir -p "$site/$folder"
-  cp -r "$keep/$folder/." "$site/$folder/"
-done
+mkdir -p "$site/mathjax" && cp -r "$keep/mathjax/." "$site/mathjax/"
 mkdir -p "$axe" && cp "$work"/axe-core/{axe.min.js,LICENSE} "$axe/"
 du -sh "$site" "$axe"

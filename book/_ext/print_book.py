@@ -28,7 +28,8 @@ NOT_PRINTED = (
 )
 FRAME = re.compile(r'frames\[\d+\] = "(data:[^"]+)"')  # of matplotlib's animations
 LOADED = (
-    "link[rel=stylesheet], script[src*='third-party'], script[type='application/vnd.jupyter.widget-state+json'], "
+    "link[rel=stylesheet], script[src*='third-party'], script[src*='/widgets.js'], "
+    "script[type='application/vnd.jupyter.widget-state+json'], "
     "script:-soup-contains('window.MathJax')"
 )
 FOOT = '<div style="font-size: 8px; width: 100%; text-align: center" class="pageNumber"></div>'

@@ -3,6 +3,9 @@ if (location.protocol === "file:" && typeof DOCUMENTATION_OPTIONS !== "undefined
   DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false;
 }
 
+// All icons stand in the page from the beginning: there is no need to look for more in every formula that is set.
+globalThis.FontAwesomeConfig = { observeMutations: false };
+
 // The page's notebook is saved under its name, where the browser by itself might show its text.
 document.addEventListener("click", (event) => {
   const link = event.target.closest("a.btn-download-notebook-button");

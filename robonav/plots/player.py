@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from matplotlib.animation import Animation
 
 _ICON_FONT = re.compile(r"<link\b[^>]*font-awesome[^>]*>\s*", re.IGNORECASE)
+_PRELOADED = "new Image();"
+"""With which the player would decode all pictures as the page opens; a picture is decoded when it is first shown."""
 _BUTTON_TITLE = re.compile(r'<button title="([^"]+)"')
 
 
@@ -53,7 +55,7 @@ def player(
         )
     page = _frames(animation, frames_per_second, "loop" if loop else "once")
     plt.close("all")  # else the notebook shows the last frame once more
-    page = _ICON_FONT.sub("", page)
+    page = _ICON_FONT.sub("", page).replace(_PRELOADED, "{};")
     page = page.replace(
         '<img id="_anim_img', f'<img alt="{html.escape(description)}" id="_anim_img'
     )

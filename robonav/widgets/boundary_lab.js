@@ -114,10 +114,13 @@ function render({ model, el }) {
     label, options, value, change: (index) => { chosen[which] = index; load(); },
   }));
 
-  /** Another setting: its training, its examples, a network of its size. */
+  /** Another setting. */
   function load() {
-    const place_ = controls.reduce((index, { options }, which) => index * options.length + chosen[which], 0);
-    const packedRun = data.runs[place_];
+    take(data.runs[controls.reduce((index, { options }, which) => index * options.length + chosen[which], 0)]);
+  }
+
+  /** A training, the examples of its problem, and a network of its size. */
+  function take(packedRun) {
     run = {
       networkOf: networks(packedRun.networks),
       costs: [...unpack(packedRun.costs).values],
@@ -144,6 +147,7 @@ function render({ model, el }) {
       `At the probe (${probe.map((value) => value.toFixed(2)).join(", ")}) the network answers ${activations.at(-1)[0].toFixed(3)}.`;
   }
 
+  const kernel = ownTraining({ model, problem: () => chosen[0], iterations: frames.at(-1), take });
   asWidget(el, "Boundary lab: a network in the plane");
   el.replaceChildren(
     h("div", { class: "row" }, ...settings.map(({ element }) => element)),
@@ -152,9 +156,43 @@ function render({ model, el }) {
     h("div", { class: "row" }, h("div", { class: "grow" }, map.element, h("div", { class: "probes" }, ...probes.map(({ element }) => element))), place),
     history.element,
     h("p", { class: "label" }, "The cost J says how far the answers of the network are from the labels of all examples. An iteration is one step of the training."),
+    kernel.element,
   );
   load();
-  return time.stop;
+  return () => {
+    time.stop();
+    kernel.cancel();
+  };
+}
+
+const METHODS = ["gradient descent", "L-BFGS"];
+
+/** A training in Python with settings that the page has not trained; the lab then shows it. */
+function ownTraining({ model, problem, iterations, take }) {
+  const settings = { hidden: 5, step: 1, regularisation: 0.01, seed: 1, spread: 1 };
+  let method = METHODS[0];
+  /** A slider over some values. */
+  const dial = (name, label, values) => slider({
+    label, count: values.length, value: values.indexOf(settings[name]), text: (at) => String(values[at]), change: (at) => (settings[name] = values[at]),
+  }).element;
+  const whole = (from, to) => Array.from({ length: to - from + 1 }, (_, k) => from + k);
+  return kernelPanel({
+    model, title: "The problem above with other settings, in Python", unit: "iteration", total: () => iterations,
+    controls: [
+      dial("hidden", "hidden units", whole(1, 20)), choice({ label: "method", options: METHODS, change: (index) => (method = METHODS[index]) }).element,
+      dial("step", "step α of gradient descent", [0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100]), dial("regularisation", "regularisation λ", [0, 0.001, 0.01, 0.1, 1, 10]),
+      dial("spread", "spread of the first weights", [0, 0.1, 0.3, 1, 3, 10]), dial("seed", "seed", whole(0, 30)),
+    ],
+    lines: [
+      { name: "cost", label: "cost J" },
+      { name: "right", label: "right (%)", note: "How many of the examples the network answers rightly.", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
+    ],
+    request: () => ({ problem: problem(), method, settings }),
+    done: ({ sentence, run }) => {
+      take(run);
+      return sentence;
+    },
+  });
 }
 
 export default { render };

@@ -2,32 +2,116 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import Any
 
-import anywidget
 import numpy as np
-import traitlets
+from numpy.typing import NDArray
 
+from robonav.networks import CROSS_ENTROPY, Network, gradient_descent, random_network
+from robonav.networks.network_stack import stacked
 from robonav.networks.toy_datasets import EXTENT
-from robonav.networks.training_history import TrainingHistory
+from robonav.networks.training_history import Iterate, TrainingHistory
+from robonav.validation import check_integer, check_one_of, check_real
 
+from .kernel_training import KernelTraining, Report
 from .shared import front_end, packed, packed_network, style_sheet
 
+Examples = tuple[NDArray[np.float64], NDArray[np.float64]]
 
-class BoundaryLab(anywidget.AnyWidget):
-    """Choose a problem, a network and a training, step through the training, and read the output at any point."""
 
-    _esm = front_end("boundary_lab")
-    _css = style_sheet("boundary_lab")
-    data = traitlets.Dict().tag(sync=True)
+class BoundaryLab(KernelTraining):
+    """Choose a problem, a network and a training, step through the training, and read the output at any point.
+
+    With a kernel, Python trains a network with any other settings.
+    """
+
+    _esm = front_end(
+        "learning/worker",
+        "learning/training_panel",
+        "learning/kernel_panel",
+        "boundary_lab",
+    )
+    _css = style_sheet("learning/training_panel", "boundary_lab")
+
+    def __init__(self, data: dict[str, Any], examples: Sequence[Examples]) -> None:
+        super().__init__(data)
+        self._examples = examples
+
+    def train(self, request: dict[str, Any], report: Report) -> dict[str, Any]:
+        """Train a network on the chosen problem, and return it at the iterations that the page shows."""
+        settings, frames = request["settings"], self.data["frames"]
+        x, y = self._examples[request["problem"]]
+        network = random_network(
+            (2, check_integer("hidden", settings["hidden"], at_least=1), 1),
+            seed=check_integer("seed", settings["seed"], at_least=0),
+            spread=check_real("spread", settings["spread"], at_least=0),
+        )
+        iterates: list[Iterate] = []
+        for iterate in _ITERATES[check_one_of("method", request["method"], _ITERATES)](
+            network, x, y, settings, frames[-1]
+        ):
+            report(
+                len(iterates),
+                frames[-1],
+                at=len(iterates),
+                cost=iterate.cost,
+                right=100 * iterate.accuracy,
+            )
+            iterates.append(iterate)
+        report(frames[-1], frames[-1])
+        last = iterates[-1]
+        history = TrainingHistory(
+            last.network,
+            np.array([each.cost for each in iterates]),
+            np.array([each.accuracy for each in iterates]),
+            stacked([each.network for each in iterates]),
+        )
+        self.trainings = [history]
+        return {
+            "sentence": f"The cost is {last.cost:.3f}, and {100 * last.accuracy:.0f} % of the examples are right.",
+            "run": _run("the settings", history, frames),
+        }
+
+
+def _gradient_iterates(
+    network: Network, x: Any, y: Any, settings: dict[str, Any], iterations: int
+) -> Iterator[Iterate]:
+    """Gradient descent, step by step; the first iterate is the network as it came."""
+    for steps in (0, *[1] * iterations):
+        made = gradient_descent(
+            network,
+            x,
+            y,
+            gradient_step=settings["step"],
+            iterations=steps,
+            regularisation=settings["regularisation"],
+            objective=CROSS_ENTROPY,
+        )
+        network = made.network
+        yield Iterate(network, float(made.costs[-1]), float(made.accuracies[-1]))
+
+
+def _lbfgs_iterates(
+    network: Network, x: Any, y: Any, settings: dict[str, Any], iterations: int
+) -> Iterator[Iterate]:
+    """L-BFGS, step by step."""
+    # It loads torch, which a page without a training does not need.
+    from robonav.networks.torch_lbfgs import lbfgs_iterates
+
+    yield from lbfgs_iterates(
+        network, x, y, regularisation=settings["regularisation"], iterations=iterations
+    )
+
+
+_ITERATES = {"gradient descent": _gradient_iterates, "L-BFGS": _lbfgs_iterates}
 
 
 def boundary_lab(
     controls: Mapping[str, Sequence[str]],
     runs: Mapping[tuple[str, ...], TrainingHistory],
-    examples: Mapping[str, tuple[np.ndarray, np.ndarray]],
+    examples: Mapping[str, Examples],
     *,
     frames: Sequence[int],
     start: Sequence[str] = (),
@@ -62,7 +146,7 @@ def boundary_lab(
         if combination not in runs:
             raise ValueError(f"runs must hold a training for {combination}")
     return BoundaryLab(
-        data={
+        {
             "controls": [
                 {
                     "label": label,
@@ -86,12 +170,13 @@ def boundary_lab(
             ],
             "frames": list(frames),
             "extent": EXTENT,
-        }
+        },
+        [examples[problem] for problem in next(iter(controls.values()))],
     )
 
 
 def _run(
-    combination: tuple[str, ...], training: TrainingHistory, frames: Sequence[int]
+    combination: object, training: TrainingHistory, frames: Sequence[int]
 ) -> dict[str, Any]:
     """Pack one training for the page, in single precision, which is sufficient for a picture."""
     if training.networks is None:

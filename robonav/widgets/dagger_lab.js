@@ -218,15 +218,37 @@ function render({ model, el }) {
   const next = h("button", { type: "button", click: choose }, "Next map where it fails");
   const stage = h("div", { class: "stage", hidden: true }, board.canvas, wheel, told, h("div", { class: "row tools" }, play, back, ask, next));
 
+  const kernel = roundsPanel(model);
   asWidget(el, "DAgger lab", "imitation", "dagger-lab");
-  el.replaceChildren(h("div", { class: "row" }, first.element), about, panel.element, table.element, stage);
+  el.replaceChildren(h("div", { class: "row" }, first.element), about, panel.element, table.element, stage, kernel.element);
   showTable();
   tell();
   return () => {
     forgetPads();
     panel.cancel();
+    kernel.cancel();
     pause();
   };
+}
+
+/** DAgger in Python, where the computer expert corrects the robots, round after round. */
+function roundsPanel(model) {
+  const settings = { demonstrations: 1, rounds: 4, maps: 5, beta: 0 };
+  const robots = numberOfRobots([1, 2, 4]);
+  /** A slider over whole numbers from 1. */
+  const count = (name, label, most) => slider({
+    label, count: most, value: settings[name] - 1, text: (at) => String(at + 1), change: (at) => (settings[name] = at + 1),
+  }).element;
+  const mixture = slider({
+    label: "base p of β, the expert's share of the steps", count: 10, text: (at) => (at / 10).toFixed(1), change: (at) => (settings.beta = at / 10),
+    hint: "In round i, each step is the expert's with probability p to the power of i. With 0 the robot drives alone.",
+  }).element;
+  return kernelPanel({
+    model, title: "DAgger in Python: the computer expert corrects", unit: "round", total: () => settings.rounds,
+    controls: [count("demonstrations", "demonstrations at first", 25), count("rounds", "rounds", 10), count("maps", "maps in each round", 20), mixture, robots.element],
+    lines: [{ name: "arrived", label: "arrived (%)", note: "How many of the new maps the policy of each round crosses, robot after robot.", colour: PALETTE.ORANGE, low: 0, high: 100, text: (value) => value.toFixed(0) }],
+    request: () => ({ robots: robots.value(), settings }),
+  });
 }
 
 export default { render };

@@ -2,28 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import zip_longest
 from typing import Any
 
-import numpy as np
-
-from robonav.lfd import demonstrate, labelled_states
-from robonav.lfd.demonstrations import LEARNED
-from robonav.networks import random_network
+from robonav.lfd import demonstrate
 from robonav.networks.policy import NetworkPolicy
-from robonav.networks.training_history import Iterate
 from robonav.progress import Progress
-from robonav.robot import Encoder, random_worlds
-from robonav.validation import check_instance, check_integer, check_real
+from robonav.robot import random_worlds
+from robonav.validation import check_instance, check_integer
 
-from .kernel_training import (
-    TRIED,
-    KernelTraining,
-    Report,
-    sentence_on_rates,
-    success_rates,
-)
+from .imitation_training import train_imitators
+from .kernel_training import TRIED, KernelTraining, Report
 from .shared import front_end, style_sheet
 from .simulator import page_demonstrations, page_policy
 
@@ -46,58 +34,18 @@ class ImitationLab(KernelTraining):
 
     def train(self, request: dict[str, Any], report: Report) -> dict[str, Any]:
         """Train robots side by side by L-BFGS, and return the one with the least cost."""
-        # It loads torch, which a page without a training does not need.
-        from robonav.networks.torch_lbfgs import lbfgs_iterates
-
         settings = request["settings"]
-        robots = check_integer("robots", request["robots"], at_least=1)
-        iterations = check_integer("iterations", settings["iterations"], at_least=1)
-        hidden = check_integer("hidden", settings["hidden"], at_least=1)
-        seed = check_integer("seed", settings["seed"], at_least=0)
-        decay = check_real("regularisation", settings["regularisation"], at_least=0)
         worlds = random_worlds(
             TRIED, settings["obstacles"], seed=self.data["trial"]["seed"]
         )
-        x, y = labelled_states(page_demonstrations(request["drives"]))
-        trainings = [
-            lbfgs_iterates(
-                random_network((Encoder().size, hidden, LEARNED), seed=seed + robot),
-                x,
-                y,
-                regularisation=decay,
-                iterations=iterations,
-            )
-            for robot in range(robots)
-        ]
-        total = iterations + robots
-        for done, iterates in enumerate(_side_by_side(trainings)):
-            report(
-                done,
-                total,
-                at=done,
-                cost=float(np.mean([iterate.cost for iterate in iterates])),
-                agreement=100
-                * float(np.mean([iterate.accuracy for iterate in iterates])),
-            )
-        policies = [NetworkPolicy(iterate.network, Encoder()) for iterate in iterates]
-        rates: list[float] = []
-        for policy in policies:
-            rates += success_rates([policy], worlds)
-            report(iterations + len(rates), total)
-        self.trainings = policies
-        best = policies[int(np.argmin([iterate.cost for iterate in iterates]))]
-        return {
-            "sentence": sentence_on_rates(rates, TRIED),
-            "policy": page_policy(best),
-        }
-
-
-def _side_by_side(trainings: Sequence[Iterator[Iterate]]) -> Iterator[list[Iterate]]:
-    """The iterates of several trainings, one of each; a training that has ended stays at its last."""
-    latest: list[Iterate] = []
-    for iterates in zip_longest(*trainings):
-        latest = [iterate or latest[robot] for robot, iterate in enumerate(iterates)]
-        yield latest
+        self.trainings, ended = train_imitators(
+            page_demonstrations(request["drives"]),
+            settings,
+            worlds,
+            report,
+            robots=request["robots"],
+        )
+        return ended
 
 
 def imitation_lab(

@@ -249,18 +249,54 @@ function render({ model, el }) {
   const python = h("pre", {});
   const inPython = h("details", {}, h("summary", {}, "The same demonstration in Python"), python);
 
+  const kernel = expertsPanel(model);
   asWidget(el, "Key points lab", "key-points-lab");
   el.replaceChildren(
     board.canvas, told,
     h("div", { class: "row tools" }, add, h("label", {}, h("span", {}, "key point"), list), remove, clearAll),
     h("div", { class: "row tools" }, follow, next),
     h("p", { class: "quiet" }, "Click or tap the map to add a key point, and drag a key point to move it. With the keyboard, in the map: Enter adds a key point, the arrow keys move the chosen one by 1 m (with Shift by 5 m), Delete removes it."),
-    inPython, kept.element, kept.said);
+    inPython, kept.element, kept.said, kernel.element);
   another();
   return () => {
     stop();
     kept.end();
+    kernel.cancel();
   };
+}
+
+const EXPERTS = ["the computer expert", "you, by your demonstrations that arrived"];
+const NO_DEMONSTRATION = "There is nothing to learn from: let the robot follow a path of yours past some obstacles first.";
+
+/** Robots that Python trains on an expert's demonstrations, to see what makes a good expert. */
+function expertsPanel(model) {
+  const settings = { demonstrations: 25, margin: 3, caution: 2, slips: 0, hidden: 8, regularisation: 1, iterations: 300, seed: 0 };
+  const own = () => keptDrives().filter(({ outcome }) => outcome === "arrived");
+  let expert = 0;
+  const robots = numberOfRobots([1, 4, 8]);
+  /** A slider over the multiples of a step. */
+  const dial = (name, label, from, step, count, unit = "") => slider({
+    label, count, value: Math.round((settings[name] - from) / step), text: (at) => `${Number((from + at * step).toFixed(2))}${unit}`,
+    change: (at) => (settings[name] = Number((from + at * step).toFixed(2))),
+  }).element;
+  return kernelPanel({
+    model, title: "What makes a good expert? Train robots in Python", unit: "iteration", total: () => settings.iterations,
+    controls: [
+      choice({ label: "who demonstrates", options: EXPERTS, change: (index) => (expert = index) }).element, robots.element,
+      dial("demonstrations", "the computer's demonstrations", 5, 5, 20), dial("margin", "its margin", 1, 0.5, 8, " m"),
+      dial("caution", "its caution", 0, 0.5, 9), dial("slips", "its actions slip with probability", 0, 0.05, 11),
+      dial("regularisation", "regularisation λ", 0, 0.25, 21),
+    ],
+    lines: [
+      { name: "cost", label: "mean cost J", note: "How far the outputs are from the demonstrated actions, with the penalty on large weights." },
+      { name: "agreement", label: "mean agreement (%)", note: "How many of the demonstrated steps the robots decide as the expert did.", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
+    ],
+    request: () => {
+      if (expert === 1 && own().flatMap(effective).length === 0) return NO_DEMONSTRATION;
+      return { robots: robots.value(), settings, drives: expert === 1 ? base64Of(demonstrationsFile(own())) : null };
+    },
+    done: ({ sentence }) => sentence,
+  });
 }
 
 export default { render };

@@ -16,6 +16,10 @@ export function* rewardJob({ inputs, actions, settings, seed, reward }) {
       const { network, theta, iteration, balanced } = step.value;
       return { network: { sizes: network.sizes, weights: network.weights.map((w) => w.slice()), biases: network.biases.map((b) => b.slice()) }, theta, iteration, balanced };
     }
+    if (!step.value) {
+      yield;
+      continue;
+    }
     const { iteration, iterations, margin, balanced, arrived, theta } = step.value;
     yield { done: iteration, total: iterations, live: { at: iteration, margin, balanced: 100 * balanced, arrived: 100 * arrived, theta } };
   }
@@ -28,7 +32,7 @@ export function* rewardJob({ inputs, actions, settings, seed, reward }) {
 export function* learnAndTry({ learning, trial }) {
   const run = rewardJob(learning);
   let step = run.next();
-  for (; !step.done; step = run.next()) yield { ...step.value, total: step.value.total + trial.count };
+  for (; !step.done; step = run.next()) yield step.value && { ...step.value, total: step.value.total + trial.count };
   const found = step.value;
   const { iterations, encoder } = learning.settings;
   yield { done: iterations, total: iterations + trial.count, live: { found } };

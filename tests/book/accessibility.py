@@ -46,9 +46,6 @@ def violations(page: Page, rules: Sequence[str] | None = None) -> list[list[str]
 
     With ``rules``, only these of axe-core's rules are tested.
     """
-    page.evaluate(
-        "() => { window.define = undefined; }"
-    )  # else axe hands itself to require.js
     page.evaluate(AXE.read_text("utf-8"))
     found = page.evaluate(RUN, None if rules is None else list(rules))
     return [violation for violation in found if ours(violation)]

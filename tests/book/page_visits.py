@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from accessibility import COLOURS, violations
 from browser import DESKTOP, PHONE, ROOT, Visit, visiting
+from focus import focus_faults
 from playwright.sync_api import BrowserContext
 from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
@@ -67,6 +68,7 @@ class Shown:
     photographs: list[int] = field(default_factory=list)  # bytes
     overhang: int = 0
     formulas_cut: list[str] = field(default_factory=list)
+    focus: list[str] = field(default_factory=list)
 
 
 def from_disk(context: BrowserContext, folder: str, page_name: str) -> Shown:
@@ -82,6 +84,7 @@ def from_disk(context: BrowserContext, folder: str, page_name: str) -> Shown:
         visit.page.wait_for_timeout(THEME_WAITS)
         _photograph(visit, page_name, shown)
         shown.illegible["desktop"] = visit.page.evaluate(ILLEGIBLE)
+        shown.focus = focus_faults(visit.page)
         _examine(visit, shown)
     return shown
 

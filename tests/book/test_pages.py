@@ -49,6 +49,10 @@ def test_widgets_take_up_room_and_are_photographed(shown: Shown) -> None:
     assert shown.illegible["desktop"] == []
 
 
+def test_tab_goes_through_widgets_in_order_visibly_and_out_again(shown: Shown) -> None:
+    assert shown.focus == []
+
+
 def test_page_fits_a_phone(shown: Shown) -> None:
     assert shown.overhang <= 1
     assert shown.illegible["phone"] == []

@@ -29,10 +29,15 @@ const TIE = 1e-12; // how far apart rounding brings two balanced accuracies that
 /** Boltzmann policy, Eq. (5.10). @param {ArrayLike<number>} values */
 export const boltzmann = (values, inverseTemperature) => softmax(values.map((value) => inverseTemperature * value));
 
+const PIECE = 1000; // steps of the descent, or draws, after which the page may answer
+
 const outputsOf = (network, input) => propagate(network, input).activations.at(-1);
 
-/** Step 4: some episodes in new maps with the exploring policy, all robots one second at a time. @returns {Rollout} */
-export function rolloutEpisodes(network, settings, rng) {
+/**
+ * Step 4: some episodes in new maps with the exploring policy, all robots one second at a time. Returns a Rollout, and yields
+ * nothing after each second, where the page may answer.
+ */
+function* rolloutEpisodes(network, settings, rng) {
   const { episodes, obstacles, moving, speed, maxSteps, encoder, inverseTemperature } = settings;
   const worlds = randomWorlds(episodes, { seed: rng.raw() >> 1n, obstacles, moving }); // Python's integers(2**63)
   const robots = worlds.map((world) => ({ world, pose: startPose(world), outcome: "running", decisions: [] }));
@@ -51,6 +56,7 @@ export function rolloutEpisodes(network, settings, rng) {
       Object.assign(robot, advance(robot.world, robot.pose, step, robot.action, speed));
       robot.sensing = sense(robot.world, robot.pose);
     });
+    yield;
   }
   const rollout = { inputs: [], actions: [], next: [], ends: [], arrived: 0, collided: 0 };
   for (const { decisions, outcome } of robots) {
@@ -126,12 +132,13 @@ function scaledToUnitInterval(rewards) {
 }
 
 /**
- * Steps 9 and 10: stochastic gradient descent with a SARSA target, Eq. (5.16), for one decision at a time.
+ * Steps 9 and 10: stochastic gradient descent with a SARSA target, Eq. (5.16), for one decision at a time. Yields nothing now
+ * and then, where the page may answer.
  * @param {FlatNetwork} network one hidden layer; changed in place
  * @param {Rollout} decisions
- * @returns {number} the mean cost of the outputs before their steps
+ * @returns {Generator<undefined, number>} the mean cost of the outputs before their steps
  */
-function sarsaDescent({ sizes: [width, units], weights: [w1, w2], biases: [b1, b2] }, { inputs, actions, next, ends }, rewards, order, { learningRate, discount }, step) {
+function* sarsaDescent({ sizes: [width, units], weights: [w1, w2], biases: [b1, b2] }, { inputs, actions, next, ends }, rewards, order, { learningRate, discount }, step) {
   const hidden = new Float64Array(units);
   const logit = (input, action) => {
     let z = b2[action];
@@ -144,7 +151,8 @@ function sarsaDescent({ sizes: [width, units], weights: [w1, w2], biases: [b1, b
     return z;
   };
   let cost = 0;
-  for (const t of order) {
+  for (const [done, t] of order.entries()) {
+    if (done % PIECE === 0) yield;
     const future = next[t] >= 0 ? sigmoid(logit(inputs[next[t]], actions[next[t]])) : ends[t];
     const [input, a] = [inputs[t], actions[t]];
     const z = logit(input, a);
@@ -189,7 +197,8 @@ function answersIn({ sizes: [width, units, count], weights: [w1, w2], biases: [b
 const balancedAccuracy = (greedy, actions, weights) => greedy.reduce((sum, action, t) => sum + (action === actions[t] ? weights[t] : 0), 0);
 
 /**
- * Algorithm 10: yields what each iteration found, and returns the policy that predicts the expert best.
+ * Algorithm 10: yields what each iteration found, and returns the policy that predicts the expert best. Within an iteration
+ * it yields nothing now and then, where a page without a worker may answer.
  * With `reward` it learns no reward and improves the policy under that one.
  * @param {Decisions} expert
  * @param {NIRLSettings} settings
@@ -207,7 +216,7 @@ export function* nirl(expert, settings, seed, reward = null) {
   let answers = answersIn(network, expert.inputs);
   let best = { network: flattened(network), theta, balanced: balancedAccuracy(answers.greedy, expert.actions, balance), iteration: 0 };
   for (let iteration = 1; iteration <= iterations; iteration += 1) { // 2, 3, 11
-    const rollout = rolloutEpisodes(network, settings, rng); // 4
+    const rollout = yield* rolloutEpisodes(network, settings, rng); // 4
     episodes.push(rollout);
     const probabilities = answers.values.map((values) => boltzmann(values, inverseTemperature));
     const gap = featureGap(expert, probabilities, balance, actions);
@@ -218,10 +227,15 @@ export function* nirl(expert, settings, seed, reward = null) {
     let cost = NaN;
     if (recent.inputs.length > 0) {
       const rewards = scaledToUnitInterval(recent.inputs.map((input, t) => rewardAt(weights, input, recent.actions[t])));
-      const order = Array.from({ length: samples }, () => rng.integers(0, recent.inputs.length));
+      yield;
+      const order = [];
+      while (order.length < samples) {
+        order.push(rng.integers(0, recent.inputs.length));
+        if (order.length % PIECE === 0) yield;
+      }
       const fraction = (iteration - 1) / Math.max(iterations - 1, 1);
       const step = gradientStep[0] * (gradientStep[1] / gradientStep[0]) ** fraction;
-      cost = sarsaDescent(network, recent, rewards.map((r) => (1 - discount) * r), order, settings, step); // 9, 10
+      cost = yield* sarsaDescent(network, recent, rewards.map((r) => (1 - discount) * r), order, settings, step); // 9, 10
     }
     answers = answersIn(network, expert.inputs);
     const balanced = balancedAccuracy(answers.greedy, expert.actions, balance);

@@ -2,8 +2,9 @@
 
 /**
  * @typedef {{done: number, total: number, live?: any}} Step how much is done, of how much, and what to show of it
- * @typedef {(argument: any) => Iterator<Step> | AsyncIterator<Step>} Job a generator function that stands at the top of
- *   a file; its argument, its steps and what it returns are numbers, texts, arrays and plain objects
+ * @typedef {(argument: any) => Iterator<Step | undefined> | AsyncIterator<Step | undefined>} Job a generator function that
+ *   stands at the top of a file; its argument, its steps and what it returns are numbers, texts, arrays and plain objects.
+ *   It yields nothing where no step is done yet and the page may answer.
  * @typedef {{progress?: (done: number, total: number) => void, live?: (news: any[]) => void, done?: (result: any) => void,
  *   error?: (sentence: string) => void}} Listeners
  */
@@ -28,8 +29,8 @@ async function carryOut(job, argument, tell, { slice = PAUSE, rest = null, ended
         tell({ done: step.value });
         return;
       }
-      last = step.value;
-      if (last.live !== undefined) news.push(last.live);
+      last = step.value ?? last;
+      if (step.value?.live !== undefined) news.push(step.value.live);
       if (performance.now() - told < slice) continue;
       report();
       if (rest) await rest();
