@@ -3,6 +3,11 @@ if (location.protocol === "file:" && typeof DOCUMENTATION_OPTIONS !== "undefined
   DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false;
 }
 
+// The colours are right from the first line on: the theme would set them when the page is whole, and style all of it again.
+if (document.documentElement.dataset.mode === "auto") {
+  document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+}
+
 // All icons stand in the page from the beginning: there is no need to look for more in every formula that is set.
 globalThis.FontAwesomeConfig = { observeMutations: false };
 

@@ -16,10 +16,13 @@ from playwright.sync_api import Locator, expect
 from robonav import mdp
 from robonav.benchmark.policies import method
 from robonav.lfd import demonstrate
-from robonav.networks import NetworkPolicy
+from robonav.networks import NetworkPolicy, fit, toy_datasets
 from robonav.robot import random_worlds
+from robonav.widgets.boundary_lab import boundary_lab
+from robonav.widgets.dagger_lab import dagger_lab
 from robonav.widgets.grid_lab import Replay, grid_lab
 from robonav.widgets.imitation_lab import imitation_lab
+from robonav.widgets.key_points_lab import key_points_lab
 from robonav.widgets.reward_learning import reward_learning
 
 
@@ -43,7 +46,16 @@ def rewards() -> Any:
     return reward_learning(demonstrations, world, {}, maps=10, seed=55_000)
 
 
+def boundaries() -> Any:
+    examples = {"disc": toy_datasets.disc(40, seed=0)}
+    runs = {("disc",): fit(*examples["disc"], iterations=20, record=True)}
+    return boundary_lab({"problem": ["disc"]}, runs, examples, frames=[0, 1, 20])
+
+
 LABS: dict[str, Callable[[], Any]] = {
+    "boundaries": boundaries,
+    "dagger": lambda: dagger_lab(method("dagger"), maps=10),
+    "experts": key_points_lab,
     "grids": grids,
     "imitation": imitation,
     "rewards": rewards,
@@ -139,6 +151,49 @@ def test_robots_imitate_and_the_best_drives_in_the_page(view, http):
     row = lab.get_by_role("row", name=re.compile("trained in Python"))
     expect(row).to_be_visible()
     expect(lab.locator(".training .status").first).to_contain_text("Your robot arrives")
+    all_right(view)
+
+
+def test_a_network_of_python_is_shown_in_the_plane(view, http):
+    widget = boundaries()
+    lab = mounted(view, http, widget, kernel=True)
+    set_slider(lab, "hidden units", "Home")
+    panel(lab).get_by_label("method", exact=True).select_option("L-BFGS")
+    train(lab, r"The cost is [\d.]+, and \d+ % of the examples are right\.")
+    (history,) = widget.trainings
+    assert history.network.sizes == (2, 1, 1)
+    expect(lab.get_by_role("img", name="The network: two inputs")).to_have_attribute(
+        "aria-label", re.compile(", 1 hidden units")
+    )
+    expect(lab.get_by_text("Iteration 20: cost")).to_contain_text(
+        f"cost {history.costs[-1]:.3f}"
+    )
+    all_right(view)
+
+
+def test_an_expert_that_slips_is_learned_from(view, http):
+    widget = key_points_lab()
+    lab = mounted(view, http, widget, kernel=True)
+    set_slider(lab, "the computer's demonstrations", "Home")
+    set_slider(lab, "slip with probability", "End")
+    panel(lab).get_by_label("robots, each").select_option("1")
+    train(lab, r"5 demonstrations with \d+ steps to learn from\. One robot crosses ")
+    panel(lab).get_by_label("who demonstrates").select_option(index=1)
+    panel(lab).get_by_role("button", name="Train in Python").press("Enter")
+    expect(panel(lab).locator(".status")).to_contain_text("There is nothing to learn")
+    all_right(view)
+
+
+def test_dagger_runs_in_python(view, http):
+    widget = dagger_lab(method("dagger"), maps=10)
+    lab = mounted(view, http, widget, kernel=True)
+    set_slider(lab, "rounds", "Home")
+    set_slider(lab, "maps in each round", "Home")
+    panel(lab).get_by_label("robots, each").select_option("1")
+    train(lab, r"One robot crosses .* Before the first round it was [\d.]+ %\.")
+    assert len(widget.trainings[0].policies) == 2
+    curve = panel(lab).get_by_role("img", name=re.compile("^arrived"))
+    expect(curve).to_have_attribute("aria-label", re.compile("after 1$"))
     all_right(view)
 
 
