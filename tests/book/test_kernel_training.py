@@ -106,7 +106,7 @@ def all_right(visit: Visit) -> None:
 def test_without_a_kernel_nothing_speaks_of_python(view, http, name):
     lab = mounted(view, http, LABS[name]())
     expect(panel(lab)).to_have_count(0)
-    expect(lab.get_by_text("Python")).to_have_count(0)
+    expect(lab.get_by_text("Train in Python")).to_have_count(0)
     assert view.errors == []
 
 
