@@ -63,12 +63,6 @@ class DaggerLab(KernelTraining):
         rates: list[list[float]] = []
         for robot in range(robots):
             begun, total = robot * each, robots * each
-
-            def learned(
-                done: int, _: int, begun: int = begun, total: int = total
-            ) -> None:
-                report(begun + done, total)
-
             seeds = [ROUNDS_SEED + 100 * robot + i for i in range(1, rounds + 1)]
             results.append(
                 dagger(
@@ -77,7 +71,7 @@ class DaggerLab(KernelTraining):
                     beta_decay=decay,
                     regularisation=REGULARISATION,
                     seed=robot,
-                    progress=learned,
+                    progress=report.part(begun, total),
                 )
             )
             rates.append([])

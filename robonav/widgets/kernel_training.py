@@ -17,6 +17,7 @@ import anywidget
 import traitlets
 
 from robonav.experiments import bootstrap_interval
+from robonav.progress import Progress
 from robonav.robot import Worlds, navigate
 
 PAUSE = 0.05  # seconds between two messages to the page
@@ -70,6 +71,15 @@ class Report:
             live = {"live": self._news} if self._news else {}
             self._send({"done": done, "total": total, **live})
             self._news = []
+
+    def part(self, before: int, of_all: int) -> Progress:
+        """Return the callback of a part that begins when ``before`` of ``of_all`` steps are done."""
+
+        def progress(done: int, total: int) -> None:
+            """Tell the page how far the whole is."""
+            self(before + done, of_all)
+
+        return progress
 
 
 class KernelTraining(anywidget.AnyWidget):

@@ -51,7 +51,7 @@ class KeyPointsLab(KernelTraining):
                 margin=settings["margin"],
                 caution=settings["caution"],
                 slip=neighbour_slip(slip),
-                progress=lambda done, _: report(done, total),
+                progress=report.part(0, total),
             )
         self.trainings, ended = train_imitators(
             demonstrations,

@@ -11,7 +11,6 @@ from robonav.experiments.chapter4.setup import EVALUATION_TEMPERATURE, THESIS
 from robonav.networks import NetworkPolicy
 from robonav.nnql import STARTS, TARGETS, TrainingResult, train
 from robonav.nnql.reward import TABLE
-from robonav.progress import Progress
 from robonav.robot import random_worlds
 from robonav.validation import check_instance, check_integer, check_one_of
 
@@ -106,7 +105,7 @@ class QLearningLab(KernelTraining):
                 settings.episodes,
                 task=settings.task(),
                 hidden=settings.hidden,
-                progress=_progress(report, before, total),
+                progress=report.part(before, total),
                 **settings.hyperparameters(),
             )
             trainings += [training[k] for k in range(together)]
@@ -128,16 +127,6 @@ class QLearningLab(KernelTraining):
                 )
         self.trainings = trainings
         return sentence_on_rates(rates, TRIED)
-
-
-def _progress(report: Report, before: int, of_all: int) -> Progress:
-    """A callback of a training that begins when ``before`` of ``of_all`` episodes are done."""
-
-    def progress(done: int, total: int) -> None:
-        """Tell the page how far the training is."""
-        report(before + done, of_all)
-
-    return progress
 
 
 def q_learning_lab(
