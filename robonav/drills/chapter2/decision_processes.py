@@ -6,7 +6,7 @@ import numpy as np
 
 from robonav import mdp
 
-from ..question import Number, Question, Table
+from ..question import Choice, Number, Question, Table
 from ..registry import drill
 from ..text import sign, terms
 
@@ -129,4 +129,60 @@ def advantages(rng: Rng) -> Question:
         ),
         f"$V(s) = {probability:g} \\cdot {q[0]:g} + {1 - probability:g} \\cdot {q[1]:g} = {value:.4g}$. "
         f"An advantage is $A(s, a) = Q(s, a) - V(s)$: {q[0] - value:.4g} and {q[1] - value:.4g}.",
+    )
+
+
+FAULTS = {
+    "sum": "The probabilities of a row do not sum to 1.",
+    "negative": "A probability is negative.",
+    "terminal": "There is no discount, and some state never reaches a terminal state.",
+    "none": "It finds nothing: this is a model.",
+}
+
+
+def _fault(rows: list[list[float]], reward: float, discount: float) -> str:
+    """What the package's check says of a model with one action, in a word."""
+    try:
+        mdp.FiniteMDP([rows], [[reward], [0.0]], discount)
+    except ValueError as error:
+        return next(word for word in FAULTS if word in str(error))
+    return "none"
+
+
+@drill("decision-processes", "What does the check find?")
+def what_the_check_finds(rng: Rng) -> Question:
+    """Tell whether numbers are a model of a decision process."""
+    stays, discount = (
+        float(rng.choice([0.2, 0.4, 0.6, 0.8])),
+        float(rng.choice([0.9, 1.0])),
+    )
+    leaves = round(1 - stays, 1)
+    fault = str(rng.choice([*FAULTS]))
+    first, second = [stays, leaves], [0.0, 1.0]
+    if fault == "sum":
+        first = [stays, round(leaves + float(rng.choice([-0.1, 0.1])), 1)]
+    if fault == "negative":
+        first = [round(1 + stays, 1), -stays]
+    if fault == "terminal":
+        second, discount = [leaves, stays], 1.0
+    found = _fault([first, second], 1.0, discount)
+    hints = {
+        "sum": "Each row sums to 1.",
+        "negative": "No number is below 0.",
+        "terminal": "The discount is below 1, so nothing has to end."
+        if discount < 1
+        else "B is terminal: it returns to itself with reward 0, and A reaches it.",
+        "none": f"There is a fault: {FAULTS[found][0].lower()}{FAULTS[found][1:]}",
+    }
+    return Question(
+        f"Two states and one action. From A it leads to A with probability ${first[0]:g}$ and to B "
+        f"with ${first[1]:g}$, "
+        f"from B to A with ${second[0]:g}$ and to B with ${second[1]:g}$. The reward is 1 in A and 0 in B, and "
+        f"$\\gamma = {discount:g}$. What does the package find when it checks this model?",
+        Choice(
+            FAULTS[found],
+            {FAULTS[word]: hints[word] for word in FAULTS if word != found},
+            order=tuple(FAULTS.values()),
+        ),
+        f"{FAULTS[found]} The rows are ${first[0]:g}, {first[1]:g}$ and ${second[0]:g}, {second[1]:g}$.",
     )

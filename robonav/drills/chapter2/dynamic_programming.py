@@ -7,7 +7,7 @@ import numpy as np
 from robonav import mdp
 
 from ..pictures import grid_picture
-from ..question import Number, Order, Place, Question
+from ..question import Number, Order, Place, Question, Table
 from ..registry import drill
 
 Rng = np.random.Generator
@@ -140,4 +140,42 @@ def order_of_policy_iteration(rng: Rng) -> Question:
             },
         ),
         "Evaluation and improvement alternate, beginning with any policy, until an improvement changes nothing.",
+    )
+
+
+@drill("dynamic-programming", "Does the model fit into memory?")
+def memory_of_a_model(rng: Rng) -> Question:
+    """Compute what a full and a sparse model need, on which the choice of a planner depends."""
+    states = int(rng.choice([10_000, 20_000, 50_000, 100_000, 1_000_000]))
+    actions, reached = int(rng.choice([4, 5, 8])), int(rng.choice([3, 4]))
+    full, sparse = (
+        8.0 * actions * states**2 / 1e9,
+        12.0 * actions * states * reached / 1e6,
+    )
+    return Question(
+        f"A grid has {states} states and {actions} actions, and each action leads to {reached} states. A number needs "
+        "8 bytes, and its column in a sparse matrix 4 more. How much memory do the transitions need as full matrices, "
+        "and how much as sparse ones? A GB has $10^9$ bytes, an MB $10^6$.",
+        Table(
+            ["transitions"],
+            ["full, in GB", "sparse, in MB"],
+            [[full, sparse]],
+            wrong={
+                "There is one matrix for each action.": [
+                    [full / actions, sparse / actions]
+                ],
+                "A full matrix holds a number for each pair of states.": [
+                    [full * reached / states, sparse]
+                ],
+                "A sparse matrix holds numbers only for the states that are reached.": [
+                    [full, 1.5e3 * full]
+                ],
+                "A sparse matrix also holds the column of each number.": [
+                    [full, sparse * 2 / 3]
+                ],
+            },
+        ),
+        f"Full: $8 \\cdot {actions} \\cdot {states}^2$ bytes are {full:,.2f} GB. Sparse: $12 \\cdot {actions} \\cdot "
+        f"{states} \\cdot {reached}$ bytes are {sparse:.2f} MB. Exact values also need a system of {states} equations; "
+        "modified policy iteration needs only sweeps.",
     )

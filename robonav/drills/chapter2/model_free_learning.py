@@ -185,3 +185,87 @@ def epsilon_greedy(rng: Rng) -> Question:
         f"Each action has at least $\\epsilon / {count} = {epsilon / count:.4g}$. The greedy action "
         f"{'abcd'[best]} has $1 - \\epsilon$ more: {probabilities[best]:.4g}.",
     )
+
+
+@drill("model-free-learning", "Along the edge of a cliff")
+def along_the_edge(rng: Rng) -> Question:
+    """Compute how often an exploring robot falls where the greedy path runs along a cliff."""
+    epsilon, length = float(rng.choice([0.1, 0.2, 0.4])), int(rng.integers(4, 11))
+    policy = mdp.exploration.epsilon_greedy(np.array([1.0, 0.0, 0.0, 0.0]), epsilon)
+    down = float(policy[2])
+    answer = 1 - (1 - down) ** length
+    return Question(
+        f"A robot that learns goes {length} steps along a cliff. In each it takes the greedy action with probability "
+        f"$1 - \\varepsilon$ and otherwise any of its four actions with equal probability, and $\\varepsilon = "
+        f"{epsilon:g}$. One of the four leads over the edge. Count no other detours. With which probability does it "
+        "fall on this way?",
+        Number(
+            answer,
+            wrong={
+                "Only one of the four random actions leads over the edge.": 1
+                - (1 - epsilon) ** length,
+                "It can fall only once: the probability is not the sum over the steps.": down
+                * length,
+                "This is the probability that it does not fall.": 1 - answer,
+                "This is the probability for one step.": down,
+            },
+        ),
+        f"In each step it falls with probability ${epsilon:g} / 4 = {down:.4g}$, so it arrives with $(1 - {down:.4g})^"
+        f"{{{length}}} = {1 - answer:.4g}$. SARSA learns from these falls and keeps away from the "
+        f"edge; Q-learning values "
+        "the greedy path and goes along it.",
+    )
+
+
+@drill("model-free-learning", "Weights of features in place of a table")
+def weights_of_features(rng: Rng) -> Question:
+    """Compute one step of Q-learning with a linear function."""
+    f, after = (rng.integers(0, 4, size=2).astype(float) for _ in range(2))
+    weights = np.round(rng.uniform(-1, 1, size=2), 1)
+    reward, alpha = float(rng.integers(-1, 4)), float(rng.choice([0.1, 0.5]))
+    discount = float(rng.choice([0.5, 0.9]))
+    table = {0: np.array([f, f]), 1: np.array([after, after])}
+    updated = weights.copy()
+    inspect.unwrap(mdp.linear_q_learning)(
+        Episode([0, 1], [reward], terminated=False),
+        table.__getitem__,
+        updated,
+        1,
+        discount=discount,
+        learning_rate=lambda episode: alpha,
+        epsilon=lambda episode: 0.0,
+        rng=Numbers([0.5, 0.5]),
+    )
+    now, then = float(weights @ f), float(weights @ after)
+    delta = reward + discount * then - now
+    shown, next_shown, old = (
+        f"({a:g}, {b:g})" for a, b in (f, after, np.round(weights, 1))
+    )
+    return Question(
+        f"$Q(s, a) = w \\cdot f(s, a)$ with the weights $w = {old}$. A step with the features "
+        f"${shown}$ gives the reward "
+        f"${reward:g}$. The best action of the next state has the features ${next_shown}$. What are the weights after "
+        f"one step of Q-learning with $\\alpha = {alpha:g}$ and $\\gamma = {discount:g}$?",
+        Table(
+            ["weights"],
+            ["$w_1$", "$w_2$"],
+            [updated.tolist()],
+            wrong={
+                "Each weight changes in proportion to its feature.": [
+                    (weights + alpha * delta).tolist()
+                ],
+                "The discount is missing.": [
+                    (weights + alpha * (reward + then - now) * f).tolist()
+                ],
+                "The old value is missing in the TD error.": [
+                    (weights + alpha * (reward + discount * then) * f).tolist()
+                ],
+                "The features are those of the step, not of the next state.": [
+                    (weights + alpha * delta * after).tolist()
+                ],
+            },
+        ),
+        f"$Q(s, a) = {now:.4g}$, and the next state has ${then:.4g}$. The TD error is $\\delta = {reward:g} "
+        f"{sign(discount * then)} {sign(-now)} = {delta:.4g}$. Each weight changes by $\\alpha \\delta f_i$: "
+        f"$w = ({updated[0]:.4g}, {updated[1]:.4g})$.",
+    )

@@ -139,3 +139,36 @@ def value_from_vectors(rng: Rng) -> Question:
         ),
         f"The products are ${', '.join(f'{p:.4g}' for p in products)}$, and the largest is ${value:.4g}$.",
     )
+
+
+@drill("partial-observation", "What is it worth to know?")
+def value_of_knowing(rng: Rng) -> Question:
+    """Compute the value of information about a hidden state."""
+    rewards = rng.integers(-10, 11, size=(2, 2)).astype(float)
+    belief = float(rng.choice([0.2, 0.3, 0.4, 0.5, 0.6, 0.8]))
+    vectors = mdp.AlphaVectors(rewards, np.arange(2))
+    point = np.array([belief, 1 - belief])
+    now = float(vectors.value(point))
+    known = float(point @ [vectors.value([1, 0]), vectors.value([0, 1])])
+    each = rewards @ point
+    return Question(
+        f"The state is L with probability ${belief:g}$, and otherwise R. The action a gives "
+        f"${rewards[0, 0]:g}$ in L and "
+        f"${rewards[0, 1]:g}$ in R; b gives ${rewards[1, 0]:g}$ in L and ${rewards[1, 1]:g}$ in R. Before it acts, the "
+        "robot could look which state it is. How much is that look worth?",
+        Number(
+            known - now,
+            wrong={
+                "This is what it earns if it knows the state. Subtract what it earns without the look.": known,
+                "This is what it earns without the look.": now,
+                "Without the look it takes the better action, not any.": known
+                - float(each.mean()),
+            },
+        ),
+        f"Without the look a earns ${each[0]:.4g}$ and b ${each[1]:.4g}$, so it earns ${now:.4g}$. "
+        f"With it the robot takes "
+        f"the better action of each state: ${belief:g} \\cdot {rewards[:, 0].max():g} + {1 - belief:.2g} \\cdot "
+        f"({rewards[:, 1].max():g}) = {known:.4g}$. The difference is ${known - now:.4g}$. A planner "
+        f"that assumes that the "
+        "state will be known anyhow gives such a look no value.",
+    )

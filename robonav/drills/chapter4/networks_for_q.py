@@ -146,3 +146,27 @@ def cost_of_outputs(rng: Rng) -> Question:
         )
         + f", together ${cost:.4g}$.",
     )
+
+
+@drill("networks-for-q", "What a table has never seen")
+def never_seen(rng: Rng) -> Question:
+    """Compute in which share of the steps a table has no value."""
+    known = sorted(int(n) for n in rng.choice(12, size=5, replace=False))
+    steps = [int(n) for n in rng.choice(12, size=8)]
+    new = ~np.isin(steps, known)
+    answer = float(new.mean())
+    states = np.unique(steps)
+    by_state = float((~np.isin(states, known)).mean())
+    wrong = {
+        "This is the share of the steps in which the table has a value.": 1 - answer
+    }
+    if abs(by_state - answer) > 0.02:
+        wrong["Count steps, not different states."] = by_state
+    return Question(
+        f"In training a robot met the states {', '.join(map(str, known))}. In a new map it meets, "
+        f"step by step, the states "
+        f"{', '.join(map(str, steps))}. In which share of these steps does a table have no value?",
+        Number(answer, wrong=wrong),
+        f"In {int(new.sum())} of the {len(steps)} steps the state is not among those of the training: "
+        f"${int(new.sum())} / {len(steps)} = {answer:.4g}$. A network gives values there as well.",
+    )

@@ -8,7 +8,7 @@ from robonav import nnql
 from robonav.networks import Network, NetworkStack
 
 from ..pictures import CELL, box, label, picture, place
-from ..question import Number, Order, Place, Question, Table
+from ..question import Choice, Number, Order, Place, Question, Table
 from ..registry import drill
 from ..text import sign
 
@@ -328,4 +328,33 @@ def order_of_nnql(rng: Rng) -> Question:
             },
         ),
         "Lines 9 to 16 of Algorithm 8: values, action, update, rescaling, pair, training.",
+    )
+
+
+NEEDED = {
+    "the weights of the network": "They are what was learned. Without them the training begins anew.",
+    "the number of episodes so far": "The temperature, and the seeds of the next episode, depend on it.",
+}
+NOT_NEEDED = {
+    "the pairs of the present episode": "Each episode begins with an empty list of pairs.",
+    "the maps of the episodes so far": "A map is made again from its seed and its number.",
+    "the random numbers drawn so far": "Those of an episode depend only on its seed and its number.",
+    "the paths of the robot": "No later step depends on where the robot was.",
+}
+
+
+@drill("nnql", "What must a checkpoint hold?")
+def what_a_checkpoint_holds(rng: Rng) -> Question:
+    """Tell what has to be saved between two episodes so that a training continues as if never interrupted."""
+    seeds, episodes = int(rng.choice([4, 8, 16])), int(rng.choice([50, 100, 200]))
+    needed = bool(rng.integers(2))
+    good, bad = (NEEDED, NOT_NEEDED) if needed else (NOT_NEEDED, NEEDED)
+    right = str(rng.choice([*good]))
+    others = [str(name) for name in rng.permutation([*bad])[: 3 if needed else 2]]
+    return Question(
+        f"A training of {seeds} robots with NNQL is saved after {episodes} episodes and continued later, with the same "
+        "result to the last bit. Its seeds and settings are known. Which of these "
+        f"{'has to be' if needed else 'need not be'} in the file?",
+        Choice(right, {name: bad[name] for name in others}),
+        good[right],
     )

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..question import Number, Question, Table
+from ..question import Choice, Number, Question, Table
 from ..registry import drill
 from ..text import sign
 
@@ -241,4 +241,56 @@ def better_robot(rng: Rng) -> Question:
         Number(answer, wrong=wrong),
         f"Of ${pairs}$ pairs of robots the first wins ${wins}$ and ties in ${ties}$: "
         f"$({wins} + {ties} / 2) / {pairs} = {answer:.3g}$.",
+    )
+
+
+UNFAIR = {
+    "{a} was tuned in {n} trials, {b} has the settings of its first paper": "Both must have the same number of trials.",
+    "{a} was tuned in the {m} maps of the final test": "Settings are chosen on other maps than those of the test.",
+    "{a} saw the target's sector as sine and cosine, {b} as a number": "Both must have the same inputs.",
+    "The best of ten runs of {a} stands beside the mean of ten runs of {b}": "The same statistic must be compared.",
+    "{a} trained for {m} episodes, and {b} until it arrived in nine of ten maps": "Both must have "
+    "the same budget, or the budget is what is reported.",
+    "{a} was tested in {m} maps with 10 obstacles, and {b} in as many with 20": "Both must be tested in the same maps.",
+}
+FAIR = (
+    "{a} and {b} had {n} trials each, in maps that the test does not use",
+    "{a} and {b} were tested in the same {m} maps, which neither had seen",
+    "{a} and {b} have settings of their own, found in {n} trials each on tuning maps",
+    "Of {a} and of {b} the mean of {n} runs is given, each with its interval",
+)
+
+
+@drill("nnql-comparison", "Fair or not?")
+def fair_or_not(rng: Rng) -> Question:
+    """Tell a fair comparison from an unfair one."""
+    a, b = (
+        str(name)
+        for name in rng.choice(
+            ["NNQL", "NFQ", "DQN", "online Q-learning"], 2, replace=False
+        )
+    )
+    fill = {
+        "a": a,
+        "b": b,
+        "n": int(rng.choice([8, 16, 25])),
+        "m": int(rng.choice([100, 200, 1000])),
+    }
+    if rng.random() < 0.5:
+        asks, right = "unfair", str(rng.choice([*UNFAIR]))
+        others = rng.choice(FAIR, size=2, replace=False)
+        wrong = {
+            str(text).format(**fill): "This is as it should be: both are treated alike."
+            for text in others
+        }
+        why = UNFAIR[right]
+    else:
+        asks, right = "fair", str(rng.choice(FAIR))
+        others = rng.choice([*UNFAIR], size=2, replace=False)
+        wrong = {str(text).format(**fill): UNFAIR[str(text)] for text in others}
+        why = "Both are treated alike."
+    return Question(
+        f"{a} and {b} are compared. Which of these is {asks}?",
+        Choice(right.format(**fill), wrong),
+        why,
     )

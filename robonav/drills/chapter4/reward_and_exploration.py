@@ -6,7 +6,7 @@ import numpy as np
 
 from robonav import nnql
 
-from ..question import Choice, Number, Question, Table
+from ..question import Choice, Number, Order, Question, Table
 from ..registry import drill
 from ..text import sign
 
@@ -111,4 +111,76 @@ def potential(rng: Rng) -> Question:
             },
         ),
         f"$\\gamma \\Phi(s') - \\Phi(s) = {discount * after:.4g} {sign(-before)} = {answer:.4g}$.",
+    )
+
+
+@drill("reward-and-exploration", "One row for every step?")
+def one_row_for_every_step(rng: Rng) -> Question:
+    """Tell whether a table of rewards is exclusive and total."""
+    border = int(rng.integers(3, 8))
+    low_closed, high_closed = bool(rng.integers(2)), bool(rng.integers(2))
+    shift = int(rng.choice([0, 0, 1, -1]))
+    low, high = border, border + shift
+    whole = np.arange(0, 11)
+    first = whole <= low if low_closed else whole < low
+    second = whole >= high if high_closed else whole > high
+    exclusive, total = not (first & second).any(), bool((first | second).all())
+    answers = {
+        (True, True): "It is exclusive and total",
+        (False, True): "It is total, but not exclusive",
+        (True, False): "It is exclusive, but not total",
+        (False, False): "It is neither exclusive nor total",
+    }
+    both = [int(n) for n in whole[first & second]]
+    none = [int(n) for n in whole[~first & ~second]]
+    hint = (
+        f"At {both[0]} m both rows hold."
+        if both
+        else f"At {none[0]} m no row holds."
+        if none
+        else "At each distance exactly one row holds."
+    )
+    right = answers[exclusive, total]
+    return Question(
+        f"Distances are whole metres from 0 to 10. A table of rewards has two rows: "
+        f"*{'at most' if low_closed else 'less than'} "
+        f"{low} m* and *{'at least' if high_closed else 'more than'} {high} m*. What is true of it?",
+        Choice(
+            right,
+            {answer: hint for answer in answers.values() if answer != right},
+            order=tuple(answers.values()),
+        ),
+        f"{hint} A table is exclusive if no two rows hold at once, and total if some row always holds.",
+    )
+
+
+@drill("reward-and-exploration", "An episode with Gymnasium")
+def parts_of_an_episode(rng: Rng) -> Question:
+    """Put the parts of an episode in order, as any Gymnasium environment needs them."""
+    lines = [
+        f"`reset` with the seed {int(rng.integers(100))} gives the first state.",
+        "The policy chooses an action for the state.",
+        "`step` gives the next state, the reward, and whether the episode has ended.",
+        f"The target is the reward; unless the episode has ended, plus {rng.choice([0.65, 0.9])} "
+        f"times the best next value.",
+        "The value of state and action moves towards the target.",
+        "The next state becomes the state.",
+    ]
+    hints = (
+        "A policy needs a state, and the first one comes from the reset.",
+        "The environment is told an action, so that it must be chosen before.",
+        "The target needs the reward and the next state.",
+        "The value moves towards the target, so the target comes first.",
+        "The update is that of the old state, so the state changes after it.",
+    )
+    first = int(rng.integers(3))
+    shown = lines[first : first + 4]
+    return Question(
+        "Put these parts of an episode in order. The parts after the reset are repeated until the episode ends.",
+        Order(
+            shown,
+            "Each part uses what the parts before it have computed.",
+            {(k, k + 1): hints[first + k] for k in range(3)},
+        ),
+        " ".join(f"({k + 1}) {part}" for k, part in enumerate(shown)),
     )

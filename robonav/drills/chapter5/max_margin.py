@@ -6,7 +6,7 @@ import numpy as np
 
 from robonav import nirl
 
-from ..question import Choice, Question, Table
+from ..question import Choice, Number, Question, Table
 from ..registry import drill
 
 Rng = np.random.Generator
@@ -154,4 +154,72 @@ def into_the_ball(rng: Rng) -> Question:
             if length > 1
             else "It is at most 1, so they stay as they are."
         ),
+    )
+
+
+@drill("max-margin", "Compared in the expert's states")
+def gap_without_model(rng: Rng) -> Question:
+    """Compute the feature gap of one decision, which needs no model."""
+    feature = float(rng.integers(2, 8))
+    p = rng.permutation(
+        [[0.5, 0.3, 0.2], [0.6, 0.3, 0.1], [0.4, 0.4, 0.2]][int(rng.integers(3))]
+    )
+    own = int(rng.integers(3))
+    none = np.zeros(1, dtype=int)
+    decision = nirl.Decisions(
+        np.array([[feature]]), np.array([own]), none, none, none, none
+    )
+    gap = nirl.feature_gap(decision, p[None], np.ones(1))[:, 0]
+    names = ("F", "L30", "R30")
+    hot = np.eye(3)[own]
+    return Question(
+        f"In a demonstrated state with one feature, ${feature:g}$, the expert took {names[own]}. The "
+        f"learner's policy takes "
+        f"F with probability ${p[0]:g}$, L30 with ${p[1]:g}$ and R30 with ${p[2]:g}$ there. The features stand in the "
+        "block of the action. What is the gap between the expert's features and the learner's, block by block?",
+        Table(
+            ["gap"],
+            names,
+            [gap.tolist()],
+            wrong={
+                "The learner's features are missing.": [(hot * feature).tolist()],
+                "The feature is missing: these are the probabilities alone.": [
+                    (hot - p).tolist()
+                ],
+                "The gap is the expert's features minus the learner's.": [
+                    (-gap).tolist()
+                ],
+            },
+        ),
+        f"Expert: {feature:g} in the block {names[own]}, 0 elsewhere. Learner: "
+        f"${', '.join(f'{x * feature:.4g}' for x in p)}$. The gap is ${', '.join(f'{x:.4g}' for x in gap)}$, from the "
+        "expert's states alone.",
+    )
+
+
+@drill("max-margin", "What the thesis's objective finds")
+def fitted_to_values(rng: Rng) -> Question:
+    """Minimise the thesis's objective for one weight, and see what it ignores."""
+    mu = rng.integers(1, 6, size=2).astype(float)
+    values = np.round(rng.uniform(-3, 3, size=2), 1)
+    free = float(mu @ values / (mu @ mu))
+    answer = float(nirl.project_to_unit_ball(np.array([free]))[0])
+    worst = float((values / mu).mean())
+    wrong = {
+        "The sum of squares is minimised by $\\sum \\mu Q / \\sum \\mu^2$, not by the mean of the ratios.": worst,
+        "This has the wrong sign: the expert's values are fitted to the learner's.": -answer,
+    }
+    if abs(free) > 1:
+        wrong["The weight must not be longer than 1."] = free
+    wrong = {hint: n for hint, n in wrong.items() if abs(n - answer) > 0.02}
+    return Question(
+        f"In two demonstrated states the expert's feature expectations are ${mu[0]:g}$ and "
+        f"${mu[1]:g}$, and the learner's "
+        f"values are ${values[0]:g}$ and ${values[1]:g}$. Which weight $|\\theta| \\leq 1$ makes the objective "
+        "$\\sum_t (\\theta \\mu_t - Q_t)^2$ smallest?",
+        Number(answer, wrong=wrong),
+        f"$\\sum \\mu Q / \\sum \\mu^2 = {mu @ values:.4g} / {mu @ mu:g} = {free:.4g}$"
+        + (f", cut off to {answer:g}" if abs(free) > 1 else "")
+        + ". Its sign is that of the learner's values. How good the expert is does not matter: this is why the "
+        "minimum is no good reward.",
     )

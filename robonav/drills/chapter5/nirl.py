@@ -6,7 +6,7 @@ import numpy as np
 
 from robonav import nirl
 
-from ..question import Number, Question, Table
+from ..question import Choice, Number, Order, Question, Table
 from ..registry import drill
 from ..text import sign
 
@@ -138,4 +138,63 @@ def scaled_rewards(rng: Rng) -> Question:
         ),
         "$(r / " + f"{scale:g}" + " + 1) / 2$: "
         f"{', '.join(f'{r:.4g}' for r in scaled)}.",
+    )
+
+
+@drill("nirl", "The steps of NIRL")
+def order_of_nirl(rng: Rng) -> Question:
+    """Put the steps of one iteration of Algorithm 10 in order."""
+    steps = [
+        "Run episodes in new maps with the present policy",
+        "Find the reward that separates the expert from this policy, and its margin",
+        "Stop if the margin is small",
+        "Compute the targets of the pairs under this reward",
+        "Train the network on the targets",
+    ]
+    hints = (
+        "The reward is compared with the present policy, which must have been run before.",
+        "There is no margin yet that could be small.",
+        "The algorithm looks at the margin first. If it is small, no training is needed.",
+        "The network is trained on the targets, so these come first.",
+    )
+    first = int(rng.integers(2))
+    shown = steps[first : first + 4] if rng.random() < 0.5 else steps
+    start = steps.index(shown[0])
+    return Question(
+        "Put these steps of an iteration of Algorithm 10 in order.",
+        Order(
+            shown,
+            "Each step uses the result of the step before it.",
+            {(k, k + 1): hints[start + k] for k in range(len(shown) - 1)},
+        ),
+        "; ".join(f"{k + 1}. {step}" for k, step in enumerate(shown)) + ".",
+    )
+
+
+GIVEN = {
+    "the learning rate of the values": "0.8",
+    "the learning rate of the network": "0.4",
+    "the discount": "0.65",
+    "the number of hidden units": "10, or 8",
+    "the number of episodes in an iteration": "10",
+}
+OPEN = (
+    "the inverse temperature",
+    "the number of seconds of an episode",
+    "the number of gradient steps in an iteration",
+)
+
+
+@drill("nirl", "What does the thesis leave open?")
+def left_open(rng: Rng) -> Question:
+    """Tell which settings of NIRL the thesis does not give."""
+    right = str(rng.choice(OPEN))
+    others = [str(name) for name in rng.choice([*GIVEN], size=3, replace=False)]
+    return Question(
+        "Which of these settings of NIRL does the thesis not give?",
+        Choice(
+            right,
+            {name: f"The thesis gives it: {GIVEN[name]}." for name in others},
+        ),
+        f"The thesis does not say {right}, so that a repetition has to try several.",
     )

@@ -1,0 +1,193 @@
+"""The answers of drills that practise a goal of their own, worked out another way from the numbers in their texts."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numbers_in_texts import drawn, numbers
+from scipy.optimize import minimize_scalar
+
+BOOK = Path(__file__).parents[3] / "book"
+
+
+def test_what_the_check_finds() -> None:
+    for question in drawn("what-the-check-finds"):
+        aa, ab, ba, bb = numbers(question.text)[:4]
+        gamma = float(re.search(r"\\gamma = ([\d.]+)", question.text)[1])
+        if min(aa, ab, ba, bb) < 0:
+            expected = "negative"
+        elif abs(aa + ab - 1) > 1e-9 or abs(ba + bb - 1) > 1e-9:
+            expected = "sum to 1"
+        else:
+            expected = "no discount" if gamma == 1 and bb < 1 else "nothing"
+        assert expected in question.asked.right
+
+
+def test_memory_of_a_model_entry_by_entry() -> None:
+    for question in drawn("memory-of-a-model"):
+        states, actions, reached = numbers(question.text)[:3]
+        row = np.zeros(int(states)).nbytes
+        kept = np.zeros(int(reached)).nbytes + np.zeros(int(reached), np.int32).nbytes
+        expected = actions * states * row / 1e9, actions * states * kept / 1e6
+        assert question.asked.answer[0] == pytest.approx(expected)
+
+
+def test_along_the_edge_step_by_step() -> None:
+    for question in drawn("along-the-edge"):
+        steps = int(numbers(question.text)[0])
+        epsilon = float(re.search(r"\\varepsilon = ([\d.]+)", question.text)[1])
+        walking, fallen = 1.0, 0.0
+        for _ in range(steps):
+            walking, fallen = (
+                walking * (1 - epsilon / 4),
+                fallen + walking * epsilon / 4,
+            )
+        assert question.asked.answer == pytest.approx(fallen)
+
+
+def test_weights_of_features_by_a_derivative() -> None:
+    for question in drawn("weights-of-features"):
+        w1, w2, f1, f2, reward, g1, g2, alpha, gamma = numbers(question.text)
+        target = reward + gamma * (w1 * g1 + w2 * g2)
+
+        def cost(a: float, b: float, f1=f1, f2=f2, target=target) -> float:
+            return (target - a * f1 - b * f2) ** 2 / 2
+
+        slopes = (
+            (cost(w1 + 1e-5, w2) - cost(w1 - 1e-5, w2)) / 2e-5,
+            (cost(w1, w2 + 1e-5) - cost(w1, w2 - 1e-5)) / 2e-5,
+        )
+        expected = w1 - alpha * slopes[0], w2 - alpha * slopes[1]
+        assert question.asked.answer[0] == pytest.approx(expected, abs=1e-6)
+
+
+def test_value_of_knowing_is_the_regret_without_it() -> None:
+    for question in drawn("value-of-knowing"):
+        left, a_left, a_right, b_left, b_right = numbers(question.text)
+        lost = [
+            left * (max(a_left, b_left) - x) + (1 - left) * (max(a_right, b_right) - y)
+            for x, y in ((a_left, a_right), (b_left, b_right))
+        ]
+        assert question.asked.answer == pytest.approx(min(lost))
+
+
+def test_soft_maximum_is_the_best_mean_plus_entropy() -> None:
+    for question in drawn("soft-maximum-of-values"):
+        a, b, temperature = numbers(question.text)
+
+        def lost(p: float, a=a, b=b, temperature=temperature) -> float:
+            entropy = -p * math.log(p) - (1 - p) * math.log(1 - p)
+            return -(p * a + (1 - p) * b + temperature * entropy)
+
+        best = minimize_scalar(lost, bounds=(1e-9, 1 - 1e-9), method="bounded")
+        assert question.asked.answer == pytest.approx(-best.fun, abs=1e-4)
+
+
+def test_gap_without_model() -> None:
+    for question in drawn("gap-without-model"):
+        feature, *p = numbers(question.text)
+        own = ["F", "L30", "R30"].index(re.search(r"took (\w+)\.", question.text)[1])
+        expected = [feature * ((k == own) - p[k]) for k in range(3)]
+        assert question.asked.answer[0] == pytest.approx(expected)
+
+
+def test_fitted_to_values_by_a_search() -> None:
+    for question in drawn("fitted-to-values"):
+        m1, m2, q1, q2 = numbers(question.text)[:4]
+        theta = np.linspace(-1, 1, 20_001)
+        cost = (theta * m1 - q1) ** 2 + (theta * m2 - q2) ** 2
+        assert question.asked.answer == pytest.approx(theta[cost.argmin()], abs=2e-4)
+
+
+def test_order_of_nirl_is_that_of_the_page() -> None:
+    words = ["run episodes", "find", "stop", "compute the", "train the network"]
+    algorithm = (BOOK / "nirl.md").read_text("utf-8").split(":label: alg-10")[1]
+    algorithm = algorithm.lower()
+    places = [algorithm.index(word) for word in words]
+    assert places == sorted(places)
+    for question in drawn("order-of-nirl"):
+        order = [
+            next(k for k, word in enumerate(words) if word in step.lower())
+            for step in question.asked.steps
+        ]
+        assert order == sorted(order)
+
+
+def test_left_open_is_what_the_page_s_table_says() -> None:
+    page = (BOOK / "nirl.md").read_text("utf-8")
+    rows = dict(
+        re.findall(r"^\| ([^|]+?) \| ([^|]+?) \| [^|]+ \|$", page, re.MULTILINE)
+    )
+    names = {
+        "learning rate of the values": r"learning rate of the values $\alpha$",
+        "learning rate of the network": r"learning rate of the network $\sigma$",
+        "discount": r"discount $\gamma$",
+        "inverse temperature": r"inverse temperature $\eta$",
+        "hidden units": "hidden units",
+        "number of episodes in": "episodes an iteration, iterations",
+        "seconds of an episode": "seconds of an episode, at most",
+        "gradient steps": "gradient steps an iteration",
+    }
+    for question in drawn("left-open"):
+        for option in question.asked.options:
+            row = next(rows[full] for word, full in names.items() if word in option)
+            assert (row == "not said") == (option == question.asked.right), option
+
+
+def test_never_seen_step_by_step() -> None:
+    for question in drawn("never-seen"):
+        known, steps = numbers(question.text)[:5], numbers(question.text)[5:]
+        assert question.asked.answer == pytest.approx(
+            sum(step not in known for step in steps) / len(steps)
+        )
+
+
+def test_one_row_for_every_step_metre_by_metre() -> None:
+    for question in drawn("one-row-for-every-step"):
+        rows = re.findall(
+            r"\*(at most|less than|at least|more than) (\d+) m\*", question.text
+        )
+        holds = {
+            "at most": lambda x, y: x <= y,
+            "less than": lambda x, y: x < y,
+            "at least": lambda x, y: x >= y,
+            "more than": lambda x, y: x > y,
+        }
+        counts = [sum(holds[word](x, int(y)) for word, y in rows) for x in range(11)]
+        expected = {
+            (True, True): "exclusive and total",
+            (True, False): "exclusive, but not total",
+            (False, True): "total, but not exclusive",
+            (False, False): "neither",
+        }[max(counts) <= 1, min(counts) >= 1]
+        assert expected in question.asked.right
+
+
+def test_parts_of_an_episode_have_one_order() -> None:
+    words = ["reset", "chooses", "step", "target is", "moves", "becomes"]
+    for question in drawn("parts-of-an-episode"):
+        order = [
+            min(k for k, word in enumerate(words) if word in part)
+            for part in question.asked.steps
+        ]
+        assert order == sorted(order)
+
+
+def test_what_a_checkpoint_holds() -> None:
+    learned = re.compile("weights of the network|number of episodes")
+    for question in drawn("what-a-checkpoint-holds"):
+        for option in question.asked.options:
+            wanted = ("has to be" in question.text) == bool(learned.search(option))
+            assert wanted == (option == question.asked.right)
+
+
+def test_fair_or_not() -> None:
+    fair = re.compile(r"trials each|the same \d+ maps|the mean of \d+ runs is given")
+    for question in drawn("fair-or-not"):
+        for option in question.asked.options:
+            wanted = ("is unfair" in question.text) != bool(fair.search(option))
+            assert wanted == (option == question.asked.right), option
