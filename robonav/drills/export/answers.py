@@ -130,12 +130,12 @@ def points(asked: Asked) -> int:
 
 
 def number_text(number: float) -> str:
-    """Return a number with at most ten significant digits, as files have it.
+    """Return a number with at most 15 significant digits, as files have it.
 
     Examples
     --------
     >>> number_text(0.1 + 0.2), number_text(3)
     ('0.3', '3')
     """
-    text = f"{float(number):.10g}"
+    text = f"{float(number):.15g}"
     return "0" if text == "-0" else text
