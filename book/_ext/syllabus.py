@@ -1,0 +1,238 @@
+"""The directives ``{syllabus}`` and ``{goals}``: courses with this book, and who practises which goal.
+
+``{syllabus} weeks`` shows a course of ``book/syllabus.toml``, session by session. ``{goals}`` shows the learning goals
+of each page with the drills and exercises that practise them, from ``book/goals.toml``. Titles of drills come from the
+package, those and the minutes of exercises from their manifest, and goals from the top of each page.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from check_site import ROOT
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+from robonav.drills import DRILLS, of_page
+from robonav.grading.course import Course, Exercise
+
+BOOK = ROOT / "book"
+GOALS, COURSES = BOOK / "goals.toml", BOOK / "syllabus.toml"
+SHORT, LONG = 45, 90  # minutes of a deck
+GOAL = re.compile(r"^- (.+)$", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A learning goal of a page, and what practises it."""
+
+    page: str
+    id: str
+    text: str
+    drills: list[str] = field(default_factory=list)
+    exercises: list[str] = field(default_factory=list)
+
+
+def goals_on(page: str) -> list[str]:
+    """Return the goals at the top of a page, after "you can", as Markdown."""
+    top = (BOOK / f"{page}.md").read_text("utf-8").partition("\n## ")[0]
+    listed = re.search(r"(?:you can|be able to)\n\n((?:- .+\n)+)", top)
+    return [goal.rstrip(";.") for goal in GOAL.findall(listed[1])] if listed else []
+
+
+def goals() -> list[Goal]:
+    """Return all goals of ``goals.toml``, in its order, with their full texts."""
+    table: dict[str, dict[str, Any]] = tomllib.loads(GOALS.read_text("utf-8"))
+    return [
+        Goal(
+            page,
+            name,
+            _full_text(page, entry["goal"]),
+            entry.get("drills", []),
+            entry.get("exercises", []),
+        )
+        for page, entries in table.items()
+        for name, entry in entries.items()
+    ]
+
+
+def _full_text(page: str, beginning: str) -> str:
+    found = [text for text in goals_on(page) if text.startswith(beginning)]
+    if len(found) != 1:
+        raise ValueError(
+            f'{len(found)} goals of the page {page} begin with "{beginning}"; it must be one'
+        )
+    return found[0]
+
+
+@dataclass(frozen=True)
+class Session:
+    """A week or a day of a course."""
+
+    title: str
+    purpose: str
+    pages: list[str]
+    class_drills: list[str]
+    lab: list[str]
+    homework: list[str]
+    exam: list[str]
+    lecture: list[str] = field(default_factory=list)
+    long_lecture: list[str] = field(default_factory=list)
+
+    @property
+    def lecture_minutes(self) -> int:
+        """How long the decks take."""
+        return SHORT * len(self.lecture) + LONG * len(self.long_lecture)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A course: what its sessions are called, how many minutes each part of a session takes, and the sessions."""
+
+    unit: str
+    minutes: dict[str, int]
+    sessions: list[Session]
+
+    @property
+    def session_minutes(self) -> int:
+        """Minutes of one session."""
+        return sum(self.minutes.values())
+
+    @property
+    def total_minutes(self) -> int:
+        """Minutes of all sessions."""
+        return self.session_minutes * len(self.sessions)
+
+
+def plan(name: str) -> Plan:
+    """Return a course of ``syllabus.toml``: "weeks" or "days"."""
+    table = tomllib.loads(COURSES.read_text("utf-8"))[name]
+    sessions = [Session(**session) for session in table["session"]]
+    return Plan(table["unit"], table["minutes"], sessions)
+
+
+def minutes_of(exercises: list[str], course: Course) -> int:
+    """Return how long some exercises take, by the manifest."""
+    return sum(course.exercises[name].minutes for name in exercises)
+
+
+def _exercise(exercise: Exercise) -> str:
+    label = f"exercise-{exercise.id.replace('.', '-')}"
+    return f"{{ref}}`{exercise.id} {exercise.title} <{label}>` ({exercise.minutes} min)"
+
+
+def _exercises(names: list[str], course: Course) -> str:
+    return "; ".join(_exercise(course.exercises[name]) for name in names)
+
+
+def _drills(names: list[str]) -> str:
+    return "; ".join(f"*{DRILLS[name].title}*" for name in names)
+
+
+def headline(course_plan: Plan, course: Course) -> str:
+    """Return how long a course is."""
+    hours = course_plan.total_minutes / 60
+    home = sum(minutes_of(session.homework, course) for session in course_plan.sessions)
+    parts = " + ".join(
+        f"{minutes} ({part})" for part, minutes in course_plan.minutes.items()
+    )
+    return (
+        f"{len(course_plan.sessions)} {course_plan.unit.lower()}s of {course_plan.session_minutes} minutes = {parts}: "
+        f"{hours:g} hours in class. The exercises for home take {home / 60:.0f} more hours."
+    )
+
+
+def session_text(
+    number: int, session: Session, course_plan: Plan, course: Course
+) -> str:
+    """Return one session in MyST Markdown."""
+    decks = [f"`{page}.html` ({SHORT} min)" for page in session.lecture]
+    decks += [f"`{page}.html?long` ({LONG} min)" for page in session.long_lecture]
+    home = [
+        drill.name
+        for page in session.pages
+        for drill in of_page(page)
+        if drill.name not in session.class_drills
+    ]
+    lines = [
+        f"## {course_plan.unit} {number}: {session.title}",
+        "",
+        session.purpose,
+        "",
+        "- **Pages**: " + ", ".join(f"{{doc}}`/book/{page}`" for page in session.pages),
+        f"- **Lecture**, {course_plan.minutes['lecture']} minutes, slides: "
+        + ", ".join(decks),
+        f"- **Drills in class**, {course_plan.minutes['drills']} minutes: {_drills(session.class_drills)}",
+        f"- **Lab**, {course_plan.minutes['lab']} minutes: {_exercises(session.lab, course)}. The rest of the time "
+        "is for the notebooks of the pages and for questions.",
+        f"- **At home**: the {len(home)} other drills of these pages"
+        + (
+            f"; {_exercises(session.homework, course)}, together {minutes_of(session.homework, course)} minutes"
+            if session.homework
+            else ""
+        ),
+        "- **An exam may ask**: " + " ".join(session.exam),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+class Syllabus(SphinxDirective):
+    """The directive ``{syllabus}``."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        note_sources(self)
+        course, course_plan = Course.of_book(), plan(self.arguments[0])
+        text = [headline(course_plan, course) + "\n"]
+        text += [
+            session_text(k, session, course_plan, course)
+            for k, session in enumerate(course_plan.sessions, 1)
+        ]
+        return self.parse_text_to_nodes("\n".join(text), allow_section_headings=True)
+
+
+def goals_text(course: Course) -> str:
+    """Return all goals with what practises them, in MyST Markdown."""
+    lines: list[str] = []
+    page = ""
+    for goal in goals():
+        if goal.page != page:
+            page = goal.page
+            lines += ["", f"**{{doc}}`/book/{page}`**", ""]
+        practised = []
+        if goal.drills:
+            practised.append(f"Drills: {_drills(goal.drills)}.")
+        if goal.exercises:
+            practised.append(f"Exercises: {_exercises(goal.exercises, course)}.")
+        lines.append(f"- {goal.text[0].upper()}{goal.text[1:]}. {' '.join(practised)}")
+    return "\n".join(lines) + "\n"
+
+
+class Goals(SphinxDirective):
+    """The directive ``{goals}``."""
+
+    def run(self) -> list[nodes.Node]:
+        note_sources(self)
+        for page in {goal.page for goal in goals()}:
+            self.env.note_dependency(str(BOOK / f"{page}.md"))
+        return self.parse_text_to_nodes(goals_text(Course.of_book()))
+
+
+def note_sources(directive: SphinxDirective) -> None:
+    """Note that the page depends on the two tables, on the manifest and on the drills."""
+    manifest = Course.of_book().tests / "manifest.toml"
+    package = Path(ROOT, "robonav", "drills").rglob("*.py")
+    for path in (GOALS, COURSES, manifest, *package):
+        directive.env.note_dependency(str(path))
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.add_directive("syllabus", Syllabus)
+    app.add_directive("goals", Goals)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

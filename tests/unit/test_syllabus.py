@@ -1,0 +1,128 @@
+"""Each goal is practised, each drill and exercise serves a goal, and the courses' sessions add up."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+import syllabus
+import yaml
+
+from robonav.drills import DRILLS
+from robonav.grading.course import Course
+
+COURSE = Course.around()
+PLANS = {name: syllabus.plan(name) for name in ("weeks", "days")}
+both_plans = pytest.mark.parametrize("name", PLANS)
+
+
+def chapter_pages() -> list[str]:
+    """The pages of the chapters, in the order of the table of contents."""
+    contents = yaml.safe_load((syllabus.ROOT / "_toc.yml").read_text("utf-8"))
+    return [
+        entry["file"].removeprefix("book/")
+        for part in contents["parts"]
+        if part["caption"].startswith("Chapter")
+        for entry in part["chapters"]
+    ]
+
+
+def test_goals_are_those_of_the_pages_in_their_order() -> None:
+    listed = [(goal.page, goal.text) for goal in syllabus.goals()]
+    expected = [
+        (page, text) for page in chapter_pages() for text in syllabus.goals_on(page)
+    ]
+    assert listed == expected
+    without = [page for page in chapter_pages() if not syllabus.goals_on(page)]
+    assert without == ["playground"]
+
+
+def test_each_goal_is_practised() -> None:
+    assert [
+        goal.id for goal in syllabus.goals() if not goal.drills + goal.exercises
+    ] == []
+
+
+def test_each_drill_and_each_exercise_serves_a_goal() -> None:
+    goals = syllabus.goals()
+    assert {drill for goal in goals for drill in goal.drills} == set(DRILLS)
+    assert {name for goal in goals for name in goal.exercises} == set(COURSE.exercises)
+
+
+def test_no_goal_names_anything_twice() -> None:
+    for goal in syllabus.goals():
+        for names in (goal.drills, goal.exercises):
+            assert len(names) == len(set(names)), goal.id
+
+
+@both_plans
+def test_each_chapter_page_and_each_deck_occurs(name: str) -> None:
+    sessions = PLANS[name].sessions
+    pages = [page for session in sessions for page in session.pages]
+    assert set(chapter_pages()) | {"conclusions"} <= set(pages)
+    assert len(pages) == len(set(pages))
+    decks = [d for session in sessions for d in session.lecture + session.long_lecture]
+    assert sorted(decks) == sorted(set(chapter_pages()) - {"playground"})
+    for session in sessions:
+        assert set(session.lecture + session.long_lecture) <= set(session.pages)
+
+
+@both_plans
+def test_minutes_add_up(name: str) -> None:
+    plan = PLANS[name]
+    for session in plan.sessions:
+        assert session.lecture_minutes == plan.minutes["lecture"], session.title
+        lab = syllabus.minutes_of(session.lab, COURSE)
+        assert 0 < lab <= plan.minutes["lab"], session.title
+    total = sum(
+        session.lecture_minutes + plan.minutes["drills"] + plan.minutes["lab"]
+        for session in plan.sessions
+    )
+    words = syllabus.headline(plan, COURSE)
+    assert words.startswith(f"{len(plan.sessions)} {plan.unit.lower()}s of ")
+    assert f"{total / 60:g} hours in class" in words
+
+
+def test_the_headlines_are_those_of_the_pages_titles() -> None:
+    assert [len(PLANS[name].sessions) for name in ("weeks", "days")] == [12, 5]
+    assert [PLANS[name].total_minutes for name in ("weeks", "days")] == [2160, 1800]
+
+
+@both_plans
+def test_drills_in_class_belong_to_the_session_s_pages(name: str) -> None:
+    plan = PLANS[name]
+    for session in plan.sessions:
+        assert {DRILLS[drill].page for drill in session.class_drills} <= set(
+            session.pages
+        )
+        for drill in session.class_drills:
+            assert 3 * len(session.class_drills) <= plan.minutes["drills"], drill
+
+
+@both_plans
+def test_no_exercise_comes_twice_or_before_its_page(name: str) -> None:
+    seen: set[str] = set()
+    done: Counter[str] = Counter()
+    for session in PLANS[name].sessions:
+        seen |= set(session.pages)
+        for exercise in session.lab + session.homework:
+            done[exercise] += 1
+            assert COURSE.exercises[exercise].page in seen, exercise
+    assert set(done.values()) == {1}
+    if name == "weeks":
+        assert set(done) == set(COURSE.exercises)
+
+
+def test_each_page_shows_what_the_tables_say() -> None:
+    plan = PLANS["weeks"]
+    text = syllabus.session_text(1, plan.sessions[0], plan, COURSE)
+    assert "## Week 1: A robot that moves" in text
+    assert "{doc}`/book/playground`" in text
+    assert "{ref}`2.9 Drive the robot <exercise-2-9>` (60 min)" in text
+    goals = syllabus.goals_text(COURSE)
+    assert goals.count("\n- ") == len(syllabus.goals())
+
+
+def test_a_goal_that_no_page_has_is_reported() -> None:
+    with pytest.raises(ValueError, match='0 goals of the page robot begin with "fly"'):
+        syllabus._full_text("robot", "fly")
