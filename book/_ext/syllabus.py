@@ -18,7 +18,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from robonav.drills import DRILLS, of_page
+from robonav.drills import DRILLS
 from robonav.grading.course import Course, Exercise
 
 BOOK = ROOT / "book"
@@ -131,7 +131,8 @@ def _exercises(names: list[str], course: Course) -> str:
 
 
 def _drills(names: list[str]) -> str:
-    return "; ".join(f"*{DRILLS[name].title}*" for name in names)
+    titles = (DRILLS[name].title.replace("*", r"\*") for name in names)
+    return "; ".join(f"*{title}*" for title in titles)
 
 
 def headline(course_plan: Plan, course: Course) -> str:
@@ -153,29 +154,23 @@ def session_text(
     """Return one session in MyST Markdown."""
     decks = [f"`{page}.html` ({SHORT} min)" for page in session.lecture]
     decks += [f"`{page}.html?long` ({LONG} min)" for page in session.long_lecture]
-    home = [
-        drill.name
-        for page in session.pages
-        for drill in of_page(page)
-        if drill.name not in session.class_drills
-    ]
+    home = "- **At home**: the drills of these pages, until they are mastered"
+    if session.homework:
+        home += f"; {_exercises(session.homework, course)}"
+    if len(session.homework) > 1:
+        home += f", together {minutes_of(session.homework, course)} minutes"
     lines = [
         f"## {course_plan.unit} {number}: {session.title}",
         "",
         session.purpose,
         "",
-        "- **Pages**: " + ", ".join(f"{{doc}}`/book/{page}`" for page in session.pages),
+        "- **Pages**: " + "; ".join(f"{{doc}}`/book/{page}`" for page in session.pages),
         f"- **Lecture**, {course_plan.minutes['lecture']} minutes, slides: "
         + ", ".join(decks),
         f"- **Drills in class**, {course_plan.minutes['drills']} minutes: {_drills(session.class_drills)}",
         f"- **Lab**, {course_plan.minutes['lab']} minutes: {_exercises(session.lab, course)}. The rest of the time "
         "is for the notebooks of the pages and for questions.",
-        f"- **At home**: the {len(home)} other drills of these pages"
-        + (
-            f"; {_exercises(session.homework, course)}, together {minutes_of(session.homework, course)} minutes"
-            if session.homework
-            else ""
-        ),
+        home,
         "- **An exam may ask**: " + " ".join(session.exam),
     ]
     return "\n".join(lines) + "\n"
@@ -205,12 +200,12 @@ def goals_text(course: Course) -> str:
         if goal.page != page:
             page = goal.page
             lines += ["", f"**{{doc}}`/book/{page}`**", ""]
-        practised = []
+        parts = [f"{goal.text[0].upper()}{goal.text[1:]}."]
         if goal.drills:
-            practised.append(f"Drills: {_drills(goal.drills)}.")
+            parts.append(f"Drills: {_drills(goal.drills)}")
         if goal.exercises:
-            practised.append(f"Exercises: {_exercises(goal.exercises, course)}.")
-        lines.append(f"- {goal.text[0].upper()}{goal.text[1:]}. {' '.join(practised)}")
+            parts.append(f"Exercises: {_exercises(goal.exercises, course)}")
+        lines.append("- " + "\\\n  ".join(parts))
     return "\n".join(lines) + "\n"
 
 

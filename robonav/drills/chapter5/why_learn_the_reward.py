@@ -215,25 +215,33 @@ def rare_and_frequent(rng: Rng) -> Question:
     )
     other = int(here.sum()) - uniform
     share = [float(n / here.sum()) for n in here]
+
+    def column(*numbers: float) -> list[list[float]]:
+        return [[number] for number in numbers]
+
     return Question(
         f"In the state s forward was demonstrated {here[0]} times and left {here[1]} times. In all other states "
         f"forward was demonstrated {there[0]} times and left {there[1]} times. Compute the likelihoods "
         "$P(s \\mid a)$. How many of the decisions in s does Eq. (5.12) change if the prior $P(a)$ is uniform?",
         Table(
+            [
+                "$P(s \\mid \\text{forward})$",
+                "$P(s \\mid \\text{left})$",
+                "changed decisions",
+            ],
             ["s"],
-            ["$P(s \\mid \\text{forward})$", "$P(s \\mid \\text{left})$", "changed"],
-            [[*likelihood, uniform]],
+            column(*likelihood, uniform),
             tolerance=0.0011,
             wrong={
-                "These are the shares $P(a \\mid s)$. A likelihood divides by all steps with the action.": [
-                    [*share, uniform]
-                ],
-                "These are the shares $P(a \\mid s)$, and the count belongs to the other action.": [
-                    [*share, other]
-                ],
-                "The decisions that agree with the likelier action stay. The others change.": [
-                    [*likelihood, other]
-                ],
+                "These are the shares $P(a \\mid s)$. A likelihood divides by all steps with the action.": column(
+                    *share, uniform
+                ),
+                "These are the shares $P(a \\mid s)$, and the count belongs to the other action.": column(
+                    *share, other
+                ),
+                "The decisions that agree with the likelier action stay. The others change.": column(
+                    *likelihood, other
+                ),
             },
         ),
         f"$P(s \\mid \\text{{forward}}) = {here[0]} / {here[0] + there[0]} = {likelihood[0]:.4g}$ and "
@@ -293,24 +301,24 @@ def slipping_expert(rng: Rng) -> Question:
     whole[at], half[at] = 1 - 2 * chance, 1 - chance
     whole[beside], half[beside] = chance, chance / 2
     wrong = {
-        "Without slips only the intended action happens. It slips with the given probability.": [
-            np.eye(5)[at].tolist()
-        ],
+        "Without slips only the intended action happens. It slips with the given probability.": np.eye(
+            5
+        )[at][:, None].tolist(),
     }
     if len(beside) == 2:
         wrong[
             "The given probability is that of a slip to either side, half to each."
-        ] = [whole.tolist()]
+        ] = whole[:, None].tolist()
     else:
-        wrong["There is only one side, so it has the whole probability of a slip."] = [
-            half.tolist()
-        ]
+        wrong["There is only one side, so it has the whole probability of a slip."] = (
+            half[:, None].tolist()
+        )
     named = " or ".join(BY_ANGLE[k] for k in beside)
     return Question(
         f"An expert's turns slip with probability ${chance:g}$: they come out $30°$ too large or too small, each as "
         "often as the other; where only one of these actions exists, it is always that one. The expert means "
         f"{meant}. With which probability does the robot do each action?",
-        Table(["probability"], BY_ANGLE, [answer.tolist()], wrong=wrong),
+        Table(BY_ANGLE, ["probability"], answer[:, None].tolist(), wrong=wrong),
         f"With probability ${1 - chance:g}$ it does {meant}. The rest, ${chance:g}$, goes to {named}.",
     )
 
