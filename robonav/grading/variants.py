@@ -49,10 +49,10 @@ class Knob:
         The values; the first is the book's.
     hints : tuple of str
         For each value but the first, the hint for a student who answers with the book's value.
-    everywhere, source, wrong, tests : tuple of tuple of str
+    everywhere, source, wrong, tests, title : tuple of tuple of str
         Rows of fragments, one for each value. A fragment of the first column stands at least once in the exercise's
-        files, or in the file that the field names: its solution, its known mistakes, its parts. A space in it matches
-        any white space.
+        three files, or in what the field names: its solution, its known mistakes, its parts, its title. A space in it
+        matches any white space.
     wrap : tuple of str
         For each value but the first, a Python expression for the answer of a known mistake, or an empty string if
         the rows say it all. It may use ``mistake``, the mistake in the book's exercise, ``np``, and the arguments of
@@ -74,6 +74,7 @@ class Knob:
     source: tuple[tuple[str, ...], ...] = ()
     wrong: tuple[tuple[str, ...], ...] = ()
     tests: tuple[tuple[str, ...], ...] = ()
+    title: tuple[tuple[str, ...], ...] = ()
     wrap: tuple[str, ...] = ()
     without: tuple[tuple[str, ...], ...] = ()
 
@@ -89,7 +90,13 @@ class Knob:
                     f"{field} of knob {self.name} must have an entry for each value but the first, "
                     f"{others}, got {found}"
                 )
-        for row in (*self.everywhere, *self.source, *self.wrong, *self.tests):
+        for row in (
+            *self.everywhere,
+            *self.source,
+            *self.wrong,
+            *self.tests,
+            *self.title,
+        ):
             if len(row) != len(self.values):
                 raise ValueError(
                     f"a row of knob {self.name} must have {len(self.values)} fragments, got {row!r}"
@@ -102,11 +109,12 @@ class Knob:
 
 @dataclass(frozen=True)
 class Texts:
-    """The three texts of an exercise: its solution, its known mistakes, and its parts in the chapter's tests."""
+    """The texts of an exercise: its solution, its known mistakes, its parts in the chapter's tests, and its title."""
 
     source: str
     wrong: str
     tests: str
+    title: str
 
 
 def knobs(course: Course, exercise: Exercise) -> tuple[Knob, ...]:
@@ -186,6 +194,7 @@ def texts(course: Course, exercise: Exercise) -> Texts:
         source=(course.solutions / exercise.file).read_text("utf-8"),
         wrong=(course.solutions / "wrong" / exercise.file).read_text("utf-8"),
         tests=_sections(course, exercise.chapter).get(exercise.id, ""),
+        title=exercise.title,
     )
 
 
@@ -199,7 +208,7 @@ def rendered(course: Course, exercise: Exercise, values: Values) -> Texts:
     """
     of, plain = knobs(course, exercise), texts(course, exercise)
     _check_that_all_stand(exercise, of, plain)
-    source = _wrapped_lines(_edited(plain.source, of, values, "source"))
+    source = _wrapped_lines(_edited(plain.source, of, values, "source"), plain.source)
     wrong = _edited(plain.wrong, of, values, "wrong")
     for knob in of:
         if (column := knob.column(values[knob.name])) > 0:
@@ -210,7 +219,11 @@ def rendered(course: Course, exercise: Exercise, values: Values) -> Texts:
             near = {**values, knob.name: knob.values[0]}
             other = _edited(plain.source, of, near, "source")
             wrong += _as_in_the_book(exercise, knob, knob.hints[column - 1], other)
-    return Texts(source, wrong, _edited(plain.tests, of, values, "tests"))
+    tests, title = (
+        _edited(getattr(plain, field), of, values, field)
+        for field in ("tests", "title")
+    )
+    return Texts(source, wrong, tests, title)
 
 
 def without_variants(course: Course) -> list[Exercise]:
@@ -310,19 +323,25 @@ def _files(course: Course, values: Mapping[str, Values]) -> Iterator[tuple[str, 
     head, *entries = (
         (course.tests / "manifest.toml").read_text("utf-8").split("[[exercise]]")
     )
-    kept = [e for e in entries if tomllib.loads(e)["id"] in values]
+    made = {
+        id: rendered(course, course.exercises[id], chosen)
+        for id, chosen in values.items()
+    }
+    kept = []
+    for entry in entries:
+        if (id := tomllib.loads(entry)["id"]) in made:
+            kept.append(entry.replace(course.exercises[id].title, made[id].title))
     yield "tests/exercises/manifest.toml", "[[exercise]]".join([head, *kept])
     for chapter, exercises in course.chapters():
         sections = dict(_sections(course, chapter))
         for exercise in exercises:
-            if exercise.id in values:
-                made = rendered(course, exercise, values[exercise.id])
-                sections[exercise.id] = made.tests
-                yield f"solutions/{exercise.file}", made.source
-                yield f"solutions/wrong/{exercise.file}", made.wrong
+            if exercise.id in made:
+                sections[exercise.id] = made[exercise.id].tests
+                yield f"solutions/{exercise.file}", made[exercise.id].source
+                yield f"solutions/wrong/{exercise.file}", made[exercise.id].wrong
             else:
                 sections[exercise.id] = _without_parts(sections[exercise.id])
-        if any(exercise.id in values for exercise in exercises):
+        if any(exercise.id in made for exercise in exercises):
             yield f"tests/exercises/test_{chapter}.py", "".join(sections.values())
 
 
@@ -408,7 +427,8 @@ def _edited(text: str, of: Sequence[Knob], values: Values, field: str) -> str:
 
 
 def _rows(knob: Knob, field: str) -> tuple[tuple[str, ...], ...]:
-    return (*knob.everywhere, *getattr(knob, field))
+    anywhere = knob.everywhere if field != "title" else ()
+    return (*anywhere, *getattr(knob, field))
 
 
 def _pattern(fragment: str) -> re.Pattern[str]:
@@ -422,7 +442,7 @@ def _pattern(fragment: str) -> re.Pattern[str]:
 def _check_that_all_stand(exercise: Exercise, of: Sequence[Knob], plain: Texts) -> None:
     """Refuse a fragment that stands nowhere, because the exercise has changed since."""
     for knob in of:
-        for field in ("everywhere", "source", "wrong", "tests"):
+        for field in ("everywhere", "source", "wrong", "tests", "title"):
             chosen = [getattr(plain, field)] if field != "everywhere" else []
             places = chosen or [plain.source, plain.wrong, plain.tests]
             for row in getattr(knob, field):
@@ -433,27 +453,71 @@ def _check_that_all_stand(exercise: Exercise, of: Sequence[Knob], plain: Texts) 
                     )
 
 
-def _wrapped_lines(source: str) -> str:
-    """Return a source whose question and docstrings have no line that is too long."""
-    head = ast.parse(source).body[0].end_lineno
+def _wrapped_lines(source: str, plain: str) -> str:
+    """Return a source with the paragraphs of its question and docstrings that differ from the plain source filled."""
+    known = set(plain.split("\n\n"))
+    known |= {
+        paragraph
+        for text in _docstrings(plain).values()
+        for paragraph in text.split("\n\n")
+    }
     lines = source.splitlines()
-    paragraphs = "\n".join(lines[:head]).split("\n\n")
-    for number, paragraph in enumerate(paragraphs):
-        too_long = any(len(line) > WIDTH for line in paragraph.splitlines())
-        if too_long and not paragraph.startswith("$$"):
-            paragraphs[number] = textwrap.fill(
-                paragraph, WIDTH, break_long_words=False, break_on_hyphens=False
-            )
-    body, told = lines[head:], True
-    for number, line in enumerate(body):
-        told = told and "### BEGIN" not in line
-        if told and len(line) > WIDTH:
-            indent = " " * (len(line) - len(line.lstrip()))
-            deeper = indent + " " * 4 if re.match(r"\s+[\w, ]+ : ", line) else indent
-            body[number] = textwrap.fill(
-                line.strip(), WIDTH, initial_indent=indent, subsequent_indent=deeper
-            )
-    return "\n".join(["\n\n".join(paragraphs), *body, ""])
+    for (start, end), text in sorted(_docstrings(source).items(), reverse=True):
+        paragraphs = [
+            paragraph if paragraph in known else _filled(paragraph)
+            for paragraph in text.split("\n\n")
+        ]
+        lines[start:end] = "\n\n".join(paragraphs).splitlines()
+    return "\n".join([*lines, ""])
+
+
+def _docstrings(source: str) -> dict[tuple[int, int], str]:
+    """Return the docstrings of a source as they stand there, by the lines that they stand in."""
+    found, lines = {}, source.splitlines()
+    tree = ast.parse(source)
+    nodes: list[ast.Module | ast.FunctionDef] = [tree]
+    for node in [
+        *nodes,
+        *(inner for inner in tree.body if isinstance(inner, ast.FunctionDef)),
+    ]:
+        docstring = node.body[0]
+        start, end = docstring.lineno - 1, docstring.end_lineno or docstring.lineno
+        found[start, end] = "\n".join(lines[start:end])
+    return found
+
+
+def _filled(block: str) -> str:
+    """Return a block of lines without blank ones, filled to the width of a page."""
+    items: list[list[str]] = []
+    for line in block.splitlines():
+        indent = len(line) - len(line.lstrip())
+        before = len(items[-1][0]) - len(items[-1][0].lstrip()) if items else -1
+        begins = _ITEM.match(line) or line.lstrip().startswith(('"""', "---", "$$"))
+        after_rule = items and items[-1][0].lstrip().startswith(("---", "$$"))
+        if begins or after_rule or indent < before or not items:
+            items.append([line])
+        else:
+            items[-1].append(line)
+    return "\n".join(_filled_item(item) for item in items)
+
+
+_ITEM = re.compile(r"\s+\w[\w, ]* : ")
+
+
+def _filled_item(lines: Sequence[str]) -> str:
+    """Return the lines of one item or paragraph, filled."""
+    first = lines[0]
+    indent = " " * (len(first) - len(first.lstrip()))
+    if len(lines) == 1 and len(first) <= WIDTH:
+        return first
+    return textwrap.fill(
+        " ".join(line.strip() for line in lines),
+        WIDTH,
+        initial_indent=indent,
+        subsequent_indent=indent + " " * 4 if _ITEM.match(first) else indent,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 def _signature(source: str, name: str) -> list[str]:
