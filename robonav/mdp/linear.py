@@ -12,6 +12,7 @@ therefore changes each weight in proportion to its feature:
 SARSA takes Q(s', a') of the next action for the value of s', and Q-learning the largest Q(s', a').
 
 ``f = features(state)`` is an array (A, n): ``f[a, i]`` is f_i(s, a), and ``f @ weights`` are the action values (A,).
+``tolist`` makes a list of them, because Python reads single numbers faster from a list than from an array.
 The functions change ``weights`` in place. ``learning_rate(episode)`` and ``epsilon(episode)`` are schedules. The
 decorator ``linear_method`` makes them and the weights (step 1 of the algorithm), so users call
 ``linear_sarsa(env, episodes, features, epsilon=0.1)``.

@@ -71,6 +71,7 @@ def project(mean: Floats, found: Floats, expert: Floats) -> Floats:
     """
     step = found - mean
     length2 = step @ step
+    # 0 at the mean, 1 at the policy found
     share = 0.0 if length2 == 0 else step @ (expert - mean) / length2
     return mean + float(np.clip(share, 0, 1)) * step
 

@@ -218,6 +218,7 @@ def dqn_targets(
     """
     with torch.no_grad():
         next_values = target_net(batch.next_states).max(dim=1).values
+        # ~terminal is 0 where the episode ended
         return batch.rewards + discount * (~batch.terminal * next_values)
 
 
@@ -261,7 +262,9 @@ def double_dqn_targets(
     """
     with torch.no_grad():
         best = q_net(batch.next_states).argmax(dim=1, keepdim=True)
+        # gather picks in each row the column that best names
         next_values = target_net(batch.next_states).gather(1, best)[:, 0]
+        # ~terminal is 0 where the episode ended
         return batch.rewards + discount * (~batch.terminal * next_values)
 
 

@@ -158,6 +158,7 @@ def nfq_targets(network: Network, transitions: Batch, discount: float) -> torch.
     with torch.no_grad():
         logits = as_module(network)(transitions.next_states)
         next_values = torch.sigmoid(logits.max(dim=1).values)
+        # ~terminal is 0 where the episode ended
         targets = transitions.rewards + discount * (~transitions.terminal * next_values)
         return targets.clamp(0, 1)
 
@@ -210,6 +211,7 @@ def rprop_fit(
     previous = np.inf
     for _ in range(epochs):
         logits = module(transitions.states)
+        # gather picks in each row the column of the action taken
         taken = logits.gather(1, transitions.actions[:, None])[:, 0]
         cost = binary_cross_entropy_with_logits(taken, targets)
         rprop.zero_grad()

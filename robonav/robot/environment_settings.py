@@ -91,7 +91,7 @@ def arrival_or_collision(
     return REWARD_OF_OUTCOME[outcome]
 
 
-def sensing_of_one(ranges: Array, walls: Flags, region: int, seen: bool) -> Sensing:
+def batch_of_one(ranges: Array, walls: Flags, region: int, seen: bool) -> Sensing:
     """Return what one robot senses as reflexes, rewards and policies take it; ``region`` is 0 to 8."""
     return Sensing(ranges[None], walls[None], np.array([region + 1]), np.array([seen]))
 
@@ -212,13 +212,13 @@ class NavigationSettings:
             random_keys(generators), self.obstacles, self.moving, self.starts, self.targets, self.moving_speeds
         )  # fmt: skip
 
-    def reflex_of_one(self, sensing: Sensing) -> int:
+    def reflex_action(self, sensing: Sensing) -> int:
         """Return the action of one robot's reflex, -1 where the action given counts."""
         if self.reflex is None:
             return NO_REFLEX
         return int(self.reflex(sensing, self.speed)[0])
 
-    def reward_of_one(self, before: Sensing, after: Sensing, outcome: int) -> float:
+    def reward_of_step(self, before: Sensing, after: Sensing, outcome: int) -> float:
         """Return the reward of one robot."""
         given = self.reward(before, after, OUTCOME_OF_ONE[outcome])
         reward = np.asarray(given, dtype=float)

@@ -32,9 +32,9 @@ from .environment_settings import (
     WorldsOrFile,
     arrival_or_collision,
     as_sensing,
+    batch_of_one,
     check_render_mode,
     check_settings,
-    sensing_of_one,
     while_running,
     worlds_in,
 )
@@ -194,8 +194,8 @@ class NavigationEnv(gymnasium.Env):
         super().reset(seed=seed)
         given = worlds_in(options, 1)
         self.world = given or self.settings.next_worlds([self.np_random])
-        self.map = Map.of(self.world)
-        self.pose = self.map.start  # x, y and heading
+        self.map = Map.of(self.world)  # whose obstacles may move
+        self.pose = self.map.start  # x, y and heading; the robot faces its target
         self.steps, self.outcome = 0, RUNNING
         observation = self._sense()
         if self.render_mode == "human":
@@ -208,8 +208,8 @@ class NavigationEnv(gymnasium.Env):
         settings, before = self.settings, self.sensing
         x, y, heading = self.pose
 
-        # 1. A reflex replaces the action where nothing is near, or all is blocked ahead.
-        reflex = settings.reflex_of_one(before)
+        # 1. Where nothing is near, or all is blocked ahead, a reflex replaces the action.
+        reflex = settings.reflex_action(before)
         if reflex == Action.TO_TARGET:
             action, heading = Action.F, self.map.heading_to_target(x, y)
         elif reflex == Action.TO_SECTOR:
@@ -239,7 +239,7 @@ class NavigationEnv(gymnasium.Env):
 
         # 4. The robot senses again. The reward may depend on what it sensed before, too.
         observation = self._sense()
-        reward = settings.reward_of_one(before, self.sensing, self.outcome)
+        reward = settings.reward_of_step(before, self.sensing, self.outcome)
         if self.render_mode == "human":
             self.render()
         return observation, reward, terminated, truncated, self._info(reflex)
@@ -250,7 +250,7 @@ class NavigationEnv(gymnasium.Env):
             self.pose, self.settings.noise, self.steps
         )
         # Reflexes, rewards and policies take the same as a batch, of one robot here.
-        self.sensing = sensing_of_one(ranges, walls, self.target_region, target_seen)
+        self.sensing = batch_of_one(ranges, walls, self.target_region, target_seen)
         return {
             "ranges": ranges.copy(),  # a copy, which the caller may change
             "walls": walls.astype(np.int8),
