@@ -107,9 +107,10 @@ function render({ model, el }) {
     board.canvas,
     h("div", { class: "beside" },
       h("div", { class: "row tools" }, play, steer, another),
-      wheel, status,
-      h("p", { class: "hint" }, "Drag an obstacle in front of the robot, or drag the target."),
-      h("p", {}, ...links.map(({ text, page }) => h("a", { class: "call", href: page }, text)))));
+      wheel,
+      h("p", { class: "calls" }, ...links.map(({ text, page }) => h("a", { class: "call", href: page }, text))),
+      status,
+      h("p", { class: "hint" }, "Drag an obstacle in front of the robot, or drag the target.")));
   say();
   board.draw(1);
   if (running) wake();
