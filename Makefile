@@ -21,7 +21,7 @@ BIN := .venv/bin
 INSTALLED := .venv/.installed
 TORCH := $(shell grep '^torch==' requirements.lock)
 PROCESSES = $(shell $(BIN)/python -c 'import os; print(os.cpu_count() + 1)')
-EXTRAS := book,lab,grading,cluster,tests,benchmarks,formats,clients
+EXTRAS := book,lab,grading,exams,cluster,tests,benchmarks,formats,clients
 
 .PHONY: help open install book pdf check test test-all lab lock clean
 help:

@@ -175,8 +175,8 @@ def drills_export(
     format: Annotated[
         str,
         typer.Option(
-            help="moodle (.xml, Moodle's question bank) or qti (.zip, for Canvas and Blackboard). "
-            "By default the ending of the file's name tells."
+            help="moodle (.xml, Moodle's question bank), qti (.zip, for Canvas and Blackboard), or pdf (an exam to "
+            "print, and a second file with its solutions). By default the ending of the file's name tells."
         ),
     ] = "",
     chapter: Chapters = None,
@@ -185,11 +185,24 @@ def drills_export(
         list[str] | None,
         typer.Option(help="This drill. May be repeated. See: robonav drills list"),
     ] = None,
+    at_most: Annotated[
+        int,
+        typer.Option(
+            help="At most this many drills, spread evenly over those chosen. 0 is 10 for an exam, and all for a bank."
+        ),
+    ] = 0,
     each: Annotated[int, typer.Option(help="Questions of each drill.")] = 1,
     seed: Annotated[
         int,
-        typer.Option(help="Makes the numbers: the same seed, the same questions."),
-    ] = 0,
+        typer.Option(
+            help="Makes the numbers: the same seed, the same questions. It is the number of the first paper."
+        ),
+    ] = 1,
+    papers: Annotated[
+        int,
+        typer.Option(help="For pdf: how many different papers, in one file."),
+    ] = 1,
+    paper: Annotated[str, typer.Option(help="For pdf: a4 or letter.")] = "a4",
     platform: Annotated[
         str,
         typer.Option(
@@ -197,25 +210,40 @@ def drills_export(
         ),
     ] = "canvas",
     title: Annotated[
-        str, typer.Option(help="The title of the question bank.")
-    ] = "robonav",
+        str, typer.Option(help="The title of the question bank or exam.")
+    ] = "Robot learning",
     force: Annotated[
-        bool, typer.Option("--force", help="Write over a file that exists.")
+        bool, typer.Option("--force", help="Write over files that exist.")
     ] = False,
 ) -> None:
-    """Write questions of drills as a question bank. All drills take part unless you choose."""
-    from robonav.drills.export import drawn, files, moodle_xml, qti_zip, selected
+    """Write questions of drills as a question bank or an exam. All drills take part unless you choose."""
+    from robonav.drills import export
+    from robonav.drills.export import files
+    from robonav.validation import check_integer
 
     kind = files.format_of(file, format)
-    files.check_free(file, force=force)
-    questions = drawn(selected(chapter or (), page or (), drill or ()), seed, each)
-    content = (
-        moodle_xml(questions, title)
-        if kind == "moodle"
-        else qti_zip(questions, title, platform)
-    )
-    files.write({file: content})
-    print(f"{file}: {len(questions)} questions")
+    files.check_installed(kind)
+    check_integer("papers", papers, at_least=1)
+    if papers > 1 and kind != "pdf":
+        raise ValueError("only an exam (--format pdf) has several papers")
+    chosen = export.selected(chapter or (), page or (), drill or ())
+    if at_most or kind == "pdf":
+        chosen = export.spread(chosen, at_most or 10)
+    targets = [file, files.beside(file, "solutions")][: 2 if kind == "pdf" else 1]
+    files.check_free(*targets, force=force)
+    sets = [export.drawn(chosen, seed + k, each) for k in range(papers)]
+    if kind == "moodle":
+        contents = [export.moodle_xml(sets[0], title)]
+    elif kind == "qti":
+        contents = [export.qti_zip(sets[0], title, platform)]
+    else:
+        exams = [export.Paper(seed + k, one) for k, one in enumerate(sets)]
+        contents = [export.exam_pdf(exams, title, paper)]
+        contents.append(export.solutions_pdf(exams, title, paper))
+    files.write(dict(zip(targets, contents, strict=True)))
+    many = f"{papers} papers of " if papers > 1 else ""
+    for target in targets:
+        print(f"{target}: {many}{len(sets[0])} questions")
 
 
 @app.command()

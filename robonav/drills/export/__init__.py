@@ -2,6 +2,17 @@
 
 from .moodle import moodle_xml
 from .package import qti_zip
-from .selection import Drawn, drawn, selected
+from .paper import Paper, exam_pdf, solutions_pdf
+from .selection import Drawn, drawn, selected, spread
 
-__all__ = ["Drawn", "drawn", "moodle_xml", "qti_zip", "selected"]
+__all__ = [
+    "Drawn",
+    "Paper",
+    "drawn",
+    "exam_pdf",
+    "moodle_xml",
+    "qti_zip",
+    "selected",
+    "solutions_pdf",
+    "spread",
+]

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
-from ..question import Asked, Choice, Number, Order, Place, Table
+from ..question import Asked, Choice, Number, Order, Place, Question, Table
+
+CLICK = re.compile(r"\b([Cc])lick (?:on|at)\b")
 
 
 @dataclass(frozen=True)
@@ -127,6 +130,28 @@ def points(asked: Asked) -> int:
     if isinstance(asked, Table):
         return len(asked.rows) * len(asked.columns)
     return 2 if isinstance(asked, Number | Order) else 1
+
+
+def asked_text(question: Question) -> str:
+    """Return what a question asks, for readers who cannot click on its picture.
+
+    Parameters
+    ----------
+    question : Question
+
+    Returns
+    -------
+    str
+        Markdown.
+
+    Examples
+    --------
+    >>> asked_text(Question("Click on the goal.", Place(["A", "B"], ["B"]), "B."))
+    'Choose the goal.'
+    """
+    if not isinstance(question.asked, Place):
+        return question.text
+    return CLICK.sub(lambda found: f"{found[1]}hoose", question.text)
 
 
 def number_text(number: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from importlib.util import find_spec
 from pathlib import Path
 
 from robonav import atomic
@@ -41,6 +42,35 @@ def format_of(path: Path, wanted: str = "") -> str:
             f"name a format ({known}), or end the file's name in one of {', '.join(FORMATS)}"
         )
     return wanted or FORMATS[path.suffix]
+
+
+def check_installed(kind: str) -> None:
+    """Raise an error if a package is missing that a format needs.
+
+    Parameters
+    ----------
+    kind : str
+        "moodle", "qti" or "pdf".
+
+    Raises
+    ------
+    ValueError
+        If one is missing.
+
+    Examples
+    --------
+    >>> check_installed("moodle")
+    """
+    needed = [
+        "markdown_it",
+        "mdit_py_plugins",
+        *(["reportlab"] if kind == "pdf" else []),
+    ]
+    missing = [name for name in needed if find_spec(name) is None]
+    if missing:
+        raise ValueError(
+            f"{' and '.join(missing)} is not installed: pip install 'robonav-book[exams]'"
+        )
 
 
 def beside(path: Path, word: str) -> Path:

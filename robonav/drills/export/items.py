@@ -8,7 +8,7 @@ from html import escape
 
 from ..markup import block, html
 from ..question import Choice, Number, Order, Place, Table
-from .answers import Cell, Option, cells, number_text, options, points
+from .answers import Cell, Option, asked_text, cells, number_text, options, points
 from .selection import Drawn
 from .svg import png, read
 
@@ -93,7 +93,7 @@ def _item(
     one: Drawn, letter: str, asked: Number | list[Option] | Order, more: str, worth: int
 ) -> Item:
     question, name = one.question, one.name + letter
-    text = block(question.text)
+    text = block(asked_text(question))
     if question.picture:
         alt = escape(read(question.picture).title)
         text += f'<p><img src="{name}.png" alt="{alt}" /></p>'

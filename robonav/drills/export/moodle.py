@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 from ..markup import block, html
 from ..question import Choice, Number, Order, Place, Table
-from .answers import Cell, cells, number_text, options, points
+from .answers import Cell, asked_text, cells, number_text, options, points
 from .selection import Drawn, chapter_of
 from .svg import png, read
 
@@ -17,7 +17,7 @@ Element = ElementTree.Element
 PICTURE = "picture.png"
 
 
-def moodle_xml(questions: Sequence[Drawn], title: str = "robonav") -> bytes:
+def moodle_xml(questions: Sequence[Drawn], title: str = "Robot learning") -> bytes:
     """Return questions as Moodle XML: a category for each page of the book, a question type for each kind of answer.
 
     A number becomes a numerical question, a choice or a place in a picture a multiple choice, an order an ordering
@@ -27,7 +27,7 @@ def moodle_xml(questions: Sequence[Drawn], title: str = "robonav") -> bytes:
     Parameters
     ----------
     questions : sequence of Drawn
-    title : str, default "robonav"
+    title : str, default "Robot learning"
         The name of the category that holds all others.
 
     Returns
@@ -59,7 +59,7 @@ def _question(one: Drawn) -> Element:
     question, asked = one.question, one.question.asked
     node = ElementTree.Element("question", type=_type(one))
     _text(node, "name", f"{one.drill.title} {one.number}")
-    body = [block(question.text)]
+    body = [block(asked_text(question))]
     if isinstance(asked, Number) and asked.unit:
         body.append(f"<p>Answer in {html(asked.unit)}.</p>")
     if question.picture:

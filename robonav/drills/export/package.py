@@ -19,7 +19,7 @@ NAMESPACE = "http://www.imsglobal.org/xsd/imscp_v1p1"
 
 
 def qti_zip(
-    questions: Sequence[Drawn], title: str = "robonav", platform: str = "canvas"
+    questions: Sequence[Drawn], title: str = "Robot learning", platform: str = "canvas"
 ) -> bytes:
     """Return questions as a QTI package: version 1.2 for Canvas, version 2.1 for Blackboard and others.
 
@@ -30,7 +30,7 @@ def qti_zip(
     Parameters
     ----------
     questions : sequence of Drawn
-    title : str, default "robonav"
+    title : str, default "Robot learning"
         The title of the quiz.
     platform : str, default "canvas"
         "canvas" or "blackboard".

@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 
 import numpy as np
 
@@ -65,8 +66,10 @@ def chapter_of(drill: Drill) -> int:
 def _unknown(kind: str, names: Sequence[object], known: Sequence[object]) -> None:
     for name in names:
         if name not in known:
+            near = get_close_matches(str(name), map(str, known), n=3) or known[:9]
+            more = ", ..." if len(near) < len(known) else ""
             raise ValueError(
-                f"there is no {kind} {name}; known are {', '.join(map(str, known))}"
+                f"there is no {kind} {name}; there are {', '.join(map(str, near))}{more}"
             )
 
 
@@ -112,6 +115,28 @@ def selected(
         for one in every
         if chapter_of(one) in chapters or one.page in pages or one.name in drills
     ]
+
+
+def spread(drills: Sequence[Drill], count: int) -> list[Drill]:
+    """Return at most so many drills, spread evenly over those given.
+
+    Parameters
+    ----------
+    drills : sequence of Drill
+    count : int
+
+    Returns
+    -------
+    list of Drill
+
+    Examples
+    --------
+    >>> [drill.name for drill in spread(selected(drills=["td-error", "softmax", "boltzmann"]), 2)]
+    ['td-error', 'boltzmann']
+    """
+    check_integer("the number of drills", count, at_least=1)
+    places = np.linspace(0, len(drills) - 1, min(count, len(drills)))
+    return [drills[place] for place in places.round().astype(int)]
 
 
 def drawn(drills: Sequence[Drill], seed: int = 0, each: int = 1) -> list[Drawn]:
