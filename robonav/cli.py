@@ -90,14 +90,21 @@ def exercises_build(
         Path | None,
         typer.Option(help="The folder for the variant. Only with --variant."),
     ] = None,
+    student: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Write a variant of this student's own into OUT/STUDENT, chosen by the text and the name. May be "
+            "repeated. The name is that of the submission."
+        ),
+    ] = None,
 ) -> None:
     """Write exercises/ and the nbgrader notebooks from solutions/, or a variant of all exercises into a folder."""
     from robonav.grading import build
     from robonav.grading.course import Course
 
     course = Course.around(Path.cwd())
-    if variant is not None or out is not None:
-        _build_variant(course, variant, out, check)
+    if variant is not None or out is not None or student:
+        _build_variant(course, variant, out, student or [], check)
         return
     changed = build.outdated(course) if check else build.build(course)
     for name in changed:
@@ -108,17 +115,25 @@ def exercises_build(
 
 
 def _build_variant(
-    course: Any, variant: str | None, out: Path | None, check: bool
+    course: Any,
+    variant: str | None,
+    out: Path | None,
+    students: list[str],
+    check: bool,
 ) -> None:
-    """Write a variant of the exercises, and say which exercises have none."""
+    """Write a variant of the exercises, or one for each student, and say which exercises have none."""
     from robonav.grading import build, variants
 
     if variant is None or out is None or check:
         raise ValueError("a variant needs both --variant and --out, and no --check")
-    made = variants.write(course, variant, out)
-    build.students_zip(made, out / "robonav-exercises.zip")
-    print(f"{len(made.exercises)} exercises in {out}")
-    print(f"for students: {out / 'robonav-exercises.zip'}")
+    each = variants.EachStudent(course, variant, out)
+    made = [each.of(name) for name in students] or [
+        variants.write(course, variant, out)
+    ]
+    for one in made:
+        path = one.root / "robonav-exercises.zip"
+        build.students_zip(one, path)
+        print(f"for students: {path}")
     if left_out := variants.without_variants(course):
         names = ", ".join(exercise.id for exercise in left_out)
         print(f"left out, because they have no variants yet: {names}")
@@ -335,6 +350,14 @@ def grade(
             help="The text that chose the variant of the exercises, as for robonav exercises build."
         ),
     ] = None,
+    each_student: Annotated[
+        bool,
+        typer.Option(
+            "--each-student",
+            help="Each student has a variant of their own, as with robonav exercises build --student NAME. A name is "
+            "that of the submission.",
+        ),
+    ] = False,
     practice: Annotated[
         bool,
         typer.Option(
@@ -358,12 +381,16 @@ def grade(
     from robonav.grading.course import Course
     from robonav.grading.rules import read_rules
 
-    course = Course.around(Path(__file__).parent, Path.cwd())
-    if variant is not None:
+    course, each = Course.around(Path(__file__).parent, Path.cwd()), None
+    if each_student and variant is None:
+        raise ValueError("--each-student needs --variant")
+    if variant is not None and each_student:
+        each = variants.for_each_student(course, variant, folder, out)
+    elif variant is not None:
         course = variants.course_for(course, variant, folder, out)
     read_rules(out, course)  # a fault in them is told before the work, not after it
     ids = [course.named(key).id for key in exercise or []]
-    config = GradingConfig(course, sandbox_check.best(), secret_from(secret))
+    config = GradingConfig(course, sandbox_check.best(), secret_from(secret), each)
     if config.tier == "practice" and not practice:
         raise ValueError(
             f"this machine has no sandbox, so only --practice works: {sandbox_check.fault('official')}"

@@ -15,7 +15,7 @@ import platform
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -30,13 +30,14 @@ from robonav.progress import Progress
 from . import ledger, paths, report
 from .cases import PUBLIC, seed_of, stretched
 from .check import graded, remarks, with_public_feedback
-from .course import Course
+from .course import Course, trusted
 from .evidence import Evidence
 from .grade import fault_grade, grade
 from .layouts import Handin, handed_in, passed_over
 from .reference import reference
 from .session import Session
 from .submission import Refused, Submission
+from .variants import EachStudent
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,13 @@ class GradingConfig:
     course: Course
     tier: str
     secret: bytes = b""
+    each: EachStudent | None = None  # if each student has exercises of their own
+
+    def of(self, student: str) -> GradingConfig:
+        """Return the configuration for a student."""
+        if self.each is None:
+            return self
+        return replace(self, course=self.each.of(student))
 
     def key(self) -> str:
         """Return a hash of everything that a grade depends on, except the submission."""
@@ -58,6 +66,7 @@ class GradingConfig:
             for path in sorted(folder.glob(pattern)):
                 if path.is_file():
                     digest.update(path.name.encode() + path.read_bytes())
+        digest.update(self.each.key().encode() if self.each else b"")
         return digest.hexdigest()
 
     def secret_hash(self) -> str:
@@ -229,7 +238,13 @@ def _marked(
     Submissions are read again here, so that memory holds only those that are being graded.
     """
     calls = (
-        (config, {**entry, "submission": _digest(loaded)}, loaded, old, ids)
+        (
+            config.of(entry["student"]),
+            {**entry, "submission": _digest(loaded)},
+            loaded,
+            old,
+            ids,
+        )
         for entry, handin, old, ids in tasks
         for loaded in [handin.load()]
     )
@@ -286,6 +301,9 @@ def _record(
 ) -> dict[str, Any]:
     """Grade one student. Exercises that are not in ``ids`` keep their old entries."""
     new = grade_submission(config, loaded, ids)
+    if config.each is not None:  # the next student's course is another one
+        reference.cache_clear()
+        trusted.cache_clear()
     if old is not None and ids:
         fresh = {graded["id"]: graded for graded in new["exercises"]}
         entries = [fresh.get(kept["id"], kept) for kept in old["exercises"]]

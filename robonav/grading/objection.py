@@ -19,6 +19,7 @@ from .gradebook import Account, Gradebook, plain
 from .reference import reference
 from .session import Session
 from .submission import Submission
+from .variants import own_course
 
 MOST_CASES = 3  # of each part are shown in full when a run is repeated
 
@@ -181,13 +182,12 @@ def repeat(book: Gradebook, account: Account, exercise: Exercise, folder: Path) 
         raise ValueError(
             f"{account.submission} in {folder} is not what was graded: its hash differs"
         )
-    known = reference(book.course)
+    course = own_course(book.course, book.folder, account.submission)
+    known = reference(course)
     seed = PUBLIC if run["seed"] == "public" else bytes.fromhex(run["seed"])
-    session, evidence = Session(loaded, run["tier"]), Evidence(known, book.course.parameters(exercise))  # fmt: skip
+    session, evidence = Session(loaded, run["tier"]), Evidence(known, course.parameters(exercise))  # fmt: skip
     try:
-        entry = graded(
-            book.course, exercise, session, known, seed=seed, evidence=evidence
-        )
+        entry = graded(course, exercise, session, known, seed=seed, evidence=evidence)
     finally:
         session.close()
     lines = [f"Run again: {plain(entry['points'])} of {entry['max_points']} points, {entry['state']}"]  # fmt: skip

@@ -32,6 +32,7 @@ from .cases import stretched
 from .course import Course, Exercise
 
 MARK = "variant.json"  # in the root of a course that ``write`` made
+EACH = "students.key"  # in a folder with a course for each student
 WIDTH = 88  # of a line in a question
 
 Values = Mapping[str, str]  # the value of each knob, by the knob's name
@@ -163,7 +164,7 @@ def combinations(of: Sequence[Knob], most: int = 12) -> list[dict[str, str]]:
     Examples
     --------
     >>> [len(combinations([Knob(str(k), ("a", "b"), ("?",)) for k in range(n)])) for n in (1, 3, 6)]
-    [2, 8, 10]
+    [2, 8, 7]
     """
     every = [
         dict(zip((knob.name for knob in of), values, strict=True))
@@ -178,7 +179,7 @@ def covering(every: Sequence[dict[str, str]]) -> list[dict[str, str]]:
     Examples
     --------
     >>> len(covering(combinations([Knob(k, ("a", "b"), ("?",)) for k in "xyz"])))
-    5
+    4
     """
     taken, missing = [every[0]], set().union(*map(_pairs, every)) - _pairs(every[0])
     while missing:
@@ -278,22 +279,108 @@ def course_for(course: Course, secret: str, folder: Path, out: Path) -> Course:
     ValueError
         If the class was graded with another variant before, or ``out`` lies in the class folder.
     """
-    if out.resolve().is_relative_to(folder.resolve()):
-        raise ValueError(
-            f"out must not lie in the class folder, where it would be a student, got {out}"
-        )
+    _check_out(folder, out)
     target = out / "exercises"
     try:
         before = json.loads((target / MARK).read_bytes())
     except (OSError, ValueError):
         before = None
+    own = (target / EACH).is_file()  # each student's
     if before not in (None, _values(course, secret)) or (
-        before is None and (out / "students").is_dir()
+        before is None and (own or (out / "students").is_dir())
     ):
         raise ValueError(
-            f"{out} was graded {'with another' if before else 'without a'} variant; choose another folder"
+            f"{out} was graded {'with another' if before or own else 'without a'} variant; choose another folder"
         )
     return write(course, secret, target)
+
+
+@dataclass(frozen=True)
+class EachStudent:
+    """Exercises of each student's own, chosen by a secret and the student's name.
+
+    Attributes
+    ----------
+    course : Course
+        The book's course.
+    secret : str
+        Any text.
+    folder : Path
+        The folder that gets a folder with a course for each student.
+
+    Examples
+    --------
+    >>> each = EachStudent(Course.around(), "autumn", Path("term"))
+    >>> each.of("../ada")
+    Traceback (most recent call last):
+    ValueError: a student's name must be the name of a folder, got '../ada'
+    """
+
+    course: Course
+    secret: str
+    folder: Path
+
+    def of(self, student: str) -> Course:
+        """Write the course of a student, and return it.
+
+        Raises
+        ------
+        ValueError
+            If the name is not that of a folder.
+        """
+        if student in ("", ".", "..") or "/" in student or "\\" in student:
+            raise ValueError(
+                f"a student's name must be the name of a folder, got {student!r}"
+            )
+        return write(self.course, f"{self.secret}/{student}", self.folder / student)
+
+    def key(self) -> str:
+        """Return a hash of everything that the courses depend on, besides the book's exercises."""
+        key = stretched(b"variant/" + self.secret.encode())
+        digest = hashlib.sha256(b"each/" + key)
+        for path in sorted((self.course.solutions / "variants").rglob("*.toml")):
+            digest.update(path.name.encode() + path.read_bytes())
+        return digest.hexdigest()
+
+
+def for_each_student(
+    course: Course, secret: str, folder: Path, out: Path
+) -> EachStudent:
+    """Return the exercises of each student's own that grade the class in ``folder``.
+
+    Raises
+    ------
+    ValueError
+        If the secret is empty, the class was graded with other exercises before, or ``out`` lies in the class folder.
+    """
+    each = EachStudent(course, secret, out / "exercises")
+    _values(course, secret)  # refuses an empty secret
+    _check_out(folder, out)
+    path = each.folder / EACH
+    key = hashlib.sha256(b"each/" + stretched(b"variant/" + secret.encode()))
+    before = path.read_text("utf-8") if path.is_file() else ""
+    if before not in ("", key.hexdigest()) or (
+        not before and (out / "students").is_dir()
+    ):
+        raise ValueError(
+            f"{out} was graded with other exercises; choose another folder"
+        )
+    with atomic_write(path) as file:
+        file.write(key.hexdigest().encode())
+    return each
+
+
+def own_course(course: Course, out: Path, student: str) -> Course:
+    """Return the course with which a student of a graded class was graded: the student's own, or else the class's."""
+    folder = out / "exercises" / student
+    return Course(folder.resolve()) if (folder / MARK).is_file() else course
+
+
+def _check_out(folder: Path, out: Path) -> None:
+    if out.resolve().is_relative_to(folder.resolve()):
+        raise ValueError(
+            f"out must not lie in the class folder, where it would be a student, got {out}"
+        )
 
 
 def write_values(course: Course, values: Mapping[str, Values], out: Path) -> Course:

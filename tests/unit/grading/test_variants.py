@@ -218,6 +218,11 @@ def test_a_wrong_input_is_one_sentence(tmp_path):
         (["--variant", "x"], "a variant needs both --variant and --out"),
         (["--out", tmp_path], "a variant needs both --variant and --out"),
         (["--variant", " ", "--out", tmp_path / "new"], "must be a text, got an empty"),
+        (["--student", "ada"], "a variant needs both --variant and --out"),
+        (
+            ["--variant", "x", "--out", tmp_path / "new", "--student", "../ada"],
+            "must be the name of a folder, got '../ada'",
+        ),
         (["--variant", "x", "--out", tmp_path / "full"], "must be a new folder"),
         (["--variant", "x", "--out", COURSE.root], "must be a new folder"),
     ):
@@ -291,6 +296,53 @@ def test_a_term_with_a_variant(tmp_path):
     assert set(points["ada"]) == set(values)
     code, said = run(*grade, "--variant", "spring")
     assert (code, "was graded with another variant" in said) == (2, True), said
+
+
+@pytest.mark.slow
+def test_each_student_has_exercises_of_their_own(tmp_path):
+    from robonav.grading import sandbox_check
+    from robonav.grading.classroom import GradingConfig, grade_class
+
+    exercise, names = COURSE.named("2.2"), ("ada", "bo")
+    of = variants.knobs(COURSE, exercise)
+    secret = next(  # one with which the two differ
+        text
+        for text in map(str, range(100))
+        if variants.chosen(f"{text}/ada", exercise, of)
+        != variants.chosen(f"{text}/bo", exercise, of)
+    )
+    built = variants.EachStudent(COURSE, secret, tmp_path / "built")
+    own = built.of("ada").solutions / exercise.file
+    for name in names:  # bo hands in what ada wrote
+        (tmp_path / "class" / name).mkdir(parents=True)
+        (tmp_path / "class" / name / "improve.py").write_bytes(own.read_bytes())
+    out = tmp_path / "graded"
+    each = variants.for_each_student(COURSE, secret, tmp_path / "class", out)
+    config = GradingConfig(COURSE, sandbox_check.best(), each=each)
+    assert grade_class(config, tmp_path / "class", out, jobs=1) == []
+    grades = {
+        name: json.loads((out / f"students/{name}/grade.json").read_text())
+        for name in names
+    }
+    points = {
+        name: next(e["points"] for e in grade["exercises"] if e["id"] == "2.2")
+        for name, grade in grades.items()
+    }
+    assert points["ada"] == exercise.points
+    assert points["bo"] < exercise.points
+    for name in names:
+        used = variants.own_course(COURSE, out, name).solutions / exercise.file
+        assert (
+            used.read_bytes() == (built.of(name).solutions / exercise.file).read_bytes()
+        )
+    again = variants.for_each_student(COURSE, secret, tmp_path / "class", out)
+    assert again.key() == each.key()
+    for refused in (
+        lambda: variants.for_each_student(COURSE, "x", tmp_path / "class", out),
+        lambda: variants.course_for(COURSE, secret, tmp_path / "class", out),
+    ):
+        with pytest.raises(ValueError, match="was graded with"):
+            refused()
 
 
 def _sandbox():
