@@ -14,7 +14,7 @@ import typer
 
 from robonav._version import __version__
 from robonav.errors import WorkerLost
-from robonav.grading.commands import gradebook
+from robonav.grading.commands import gradebook, similarity
 
 if TYPE_CHECKING:
     from robonav.experiments.runner.experiment import Experiment, Results
@@ -38,6 +38,7 @@ drills = typer.Typer(
 )
 app.add_typer(drills, name="drills")
 app.add_typer(gradebook, name="gradebook")
+app.command()(similarity)
 
 
 def _version(wanted: bool) -> None:

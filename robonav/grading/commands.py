@@ -1,4 +1,4 @@
-"""The commands ``robonav gradebook``. Each imports what it needs when it runs."""
+"""The commands ``robonav gradebook`` and ``robonav similarity``. Each imports what it needs when it runs."""
 
 from __future__ import annotations
 
@@ -191,3 +191,27 @@ def _tell(book: Gradebook) -> None:
     for account in book.accounts:
         for problem in account.problems:
             print(f"{account.student.name}: {problem}", file=sys.stderr)
+
+
+def similarity(
+    folder: Annotated[
+        Path,
+        typer.Argument(
+            help="The class: a folder that holds one folder, zip file or notebook per student."
+        ),
+    ],
+    out: Annotated[
+        Path, typer.Option(help="The page to write; its scores go beside it as CSV.")
+    ] = Path("similarity.html"),
+) -> None:
+    """Show the pairs of submissions that are too alike, side by side. No code is run."""
+    from . import copies, paths
+    from .course import Course
+
+    course = Course.around(Path(__file__).parent, Path.cwd())
+    with paths.without_submissions(folder):
+        found = copies.compare_class(course, folder)
+    copies.write_comparison(found, course, out)
+    print(f"{len(found.pairs)} of {found.compared} pairs are too alike: {out}")
+    for problem in found.problems:
+        print(f"Not compared: {problem}", file=sys.stderr)

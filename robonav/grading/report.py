@@ -176,10 +176,15 @@ def csv_text(rows: Sequence[Sequence[Any]]) -> str:
 
 
 def _cell(value: Any) -> Any:
-    """Prefix text that begins like a formula with an apostrophe, which spreadsheets read as text."""
+    """Prefix text that begins like a formula with an apostrophe, which spreadsheets read as text.
+
+    A dash alone is none: Moodle writes it for an empty cell.
+    """
     return (
         f"'{value}"
-        if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r"))
+        if isinstance(value, str)
+        and value != "-"
+        and value.startswith(("=", "+", "-", "@", "\t", "\r"))
         else value
     )
 

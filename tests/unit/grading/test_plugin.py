@@ -156,9 +156,9 @@ def test_the_class_runner_gives_the_same_grade(tmp_path):
         track="",
     )
     _, _, grade = run(TESTS, "--submission", submission, folder=tmp_path)
-    assert grade == grade_submission(
-        GradingConfig(COURSE, "official"), read(submission)
-    )
+    same = grade_submission(GradingConfig(COURSE, "official"), read(submission))
+    del same["run"]  # what was run, for the log of a class
+    assert grade == same
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,243 @@
+"""How well copies are told from honest answers.
+
+Run by hand: ``python benchmarks/similarity.py`` writes ``benchmarks/similarity.json``.
+
+``tests/unit/grading/similar`` holds twelve honest answers to each of six exercises, all different and all right, and
+translations of six of them between loops and arrays. A class has twelve honest students, each with one of the twelve
+answers to every exercise, drawn so that no two students share one: six who like arrays and six who like loops, in all
+exercises, which makes honest students more alike than chance would. Two more copied all their answers from others and
+disguised them. Each class is drawn anew. Every pair but that of a copy and its original is honest.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import json
+import random
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from robonav.grading.course import Course
+from robonav.grading.fingerprints import Fingerprint, fingerprint
+from robonav.grading.similarity import FEWEST, THRESHOLD, Pair, pairs
+
+ROOT = Path(__file__).parents[1]
+FOLDER = ROOT / "tests/unit/grading/similar"
+EXERCISES = {
+    "2.1": "backup",
+    "2.2": "improve",
+    "2.3": "bounds",
+    "2.4": "track",
+    "2.5": "targets",
+    "2.6": "first_visits",
+}
+DISGUISES = ("recommented", "renamed", "reordered", "translated")
+Functions = dict[str, dict[int, ast.Module]]
+
+
+def functions(kind: str) -> Functions:
+    """Return the answers of a kind, by exercise and number. Each is a module of its own."""
+    found: Functions = {}
+    for id, name in EXERCISES.items():
+        tree = ast.parse((FOLDER / kind / f"{name}.py").read_text("utf-8"))
+        imports = [n for n in tree.body if isinstance(n, ast.Import | ast.ImportFrom)]
+        found[id] = {
+            int(node.name.rpartition("_")[2]): ast.Module([*imports, node], [])
+            for node in tree.body
+            if isinstance(node, ast.FunctionDef)
+        }
+    return found
+
+
+class Renamed(ast.NodeTransformer):
+    """Gives every name of a function another one."""
+
+    def __init__(self, tree: ast.Module, rng: random.Random) -> None:
+        stored = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}  # fmt: skip
+        stored |= {n.arg for n in ast.walk(tree) if isinstance(n, ast.arg)}
+        inner = [n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)][1:]
+        stored |= {node.name for node in inner}
+        self.new = {name: f"{rng.choice('abcdefgh')}{n}" for n, name in enumerate(sorted(stored))}  # fmt: skip
+
+    def visit_Name(self, node: ast.Name) -> ast.Name:
+        node.id = self.new.get(node.id, node.id)
+        return node
+
+    def visit_arg(self, node: ast.arg) -> ast.arg:
+        node.arg = self.new.get(node.arg, node.arg)
+        return node
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
+        node.name = self.new.get(node.name, node.name)
+        self.generic_visit(node)
+        return node
+
+
+class Reordered(ast.NodeTransformer):
+    """Exchanges statements that do not need each other, and the sides of sums, products and comparisons."""
+
+    def __init__(self, rng: random.Random) -> None:
+        self.rng = rng
+
+    def generic_visit(self, node: ast.AST) -> ast.AST:
+        super().generic_visit(node)
+        for field in ("body", "orelse"):
+            body = getattr(node, field, None)
+            if isinstance(body, list):
+                for k in range(len(body) - 1):
+                    if _independent(body[k], body[k + 1]) and self.rng.random() < 0.8:
+                        body[k], body[k + 1] = body[k + 1], body[k]
+        return node
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.BinOp:
+        self.generic_visit(node)
+        if isinstance(node.op, ast.Add | ast.Mult) and self.rng.random() < 0.5:
+            node.left, node.right = node.right, node.left
+        return node
+
+    def visit_Compare(self, node: ast.Compare) -> ast.Compare:
+        self.generic_visit(node)
+        turned = {ast.Lt: ast.Gt, ast.Gt: ast.Lt, ast.LtE: ast.GtE, ast.GtE: ast.LtE}
+        if len(node.ops) == 1 and type(node.ops[0]) in turned and self.rng.random() < 0.5:  # fmt: skip
+            node.left, node.comparators[0] = node.comparators[0], node.left
+            node.ops[0] = turned[type(node.ops[0])]()
+        return node
+
+
+def _independent(one: ast.stmt, other: ast.stmt) -> bool:
+    if not all(isinstance(x, ast.Assign | ast.AugAssign) for x in (one, other)):
+        return False
+    (wrote, read), (wrote2, read2) = _names(one), _names(other)
+    return not (wrote & (read2 | wrote2) or wrote2 & read)
+
+
+def _names(node: ast.stmt) -> tuple[set[str], set[str]]:
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target]  # type: ignore[attr-defined]
+    wrote = {n.id for target in targets for n in ast.walk(target) if isinstance(n, ast.Name)}  # fmt: skip
+    return wrote, {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
+
+
+def disguised(tree: ast.Module, how: str, rng: random.Random) -> Fingerprint:
+    """Return the fingerprint of a copy. Text is written anew, so that comments and layout are gone."""
+    copy = ast.parse(ast.unparse(tree))
+    if how == "recommented":
+        return fingerprint(ast.parse(_recommented(copy, rng)), _main(copy))
+    if how != "renamed":
+        copy = Reordered(rng).visit(copy)
+    copy = ast.parse(ast.unparse(ast.fix_missing_locations(Renamed(copy, rng).visit(copy))))  # fmt: skip
+    return fingerprint(copy, _main(copy))
+
+
+def _recommented(tree: ast.Module, rng: random.Random) -> str:
+    """Return the text with a docstring and a comment on each other line."""
+    main = next(node for node in tree.body if isinstance(node, ast.FunctionDef))
+    main.body.insert(0, ast.Expr(ast.Constant("All my own work.")))
+    lines = []
+    for line in ast.unparse(ast.fix_missing_locations(tree)).splitlines():
+        lines += [f"{line}  # step {len(lines)}" if rng.random() < 0.5 and '"' not in line else line]  # fmt: skip
+    return "\n".join(lines)
+
+
+def _main(tree: ast.Module) -> str:
+    return next(node.name for node in tree.body if isinstance(node, ast.FunctionDef))
+
+
+def known() -> dict[str, list[Fingerprint]]:
+    """Return the fingerprints of the stub and of both solutions, as the command uses them."""
+    course, found = Course(ROOT), defaultdict(list)
+    for id, name in EXERCISES.items():
+        for place in (course.stubs, course.solutions, course.solutions / "otherwise"):
+            text = (place / course.exercises[id].file).read_text("utf-8")
+            found[id].append(fingerprint(ast.parse(text), name))
+    return found
+
+
+def classes(
+    number: int, number_of_exercises: int
+) -> Iterator[tuple[list[Pair], dict[tuple[str, str], str]]]:
+    """Yield the compared pairs of random classes, and which of them are copies, with the disguise."""
+    honest, translated, others = functions("honest"), functions("translated"), known()
+    prints = {
+        id: {k: fingerprint(tree, _main(tree)) for k, tree in found.items()}
+        for id, found in honest.items()
+    }
+    for seed in range(number):
+        rng = random.Random(seed)
+        chosen = sorted(rng.sample(sorted(EXERCISES), number_of_exercises))
+        order = {id: _by_taste(honest[id], rng) for id in chosen}
+        answers: dict[str, dict[str, Fingerprint]] = {
+            f"honest {n:02}": {id: prints[id][order[id][n]] for id in chosen}
+            for n in range(12)
+        }
+        copies = dict[tuple[str, str], str]()
+        for n, how in zip(rng.sample(range(12), 2), rng.sample(DISGUISES, 2), strict=True):  # fmt: skip
+            own = dict[str, Fingerprint]()
+            for id in chosen:
+                number_ = order[id][n]
+                if how == "translated" and number_ not in translated[id]:
+                    # an answer that has a translation changes place with this one
+                    number_ = rng.choice(sorted(translated[id]))
+                    other = order[id].index(number_)
+                    order[id][n], order[id][other] = number_, order[id][n]
+                    for student in (n, other):
+                        name = f"honest {student:02}"
+                        answers[name][id] = prints[id][order[id][student]]
+                source = translated if how == "translated" else honest
+                own[id] = disguised(source[id][number_], how, rng)
+            answers[f"thief {n:02}"] = own
+            copies[f"honest {n:02}", f"thief {n:02}"] = how
+        yield pairs(answers, others), copies
+
+
+def _by_taste(found: dict[int, ast.Module], rng: random.Random) -> list[int]:
+    """Return the numbers of the answers, those with fewer loops first, and in each half at random."""
+    loops = {
+        number: sum(
+            isinstance(node, ast.For | ast.While | ast.comprehension)
+            for node in ast.walk(tree)
+        )
+        for number, tree in found.items()
+    }
+    by_loops = sorted(found, key=lambda number: (loops[number], rng.random()))
+    half = len(by_loops) // 2
+    return rng.sample(by_loops[:half], half) + rng.sample(by_loops[half:], half)
+
+
+def measured(number: int, exercises: int) -> Mapping[str, object]:
+    """Return the shares of copies and of honest pairs that are reported."""
+    found, total = Counter[str](), Counter[str]()
+    for compared, copies in classes(number, exercises):
+        for pair in compared:
+            kind = copies.get((pair.first, pair.second), "honest")
+            total[kind] += 1
+            found[kind] += pair.score >= THRESHOLD
+    return {
+        "exercises": exercises,
+        "reported": {
+            kind: round(found[kind] / total[kind], 4) for kind in sorted(total)
+        },
+        "pairs": dict(sorted(total.items())),
+    }
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--classes", type=int, default=300)
+    parser.add_argument("--out", type=Path, default=ROOT / "benchmarks/similarity.json")
+    options = parser.parse_args()
+    result = {
+        "threshold": THRESHOLD,
+        "fewest": FEWEST,
+        "classes": options.classes,
+        "by number of exercises": [
+            measured(options.classes, k) for k in (1, 2, 3, 4, 6)
+        ],
+    }
+    options.out.write_text(json.dumps(result, indent=1) + "\n", "utf-8")
+    print(json.dumps(result, indent=1))
+
+
+if __name__ == "__main__":
+    main()

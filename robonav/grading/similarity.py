@@ -1,0 +1,162 @@
+"""Which submissions of a class are too alike, over all exercises together.
+
+A short function tells nothing: two honest answers to a small exercise may be equal to the letter. Ten exercises tell
+much, because honest students are not alike in all of them. For each exercise all pairs of the class are compared. What
+many answers share, because the stub or the exercise forces it, weighs little; what few share weighs much. A pair's
+rank among all pairs of the class says how likely so much likeness is by chance, and Fisher's method combines these
+probabilities over the exercises that both answered.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .fingerprints import MOST_TIMES, Feature, Fingerprint
+
+VIEWS = ("structure", "flow")
+THRESHOLD = 2.0  # of a pair's score, from which it is reported
+FEWEST = 3  # exercises that both answered, below which a pair is not reported
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """How alike two answers to an exercise are.
+
+    Attributes
+    ----------
+    structure, flow : float
+        The share of what they have in common, from 0 to 1, weighted by how rare it is in the class.
+    chances : tuple of float
+        The share of the class's pairs that are as alike, in each of the two.
+    """
+
+    structure: float
+    flow: float
+    chances: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """Two submissions.
+
+    Attributes
+    ----------
+    first, second : str
+        Their names.
+    score : float
+        How unlikely so much likeness is by chance, over all exercises: 2 is one in a hundred.
+    exercises : dict of str to Likeness
+        The exercises that both answered.
+    """
+
+    first: str
+    second: str
+    score: float
+    exercises: Mapping[str, Likeness]
+
+    @property
+    def reported(self) -> bool:
+        """Whether the pair is to be looked at."""
+        return self.score >= THRESHOLD and len(self.exercises) >= FEWEST
+
+
+def pairs(
+    answers: Mapping[str, Mapping[str, Fingerprint]],
+    known: Mapping[str, Sequence[Fingerprint]] | None = None,
+) -> list[Pair]:
+    """Compare all pairs of a class.
+
+    Parameters
+    ----------
+    answers : dict of str to dict
+        The fingerprints of each student's answers by exercise.
+    known : dict of str to sequence of Fingerprint, optional
+        Other answers by exercise, such as the stub and solutions: what they have weighs less.
+
+    Returns
+    -------
+    list of Pair
+        All pairs with an exercise in common, those that stand out most first.
+
+    Examples
+    --------
+    >>> import ast
+    >>> from robonav.grading.fingerprints import fingerprint
+    >>> one = fingerprint(ast.parse("def f(a): return a + 5"), "f")
+    >>> [pair.first for pair in pairs({"ada": {"2.1": one}, "bo": {"2.1": one}})]
+    ['ada']
+    """
+    found: dict[tuple[str, str], dict[str, Likeness]] = {}
+    exercises = sorted({id for own in answers.values() for id in own})
+    for id in exercises:
+        own = {name: prints[id] for name, prints in answers.items() if id in prints}
+        for names, likeness in _likenesses(own, (known or {}).get(id, ())):
+            found.setdefault(names, {})[id] = likeness
+    scored = [
+        Pair(first, second, _score(list(likenesses.values())), likenesses)
+        for (first, second), likenesses in found.items()
+    ]
+    return sorted(scored, key=lambda pair: (-pair.score, pair.first, pair.second))
+
+
+def _score(likenesses: Sequence[Likeness]) -> float:
+    """Return minus the logarithm of the chance of so much likeness, in the view in which it is less likely."""
+    chances = []
+    for view in range(len(VIEWS)):
+        evidence = -math.fsum(math.log(one.chances[view]) for one in likenesses)
+        chances.append(_fisher(evidence, len(likenesses)))
+    return -math.log10(min(1.0, len(VIEWS) * min(chances)))
+
+
+def _fisher(evidence: float, number: int) -> float:
+    """Return the chance that minus the logarithms of that many chances add up to so much."""
+    if evidence <= 0:
+        return 1.0
+    terms = (k * math.log(evidence) - math.lgamma(k + 1) for k in range(number))
+    return min(1.0, math.fsum(math.exp(term - evidence) for term in terms))
+
+
+def _likenesses(
+    own: Mapping[str, Fingerprint], known: Sequence[Fingerprint]
+) -> Iterator[tuple[tuple[str, str], Likeness]]:
+    """Yield how alike each two answers to one exercise are."""
+    everything = [*own.values(), *known]
+    first, second = np.triu_indices(len(everything), 1)
+    alike, chances = [], []
+    for view in VIEWS:
+        table = _shared([getattr(one, view) for one in everything])
+        shared = table[first, second]
+        below = np.searchsorted(np.sort(shared), shared - 1e-9)
+        alike.append(shared.tolist())
+        chances.append((1 - below / max(len(shared), 1)).tolist())
+    names = list(own)
+    for k, (a, b) in enumerate(zip(first.tolist(), second.tolist(), strict=True)):
+        if b < len(names):
+            both = (chances[0][k], chances[1][k])
+            yield (names[a], names[b]), Likeness(alike[0][k], alike[1][k], both)
+
+
+def _shared(counts: Sequence[Counter[Feature]]) -> np.ndarray:
+    """Return, for each two, the share of what they have in common, in which rare features weigh more."""
+    columns: dict[Feature, int] = {}
+    for one in counts:
+        for feature in one:
+            columns.setdefault(feature, len(columns))
+    table = np.zeros((len(counts), max(len(columns), 1)))
+    for row, one in enumerate(counts):
+        for feature, number in one.items():
+            table[row, columns[feature]] = number
+    holders = (table > 0).sum(axis=0)
+    rare = np.log((len(counts) + 1) / np.maximum(holders, 1))
+    common = sum(
+        ((table >= times) * rare) @ (table >= times).T
+        for times in range(1, MOST_TIMES + 1)
+    )
+    whole = np.diag(common)
+    either = whole[:, None] + whole[None, :] - common
+    return np.divide(common, either, out=np.zeros_like(either), where=either > 0)
