@@ -60,6 +60,11 @@ def folded(drill: Drill, static: str) -> str:
     )
 
 
+def shown(text: str) -> nodes.Node:
+    """Return HTML as a part of a page."""
+    return nodes.container("", nodes.raw("", text, format="html"), classes=[MARK])
+
+
 class _Drills(SphinxDirective):
     """What both directives share."""
 
@@ -67,30 +72,34 @@ class _Drills(SphinxDirective):
         """Return the path of the folder of static files from the page."""
         return "../" * self.env.docname.count("/") + "_static"
 
-    def raw(self, text: str) -> nodes.Node:
-        """Return HTML, after noting that the page depends on the package's drills."""
+    def run(self) -> list[nodes.Node]:
+        """Show the drills, after noting that the page depends on the package's."""
         for path in Path(robonav.drills.__file__).parent.rglob("*.py"):
             self.env.note_dependency(str(path))
-        return nodes.container("", nodes.raw("", text, format="html"), classes=[MARK])
+        return self.parts()
+
+    def parts(self) -> list[nodes.Node]:
+        """Return what the directive shows."""
+        raise NotImplementedError
 
 
 class PageDrills(_Drills):
     """The directive ``{drills}``."""
 
-    def run(self) -> list[nodes.Node]:
+    def parts(self) -> list[nodes.Node]:
         page = self.env.docname.rpartition("/")[2]
         drills = of_page(page)
         if not drills:
             raise self.error(f"no drill belongs to the page {page}")
-        return [self.raw("".join(folded(drill, self.static()) for drill in drills))]
+        return [shown("".join(folded(drill, self.static()) for drill in drills))]
 
 
 class Progress(_Drills):
     """The directive ``{progress}``."""
 
-    def run(self) -> list[nodes.Node]:
+    def parts(self) -> list[nodes.Node]:
         parts: list[nodes.Node] = [
-            self.raw(f'<p class="drills-summary" data-drills="{" ".join(DRILLS)}"></p>')
+            shown(f'<p class="drills-summary" data-drills="{" ".join(DRILLS)}"></p>')
         ]
         contents = yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))
         for page in (address.rpartition("/")[2] for address in pages(contents)):
@@ -99,10 +108,8 @@ class Progress(_Drills):
                 continue
             names = " ".join(drill.name for drill in drills)
             parts += self.parse_text_to_nodes(f"**{{doc}}`/book/{page}`**")
-            parts.append(
-                self.raw(f'<p class="drills-summary" data-drills="{names}"></p>')
-            )
-            parts += [self.raw(folded(drill, self.static())) for drill in drills]
+            parts.append(shown(f'<p class="drills-summary" data-drills="{names}"></p>'))
+            parts += [shown(folded(drill, self.static())) for drill in drills]
         return parts
 
 

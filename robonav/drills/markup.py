@@ -7,6 +7,8 @@ from typing import Any
 
 from .question import Asked, Choice, Number, Order, Place, Question
 
+LONG = 20  # letters of one side of an equation
+
 
 @cache
 def _parser() -> Any:
@@ -17,26 +19,50 @@ def _parser() -> Any:
         escaped = text.replace("&", "&amp;").replace("<", "&lt;")
         if options["display_mode"]:
             return rf"\[{escaped}\]"
-        return " ".join(rf"\({part}\)" for part in sides(escaped))
+        return " ".join(rf"\({part}\)" for part in breakable(escaped))
 
     return MarkdownIt("commonmark").use(dollarmath_plugin, renderer=formula)
 
 
-def sides(formula: str) -> list[str]:
-    """Return a formula in parts, each beginning with an equals sign: a line can break between them.
+def breakable(formula: str) -> list[str]:
+    """Return a formula in parts between which a line can break, since MathJax breaks no formula in a line.
+
+    A line can break before an equals sign. A long side of an equation, which a phone is too narrow for, breaks before a
+    plus or a minus and after a comma, too.
 
     Examples
     --------
-    >>> sides("G_0 = 4 + 1 = 5")
+    >>> breakable("G_0 = 4 + 1 = 5")
     ['G_0', '= 4 + 1', '= 5']
-    >>> sides(r"\\sum_{k = 1}^n k")
+    >>> breakable("0.25 + 0.5 + 0.125 - 0.0625")
+    ['0.25', '{} + 0.5', '{} + 0.125', '{} - 0.0625']
+    >>> breakable(r"\\sum_{k = 1}^n k")
     ['\\\\sum_{k = 1}^n k']
     """
-    parts, depth, start = [], 0, 0
+    parts: list[str] = []
+    for side in _split(formula, "="):
+        if len(side) <= LONG:
+            parts.append(side)
+        else:
+            first, *others = _split(side, "+-,")
+            # An empty term in front of a plus or minus keeps its space.
+            parts += [first, *("{} " * (o[:2] in ("+ ", "- ")) + o for o in others)]
+    return parts
+
+
+def _split(formula: str, signs: str) -> list[str]:
+    """Split a formula before each of some signs between spaces, and after a comma, outside of braces."""
+    parts, start, braces, brackets = [], 0, 0, 0
     for at, letter in enumerate(formula):
-        depth += (letter == "{") - (letter == "}")
-        if depth == 0 and formula.startswith(" = ", at):
-            parts.append(formula[start:at])
+        braces += (letter == "{") - (letter == "}")
+        brackets += (letter in "([") - (letter in ")]")
+        before = formula[start:at]
+        if letter != " " or braces or before in ("", "="):
+            continue
+        sign = formula[at + 1 : at + 3]
+        after_comma = before[-1] == "," and "," in signs and not brackets
+        if after_comma or (sign[1:] == " " and sign[0] in signs):
+            parts.append(before)
             start = at + 1
     return [*parts, formula[start:]]
 

@@ -44,7 +44,12 @@ document.addEventListener("DOMContentLoaded", () => {
     }
   };
   for (const element of drills) {
-    element.addEventListener("toggle", () => element.open && open(element, tell), { once: true });
+    const unfolded = () => {
+      if (!element.open) return; // folded again at once: one event for both
+      element.removeEventListener("toggle", unfolded);
+      open(element, tell);
+    };
+    element.addEventListener("toggle", unfolded);
   }
   tell();
 });

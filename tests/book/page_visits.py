@@ -44,7 +44,7 @@ THEME_WAITS = 600
 """Milliseconds after which the theme has looked which code scrolls at a new width, and lets Tab reach it."""
 
 FORMULAS_CUT = """() => {
-  const folded = [...document.querySelectorAll("details:not([open], .drill, .drill *)")]; // test_drills.py opens drills
+  const folded = [...document.querySelectorAll("details:not([open])")];
   for (const part of folded) part.open = true;
   const cut = [...document.querySelectorAll("mjx-container:not([display])")]
     .filter((formula) => formula.checkVisibility() && !formula.closest(".scroll, table, .tableholder"))

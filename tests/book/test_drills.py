@@ -117,3 +117,14 @@ def test_what_is_no_number_gets_a_sentence_and_costs_nothing(
     visit.page.keyboard.press("Enter")
     expect(place.locator(".verdict")).to_have_text("Type a number, such as 0.25.")
     expect(place.locator(".standing")).to_contain_text("not tried yet")
+
+
+def test_a_drill_that_is_folded_again_at_once_still_opens_later(
+    visit: Visit, site: Path
+) -> None:
+    visit.open(f"{site.as_uri()}/book/dynamic-programming.html")
+    place = visit.page.locator('details.drill[data-drill="bellman-backup"]')
+    place.evaluate("(place) => { place.open = true; place.open = false; }")
+    visit.page.wait_for_timeout(100)
+    expect(place.locator("form")).to_have_count(0)
+    open_drill(visit, "bellman-backup")

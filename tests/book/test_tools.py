@@ -8,9 +8,11 @@ import os
 import re
 from enum import Enum
 from pathlib import Path
+from types import SimpleNamespace
 
 import check_site
 import citations
+import drills
 import nbformat
 import notebooks
 import package_code
@@ -388,3 +390,19 @@ def test_every_page_of_a_table_of_contents_is_listed() -> None:
         ],
     }
     assert list(check_site.pages(contents)) == ["a", "b", "c", "d"]
+
+
+def test_the_page_of_progress_notes_each_file_of_the_drills_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    noted: list[str] = []
+    env = SimpleNamespace(docname="book/my-progress", note_dependency=noted.append)
+    state = SimpleNamespace(document=SimpleNamespace(settings=SimpleNamespace(env=env)))
+    monkeypatch.setattr(drills, "folded", lambda drill, static: drill.name)
+    monkeypatch.setattr(drills.Progress, "parse_text_to_nodes", lambda self, text: [])
+    directive = object.__new__(drills.Progress)
+    directive.state = state
+    shown = "".join(part.astext() for part in directive.run())
+    assert all(name in shown for name in drills.DRILLS)
+    assert any(path.endswith("question.py") for path in noted)
+    assert len(noted) == len(set(noted))

@@ -320,7 +320,7 @@ def rounds_until_it_leaves(rng: Rng) -> Question:
     """Compute the mean number of rounds until a softmax policy leaves a circle."""
     gap = float(rng.choice([0.1, 0.2, 0.4, 0.6, 0.8]))
     temperature = float(rng.choice([0.2, 0.4, 0.5]))
-    circle = round(float(rng.uniform(0.5, 2)), 1)
+    circle = round(float(rng.uniform(1, 2.5)), 1)
     out = round(circle - gap, 1)
     leaves = float(nnql.softmax_policy([circle, out], temperature)[1])
     odds = math.exp(gap / temperature)

@@ -312,7 +312,7 @@ def order_of_nnql(rng: Rng) -> Question:
                 "Compute the Q-values of the state by the network.",
                 "Draw an action by the softmax policy, and carry it out.",
                 "Update the value of this action by the reward and the next state.",
-                "Bring the values into $[0, 1]$.",
+                "Bring the values into the range from 0 to 1.",
                 "Keep the pair of state and values.",
                 "Train the network on all pairs of the episode so far.",
             ],
