@@ -23,13 +23,14 @@ TORCH := $(shell grep '^torch==' requirements.lock)
 PROCESSES = $(shell $(BIN)/python -c 'import os; print(os.cpu_count() + 1)')
 EXTRAS := book,lab,grading,exams,cluster,tests,benchmarks,formats,clients
 
-.PHONY: help open install book pdf check test test-all lab lock clean
+.PHONY: help open install book pdf slides check test test-all lab lock clean
 help:
 	@echo "make open   build the book and open it in the browser"
 	@echo "make test   run every check and test, in some ten minutes"
 	@echo "make test-all also run every experiment again, and open every page in the dark"
 	@echo "make book   build the book into _build/html"
 	@echo "make pdf    print the built book to _build/robonav.pdf; needs Chromium"
+	@echo "make slides make a deck of slides for each chapter page in _build/slides, from the built book"
 	@echo "make check  run lint, types, doctests and quick tests, in at most two minutes"
 	@echo "make lab    open JupyterLab on the notebooks"
 	@echo "make install set up .venv, which every other command does when it is needed"
@@ -59,6 +60,10 @@ book: $(INSTALLED)
 
 pdf: book
 	$(BIN)/python book/_ext/print_book.py _build/robonav.pdf
+
+slides: $(INSTALLED)
+	test -e _build/html/index.html || $(MAKE) book
+	$(BIN)/python book/_ext/make_slides.py
 
 # Lint, types, doctests, and the tests that need no browser, no sandbox and no long run. mypy runs beside the tests.
 check: $(INSTALLED)

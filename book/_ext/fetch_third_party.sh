@@ -5,6 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 site=book/_static/third-party
+slides=book/_slides/third-party
 axe=tests/book/third-party
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -16,6 +17,7 @@ get() { # NAME@VERSION FOLDER
 }
 
 get mathjax@3.2.2 mathjax
+get reveal.js@5.2.1 reveal
 get axe-core@4.14.1 axe-core
 
 keep="$work/keep"
@@ -29,5 +31,7 @@ cp "$mj"/a11y/*.js "$keep/mathjax/a11y/"
 cp "$mj"/sre/mathmaps/{base,en,fr}.json "$keep/mathjax/sre/mathmaps/"
 
 mkdir -p "$site/mathjax" && cp -r "$keep/mathjax/." "$site/mathjax/"
+mkdir -p "$slides/reveal"
+cp "$work"/reveal/dist/reveal.{js,css} "$work/reveal/plugin/notes/notes.js" "$work/reveal/LICENSE" "$slides/reveal/"
 mkdir -p "$axe" && cp "$work"/axe-core/{axe.min.js,LICENSE} "$axe/"
-du -sh "$site" "$axe"
+du -sh "$site" "$slides" "$axe"

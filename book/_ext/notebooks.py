@@ -68,6 +68,7 @@ LEFT_OUT = (
     "exercise-end",
     "bibliography",
     "contents",
+    "slide",
 )
 
 

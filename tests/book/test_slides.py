@@ -1,0 +1,272 @@
+"""Every deck of slides, opened from disk without a network: it fits, it lives, it keeps the time, and it prints."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import lecture
+import make_slides
+import pytest
+from browser import Visit, visiting
+from lecture import MINUTES, Mark, NoSuchPart, Page, Part, Slide
+from playwright.sync_api import BrowserContext
+
+SCREEN = {"width": 1280, "height": 720}
+DECKS = [name for names in make_slides.chapters().values() for name in names]
+WITHOUT_FORMULAS = {"introduction", "playground"}
+WITHOUT_EXPLORABLES = {"introduction"}
+FEW_PARTS = {"introduction", "playground"}
+SOME_DECKS = [
+    pytest.param(name, marks=pytest.mark.exhaustive if number % 3 else ())
+    for number, name in enumerate(DECKS)
+]
+
+OVERFLOW = """() => Reveal.getSlides().flatMap((slide, number) => {
+  Reveal.slide(number);
+  const frame = slide.getBoundingClientRect();
+  const kinds = "h1, h2, .points, .fit, .fit > div, figure, table, pre, .math, .robonav, img, svg";
+  const inside = [...slide.querySelectorAll(kinds)];
+  return inside.filter((part) => !part.closest("aside, .scrolls .fit") && part.checkVisibility())
+    .map((part) => [part, part.getBoundingClientRect()])
+    .filter(([, { left, right, top, bottom }]) =>
+      left < frame.left - 1 || right > frame.right + 1 || top < frame.top - 1 || bottom > frame.bottom - 20)
+    .map(([part]) => `slide ${number + 1}: ${part.tagName}.${part.className} ${part.textContent.slice(0, 40)}`);
+})"""
+SMALL = """() => Reveal.getSlides().flatMap((slide, number) => [...slide.querySelectorAll(".fit")]
+  .filter((content) => Number(content.style.zoom || 1) < 0.5)
+  .map((content) => `slide ${number + 1}: ${content.style.zoom}`))"""
+SUMMARY = """() => ({
+  slides: Reveal.getTotalSlides(),
+  minutes: Reveal.getSlides().reduce((sum, slide) => sum + Number(slide.dataset.minutes), 0),
+  notes: Reveal.getSlides().filter((slide) => slide.querySelector("aside.notes")?.textContent.length > 60).length,
+  formulas: document.querySelectorAll("section mjx-container").length,
+  broken: [...document.querySelectorAll("mjx-merror")].map((formula) => formula.textContent),
+  raw: [...document.querySelectorAll("section :is(p, li, h2)")].map((text) => text.textContent)
+    .filter((text) => /\\\\\\(|\\\\\\[/.test(text)),
+  pictures: [...document.images].filter((image) => !image.naturalWidth).map((image) => image.src),
+  live: document.querySelectorAll(".live .robonav").length,
+})"""
+
+
+@pytest.fixture(scope="session")
+def decks(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of decks that are made anew from the built book."""
+    folder = tmp_path_factory.mktemp("slides")
+    kept = make_slides.TARGET
+    make_slides.TARGET = folder
+    try:
+        assert make_slides.make(DECKS) == 0
+    finally:
+        make_slides.TARGET = kept
+    return folder
+
+
+def opened(visit: Visit, address: str) -> dict[str, Any]:
+    """Open a deck and say what it holds."""
+    visit.page.set_viewport_size(SCREEN)
+    visit.page.goto(address)
+    visit.page.wait_for_selector("html[data-ready]", state="attached")
+    return visit.page.evaluate(SUMMARY)
+
+
+def a_control_reacts(visit: Visit) -> bool:
+    """Press a key on the first control of the first live figure, and say whether anything changes."""
+    number = visit.page.evaluate(
+        "() => Reveal.getSlides().findIndex((slide) => slide.querySelector('.live .robonav :is(input, button)'))"
+    )
+    visit.page.evaluate("(number) => Reveal.slide(number)", number)
+    widget = visit.page.locator("section.present .live .robonav").first
+    before = widget.evaluate("(element) => element.outerHTML")
+    control = widget.locator(
+        "input[type=range], input[type=radio], button:enabled"
+    ).first
+    control.focus()
+    control.press(
+        "ArrowRight"
+        if control.evaluate("({ type }) => type !== 'submit' && type !== 'button'")
+        else "Enter"
+    )
+    visit.page.wait_for_timeout(300)
+    stays = visit.page.evaluate("() => Reveal.getIndices().h") == number
+    return stays and widget.evaluate("(element) => element.outerHTML") != before
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_deck(context: BrowserContext, decks: Path, name: str) -> None:
+    address = (decks / f"{name}.html").as_uri()
+    with visiting(context) as visit:
+        short = opened(visit, address)
+        assert visit.page.evaluate(OVERFLOW) == []
+        assert visit.page.evaluate(SMALL) == []
+        assert short["minutes"] == MINUTES
+        assert name in FEW_PARTS or 14 <= short["slides"] <= 26
+        assert short["notes"] >= short["slides"] / 2
+        assert short["broken"] == short["raw"] == short["pictures"] == []
+        assert (short["formulas"] > 0) or name in WITHOUT_FORMULAS
+        if name not in WITHOUT_EXPLORABLES:
+            assert short["live"] >= 1
+            assert a_control_reacts(visit)
+        assert visit.errors == visit.external == []
+
+
+@pytest.mark.parametrize("name", SOME_DECKS)
+def test_long_deck(context: BrowserContext, decks: Path, name: str) -> None:
+    address = (decks / f"{name}.html").as_uri()
+    with visiting(context) as visit:
+        long = opened(visit, f"{address}?long")
+        assert visit.page.evaluate(OVERFLOW) == []
+        assert long["minutes"] == 2 * MINUTES
+        assert long["broken"] == long["raw"] == long["pictures"] == []
+        assert visit.errors == visit.external == []
+
+
+@pytest.mark.parametrize("name", SOME_DECKS)
+def test_printed(context: BrowserContext, decks: Path, name: str) -> None:
+    """The printable version has one page a slide, each with its content."""
+    source = (decks / f"{name}.html").read_text("utf-8")
+    slides = len(re.findall(r"<section class=\"kind-\w+\" data-minutes[^>]*>", source))
+    long = len(
+        re.findall(r"<section class=\"kind-\w+\" data-minutes[^>]* data-long>", source)
+    )
+    with visiting(context) as visit:
+        opened_at = f"{(decks / f'{name}.html').as_uri()}?print-pdf"
+        opened(visit, opened_at)
+        pages = visit.page.locator(".pdf-page")
+        assert pages.count() == slides - long
+        printed = visit.page.pdf(prefer_css_page_size=True, print_background=True)
+        assert len(re.findall(rb"/Type\s*/Page\b", printed)) == slides - long
+        assert visit.errors == []
+
+
+def test_keyboard(context: BrowserContext, decks: Path) -> None:
+    """A live figure keeps the arrows, Page Down turns the slides all the same, and Escape gives the arrows back."""
+    with visiting(context) as visit:
+        opened(visit, (decks / "dynamic-programming.html").as_uri())
+
+        def at() -> int:
+            return visit.page.evaluate("() => Reveal.getIndices().h")
+
+        number = visit.page.evaluate(
+            "() => Reveal.getSlides().findIndex((slide) => slide.querySelector('.live input[type=range]'))"
+        )
+        visit.page.evaluate("(number) => Reveal.slide(number)", number)
+        visit.page.locator("section.present input[type=range]").first.focus()
+        visit.page.keyboard.press("ArrowRight")
+        assert at() == number
+        visit.page.keyboard.press("PageDown")
+        assert at() == number + 1
+        visit.page.keyboard.press("PageUp")
+        visit.page.locator("section.present input[type=range]").first.focus()
+        visit.page.keyboard.press("Escape")
+        visit.page.keyboard.press("ArrowRight")
+        assert at() == number + 1
+
+
+def test_speaker_view(context: BrowserContext, decks: Path) -> None:
+    """S opens a window with the slide and its notes, also from disk."""
+    with visiting(context) as visit:
+        opened(visit, (decks / "dynamic-programming.html").as_uri())
+        visit.page.evaluate("() => Reveal.slide(2)")
+        with visit.page.expect_popup() as popup:
+            visit.page.keyboard.press("s")
+        notes = popup.value.locator(".speaker-controls-notes .value")
+        notes.wait_for(state="attached")
+        popup.value.wait_for_function(
+            "() => document.querySelector('.speaker-controls-notes .value').textContent.length > 60"
+        )
+        popup.value.close()
+
+
+def test_index_lists_all_decks(decks: Path) -> None:
+    listed = (decks / "index.html").read_text("utf-8")
+    for name in DECKS:
+        assert f'href="{name}.html"' in listed
+        assert f'href="{name}.html?long"' in listed
+
+
+# ---- Without a browser -----------------------------------------------------------------------------------------------
+
+BODY = """
+<article class="bd-article"><section id="a"><h1>A page<a class="headerlink" href="#a">#</a></h1>
+<p>Why it matters.</p><ul><li><p>do one thing;</p></li></ul>
+<section id="b"><h2>First</h2>
+<p>A reward counts less if it comes later. More of it here.</p>
+<div class="math notranslate" id="equation-eq-9-1"><span class="eqno">(9.1)</span>\\[x\\]</div>
+<p>Values of a policy follow from it <span class="bibtex-citation">[<a>Bellman, 1957</a>]</span>. More.</p>
+{mark}</section>
+<section id="c"><h2>Second</h2><p>Rewards are bounded in this process. And more.</p></section>
+<section id="d"><h2>In short</h2><ul><li><p>One claim.</p></li></ul></section>
+</section></article>
+"""
+
+
+def page(mark: str = "") -> Page:
+    return Page(BODY.format(mark=mark), {})
+
+
+def marked(show: str, minutes: str = "") -> str:
+    return (
+        f'<template class="slide" data-show="{show}" data-minutes="{minutes}"><p>A claim</p>'
+        "<ul><li><p>one point</p></li></ul><p>Say this.</p></template>"
+    )
+
+
+def test_a_page_without_marks_has_a_deck() -> None:
+    slides = lecture.lecture(page())
+    assert [slide.kind for slide in slides] == [
+        "title",
+        "goals",
+        "equation",
+        "text",
+        "summary",
+    ]
+    equation = slides[2]
+    assert equation.title == "A reward counts less if it comes later"
+    assert equation.points == ["Values of a policy follow from it"]
+    assert "More of it here." in "".join(equation.notes)
+    assert sum(slide.minutes for slide in slides) == MINUTES
+
+
+def test_a_mark_says_what_a_slide_shows() -> None:
+    slides = lecture.lecture(page(marked("eq-9.1", "4")))
+    slide = slides[2]
+    assert (slide.title, slide.points, slide.minutes) == ("A claim", ["one point"], 4)
+    assert [part.kind for part in slide.parts] == ["equation"]
+    assert slide.notes[0] == "<p>Say this.</p>"
+    assert sum(slide.kind == "equation" for slide in slides) == 1
+    assert sum(slide.minutes for slide in slides) == MINUTES
+
+
+def test_a_mark_that_shows_nothing_known_is_refused() -> None:
+    with pytest.raises(
+        NoSuchPart, match=r"a slide shows eq-9\.7, which the page does not have"
+    ):
+        lecture.lecture(page(marked("eq-9.7")))
+
+
+def test_marks_that_take_too_long_are_refused() -> None:
+    with pytest.raises(ValueError, match="minutes of marked slides add up to 60"):
+        lecture.lecture(page(marked("eq-9.1", "60")))
+
+
+def test_minutes_add_up_for_any_slides() -> None:
+    for number in range(1, 40):
+        slides = [Slide("text", "", "", wanted=1 + k % 3) for k in range(number)]
+        lecture.share(slides)
+        assert sum(slide.minutes for slide in slides) == MINUTES
+        assert all(slide.minutes % lecture.STEP == 0 for slide in slides)
+
+
+def test_marks_name_parts_of_their_pages(site: Path) -> None:
+    """The marks in the built pages are those of the sources."""
+    for name in DECKS:
+        read = make_slides.read(name)
+        marks = [block for block in read.blocks if isinstance(block, Mark)]
+        source = (make_slides.ROOT / "book" / f"{name}.md").read_text("utf-8")
+        assert len(marks) == len(re.findall(r"^```\{slide\}", source, re.M))
+        parts = [block for block in read.blocks if isinstance(block, Part)]
+        for mark in marks:
+            for shown in mark.show:
+                lecture.named(shown, parts)
