@@ -415,9 +415,9 @@ def title_of(part: Part, page: Page) -> str:
     if part.kind == "proof":
         return f"{escape(part.heading)}: the proof"
     if part.kind == "listing" and part.lines > LINES_BELOW:
-        name = (
-            plain(part.tag.select_one(".caption-text")).replace(" ", "").split(".")[-1]
-        )
+        pieces = plain(part.tag.select_one(".caption-text")).replace(" ", "").split(".")
+        of_class = len(pieces) > 1 and pieces[-2][0].isupper()
+        name = ".".join(pieces[-2:] if of_class else pieces[-1:])
         return f"<code>{escape(name)}</code> as it runs"
     return escape(part.heading)
 
