@@ -5,8 +5,8 @@ everything is already computed and drawn. Marks in the page (:mod:`slides`) say 
 claim. Each other part gets a slide of its own: its title is the part's own or the section's heading, its points are
 sentences of the text beside it, and the whole text becomes the speaker's notes.
 
-The short lecture takes :data:`MINUTES`, the long one twice as long. Marked slides belong to the short one unless they
-say ``long``. In sections without marks the most telling parts do.
+The short lecture takes :data:`MINUTES`. The long one takes twice as long: it has more slides, and more time for each.
+Marked slides belong to both unless they say ``long``. In sections without marks the most telling parts do.
 """
 
 from __future__ import annotations
@@ -107,7 +107,9 @@ class Slide:
     fixed: float | None = None  # minutes that a mark sets
     marked: bool = False
     long: bool = False
-    minutes: float = 0
+    minutes: dict[str, float] = field(
+        default_factory=dict
+    )  # in the short and in the long lecture
 
 
 class NoSuchPart(ValueError):
@@ -155,7 +157,7 @@ def first_sentence(paragraph: Tag) -> str:
             break
         found += escape(str(child), quote=False)
     found = re.sub(r"</?a\b[^>]*>", "", " ".join(found.split()))
-    return re.sub(r"\s+([.,:;])", r"\1", found).rstrip(".:").strip()
+    return re.sub(r"\s+([.,:;])", r"\1", found).rstrip(".:,;").strip()
 
 
 def points_of(paragraphs: Iterable[Tag], most: int = MOST_POINTS) -> list[str]:
@@ -681,8 +683,8 @@ def lecture(page: Page) -> list[Slide]:
         )
     )
     slides = choose(slides)
-    for long in (False, True):
-        share([slide for slide in slides if slide.long == long])
+    share([slide for slide in slides if not slide.long], "short", MINUTES)
+    share(slides, "long", 2 * MINUTES)
     return slides
 
 
@@ -717,24 +719,22 @@ def choose(slides: list[Slide]) -> list[Slide]:
     return [slide for slide in slides if id(slide) not in left_out]
 
 
-def share(slides: list[Slide]) -> None:
-    """Set the minutes of slides so that they add up to a lecture: set ones stay, the others are in proportion."""
-    if not slides:
-        return
+def share(slides: list[Slide], lecture: str, minutes: float) -> None:
+    """Set the minutes of slides so that they add up: set ones stay, the others are in proportion."""
     fixed = sum(slide.fixed or 0 for slide in slides)
     free = [slide for slide in slides if slide.fixed is None]
-    left = MINUTES - fixed
+    left = minutes - fixed
     if left < STEP * len(free) or (not free and left):
         raise ValueError(
-            f"the minutes of marked slides add up to {fixed:g}; {len(free)} other slides need the rest of {MINUTES}"
+            f"the minutes of marked slides add up to {fixed:g}; "
+            f"{len(free)} other slides need the rest of {minutes}"
         )
-    for slide in slides:
-        slide.minutes = slide.fixed or STEP
     spare = left - STEP * len(free)
     whole = sum(slide.wanted for slide in free)
     exact = {id(slide): spare * slide.wanted / whole / STEP for slide in free}
-    for slide in free:
-        slide.minutes += int(exact[id(slide)]) * STEP
-    missing = round((left - sum(slide.minutes for slide in free)) / STEP)
+    for slide in slides:
+        extra = 0 if slide.fixed else int(exact[id(slide)]) * STEP
+        slide.minutes[lecture] = (slide.fixed or STEP) + extra
+    missing = round((left - sum(slide.minutes[lecture] for slide in free)) / STEP)
     for slide in sorted(free, key=lambda slide: -(exact[id(slide)] % 1))[:missing]:
-        slide.minutes += STEP
+        slide.minutes[lecture] += STEP

@@ -153,14 +153,14 @@ def body(slide: Slide) -> str:
 def section(slide: Slide, context: str) -> str:
     """Return a slide as a section of reveal.js."""
     long = " data-long" if slide.long else ""
-    notes = f"<p>{slide.minutes:g} min.</p>{''.join(slide.notes)}"
+    notes = f'<p class="minutes"></p>{"".join(slide.notes)}'
     named = slide.section and plain(slide.title) != slide.section
     where = f'<p class="where">{escape(slide.section) if named else ""}</p>'
     if slide.kind == "title":
         content = f'<p class="context">{context}</p><h1>{slide.title}</h1><p class="versions"></p>'
     else:
         content = f'{where}<h2>{slide.title}</h2><div class="body">{body(slide)}</div>'
-    time = f'data-minutes="{slide.minutes:g}" data-timing="{slide.minutes * 60:.0f}"'
+    time = f'data-minutes="{slide.minutes.get("short", 0):g}" data-minutes-long="{slide.minutes["long"]:g}"'
     return (
         f'<section class="kind-{slide.kind}" {time}{long}>'
         f'{content}<aside class="notes">{notes}</aside></section>'

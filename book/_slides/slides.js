@@ -3,13 +3,18 @@
 const query = new URLSearchParams(location.search);
 const long = query.has("long");
 const SMALLEST = 0.3;
-const LARGEST = [[".live", 1.6], ["figure, .animated", 1], [".math, pre, .admonition, table", 1.35], [".points", 1.15]];
+const LARGEST = [[".live", 1.6], ["figure, .animated", 1], [".math, pre, .admonition, table", 1.35], [".points", 1.3]];
 const READABLE = 0.66; // a live figure that would be smaller scrolls instead
 const ROOM_TO_GROW = 0.9; // of the height, for a live figure that will say more
 
 /** Shows what belongs to the lecture, and on the first slide where the other one is. */
 function choose() {
   if (!long) document.querySelectorAll("section[data-long]").forEach((slide) => slide.remove());
+  for (const slide of document.querySelectorAll("section[data-minutes]")) {
+    if (long) slide.dataset.minutes = slide.dataset.minutesLong;
+    slide.dataset.timing = 60 * slide.dataset.minutes;
+    slide.querySelector(".notes .minutes").textContent = `${slide.dataset.minutes} min.`;
+  }
   const minutes = [...document.querySelectorAll("section[data-minutes]")]
     .reduce((sum, slide) => sum + Number(slide.dataset.minutes), 0);
   const other = document.createElement("a");
@@ -54,13 +59,18 @@ function watch(body) {
   grown.observe(content);
 }
 
-/** Who gets a key: the focused figure, except for the keys of a presenter's remote control. */
-function forSlides(event) {
-  if (["PageDown", "PageUp"].includes(event.key)) return true;
-  const focused = document.activeElement;
-  const figure = focused?.closest(".live, details, a, button, input, select, textarea, .animated");
-  if (figure && event.key === "Escape") focused.blur();
-  return !figure;
+/** The figure, link or field that has the keyboard. */
+const focused = () => document.activeElement?.closest(".live, .animated, details, a, button, input, select, textarea");
+
+/** A presenter's remote control turns the slides also while a figure has the keyboard, and Escape takes it from the figure. */
+function beforeFigures(event) {
+  if (!focused() || event.altKey || event.ctrlKey || event.metaKey) return;
+  if (event.key === "Escape") document.activeElement.blur();
+  else if (event.key === "PageDown") Reveal.next();
+  else if (event.key === "PageUp") Reveal.prev();
+  else return;
+  event.preventDefault();
+  event.stopPropagation();
 }
 
 const drawn = () => [...document.querySelectorAll(".live > script[type$='widget-view+json']")]
@@ -81,10 +91,11 @@ async function start() {
   for (const place of document.querySelectorAll(".live, .animated")) place.dataset.preventSwipe = "";
   await Reveal.initialize({
     width: 1280, height: 720, margin: 0, minScale: 0.1, maxScale: 4, center: false, hash: true, transition: "none",
-    slideNumber: "c/t", viewDistance: 1000, mobileViewDistance: 1000, keyboardCondition: forSlides,
+    slideNumber: "c/t", viewDistance: 1000, mobileViewDistance: 1000, keyboardCondition: () => !focused(),
     pdfMaxPagesPerSlide: 1, pdfSeparateFragments: false, navigationMode: "linear", controlsTutorial: false,
     totalTime: 60 * (long ? 90 : 45), plugins: [RevealNotes],
   });
+  document.addEventListener("keydown", beforeFigures, true);
   Reveal.on("slidechanged", () => document.activeElement?.closest("section") && document.activeElement.blur());
   const bodies = [...document.querySelectorAll(".body")];
   for (const body of bodies) fit(body, body.querySelector(".live") ? ROOM_TO_GROW : 1);

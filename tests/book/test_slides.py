@@ -226,17 +226,21 @@ def test_a_page_without_marks_has_a_deck() -> None:
     assert equation.title == "A reward counts less if it comes later"
     assert equation.points == ["Values of a policy follow from it"]
     assert "More of it here." in "".join(equation.notes)
-    assert sum(slide.minutes for slide in slides) == MINUTES
+    assert sum(slide.minutes["short"] for slide in slides) == MINUTES
 
 
 def test_a_mark_says_what_a_slide_shows() -> None:
     slides = lecture.lecture(page(marked("eq-9.1", "4")))
     slide = slides[2]
-    assert (slide.title, slide.points, slide.minutes) == ("A claim", ["one point"], 4)
+    assert (slide.title, slide.points, slide.minutes["short"]) == (
+        "A claim",
+        ["one point"],
+        4,
+    )
     assert [part.kind for part in slide.parts] == ["equation"]
     assert slide.notes[0] == "<p>Say this.</p>"
     assert sum(slide.kind == "equation" for slide in slides) == 1
-    assert sum(slide.minutes for slide in slides) == MINUTES
+    assert sum(slide.minutes["short"] for slide in slides) == MINUTES
 
 
 def test_a_mark_that_shows_nothing_known_is_refused() -> None:
@@ -254,9 +258,9 @@ def test_marks_that_take_too_long_are_refused() -> None:
 def test_minutes_add_up_for_any_slides() -> None:
     for number in range(1, 40):
         slides = [Slide("text", "", "", wanted=1 + k % 3) for k in range(number)]
-        lecture.share(slides)
-        assert sum(slide.minutes for slide in slides) == MINUTES
-        assert all(slide.minutes % lecture.STEP == 0 for slide in slides)
+        lecture.share(slides, "short", MINUTES)
+        assert sum(slide.minutes["short"] for slide in slides) == MINUTES
+        assert all(slide.minutes["short"] % lecture.STEP == 0 for slide in slides)
 
 
 def test_marks_name_parts_of_their_pages(site: Path) -> None:
