@@ -40,15 +40,17 @@ TARGET = Path(os.environ.get("BOOK_SLIDES", ROOT / "_build" / "slides"))
 SOURCES = ROOT / "book" / "_slides"
 BOOK = yaml.safe_load((ROOT / "_config.yml").read_text("utf-8"))["title"]
 STATIC = (  # of the built book's, what decks load
-    "pygments.css", "drills.css", "drills.js", "drills", "third-party/requirejs", "third-party/html-manager",
-    "third-party/anywidget", "third-party/widgets-init.js", "third-party/mathjax", "third-party/LICENSES.md",
-    "favicon.svg",
+    "pygments.css", "drills.css", "drills.js", "drills", "widgets.js", "third-party/mathjax",
+    "third-party/LICENSES.md", "favicon.svg",
 )  # fmt: skip
 STYLES = ("third-party/reveal/reveal.css", "pygments.css", "drills.css", "slides.css")
-WIDGET_SCRIPTS = (
-    "third-party/requirejs/require.js",
-    "third-party/widgets-init.js",
-    "third-party/html-manager/embed-amd.js",
+SCRIPTS = (
+    "third-party/mathjax/tex-mml-chtml.js",
+    "third-party/reveal/reveal.js",
+    "third-party/reveal/notes.js",
+    "drills.js",
+    "widgets.js",
+    "slides.js",
 )
 MATHJAX = {
     "tex": {"inlineMath": [["\\(", "\\)"]]},
@@ -176,15 +178,7 @@ def states(page: Page, slides: list[Slide]) -> str:
         part.tag for slide in slides for part in slide.parts if part.kind == "widget"
     ]
     names = [json.loads(view.get_text())["model_id"] for view in views]
-    kept = {}
-    for name in names:
-        kept[name] = page.states[name]
-        laid_out = (
-            page.states[name]["state"].get("layout", "").removeprefix("IPY_MODEL_")
-        )
-        if laid_out in page.states:
-            kept[laid_out] = page.states[laid_out]
-    state = {"state": kept, "version_major": 2, "version_minor": 0}
+    state = {"state": {name: page.states[name] for name in names}}
     text = json.dumps(state, separators=(",", ":")).replace("</", "<\\/")
     return f'<script type="application/vnd.jupyter.widget-state+json">{text}</script>'
 
@@ -200,23 +194,16 @@ def deck(page: Page, slides: list[Slide], caption: str) -> str:
     """Return the deck of a page."""
     sections = local("\n".join(section(slide, escape(caption)) for slide in slides))
     links = "".join(f'<link rel="stylesheet" href="_static/{name}">' for name in STYLES)
-    live = any(part.kind == "widget" for slide in slides for part in slide.parts)
     scripts = "".join(
-        f'<script src="_static/{name}"></script>' for name in WIDGET_SCRIPTS if live
+        f'<script defer src="_static/{name}"></script>' for name in SCRIPTS
     )
     return (
         '<!doctype html><html lang="en" data-theme="light" data-mode="light"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<title>{escape(page.title)}: slides</title><link rel="icon" href="_static/favicon.svg">{links}'
         f"<script>window.MathJax = {json.dumps(MATHJAX)}</script>"
-        '<script defer src="_static/third-party/mathjax/tex-mml-chtml.js"></script>'
-        # before RequireJS, which would take them for modules of its own
-        '<script src="_static/third-party/reveal/reveal.js"></script>'
-        '<script src="_static/third-party/reveal/notes.js"></script>'
-        '<script src="_static/drills.js"></script>'
-        f"{states(page, slides) if live else ''}{scripts}"
-        '<script defer src="_static/slides.js"></script></head>'
-        f'<body class="tex2jax_ignore mathjax_ignore" data-book="{escape(BOOK)}" data-page="{escape(page.title)}">'
+        f"{states(page, slides)}{scripts}</head>"
+        f'<body class="tex2jax_ignore mathjax_ignore" data-book="{escape(BOOK)}">'
         f'<div class="reveal"><div class="slides">\n{sections}\n</div></div></body></html>\n'
     )
 
