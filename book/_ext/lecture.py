@@ -277,7 +277,13 @@ class Page:
                 continue
             kind = kind_of(tag)
             if kind == "mark":
-                found.append(self.mark(tag, section))
+                mark = self.mark(tag, section)
+                if not mark.show:  # it stands for the text before it
+                    mark.notes += [
+                        f"<{text.name}>{inner(text)}</{text.name}>" for text in pending
+                    ]
+                    pending = []
+                found.append(mark)
             elif kind == "answer":
                 if last is not None:
                     last.after.append(tag)
@@ -401,7 +407,7 @@ def title_of(part: Part, page: Page) -> str:
             r"\((.+)\)\s*$", plain(part.tag.select_one(".admonition-title"))
         )
         own = (
-            re.sub(r"(\. In the thesis.*| \(Algorithm.*)$", "", named[1])
+            re.sub(r"(\. In the thesis.*|\s*\([^()]*\)?)$", "", named[1])
             if named
             else ""
         )

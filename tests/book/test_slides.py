@@ -11,7 +11,8 @@ import make_slides
 import pytest
 from browser import Visit, visiting
 from lecture import MINUTES, Mark, NoSuchPart, Page, Part, Slide
-from playwright.sync_api import BrowserContext
+from notebooks import plain
+from playwright.sync_api import BrowserContext, expect
 
 SCREEN = {"width": 1280, "height": 720}
 DECKS = [name for names in make_slides.chapters().values() for name in names]
@@ -164,6 +165,24 @@ def test_keyboard(context: BrowserContext, decks: Path) -> None:
         assert at() == number + 1
 
 
+def test_a_click_hits_what_it_points_at(context: BrowserContext, decks: Path) -> None:
+    """Also on a larger screen, where the slide and the figure on it are drawn larger."""
+    with visiting(context) as visit:
+        opened(visit, (decks / "dynamic-programming.html").as_uri())
+        visit.page.set_viewport_size({"width": 1920, "height": 1080})
+        number = visit.page.evaluate(
+            "() => Reveal.getSlides().findIndex((slide) => slide.textContent.includes('Touch a cell to back it up'))"
+        )
+        visit.page.evaluate("(number) => Reveal.slide(number)", number)
+        widget = visit.page.locator("section.present .robonav")
+        box = widget.locator(".pictures svg").first.bounding_box()
+        assert box is not None
+        visit.page.mouse.click(
+            box["x"] + box["width"] * 2.5 / 4, box["y"] + box["height"] * 0.5 / 3
+        )
+        expect(widget.locator(".status")).to_contain_text("in row 1, column 3")
+
+
 def test_speaker_view(context: BrowserContext, decks: Path) -> None:
     """S opens a window with the slide and its notes, also from disk."""
     with visiting(context) as visit:
@@ -261,6 +280,13 @@ def test_minutes_add_up_for_any_slides() -> None:
         lecture.share(slides, "short", MINUTES)
         assert sum(slide.minutes["short"] for slide in slides) == MINUTES
         assert all(slide.minutes["short"] % lecture.STEP == 0 for slide in slides)
+
+
+def test_notebooks_leave_marks_out() -> None:
+    text = (
+        "Before.\n\n```{slide} A claim\n:show: eq-9.1\n\n- one point\n```\n\nAfter.\n"
+    )
+    assert plain(text).split() == ["Before.", "After."]
 
 
 def test_marks_name_parts_of_their_pages(site: Path) -> None:
