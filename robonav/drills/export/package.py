@@ -72,7 +72,7 @@ def qti_zip(
 
 def _documents_21(made: Sequence[Item], title: str) -> dict[str, Element]:
     documents = {f"{item.name}.xml": qti21.assessment_item(item) for item in made}
-    return {"test.xml": qti21.test(list(documents), title), **documents}
+    return {"test.xml": qti21.assessment_test(list(documents), title), **documents}
 
 
 def _manifest(

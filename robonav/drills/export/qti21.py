@@ -15,7 +15,7 @@ NAMESPACE = "http://www.imsglobal.org/xsd/imsqti_v2p1"
 RESPONSE = "RESPONSE"
 
 
-def test(files: Sequence[str], title: str) -> Element:
+def assessment_test(files: Sequence[str], title: str) -> Element:
     """Return a test of items.
 
     Parameters
@@ -30,7 +30,7 @@ def test(files: Sequence[str], title: str) -> Element:
 
     Examples
     --------
-    >>> [node.get("href") for node in test(["a.xml"], "Robots").iter("assessmentItemRef")]
+    >>> [node.get("href") for node in assessment_test(["a.xml"], "Robots").iter("assessmentItemRef")]
     ['a.xml']
     """
     root = ElementTree.Element(
