@@ -1,0 +1,74 @@
+"""The benchmarks can be started, and the page of them runs each."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).parents[2] / "benchmarks"
+SCRIPTS = sorted(path for path in FOLDER.glob("*.py"))
+ELSEWHERE = {"quantecon"}
+"""Of an extra that the tests do not need."""
+
+
+def imports(script: Path) -> list[tuple[str, str]]:
+    """The modules that a script imports anywhere, and the names out of them."""
+    tree = ast.parse(script.read_text("utf-8"))
+    found = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            found += [(node.module, alias.name) for alias in node.names]
+        elif isinstance(node, ast.Import):
+            found += [(alias.name, "") for alias in node.names]
+    return found
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+def test_what_a_benchmark_imports_is_there(script):
+    for module, name in imports(script):
+        if module.split(".")[0] in ELSEWHERE or (FOLDER / f"{module}.py").is_file():
+            continue
+        there = importlib.import_module(module)
+        if name and not hasattr(there, name):
+            importlib.import_module(f"{module}.{name}")
+
+
+def page() -> dict[str, object]:
+    return runpy.run_path(str(FOLDER / "page.py"))
+
+
+def test_the_page_runs_every_benchmark():
+    names = {script for script, *_ in page()["SCRIPTS"].values()}
+    assert names | {"growth.py", "page.py"} == {path.name for path in SCRIPTS}
+
+
+@pytest.mark.parametrize(
+    ("code", "text"),
+    [("print('3 s')", "3 s"), ("print('9 s'); raise SystemExit(1)", "9 s")],
+)
+def test_a_benchmark_over_its_limit_is_on_the_page_too(tmp_path, code, text):
+    (tmp_path / "some.py").write_text(code, "utf-8")
+    assert page()["printed"](str(tmp_path / "some.py"), ()) == text
+
+
+@pytest.mark.parametrize("code", ["import nowhere", "print(1); 1 / 0", "pass"])
+def test_a_benchmark_that_fails_says_which(tmp_path, code):
+    (tmp_path / "some.py").write_text(code, "utf-8")
+    with pytest.raises(SystemExit, match=r"some\.py failed"):
+        page()["printed"](str(tmp_path / "some.py"), ())
+
+
+def test_help_is_given_without_a_benchmark():
+    asked = subprocess.run(
+        [sys.executable, FOLDER / "page.py", "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "--peers" in asked.stdout
