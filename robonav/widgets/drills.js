@@ -154,6 +154,7 @@ const FORMS = {
   order({ asked }) {
     const order = disordered(asked.steps.length);
     const list = h("ol", { class: "steps" });
+    const texts = asked.steps.map((step, k) => rich("span", step, { "data-step": k })); // made once: formulas stay typeset
     const move = (k, by) => {
       const to = k + by;
       if (to < 0 || to >= order.length) return;
@@ -167,7 +168,7 @@ const FORMS = {
           h("li", {},
             h("button", { type: "button", class: "up", "aria-label": `Move step ${k + 1} up`, click: () => move(k, -1) }, "↑"),
             h("button", { type: "button", class: "down", "aria-label": `Move step ${k + 1} down`, click: () => move(k, 1) }, "↓"),
-            rich("span", asked.steps[step])),
+            texts[step]),
         ),
       );
     draw();

@@ -45,12 +45,10 @@ def give_right_answer(visit: Visit, place: Locator) -> None:
         place.locator(f'.place[data-place="{asked["right"][0]}"]').focus()
         keyboard.press("Enter")
     elif asked["kind"] == "order":
-        for step, text in enumerate(asked["steps"]):
-            while (
-                place.locator(".steps li").nth(step).locator("span").inner_text()
-                != text
-            ):
-                row = place.locator(".steps li", has_text=text)
+        for step in range(len(asked["steps"])):
+            at = place.locator(".steps li").nth(step).locator("[data-step]")
+            row = place.locator(f'.steps li:has([data-step="{step}"])')
+            while at.get_attribute("data-step") != str(step):
                 row.get_by_role("button", name="up").focus()
                 keyboard.press("Enter")
     else:
