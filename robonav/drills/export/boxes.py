@@ -38,7 +38,15 @@ class Run:
 
 @dataclass(frozen=True)
 class Rule:
-    """A filled rectangle at a place in a box: its lower left corner, width and height."""
+    """A filled rectangle at a place in a box.
+
+    Attributes
+    ----------
+    x, y : float
+        Its lower left corner, as in a :class:`Run`.
+    width, height : float
+        In points.
+    """
 
     x: float
     y: float
@@ -69,7 +77,13 @@ class Box:
     depth: float = 0.0
 
     def moved(self, x: float, y: float = 0.0) -> Box:
-        """Return the box shifted right and up, its width as before."""
+        """Return the box shifted right and up, its width as before.
+
+        Examples
+        --------
+        >>> Box(3.0, height=7.0).moved(1.0, 2.0).height
+        9.0
+        """
         return Box(
             self.width,
             tuple(Run(r.x + x, r.y + y, r.text, r.font, r.size) for r in self.runs),
@@ -81,7 +95,13 @@ class Box:
 
 @cache
 def registered(font: str) -> str:
-    """Make a font that comes with Matplotlib known to ReportLab, and return its name."""
+    """Make a font that comes with Matplotlib known to ReportLab, and return its name.
+
+    Examples
+    --------
+    >>> registered(UPRIGHT)
+    'STIXGeneral'
+    """
     from matplotlib import get_data_path
     from reportlab.pdfbase import pdfmetrics
     from reportlab.pdfbase.ttfonts import TTFont
@@ -93,20 +113,38 @@ def registered(font: str) -> str:
 
 @cache
 def width(text: str, font: str, size: float) -> float:
-    """Return the width of letters in points."""
+    """Return the width of letters in points.
+
+    Examples
+    --------
+    >>> width("mm", UPRIGHT, 11.0) == 2 * width("m", UPRIGHT, 11.0)
+    True
+    """
     from reportlab.pdfbase import pdfmetrics
 
     return float(pdfmetrics.stringWidth(text, registered(font), size))
 
 
 def letters(text: str, font: str, size: float) -> Box:
-    """Return letters as a box."""
+    """Return letters as a box.
+
+    Examples
+    --------
+    >>> letters("Q", ITALIC, 10.0).runs[0].text
+    'Q'
+    """
     run = Run(0.0, 0.0, text, font, size)
     return Box(width(text, font, size), (run,), (), 0.7 * size, 0.22 * size)
 
 
 def beside(boxes: Sequence[Box], gaps: Sequence[float] = ()) -> Box:
-    """Return boxes side by side as one, each with a gap in front of it."""
+    """Return boxes side by side as one, each with a gap in front of it.
+
+    Examples
+    --------
+    >>> beside([Box(3.0), Box(4.0)], [0.0, 1.0]).width
+    8.0
+    """
     x = 0.0
     runs: list[Run] = []
     rules: list[Rule] = []

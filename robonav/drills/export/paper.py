@@ -297,7 +297,7 @@ def _question(number: int, one: Drawn, measure: float, solved: bool) -> _Block:
         at = x + measure - width(worth, UPRIGHT, SMALL)
         _letters(canvas, at, top - TEXT, worth, SMALL, grey=True)
 
-    parts = [_text(asked_text(question), inner), _space(4)]
+    parts = [_text(asked_text(question), inner), _space(6)]
     if question.picture:
         parts += [_picture(question.picture, inner), _space(6)]
     parts += _solution(one, inner) if solved else _fields(asked, inner)

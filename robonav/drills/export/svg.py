@@ -27,6 +27,7 @@ INHERITED = {
     "fill-opacity": "1",
     "stroke-opacity": "1",
 }
+MINUS = re.compile(r"(?<![\w.])-(?=\d)")  # a hyphen that is a sign
 CORNERS = 64  # a circle is drawn as a polygon
 SILENT = {"title", "desc"}
 PIXELS = 2  # of a PNG picture for each pixel of the SVG, for sharp screens
@@ -182,7 +183,7 @@ def _label(
     return Label(
         at[0],
         at[1] + dy,
-        "".join(element.itertext()),
+        MINUS.sub("−", "".join(element.itertext())),
         size,
         style["text-anchor"],
         _colour(style["fill"], float(style["opacity"])) or (0, 0, 0),

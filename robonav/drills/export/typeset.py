@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -10,15 +9,23 @@ from typing import Any
 
 from .boxes import BOLD, ITALIC, MONO, UPRIGHT, Box, beside, letters, width
 from .formula import pieces
+from .svg import MINUS
 
-MINUS = re.compile(r"(?<![\w.])-(?=\d)")
 UNITS = {"m", "s", "m/s", "rad", "degrees"}
 LEADING = 1.3  # the distance of two lines, in sizes of the letters
 
 
 @dataclass(frozen=True)
 class Word:
-    """What stands together in a line: the space in front of it, and its box."""
+    """What stands together in a line.
+
+    Attributes
+    ----------
+    space : float
+        The space in front of it, unless it begins a line.
+    box : Box
+        What is set.
+    """
 
     space: float
     box: Box
@@ -65,7 +72,13 @@ def lines(
 
 
 def height(set_: list[Box], size: float = 11.0) -> float:
-    """Return the height of lines in points."""
+    """Return the height of lines in points.
+
+    Examples
+    --------
+    >>> round(height(lines("One line.", 100.0, 10.0), 10.0), 6)
+    13.0
+    """
     return sum(_advance(line, size) for line in set_)
 
 
@@ -75,7 +88,14 @@ def _advance(line: Box, size: float) -> float:
 
 
 def base_lines(set_: list[Box], top: float, size: float = 11.0) -> list[float]:
-    """Return the heights of the base lines of lines whose first begins at the top."""
+    """Return the heights of the base lines of lines whose first begins at the top.
+
+    Examples
+    --------
+    >>> first, second, *_ = base_lines(lines("One short line", 30.0), top=50.0)
+    >>> 50.0 > first > second
+    True
+    """
     at, bases = top, []
     for line in set_:
         advance = _advance(line, size)

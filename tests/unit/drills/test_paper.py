@@ -19,10 +19,10 @@ from robonav.drills.export import (
 from robonav.drills.export import formula as formulas
 from robonav.drills.export.answers import asked_text, options, points
 from robonav.drills.export.paper import INDENT, MARGIN, SIZES, printed
-from robonav.drills.export.svg import Label, read
+from robonav.drills.export.svg import MINUS, Label, read
 
 pytest.importorskip("reportlab")
-from robonav.drills.export.typeset import MINUS, lines
+from robonav.drills.export.typeset import lines
 
 SEEDS = range(6)
 WIDTH = SIZES["a4"][0] - 2 * MARGIN - INDENT
