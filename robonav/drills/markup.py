@@ -51,16 +51,16 @@ def breakable(formula: str) -> list[str]:
 
 
 def _split(formula: str, signs: str) -> list[str]:
-    """Split a formula before each of some signs between spaces, and after a comma, outside of braces."""
+    """Split a formula before each of some signs between spaces, and after a comma, outside of brackets."""
     parts, start, braces, brackets = [], 0, 0, 0
     for at, letter in enumerate(formula):
         braces += (letter == "{") - (letter == "}")
         brackets += (letter in "([") - (letter in ")]")
         before = formula[start:at]
-        if letter != " " or braces or before in ("", "="):
+        if letter != " " or braces or brackets or before in ("", "="):
             continue
         sign = formula[at + 1 : at + 3]
-        after_comma = before[-1] == "," and "," in signs and not brackets
+        after_comma = before[-1] == "," and "," in signs
         if after_comma or (sign[1:] == " " and sign[0] in signs):
             parts.append(before)
             start = at + 1
