@@ -345,6 +345,31 @@ def test_each_student_has_exercises_of_their_own(tmp_path):
             refused()
 
 
+@pytest.mark.sandbox
+def test_gradescope_grades_a_variant(tmp_path):
+    from robonav.grading import sandbox_check
+
+    if fault := sandbox_check.fault("official"):
+        pytest.skip(fault)
+    exercise, own = COURSE.named("2.2"), tmp_path / "submission"
+    values = variants.chosen("a text", exercise, variants.knobs(COURSE, exercise))
+    for folder in ("source", "submission"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "venv").symlink_to(Path(sys.executable).parents[1])
+    (tmp_path / "source/variant").write_text("a text\n")
+    text = variants.rendered(COURSE, exercise, values).source
+    (own / "improve.py").write_text(text)
+    subprocess.run(
+        [COURSE.solutions / "gradescope/run_autograder"],
+        env={**os.environ, "AUTOGRADER_ROOT": str(tmp_path)},
+        check=True,
+        capture_output=True,
+        timeout=300,
+    )
+    results = json.loads((tmp_path / "results/results.json").read_text())
+    assert results["score"] == exercise.points
+
+
 def _sandbox():
     from robonav.grading import sandbox_check
 
