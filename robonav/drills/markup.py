@@ -97,7 +97,7 @@ def html(text: str) -> str:
 
 
 def block(text: str) -> str:
-    r"""Return Markdown as HTML paragraphs.
+    r"""Return Markdown as HTML paragraphs and lists.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def block(text: str) -> str:
     ('<p>One.</p>', '<p>One.</p>\n<p>Two.</p>\n')
     """
     rendered = html(text)
-    return rendered if rendered.startswith("<p>") else f"<p>{rendered}</p>"
+    return rendered if rendered.endswith("\n") else f"<p>{rendered}</p>"
 
 
 def _asked(asked: Asked) -> dict[str, Any]:

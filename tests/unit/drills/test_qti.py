@@ -167,6 +167,15 @@ def test_every_item_has_its_explanation_and_hints(made, canvas, blackboard) -> N
             assert len(feedback) > 2
 
 
+def test_blocks_do_not_stand_in_paragraphs(blackboard) -> None:
+    """The schema of QTI 2.1 forbids it."""
+    for node in blackboard.values():
+        for paragraph in node.iter(f"{QTI}p"):
+            inside = {child.tag.removeprefix(QTI) for child in paragraph.iter()}
+            assert not inside & {"ol", "ul", "div", "table", "pre"}
+            assert len(paragraph.findall(f".//{QTI}p")) == 0
+
+
 def test_pictures_are_in_the_package(package, bank) -> None:
     pictures = {name for name in package.namelist() if name.endswith(".png")}
     assert len(pictures) >= sum(bool(one.question.picture) for one in bank)
