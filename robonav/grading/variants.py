@@ -138,6 +138,8 @@ def chosen(secret: str, exercise: Exercise, of: Sequence[Knob]) -> dict[str, str
     >>> chosen("autumn", exercise, [Knob("ties", ("lowest", "highest"), ("The highest.",))])
     {'ties': 'highest'}
     """
+    if not of:
+        raise ValueError(f"exercise {exercise.id} has no variants yet")
     key = stretched(b"variant/" + secret.encode())
     for attempt in itertools.count():
         values = {}
@@ -205,9 +207,11 @@ def rendered(course: Course, exercise: Exercise, values: Values) -> Texts:
     Raises
     ------
     ValueError
-        If a fragment does not stand in the exercise's files, or fragments of two knobs overlap.
+        If the exercise has no knobs, a fragment does not stand in its files, or fragments of two knobs overlap.
     """
     of, plain = knobs(course, exercise), texts(course, exercise)
+    if not of:
+        raise ValueError(f"exercise {exercise.id} has no variants yet")
     _check_that_all_stand(exercise, of, plain)
     source = _wrapped_lines(_edited(plain.source, of, values, "source"), plain.source)
     wrong = _edited(plain.wrong, of, values, "wrong")

@@ -177,6 +177,22 @@ def test_a_secret_never_chooses_the_books_exercise_and_another_chooses_others(ex
     assert all(values[knob.name] in knob.values for values in found for knob in of)
 
 
+def test_every_exercise_of_the_book_has_variants():
+    assert variants.without_variants(COURSE) == []
+
+
+def test_an_exercise_without_variants_is_named(monkeypatch):
+    monkeypatch.setattr(variants, "knobs", lambda course, exercise: ())
+    exercise = COURSE.named("2.2")
+    for asked in (
+        lambda: variants.chosen("x", exercise, ()),
+        lambda: variants.rendered(COURSE, exercise, {}),
+    ):
+        with pytest.raises(ValueError, match=r"exercise 2\.2 has no variants yet"):
+            asked()
+    assert variants.without_variants(COURSE) == list(COURSE.exercises.values())
+
+
 def test_fragments_that_stand_nowhere_or_overlap_are_refused(monkeypatch):
     exercise = COURSE.named("2.2")
     ties, *others = variants.knobs(COURSE, exercise)
@@ -240,10 +256,9 @@ def test_a_term_with_a_variant(tmp_path):
     left_out = [e.id for e in variants.without_variants(COURSE)]
     assert ("left out" in said) == bool(left_out)
     assert all(id in said for id in left_out)
-    again = tmp_path / "again"
-    run("exercises", "build", "--variant", "autumn", "--out", again)
-    for path in out.rglob("*"):
-        twin = again / path.relative_to(out)
+    again = variants.write(COURSE, "autumn", tmp_path / "again").root
+    for path in again.rglob("*"):
+        twin = out / path.relative_to(again)
         assert path.is_dir() or path.read_bytes() == twin.read_bytes()
     values = json.loads((out / "variant.json").read_text())
     assert list(values) == [e.id for e in VARIED]
