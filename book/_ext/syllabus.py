@@ -139,11 +139,11 @@ def headline(course_plan: Plan, course: Course) -> str:
     """Return how long a course is."""
     hours = course_plan.total_minutes / 60
     home = sum(minutes_of(session.homework, course) for session in course_plan.sessions)
-    parts = " + ".join(
-        f"{minutes} ({part})" for part, minutes in course_plan.minutes.items()
+    parts = ", ".join(
+        f"{part} {minutes}" for part, minutes in course_plan.minutes.items()
     )
     return (
-        f"{len(course_plan.sessions)} {course_plan.unit.lower()}s of {course_plan.session_minutes} minutes = {parts}: "
+        f"{len(course_plan.sessions)} {course_plan.unit.lower()}s of {course_plan.session_minutes} minutes ({parts}): "
         f"{hours:g} hours in class. The exercises for home take {home / 60:.0f} more hours."
     )
 
@@ -184,12 +184,13 @@ class Syllabus(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         note_sources(self)
         course, course_plan = Course.of_book(), plan(self.arguments[0])
-        text = [headline(course_plan, course) + "\n"]
-        text += [
+        text = "\n".join(
             session_text(k, session, course_plan, course)
             for k, session in enumerate(course_plan.sessions, 1)
-        ]
-        return self.parse_text_to_nodes("\n".join(text), allow_section_headings=True)
+        )
+        # by itself: MyST drops what stands before the first heading of a parsed text
+        first = self.parse_text_to_nodes(headline(course_plan, course))
+        return first + self.parse_text_to_nodes(text, allow_section_headings=True)
 
 
 def goals_text(course: Course) -> str:
