@@ -135,8 +135,12 @@ def what_the_reflex_does(rng: Rng) -> Question:
         ranges[None], np.zeros((1, 9), bool), np.array([1]), np.array([False])
     )
     command = int(robot.Reflex()(sensing, speed)[0])
+    if command == robot.Action.TO_SECTOR:
+        command = (
+            robot.Action.TO_TARGET
+        )  # what the robot knows of the direction does not matter here
     answers = {
-        robot.Action.TO_TARGET: "The reflex turns the robot to the target, and it goes forward.",
+        robot.Action.TO_TARGET: "The reflex turns the robot towards the target, and it goes forward.",
         robot.Action.B: "The reflex makes it step back.",
         -1: "The policy chooses the action.",
     }

@@ -45,7 +45,7 @@ def test_who_acts() -> None:
         speed, *ranges = numbers(question.text)
         ahead = [ranges[k - 1] for k in (8, 9, 1, 2, 3)]
         if min(ranges) >= 10:
-            expected = "turns the robot to the target"
+            expected = "turns the robot towards the target"
         elif max(ahead) < speed + 1:
             expected = "step back"
         else:
