@@ -260,6 +260,12 @@ def drills_export(
     many = f"{papers} papers of " if papers > 1 else ""
     for target in targets:
         print(f"{target}: {many}{len(sets[0])} questions")
+    drew = [one.drill.name for one in sets[0]]
+    if fewer := [one.name for one in chosen if drew.count(one.name) < each]:
+        print(
+            f"These have fewer than {each} different questions and gave all: {', '.join(fewer)}",
+            file=sys.stderr,
+        )
 
 
 @app.command()

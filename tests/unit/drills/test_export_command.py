@@ -100,6 +100,13 @@ def test_wrong_input_is_said_in_a_sentence(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_drills_with_few_questions_are_named(tmp_path: Path) -> None:
+    chosen = ["--drill", "td-error", "--drill", "order-of-policy-iteration"]
+    said = run("export", tmp_path / "bank.xml", *chosen, "--each", 2)
+    assert "3 questions" in said
+    assert said.strip().endswith("gave all: order-of-policy-iteration")
+
+
 def test_missing_packages_are_named(monkeypatch) -> None:
     monkeypatch.setattr(files, "find_spec", lambda name: None)
     with pytest.raises(ValueError, match=r"reportlab is not installed: .*\[exams\]"):
