@@ -35,7 +35,7 @@ def breakable(formula: str) -> list[str]:
     >>> breakable("G_0 = 4 + 1 = 5")
     ['G_0', '= 4 + 1', '= 5']
     >>> breakable("0.25 + 0.5 + 0.125 - 0.0625")
-    ['0.25', '{} + 0.5', '{} + 0.125', '{} - 0.0625']
+    ['0.25', '{+} \\\\: 0.5', '{+} \\\\: 0.125', '{-} \\\\: 0.0625']
     >>> breakable(r"\\sum_{k = 1}^n k")
     ['\\\\sum_{k = 1}^n k']
     """
@@ -45,9 +45,13 @@ def breakable(formula: str) -> list[str]:
             parts.append(side)
         else:
             first, *others = _split(side, "+-,")
-            # An empty term in front of a plus or minus keeps its space.
-            parts += [first, *("{} " * (o[:2] in ("+ ", "- ")) + o for o in others)]
+            parts += [first, *map(_signed, others)]
     return parts
+
+
+def _signed(term: str) -> str:
+    """A term that begins with a plus or a minus, with the space behind it that the sign of a sum has."""
+    return rf"{{{term[0]}}} \: {term[2:]}" if term[:2] in ("+ ", "- ") else term
 
 
 def _split(formula: str, signs: str) -> list[str]:
