@@ -2,11 +2,12 @@
 
 Run by hand: ``python benchmarks/similarity.py`` writes ``benchmarks/similarity.json``.
 
-``tests/unit/grading/similar`` holds twelve honest answers to each of six exercises, all different and all right, and
-translations of six of them between loops and arrays. A class has twelve honest students, each with one of the twelve
-answers to every exercise, drawn so that no two students share one: six who like arrays and six who like loops, in all
-exercises, which makes honest students more alike than chance would. Two more copied all their answers from others and
-disguised them. Each class is drawn anew. Every pair but that of a copy and its original is honest.
+``tests/unit/grading/similar`` holds twelve honest answers to each of ten exercises, all different and all right, and
+translations of six of them between loops and arrays. A class has twelve students, each with one of the twelve answers
+to every exercise, drawn so that no two students share one: six who like arrays and six who like loops, in all
+exercises, which makes honest students more alike than chance would. Then two of them throw their answers away, copy
+those of another and disguise them, all of them or half. Each class is drawn anew. Every pair but that of a copy and
+its original is honest. The answers to the exercises in HELD_OUT were written after the method was fixed.
 """
 
 from __future__ import annotations
@@ -16,8 +17,9 @@ import ast
 import json
 import random
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from robonav.grading.course import Course
 from robonav.grading.fingerprints import Fingerprint, fingerprint
@@ -32,7 +34,12 @@ EXERCISES = {
     "2.4": "track",
     "2.5": "targets",
     "2.6": "first_visits",
+    "2.7": "battery",
+    "3.1": "forward",
+    "3.2": "encode",
+    "3.5": "effective",
 }
+HELD_OUT = ("2.7", "3.1", "3.2", "3.5")
 DISGUISES = ("recommented", "renamed", "reordered", "translated")
 Functions = dict[str, dict[int, ast.Module]]
 
@@ -155,9 +162,12 @@ def known() -> dict[str, list[Fingerprint]]:
 
 
 def classes(
-    number: int, number_of_exercises: int
+    number: int, exercises: int, pool: Sequence[str] = (), copied: int = 0
 ) -> Iterator[tuple[list[Pair], dict[tuple[str, str], str]]]:
-    """Yield the compared pairs of random classes, and which of them are copies, with the disguise."""
+    """Yield the compared pairs of random classes, and which of them are copies, with the disguise.
+
+    Each class has so many exercises of the pool, of which ``copied`` are copied, or all of them.
+    """
     honest, translated, others = functions("honest"), functions("translated"), known()
     prints = {
         id: {k: fingerprint(tree, _main(tree)) for k, tree in found.items()}
@@ -165,29 +175,33 @@ def classes(
     }
     for seed in range(number):
         rng = random.Random(seed)
-        chosen = sorted(rng.sample(sorted(EXERCISES), number_of_exercises))
+        chosen = rng.sample(sorted(pool or EXERCISES), exercises)
+        taken = chosen[: copied or exercises]
         order = {id: _by_taste(honest[id], rng) for id in chosen}
-        answers: dict[str, dict[str, Fingerprint]] = {
-            f"honest {n:02}": {id: prints[id][order[id][n]] for id in chosen}
+        people = rng.sample(range(12), 4)
+        hows = rng.sample(DISGUISES, 2)
+        copies: dict[tuple[str, str], str] = {}
+        own: dict[tuple[int, str], Fingerprint] = {}
+        for thief, victim, how in zip(people[:2], people[2:], hows, strict=True):
+            copies[f"student {victim:02}", f"student {thief:02}"] = how
+            for id in taken:
+                if how == "translated":  # an answer with a translation changes place
+                    k = rng.choice(sorted(translated[id]))
+                    there = order[id].index(k)
+                    order[id][there], order[id][victim] = order[id][victim], k
+                source = translated if how == "translated" else honest
+                tree = source[id][order[id][victim]]
+                own[thief, id] = disguised(tree, how, rng)
+        # The victims' answers are settled only now.
+        for thief, victim, how in zip(people[:2], people[2:], hows, strict=True):
+            for id in taken if how != "translated" else ():
+                own[thief, id] = disguised(honest[id][order[id][victim]], how, rng)
+        answers = {
+            f"student {n:02}": {
+                id: own.get((n, id), prints[id][order[id][n]]) for id in chosen
+            }
             for n in range(12)
         }
-        copies = dict[tuple[str, str], str]()
-        for n, how in zip(rng.sample(range(12), 2), rng.sample(DISGUISES, 2), strict=True):  # fmt: skip
-            own = dict[str, Fingerprint]()
-            for id in chosen:
-                number_ = order[id][n]
-                if how == "translated" and number_ not in translated[id]:
-                    # an answer that has a translation changes place with this one
-                    number_ = rng.choice(sorted(translated[id]))
-                    other = order[id].index(number_)
-                    order[id][n], order[id][other] = number_, order[id][n]
-                    for student in (n, other):
-                        name = f"honest {student:02}"
-                        answers[name][id] = prints[id][order[id][student]]
-                source = translated if how == "translated" else honest
-                own[id] = disguised(source[id][number_], how, rng)
-            answers[f"thief {n:02}"] = own
-            copies[f"honest {n:02}", f"thief {n:02}"] = how
         yield pairs(answers, others), copies
 
 
@@ -205,35 +219,39 @@ def _by_taste(found: dict[int, ast.Module], rng: random.Random) -> list[int]:
     return rng.sample(by_loops[:half], half) + rng.sample(by_loops[half:], half)
 
 
-def measured(number: int, exercises: int) -> Mapping[str, object]:
+def measured(
+    number: int, exercises: int, pool: Sequence[str] = (), copied: int = 0
+) -> dict[str, Any]:
     """Return the shares of copies and of honest pairs that are reported."""
     found, total = Counter[str](), Counter[str]()
-    for compared, copies in classes(number, exercises):
+    for compared, copies in classes(number, exercises, pool, copied):
         for pair in compared:
-            kind = copies.get((pair.first, pair.second), "honest")
+            names = (pair.first, pair.second)
+            kind = copies.get(names, copies.get(names[::-1], "honest"))
             total[kind] += 1
             found[kind] += pair.score >= THRESHOLD
     return {
         "exercises": exercises,
-        "reported": {
-            kind: round(found[kind] / total[kind], 4) for kind in sorted(total)
-        },
+        "copied": copied or exercises,
+        "reported": {k: round(found[k] / total[k], 4) for k in sorted(total)},
         "pairs": dict(sorted(total.items())),
     }
 
 
 def main() -> None:
+    """Measure, print and write."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--classes", type=int, default=300)
     parser.add_argument("--out", type=Path, default=ROOT / "benchmarks/similarity.json")
     options = parser.parse_args()
+    number = options.classes
     result = {
         "threshold": THRESHOLD,
         "fewest": FEWEST,
-        "classes": options.classes,
-        "by number of exercises": [
-            measured(options.classes, k) for k in (1, 2, 3, 4, 6)
-        ],
+        "classes": number,
+        "all copied": [measured(number, k) for k in (1, 2, 3, 4, 6, 8, 10)],
+        "half copied": measured(number, 10, copied=5),
+        "held out": measured(number, len(HELD_OUT), HELD_OUT),
     }
     options.out.write_text(json.dumps(result, indent=1) + "\n", "utf-8")
     print(json.dumps(result, indent=1))

@@ -348,7 +348,12 @@ def _logged(record: dict[str, Any]) -> dict[str, Any]:
     run = record.pop("run", {})
     kept = ("student", "submission", "config", "tier", "points", "max_points")
     entries = [
-        {name: entry.get(name) for name in ("id", "points", "state", "parts")}
+        {
+            "id": entry["id"],
+            "points": entry["points"],
+            "state": entry["state"],
+            "parts": entry.get("parts", []) if entry["state"] != "missing" else [],
+        }
         for entry in record["exercises"]
         if not run or entry["id"] in run["calls"]
     ]

@@ -274,13 +274,14 @@ def write_comparison(comparison: Comparison, course: Course, path: Path) -> None
         course=course,
         fewest=FEWEST,
         chance=_one_in,
+        csv=path.with_suffix(".csv").name,
     )
     write(path, text)
 
 
 def _one_in(score: float) -> str:
-    """Return the chance of a score in words."""
-    return f"{10 ** min(score, 12):,.0f}"
+    """Return the chance of a score in words. No class can tell more than one in a million."""
+    return f"one in {10**score:,.0f}" if score < 6 else "less than one in a million"
 
 
 def _by_likeness(pair: Pair) -> list[str]:

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -202,12 +203,15 @@ def read_gradebook(folder: Path, course: Course) -> Gradebook:
         for who in _named(rules) - {s.id for s in students}
     ]
     book = Gradebook(folder, course, [], problems, log, grades)
-    earlier = _earlier(folder, rules, course)
+    earlier, changed = _earlier(folder, rules, course), _by_student(log)
+    graded = {e["id"] for grade in grades.values() for e in grade["exercises"]}
+    everything = graded or set(course.exercises)
     for student in students:
         used = sum(one.get(student.id, 0) for one in earlier)
         told = handed_in.get(matching.submissions.get(student.id, ""), {})
+        free = rules.free_days - used
         book.accounts.append(
-            _account(book, student, matching, told, rules, rules.free_days - used)
+            _account(book, student, matching, told, rules, free, changed, everything)
         )
     return book
 
@@ -373,6 +377,8 @@ def _account(
     told: Mapping[str, Any],
     rules: Rules,
     free: int,
+    changed: Mapping[str, Sequence[tuple[int, dict[str, Any]]]],
+    everything: set[str],
 ) -> Account:
     submission, problems = matching.submissions.get(student.id, ""), list[str]()
     grade = book.grades.get(submission)
@@ -381,7 +387,7 @@ def _account(
         problems.append("It is not certain which submission is this student's.")
     if grade and grade["tier"] == "practice":
         problems.append("Graded for practice, without a sandbox: these are no marks.")
-    changes = _changes(book.log.of_kind("mark"), {student.id, submission} - {""})
+    changes = _changes(changed, student.id, submission)
     late = dict[str, Late]()
     if submission and rules.deadlines:
         written = told.get("submitted") or student.submitted
@@ -393,8 +399,7 @@ def _account(
             how = f" from {written!r}" if written else ""
             said = ", and the platform calls it late" if told.get("late") else ""
             problems.append(f"It cannot be told{how} when it was handed in{said}.")
-    graded = {e["id"] for one in book.grades.values() for e in one["exercises"]}
-    assigned = set(entries) or graded or set(book.course.exercises)
+    assigned = set(entries) or everything
     marks = {}
     for id, exercise in book.course.exercises.items():
         entry = entries.get(id)
@@ -419,9 +424,28 @@ def _account(
     return Account(student, submission, marks, problems)
 
 
+def _by_student(log: Log) -> dict[str, list[tuple[int, dict[str, Any]]]]:
+    """Return the changes by hand of each student, numbered in the log's order."""
+    found = defaultdict[str, list[tuple[int, dict[str, Any]]]](list)
+    for number, event in enumerate(log.of_kind("mark")):
+        found[event["student"]].append((number, event))
+    return found
+
+
 def _changes(
-    events: Iterable[dict[str, Any]], ids: set[str]
+    changed: Mapping[str, Sequence[tuple[int, dict[str, Any]]]],
+    student: str,
+    submission: str,
 ) -> dict[str, dict[str, Any]]:
-    """Return the last change of each exercise by hand, unless it was taken back."""
-    found = {event["exercise"]: event for event in events if event["student"] in ids}
+    """Return the last change of each exercise by hand, unless it was taken back.
+
+    A change that was made before there was a roster has the submission's name.
+    """
+    names = {student, submission}
+    events = sorted((e for name in names for e in changed.get(name, ())), key=_number)
+    found = {event["exercise"]: event for _, event in events}
     return {id: event for id, event in found.items() if event["points"] is not None}
+
+
+def _number(event: tuple[int, dict[str, Any]]) -> int:
+    return event[0]

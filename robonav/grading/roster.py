@@ -290,10 +290,11 @@ def _owners(
     owners = list[str]()
     for words in people or [[submission]]:
         sure, likely = set[str](), set[str]()
+        called, named = {word.casefold() for word in words}, forms(words[0])
         for student in students:
-            if student.keys & {word.casefold() for word in words}:
+            if not student.keys.isdisjoint(called):
                 sure.add(student.id)
-            if student.names & set(forms(words[0])) or (
+            if not student.names.isdisjoint(named) or (
                 student.github and _ends(words[0], student.github)
             ):
                 likely.add(student.id)

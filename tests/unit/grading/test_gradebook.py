@@ -332,6 +332,47 @@ def test_lateness_counts_and_a_time_that_is_not_known_is_a_problem(tmp_path, qui
     assert account.points == 8
 
 
+@pytest.mark.parametrize(
+    ("files", "told"),
+    [
+        (
+            {
+                "submission_5/a.py": "",
+                "submission_metadata.yml": "submission_5:\n  :submitters:\n  - :name: Ada Lovelace\n    :sid: 's1'\n"
+                "    :email: a@u.edu\n  - :name: Bo Diddley\n    :sid: s2\n"
+                "  :created_at: 2026-10-12 22:14:00.397482000 Z\n",
+            },
+            {
+                "people": [["Ada Lovelace", "s1", "a@u.edu"], ["Bo Diddley", "s2"]],
+                "submitted": "2026-10-12 22:14:00.397482000 Z",
+                "late": False,
+            },
+        ),
+        (
+            {"lovelaceada_LATE_17_99_a.py": ""},
+            {"people": [["lovelaceada", "#17"]], "submitted": "", "late": True},
+        ),
+        (
+            {"Work_ada_attempt_2026-10-12-22-14-00_a.py": ""},
+            {"people": [["ada"]], "submitted": "2026-10-12-22-14-00", "late": False},
+        ),
+        (
+            {"Ada Lovelace_17_assignsubmission_file_/a.py": ""},
+            {"people": [["Ada Lovelace", "#17"]], "submitted": "", "late": False},
+        ),
+        ({"ada/a.py": ""}, {"people": [["ada"]], "submitted": "", "late": False}),
+    ],
+    ids=["gradescope", "canvas", "blackboard", "moodle", "folder"],
+)
+def test_what_the_platforms_tell_is_written_down(tmp_path, quick, files, told):
+    for name, text in files.items():
+        (tmp_path / "class" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "class" / name).write_text(text or "full")
+    grade_class(HERE, tmp_path / "class", tmp_path / "out", jobs=1)
+    found = json.loads((tmp_path / "out" / classroom.HANDED_IN).read_text())
+    assert list(found.values()) == [told]
+
+
 def test_only_the_exercises_of_the_rules_count(tmp_path, quick):
     book = book_of(tmp_path, ["ada"], MOODLE, 'exercises = ["2.2"]\n')
     assert [(a.points, a.most) for a in book.accounts] == [(4, 4), (0, 4), (0, 4)]

@@ -48,7 +48,7 @@ def test_the_answers_of_the_measurement_are_right(kind, name):
 
 
 def test_copies_are_found_and_honest_pairs_are_not():
-    found = BENCHMARK.measured(30, 6)["reported"]
+    found = BENCHMARK.measured(15, 6)["reported"]
     assert found["honest"] <= 0.01
     assert all(found[how] >= 0.95 for how in BENCHMARK.DISGUISES)
 
@@ -57,17 +57,18 @@ def test_the_page_says_what_was_measured():
     result = json.loads((COURSE.root / "benchmarks/similarity.json").read_text("utf-8"))
     assert (result["threshold"], result["fewest"]) == (THRESHOLD, FEWEST)
     page = (COURSE.root / "book/instructors.md").read_text("utf-8")
-    for row in result["by number of exercises"]:
+    rows = [*result["all copied"], result["half copied"], result["held out"]]
+    for row in rows:
         share = {kind: 100 * value for kind, value in row["reported"].items()}
         easy = min(share[how] for how in BENCHMARK.DISGUISES if how != "translated")
         said = (
-            f"| {row['exercises']} | {easy:.1f} % | {share['translated']:.1f} % | "
+            f"| {easy:.1f} % | {share['translated']:.1f} % | "
             f"{share['honest']:.2f} % of {row['pairs']['honest']:,} |"
         )
         assert said in page
-        if row["exercises"] == 6:
+        assert share["honest"] <= 1
+        if row["copied"] >= 6:
             assert min(easy, share["translated"]) >= 95
-            assert share["honest"] <= 1
     assert f"{result['classes']} classes" in page
 
 
@@ -132,7 +133,7 @@ def test_a_class_is_compared_and_shown_side_by_side(tmp_path):
         ("student0", "thief<b>")
     ]
     assert len(rows) <= 1
-    assert rows[0]["exercises"] == "6"
+    assert rows[0]["exercises"] == "10"
     page = (tmp_path / "s.html").read_text()
     assert "thief&lt;b&gt;" in page
     assert "thief<b>" not in page
