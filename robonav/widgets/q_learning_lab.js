@@ -167,7 +167,12 @@ function contestants(network, settings, { book, temperatures }) {
 export function* learnAndDrive({ settings, trial }) {
   const total = settings.episodes + trial.maps;
   let [network, arrived] = [null, 0];
-  for (const { network: learning, episode, world, path, outcome, changes } of neuralQLearning(settings)) {
+  for (const ended of neuralQLearning(settings)) {
+    if (!ended) {
+      yield;
+      continue;
+    }
+    const { network: learning, episode, world, path, outcome, changes } = ended;
     [network, arrived] = [learning, arrived + (outcome === "arrived" ? 1 : 0)];
     const ends = (episode + 1) % BLOCK === 0;
     const [first, second] = changes.map(({ absolute }) => absolute);

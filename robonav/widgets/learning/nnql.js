@@ -161,7 +161,8 @@ const LEARNERS = { nnql: nnqlLearner, online: nnqlLearner };
 /**
  * Neural-network Q-learning (NNQL), Algorithm 8, or another method in its loop.
  *
- * Yields after each episode what happened in it. With `watch`, that function is called after each update of the network.
+ * Yields after each episode what happened in it, and nothing after each update, where a page without a worker may answer. With
+ * `watch`, that function is called after each update of the network.
  * @param {LearningSettings} settings
  * @param {{watch?: (update: {q: Float64Array, network: Network}) => void}} options
  */
@@ -190,6 +191,7 @@ export function* neuralQLearning(settings, { watch = () => {} } = {}) {
         const reward = rewardOf(settings, sensing, reached, outcome); // 12
         learner.learn({ state, q, action, reward, next, terminal: outcome !== "running" });
         watch({ q, network });
+        yield;
       }
       [sensing, state, step] = [reached, next, step + 1];
       path.push([pose.x, pose.y]);
