@@ -52,7 +52,7 @@ NOT_A_POINT = re.compile(  # beginnings of sentences that need the one before, o
     r"(for example|for instance|here|the next|next|below|above|see|this|these|it|they|so|then|but|both|one|to see|"
     r"in words|that|the other|the same|he|she|take|you|now|first|second|third|their|its|such|and|also|again|compare|"
     r"everything|section|at (first|last)|after|all methods|more to try|think first|press|\(|all (two|three|four)|"
-    r"each of (them|these))\b",
+    r"each of (them|these)|the (figure|picture|bar|player|listing|curve|table|code|example|function))\b",
     re.I,
 )
 NO_CLAIM = re.compile(
@@ -203,6 +203,8 @@ def kind_of(tag: Tag) -> str:
         return "quiz"
     if "drills" in classes:
         return "drill"
+    if "dropdown" in classes:
+        return "answer"
     if tag.name == "table" or tag.select_one("table"):
         return "table"
     if tag.name == "details":
@@ -330,7 +332,8 @@ class Page:
         elif kind == "animation":
             shown = tag.select_one(".cell_output")
         elif kind == "table":
-            shown = tag.select_one(".cell_output") or tag
+            inside = ".cell_output, .pst-scrollable-table-container, table"
+            shown = tag.select_one(inside) or tag  # a fold is left out
         assert shown is not None
         if shown.get("id"):
             names.add(key(str(shown["id"])))
@@ -389,10 +392,9 @@ def notes_of(part: Part) -> list[str]:
     """Return the text beside a part as notes."""
     notes = []
     for tag in part.before + part.after:
-        if tag.name == "details":
-            content = tag.select_one(".sd-summary-content")
-            if content is not None:
-                notes.append(f"<p><strong>Answer.</strong></p>{inner(content)}")
+        if kind_of(tag) == "answer":
+            content = tag.select_one(".sd-summary-content") or tag
+            notes.append(f"<p><strong>Answer.</strong></p>{inner(content)}")
         else:
             notes.append(f"<{tag.name}>{inner(tag)}</{tag.name}>")
     return notes
@@ -433,6 +435,9 @@ def title_of(part: Part, page: Page) -> str:
 def of_part(part: Part, page: Page) -> Slide:
     """Return the slide of one part."""
     wanted, rank = WANTED[part.kind]
+    rank -= (
+        max(0, part.lines - LINES_BESIDE) / 6
+    )  # long code is hard to read in a lecture
     slide = Slide(
         part.kind,
         title_of(part, page),
