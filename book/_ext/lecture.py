@@ -526,11 +526,10 @@ def paired(slides: list[Slide]) -> list[Slide]:
 def of_section(name: str, blocks: list[Part | Mark], page: Page) -> list[Slide]:
     """Return the slides of one section. Its marks are the short lecture; what they leave out is for the long one."""
     marks = [block for block in blocks if isinstance(block, Mark)]
-    everything = [block for block in page.blocks if isinstance(block, Part)]
     taken: set[int] = set()
     marked: dict[int, Slide] = {}
     for mark in marks:
-        shown = [named(name, everything) for name in mark.show]
+        shown = shown_by(mark, page)
         taken |= {id(part) for part in shown}
         wanted = sum(WANTED[part.kind][0] for part in shown) or 2
         notes = mark.notes + [note for part in shown for note in notes_of(part)]
@@ -557,6 +556,30 @@ def of_section(name: str, blocks: list[Part | Mark], page: Page) -> list[Slide]:
             slide.long = bool(marks)
             slides.append(slide)
     return paired(slides)
+
+
+def shown_by(mark: Mark, page: Page) -> list[Part]:
+    """Return the parts that a mark shows."""
+    parts = [block for block in page.blocks if isinstance(block, Part)]
+    before = page.blocks[
+        : next(at for at, block in enumerate(page.blocks) if block is mark)
+    ]
+    return [
+        last(name.removeprefix("last-"), before)
+        if name.startswith("last-")
+        else named(name, parts)
+        for name in mark.show
+    ]
+
+
+def last(kind: str, blocks: list[Part | Mark]) -> Part:
+    """Return the last part of a kind."""
+    found = [
+        block for block in blocks if isinstance(block, Part) and block.kind == kind
+    ]
+    if not found:
+        raise NoSuchPart(f"a slide shows last-{kind}, but no {kind} stands before it")
+    return found[-1]
 
 
 def named(name: str, parts: list[Part]) -> Part:

@@ -13,9 +13,10 @@
     ```
 
 The list is on the slide, and paragraphs are the speaker's notes. ``show`` names parts of the page, separated by spaces:
-labels of figures, equations, theorems and algorithms, functions whose code is listed, explorables. ``minutes`` is the
-slide's time, and ``long`` leaves it to the lecture of 90 minutes. ``make slides`` makes a deck of each page
-(:mod:`make_slides`). A part that no mark shows gets a slide of its own (:mod:`lecture`).
+labels of figures, equations, theorems and algorithms, functions whose code is listed, explorables; or the last part of
+a kind before the mark, as ``last-output``, ``last-table`` or ``last-formula``. ``minutes`` is the slide's time, and
+``long`` leaves it to the lecture of 90 minutes. ``make slides`` makes a deck of each page (:mod:`make_slides`). A part
+that no mark shows gets a slide of its own (:mod:`lecture`).
 """
 
 from __future__ import annotations

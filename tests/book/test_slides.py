@@ -10,7 +10,7 @@ import lecture
 import make_slides
 import pytest
 from browser import Visit, visiting
-from lecture import MINUTES, Mark, NoSuchPart, Page, Part, Slide
+from lecture import MINUTES, Mark, NoSuchPart, Page, Slide
 from notebooks import plain
 from playwright.sync_api import BrowserContext, expect
 
@@ -269,6 +269,13 @@ def test_a_mark_that_shows_nothing_known_is_refused() -> None:
         lecture.lecture(page(marked("eq-9.7")))
 
 
+def test_a_mark_may_show_what_stood_last_before_it() -> None:
+    slide = lecture.lecture(page(marked("last-equation")))[2]
+    assert [part.kind for part in slide.parts] == ["equation"]
+    with pytest.raises(NoSuchPart, match="no table stands before it"):
+        lecture.lecture(page(marked("last-table")))
+
+
 def test_marks_that_take_too_long_are_refused() -> None:
     with pytest.raises(ValueError, match="minutes of marked slides add up to 60"):
         lecture.lecture(page(marked("eq-9.1", "60")))
@@ -296,7 +303,5 @@ def test_marks_name_parts_of_their_pages(site: Path) -> None:
         marks = [block for block in read.blocks if isinstance(block, Mark)]
         source = (make_slides.ROOT / "book" / f"{name}.md").read_text("utf-8")
         assert len(marks) == len(re.findall(r"^```\{slide\}", source, re.M))
-        parts = [block for block in read.blocks if isinstance(block, Part)]
         for mark in marks:
-            for shown in mark.show:
-                lecture.named(shown, parts)
+            lecture.shown_by(mark, read)
