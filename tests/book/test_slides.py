@@ -296,6 +296,13 @@ def test_notebooks_leave_marks_out() -> None:
     assert plain(text).split() == ["Before.", "After."]
 
 
+def test_no_mark_stands_between_an_explorable_and_its_answer() -> None:
+    """An explorable is told when the answer that follows it is opened."""
+    for name in DECKS:
+        source = (make_slides.ROOT / "book" / f"{name}.md").read_text("utf-8")
+        assert not re.search(r"explorable\([^\n]*\)\n```\n\n```\{slide\}", source), name
+
+
 def test_marks_name_parts_of_their_pages(site: Path) -> None:
     """The marks in the built pages are those of the sources."""
     for name in DECKS:
