@@ -16,7 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 from robonav.cli import app
-from robonav.grading import classroom, exports, ledger, objection
+from robonav.grading import classroom, exports, ledger, objection, variants
 from robonav.grading.class_statistics import counts
 from robonav.grading.classroom import GradingConfig, grade_class
 from robonav.grading.commands import write_all
@@ -464,6 +464,12 @@ def test_a_long_torn_line_does_not_hide_the_line_before_it(tmp_path):
     ledger.append(tmp_path, "mark", {"text": "z"})
     log = ledger.read(tmp_path)
     assert (len(log.events), log.torn, log.broken) == (2, [2], [])
+
+
+def test_the_gradebook_of_a_variant_has_its_exercises(tmp_path, quick):
+    book_of(tmp_path, ["ada"])
+    variants.write(COURSE, "autumn", tmp_path / "out/exercises")
+    assert write_all(tmp_path / "out").course.root == tmp_path / "out/exercises"
 
 
 EVIL = '=HYPERLINK("http://x")'
