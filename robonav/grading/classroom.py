@@ -369,7 +369,9 @@ def _tell(out: Path, submissions: dict[str, Handin]) -> None:
     """Write down whose submissions these are and when they were handed in, for the gradebook."""
     told = {name: handin.told() for name, handin in submissions.items()}
     with atomic.atomic_write(out / HANDED_IN) as file:
-        file.write(json.dumps(told, indent=1, ensure_ascii=False).encode())
+        file.write(
+            json.dumps(told, indent=1).encode()
+        )  # also of names that are no text
 
 
 def _digest(loaded: Submission | Refused) -> str:

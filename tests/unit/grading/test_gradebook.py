@@ -373,6 +373,20 @@ def test_what_the_platforms_tell_is_written_down(tmp_path, quick, files, told):
     assert list(found.values()) == [told]
 
 
+def test_a_name_that_is_no_text_ends_no_class(tmp_path, quick):
+    folder, out = handed_over(tmp_path / "class", ["bo"]), tmp_path / "out"
+    try:
+        (folder / "a\udcff\n.py").write_text("full")
+    except OSError:
+        pytest.skip("no such names here")
+    grade_class(HERE, folder, out, jobs=1)
+    (out / ROSTER).write_text("name,id\nBo,bo\n")
+    book = write_all(out)
+    assert [a.points for a in book.accounts] == [8]
+    assert book.problems == ["The submission a__ fits no student of the roster."]
+    assert [path.name for path in exports.write_feedback(book, out / "z")] == ["bo.zip"]
+
+
 def test_only_the_exercises_of_the_rules_count(tmp_path, quick):
     book = book_of(tmp_path, ["ada"], MOODLE, 'exercises = ["2.2"]\n')
     assert [(a.points, a.most) for a in book.accounts] == [(4, 4), (0, 4), (0, 4)]
