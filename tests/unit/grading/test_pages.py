@@ -32,7 +32,7 @@ def answer(exercise):
 @pytest.mark.parametrize(
     "solutions",
     [
-        pytest.param("", id="for students"),
+        pytest.param("", id="for students", marks=pytest.mark.slow),
         pytest.param("1", id="for instructors", marks=pytest.mark.slow),
     ],
 )

@@ -282,7 +282,11 @@ def test_one_world_at_a_time(planner):
 
 @pytest.mark.parametrize(
     ("speed", "margin", "caution", "cell"),
-    [(2.0, 2.0, 0.0, 1.0), (2.0, 3.0, 2.0, 2.0), (1.5, 1.0, 0.5, 0.7)],
+    [
+        (2.0, 2.0, 0.0, 1.0),
+        (2.0, 3.0, 2.0, 2.0),
+        pytest.param(1.5, 1.0, 0.5, 0.7, marks=pytest.mark.slow),
+    ],
 )
 def test_readable_and_compiled_modified_astar(speed, margin, caution, cell):
     for world in random_worlds(4, 15, seed=9):

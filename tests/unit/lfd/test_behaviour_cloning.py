@@ -48,6 +48,7 @@ def test_learning_beats_going_straight(policy):
     assert learned > baseline + 0.3
 
 
+@pytest.mark.slow
 def test_a_policy_learned_twice_with_one_seed_is_equal(demonstrations, policy):
     again, other = (
         learn_policy(demonstrations, seed=1),

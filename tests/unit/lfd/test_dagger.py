@@ -88,6 +88,7 @@ def test_joined_sets(demonstrations, gone_straight):
             concatenate(sets)
 
 
+@pytest.mark.slow
 def test_a_round_of_dagger_beats_cloning_little(demonstrations):
     few = demonstrations.select_trajectories(range(3))
     unseen = random_worlds(300, 20, seed=73)

@@ -319,6 +319,7 @@ def drive(grid, localiser, start, steps, seed, sensing=True):
     return belief[near].sum(), belief
 
 
+@pytest.mark.slow
 def test_the_robot_finds_out_where_it_stands(house):
     rng = np.random.default_rng(0)
     places = [(*rng.uniform(3, 37, 2), rng.uniform(0, 2 * np.pi)) for _ in range(40)]

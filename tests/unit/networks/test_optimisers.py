@@ -133,6 +133,7 @@ def test_without_hidden_layers_lbfgs_reaches_the_one_optimum(regularisation):
         assert training.iterations < 300
 
 
+@pytest.mark.slow
 def test_with_a_hidden_layer_lbfgs_gets_as_low_as_scipy():
     """One iteration at a time, torch's line search would stall early if it were not given its evaluations."""
     x, y = examples(300)

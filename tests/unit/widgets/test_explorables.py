@@ -283,6 +283,7 @@ def test_every_update_beside_the_cliff_is_pythons(compute, method):
     np.testing.assert_allclose(seen["q"], q, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_paths_beside_the_cliff_are_those_of_the_answer_for_every_seed(compute):
     """With the page's 1000 episodes, at every exploration offered: Q-learning stays, SARSA keeps away."""
     body = """

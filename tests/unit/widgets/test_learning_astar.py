@@ -20,8 +20,11 @@ PLAN = """return data.worlds.map((world) => {
         {"speed": 2.0, "margin": 2.0},
         {"speed": 2.0, "margin": 3.0, "caution": 2.0, "cell": 2.0},
         {"speed": 1.5, "margin": 1.0, "cell": 1.0, "limit": 500},
-        {"speed": 0.5, "margin": 2.0},
-        {"speed": 0.3, "margin": 2.0, "caution": 2.0, "cell": 1.0},
+        pytest.param({"speed": 0.5, "margin": 2.0}, marks=pytest.mark.slow),
+        pytest.param(
+            {"speed": 0.3, "margin": 2.0, "caution": 2.0, "cell": 1.0},
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_plans_are_pythons_node_for_node(node, settings):

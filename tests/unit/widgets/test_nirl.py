@@ -47,6 +47,7 @@ def in_page(node, experts, **settings):
     return node(FILES, LEARN, data)
 
 
+@pytest.mark.slow
 def test_nirl_in_the_page_learns_what_python_learns(node):
     experts = [
         expert_decisions(demonstrate(random_worlds(4, 20, seed=30 + seed)))
@@ -94,6 +95,7 @@ return longest;
 """Milliseconds of computing between two places where the page may answer."""
 
 
+@pytest.mark.slow
 def test_without_a_worker_the_page_answers_within_100_ms(node):
     """The job gives the page a turn within an iteration, too; time of the processor, since the machine may be busy."""
     expert = expert_decisions(demonstrate(random_worlds(30, 20, seed=3)))

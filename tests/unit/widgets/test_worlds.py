@@ -41,6 +41,7 @@ def test_the_page_hashes_the_keys_of_python(node):
     assert node(FILES, body, str(origin)) == world_keys(50, seed=9).tolist()
 
 
+@pytest.mark.slow
 def test_too_many_obstacles_are_one_sentence(node):
     body = 'try { page.drawWorld([1, 2], data); } catch (error) { return error.message; } return "drawn";'
     message = node(FILES, body, {"obstacles": 900})
