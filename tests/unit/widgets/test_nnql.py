@@ -182,7 +182,7 @@ return longest;
 def test_without_a_worker_the_page_answers_within_100_ms(node):
     """The job gives the page a turn within an episode, too: with many passes an episode takes longer than a second."""
     slow = QLearningSettings(
-        obstacles=30, hidden=20, passes=40, tolerance=0, episodes=10
+        obstacles=30, moving=10, hidden=20, passes=10, tolerance=0, episodes=25
     )
     assert node(FILES, LONGEST, slow.for_page()) < 100
 
