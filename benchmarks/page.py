@@ -87,6 +87,12 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         False,
         "Three hundred students and all exercises.",
     ),
+    "Exams": (
+        "exams.py",
+        (),
+        False,
+        "Two hundred different papers of drills, with worked solutions, as PDF.",
+    ),
 }
 INTRODUCTION = """# How fast it is
 
