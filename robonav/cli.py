@@ -378,13 +378,20 @@ def grade(
             help="Grade everybody again with another secret than before.",
         ),
     ] = False,
+    alike: Annotated[
+        bool,
+        typer.Option(
+            "--similarity",
+            help="Also write similarity.html: the pairs of submissions that are too alike.",
+        ),
+    ] = False,
 ) -> None:
     """Grade a class. Run the command again to resume: grades that exist are kept."""
     from robonav import progress
     from robonav.grading import paths, sandbox_check, variants
     from robonav.grading.cases import secret_from
     from robonav.grading.classroom import GradingConfig, grade_class
-    from robonav.grading.commands import write_all
+    from robonav.grading.commands import tell_similar, write_all
     from robonav.grading.course import Course
     from robonav.grading.rules import read_rules
 
@@ -418,6 +425,8 @@ def grade(
         )
     write_all(out)
     print(f"{out / 'index.html'}")
+    if alike:
+        tell_similar(folder, out / "similarity.html", course)
     if unfinished:
         print(
             f"The grader failed for {', '.join(unfinished)}. Run the command again to grade them.",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from .course import Course
     from .gradebook import Gradebook
 
 gradebook = typer.Typer(
@@ -205,10 +206,15 @@ def similarity(
     ] = Path("similarity.html"),
 ) -> None:
     """Show the pairs of submissions that are too alike, side by side. No code is run."""
-    from . import copies, paths
     from .course import Course
 
-    course = Course.around(Path(__file__).parent, Path.cwd())
+    tell_similar(folder, out, Course.around(Path(__file__).parent, Path.cwd()))
+
+
+def tell_similar(folder: Path, out: Path, course: Course) -> None:
+    """Write the page of the pairs that are too alike, and print how many there are."""
+    from . import copies, paths
+
     with paths.without_submissions(folder):
         found = copies.compare_class(course, folder)
     copies.write_comparison(found, course, out)

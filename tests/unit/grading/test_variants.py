@@ -296,8 +296,10 @@ def test_a_term_with_a_variant(tmp_path):
     grade = ["grade", tmp_path / "class", "--out", tmp_path / "graded", "--jobs", 1]
     if "--practice" not in grade and not _sandbox():
         grade.append("--practice")
-    code, said = run(*grade, "--variant", "autumn", "--exercise", "2.2")
+    code, said = run(*grade, "--variant", "autumn", "--exercise", "2.2", "--similarity")
     assert code == 0, said
+    assert "too alike" in said
+    assert (tmp_path / "graded/similarity.html").exists()
     points = {
         name: {
             entry["id"]: entry["points"]
