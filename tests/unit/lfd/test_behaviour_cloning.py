@@ -1,5 +1,11 @@
 """Algorithm 3: from demonstrations to a policy."""
 
+import re
+from dataclasses import replace
+from pathlib import Path
+from textwrap import dedent
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -156,3 +162,23 @@ def test_behaviour_cloning_and_learn_policy():
     one = behaviour_cloning(demonstrations, iterations=20, seed=5).network
     other = learn_policy(demonstrations, iterations=20, seed=5).network
     assert all(map(np.array_equal, one.weights, other.weights))
+
+
+def test_the_python_of_the_playground_trains_a_robot_that_drives(tmp_path, monkeypatch):
+    page = (Path(__file__).parents[3] / "book/playground.md").read_text("utf-8")
+    code = [
+        dedent(cell) for cell in re.findall(r" *```python\n(.*?)```", page, re.DOTALL)
+    ]
+    monkeypatch.chdir(tmp_path)
+    drives = demonstrate(random_worlds(4, 10, seed=3))
+    outcome = np.array(["arrived", "arrived", "arrived", "collided"])
+    save_demonstrations("my-drives.npz", replace(drives, outcome=outcome))
+    names: dict[str, Any] = {}
+    for cell in code:
+        exec(cell, names)
+    assert len(code) == 3
+    assert len(names["mine"].worlds) == 3
+    worlds = random_worlds(300, 10, seed=4)
+    rate = navigate(names["policy"], worlds).success.mean()
+    assert rate > navigate(straight, worlds).success.mean() + 0.3
+    assert names["longer"].costs[-1] < names["longer"].costs[0]
