@@ -21,6 +21,7 @@ function render({ model, el }) {
   const rivals = [{ ...book, name: "the book's robot" }, STRAIGHT];
   let settings = { source: 0, count: 1, hidden: 8, regularisation: 0.1, iterations: 300, seed: 0, obstacles: 10 };
   let robots = []; // {name, outcomes, colour, policy}: the reader's, the latest first
+  let finished = 0; // how many robots of the reader were tested so far, also those that left the table
   let baselines = rivals.map((rival) => ({ name: rival.name, outcomes: [], colour: PALETTE.GREY, policy: rival.network ? { ...rival, network: networks(rival.network)() } : rival }));
   let [worlds, now] = [null, null];
   const inMaps = () => ({ ...trial, obstacles: settings.obstacles });
@@ -104,7 +105,7 @@ function render({ model, el }) {
   };
   const named = () => {
     const what = [`${settings.count} of my drives`, `${settings.count} of the expert's demonstrations`, `${settings.count} demonstrations of both`][settings.source];
-    return `robot ${robots.length + 1}: ${what}, ${settings.hidden} hidden, λ ${settings.regularisation}`;
+    return `robot ${finished + 1}: ${what}, ${settings.hidden} hidden, λ ${settings.regularisation}`;
   };
   let brought = null; // a network from a file, to be tried
   const panel = trainingPanel({
@@ -128,6 +129,7 @@ function render({ model, el }) {
     live,
     done: (network) => {
       robots = [{ ...now, policy: { network, encoder: now.encoder } }, ...robots].slice(0, MOST_ROBOTS);
+      finished += 1;
       const warning = keepRobot({ name: now.name, network, encoder: now.encoder });
       now = null;
       download.disabled = false;
@@ -168,7 +170,7 @@ function render({ model, el }) {
   const note = h("span", { role: "status" });
   /** Lets a network that was not trained in the page drive the new maps. */
   const tryNetwork = (network, encoder, name, made) => {
-    brought = { name: `robot ${robots.length + 1}: ${name}`, network: networks(network)(), encoder, made };
+    brought = { name: `robot ${finished + 1}: ${name}`, network: networks(network)(), encoder, made };
     note.textContent = "";
     panel.cancel();
     panel.start();

@@ -6,10 +6,18 @@ const ROBOTS = browserStore("robonav.robot.", { what: "your robots", advice: "De
  * @typedef {{name: string, network: Network, encoder: Encoder, temperature?: number}} KeptRobot
  */
 
-/** Keeps a robot; returns a sentence where the browser would not. @param {KeptRobot} robot */
+/** A name that no robot has yet: the given one, or with the next number behind it. @param {string} name @param {string[]} taken */
+export function distinctName(name, taken) {
+  const rest = taken.filter((other) => other.startsWith(name)).map((other) => other.slice(name.length));
+  const numbers = rest.map((end) => (end === "" ? 1 : Number(/^ \((\d+)\)$/.exec(end)?.[1] ?? 0)));
+  const last = Math.max(0, ...numbers);
+  return last ? `${name} (${last + 1})` : name;
+}
+
+/** Keeps a robot, with a number behind a name that another has; returns a sentence where the browser would not keep it. @param {KeptRobot} robot */
 export function keepRobot({ name, network: { sizes, weights, biases }, encoder, temperature = 0 }) {
   const plain = { sizes, weights: weights.map((part) => [...part]), biases: biases.map((part) => [...part]) };
-  return ROBOTS.keep([JSON.stringify({ name, network: plain, encoder, temperature })]);
+  return ROBOTS.keep([JSON.stringify({ name: distinctName(name, keptRobots().map((robot) => robot.name)), network: plain, encoder, temperature })]);
 }
 
 /** The robot in a text, or null where it holds none. */

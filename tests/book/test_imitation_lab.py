@@ -23,6 +23,9 @@ from robonav.robot import Encoder, navigate, random_worlds, straight
 from robonav.widgets.imitation_lab import ImitationLab, imitation_lab
 
 CLEAR = "localStorage.clear()"
+KEPT_NAMES = """() => Object.entries(localStorage)
+  .filter(([key]) => key.startsWith("robonav.robot."))
+  .map(([, text]) => JSON.parse(text).name)"""
 UNSEEN = random_worlds(200, 10, seed=2024)
 
 
@@ -163,6 +166,22 @@ def test_training_is_cancelled_and_begun_again(view, site, widget):
     setting(lab, "iterations of L-BFGS").select_option("3")
     train(lab)
     expect(lab.locator("tbody tr")).to_have_count(3)
+
+
+def test_every_robot_has_a_name_of_its_own(visit, site, widget):
+    lab = opened(visit, site, widget)
+    visit.page.evaluate(CLEAR)
+    setting(lab, "iterations of L-BFGS").select_option("1")
+    setting(lab, "obstacles in the new maps").select_option("10")
+    for number in range(1, 9):
+        train(lab)
+        first = lab.locator("tbody tr").first.locator("th")
+        expect(first).to_contain_text(f"robot {number}: ")
+    robots = [name for name in rates(lab) if name.startswith("robot ")]
+    assert robots == [f"robot {number}" for number in range(8, 2, -1)]
+    names = visit.page.evaluate(KEPT_NAMES)
+    assert len(set(names)) == len(names) == 8
+    visit.page.evaluate(CLEAR)
 
 
 def test_without_a_worker_the_page_trains_itself(visit, site, widget):

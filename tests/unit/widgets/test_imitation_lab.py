@@ -112,6 +112,28 @@ def test_rates_have_wilsons_intervals(node):
     assert got["high"] == pytest.approx(0.9794, abs=1e-4)
 
 
+def test_kept_robots_of_one_name_are_numbered(node):
+    """Without a browser's storage they are kept in memory, through the same function."""
+    body = """const network = { sizes: [1, 1], weights: [[0]], biases: [[0]] };
+      for (const name of data) page.keepRobot({ name, network, encoder: { sensors: [] } });
+      return page.keptRobots().map(({ name }) => name).sort();"""
+    names = ["NIRL, seed 0", "NIRL, seed 0", "NIRL, seed 01", "NIRL, seed 0"]
+    expected = ["NIRL, seed 0", "NIRL, seed 0 (2)", "NIRL, seed 0 (3)", "NIRL, seed 01"]
+    assert node(FILES, body, names) == expected
+
+
+def test_a_number_is_not_given_again_after_a_robot_was_deleted(node):
+    body = "return data.map((taken) => page.distinctName('mine', taken));"
+    taken = [[], ["mine"], ["mine (2)"], ["mine", "mine (9)"], ["mine (x)", "min"]]
+    assert node(FILES, body, taken) == [
+        "mine",
+        "mine (2)",
+        "mine (3)",
+        "mine (10)",
+        "mine",
+    ]
+
+
 def test_the_book_policy_reaches_the_page(lab):
     assert lab.data["book"] == page_policy(method("lfd"))
 
