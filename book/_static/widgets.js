@@ -66,7 +66,9 @@ document.addEventListener("DOMContentLoaded", () => {
     }
   }, { rootMargin: NEAR });
   for (const place of waiting.keys()) watch.observe(place);
-  const atRest = globalThis.requestIdleCallback ?? ((call) => setTimeout(call, 50));
+  const atRest = globalThis.requestIdleCallback // a busy page waits a second at most
+    ? (call) => requestIdleCallback(call, { timeout: 1000 })
+    : (call) => setTimeout(call, 50);
   const startNext = async () => {
     if (waiting.size === 0) return;
     await start(waiting.keys().next().value);

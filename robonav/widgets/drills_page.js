@@ -52,4 +52,6 @@ document.addEventListener("DOMContentLoaded", () => {
     element.addEventListener("toggle", unfolded);
   }
   tell();
+  addEventListener("pageshow", tell); // the reader comes back to a page that was kept as it was
+  addEventListener("storage", tell); // a question was answered in another tab
 });
