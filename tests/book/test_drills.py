@@ -84,6 +84,19 @@ def test_each_drill_is_answered_by_keyboard(
     expect(standing).to_contain_text("1 right in a row")
 
 
+def test_an_answer_in_another_tab_is_told_here(visit: Visit, site: Path) -> None:
+    address = f"{site.as_uri()}/book/dynamic-programming.html"
+    visit.open(address)
+    visit.page.evaluate("localStorage.removeItem('robonav-drills')")
+    other = visit.page.context.new_page()
+    other.goto(address)
+    drill = other.locator('details.drill[data-drill="bellman-backup"]')
+    expect(drill.locator(".drill-standing")).to_have_text("not tried yet")
+    give_right_answer(visit, open_drill(visit, "bellman-backup"))
+    expect(drill.locator(".drill-standing")).to_contain_text("1 right in a row")
+    other.close()
+
+
 def test_three_in_a_row_are_mastered_and_a_mistake_begins_anew(
     visit: Visit, site: Path
 ) -> None:
