@@ -142,16 +142,18 @@ function render({ model, el }) {
   };
 
   // How well a robot does in new maps
-  const results = h("div", {});
-  /** A table of the policies in new maps; gives a function that fills it. */
-  const trialsTable = (where, name) => {
+  const [results, resultsElsewhere] = [h("div", {}), h("div", { class: "grow" })];
+  /** A table of the policies in new maps, in place of the one before; gives a function that fills it, and one that puts the old one back. */
+  const trialsTable = (place, where, name) => {
+    const before = [...place.childNodes];
     let counted = [];
     const all = [{ name }, ...others];
     const rows = all.map(({ name: title }) => [h("th", { scope: "row" }, title), h("td", {}, "")]);
     const caption = h("caption", {}, "");
-    results.replaceChildren(h("table", { class: "results" }, caption,
+    const inNewMaps = h("table", { class: "results" }, caption,
       h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "policy"), h("th", { scope: "col" }, "arrived, with its 95 % interval"))),
-      h("tbody", {}, ...rows.map((row) => h("tr", {}, ...row)))));
+      h("tbody", {}, ...rows.map((row) => h("tr", {}, ...row))));
+    place.replaceChildren(inNewMaps);
     const show = (counts, n) => {
       caption.textContent = `${n} of ${maps} new maps: ${where.obstacles} standing and ${where.moving} moving obstacles, ${where.speed} m/s`;
       counted = counts;
@@ -164,19 +166,19 @@ function render({ model, el }) {
     const rate = (k) => Math.round((100 * counted[k]) / maps);
     const straight = 1 + others.findIndex(({ policy }) => policy.rule === "straight");
     const verdict = () => `It arrives in ${rate(0)} % of ${maps} new maps, one that always goes straight on in ${rate(straight)} %.`;
-    return { show, say: (sentence) => (caption.textContent = sentence), verdict };
+    const putBack = () => place.contains(inNewMaps) && place.replaceChildren(...before);
+    return { show, say: (sentence) => (caption.textContent = sentence), verdict, putBack };
   };
   const trialIn = (where) => ({ policies: others.map(({ policy }) => policy), seed, count: maps, conditions: where });
   /** Lets a policy that was learned elsewhere drive the new maps. */
   const tryPolicy = (where, policy, name) => {
-    tried = trialsTable(where, name);
-    const { show, say } = tried;
+    const { show, say } = trialsTable(results, where, name);
     trial = startJob(source, trialsJob, { ...trialIn(where), policies: [policy, ...others.map((other) => other.policy)] }, {
       live: (news) => show(news.at(-1).arrived, news.at(-1).at),
       error: say,
     });
   };
-  let [trial, tried] = [null, null];
+  let trial = null; // of a policy that was learned in Python
   const lines = [
     { name: "margin", label: "margin", low: null, note: "By how much the reward prefers what the demonstrator did to what the policy does." },
     { name: "balanced", label: "balanced accuracy (%)", note: "How many of the demonstrated decisions the policy takes too: the mean of the five actions' shares.", low: 0, high: 100, colour: PALETTE.GREEN },
@@ -195,16 +197,16 @@ function render({ model, el }) {
   let kept = ""; // what the browser says where it does not keep the robot
   const trained = () => ({ obstacles: settings.obstacles, moving: settings.moving, speed: settings.speed });
   /** A training in the page with the trial of its policy: `accept` is given the reward as soon as it is learned. */
-  const training = ({ title, action, lines: drawn, name, where, argument, paints, accept, ends, beside = null }) => {
-    let there = false;
+  const training = ({ title, action, lines: drawn, place, name, where, argument, paints, accept, ends, beside = null }) => {
+    let [there, tried] = [false, null];
     return trainingPanel({
       source, title, action, unit: "iteration", total: () => settings.iterations, lines: drawn, beside,
       begin: () => {
         if (complain.textContent) return complain.textContent;
-        trial?.cancel();
         const { inputs, actions } = decisions(chosen);
         if (actions.length === 0) return NO_DECISION;
-        [there, tried] = [false, trialsTable(where(), name)];
+        if (place === results) trial?.cancel();
+        [there, tried] = [false, trialsTable(place, where(), name)];
         return { job: learnAndTry, argument: { learning: { inputs, actions, ...argument() }, trial: trialIn(where()) } };
       },
       live: (news) => {
@@ -218,18 +220,22 @@ function render({ model, el }) {
         if (paints && news.at(-1).theta) paint(news.at(-1).theta);
       },
       done: () => `${ends()} ${tried.verdict()}`.trim(),
-      cancelled: () => (there ? "It had learned already, and stays; not all new maps were driven." : "Nothing of this run is kept."),
+      cancelled: () => {
+        if (there) return "It had learned already, and stays; not all new maps were driven.";
+        tried.putBack();
+        return "Nothing of this run is kept.";
+      },
     });
   };
 
   const learn = training({
-    title: "Learn a reward and a policy for it, and drive new maps", action: "Learn the reward", lines, name: "your robot", paints: true,
+    title: "Learn a reward and a policy for it, and drive new maps", action: "Learn the reward", lines, place: results, name: "your robot", paints: true,
     where: trained, argument: () => ({ settings, seed: settings.seed, reward: null }),
     accept: (result) => learned({ ...result, method: "nirl" }, `NIRL, seed ${settings.seed}`),
     ends: () => `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept. ${kept}`.trim(), beside: seen,
   });
   const again = training({
-    title: "Learn a policy for the same reward in other worlds, and drive new maps there", action: "Train a new robot for this reward", lines: lines.slice(2), name: "the new robot", paints: false,
+    title: "Learn a policy for the same reward in other worlds, and drive new maps there", action: "Train a new robot for this reward", lines: lines.slice(2), place: resultsElsewhere, name: "the new robot", paints: false,
     where: () => second, argument: () => ({ settings: { ...settings, ...second }, seed: settings.seed + 1, reward: found.theta }),
     accept: () => {}, ends: () => "",
   });
@@ -309,7 +315,7 @@ function render({ model, el }) {
       number("standing obstacles", second.obstacles, { least: 0, most: 40 }, (value) => (second = { ...second, obstacles: value })),
       number("moving obstacles", second.moving, { least: 0, most: 40 }, (value) => (second = { ...second, moving: value })),
       number("speed (m/s)", second.speed, { step: 0.5, least: 1, most: 4 }, (value) => (second = { ...second, speed: value }))),
-    again.element);
+    again.element, h("div", { class: "row" }, resultsElsewhere));
   paint(null);
   tell();
   return () => {

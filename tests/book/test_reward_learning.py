@@ -92,9 +92,10 @@ def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
 
     set_number(lab, "moving obstacles", 5)
     lab.get_by_role("button", name="Train a new robot for this reward").click()
-    expect(lab.locator("caption").first).to_contain_text(
-        "100 of 100 new maps: 10 standing and 5 moving", timeout=SLOW
-    )
+    elsewhere = lab.locator("caption", has_text="10 standing and 5 moving")
+    expect(elsewhere).to_contain_text("100 of 100 new maps", timeout=SLOW)
+    first = "100 of 100 new maps: 20 standing and 0 moving"
+    expect(lab.locator("caption").first).to_contain_text(first)
     expect(lab.locator(".status").last).to_contain_text("straight on in", timeout=SLOW)
 
 
@@ -134,6 +135,26 @@ def test_training_is_cancelled(lab):
     lab.get_by_role("button", name="Cancel").click()
     expect(lab.locator(".status").nth(1)).to_contain_text("Cancelled. ")
     expect(lab.get_by_role("button", name="Learn the reward")).to_be_enabled()
+
+
+def test_cancelled_training_leaves_the_tables_of_the_one_before(lab):
+    set_number(lab, "iterations", 2)
+    learn = lab.get_by_role("button", name="Learn the reward")
+    learn.click()
+    expect(lab.locator(".status").nth(1)).to_contain_text("is kept", timeout=SLOW)
+    table = lab.locator("table").first
+    before = table.inner_text()
+    assert "100 of 100 new maps" in before
+    set_number(lab, "iterations", 1000)
+    for button in (learn, lab.get_by_role("button", name="Train a new robot")):
+        button.click()
+        lab.get_by_role("button", name="Cancel").click()
+        expect(lab.get_by_text("Cancelled. Nothing of this run")).to_be_visible()
+        assert table.inner_text() == before
+        expect(lab.locator("caption", has_text="of 100 new maps")).to_have_count(1)
+        lab.locator(".status", has_text="Cancelled").evaluate(
+            "(one) => { one.textContent = ''; }"
+        )
 
 
 def test_wrong_number_is_one_sentence(lab):
