@@ -1,8 +1,8 @@
 """The drills of a page: the directives ``{drills}`` and ``{progress}``.
 
 ``{drills}`` shows the drills of the page that it stands on, each folded. ``{progress}`` lists all drills of the book by
-page. The questions are drawn while the book is built, :data:`QUESTIONS` of each drill, into a script of their own,
-``_static/drills/NAME.js``, which a page loads when a reader opens the drill.
+page. The questions are drawn while the book is built, :data:`QUESTIONS` different ones of each drill, into a script of
+their own, ``_static/drills/NAME.js``, which a page loads when a reader opens the drill.
 
 Without scripts, and on paper, a drill shows its first question with its solution.
 """
@@ -26,19 +26,27 @@ from robonav.drills import DRILLS, Drill, of_page
 from robonav.drills.markup import as_json, html
 from robonav.widgets.shared import front_end, style_sheet
 
-QUESTIONS = 100  # of each drill
+QUESTIONS = 100  # different ones of each drill, where its numbers allow as many
+SEEDS = 500  # of which they are drawn
 FOLDER = "drills"
 MARK = "drills"  # the class of what the directives make
 
 
+def different_questions(drill: Drill) -> list[str]:
+    """Return the questions of a drill, each once, as JSON. A drill without numbers has few different ones."""
+    texts: dict[str, None] = {}
+    for seed in range(SEEDS):
+        question = as_json(drill.question(seed))
+        texts[json.dumps(question, ensure_ascii=False, separators=(",", ":"))] = None
+        if len(texts) == QUESTIONS:
+            break
+    return list(texts)
+
+
 def script(drill: Drill) -> str:
-    """Return the script with a drill's questions. A drill without numbers has few different ones."""
-    drawn = (as_json(drill.question(seed)) for seed in range(QUESTIONS))
-    texts = dict.fromkeys(
-        json.dumps(question, ensure_ascii=False, separators=(",", ":"))
-        for question in drawn
-    )
-    return f"robonavDrill({json.dumps(drill.name)},[{','.join(texts)}]);\n"
+    """Return the script with a drill's questions."""
+    questions = ",".join(different_questions(drill))
+    return f"robonavDrill({json.dumps(drill.name)},[{questions}]);\n"
 
 
 def page_script() -> str:

@@ -1,12 +1,13 @@
 """Remove everything from the pages that would be loaded from the network.
 
 The front-end files that a page needs are committed in ``book/_static/third-party``. Files that Jupyter Book would load
-although no page needs them are removed here.
+although no page needs them are removed here, and so are the theme's source maps, which only its developers need.
 """
 
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 from docutils import nodes
@@ -33,6 +34,13 @@ def drop_unwanted_scripts(
     ]
 
 
+def remove_source_maps(app: Sphinx, error: Exception | None) -> None:
+    """Remove the source maps of the theme's scripts and styles from the site: more than three megabytes."""
+    for path in (Path(app.outdir) / "_static").rglob("*.map"):
+        path.unlink()
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     app.connect("html-page-context", drop_unwanted_scripts, priority=900)
+    app.connect("build-finished", remove_source_maps)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -6,6 +6,7 @@ import json
 import re
 
 import pytest
+from drills import QUESTIONS, different_questions
 
 from robonav.drills import DRILLS, Choice, Number, Order, Place, Question, Table
 from robonav.drills.markup import as_json, html
@@ -60,6 +61,19 @@ def check(question: Question) -> None:
 def test_some_questions(name: str) -> None:
     for seed in range(FEW):
         check(DRILLS[name].question(seed))
+
+
+@pytest.mark.slow
+def test_most_drills_have_a_hundred_different_questions_and_all_but_orders_several() -> (
+    None
+):
+    different = {name: len(different_questions(DRILLS[name])) for name in DRILLS}
+    few = {name: number for name, number in different.items() if number < QUESTIONS}
+    assert len(few) <= 40
+    assert all(
+        number >= 5 or isinstance(DRILLS[name].question(0).asked, Order)
+        for name, number in few.items()
+    )
 
 
 @pytest.mark.slow
