@@ -135,7 +135,7 @@ function render({ model, el }) {
     const { outcome } = episode.now();
     const own = episode.steps.filter(({ by }) => by === "reader").length;
     const ended = {
-      arrived: own ? `Arrived, with ${own} ${own === 1 ? "correction" : "corrections"} of yours: they are kept. Correct another map, or train.` : "Arrived without you.",
+      arrived: own ? `Arrived, with ${own} ${own === 1 ? "correction" : "corrections"} of yours. Correct another map, or train. Your corrections last until you leave the page or change what the robot first learns from.` : "Arrived without you.",
       collided: `It collided. Go back ${BACK} seconds and take over.`,
     }[outcome];
     const drives = hands ? (episode.asks() ? "You steer: the robot waits for you." : "You steer, and the reflex moves the robot.") : running ? (episode.steps.length > LONG ? "It may be going in circles: take over." : `The robot drives. Press ${whatSteers()} to take over.`) : "The robot will fail in this map. Press Drive, and take over before it does.";
@@ -151,7 +151,7 @@ function render({ model, el }) {
     clearTimeout(timer);
     running = false;
   };
-  let saved = null; // the episode whose corrections are kept already
+  let saved = null; // the episode whose corrections are in the data already
   const finish = () => {
     if (episode === null || saved === episode) return;
     saved = episode;

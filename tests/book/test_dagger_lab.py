@@ -69,9 +69,9 @@ def test_corrections_by_hand_raise_the_rate(lab):
     assert 40 < before < 60
     for touch in (False, True, False):
         correct(lab, touch=touch)
-        expect(lab.locator(".told")).to_contain_text(
-            "corrections of yours: they are kept"
-        )
+        told = lab.locator(".told")
+        expect(told).to_contain_text("corrections of yours. Correct another map")
+        expect(told).to_contain_text("last until you leave the page or change what")
         lab.get_by_role("button", name="Next map where it fails").click()
     lab.get_by_role("button", name="Train").click()
     said = lab.locator(".training .status")
