@@ -73,6 +73,9 @@ export function rateOf(outcomes) {
   return { maps: outcomes.length, arrived, rate: arrived / Math.max(1, outcomes.length), low, high };
 }
 
+/** Whether two robots end alike in every one of the same maps. */
+export const sameOutcomes = ({ outcomes: one }, { outcomes: other }) => one.length === other.length && one.every((outcome, map) => outcome === other[map]);
+
 /** A bar from 0 to 1 with an interval. */
 function rateBar({ rate, low, high }, colour) {
   const [width, height] = [150, 16];

@@ -8,6 +8,7 @@ const OBSTACLES = [10, 20, 30];
 const FEW = 25; // of the expert's demonstrations, as on the page
 const NO_STEP = "These demonstrations have no step with something in range, so there is nothing to learn from.";
 const NO_DRIVE = "There is nothing to learn from: drive a few maps in the playground, or choose the expert's demonstrations.";
+const ALWAYS_STRAIGHT = "Your robot always goes straight on. Drive more maps, turn earlier, or choose a smaller λ.";
 const ROOM = 700; // pixels from which on the settings are open at first
 const MOST_ROBOTS = 6; // of the reader's, that stay in the table
 
@@ -136,7 +137,8 @@ function render({ model, el }) {
       showTable();
       view.update();
       const [own, straight] = [robots[0], baselines[1]].map(({ outcomes }) => percent(rateOf(outcomes).rate));
-      return `Your robot arrives in ${own} % of the maps, one that always goes straight on in ${straight} %. ${warning}`.trim();
+      const same = sameOutcomes(robots[0], baselines[1]) ? ALWAYS_STRAIGHT : "";
+      return [`Your robot arrives in ${own} % of the maps, one that always goes straight on in ${straight} %.`, same, warning].filter(Boolean).join(" ");
     },
     cancelled: () => {
       now = null;

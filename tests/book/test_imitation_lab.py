@@ -93,6 +93,7 @@ def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
         100 * navigate(method("lfd"), UNSEEN).success.mean()
     )
     assert found["robot 1"] > found["always straight on"] + 10
+    expect(said(lab)).not_to_contain_text("Your robot always goes")
     with lab.page.expect_download() as download:
         lab.get_by_role("button", name="Download the latest").click()
     download.value.save_as(tmp_path / "mine.safetensors")
@@ -108,6 +109,9 @@ def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
     setting(lab, "regularisation λ").select_option("1")
     train(lab)  # so much of it that few drives teach only the commonest action
     assert rates(lab)["robot 2"] == found["always straight on"]
+    expect(said(lab)).to_contain_text(
+        "%. Your robot always goes straight on. Drive more maps, turn earlier,"
+    )
 
 
 def test_without_drives_the_page_says_so_and_offers_the_experts(view, site, widget):

@@ -112,6 +112,18 @@ def test_rates_have_wilsons_intervals(node):
     assert got["high"] == pytest.approx(0.9794, abs=1e-4)
 
 
+def test_robots_of_one_rate_that_end_otherwise_are_told_apart(node):
+    body = """const robots = data.map((outcomes) => ({ outcomes }));
+      return robots.map((robot) => page.sameOutcomes(robots[0], robot));"""
+    outcomes = [
+        ["arrived", "collided"],
+        ["arrived", "collided"],
+        ["collided", "arrived"],
+        ["arrived"],
+    ]
+    assert node(FILES, body, outcomes) == [True, True, False, False]
+
+
 def test_kept_robots_of_one_name_are_numbered(node):
     """Without a browser's storage they are kept in memory, through the same function."""
     body = """const network = { sizes: [1, 1], weights: [[0]], biases: [[0]] };
