@@ -187,8 +187,8 @@ function render({ model, el }) {
 
   /** Shows a reward that was learned in the page or in Python, and keeps its robot. */
   const learned = (result, title) => {
-    found = result;
-    kept = keepRobot({ name: `${title}, ${names()[chosen]}`, network: found.network, encoder: settings.encoder });
+    found = { ...result, name: `${title}, ${names()[chosen]}` };
+    kept = keepRobot({ name: found.name, network: found.network, encoder: settings.encoder });
     paint(found.theta);
     list(found.theta);
     elsewhere.hidden = false;
@@ -223,6 +223,7 @@ function render({ model, el }) {
       cancelled: () => {
         if (there) return "It had learned already, and stays; not all new maps were driven.";
         tried.putBack();
+        if (paints) paint(found?.theta);
         return "Nothing of this run is kept.";
       },
     });
@@ -234,12 +235,22 @@ function render({ model, el }) {
     accept: (result) => learned({ ...result, method: "nirl" }, `NIRL, seed ${settings.seed}`),
     ends: () => `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept. ${kept}`.trim(), beside: seen,
   });
+  let [newRobot, nextName, keptToo] = [null, "", ""]; // the robot of the other worlds, its name, and what the browser says where it does not keep it
   const again = training({
     title: "Learn a policy for the same reward in other worlds, and drive new maps there", action: "Train a new robot for this reward", lines: lines.slice(2), place: resultsElsewhere, name: "the new robot", paints: false,
-    where: () => second, argument: () => ({ settings: { ...settings, ...second }, seed: settings.seed + 1, reward: found.theta }),
-    accept: () => {}, ends: () => "",
+    where: () => second, argument: () => {
+      nextName = `${found.name}, trained with ${second.obstacles} standing and ${second.moving} moving obstacles at ${second.speed} m/s`;
+      return { settings: { ...settings, ...second }, seed: settings.seed + 1, reward: found.theta };
+    },
+    accept: ({ network }) => {
+      newRobot = { network, encoder: settings.encoder, method: "nirl" };
+      keptToo = keepRobot({ ...newRobot, name: nextName });
+      newWeights.disabled = false;
+    },
+    ends: () => `The new robot is kept. ${keptToo}`.trim(),
   });
   const weights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl.safetensors", weightsFile({ network: found.network, encoder: settings.encoder, method: found.method })) }, "Download the policy");
+  const newWeights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl-elsewhere.safetensors", weightsFile(newRobot)) }, "Download the new robot's policy");
   const reward = h("button", { type: "button", disabled: true, click: () => saveFile("my-reward.npz", npz({ reward_weights: { descr: "<f8", shape: [5, found.theta.length / 5], values: [...found.theta] } })) }, "Download the reward");
 
   const ready = sets.map(({ inputs, actions }) => {
@@ -315,7 +326,7 @@ function render({ model, el }) {
       number("standing obstacles", second.obstacles, { least: 0, most: 40 }, (value) => (second = { ...second, obstacles: value })),
       number("moving obstacles", second.moving, { least: 0, most: 40 }, (value) => (second = { ...second, moving: value })),
       number("speed (m/s)", second.speed, { step: 0.5, least: 1, most: 4 }, (value) => (second = { ...second, speed: value }))),
-    again.element, h("div", { class: "row" }, resultsElsewhere));
+    again.element, h("div", { class: "row" }, resultsElsewhere), h("div", { class: "row tools" }, newWeights));
   paint(null);
   tell();
   return () => {

@@ -49,6 +49,9 @@ def lab(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Loc
     )
 
 
+KEPT_NAMES = """() => Object.entries(localStorage)
+  .filter(([key]) => key.startsWith("robonav.robot."))
+  .map(([, text]) => JSON.parse(text).name)"""
 ENDED = """() => {
   const statuses = [...document.querySelectorAll("#mounted .training .status")];
   const said = statuses.some((one) => one.textContent.startsWith("Done"));
@@ -97,6 +100,21 @@ def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
     first = "100 of 100 new maps: 20 standing and 0 moving"
     expect(lab.locator("caption").first).to_contain_text(first)
     expect(lab.locator(".status").last).to_contain_text("straight on in", timeout=SLOW)
+    expect(lab.get_by_text("The new robot is kept. It arrives in")).to_be_visible()
+    with lab.page.expect_download() as download:
+        lab.get_by_role("button", name="Download the new robot's policy").click()
+    download.value.save_as(tmp_path / "new.safetensors")
+    first, new = (
+        load_weights(tmp_path / f"{name}.safetensors").network
+        for name in ("policy", "new")
+    )
+    assert new.sizes == first.sizes
+    assert abs(new.weights[0] - first.weights[0]).max() > 0
+    first_name, new_name = sorted(lab.page.evaluate(KEPT_NAMES), key=len)
+    assert first_name == "NIRL, seed 0, six"
+    assert new_name == (
+        f"{first_name}, trained with 10 standing and 5 moving obstacles at 2 m/s"
+    )
 
 
 COLOURS = """(map) => {
