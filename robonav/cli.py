@@ -402,6 +402,8 @@ def grade(
         each = variants.for_each_student(course, variant, folder, out)
     elif variant is not None:
         course = variants.course_for(course, variant, folder, out)
+    else:
+        variants.check_same_options(out, "")
     read_rules(out, course)  # a fault in them is told before the work, not after it
     ids = [course.named(key).id for key in exercise or []]
     config = GradingConfig(course, sandbox_check.best(), secret_from(secret), each)

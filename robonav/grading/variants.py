@@ -34,6 +34,7 @@ from .course import Course, Exercise
 MARK = "variant.json"  # in the root of a course that ``write`` made
 EACH = "students.key"  # in a folder with a course for each student
 WIDTH = 88  # of a line in a question
+VARIANT, VARIANT_EACH = "--variant", "--variant and --each-student"  # robonav grade
 
 Values = Mapping[str, str]  # the value of each knob, by the knob's name
 
@@ -281,22 +282,68 @@ def course_for(course: Course, secret: str, folder: Path, out: Path) -> Course:
     Raises
     ------
     ValueError
-        If the class was graded with another variant before, or ``out`` lies in the class folder.
+        If the class was graded with another variant or other options before, or ``out`` lies in the class folder.
     """
     _check_out(folder, out)
-    target = out / "exercises"
-    try:
-        before = json.loads((target / MARK).read_bytes())
-    except (OSError, ValueError):
-        before = None
-    own = (target / EACH).is_file()  # each student's
-    if before not in (None, _values(course, secret)) or (
-        before is None and (own or (out / "students").is_dir())
-    ):
-        raise ValueError(
-            f"{out} was graded {'with another' if before or own else 'without a'} variant; choose another folder"
-        )
-    return write(course, secret, target)
+    check_same_options(out, VARIANT)
+    mark = out / "exercises" / MARK
+    if mark.is_file():
+        try:
+            before = json.loads(mark.read_bytes())
+        except ValueError:
+            before = None
+        if before != _values(course, secret):
+            raise ValueError(
+                f"{out} was graded with another variant; choose another folder"
+            )
+    return write(course, secret, out / "exercises")
+
+
+def check_same_options(out: Path, options: str) -> None:
+    """Check that a class that was graded before is graded with the same options again.
+
+    Otherwise answers to one variant of the exercises would be graded as answers to another.
+
+    Parameters
+    ----------
+    out : Path
+        The folder of the grades.
+    options : str
+        ``--variant``, ``--variant and --each-student``, or an empty string.
+
+    Raises
+    ------
+    ValueError
+        If the class was graded with other options.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> out = Path(tempfile.mkdtemp())
+    >>> check_same_options(out, "")
+    >>> (out / "students").mkdir()
+    >>> check_same_options(out, "--variant")
+    Traceback (most recent call last):
+    ValueError: ... was graded without a variant; choose another folder
+    """
+    if (out / "exercises" / EACH).is_file():
+        before = VARIANT_EACH
+    elif (out / "exercises" / MARK).is_file():
+        before = VARIANT
+    elif (out / "students").is_dir():
+        before = ""
+    else:  # not graded yet
+        return
+    if options == before:
+        return
+    if before == "":
+        raise ValueError(f"{out} was graded without a variant; choose another folder")
+    again = {
+        VARIANT: "give the same --variant again",
+        VARIANT_EACH: "give both again, with the same text",
+    }[before]
+    without = ", without --each-student" if options == VARIANT_EACH else ""
+    raise ValueError(f"{out} was graded with {before}; {again}{without}")
 
 
 @dataclass(frozen=True)
@@ -360,12 +407,11 @@ def for_each_student(
     each = EachStudent(course, secret, out / "exercises")
     _values(course, secret)  # refuses an empty secret
     _check_out(folder, out)
+    check_same_options(out, VARIANT_EACH)
     path = each.folder / EACH
     key = hashlib.sha256(b"each/" + stretched(b"variant/" + secret.encode()))
     before = path.read_text("utf-8") if path.is_file() else ""
-    if before not in ("", key.hexdigest()) or (
-        not before and (out / "students").is_dir()
-    ):
+    if path.is_file() and before != key.hexdigest():
         raise ValueError(
             f"{out} was graded with other exercises; choose another folder"
         )

@@ -12,7 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from robonav.cli import app
 from robonav.grading import variants
 from robonav.grading.cases import PUBLIC, generator, parts_of
 from robonav.grading.check import InProcessCalls, graded
@@ -400,6 +402,43 @@ def test_a_class_graded_without_a_variant_is_not_graded_with_one(tmp_path):
         variants.course_for(COURSE, "x", tmp_path / "class", tmp_path / "out")
     with pytest.raises(ValueError, match="must not lie in the class folder"):
         variants.course_for(COURSE, "x", tmp_path, tmp_path / "out")
+
+
+def test_a_class_is_graded_again_only_with_the_same_options(tmp_path):
+    """All changes between no variant, one for all, and one for each student are refused before anything is graded."""
+    options = {
+        "plain": [],
+        "one": ["--variant", "x"],
+        "each": ["--variant", "x", "--each-student"],
+    }
+    said = {
+        "plain": "was graded without a variant; choose another folder",
+        "one": "was graded with --variant; give the same --variant again",
+        "each": "was graded with --variant and --each-student; give both again",
+    }
+    (tmp_path / "class/ada").mkdir(parents=True)
+    secret = tmp_path / "secret"
+    secret.write_text("a long secret of this class\n")
+    for before in options:
+        out = tmp_path / before
+        if before == "one":
+            variants.course_for(COURSE, "x", tmp_path / "class", out)
+        elif before == "each":
+            variants.for_each_student(COURSE, "x", tmp_path / "class", out)
+        (out / "students/ada").mkdir(parents=True)
+        there = sorted(out.rglob("*"))
+        for now, given in options.items():
+            if now != before:
+                arguments = ["grade", tmp_path / "class", "--out", out, "--secret"]
+                arguments += [secret, *given]
+                done = CliRunner().invoke(app, [str(word) for word in arguments])
+                assert isinstance(done.exception, ValueError), (before, now)
+                assert said[before] in str(done.exception), (before, now)
+                assert sorted(out.rglob("*")) == there, (before, now)
+    for before, way in (("plain", ""), ("one", variants.VARIANT)):
+        variants.check_same_options(tmp_path / before, way)
+    variants.check_same_options(tmp_path / "each", variants.VARIANT_EACH)
+    variants.check_same_options(tmp_path / "new", "")
 
 
 PAGE = """
