@@ -39,15 +39,21 @@ def start(
     from robonav.atomic import atomic_write
 
     from .gradebook import ROSTER
-    from .roster import read_roster
-    from .rules import RULES, TEMPLATE
+    from .roster import ignored_groups, read_roster
+    from .rules import RULES, TEMPLATE, read_rules
 
     if roster is not None:
-        students = read_roster(roster)
+        rules = read_rules(graded, _course(graded))
+        students = read_roster(roster, rules.teams)
         content = roster.read_bytes()
         with atomic_write(graded / ROSTER) as file:
             file.write(content)
         print(f"{len(students)} students: {graded / ROSTER}")
+        if ignored_groups(students):
+            print(
+                "The column Groups makes no teams, so every submission counts for one student; "
+                f"if its groups are teams, write teams = true at the top of {graded / RULES}."
+            )
     if not (graded / RULES).exists():
         with atomic_write(graded / RULES) as file:
             file.write(TEMPLATE.encode())
@@ -175,14 +181,20 @@ def write_all(folder: Path) -> Gradebook:
 
 
 def _book(folder: Path) -> Gradebook:
-    from .course import Course
     from .gradebook import read_gradebook
+
+    return read_gradebook(folder, _course(folder))
+
+
+def _course(folder: Path) -> Course:
+    """Return the course with which a class was graded."""
+    from .course import Course
     from .variants import MARK
 
     course = Course.around(Path(__file__).parent, Path.cwd())
     if (folder / "exercises" / MARK).is_file():
         course = Course((folder / "exercises").resolve())  # of robonav grade --variant
-    return read_gradebook(folder, course)
+    return course
 
 
 def _tell(book: Gradebook) -> None:

@@ -177,7 +177,7 @@ def read_gradebook(folder: Path, course: Course) -> Gradebook:
     same = {name: grade["submission"] for name, grade in grades.items()}
     people = {name: told["people"] for name, told in handed_in.items()}
     if (folder / ROSTER).exists():
-        students = _in_groups(read_roster(folder / ROSTER), rules)
+        students = _in_groups(read_roster(folder / ROSTER, rules.teams), rules)
         matching = match(students, people, rules.matches, same)
     else:
         students = [

@@ -26,11 +26,12 @@ COLUMNS: dict[str, tuple[str, ...]] = {
     "first": ("first name", "firstname", "first_name"),
     "last": ("last name", "surname", "lastname", "last_name"),
     "repository": ("student_repository_name",),
-    "group": ("group", "group_name", "groups"),
+    "group": ("group", "group_name"),
     "submitted": (
         "submitted", "last modified (submission)", "submission_timestamp", "submission time",
     ),
 }  # fmt: skip
+GROUPS = "groups"  # Moodle's: tutorial groups as a rule, which hand in nothing together
 PARTICIPANT = re.compile(r"Participant (\d+)")
 
 
@@ -67,13 +68,16 @@ class Student:
     row: Mapping[str, str] | None = None
 
 
-def read_roster(path: Path) -> list[Student]:
+def read_roster(path: Path, teams: bool = False) -> list[Student]:
     """Read a roster: a CSV file as Moodle, Canvas, Gradescope or GitHub Classroom export it, or one of your own.
 
     Parameters
     ----------
     path : Path
         The file. Its first line has the headings.
+    teams : bool
+        Whether the students with the same text in Moodle's column ``Groups`` share a submission, as those with the same
+        ``group`` or ``group_name`` always do.
 
     Returns
     -------
@@ -105,7 +109,8 @@ def read_roster(path: Path) -> list[Student]:
     found = [
         student
         for row in rows
-        if (student := _student({k: v or "" for k, v in row.items() if k})) is not None
+        if (student := _student({k: v or "" for k, v in row.items() if k}, teams))
+        is not None
     ]
     if not found:
         raise ValueError(
@@ -121,7 +126,24 @@ def read_roster(path: Path) -> list[Student]:
     return found
 
 
-def _student(row: Mapping[str, str]) -> Student | None:
+def ignored_groups(students: Iterable[Student]) -> bool:
+    """Whether the roster has groups in Moodle's column ``Groups``, which make no teams unless the rules say so.
+
+    Examples
+    --------
+    >>> ignored_groups([Student("ada", row={"Groups": "Monday"})])
+    True
+    >>> ignored_groups([Student("ada", group="Monday", row={"Groups": "Monday"})])
+    False
+    """
+    return any(
+        heading.strip().casefold() == GROUPS and text.strip() and not student.group
+        for student in students
+        for heading, text in (student.row or {}).items()
+    )
+
+
+def _student(row: Mapping[str, str], teams: bool) -> Student | None:
     """Return the student in a line, or None if it is none's."""
     headings = {heading.strip().casefold(): heading for heading in row}
     told = {
@@ -130,6 +152,8 @@ def _student(row: Mapping[str, str]) -> Student | None:
         for title in reversed(titles)  # the first one counts
         if title in headings and row[headings[title]].strip()
     }
+    if teams and GROUPS in headings:
+        told.setdefault("group", row[headings[GROUPS]].strip())
     name = told.get("name") or f"{told.get('first', '')} {told.get('last', '')}".strip()
     number = told.get("number", "")
     if match := PARTICIPANT.fullmatch(number):
@@ -270,9 +294,15 @@ def match(
             unsettled.add(id)
             if tuple(found) not in told:
                 told.add(tuple(found))
-                whose = by_id[id].group or id
+                group = by_id[id].group
+                advice = "Say under [matches] which one counts."
+                if group:
+                    advice = (
+                        f"If {group} is a team, say under [matches] which one counts for all its members. "
+                        "If it is not, take the group out of the roster or the rules."
+                    )
                 problems.append(
-                    f"Several submissions fit {whose}: {', '.join(found)}. Say under [matches] which one counts."
+                    f"Several submissions fit {group or id}: {', '.join(found)}. {advice}"
                 )
     return Matching(counted, problems, unsettled - set(counted))
 

@@ -22,6 +22,8 @@ TEMPLATE = """\
 
 # exercises = ["2", "3.1"]        # what counts here, by chapter or exercise; the default is everything
 
+# teams = true                    # Moodle's column `Groups` of the roster names teams, which share a submission
+
 # [deadlines]                     # by chapter or exercise; the more particular one counts
 # 2 = 2026-10-12T23:59:00
 # "2.9" = 2026-10-26T23:59:00
@@ -51,7 +53,7 @@ TEMPLATE = """\
 """
 KEYS: dict[str, set[str]] = {
     "": {
-        "timezone", "exercises", "deadlines", "late", "extensions", "groups", "matches", "submitted",
+        "timezone", "exercises", "teams", "deadlines", "late", "extensions", "groups", "matches", "submitted",
     },
     "late": {
         "grace_minutes", "free_days", "penalty", "most", "closed_after", "earlier",
@@ -118,6 +120,8 @@ class Rules:
         Folders in which free days were used before.
     exercises : frozenset of str
         Ids of the exercises that count. If it is empty, all do.
+    teams : bool
+        Whether Moodle's column ``Groups`` of the roster names teams, which share a submission.
     """
 
     deadlines: Mapping[str, datetime] = field(default_factory=dict)
@@ -133,6 +137,7 @@ class Rules:
     closed_after: int | None = None
     earlier: Sequence[str] = ()
     exercises: frozenset[str] = frozenset()
+    teams: bool = False
 
     def due(self, student: str, exercise: str) -> tuple[str, datetime] | None:
         """Return which deadline holds for a student's exercise, and when it is, or None."""
@@ -300,6 +305,9 @@ def _rules(written: Mapping[str, Any], course: Course) -> Rules:
     counted = written.get("exercises", [])
     if not isinstance(counted, list):
         raise ValueError('exercises must be a list such as ["2", "3.1"]')
+    teams = written.get("teams", False)
+    if not isinstance(teams, bool):
+        raise ValueError(f"teams must be true or false, got {teams}")
     closed = late.get("closed_after")
     return Rules(
         deadlines={
@@ -335,6 +343,7 @@ def _rules(written: Mapping[str, Any], course: Course) -> Rules:
         exercises=frozenset(
             one.id for key in counted for one in course.selected(str(key))
         ),
+        teams=teams,
     )
 
 

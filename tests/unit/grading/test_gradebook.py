@@ -223,6 +223,31 @@ def test_one_submission_counts_for_all_of_a_group(tmp_path, quick):
     ] == ["bo", "bo", "cy"]
 
 
+def test_moodles_groups_are_teams_only_if_the_rules_say_so(tmp_path, quick):
+    text = "Full name,Email address,Groups\nAda,ada@u.edu,Monday\nBo,bo@u.edu,Monday\n"
+    book = book_of(tmp_path, ["ada", "bo"], text)
+    assert [a.submission for a in book.accounts] == ["ada", "bo"]
+    assert [a.student.group for a in book.accounts] == ["", ""]
+    assert book.problems == []
+    (tmp_path / "moodle.csv").write_text(text)
+    done = invoke("start", tmp_path / "out", "--roster", tmp_path / "moodle.csv")
+    assert "The column Groups makes no teams" in done.output
+    book = book_of(tmp_path, [], text, "teams = true\n")  # two equal ones are one
+    done = invoke("start", tmp_path / "out", "--roster", tmp_path / "moodle.csv")
+    assert "makes no teams" not in done.output
+    assert [a.student.group for a in book.accounts] == ["Monday", "Monday"]
+    assert [a.points for a in book.accounts] == [8, 8]
+    handed_over(tmp_path / "class", ["ada"], "half")
+    grade_class(HERE, tmp_path / "class", tmp_path / "out", jobs=1)
+    book = read_gradebook(tmp_path / "out", COURSE)
+    assert [a.submission for a in book.accounts] == ["", ""]
+    assert "If Monday is a team, say under [matches]" in book.problems[0]
+    assert "If it is not, take the group out of the roster" in book.problems[0]
+    for column in ("group", "group_name"):
+        told = roster(tmp_path, f"name,{column},Groups\nAda,t1,Monday\n")
+        assert [student.group for student in told] == ["t1"]
+
+
 def test_groups_of_the_rules_need_no_roster(tmp_path, quick):
     book = book_of(
         tmp_path, ["ada", "cy"], rules='[groups]\nteam = ["ada", "nobody"]\n'
@@ -295,6 +320,7 @@ def test_the_template_is_valid_with_and_without_its_marks(tmp_path):
         ("[groups]\na = 'ada'", "group a must be a list"),
         ("[late", "cannot be read"),
         ("exercises = '2'", "must be a list"),
+        ("teams = 'yes'", "teams must be true or false, got yes"),
     ],
 )
 def test_wrong_rules_are_one_sentence(tmp_path, text, said):
