@@ -145,6 +145,8 @@ def export(
     book = _book(graded)
     write(file, exports.marks_for(book, platform, title))
     print(file)
+    if platform == "canvas" and (remark := exports.without_canvas_id(book)):
+        print(remark, file=sys.stderr)
     if names := exports.unsettled(book):
         print(f"Left empty, because they are not settled: {', '.join(names)}.", file=sys.stderr)  # fmt: skip
         raise typer.Exit(1)

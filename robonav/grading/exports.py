@@ -13,6 +13,7 @@ from robonav.atomic import atomic_write
 
 from .gradebook import Account, Gradebook, plain
 from .report import csv_text, feedback
+from .roster import of_canvas
 
 FORMATS = ("moodle", "canvas", "gradescope")
 WORKSHEET = (
@@ -52,13 +53,13 @@ def marks_for(book: Gradebook, platform: str, title: str) -> str:
     >>> from robonav.grading.gradebook import Mark
     >>> from robonav.grading.ledger import Log
     >>> from robonav.grading.roster import Student
-    >>> ada = Student("ada", row={"Student": "ada", "ID": "17"})
+    >>> ada = Student("ada", row={"Student": "ada", "ID": "17", "Section": "A"})
     >>> account = Account(ada, "ada", {"2.1": Mark("2.1", 4, 3, "partial")})
     >>> book = Gradebook(Path(), Course.around(Path()), [account], [], Log([], [], [], ""), {})
     >>> print(marks_for(book, "canvas", "Chapter 2 (5)").lstrip("\\ufeff").replace("\\r", ""))
     Student,ID,SIS User ID,SIS Login ID,Section,Chapter 2 (5)
         Points Possible,,,,,4
-    ada,17,,,,3
+    ada,17,,,A,3
     <BLANKLINE>
     """
     if platform not in FORMATS:
@@ -122,9 +123,44 @@ def _canvas(book: Gradebook, title: str) -> list[list[Any]]:
     for account in book.accounts:
         row = account.student.row or {"Student": account.student.name}
         name = _named(row, "Student") or account.student.name
-        rest = [_named(row, heading) for heading in CANVAS[1:]]
+        _, number, login, section = (_named(row, heading) for heading in CANVAS[1:])
+        number = number or account.student.number
+        rest = [_canvas_id(account), number, login, section]
         lines.append([name, *rest, _total(account)])
     return lines
+
+
+def _canvas_id(account: Account) -> str:
+    """Return Canvas's own number of a student, which only Canvas's gradebook has."""
+    row = account.student.row or {}
+    return _named(row, "ID") if of_canvas(row) else ""
+
+
+def without_canvas_id(book: Gradebook) -> str:
+    """Return a sentence on how Canvas finds the students, or an empty text if it knows one of them by its own ID.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from robonav.grading.course import Course
+    >>> from robonav.grading.ledger import Log
+    >>> from robonav.grading.roster import Student
+    >>> ada = Account(Student("ada", number="s1"), "ada", {})
+    >>> without_canvas_id(Gradebook(Path(), Course.around(Path()), [ada], [], Log([], [], [], ""), {}))
+    "The roster has no Canvas IDs, so Canvas finds the students by SIS User ID; ..."
+    """
+    if not book.accounts or any(map(_canvas_id, book.accounts)):
+        return ""
+    advice = "make Canvas's own gradebook the roster"
+    if all(account.student.number for account in book.accounts):
+        return (
+            "The roster has no Canvas IDs, so Canvas finds the students by SIS User ID; "
+            f"if it does not know these numbers, {advice}."
+        )
+    return (
+        "The roster has no Canvas IDs, and no number of some students either, so that Canvas cannot find them; "
+        f"{advice}."
+    )
 
 
 def _gradescope(book: Gradebook, title: str) -> list[list[Any]]:

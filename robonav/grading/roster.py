@@ -52,6 +52,8 @@ class Student:
         When the student handed in, as the roster says it, or an empty string.
     keys : frozenset of str
         What only this student is called on a platform, in small letters. ``#17`` is the platform's number 17.
+    number : str
+        The university's number of the student, or an empty string if the roster does not have it.
     names : frozenset of str
         The name's words in each order that a platform may write them in, without spaces and accents.
     row : dict of str to str
@@ -65,6 +67,7 @@ class Student:
     keys: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()
     github: str = ""
+    number: str = ""
     row: Mapping[str, str] | None = None
 
 
@@ -187,8 +190,38 @@ def _student(row: Mapping[str, str], teams: bool) -> Student | None:
         keys=frozenset(word.casefold() for word in words - {""}),
         names=frozenset(form for one in written for form in forms(one)),
         github=told.get("github", "").casefold(),
+        number=_number(row),
         row=row,
     )
+
+
+def of_canvas(row: Mapping[str, str]) -> bool:
+    """Whether a line is of Canvas's gradebook, where ``ID`` is Canvas's own number.
+
+    Examples
+    --------
+    >>> of_canvas({"Student": "Ada", "ID": "17", "Section": "A"}), of_canvas({"name": "Ada", "id": "17"})
+    (True, False)
+    """
+    headings = {heading.strip().casefold() for heading in row}
+    return bool(headings & {"sis login id", "sis user id"}) or (
+        headings >= {"student", "id", "section"}
+    )
+
+
+def _number(row: Mapping[str, str]) -> str:
+    """Return the university's number of the student in a line, or an empty string."""
+    told = {heading.strip().casefold(): text.strip() for heading, text in row.items()}
+    for heading in COLUMNS["id"]:
+        if told.get(heading):
+            return told[heading]
+    if of_canvas(row):
+        return ""
+    # GitHub Classroom's identifier is often a name, and Moodle's is its own number.
+    identifier = told.get("identifier", "")
+    if not re.search(r"\d", identifier) or PARTICIPANT.fullmatch(identifier):
+        identifier = ""
+    return told.get("id", "") or identifier
 
 
 def forms(name: str) -> set[str]:

@@ -536,6 +536,32 @@ def test_canvas_gets_its_columns_and_the_points_possible(tmp_path, quick):
     ]
 
 
+@pytest.mark.parametrize(
+    ("text", "number", "said"),
+    [
+        ("name,id\nada,1001\n", "1001", "finds the students by SIS User ID"),
+        ("Full name,ID number\nada,1001\n", "1001", "by SIS User ID"),
+        ("name,identifier\nada,1001\n", "1001", "by SIS User ID"),
+        ("identifier,github_username\nada,ada\n", "", "no number of some students"),
+        ("Identifier,Full name\nParticipant 17,ada\n", "", "no number of some"),
+        (None, "", "no number of some"),
+        ("Student,ID,Section\nada,17,A\n", "", ""),
+        ("Student,ID,SIS User ID\nada,17,s1\n", "s1", ""),
+    ],
+)
+def test_canvas_gets_the_students_number_without_its_own_roster(
+    tmp_path, quick, text, number, said
+):
+    book_of(tmp_path, ["ada"], text)
+    done = invoke("export", tmp_path / "out", tmp_path / "c.csv", "--format", "canvas")
+    line = rows((tmp_path / "c.csv").read_text())[2]
+    assert line[:3] == ["ada", "" if said else "17", number]
+    assert line[5] == "8"
+    assert done.exit_code == 0
+    assert said in done.stderr
+    assert done.stderr.count("\n") == bool(said)
+
+
 def test_gradescope_gets_names_numbers_and_exercises(tmp_path, quick):
     text = "First Name,Last Name,SID,Email\nAda,Lovelace,s1,a@u.edu\n"
     book = book_of(tmp_path, ["s1"], text)
