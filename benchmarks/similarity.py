@@ -7,7 +7,8 @@ translations of six of them between loops and arrays. A class has twelve student
 to every exercise, drawn so that no two students share one: six who like arrays and six who like loops, in all
 exercises, which makes honest students more alike than chance would. Then two of them throw their answers away, copy
 those of another and disguise them, all of them or half. Each class is drawn anew. Every pair but that of a copy and
-its original is honest. The answers to the exercises in HELD_OUT were written after the method was fixed.
+its original is honest. The answers to the exercises in HELD_OUT were written after the method was fixed. In
+other classes a ring of three to nine students hand in the same answers to all ten exercises.
 """
 
 from __future__ import annotations
@@ -40,6 +41,7 @@ EXERCISES = {
     "3.5": "effective",
 }
 HELD_OUT = ("2.7", "3.1", "3.2", "3.5")
+RINGS = (3, 4, 6, 9)
 DISGUISES = ("recommented", "renamed", "reordered", "translated")
 Functions = dict[str, dict[int, ast.Module]]
 
@@ -205,6 +207,25 @@ def classes(
         yield pairs(answers, others), copies
 
 
+def ringed(
+    number: int, size: int, disguises: Sequence[str] = DISGUISES[:3]
+) -> Iterator[tuple[list[Pair], set[str]]]:
+    """Yield the compared pairs of random classes, and the ring in it. Without disguises its answers are equal."""
+    honest, others = functions("honest"), known()
+    for seed in range(number):
+        rng = random.Random(seed)
+        order = {id: _by_taste(honest[id], rng) for id in EXERCISES}
+        ring = rng.sample(range(12), size)
+        answers: dict[str, dict[str, Fingerprint]] = {}
+        for n in range(12):
+            how = rng.choice(disguises) if n in ring and disguises else ""
+            for id in EXERCISES:
+                tree = honest[id][order[id][ring[0] if n in ring else n]]
+                one = disguised(tree, how, rng) if how else fingerprint(tree, _main(tree))  # fmt: skip
+                answers.setdefault(f"student {n:02}", {})[id] = one
+        yield pairs(answers, others), {f"student {n:02}" for n in ring}
+
+
 def _by_taste(found: dict[int, ast.Module], rng: random.Random) -> list[int]:
     """Return the numbers of the answers, those with fewer loops first, and in each half at random."""
     loops = {
@@ -238,6 +259,22 @@ def measured(
     }
 
 
+def ring_measured(number: int, size: int) -> dict[str, Any]:
+    """Return the shares of a ring's pairs and of honest pairs that are reported."""
+    found, total = Counter[str](), Counter[str]()
+    for compared, ring in ringed(number, size):
+        for pair in compared:
+            kind = "ring" if {pair.first, pair.second} <= ring else "honest"
+            total[kind] += 1
+            found[kind] += pair.reported
+    return {
+        "ring": size,
+        "classes": number,
+        "reported": {k: round(found[k] / total[k], 4) for k in sorted(total)},
+        "pairs": dict(sorted(total.items())),
+    }
+
+
 def main() -> None:
     """Measure, print and write."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -252,6 +289,7 @@ def main() -> None:
         "all copied": [measured(number, k) for k in (1, 2, 3, 4, 6, 8, 10)],
         "half copied": measured(number, 10, copied=5),
         "held out": measured(number, len(HELD_OUT), HELD_OUT),
+        "rings": [ring_measured(max(1, number // 4), size) for size in RINGS],
     }
     options.out.write_text(json.dumps(result, indent=1) + "\n", "utf-8")
     print(json.dumps(result, indent=1))

@@ -293,8 +293,17 @@ def _marked(
     comparison: Comparison, pair: Pair, id: str
 ) -> tuple[list[tuple[str, bool]], list[tuple[str, bool]]]:
     """Return the lines of both answers, and whether the other has the same statement and few in the class do."""
+    both_names = {pair.first, pair.second}
+    pairs_of_both = [
+        {one.first, one.second}
+        for one in comparison.pairs
+        if both_names & {one.first, one.second}
+    ]
+    ring = set().union(*pairs_of_both) - both_names  # others who copied the same
     every = [
-        own[id].print.structure for own in comparison.answers.values() if id in own
+        own[id].print.structure
+        for name, own in comparison.answers.items()
+        if id in own and name not in ring
     ]
     holders = Counter(feature for one in every for feature in one)
     few = max(2, len(every) // 5)

@@ -5,6 +5,9 @@ much, because honest students are not alike in all of them. For each exercise al
 many answers share, because the stub or the exercise forces it, weighs little; what few share weighs much. A pair's
 rank among all pairs of the class says how likely so much likeness is by chance, and Fisher's method combines these
 probabilities over the exercises that both answered.
+
+A group of three or more who copied from one another would make its own likeness common. Such a ring therefore counts as
+one student: in how many of the class have something, and in the pairs that a pair is ranked among.
 """
 
 from __future__ import annotations
@@ -21,6 +24,9 @@ from .fingerprints import MOST_TIMES, Feature, Fingerprint
 VIEWS = ("structure", "flow")
 THRESHOLD = 2.0  # of a pair's score, from which it is reported
 FEWEST = 3  # exercises that both answered, below which a pair is not reported
+NEARLY_EQUAL = 0.8  # from which structure or flow of two answers are nearly equal
+MOST_BY_CHANCE = 4  # exercises in which two honest students may be nearly equal
+SMALLEST_RING = 3  # students
 
 
 @dataclass(frozen=True)
@@ -32,7 +38,7 @@ class Likeness:
     structure, flow : float
         The share of what they have in common, from 0 to 1, weighted by how rare it is in the class.
     chances : tuple of float
-        The share of the class's pairs that are as alike, in each of the two.
+        The share of the class's pairs that are as alike, in each of the two. A ring counts as one student.
     """
 
     structure: float
@@ -91,17 +97,49 @@ def pairs(
     >>> [pair.first for pair in pairs({"ada": {"2.1": one}, "bo": {"2.1": one}})]
     ['ada']
     """
-    found: dict[tuple[str, str], dict[str, Likeness]] = {}
-    exercises = sorted({id for own in answers.values() for id in own})
-    for id in exercises:
-        own = {name: prints[id] for name, prints in answers.items() if id in prints}
-        for names, likeness in _likenesses(own, (known or {}).get(id, ())):
-            found.setdefault(names, {})[id] = likeness
+    found = _compared(answers, known or {}, {})
+    if rings := _rings(found):
+        found = _compared(answers, known or {}, rings)
     scored = [
         Pair(first, second, _score(list(likenesses.values())), likenesses)
         for (first, second), likenesses in found.items()
     ]
     return sorted(scored, key=lambda pair: (-pair.score, pair.first, pair.second))
+
+
+def _compared(
+    answers: Mapping[str, Mapping[str, Fingerprint]],
+    known: Mapping[str, Sequence[Fingerprint]],
+    rings: Mapping[str, str],
+) -> dict[tuple[str, str], dict[str, Likeness]]:
+    """Return how alike each two students are in each exercise."""
+    found: dict[tuple[str, str], dict[str, Likeness]] = {}
+    for id in sorted({id for own in answers.values() for id in own}):
+        own = {name: prints[id] for name, prints in answers.items() if id in prints}
+        for names, likeness in _likenesses(own, known.get(id, ()), rings):
+            found.setdefault(names, {})[id] = likeness
+    return found
+
+
+def _rings(
+    found: Mapping[tuple[str, str], Mapping[str, Likeness]],
+) -> dict[str, str]:
+    """Return a name of the ring of each student who is in one.
+
+    Two belong together if their answers are nearly equal in more exercises than chance explains, and in at least half
+    of those that both answered.
+    """
+    rings: dict[str, set[str]] = {}
+    for (first, second), likenesses in found.items():
+        equal = sum(
+            max(one.structure, one.flow) >= NEARLY_EQUAL for one in likenesses.values()
+        )
+        if equal > MOST_BY_CHANCE and 2 * equal >= len(likenesses):
+            both = rings.get(first, {first}) | rings.get(second, {second})
+            rings.update(dict.fromkeys(both, both))
+    return {
+        name: min(ring) for name, ring in rings.items() if len(ring) >= SMALLEST_RING
+    }
 
 
 def _score(likenesses: Sequence[Likeness]) -> float:
@@ -122,27 +160,36 @@ def _fisher(evidence: float, number: int) -> float:
 
 
 def _likenesses(
-    own: Mapping[str, Fingerprint], known: Sequence[Fingerprint]
+    own: Mapping[str, Fingerprint],
+    known: Sequence[Fingerprint],
+    rings: Mapping[str, str],
 ) -> Iterator[tuple[tuple[str, str], Likeness]]:
     """Yield how alike each two answers to one exercise are."""
+    names = list(own)
     everything = [*own.values(), *known]
     first, second = np.triu_indices(len(everything), 1)
+    leaders = [rings.get(name, name) for name in names]
+    groups = [leaders.index(leader) for leader in leaders]  # by their first members
+    groups += range(len(names), len(everything))
+    leads = np.equal(groups, np.arange(len(everything)))
+    # A pair is ranked among the pairs of different groups, and itself.
+    ranked = leads[first] & leads[second]
+    number = ranked.sum() + ~ranked
     alike, chances = [], []
     for view in VIEWS:
-        table = _shared([getattr(one, view) for one in everything])
+        table = _shared([getattr(one, view) for one in everything], groups)
         shared = table[first, second]
-        below = np.searchsorted(np.sort(shared), shared - 1e-9)
+        below = np.searchsorted(np.sort(shared[ranked]), shared - 1e-9)
         alike.append(shared.tolist())
-        chances.append((1 - below / max(len(shared), 1)).tolist())
-    names = list(own)
+        chances.append((1 - below / number).tolist())
     for k, (a, b) in enumerate(zip(first.tolist(), second.tolist(), strict=True)):
         if b < len(names):
             both = (chances[0][k], chances[1][k])
             yield (names[a], names[b]), Likeness(alike[0][k], alike[1][k], both)
 
 
-def _shared(counts: Sequence[Counter[Feature]]) -> np.ndarray:
-    """Return, for each two, the share of what they have in common, in which rare features weigh more."""
+def _shared(counts: Sequence[Counter[Feature]], groups: Sequence[int]) -> np.ndarray:
+    """Return, for each two, the share of what they have in common, in which features of few groups weigh more."""
     columns: dict[Feature, int] = {}
     for one in counts:
         for feature in one:
@@ -151,8 +198,9 @@ def _shared(counts: Sequence[Counter[Feature]]) -> np.ndarray:
     for row, one in enumerate(counts):
         for feature, number in one.items():
             table[row, columns[feature]] = number
-    holders = (table > 0).sum(axis=0)
-    rare = np.log((len(counts) + 1) / np.maximum(holders, 1))
+    apart = sorted(set(groups))
+    holders = sum((table[np.equal(groups, one)] > 0).any(axis=0) for one in apart)
+    rare = np.log((len(apart) + 1) / np.maximum(holders, 1))
     common = sum(
         ((table >= times) * rare) @ (table >= times).T
         for times in range(1, MOST_TIMES + 1)

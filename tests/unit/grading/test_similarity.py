@@ -53,6 +53,26 @@ def test_copies_are_found_and_honest_pairs_are_not():
     assert all(found[how] >= 0.95 for how in BENCHMARK.DISGUISES)
 
 
+@pytest.mark.parametrize("disguises", [BENCHMARK.DISGUISES[:3], ()])
+@pytest.mark.parametrize("size", [3, 4, 6, 11])
+def test_a_ring_does_not_hide_itself(size, disguises):
+    for found, ring in BENCHMARK.ringed(2, size, disguises):
+        reported = [{pair.first, pair.second} for pair in found if pair.reported]
+        assert len(reported) == size * (size - 1) // 2
+        assert all(names <= ring for names in reported)
+
+
+def test_equal_answers_to_few_exercises_make_no_ring():
+    easy = one("def f(a):\n    return a.max(axis=1) + 5")
+    class_of = {
+        f"student {n}": dict.fromkeys(("2.1", "2.2", "2.3", "2.4"), easy)
+        if n < 6
+        else {id: one(f"def f(a):\n    return a ** {n + 7}") for id in ("2.1", "2.2", "2.3", "2.4")}
+        for n in range(12)
+    }  # fmt: skip
+    assert not any(pair.reported for pair in pairs(class_of))
+
+
 def test_the_page_says_what_was_measured():
     result = json.loads((COURSE.root / "benchmarks/similarity.json").read_text("utf-8"))
     assert (result["threshold"], result["fewest"]) == (THRESHOLD, FEWEST)
@@ -70,6 +90,14 @@ def test_the_page_says_what_was_measured():
         if row["copied"] >= 6:
             assert min(easy, share["translated"]) >= 95
     assert f"{result['classes']} classes" in page
+    for row in result["rings"]:
+        share = {kind: 100 * value for kind, value in row["reported"].items()}
+        assert (
+            f"| {row['ring']} | {share['ring']:.1f} % | "
+            f"{share['honest']:.2f} % of {row['pairs']['honest']:,} |"
+        ) in page
+        assert share["honest"] <= 1
+        assert share["ring"] >= 95
 
 
 def one(text, name="f"):
@@ -139,6 +167,17 @@ def test_a_class_is_compared_and_shown_side_by_side(tmp_path):
     assert "thief<b>" not in page
     assert "<mark>" in page
     assert page.count("<details>") == 1
+
+
+def test_the_lines_of_a_ring_are_marked(tmp_path):
+    folder = handed_over(tmp_path / "class")
+    for number in range(4):
+        copied(folder, f"thief{number}")
+    found = copies.compare_class(COURSE, folder)
+    assert len(found.pairs) == 10
+    copies.write_comparison(found, COURSE, tmp_path / "s.html")
+    for pair in (tmp_path / "s.html").read_text().split("<details>")[1:]:
+        assert "<mark>" in pair
 
 
 def test_few_exercises_tell_nothing(tmp_path):
