@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from xml.etree import ElementTree
 
 from . import qti12, qti21
+from .elements import Element, child
 from .items import Item, items
 from .selection import Drawn
 
-Element = ElementTree.Element
 PLATFORMS = ("canvas", "blackboard")
 FOLDER = "questions"
 START_OF_ZIP = (1980, 1, 1, 0, 0, 0)  # the same questions make the same file
@@ -80,14 +80,14 @@ def _manifest(
 ) -> Element:
     """What is in the package, and which file needs which."""
     manifest = ElementTree.Element("manifest", xmlns=NAMESPACE, identifier="manifest")
-    metadata = ElementTree.SubElement(manifest, "metadata")
+    metadata = child(manifest, "metadata")
     schema, version = (
         ("IMS Content", "1.1.3") if platform == "canvas" else ("QTIv2.1", "2.0")
     )
-    ElementTree.SubElement(metadata, "schema").text = schema
-    ElementTree.SubElement(metadata, "schemaversion").text = version
-    ElementTree.SubElement(manifest, "organizations")
-    resources = ElementTree.SubElement(manifest, "resources")
+    child(metadata, "schema", schema)
+    child(metadata, "schemaversion", version)
+    child(manifest, "organizations")
+    resources = child(manifest, "resources")
     pictures = [item for item in made.values() if item.picture]
     for name in documents:
         stem = name.removesuffix(".xml")
@@ -107,12 +107,10 @@ def _resource(
     resources: Element, ident: str, file: str, kind: str, needed: Sequence[str]
 ) -> None:
     path = f"{FOLDER}/{file}"
-    resource = ElementTree.SubElement(
-        resources, "resource", identifier=ident, type=kind, href=path
-    )
-    ElementTree.SubElement(resource, "file", href=path)
+    resource = child(resources, "resource", identifier=ident, type=kind, href=path)
+    child(resource, "file", href=path)
     for other in needed:
-        ElementTree.SubElement(resource, "dependency", identifierref=other)
+        child(resource, "dependency", identifierref=other)
 
 
 def _xml(root: Element) -> bytes:

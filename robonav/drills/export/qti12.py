@@ -12,9 +12,9 @@ from xml.etree import ElementTree
 from ..markup import html
 from ..question import Number, Order
 from .answers import Option, number_text
+from .elements import Element, child
 from .items import Item
 
-Element = ElementTree.Element
 NAMESPACE = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
 RESPONSE = "response1"
 ANY = ""  # a condition that every answer meets
@@ -42,38 +42,32 @@ def assessment(items: Sequence[Item], title: str) -> Element:
     ['td-error-1']
     """
     root = ElementTree.Element("questestinterop", xmlns=NAMESPACE)
-    test = _child(root, "assessment", ident="assessment", title=title)
-    section = _child(test, "section", ident="root_section")
+    test = child(root, "assessment", ident="assessment", title=title)
+    section = child(test, "section", ident="root_section")
     section.extend(_item(item) for item in items)
     return root
 
 
-def _child(node: Element, tag: str, text: str = "", **attributes: str) -> Element:
-    child = ElementTree.SubElement(node, tag, attributes)
-    child.text = text or None
-    return child
-
-
 def _html(node: Element, text: str) -> None:
-    _child(_child(node, "material"), "mattext", text, texttype="text/html")
+    child(child(node, "material"), "mattext", text, texttype="text/html")
 
 
 def _item(item: Item) -> Element:
     node = ElementTree.Element("item", ident=item.name, title=item.title)
     kind, write = _kind(item)
-    fields = _child(_child(node, "itemmetadata"), "qtimetadata")
+    fields = child(child(node, "itemmetadata"), "qtimetadata")
     for label, entry in (
         ("question_type", kind),
         ("points_possible", str(item.points)),
     ):
-        field = _child(fields, "qtimetadatafield")
-        _child(field, "fieldlabel", label)
-        _child(field, "fieldentry", entry)
-    presentation = _child(node, "presentation")
+        field = child(fields, "qtimetadatafield")
+        child(field, "fieldlabel", label)
+        child(field, "fieldentry", entry)
+    presentation = child(node, "presentation")
     _html(presentation, item.text)
-    processing = _child(node, "resprocessing")
-    outcomes = _child(processing, "outcomes")
-    _child(
+    processing = child(node, "resprocessing")
+    outcomes = child(processing, "outcomes")
+    child(
         outcomes,
         "decvar",
         maxvalue="100",
@@ -88,7 +82,7 @@ def _item(item: Item) -> Element:
         _condition(processing, shows="general_incorrect_fb")
         feedback["general_incorrect_fb"] = item.mistakes
     for name, text in feedback.items():
-        _html(_child(_child(node, "itemfeedback", ident=name), "flow_mat"), text)
+        _html(child(child(node, "itemfeedback", ident=name), "flow_mat"), text)
     return node
 
 
@@ -111,16 +105,16 @@ def _condition(
 ) -> Element:
     """A condition on the answer, and what happens if it holds."""
     last = bool(score) and not adds
-    condition = _child(
+    condition = child(
         processing, "respcondition", **{"continue": "No" if last else "Yes"}
     )
-    variable = _child(condition, "conditionvar")
+    variable = child(condition, "conditionvar")
     if ident:
-        _child(variable, "varequal", answer, respident=ident)
+        child(variable, "varequal", answer, respident=ident)
     elif not score:
-        _child(variable, "other")
+        child(variable, "other")
     if score:
-        _child(
+        child(
             condition,
             "setvar",
             score,
@@ -128,31 +122,31 @@ def _condition(
             varname="SCORE",
         )
     if shows:
-        _child(condition, "displayfeedback", feedbacktype="Response", linkrefid=shows)
+        child(condition, "displayfeedback", feedbacktype="Response", linkrefid=shows)
     return variable
 
 
 def _number(item: Item, presentation: Element, processing: Element) -> dict[str, str]:
     asked = item.asked
     assert isinstance(asked, Number)
-    response = _child(
+    response = child(
         presentation, "response_str", ident=RESPONSE, rcardinality="Single"
     )
-    field = _child(response, "render_fib", fibtype="Decimal")
-    _child(field, "response_label", ident="answer1")
-    either = _child(_condition(processing, score="100"), "or")
-    _child(either, "varequal", number_text(asked.answer), respident=RESPONSE)
-    within = _child(either, "and")
+    field = child(response, "render_fib", fibtype="Decimal")
+    child(field, "response_label", ident="answer1")
+    either = child(_condition(processing, score="100"), "or")
+    child(either, "varequal", number_text(asked.answer), respident=RESPONSE)
+    within = child(either, "and")
     low, high = asked.answer - asked.tolerance, asked.answer + asked.tolerance
-    _child(within, "vargte", number_text(low), respident=RESPONSE)
-    _child(within, "varlte", number_text(high), respident=RESPONSE)
+    child(within, "vargte", number_text(low), respident=RESPONSE)
+    child(within, "varlte", number_text(high), respident=RESPONSE)
     return {}
 
 
 def _labels(response: Element, texts: Sequence[str]) -> None:
-    choices = _child(response, "render_choice")
+    choices = child(response, "render_choice")
     for number, text in enumerate(texts, start=1):
-        _html(_child(choices, "response_label", ident=_ident(number)), html(text))
+        _html(child(choices, "response_label", ident=_ident(number)), html(text))
 
 
 def _ident(number: int) -> str:
@@ -162,7 +156,7 @@ def _ident(number: int) -> str:
 def _choice(item: Item, presentation: Element, processing: Element) -> dict[str, str]:
     asked = item.asked
     assert isinstance(asked, list)
-    response = _child(
+    response = child(
         presentation, "response_lid", ident=RESPONSE, rcardinality="Single"
     )
     _labels(response, [option.text for option in asked])
@@ -187,7 +181,7 @@ def _order(item: Item, presentation: Element, processing: Element) -> dict[str, 
     shown = sorted(asked.steps)
     for place, step in enumerate(asked.steps, start=1):
         ident = f"response_{place}"
-        response = _child(presentation, "response_lid", ident=ident)
+        response = child(presentation, "response_lid", ident=ident)
         _html(response, f"Step {place}")
         _labels(response, shown)
         right = _ident(shown.index(step) + 1)

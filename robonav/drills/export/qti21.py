@@ -8,9 +8,9 @@ from xml.etree import ElementTree
 from ..markup import html
 from ..question import Number, Order
 from .answers import Option, number_text
+from .elements import Element, child
 from .items import Item
 
-Element = ElementTree.Element
 NAMESPACE = "http://www.imsglobal.org/xsd/imsqti_v2p1"
 RESPONSE = "RESPONSE"
 
@@ -36,19 +36,19 @@ def assessment_test(files: Sequence[str], title: str) -> Element:
     root = ElementTree.Element(
         "assessmentTest", xmlns=NAMESPACE, identifier="test", title=title
     )
-    part = _child(
+    part = child(
         root,
         "testPart",
         identifier="part",
         navigationMode="nonlinear",
         submissionMode="simultaneous",
     )
-    section = _child(
+    section = child(
         part, "assessmentSection", identifier="section", title=title, visible="true"
     )
     for file in files:
         name = file.removesuffix(".xml")
-        _child(section, "assessmentItemRef", identifier=name, href=file)
+        child(section, "assessmentItemRef", identifier=name, href=file)
     return root
 
 
@@ -96,12 +96,6 @@ def assessment_item(item: Item) -> Element:
     return root
 
 
-def _child(node: Element, tag: str, text: str = "", **attributes: str) -> Element:
-    child = ElementTree.SubElement(node, tag, attributes)
-    child.text = text or None
-    return child
-
-
 def _html(node: Element, tag: str, text: str) -> None:
     """Add an element with HTML in it."""
     node.append(ElementTree.fromstring(f"<{tag}>{text}</{tag}>"))
@@ -114,27 +108,27 @@ def _ident(place: int) -> str:
 def _declarations(
     root: Element, item: Item, kind: str, cardinality: str, correct: Sequence[str]
 ) -> None:
-    response = _child(
+    response = child(
         root,
         "responseDeclaration",
         identifier=RESPONSE,
         cardinality=cardinality,
         baseType=kind,
     )
-    right = _child(response, "correctResponse")
+    right = child(response, "correctResponse")
     for value in correct if cardinality == "ordered" else correct[:1]:
-        _child(right, "value", value)
+        child(right, "value", value)
     for name, default in (("SCORE", "0"), ("MAXSCORE", str(item.points))):
-        outcome = _child(
+        outcome = child(
             root,
             "outcomeDeclaration",
             identifier=name,
             cardinality="single",
             baseType="float",
         )
-        _child(_child(outcome, "defaultValue"), "value", default)
+        child(child(outcome, "defaultValue"), "value", default)
     for name in ("FEEDBACKBASIC", "FEEDBACK"):
-        _child(
+        child(
             root,
             "outcomeDeclaration",
             identifier=name,
@@ -144,21 +138,21 @@ def _declarations(
 
 
 def _body(root: Element, item: Item) -> None:
-    body, asked = _child(root, "itemBody"), item.asked
+    body, asked = child(root, "itemBody"), item.asked
     _html(body, "div", item.text)
     if isinstance(asked, Number):
-        paragraph = _child(body, "p")
-        _child(paragraph, "textEntryInteraction", responseIdentifier=RESPONSE)
+        paragraph = child(body, "p")
+        child(paragraph, "textEntryInteraction", responseIdentifier=RESPONSE)
         return
     if isinstance(asked, Order):
         kind, texts = "orderInteraction", sorted(asked.steps)
     else:
         kind, texts = "choiceInteraction", [option.text for option in asked]
-    choices = _child(body, kind, responseIdentifier=RESPONSE, shuffle="true")
+    choices = child(body, kind, responseIdentifier=RESPONSE, shuffle="true")
     if kind == "choiceInteraction":
         choices.set("maxChoices", "1")
     for place, text in enumerate(texts):
-        choice = _child(choices, "simpleChoice", identifier=_ident(place))
+        choice = child(choices, "simpleChoice", identifier=_ident(place))
         _html(choice, "p", html(text))
 
 
@@ -169,40 +163,40 @@ def _condition(asked: Number | list[Option] | Order, correct: Sequence[str]) -> 
         equal = ElementTree.Element(
             "equal", toleranceMode="absolute", tolerance=f"{tolerance} {tolerance}"
         )
-        _child(equal, "variable", identifier=RESPONSE)
-        _child(equal, "correct", identifier=RESPONSE)
+        child(equal, "variable", identifier=RESPONSE)
+        child(equal, "correct", identifier=RESPONSE)
         return equal
     if isinstance(asked, Order) or len(correct) == 1:
         match = ElementTree.Element("match")
-        _child(match, "variable", identifier=RESPONSE)
-        _child(match, "correct", identifier=RESPONSE)
+        child(match, "variable", identifier=RESPONSE)
+        child(match, "correct", identifier=RESPONSE)
         return match
     either = ElementTree.Element("or")
     for value in correct:
-        match = _child(either, "match")
-        _child(match, "variable", identifier=RESPONSE)
-        _child(match, "baseValue", value, baseType="identifier")
+        match = child(either, "match")
+        child(match, "variable", identifier=RESPONSE)
+        child(match, "baseValue", value, baseType="identifier")
     return either
 
 
 def _processing(
     root: Element, asked: Number | list[Option] | Order, correct: Sequence[str]
 ) -> None:
-    processing = _child(root, "responseProcessing")
-    condition = _child(processing, "responseCondition")
-    right = _child(condition, "responseIf")
+    processing = child(root, "responseProcessing")
+    condition = child(processing, "responseCondition")
+    right = child(condition, "responseIf")
     right.append(_condition(asked, correct))
-    score = _child(right, "setOutcomeValue", identifier="SCORE")
-    _child(score, "variable", identifier="MAXSCORE")
+    score = child(right, "setOutcomeValue", identifier="SCORE")
+    child(score, "variable", identifier="MAXSCORE")
     for node, value in (
         (right, "correct"),
-        (_child(condition, "responseElse"), "incorrect"),
+        (child(condition, "responseElse"), "incorrect"),
     ):
-        outcome = _child(node, "setOutcomeValue", identifier="FEEDBACKBASIC")
-        _child(outcome, "baseValue", value, baseType="identifier")
+        outcome = child(node, "setOutcomeValue", identifier="FEEDBACKBASIC")
+        child(outcome, "baseValue", value, baseType="identifier")
     if isinstance(asked, list):
-        outcome = _child(processing, "setOutcomeValue", identifier="FEEDBACK")
-        _child(outcome, "variable", identifier=RESPONSE)
+        outcome = child(processing, "setOutcomeValue", identifier="FEEDBACK")
+        child(outcome, "variable", identifier=RESPONSE)
 
 
 def _feedback(root: Element, item: Item) -> None:
@@ -218,7 +212,7 @@ def _feedback(root: Element, item: Item) -> None:
             if option.hint
         ]
     for outcome, ident, text in texts:
-        feedback = _child(
+        feedback = child(
             root,
             "modalFeedback",
             outcomeIdentifier=outcome,
