@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from robonav import networks, robot
+from robonav.benchmark import success_interval
 from robonav.lfd.demonstrations import LEARNED
 
 from ..pictures import CELL, box, label, picture, place
@@ -171,8 +172,6 @@ def chosen_regularisation(rng: Rng) -> Question:
 @drill("policy-learning", "Is a success rate possible?")
 def rate_in_interval(rng: Rng) -> Question:
     """Decide by Wilson's condition whether a true rate is in the interval of a test."""
-    from scipy.stats import binomtest
-
     n = int(rng.choice([50, 100, 200, 400]))
     k = round(n * rng.uniform(0.75, 0.97))
     away = (
@@ -182,7 +181,7 @@ def rate_in_interval(rng: Rng) -> Question:
         * math.sqrt(k / n * (1 - k / n) / n)
     )
     p = min(round(float(k / n + away), 3), 0.99)
-    low, high = binomtest(k, n).proportion_ci(method="wilson")
+    low, high = success_interval(k, n)
     inside = float(low <= p <= high)
     gap = abs(k / n - p)
     error = math.sqrt(p * (1 - p) / n)
@@ -229,10 +228,8 @@ def rate_in_interval(rng: Rng) -> Question:
 @drill("policy-learning", "A test without a failure")
 def perfect_test(rng: Rng) -> Question:
     """Compute where Wilson's interval begins after a test in which every episode arrived."""
-    from scipy.stats import binomtest
-
     n = int(rng.integers(8, 300))
-    low = float(binomtest(n, n).proportion_ci(method="wilson").low)
+    low, _ = success_interval(n, n)
     return Question(
         f"A policy arrives in all of ${n}$ new maps. Where does Wilson's 95 % interval of its success rate begin? Give "
         "a fraction with three decimals.",
