@@ -16,7 +16,7 @@ from robonav.networks.training_history import Iterate, TrainingHistory
 from robonav.validation import check_integer, check_one_of, check_real
 
 from .kernel_training import KernelTraining, Report
-from .shared import front_end, packed, packed_network, style_sheet
+from .shared import front_end, menus, packed, packed_network, style_sheet
 
 Examples = tuple[NDArray[np.float64], NDArray[np.float64]]
 
@@ -147,16 +147,7 @@ def boundary_lab(
             raise ValueError(f"runs must hold a training for {combination}")
     return BoundaryLab(
         {
-            "controls": [
-                {
-                    "label": label,
-                    "options": list(options),
-                    "value": list(options).index(choice),
-                }
-                for (label, options), choice in zip(
-                    controls.items(), first, strict=True
-                )
-            ],
+            "controls": menus(controls, first),
             "runs": [
                 _run(combination, runs[combination], frames)
                 for combination in combinations

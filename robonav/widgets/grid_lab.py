@@ -20,7 +20,7 @@ from robonav.validation import check_array, check_integer, check_one_of
 
 from .grid import page_grid
 from .kernel_training import KernelTraining, Report
-from .shared import front_end, packed, spread_out, style_sheet
+from .shared import front_end, menus, packed, spread_out, style_sheet
 
 FRAMES = 25
 """Approximate number of frames that show a training on the reader's map."""
@@ -294,10 +294,7 @@ def grid_lab(
     return GridLab(
         {
             "grids": [page_grid(grid) for grid in grids.values()],
-            "controls": [
-                {"label": label, "options": options, "value": options.index(choice)}
-                for (label, options), choice in zip(offered.items(), first, strict=True)
-            ],
+            "controls": menus(offered, first),
             "runs": [_run(runs[combination]) for combination in combinations],
             "solves": solve is not None,
             "learners": list(learners or {}),

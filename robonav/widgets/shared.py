@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +52,22 @@ def packed_network(network: Network, dtype: DTypeLike = np.float64) -> dict[str,
         "weights": [packed(weight, dtype) for weight in network.weights],
         "biases": [packed(bias, dtype) for bias in network.biases],
     }
+
+
+def menus(
+    controls: Mapping[str, Sequence[str]], chosen: Sequence[str]
+) -> list[dict[str, Any]]:
+    """Return the menus of a lab for its page: the label and options of each, and the number of the chosen option.
+
+    Examples
+    --------
+    >>> menus({"problem": ["disc", "xor"]}, ["xor"])
+    [{'label': 'problem', 'options': ['disc', 'xor'], 'value': 1}]
+    """
+    return [
+        {"label": label, "options": list(options), "value": list(options).index(choice)}
+        for (label, options), choice in zip(controls.items(), chosen, strict=True)
+    ]
 
 
 def spread_out(last: int, count: int) -> Sequence[int]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from robonav.validation import check_array
 
 from .kernel_training import KernelTraining, Report
-from .shared import front_end, packed, style_sheet
+from .shared import front_end, menus, packed, style_sheet
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,16 +104,7 @@ def training_lab(
             )
     return TrainingLab(
         {
-            "controls": [
-                {
-                    "label": label,
-                    "options": list(options),
-                    "value": list(options).index(choice),
-                }
-                for (label, options), choice in zip(
-                    controls.items(), first, strict=True
-                )
-            ],
+            "controls": menus(controls, first),
             "step": step,
             "measures": [
                 {"name": name, "label": label} for name, label in measures.items()
