@@ -97,8 +97,7 @@ def main() -> None:
                 f"  {point['size']:>9,.0f}: {point['seconds'] * 1000:10,.1f} ms {point['MiB']:8.1f} MiB"
             )
     if path is not None:
-        with atomic.atomic_write(path) as file:
-            file.write((json.dumps(found, indent=1) + "\n").encode())
+        atomic.write_text(path, json.dumps(found, indent=1) + "\n")
 
 
 if __name__ == "__main__":

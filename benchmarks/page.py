@@ -176,8 +176,7 @@ def main() -> None:
             draw_growth(json.loads(path.read_text("utf-8")))
         parts.append(GROWTH.format(text=text))
         shown(len(SCRIPTS) + 1, len(SCRIPTS) + 1)
-    with atomic.atomic_write(BOOK / "benchmarks.md") as file:
-        file.write("\n".join(parts).encode())
+    atomic.write_text(BOOK / "benchmarks.md", "\n".join(parts))
 
 
 if __name__ == "__main__":

@@ -50,6 +50,20 @@ def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
         raise
 
 
+def write_text(path: str | Path, text: str) -> None:
+    """Write a text file in UTF-8, whole or not at all, with the line ends that the text has.
+
+    Examples
+    --------
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> write_text(folder / "note.txt", "Größe\\n")
+    >>> (folder / "note.txt").read_bytes()
+    b'Gr\\xc3\\xb6\\xc3\\x9fe\\n'
+    """
+    with atomic_write(path) as file:
+        file.write(text.encode())
+
+
 def _permissions(target: Path) -> int:
     """Return the permissions of a file that exists, or those that a new file gets."""
     if target.exists():

@@ -613,8 +613,7 @@ def _write_json(path: Path, content: Any) -> None:
     if path == STANDARD_OUTPUT:
         sys.stdout.write(text)
         return
-    with atomic.atomic_write(path) as file:
-        file.write(text.encode())
+    atomic.write_text(path, text)
 
 
 def _print_beside(json_file: Path | None, text: str) -> None:

@@ -16,7 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from robonav.atomic import atomic_write
+from robonav.atomic import atomic_write, write_text
 
 from .check import InProcessCalls, graded
 from .course import Course, Exercise
@@ -103,8 +103,7 @@ def build(course: Course) -> list[str]:
     changed = outdated(course)
     for name in changed:
         if name in files:
-            with atomic_write(course.root / name) as file:
-                file.write(files[name].encode())
+            write_text(course.root / name, files[name])
         else:
             (course.root / name).unlink()
     return changed

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from dataclasses import dataclass, field
 
+from robonav.atomic import write_text
+
 from .gradebook import Gradebook
-from .report import csv_text, page, write
+from .report import csv_text, page
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +111,6 @@ def write_statistics(book: Gradebook) -> None:
         rows += [
             [id, "hint", hint, len(names), total] for hint, names in count.hints.items()
         ]
-    write(book.folder / "statistics.csv", csv_text(rows))
+    write_text(book.folder / "statistics.csv", csv_text(rows))
     text = page("statistics.html", found=found, total=total, course=book.course)
-    write(book.folder / "statistics.html", text)
+    write_text(book.folder / "statistics.html", text)

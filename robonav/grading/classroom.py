@@ -368,10 +368,8 @@ def _logged(record: dict[str, Any]) -> dict[str, Any]:
 def _tell(out: Path, submissions: dict[str, Handin]) -> None:
     """Write down whose submissions these are and when they were handed in, for the gradebook."""
     told = {name: handin.told() for name, handin in submissions.items()}
-    with atomic.atomic_write(out / HANDED_IN) as file:
-        file.write(
-            json.dumps(told, indent=1).encode()
-        )  # also of names that are no text
+    # JSON's escapes also hold names that are no text.
+    atomic.write_text(out / HANDED_IN, json.dumps(told, indent=1))
 
 
 def _digest(loaded: Submission | Refused) -> str:
@@ -407,8 +405,7 @@ def _remember(out: Path, config: GradingConfig, new_secret: bool) -> None:
             f"{out} was graded {'with another' if before else 'without a'} secret; "
             "give that one, or grade everybody again with --new-secret"
         )
-    with atomic.atomic_write(path) as file:
-        file.write(json.dumps({"secret": config.secret_hash()}).encode())
+    atomic.write_text(path, json.dumps({"secret": config.secret_hash()}))
 
 
 @contextmanager

@@ -36,7 +36,7 @@ def start(
     ] = None,
 ) -> None:
     """Put the roster and a commented file of rules into the folder of grades."""
-    from robonav.atomic import atomic_write
+    from robonav.atomic import atomic_write, write_text
 
     from .gradebook import ROSTER
     from .roster import ignored_groups, read_roster
@@ -55,8 +55,7 @@ def start(
                 f"if its groups are teams, write teams = true at the top of {graded / RULES}."
             )
     if not (graded / RULES).exists():
-        with atomic_write(graded / RULES) as file:
-            file.write(TEMPLATE.encode())
+        write_text(graded / RULES, TEMPLATE)
     print(f"deadlines, groups, extensions: {graded / RULES}")
 
 
@@ -139,11 +138,12 @@ def export(
     ] = "Exercises",
 ) -> None:
     """Write the marks as a learning platform imports them. Marks that are not settled stay empty."""
+    from robonav.atomic import write_text
+
     from . import exports
-    from .report import write
 
     book = _book(graded)
-    write(file, exports.marks_for(book, platform, title))
+    write_text(file, exports.marks_for(book, platform, title))
     print(file)
     if platform == "canvas" and (remark := exports.without_canvas_id(book)):
         print(remark, file=sys.stderr)

@@ -19,11 +19,13 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
+from robonav.atomic import write_text
+
 from . import answers, notebook
 from .classroom import students
 from .course import Course
 from .fingerprints import Feature, Fingerprint, fingerprint
-from .report import csv_text, page, write
+from .report import csv_text, page
 from .similarity import FEWEST, THRESHOLD, Pair, pairs
 from .submission import Refused
 
@@ -262,7 +264,7 @@ def write_comparison(comparison: Comparison, course: Course, path: Path) -> None
     for pair in comparison.pairs:
         alike = _by_likeness(pair)
         rows.append([pair.first, pair.second, round(pair.score, 2), len(alike), " ".join(alike[:5])])  # fmt: skip
-    write(path.with_suffix(".csv"), csv_text(rows))
+    write_text(path.with_suffix(".csv"), csv_text(rows))
     shown = [
         (pair, [(id, pair.exercises[id], *_marked(comparison, pair, id)) for id in _by_likeness(pair)])
         for pair in comparison.pairs[:MOST_SHOWN]
@@ -276,7 +278,7 @@ def write_comparison(comparison: Comparison, course: Course, path: Path) -> None
         chance=_one_in,
         csv=path.with_suffix(".csv").name,
     )
-    write(path, text)
+    write_text(path, text)
 
 
 def _one_in(score: float) -> str:

@@ -14,11 +14,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from robonav.atomic import write_text
+
 from . import ledger
 from .classroom import HANDED_IN
 from .course import Course
 from .ledger import Log
-from .report import csv_text, page, write
+from .report import csv_text, page
 from .roster import Matching, Student, forms, match, one, read_roster
 from .rules import Late, Rules, read_rules
 
@@ -309,8 +311,8 @@ def write_gradebook(book: Gradebook) -> None:
                 *(marks[id].points if id in marks else None for id in exercises),
             ]
         )
-    write(book.folder / "marks.csv", csv_text(rows))
-    write(
+    write_text(book.folder / "marks.csv", csv_text(rows))
+    write_text(
         book.folder / "marks.html",
         page("marks.html", book=book, exercises=exercises, plain=plain),
     )

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from robonav.atomic import atomic_write
+from robonav.atomic import write_text
 from robonav.style import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW
 
 from .course import Course
@@ -26,10 +26,10 @@ COLOURS = dict(
 
 def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
     """Write all files of one student. The last one is grade.json, so where it exists all others are complete."""
-    write(folder / "feedback.html", feedback(record, course))
-    write(folder / "results.json", _json(gradescope(record, course)))
-    write(folder / "junit.xml", junit(record, course))
-    write(folder / "grade.json", _json(record))
+    write_text(folder / "feedback.html", feedback(record, course))
+    write_text(folder / "results.json", _json(gradescope(record, course)))
+    write_text(folder / "junit.xml", junit(record, course))
+    write_text(folder / "grade.json", _json(record))
 
 
 def write_class(
@@ -76,7 +76,7 @@ def write_class(
         for id, entry in entries.items():
             counts[id][entry["state"]] += 1
             earned[id] += entry["points"] or 0
-    write(out / "gradebook.csv", gradebook(rows, course))
+    write_text(out / "gradebook.csv", gradebook(rows, course))
     shares = {
         id: earned[id] / (course.exercises[id].points * max(len(rows), 1))
         for id in course.exercises
@@ -86,7 +86,7 @@ def write_class(
         passed_over=[name.encode("utf-8", "replace").decode() for name in passed_over],
         folders=[f"students/{name}/feedback.html" for name in names], notes=notes, problems=problems,
     )  # fmt: skip
-    write(out / "index.html", overview)
+    write_text(out / "index.html", overview)
     return unfinished
 
 
@@ -205,9 +205,3 @@ def page(name: str, **content: Any) -> str:
 
 def _json(value: Any) -> str:
     return json.dumps(value, indent=1, ensure_ascii=False) + "\n"
-
-
-def write(path: Path, text: str) -> None:
-    """Write a text file, whole or not at all."""
-    with atomic_write(path) as file:
-        file.write(text.encode())

@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from robonav.atomic import atomic_write
+from robonav.atomic import write_text
 
 from . import sandbox_check, submission
 from .cases import generator, outcome, secret_from, seed_of
@@ -134,10 +134,8 @@ class Run:
             pytest.ExitCode.OK,
             pytest.ExitCode.TESTS_FAILED,
         ):
-            with atomic_write(session.config.getoption("grade_json")) as file:
-                file.write(
-                    json.dumps(self.grade(), indent=1, ensure_ascii=False).encode()
-                )
+            grade = json.dumps(self.grade(), indent=1, ensure_ascii=False)
+            write_text(session.config.getoption("grade_json"), grade)
 
     def grade(self) -> dict[str, Any]:
         """Return the grade of all requested exercises."""

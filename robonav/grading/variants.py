@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from robonav.atomic import atomic_write
+from robonav.atomic import write_text
 
 from .cases import stretched
 from .course import Course, Exercise
@@ -415,8 +415,7 @@ def for_each_student(
         raise ValueError(
             f"{out} was graded with other exercises; choose another folder"
         )
-    with atomic_write(path) as file:
-        file.write(key.hexdigest().encode())
+    write_text(path, key.hexdigest())
     return each
 
 
@@ -444,8 +443,7 @@ def write_values(course: Course, values: Mapping[str, Values], out: Path) -> Cou
     for folder in ("solutions", "tests"):
         shutil.rmtree(out / folder, ignore_errors=True)
     out.mkdir(parents=True, exist_ok=True)
-    with atomic_write(out / MARK) as file:
-        file.write(json.dumps(values, indent=1).encode() + b"\n")
+    write_text(out / MARK, json.dumps(values, indent=1) + "\n")
     for name, text in _files(course, values):
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         (out / name).write_text(text, "utf-8", newline="\n")

@@ -56,8 +56,7 @@ def save_run(path: Path, rows: Iterable[Row], seconds: float) -> None:
     """Write the rows of a finished run."""
     numbers = [tuple(row) for row in rows]
     content = {"sha256": _digest(numbers), "rows": numbers, "seconds": seconds}
-    with atomic.atomic_write(path) as file:
-        file.write(json.dumps(content).encode())
+    atomic.write_text(path, json.dumps(content))
 
 
 def load_run(path: Path) -> tuple[list[Row], float] | None:
@@ -108,8 +107,8 @@ def save_results(folder: str | Path, results: Results) -> None:
     }
     with atomic.atomic_write(folder / f"{experiment.name}.csv") as file:
         file.write(content)
-    with atomic.atomic_write(folder / f"{experiment.name}.json") as file:
-        file.write((json.dumps(about, indent=2, sort_keys=True) + "\n").encode())
+    text = json.dumps(about, indent=2, sort_keys=True) + "\n"
+    atomic.write_text(folder / f"{experiment.name}.json", text)
 
 
 def load_results(name: str, folder: str | Path = RESULTS) -> pd.DataFrame:
@@ -237,9 +236,8 @@ def save_timing(
     folder: Path, experiment: Experiment, spent: Mapping[str, float]
 ) -> None:
     """Write ``NAME.machine.json``: the times and the machine, which differ from run to run."""
-    with atomic.atomic_write(folder / f"{experiment.name}.machine.json") as file:
-        content = json.dumps(machine() | dict(spent), indent=2, sort_keys=True)
-        file.write((content + "\n").encode())
+    content = json.dumps(machine() | dict(spent), indent=2, sort_keys=True)
+    atomic.write_text(folder / f"{experiment.name}.machine.json", content + "\n")
 
 
 def machine() -> dict[str, Any]:

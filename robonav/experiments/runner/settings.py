@@ -67,8 +67,7 @@ def write_hyperparameters(
         for name, values in entries.items():
             lines += ["", f"[{method}.{json.dumps(name)}]" if name else f"[{method}]"]
             lines += [f"{key} = {json.dumps(value)}" for key, value in sorted(values.items())]  # fmt: skip
-    with atomic.atomic_write(path) as file:
-        file.write(("\n".join(lines) + "\n").encode())
+    atomic.write_text(path, "\n".join(lines) + "\n")
 
 
 def _frozen(value: Any) -> Any:
