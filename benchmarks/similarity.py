@@ -6,8 +6,8 @@ Run by hand: ``python benchmarks/similarity.py`` writes ``benchmarks/similarity.
 translations of six of them between loops and arrays. A class has twelve students, each with one of the twelve answers
 to every exercise, drawn so that no two students share one: six who like arrays and six who like loops, in all
 exercises, which makes honest students more alike than chance would. Then two of them throw their answers away, copy
-those of another and disguise them, all of them or half. Each class is drawn anew. Every pair but that of a copy and
-its original is honest. The answers to the exercises in HELD_OUT were written after the method was fixed. In
+those of another and disguise them, all of them or half. Each class is drawn independently. Every pair but that of a
+copy and its original is honest. The answers to the exercises in HELD_OUT were written after the method was fixed. In
 other classes a ring of three to nine students hand in the same answers to all ten exercises.
 """
 
@@ -129,7 +129,7 @@ def _names(node: ast.stmt) -> tuple[set[str], set[str]]:
 
 
 def disguised(tree: ast.Module, how: str, rng: random.Random) -> Fingerprint:
-    """Return the fingerprint of a copy. Text is written anew, so that comments and layout are gone."""
+    """Return the fingerprint of a copy. The text is made from the syntax tree, so that comments and layout are gone."""
     copy = ast.parse(ast.unparse(tree))
     if how == "recommented":
         return fingerprint(ast.parse(_recommented(copy, rng)), _main(copy))

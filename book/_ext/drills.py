@@ -68,7 +68,7 @@ def folded(drill: Drill, static: str) -> str:
     )
 
 
-def shown(text: str) -> nodes.Node:
+def as_node(text: str) -> nodes.Node:
     """Return HTML as a part of a page."""
     return nodes.container("", nodes.raw("", text, format="html"), classes=[MARK])
 
@@ -99,7 +99,7 @@ class PageDrills(_Drills):
         drills = of_page(page)
         if not drills:
             raise self.error(f"no drill belongs to the page {page}")
-        return [shown("".join(folded(drill, self.static()) for drill in drills))]
+        return [as_node("".join(folded(drill, self.static()) for drill in drills))]
 
 
 class Progress(_Drills):
@@ -107,7 +107,7 @@ class Progress(_Drills):
 
     def parts(self) -> list[nodes.Node]:
         parts: list[nodes.Node] = [
-            shown(f'<p class="drills-summary" data-drills="{" ".join(DRILLS)}"></p>')
+            as_node(f'<p class="drills-summary" data-drills="{" ".join(DRILLS)}"></p>')
         ]
         contents = yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))
         for page in (address.rpartition("/")[2] for address in pages(contents)):
@@ -116,8 +116,10 @@ class Progress(_Drills):
                 continue
             names = " ".join(drill.name for drill in drills)
             parts += self.parse_text_to_nodes(f"**{{doc}}`/book/{page}`**")
-            parts.append(shown(f'<p class="drills-summary" data-drills="{names}"></p>'))
-            parts += [shown(folded(drill, self.static())) for drill in drills]
+            parts.append(
+                as_node(f'<p class="drills-summary" data-drills="{names}"></p>')
+            )
+            parts += [as_node(folded(drill, self.static())) for drill in drills]
         return parts
 
 

@@ -82,7 +82,7 @@ def read(name: str) -> Page:
 # ---- One slide as HTML -----------------------------------------------------------------------------------------------
 
 
-def shown(part: Part) -> str:
+def part_html(part: Part) -> str:
     """Return a part as HTML for a slide."""
     tag = part.tag
     if part.kind == "animation":
@@ -134,7 +134,7 @@ def body(slide: Slide) -> str:
     points = "".join(f"<li>{point}</li>" for point in slide.points)
     listed = f'<ul class="points">{points}</ul>' if points else ""
     how = layout(slide)
-    parts = [shown(part) for part in slide.parts]
+    parts = [part_html(part) for part in slide.parts]
     if how in ("code-beside", "picture-beside"):
         at_right = ("listing",) if how == "code-beside" else ("figure", "animation")
         code = [part.kind in at_right for part in slide.parts]

@@ -61,7 +61,7 @@ def start(
 
 @gradebook.command()
 def update(graded: Graded) -> None:
-    """Write the marks and the statistics anew, after a change of the roster or the rules."""
+    """Write the marks and the statistics again, after a change of the roster or the rules."""
     _tell(write_all(graded))
     print(graded / "marks.html")
 

@@ -1,7 +1,7 @@
 """The marks of a class: what the grader gave, what was changed by hand, what lateness costs, and what counts.
 
-Everything is computed anew from four things: the grades in ``students/``, the log, the roster and the rules. None of
-them is changed here, so that grading again never overwrites a decision.
+Each time everything is computed from the grades in ``students/``, the log, the roster and the rules. None of them is
+changed here, so that grading again never overwrites a decision.
 """
 
 from __future__ import annotations

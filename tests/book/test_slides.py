@@ -53,7 +53,7 @@ SUMMARY = """() => ({
 
 @pytest.fixture(scope="session")
 def decks(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of decks that are made anew from the built book."""
+    """Return the folder of decks, made for this run from the built book."""
     folder = tmp_path_factory.mktemp("slides")
     kept = make_slides.TARGET
     make_slides.TARGET = folder

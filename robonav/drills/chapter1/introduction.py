@@ -31,7 +31,7 @@ WAYS = {
         "It chooses its way from what a laser shows",
         "It decides at each moment where to go, by its sonar",
         "It finds its own way with two cameras",
-        "It plans its way anew when a door is closed",
+        "It plans its way again when a door is closed",
     ),
     ARM: (
         "It is bolted to the floor and repeats a programmed motion",

@@ -332,7 +332,7 @@ def order_of_nnql(rng: Rng) -> Question:
 
 
 NEEDED = {
-    "the weights of the network": "They are what was learned. Without them the training begins anew.",
+    "the weights of the network": "They are what was learned. Without them the training begins again from the start.",
     "the number of episodes so far": "The temperature, and the seeds of the next episode, depend on it.",
 }
 NOT_NEEDED = {
