@@ -4,12 +4,12 @@ const copyWorld = (world) => ({ ...world, start: [...world.start], target: [...w
 const between = (a, b, t) => a + (b - a) * t;
 const metres = (value) => Number(value.toFixed(1));
 
-/** What a policy of the list does in an episode: its action and, for a network, what it computed on the way. */
-export function driver(policy) {
-  if (policy.rule) return ({ sensing }) => ({ action: RULES[policy.rule](sensing) });
-  const network = networks(policy.network)();
-  return ({ sensing, world, step }) => consult({ ...policy, network }, sensing, gumbel(world.key, step));
-}
+/** A policy with the network that Python packed. */
+export const unpacked = (policy) => ({ ...policy, network: networks(policy.network)() });
+
+/** What a policy does in an episode: its action and, for a network, what it computed on the way. */
+export const driver = (policy) => (policy.rule ? ({ sensing }) => ({ action: RULES[policy.rule](sensing) })
+  : ({ sensing, world, step }) => consult(policy, sensing, gumbel(world.key, step)));
 
 // ---- The episode: state and steps, no drawing -----------------------------------------------------------------------
 

@@ -234,6 +234,9 @@ export async function drivesFromFile(buffer) {
 
 // ---- safetensors ----------------------------------------------------------------------------------------------------
 
+/** How many numbers an encoder gives. @param {Encoder} encoder */
+export const encoderSize = ({ sensors, walls, target }) => TARGETS[target](1).length + 1 + sensors.length * (walls ? 2 : 1);
+
 const base64 = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
 
 /**
@@ -266,7 +269,7 @@ export function weightsFromFile(buffer) {
   const [weights, biases] = [numbers.map((l) => tensor(`weights.${l}`)), numbers.map((l) => tensor(`biases.${l}`))];
   if (weights.length === 0 || weights.some(({ shape }) => shape.length !== 2)) throw refuse("it must hold one network");
   const sizes = [weights[0].shape[1], ...weights.map(({ shape }) => shape[0])];
-  const inputs = TARGETS[about.encoder.target](1).length + 1 + about.encoder.sensors.length * (about.encoder.walls ? 2 : 1);
+  const inputs = encoderSize(about.encoder);
   if (sizes[0] !== inputs) throw refuse(`its network has ${sizes[0]} inputs, and it says that it reads ${inputs} numbers`);
   if (sizes.at(-1) > 6) throw refuse(`its network has ${sizes.at(-1)} outputs, the robot six actions`);
   return { network: { sizes, weights, biases }, encoder: about.encoder, temperature: about.temperature ?? 0 };

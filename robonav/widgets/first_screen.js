@@ -6,7 +6,7 @@ const PATIENCE = 300; // steps after which the network has lost its way
 
 function render({ model, el }) {
   const { policy, about, links, keys, obstacles, speed } = model.get("data");
-  const decide = driver(policy);
+  const decide = driver(unpacked(policy));
   const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
   let [map, t, last, frame, timer, tally] = [0, 1, 0, 0, 0, { arrived: 0, collided: 0 }];
   let [running, mine] = [!still, false];

@@ -133,7 +133,7 @@ function render({ model, el }) {
       finished += 1;
       const warning = keepRobot({ name: now.name, network, encoder: now.encoder });
       now = null;
-      download.disabled = false;
+      download.disabled = release.hidden = false;
       showTable();
       view.update();
       const [own, straight] = [robots[0], baselines[1]].map(({ outcomes }) => percent(rateOf(outcomes).rate));
@@ -177,6 +177,7 @@ function render({ model, el }) {
     panel.cancel();
     panel.start();
   };
+  const release = h("p", { hidden: true }, h("a", { href: playground }, "Let your robot drive in the playground"), ", on maps that you change while it drives.");
   const download = h("button", { type: "button", disabled: true, click: () => {
     const [{ policy, made }] = robots;
     saveFile("my-robot.safetensors", weightsFile({ ...policy, method: "lfd" }, made));
@@ -204,6 +205,7 @@ function render({ model, el }) {
     h("div", { class: "row" }, source.element, place), about,
     h("details", { open: (globalThis.innerWidth ?? Infinity) >= ROOM }, h("summary", {}, "How it learns"), h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element)),
     panel.element, table.element, view.element,
+    release,
     h("div", { class: "row tools" }, download, h("label", { class: "file" }, h("span", {}, "try weights from a file (safetensors)"), upload), note),
     kept.element, kept.said, kernel.element);
   const unwatch = watchDrives(() => {

@@ -24,8 +24,8 @@ export function keepRobot({ name, network: { sizes, weights, biases }, encoder, 
 function robotOfText(text) {
   try {
     const robot = JSON.parse(text);
-    const layers = robot.network.sizes.length - 1;
-    return robot.network.weights.length === layers && robot.encoder.sensors ? robot : null;
+    const { sizes, weights } = robot.network;
+    return weights.length === sizes.length - 1 && sizes[0] === encoderSize(robot.encoder) ? robot : null;
   } catch {
     return null;
   }

@@ -56,10 +56,11 @@ function render({ model, el }) {
     if (!file) return;
     try {
       const { network, encoder, temperature } = weightsFromFile(await file.arrayBuffer());
-      brought.push({ name: file.name, network: networks(network)(), encoder, temperature });
+      const name = distinctName(file.name, robots().map((other) => other.name));
+      brought.push({ name, network: networks(network)(), encoder, temperature });
       fill();
       which.selectedIndex = robots().length - 1;
-      note.textContent = `${file.name} is ready to be tried.`;
+      note.textContent = `${name} is ready to be tried.`;
     } catch (error) {
       note.textContent = error.message;
     }

@@ -1,6 +1,6 @@
 // Robot playground: the simulator in the reader's hands. Move things, pick who drives, or drive yourself.
 
-const ME = "you";
+const ME = { name: "you", decide: null, picture: null };
 const PACES = [1, 2, 3, 5, 8, 12, 20, 40]; // steps a second
 
 /** What a network's inputs are called: sensors, the target's sector V, whether it is seen I, wall flags. */
@@ -71,24 +71,31 @@ function inspector({ episode, selected, select, changed, removed }) {
   return { element: h("fieldset", { class: "inspector" }, h("legend", {}, "Change a thing (or drag it in the map)"), list, fields), show, update };
 }
 
+/** A policy that can drive here, with the picture of its network. */
+const ready = (policy) => ({
+  ...policy,
+  decide: driver(policy),
+  picture: policy.network ? networkPicture(policy.network.sizes, {
+    inputs: inputsOf(policy.encoder),
+    outputs: ROBOT.actions.slice(0, policy.network.sizes.at(-1)),
+    label: "The network that drives: inputs, hidden units, and a value for each action",
+  }) : null,
+});
+
 function render({ model, el }) {
   const { worlds, policies, speeds, training } = model.get("data");
-  const names = [...policies.map(({ name }) => name), ME];
-  const drivers = policies.map(driver);
+  const theBooks = policies.map((policy) => ready(policy.network ? unpacked(policy) : policy));
+  let [trained, brought] = [[], []]; // robots that the reader trained and this browser keeps, and those from files
+  const everybody = () => [...theBooks, ...trained, ...brought, ME];
   let episode = makeEpisode(worlds[0].world, 2);
-  let [policy, selected, pace, running, t, last, frame] = [0, "robot", 4, false, 1, 0, 0];
+  let [who, selected, pace, running, t, last, frame] = [theBooks[0], "robot", 4, false, 1, 0, 0];
   let [mapNumber, alone] = [null, true]; // of the reader's maps; whether the reader alone has driven since the start
-  const mine = () => policy === policies.length;
+  const mine = () => who === ME;
 
   const status = h("p", { class: "status", role: "status" });
   const values = h("div", { class: "values" });
   const table = readings();
   const picture = h("div", {});
-  const pictures = policies.map(({ network, encoder }) => network && networkPicture(network.sizes, {
-    inputs: inputsOf(encoder),
-    outputs: ROBOT.actions.slice(0, network.sizes.at(-1)),
-    label: "The network that drives: inputs, hidden units, and a value for each action",
-  }));
 
   const choose = (name) => {
     selected = name;
@@ -129,10 +136,10 @@ function render({ model, el }) {
     const { sensing, outcome, step, speed } = episode;
     table.show(sensing);
     const own = reflex(sensing, speed);
-    const thought = mine() ? null : drivers[policy](episode);
+    const thought = mine() ? null : who.decide(episode);
     if (thought?.z) {
       values.replaceChildren(...[...thought.z].map((z, k) => h("span", { class: k === thought.action ? "chosen" : "" }, `${ROBOT.actions[k]} ${sigmoid(z).toFixed(2)}`)));
-      pictures[policy].show(networks(policies[policy].network)(), thought.activations);
+      who.picture.show(who.network, thought.activations);
     } else values.replaceChildren(h("span", {}, mine() ? howToSteer() : "a rule, no network"));
     const will = own === ROBOT.toTarget ? "nothing in range: its reflex turns it to the target" : own === ROBOT.backward ? "blocked ahead: its reflex steps back"
       : thought ? `it takes ${ROBOT.actions[thought.action]}, ${actionName(thought.action)}` : "it waits for you";
@@ -158,7 +165,7 @@ function render({ model, el }) {
     refresh();
     if (t < 1) wake();
   };
-  const next = () => act(mine() ? 0 : drivers[policy](episode).action);
+  const next = () => act(mine() ? 0 : who.decide(episode).action);
   function tick(time) {
     frame = 0;
     t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * PACES[pace]);
@@ -206,23 +213,32 @@ function render({ model, el }) {
     const [file] = upload.files;
     if (!file) return;
     try {
-      const own = { ...weightsFromFile(await file.arrayBuffer()), name: file.name };
-      policies.push(own);
-      drivers.push(driver(own));
-      pictures.push(networkPicture(own.network.sizes, { inputs: inputsOf(own.encoder), outputs: ROBOT.actions.slice(0, own.network.sizes.at(-1)), label: "Your network" }));
-      names.splice(names.length - 1, 0, file.name);
-      who.element.querySelector("select").replaceChildren(...names.map((name) => h("option", {}, name)));
-      pick(policies.length - 1);
-      note.textContent = `${file.name} drives now.`;
+      const name = distinctName(file.name, everybody().map((other) => other.name));
+      brought.push(ready({ ...unpacked(weightsFromFile(await file.arrayBuffer())), name }));
+      fill();
+      pick(brought.at(-1));
+      note.textContent = `${name} drives now.`;
     } catch (error) {
       note.textContent = error.message;
     }
+    upload.value = "";
   } });
 
-  const pick = (index) => {
-    policy = index;
-    who.move(index);
-    picture.replaceChildren(...(pictures[index] ? [pictures[index].element] : []));
+  const list = h("select", { "aria-label": "who drives", change: () => pick(everybody()[list.selectedIndex]) });
+  /** Puts everybody who can drive on the list; a robot that is kept no longer leaves it. */
+  const fill = () => {
+    trained = keptRobots().reverse().map((robot) => trained.find(({ id }) => id === robot.id) ?? ready(robot));
+    const own = [...trained, ...brought].map(({ name }) => h("option", {}, name));
+    list.replaceChildren(
+      ...theBooks.map(({ name }) => h("option", {}, name)),
+      ...(own.length ? [h("optgroup", { label: "robots of yours" }, ...own)] : []), h("option", {}, ME.name));
+    list.selectedIndex = everybody().indexOf(who);
+    if (list.selectedIndex < 0) pick(theBooks[0]);
+  };
+  const pick = (chosen) => {
+    who = chosen;
+    list.selectedIndex = everybody().indexOf(who);
+    picture.replaceChildren(...(who.picture ? [who.picture.element] : []));
     play.disabled = play.hidden = mine();
     pause();
     refresh();
@@ -230,7 +246,6 @@ function render({ model, el }) {
     board.canvas.focus({ preventScroll: true });
     cockpit.scrollIntoView({ block: "nearest" });
   };
-  const who = choice({ label: "who drives", options: names, change: pick });
   const go = (world, number = null) => {
     episode = makeEpisode(world, episode.speed);
     [selected, mapNumber] = ["robot", number];
@@ -242,7 +257,7 @@ function render({ model, el }) {
     where.move(worlds.length);
     go(ownMap(number), number);
     mineKept.say(`Map ${number}. Bring the robot to the circle without touching anything: press ${whatSteers()}. While nothing is near, it goes on by itself; then it waits for you.`);
-    pick(policies.length);
+    pick(ME);
   };
   const coast = h("input", { type: "checkbox", checked: true, change: () => {
     mineKept.say(coast.checked ? "The robot goes on by itself while nothing is near." : "The robot waits for you in every second.");
@@ -264,7 +279,7 @@ function render({ model, el }) {
   });
   /** The reader takes the wheel. */
   const steer = (action) => {
-    if (!mine()) pick(policies.length);
+    if (!mine()) pick(ME);
     if (!coasting()) act(action);
   };
   const wheel = steeringButtons({ label: "Drive yourself, a step at a time", take: steer });
@@ -273,7 +288,7 @@ function render({ model, el }) {
 
   asWidget(el, "Robot playground", "robot-playground");
   el.replaceChildren(
-    h("div", { class: "row tools" }, where.element, who.element, fast.element, h("button", { type: "button", class: "main", click: newMap }, "Drive a new map yourself")),
+    h("div", { class: "row tools" }, where.element, h("label", {}, h("span", {}, "who drives"), list), fast.element, h("button", { type: "button", class: "main", click: newMap }, "Drive a new map yourself")),
     h("div", { class: "row" },
       h("div", { class: "grow" }, cockpit,
         h("div", { class: "row tools" }, play, h("button", { type: "button", click: () => { pause(); next(); } }, "One step"), h("button", { type: "button", click: reset }, "Back to the start"), rate.element),
@@ -284,12 +299,15 @@ function render({ model, el }) {
       h("label", { class: "file" }, h("span", {}, "drive with weights of your own"), upload), note),
     mineKept.element,
     inspect.element);
-  pick(0);
+  fill();
+  pick(who);
   inspect.show();
+  const forgetRobots = watchRobots(fill);
   return () => {
     pause();
     cancelAnimationFrame(frame);
     forgetPads();
+    forgetRobots();
     mineKept.end();
   };
 }

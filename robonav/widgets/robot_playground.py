@@ -22,7 +22,7 @@ class RobotPlayground(anywidget.AnyWidget):
 
     _esm = front_end(
         "simulator", "maps", "episode", "steering", "files", "learning/random", "learning/worlds",
-        "drives", "robot_playground",
+        "drives", "kept_robots", "robot_playground",
     )  # fmt: skip
     _css = style_sheet("maps", "steering", "drives", "robot_playground")
     data = traitlets.Dict().tag(sync=True)

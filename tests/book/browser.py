@@ -174,6 +174,12 @@ def tap(page: Page, x: float, y: float) -> None:
     session.detach()
 
 
+def empty_storage(page: Page) -> None:
+    """Delete what the browser keeps: other tests in the same browser keep drives and robots."""
+    page.evaluate("localStorage.clear()")
+    page.evaluate("dispatchEvent(new StorageEvent('storage', { key: null }))")
+
+
 class _Quiet(SimpleHTTPRequestHandler):
     def log_message(self, format: str, *arguments: Any) -> None:
         """Say nothing of each request."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, Page
 
 from robonav.benchmark.policies import method
 from robonav.lfd import Demonstrations, demonstrate
 from robonav.networks import NetworkPolicy
 from robonav.robot import Worlds, random_worlds
 from robonav.widgets.robot_playground import robot_playground
+from robonav.widgets.simulator import page_policy
 
 KEYS = (
     "ArrowUp", "ArrowLeft", "Shift+ArrowLeft", "ArrowRight", "Shift+ArrowRight", "ArrowDown",
@@ -20,6 +21,32 @@ WAITS = """(lab) => {
   const said = lab.querySelector(".status").textContent;
   return /waits for you|Arrived|Collided/.test(said) && said;
 }"""
+
+
+KEEP = """(robots) => {
+  robots.forEach((robot, k) => localStorage.setItem(`robonav.robot.test ${k}`, JSON.stringify(robot)));
+  dispatchEvent(new StorageEvent("storage", { key: null }));
+}"""
+
+
+def keep_robots(page: Page, *robots: dict[str, Any]) -> None:
+    """Put robots, the oldest first, where the pages keep those that the reader has trained."""
+    page.evaluate(KEEP, list(robots))
+
+
+def kept_robot(name: str, policy: NetworkPolicy) -> dict[str, Any]:
+    """A policy as the pages keep it."""
+    network, encoder = policy.network, policy.encoder
+    return {
+        "name": name,
+        "network": {
+            "sizes": list(network.sizes),
+            "weights": [weight.ravel().tolist() for weight in network.weights],
+            "biases": [bias.tolist() for bias in network.biases],
+        },
+        "encoder": page_policy(policy)["encoder"],
+        "temperature": policy.temperature,
+    }
 
 
 def playground() -> Any:

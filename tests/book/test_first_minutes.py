@@ -58,4 +58,12 @@ def test_three_maps_are_driven_and_a_robot_is_trained(site: Path) -> None:
         expect(said).to_contain_text("always goes straight on")
         own, straight = map(float, re.findall(r"in ([\d.]+) %", said.inner_text()))
         assert own > straight + 20
+        lab = go(
+            page, lab.get_by_role("link", name="Let your robot drive"), "playground"
+        )
+        lab.get_by_label("who drives", exact=True).select_option(
+            label="robot 1: 3 of my drives, 8 hidden, λ 0.1"
+        )
+        lab.get_by_role("button", name="Drive", exact=True).tap()
+        expect(lab.locator(".status").first).to_contain_text("s, target in sector")
         assert visit.errors == visit.external == []

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from browser import DESKTOP, PHONE, Visit
+from browser import DESKTOP, PHONE, Visit, empty_storage
 from mounting import mounted
+from driving import keep_robots
 from playwright.sync_api import Locator, expect
 
 from robonav.benchmark import SETTINGS, board_worlds
@@ -18,19 +19,13 @@ from robonav.widgets.leaderboard_row import leaderboard_row
 FEW = 20
 
 
-EMPTIED = """() => {
-  localStorage.clear();
-  window.dispatchEvent(new StorageEvent("storage", { key: null }));
-}"""  # other tests in the same browser keep drives and robots
-
-
 @pytest.fixture(params=["desktop", "phone"])
 def row(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Locator]:
     """The widget alone on a page, with few worlds a setting."""
     visit.page.set_viewport_size(DESKTOP if request.param == "desktop" else PHONE)
     rates = {"straight": [30.0] * len(SETTINGS)}
     found = mounted(visit, http, leaderboard_row(rates, worlds=FEW))
-    visit.page.evaluate(EMPTIED)
+    empty_storage(visit.page)
     cut = found.page.locator(".scroll").get_attribute("data-cut")
     assert (cut is None) == (request.param == "desktop")
     yield found
@@ -77,13 +72,7 @@ def test_kept_robot_is_offered_tried_cancelled_and_deleted(row):
         "network": {"sizes": [11, 1, 5], "weights": [[0] * 11, [0] * 5], "biases": [[0], [1, 0, 0, 0, 0]]},
         "encoder": {"sensors": [1, 2, 3, 4, 5, 6, 7, 8, 9], "walls": False, "target": "signed"},
     }  # fmt: skip
-    row.page.evaluate(
-        """(robot) => {
-          localStorage.setItem("robonav.robot.test", JSON.stringify(robot));
-          window.dispatchEvent(new StorageEvent("storage", { key: null }));
-        }""",
-        robot,
-    )
+    keep_robots(row.page, robot)
     expect(row.get_by_label("robot", exact=True)).to_have_value("walker")
     row.get_by_role("button", name="Try this robot").click()
     row.get_by_role("button", name="Cancel").click()

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from browser import DESKTOP, PHONE, Visit, swipe
+from browser import DESKTOP, PHONE, Visit, empty_storage, swipe
+from driving import keep_robots, kept_robot
 from playwright.sync_api import Locator, expect
 
 from robonav.benchmark.policies import method, methods
@@ -35,6 +36,7 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
     )
     found = visit.page.locator(".robot-playground")
     found.locator("canvas").wait_for()
+    empty_storage(visit.page)
     yield found
     assert visit.errors == []
 
@@ -210,8 +212,9 @@ def test_weights_of_ones_own_drive(lab, tmp_path):
     expect(
         lab.get_by_text("The file must hold weights saved by robonav")
     ).to_be_visible()
-    upload.set_input_files(tmp_path / "own.safetensors")
-    expect(lab.get_by_text("own.safetensors drives now.")).to_be_visible()
+    for name in ("own.safetensors", "own.safetensors (2)"):
+        upload.set_input_files(tmp_path / "own.safetensors")
+        expect(lab.get_by_text(f"{name} drives now.")).to_be_visible()
     choose(lab, "world", "20 obstacles")
     expected = navigate(
         own, random_worlds(1, 20, seed=42), max_steps=40, record_paths=True
@@ -222,6 +225,25 @@ def test_weights_of_ones_own_drive(lab, tmp_path):
     expect(lab.locator("canvas")).to_have_attribute(
         "aria-label", re.compile(re.escape(f"Robot at {x}, {y}. "))
     )
+
+
+def test_robots_that_were_trained_and_kept_drive(lab):
+    drivers = lab.get_by_label("who drives", exact=True)
+    expect(drivers.locator("optgroup")).to_have_count(0)
+    policy, world = method("lfd"), random_worlds(1, 20, seed=42)
+    keep_robots(lab.page, kept_robot("first", policy), kept_robot("second", policy))
+    own = drivers.locator("optgroup[label='robots of yours'] option")
+    expect(own).to_have_text(["second", "first"])  # the latest first
+    choose(lab, "world", "20 obstacles")
+    choose(lab, "who drives", "first")
+    expected = navigate(policy, world)
+    assert (
+        drive_to_the_end(lab)
+        == f"{expected.outcome[0].capitalize()} after {expected.steps[0]} s."
+    )
+    empty_storage(lab.page)
+    expect(own).to_have_count(0)
+    expect(drivers).to_have_value("LfD: 25 demonstrations")
 
 
 @pytest.mark.parametrize("name", GREEDY[:1])

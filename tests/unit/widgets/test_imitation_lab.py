@@ -126,12 +126,23 @@ def test_robots_of_one_rate_that_end_otherwise_are_told_apart(node):
 
 def test_kept_robots_of_one_name_are_numbered(node):
     """Without a browser's storage they are kept in memory, through the same function."""
-    body = """const network = { sizes: [1, 1], weights: [[0]], biases: [[0]] };
-      for (const name of data) page.keepRobot({ name, network, encoder: { sensors: [] } });
+    body = """const network = { sizes: [2, 1], weights: [[0, 0]], biases: [[0]] };
+      const encoder = { sensors: [], walls: false, target: "signed" };
+      for (const name of data) page.keepRobot({ name, network, encoder });
       return page.keptRobots().map(({ name }) => name).sort();"""
     names = ["NIRL, seed 0", "NIRL, seed 0", "NIRL, seed 01", "NIRL, seed 0"]
     expected = ["NIRL, seed 0", "NIRL, seed 0 (2)", "NIRL, seed 0 (3)", "NIRL, seed 01"]
     assert node(FILES, body, names) == expected
+
+
+def test_kept_robot_of_another_shape_is_left_out(node):
+    """A robot whose network does not fit what it reads, or reads a target that there is no longer, cannot drive."""
+    body = """const network = { sizes: [2, 1], weights: [[0, 0]], biases: [[0]] };
+      for (const encoder of data) page.keepRobot({ name: "mine", network, encoder });
+      return page.keptRobots().length;"""
+    fits = {"sensors": [], "walls": False, "target": "signed"}
+    encoders = [fits, {**fits, "sensors": [1]}, {**fits, "target": "of old"}]
+    assert node(FILES, body, encoders) == 1
 
 
 def test_a_number_is_not_given_again_after_a_robot_was_deleted(node):
