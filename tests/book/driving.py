@@ -36,7 +36,7 @@ def keep_robots(page: Page, *robots: dict[str, Any]) -> None:
 
 def kept_robot(name: str, policy: NetworkPolicy) -> dict[str, Any]:
     """A policy as the pages keep it."""
-    network, encoder = policy.network, policy.encoder
+    network, packed = policy.network, page_policy(policy)
     return {
         "name": name,
         "network": {
@@ -44,8 +44,8 @@ def kept_robot(name: str, policy: NetworkPolicy) -> dict[str, Any]:
             "weights": [weight.ravel().tolist() for weight in network.weights],
             "biases": [bias.tolist() for bias in network.biases],
         },
-        "encoder": page_policy(policy)["encoder"],
-        "temperature": policy.temperature,
+        "encoder": packed["encoder"],
+        "temperature": packed["temperature"],
     }
 
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import pytest
 from browser import DESKTOP, PHONE, Visit, empty_storage
-from mounting import mounted
 from driving import keep_robots
+from mounting import mounted
 from playwright.sync_api import Locator, expect
 
 from robonav.benchmark import SETTINGS, board_worlds
