@@ -243,6 +243,17 @@ def drills_export(
     if papers > 1 and kind != "pdf":
         raise ValueError("only an exam (--format pdf) has several papers")
     chosen = export.selected(chapter or (), page or (), drill or ())
+    left_out: list[str] = []
+    if kind == "pdf":  # a drill that is named takes part in any case
+        kept = export.varied(chosen, papers, each)
+        kept = [one for one in chosen if one in kept or one.name in (drill or ())]
+        left_out = [one.name for one in chosen if one not in kept]
+        if not kept:
+            raise ValueError(
+                f"too few different questions for {papers} papers: {', '.join(left_out)}; "
+                "choose more drills, or name these with --drill"
+            )
+        chosen = kept
     if at_most or kind == "pdf":
         chosen = export.spread(chosen, at_most or 10)
     targets = [file, files.beside(file, "solutions")][: 2 if kind == "pdf" else 1]
@@ -260,6 +271,11 @@ def drills_export(
     many = f"{papers} papers of " if papers > 1 else ""
     for target in targets:
         print(f"{target}: {many}{len(sets[0])} questions")
+    if left_out:
+        print(
+            f"Left out, because they have too few different questions: {', '.join(left_out)}",
+            file=sys.stderr,
+        )
     drew = [one.drill.name for one in sets[0]]
     if fewer := [one.name for one in chosen if drew.count(one.name) < each]:
         print(

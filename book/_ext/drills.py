@@ -61,7 +61,8 @@ def folded(drill: Drill, static: str) -> str:
     """Return a folded drill as HTML, with its first question for readers without scripts."""
     first = drill.question(0)
     return (
-        f'<details class="robonav drill" data-drill="{drill.name}" data-source="{static}/{FOLDER}/{drill.name}.js">'
+        f'<details id="drill-{drill.name}" class="robonav drill" data-drill="{drill.name}" '
+        f'data-source="{static}/{FOLDER}/{drill.name}.js">'
         f'<summary>{escape(drill.title)}<span class="drill-standing"></span></summary>'
         f'<div class="drill-place"><p>{html(first.text)}</p>{first.picture}'
         f"<details><summary>Solution</summary><p>{html(first.explanation)}</p></details></div></details>"

@@ -18,11 +18,12 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from robonav.drills import DRILLS
+from robonav.drills import DRILLS, Choice, Drill
 from robonav.grading.course import Course, Exercise
 
 BOOK = ROOT / "book"
 GOALS, COURSES = BOOK / "goals.toml", BOOK / "syllabus.toml"
+EXAM = 2026  # the seed of the example questions
 SHORT, LONG = 45, 90  # minutes of a deck
 GOAL = re.compile(r"^- (.+)$", re.MULTILINE)
 
@@ -81,6 +82,9 @@ class Session:
     lab: list[str]
     homework: list[str]
     exam: list[str]
+    exam_drills: list[str]
+    written: dict[str, str] = field(default_factory=dict)
+    written_in: str = ""
     lecture: list[str] = field(default_factory=list)
     long_lecture: list[str] = field(default_factory=list)
 
@@ -111,7 +115,12 @@ class Plan:
 
 def plan(name: str) -> Plan:
     """Return a course of ``syllabus.toml``: "weeks" or "days"."""
-    table = tomllib.loads(COURSES.read_text("utf-8"))[name]
+    tables = tomllib.loads(COURSES.read_text("utf-8"))
+    table = tables[name]
+    written = {one["title"]: one["written"] for one in tables["weeks"]["session"]}
+    for session in table["session"]:
+        if title := session.get("written_in"):
+            session["written"] = written[title]
     sessions = [Session(**session) for session in table["session"]]
     return Plan(table["unit"], table["minutes"], sessions)
 
@@ -133,6 +142,16 @@ def _exercises(names: list[str], course: Course) -> str:
 def _drills(names: list[str]) -> str:
     titles = (DRILLS[name].title.replace("*", r"\*") for name in names)
     return "; ".join(f"*{title}*" for title in titles)
+
+
+def _example(drill: Drill) -> str:
+    """Return a question of a drill, after a link to the drill on its page."""
+    question, title = drill.question(EXAM), drill.title.replace("*", r"\*")
+    link = f'<a href="{drill.page}.html#drill-{drill.name}">{title}</a>'
+    options = ""
+    if isinstance(question.asked, Choice):
+        options = f" *{'; or: '.join(question.asked.options)}?*"
+    return f"{link} (`{drill.name}`). {question.text}{options}"
 
 
 def headline(course_plan: Plan, course: Course) -> str:
@@ -172,6 +191,9 @@ def session_text(
         "is for the notebooks of the pages and for questions.",
         home,
         "- **An exam may ask**: " + " ".join(session.exam),
+        "- **Example questions for an exam**",
+        *(f"  - {_example(DRILLS[name])}" for name in session.exam_drills),
+        f"  - *In writing.* {session.written['question']} *Expected:* {session.written['answer']}",
     ]
     return "\n".join(lines) + "\n"
 

@@ -8,6 +8,11 @@ from typing import Any
 from .question import Asked, Choice, Number, Order, Place, Question
 
 LONG = 20  # letters of one side of an equation
+# A text of a drill is made of sentences. One that begins with "1." or with a minus is no list.
+NOT_READ = (
+    *("list", "heading", "lheading", "blockquote", "hr"),
+    *("code", "fence", "html_block", "reference"),
+)
 
 
 @cache
@@ -21,7 +26,8 @@ def _parser() -> Any:
             return rf"\[{escaped}\]"
         return " ".join(rf"\({part}\)" for part in breakable(escaped))
 
-    return MarkdownIt("commonmark").use(dollarmath_plugin, renderer=formula)
+    parser = MarkdownIt("commonmark").disable(NOT_READ)
+    return parser.use(dollarmath_plugin, renderer=formula)
 
 
 def breakable(formula: str) -> list[str]:
@@ -88,6 +94,8 @@ def html(text: str) -> str:
     --------
     >>> html("The value of $s < t$ is *exact*.")
     'The value of <span class="math inline">\\(s &lt; t\\)</span> is <em>exact</em>.'
+    >>> html("1. Sense; 2. act.")
+    '1. Sense; 2. act.'
     """
     parser = _parser()
     tokens = parser.parse(text)
@@ -101,7 +109,7 @@ def html(text: str) -> str:
 
 
 def block(text: str) -> str:
-    r"""Return Markdown as HTML paragraphs and lists.
+    r"""Return Markdown as HTML paragraphs.
 
     Parameters
     ----------

@@ -100,6 +100,22 @@ def test_drills_in_class_belong_to_the_session_s_pages(name: str) -> None:
 
 
 @both_plans
+def test_each_session_has_example_questions_of_its_pages(name: str) -> None:
+    plan = PLANS[name]
+    for number, session in enumerate(plan.sessions, 1):
+        assert len(session.exam_drills) == 2, session.title
+        text = syllabus.session_text(number, session, plan, COURSE)
+        for drill in (DRILLS[one] for one in session.exam_drills):
+            question = drill.question(syllabus.EXAM)
+            assert drill.page in session.pages, (session.title, drill.name)
+            assert not question.picture, drill.name  # the text says all
+            assert question.text in text
+            assert f'href="{drill.page}.html#drill-{drill.name}"' in text
+        assert f"{session.written['question']} *Expected:* " in text
+        assert session.written["answer"] in text
+
+
+@both_plans
 def test_no_exercise_comes_twice_or_before_its_page(name: str) -> None:
     seen: set[str] = set()
     done: Counter[str] = Counter()

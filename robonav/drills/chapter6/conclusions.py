@@ -79,6 +79,39 @@ def effects_of_two_changes(rng: Rng) -> Question:
     )
 
 
+@drill("conclusions", "Many fields one after the other")
+def fields_in_a_row(rng: Rng) -> Question:
+    """Compute how often policies cross several fields without a failure in any."""
+    fields = int(rng.integers(3, 9))
+    rule = int(rng.integers(60, 90))
+    learned = int(rng.integers(rule + 3, 99))
+    rates = np.array([rule, learned]) / 100
+    answer = rates**fields
+    return Question(
+        f"A rule arrives in {rule} % of the fields, a learned policy in {learned} %. A delivery leads through {fields} "
+        "new fields one after the other, and a failure in any of them ends it. With which probabilities do the two "
+        "arrive?",
+        Table(
+            ["probability"],
+            ["rule", "learned policy"],
+            [answer.tolist()],
+            wrong={
+                "Every field must be crossed, so the rates are multiplied, once for each field.": [
+                    rates.tolist()
+                ],
+                "These are the probabilities of at least one failure.": [
+                    (1 - answer).tolist()
+                ],
+                "Failures do not add up: a robot that failed in one field does not reach the next.": [
+                    (1 - fields * (1 - rates)).tolist()
+                ],
+            },
+        ),
+        f"Rule: ${rates[0]:g}^{{{fields}}} = {answer[0]:.3g}$. Learned policy: ${rates[1]:g}^{{{fields}}} = "
+        f"{answer[1]:.3g}$. A difference that is small in one field is large in {fields}.",
+    )
+
+
 FIRST, SECOND, OPEN = (
     "The first policy is better",
     "The second policy is better",

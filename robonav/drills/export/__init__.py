@@ -3,7 +3,7 @@
 from .moodle import moodle_xml
 from .package import qti_zip
 from .paper import Paper, exam_pdf, solutions_pdf
-from .selection import Drawn, drawn, selected, spread
+from .selection import Drawn, drawn, seen, selected, spread, varied
 
 __all__ = [
     "Drawn",
@@ -12,7 +12,9 @@ __all__ = [
     "exam_pdf",
     "moodle_xml",
     "qti_zip",
+    "seen",
     "selected",
     "solutions_pdf",
     "spread",
+    "varied",
 ]

@@ -11,12 +11,13 @@ import numpy as np
 
 from robonav.validation import check_integer
 
-from ..question import Question
+from ..question import Choice, Order, Place, Question, Table
 from ..registry import DRILLS, Drill
 
 TRIES = (
     20  # how often another question is drawn in the place of one that was drawn before
 )
+VARIED = 8  # a drill of an exam of many papers has as many different questions
 
 
 @dataclass(frozen=True)
@@ -139,6 +140,68 @@ def spread(drills: Sequence[Drill], count: int) -> list[Drill]:
     return [drills[place] for place in places.round().astype(int)]
 
 
+def seen(question: Question) -> tuple[object, ...]:
+    """Return what a student sees of a question. Two questions are equal if this is.
+
+    The order in which options or steps stand makes no other question, and neither does what is said afterwards.
+
+    Parameters
+    ----------
+    question : Question
+
+    Returns
+    -------
+    tuple
+        Text, picture, and what there is to choose from, to put in order or to fill in.
+
+    Examples
+    --------
+    >>> from robonav.drills import Choice
+    >>> one, other = (Question("Which?", Choice("a", {"b": hint}), hint) for hint in ("No.", "Not this."))
+    >>> seen(one) == seen(other)
+    True
+    """
+    asked = question.asked
+    shown: tuple[object, ...] = ()
+    if isinstance(asked, Choice):
+        shown = tuple(sorted(asked.options))
+    elif isinstance(asked, Order):
+        shown = tuple(sorted(asked.steps))
+    elif isinstance(asked, Table):
+        shown = (*asked.rows, *asked.columns)
+    elif isinstance(asked, Place):
+        shown = tuple(sorted(asked.places))
+    return question.text, question.picture, *shown
+
+
+def varied(drills: Sequence[Drill], papers: int, each: int = 1) -> list[Drill]:
+    """Return the drills that have enough different questions for an exam.
+
+    In one paper no two questions are equal. Among many papers, a drill that asks for the steps of one algorithm would
+    ask the same of everybody. A drill must therefore have as many different questions as there are papers, up to 8.
+
+    Parameters
+    ----------
+    drills : sequence of Drill
+    papers : int
+        How many papers there are.
+    each : int, default 1
+        Questions of each drill on a paper.
+
+    Returns
+    -------
+    list of Drill
+
+    Examples
+    --------
+    >>> [drill.name for drill in varied(selected(drills=["td-error", "order-of-policy-iteration"]), papers=30)]
+    ['td-error']
+    """
+    check_integer("papers", papers, at_least=1)
+    needed = each * min(papers, VARIED)
+    return [one for one in drills if len(_different(one, 0, needed)) == needed]
+
+
 def drawn(drills: Sequence[Drill], seed: int = 0, each: int = 1) -> list[Drawn]:
     """Draw questions of drills, no two of them alike.
 
@@ -173,12 +236,12 @@ def drawn(drills: Sequence[Drill], seed: int = 0, each: int = 1) -> list[Drawn]:
 
 def _different(drill: Drill, seed: int, count: int) -> list[Question]:
     """The first questions of a drill that differ from each other."""
-    questions: dict[str, Question] = {}
+    questions: dict[tuple[object, ...], Question] = {}
     name = zlib.crc32(drill.name.encode())
     for k in range(count + TRIES):
         if len(questions) == count:
             break
         state = np.random.SeedSequence([seed, name, k]).generate_state(1)
         question = drill.question(int(state[0]))
-        questions.setdefault(repr(question), question)
+        questions.setdefault(seen(question), question)
     return list(questions.values())

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from ..markup import NOT_READ
 from .boxes import BOLD, ITALIC, MONO, UPRIGHT, Box, beside, letters, width
 from .formula import pieces
 from .svg import MINUS
 
 UNITS = {"m", "s", "m/s", "rad", "degrees"}
-ITEM = 1.6  # how far the text of a list is indented, in sizes of the letters
 LEADING = 1.3  # the distance of two lines, in sizes of the letters
 
 
@@ -37,7 +37,7 @@ def _parser() -> Any:
     from markdown_it import MarkdownIt
     from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-    return MarkdownIt("commonmark").use(dollarmath_plugin)
+    return MarkdownIt("commonmark").disable(NOT_READ).use(dollarmath_plugin)
 
 
 def lines(
@@ -66,28 +66,11 @@ def lines(
     [True, True]
     """
     made: list[Box] = []
-    mark: Box | None = None
-    indent = 0.0
     for token in _parser().parse(text):
-        if token.type == "list_item_open":
-            mark = letters(f"{token.info}." if token.info else "•", font, size)
-            indent = ITEM * size
-        elif token.type == "list_item_close":
-            indent = 0.0
-        elif token.type == "inline":
+        if token.type == "inline":
             words = list(_words(token.children, size, font))
-            for line in _broken(words, measure - indent):
-                made.append(_hung(line, mark, indent))
-                mark = None
+            made += _broken(words, measure)
     return made
-
-
-def _hung(line: Box, mark: Box | None, indent: float) -> Box:
-    """A line of a list, with the item's number or dot in front of the first one."""
-    if not indent:
-        return line
-    first = mark or Box(0.0)
-    return beside([first, line], [0.0, indent - first.width])
 
 
 def height(set_: list[Box], size: float = 11.0) -> float:

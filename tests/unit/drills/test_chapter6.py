@@ -23,6 +23,15 @@ def test_effects_by_least_squares() -> None:
         assert question.asked.answer[0] == pytest.approx(fitted[1:3])
 
 
+def test_fields_in_a_row_by_the_powers_of_a_matrix() -> None:
+    for question in drawn("fields-in-a-row"):
+        rule, learned, fields = (int(n) for n in numbers(question.text)[:3])
+        for rate, answer in zip((rule, learned), question.asked.answer[0], strict=True):
+            step = np.diag(np.full(fields, rate / 100), 1)
+            chain = np.linalg.matrix_power(step, fields)
+            assert answer == pytest.approx(chain[0, fields])
+
+
 def wilson(arrived: float, maps: float) -> tuple[float, float]:
     """The roots of (p - k/n)^2 = z^2 p (1 - p) / n."""
     z, rate = 1.959964, arrived / maps

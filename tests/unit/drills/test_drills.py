@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 
 import pytest
 from drills import QUESTIONS, different_questions
@@ -51,6 +52,7 @@ def check(question: Question) -> None:
     shown = json.dumps(as_json(question))
     assert not re.search(r"\bnan\b|\binf\b|np\.|\+ -|- -", shown)
     assert "$" not in html(question.text) + html(question.explanation)
+    assert not re.search(r"<(?:ol|ul|h\d|hr|pre|blockquote)\b", shown)
     assert question.explanation
     if isinstance(question.asked, Place):
         places = re.findall(r'data-place="([^"]+)"', question.picture)
@@ -81,6 +83,11 @@ def test_most_drills_have_a_hundred_different_questions_and_all_but_orders_sever
 def test_a_thousand_questions(name: str) -> None:
     for seed in range(SEEDS):
         check(DRILLS[name].question(seed))
+
+
+def test_each_page_with_drills_has_four() -> None:
+    numbers = Counter(drill.page for drill in DRILLS.values())
+    assert {page for page, number in numbers.items() if number < 4} == set()
 
 
 def test_the_same_seed_gives_the_same_question() -> None:

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from robonav.cli import app
 from robonav.drills import DRILLS
-from robonav.drills.export import files
+from robonav.drills.export import drawn, files, seen, selected, varied
 
 
 def run(*arguments: object) -> str:
@@ -105,6 +105,29 @@ def test_drills_with_few_questions_are_named(tmp_path: Path) -> None:
     said = run("export", tmp_path / "bank.xml", *chosen, "--each", 2)
     assert "3 questions" in said
     assert said.strip().endswith("gave all: order-of-policy-iteration")
+
+
+def test_an_exam_of_many_papers_leaves_out_drills_that_ask_everybody_the_same(
+    tmp_path: Path,
+) -> None:
+    pytest.importorskip("reportlab")
+    chosen = ["--page", "nnql", "--papers", 3]
+    said = run("export", tmp_path / "exam.pdf", *chosen)
+    assert "too few different questions: " in said
+    left_out = said.rpartition(": ")[2].strip().split(", ")
+    assert "order-of-nnql" in left_out
+    assert all(DRILLS[name].page == "nnql" for name in left_out)
+    named = ["--drill", "order-of-nnql", "--papers", 30]
+    assert "30 papers of 1 questions" in run("export", tmp_path / "named.pdf", *named)
+    one = run("export", tmp_path / "one.pdf", "--page", "nnql")
+    assert "too few" not in one
+
+
+def test_no_paper_has_two_equal_questions() -> None:
+    for seed in range(3):
+        paper = drawn(varied(selected(), papers=1, each=3), seed, each=3)
+        shown = [seen(one.question) for one in paper]
+        assert len(set(shown)) == len(shown) > 3 * 60
 
 
 def test_missing_packages_are_named(monkeypatch) -> None:

@@ -101,6 +101,20 @@ def test_a_known_mistake_is_no_matter_of_luck(exercise, mistake):
         assert grade(exercise, mistake, seed)["points"] < exercise.points
 
 
+@pytest.mark.parametrize(
+    "exercise",
+    [exercise for exercise in EXERCISES if exercise.difficulty == "open task"],
+    ids=lambda exercise: exercise.name,
+)
+def test_an_open_task_is_no_matter_of_luck(exercise):
+    """On the cases of other secrets, both ways to write it score full, too."""
+    other = trusted(COURSE.solutions / "otherwise" / exercise.file)
+    for function in (solution(COURSE, exercise), getattr(other, exercise.name)):
+        for seed in (b"seed100", b"seed106", b"seed112"):
+            result = grade(exercise, function, seed)
+            assert result["state"] == "correct", result["feedback"]
+
+
 def test_every_exercise_knows_some_mistakes(exercise):
     assert len(mistakes(COURSE, exercise)) >= 3
 
