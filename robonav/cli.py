@@ -127,7 +127,14 @@ def _build_variant(
 
     if variant is None or out is None or check:
         raise ValueError("a variant needs both --variant and --out, and no --check")
+    if students and (out / variants.MARK).is_file():
+        raise ValueError(
+            f"{out} holds one variant for all students; choose another folder, or remove it first"
+        )
+    variants.check_replaces_nothing(course, variant, out)
     each = variants.EachStudent(course, variant, out)
+    for name in students:
+        variants.check_replaces_nothing(course, each.secret_of(name), out / name)
     made = [each.of(name) for name in students] or [
         variants.write(course, variant, out)
     ]

@@ -16,7 +16,8 @@ COLUMNS: dict[str, tuple[str, ...]] = {
     "id": (
         "id number", "sis user id", "sid", "student id", "student_id", "idnumber",
     ),
-    "number": ("identifier", "id"),
+    "identifier": ("identifier",),
+    "number": ("id",),
     "login": ("username", "sis login id", "login", "user"),
     "github": ("github_username", "github username", "github"),
     "email": ("email address", "email", "e-mail"),
@@ -158,12 +159,18 @@ def _student(row: Mapping[str, str], teams: bool) -> Student | None:
     if teams and GROUPS in headings:
         told.setdefault("group", row[headings[GROUPS]].strip())
     name = told.get("name") or f"{told.get('first', '')} {told.get('last', '')}".strip()
-    number = told.get("number", "")
-    if match := PARTICIPANT.fullmatch(number):
+    identifier, number = told.get("identifier", ""), told.get("number", "")
+    university = told.get("id", "")
+    if not university and not of_canvas(row):
+        # GitHub Classroom's identifier is often a name, and Moodle's is its own number.
+        own = re.search(r"\d", identifier) and not PARTICIPANT.fullmatch(identifier)
+        university = number or (identifier if own else "")
+    if match := PARTICIPANT.fullmatch(identifier):
         number = match[1]
-    # GitHub Classroom's and one's own identifier is no number of a platform.
-    elif "sis login id" not in headings and "sis user id" not in headings:
-        told.setdefault("id", number)
+    elif "sis login id" in headings or "sis user id" in headings:
+        number = identifier or number
+    else:  # GitHub Classroom's and one's own identifier is no number of a platform
+        told.setdefault("id", identifier or number)
         number = ""
     if name == "Points Possible":  # Canvas's second line
         return None
@@ -190,7 +197,7 @@ def _student(row: Mapping[str, str], teams: bool) -> Student | None:
         keys=frozenset(word.casefold() for word in words - {""}),
         names=frozenset(form for one in written for form in forms(one)),
         github=told.get("github", "").casefold(),
-        number=_number(row),
+        number=university,
         row=row,
     )
 
@@ -207,21 +214,6 @@ def of_canvas(row: Mapping[str, str]) -> bool:
     return bool(headings & {"sis login id", "sis user id"}) or (
         headings >= {"student", "id", "section"}
     )
-
-
-def _number(row: Mapping[str, str]) -> str:
-    """Return the university's number of the student in a line, or an empty string."""
-    told = {heading.strip().casefold(): text.strip() for heading, text in row.items()}
-    for heading in COLUMNS["id"]:
-        if told.get(heading):
-            return told[heading]
-    if of_canvas(row):
-        return ""
-    # GitHub Classroom's identifier is often a name, and Moodle's is its own number.
-    identifier = told.get("identifier", "")
-    if not re.search(r"\d", identifier) or PARTICIPANT.fullmatch(identifier):
-        identifier = ""
-    return told.get("id", "") or identifier
 
 
 def forms(name: str) -> set[str]:

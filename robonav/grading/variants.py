@@ -265,6 +265,35 @@ def write(course: Course, secret: str, out: Path) -> Course:
     return write_values(course, _values(course, secret), out)
 
 
+def check_replaces_nothing(course: Course, secret: str, out: Path) -> None:
+    """Check that a folder holds no other variant than the one that a secret chooses.
+
+    Raises
+    ------
+    ValueError
+        If it holds another one, or if the secret is empty.
+
+    Examples
+    --------
+    >>> check_replaces_nothing(Course.around(), "autumn", Path("no-such-folder"))
+    """
+    if not _may_hold(out, _values(course, secret)):
+        raise ValueError(
+            f"{out} holds another variant of the exercises; choose another folder, or remove it first"
+        )
+
+
+def _may_hold(out: Path, values: Mapping[str, Values]) -> bool:
+    """Whether a folder holds the variant with these values, or none."""
+    mark = out / MARK
+    if not mark.is_file():
+        return True
+    try:
+        return bool(json.loads(mark.read_bytes()) == values)
+    except ValueError:
+        return False
+
+
 def _values(course: Course, secret: str) -> dict[str, dict[str, str]]:
     """Return the values that a secret chooses for each exercise that has knobs."""
     if not secret.strip():
@@ -286,16 +315,10 @@ def course_for(course: Course, secret: str, folder: Path, out: Path) -> Course:
     """
     _check_out(folder, out)
     check_same_options(out, VARIANT)
-    mark = out / "exercises" / MARK
-    if mark.is_file():
-        try:
-            before = json.loads(mark.read_bytes())
-        except ValueError:
-            before = None
-        if before != _values(course, secret):
-            raise ValueError(
-                f"{out} was graded with another variant; choose another folder"
-            )
+    if not _may_hold(out / "exercises", _values(course, secret)):
+        raise ValueError(
+            f"{out} was graded with another variant; choose another folder"
+        )
     return write(course, secret, out / "exercises")
 
 
@@ -383,7 +406,11 @@ class EachStudent:
             raise ValueError(
                 f"a student's name must be the name of a folder, got {student!r}"
             )
-        return write(self.course, f"{self.secret}/{student}", self.folder / student)
+        return write(self.course, self.secret_of(student), self.folder / student)
+
+    def secret_of(self, student: str) -> str:
+        """Return the text that chooses a student's variant."""
+        return f"{self.secret}/{student}"
 
     def key(self) -> str:
         """Return a hash of everything that the courses depend on, besides the book's exercises."""

@@ -250,6 +250,43 @@ def test_a_wrong_input_is_one_sentence(tmp_path):
     assert (tmp_path / "full/thesis.txt").read_text() == "precious"
 
 
+def test_no_variant_is_written_over_another(tmp_path):
+    """One for all and one for each student are told apart, and the same one may be written again."""
+    for name, secret in (("one", "autumn"), ("each/ada", "autumn/ada")):
+        (tmp_path / name).mkdir(parents=True)
+        mark = tmp_path / name / variants.MARK
+        mark.write_text(json.dumps(variants._values(COURSE, secret)))
+    there = sorted(tmp_path.rglob("*"))
+    build = ["exercises", "build", "--variant"]
+    for arguments, said in (
+        (["spring", "--out", tmp_path / "one"], "one holds another variant"),
+        (
+            ["autumn", "--student", "ada", "--out", tmp_path / "one"],
+            "one holds one variant for all students; choose another folder",
+        ),
+        (
+            [
+                "spring",
+                "--student",
+                "bo",
+                "--student",
+                "ada",
+                "--out",
+                tmp_path / "each",
+            ],
+            "ada holds another variant",
+        ),
+    ):
+        done = CliRunner().invoke(app, [str(word) for word in build + arguments])
+        assert isinstance(done.exception, ValueError), arguments
+        assert said in str(done.exception)
+    assert sorted(tmp_path.rglob("*")) == there
+    variants.check_replaces_nothing(COURSE, "autumn", tmp_path / "one")
+    (tmp_path / "one" / variants.MARK).write_text("torn")
+    with pytest.raises(ValueError, match="holds another variant"):
+        variants.check_replaces_nothing(COURSE, "autumn", tmp_path / "one")
+
+
 @pytest.mark.slow
 def test_a_term_with_a_variant(tmp_path):
     """An instructor builds it, students check and hand in, and the class is graded."""
