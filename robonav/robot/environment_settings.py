@@ -1,8 +1,4 @@
-"""What surrounds the environments: their arguments, checked, and one robot as a batch of one.
-
-The simulator, reflexes, rewards and policies take arrays whose rows are robots. :class:`NavigationEnv` has one robot,
-and asks reflex and reward about one row.
-"""
+"""What surrounds the environments: their arguments and options, checked, and their observations."""
 
 from __future__ import annotations
 
@@ -24,14 +20,11 @@ from robonav.validation import (
     check_real,
 )
 
-from ._fast.constants import NO_REFLEX
-from .physics import Array, Flags
+from ._fast.constants import NO_REFLEX, RUNNING, TO_SECTOR
 from .rollout import REFLEX, ReflexRule
 from .simulator import (
     DIRECTIONS,
     NEVER,
-    OUTCOMES,
-    Outcome,
     Reflex,
     Sensing,
     check_action,
@@ -58,9 +51,6 @@ REWARD_OF_OUTCOME = np.array([0.0, 1.0, -1.0, 0.0])
 """For an episode that goes on, and for one that ended by arrival, by collision, or for lack of steps."""
 
 NO_LIMIT = -1  # Gymnasium's sign for an episode that may last for ever
-
-OUTCOME_OF_ONE = np.arange(len(OUTCOMES), dtype=np.int8)[:, None]
-OUTCOME_OF_ONE.flags.writeable = False  # row k: outcome k of one robot, (1,)
 
 
 def arrival_or_collision(
@@ -89,11 +79,6 @@ def arrival_or_collision(
     array([ 0.,  1., -1.])
     """
     return REWARD_OF_OUTCOME[outcome]
-
-
-def batch_of_one(ranges: Array, walls: Flags, region: int, seen: bool) -> Sensing:
-    """Return what one robot senses as reflexes, rewards and policies take it; ``region`` is 0 to 8."""
-    return Sensing(ranges[None], walls[None], np.array([region + 1]), np.array([seen]))
 
 
 def as_sensing(observation: dict[str, Any]) -> Sensing:
@@ -132,7 +117,7 @@ def while_running(step: Callable[[Any, int], Any]) -> Callable[[Any, int], Any]:
         """Check the state of the episode and the action, then make the step."""
         if env.outcome is None:
             raise ValueError("step: call reset first")
-        if env.outcome != Outcome.RUNNING:
+        if env.outcome != RUNNING:
             raise ValueError("step: the episode has ended; call reset first")
         return step(env, check_action(action))
 
@@ -212,21 +197,25 @@ class NavigationSettings:
             random_keys(generators), self.obstacles, self.moving, self.starts, self.targets, self.moving_speeds
         )  # fmt: skip
 
-    def reflex_action(self, sensing: Sensing) -> int:
+    def reflex_of_one(self, sensing: Sensing) -> int:
         """Return the action of one robot's reflex, -1 where the action given counts."""
         if self.reflex is None:
             return NO_REFLEX
-        return int(self.reflex(sensing, self.speed)[0])
+        reflex = int(self.reflex(sensing, self.speed)[0])
+        if not NO_REFLEX <= reflex <= TO_SECTOR:
+            raise ValueError(f"reflex must give -1 or an action 0 to 7, got {reflex}")
+        return reflex
 
-    def reward_of_step(self, before: Sensing, after: Sensing, outcome: int) -> float:
-        """Return the reward of one robot."""
-        given = self.reward(before, after, OUTCOME_OF_ONE[outcome])
-        reward = np.asarray(given, dtype=float)
-        if reward.shape != (1,):
+    def rewards(
+        self, before: Sensing, after: Sensing, outcome: NDArray[np.int8]
+    ) -> NDArray[np.float64]:
+        """Return the rewards (N,) of N robots."""
+        rewards = np.array(self.reward(before, after, outcome), dtype=float)
+        if rewards.shape != outcome.shape:
             raise ValueError(
-                f"reward must give an array of shape (1,), got {reward.shape}"
+                f"reward must give an array of shape {outcome.shape}, got {rewards.shape}"
             )
-        return float(reward[0])
+        return rewards
 
 
 def check_settings(

@@ -361,7 +361,12 @@ class Simulator:
             raise ValueError(
                 f"commands must be an array of {len(rows)} whole numbers 0 to 7, got {commands!r}"
             )
-        commands = commands.astype(np.int64, copy=False)
+        return self.advance(rows, commands.astype(np.int64, copy=False))
+
+    def advance(
+        self, rows: NDArray[np.int64], commands: NDArray[np.int64]
+    ) -> NDArray[np.int64]:
+        """Do what :meth:`step` does, for robots and commands that have been checked."""
         w = self.worlds
         executed = commands.copy() if len(self.slip) else commands
         _fast.in_threads(

@@ -24,7 +24,7 @@ from .environment_settings import (
 )
 from .environments import NavigationEnv
 from .rollout import REFLEX, ReflexRule, undecided
-from .simulator import Sensing, Simulator, check_actions
+from .simulator import Simulator, check_actions
 from .worlds import MOVING_SPEEDS, START, TARGET, Worlds
 
 MAX_STEPS = 500
@@ -201,7 +201,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         if fresh.any():  # robots whose episode has ended stood still; a new one begins
             self._restart(fresh)
         self.sensing = simulator.sense()
-        reward = self._reward(before, self.sensing)
+        reward = self.settings.rewards(before, self.sensing, simulator.outcome)
         reward[fresh] = 0.0
         ended = simulator.outcome != RUNNING
         terminated = ended & (simulator.outcome != OUT_OF_STEPS)
@@ -259,15 +259,6 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
             worlds, settings.speed, slip=settings.slip, noise=settings.noise,
             max_steps=settings.max_episode_steps,
         )  # fmt: skip
-
-    def _reward(self, before: Sensing, after: Sensing) -> NDArray[np.float64]:
-        outcome = self.simulator.outcome
-        reward = np.array(self.settings.reward(before, after, outcome), dtype=float)
-        if reward.shape != (self.num_envs,):
-            raise ValueError(
-                f"reward must give an array of shape ({self.num_envs},), got {reward.shape}"
-            )
-        return reward
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """Draw every world as an image (H, W, 3), if ``render_mode`` is "rgb_array"."""

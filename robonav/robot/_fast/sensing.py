@@ -185,9 +185,9 @@ def sense(
 ):  # fmt: skip
     """What ``robots[start]`` to ``robots[stop - 1]`` read: ranges and walls (K, 9), target region and seen (K,).
 
-    ``robots`` (K,) are rows of the N worlds. Each reads what :func:`robonav.robot.physics.sense` says. The rays
-    are made only once, and no row is cut out of an array: ``motion.py`` says why. ``noise`` is the standard deviation,
-    in metres, of an error on every range that sees something.
+    ``robots`` (K,) are rows of the N worlds. Each reads what ``sense`` of ``plain_environment.py`` says. The rays are
+    made only once, and no row is cut out of an array: ``motion.py`` says why. ``noise`` is the standard deviation, in
+    metres, of an error on every range that sees something.
     """
     cosines, sines, along = np.empty(SENSORS), np.empty(SENSORS), np.empty(SENSORS)
     for k in range(SENSORS):  # directions of the rays between neighbouring sectors

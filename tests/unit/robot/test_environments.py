@@ -16,15 +16,10 @@ from robonav.robot import (
     Action,
     Outcome,
     Reflex,
-    Simulator,
     make_world,
     neighbour_slip,
-    obstacle_tracks,
-    physics,
     random_worlds,
-    sense,
 )
-from robonav.robot._fast import micrometres, swept_clearance
 from robonav.robot.environments import NavigationEnv, as_sensing
 from robonav.robot.vector_environment import NavigationVectorEnv
 
@@ -411,6 +406,10 @@ def test_bad_rewards_options_and_seeds_are_refused_with_a_sentence():
     env.reset(seed=0)
     with pytest.raises(ValueError, match=r"reward must give an array of shape \(1,\)"):
         env.step(0)
+    env = NavigationEnv(reflex=lambda sensing, speed: np.array([8]))
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match="reflex must give -1 or an action 0 to 7"):
+        env.step(0)
     with pytest.raises(ValueError, match=r"options\['worlds'\] must hold 1 worlds"):
         env.reset(options={"worlds": random_worlds(2, seed=0)})
 
@@ -425,97 +424,3 @@ def test_the_array_of_ones_own_reflex_is_left_alone():
     for _ in range(4):
         *_, info = env.step(np.zeros(3, int))
     assert info["reflex"].tolist() == [0, 0, 0]
-
-
-def some_worlds(moving: int = 4):
-    """Worlds with circles and rectangles, and in each a pose: some beside obstacles and borders, some within them."""
-    worlds = random_worlds(1500, obstacles=16, moving=moving, seed=5)
-    rng = np.random.default_rng(6)
-    poses = np.column_stack(
-        [
-            rng.uniform(0, worlds.size, (len(worlds), 2)),
-            rng.uniform(-np.pi, np.pi, len(worlds)),
-        ]
-    )
-    poses[::5, rng.integers(2)] = rng.uniform(0, 3, len(poses[::5]))  # near a border
-    return worlds, poses
-
-
-def one_map(worlds, i):
-    return worlds.kinds[i], worlds.shapes[i], worlds.centres[i].copy()
-
-
-@pytest.mark.parametrize("noise", [0.0, 0.4])
-def test_one_robot_senses_what_the_batch_senses_to_the_bit(noise):
-    worlds, poses = some_worlds()
-    expected = sense(worlds, poses, noise=noise)
-    assert expected.walls.any(), "no border in range"
-    assert (expected.ranges == 0).any(), "no robot in an obstacle"
-    for i, pose in enumerate(poses.tolist()):
-        ranges, walls, region, seen = physics.sense(
-            one_map(worlds, i), worlds.size, tuple(pose), tuple(worlds.targets[i].tolist()), noise, worlds.keys[i], 0
-        )  # fmt: skip
-        np.testing.assert_array_equal(ranges, expected.ranges[i])
-        np.testing.assert_array_equal(walls, expected.walls[i])
-        assert region + 1 == expected.target_region[i]
-        assert seen == expected.target_seen[i]
-
-
-def test_obstacles_of_one_map_drift_as_in_the_batch_to_the_bit():
-    worlds, _ = some_worlds()
-    steps = 30
-    tracks = obstacle_tracks(worlds[:100], steps)
-    assert (abs(np.diff(tracks, axis=1)).max(axis=(0, 1, 3)) > 0).any()
-    for i in range(100):
-        obstacles, headings = one_map(worlds, i), worlds.headings[i].copy()
-        for step in range(steps):
-            physics.drift(
-                obstacles, headings, worlds.speeds[i], worlds.size, worlds.keys[i], step
-            )
-            np.testing.assert_array_equal(obstacles[2], tracks[i, step + 1])
-
-
-def test_clearance_of_one_step_is_the_compiled_one_to_the_bit():
-    worlds, poses = some_worlds()
-    ends = poses + np.random.default_rng(7).uniform(-4, 4, poses.shape)
-    collisions = 0
-    for i, (start, end) in enumerate(zip(poses.tolist(), ends.tolist(), strict=True)):
-        obstacles = kinds, shapes, centres = one_map(worlds, i)
-        physics.drift(
-            obstacles, worlds.headings[i].copy(), worlds.speeds[i], worlds.size, worlds.keys[i], 0,
-        )  # fmt: skip
-        expected = micrometres(
-            swept_clearance(
-                kinds, shapes, worlds.centres[i], centres, worlds.size, *start[:2], *end[:2], 1.001,
-            )
-        )  # fmt: skip
-        got = physics.least_clearance(
-            obstacles, worlds.centres[i], worlds.size, tuple(start[:2]), tuple(end[:2])
-        )
-        assert min(got, 1.001) == expected
-        collisions += got < 1
-    assert 100 < collisions < 1400
-
-
-def test_one_action_slips_as_in_the_batch():
-    worlds, _ = some_worlds(moving=0)
-    slip = neighbour_slip(0.5)
-    for action in range(6):
-        simulator = Simulator(worlds, slip=slip)
-        executed = simulator.step(np.full(len(worlds), action))
-        slipped = [physics.slip_to(action, slip, key, 0) for key in worlds.keys]
-        np.testing.assert_array_equal(slipped, executed)
-    assert len(set(slipped)) == 1  # B never slips
-
-
-def test_a_step_of_one_robot_is_that_of_the_batch_to_the_bit():
-    worlds, _ = some_worlds(moving=0)
-    worlds = worlds[:300]
-    actions = np.random.default_rng(0).integers(6, size=len(worlds))
-    simulator = Simulator(worlds, speed=1.7)
-    simulator.step(actions)
-    for i, expected in enumerate(simulator.poses):
-        env = NavigationEnv(speed=1.7, reflex=None)
-        env.reset(options={"worlds": worlds[i]})
-        env.step(int(actions[i]))
-        np.testing.assert_array_equal(env.pose, expected)

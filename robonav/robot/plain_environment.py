@@ -1,0 +1,272 @@
+"""A robot on its way to a target among obstacles: the environment to read (section 2.5).
+
+One class in plain NumPy: what the robot can do and sense, how it moves, what it earns, when an episode ends. Below the
+class stands the geometry that it uses. It runs as it is, and is a pattern for an environment of your own.
+
+``gymnasium.make("robonav/Navigation-v0")`` makes its compiled twin, which has options: see ``environments.py``. Tests
+hold the two equal.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from ._fast.constants import (
+    ARRIVAL_DISTANCE,  # 3 m
+    CIRCLE,
+    COLLISION_DISTANCE,  # 1 m
+    RECTANGLE,
+    SECTOR,  # 40 degrees, in radians
+    SENSOR_RANGE,  # 10 m
+    TURNS,  # of the actions 0 to 5: 0, 30, 60, -30, -60, 0 degrees, in radians
+)
+from .simulator import Action
+from .worlds import Worlds, draw_worlds, random_keys
+
+AHEAD = [0, 1, 2, 7, 8]  # the five sectors that look ahead
+RAYS = (np.arange(9) + 0.5) * SECTOR  # ray k lies between the sectors k and k + 1
+
+Array = NDArray[np.float64]
+Observation = dict[str, Any]
+Info = dict[str, Any]
+
+
+class PlainNavigationEnv(gymnasium.Env):
+    """A mobile robot has to reach a target in an unknown map without hitting anything.
+
+    ## Description
+
+    The robot crosses a square map of 100 m with circular and rectangular obstacles. It senses distances in nine
+    sectors of 40 degrees and the direction of its target, never the map. One step lasts one second.
+
+    ## Action space
+
+    ``Discrete(6)``, Eq. (4.4). The robot turns, then goes straight on for one second.
+
+    | number | action | turn             | distance |
+    |--------|--------|------------------|----------|
+    | 0      | F      | none             | speed    |
+    | 1      | L30    | 30 degrees left  | speed    |
+    | 2      | L60    | 60 degrees left  | speed    |
+    | 3      | R30    | 30 degrees right | speed    |
+    | 4      | R60    | 60 degrees right | speed    |
+    | 5      | B      | none             | -speed   |
+
+    A reflex comes first: if nothing is in sensor range, the robot turns to its target and goes forward. If all five
+    sectors ahead are blocked, it steps back. In both cases it ignores the action given.
+
+    ## Observation space
+
+    ``Dict``. Sector 0 looks ahead; sectors are numbered counter-clockwise.
+
+    | key           | space                     | meaning                                                            |
+    |---------------|---------------------------|--------------------------------------------------------------------|
+    | ranges        | Box(0, 10, (9,), float64) | least distance in each sector in metres, 10 if nothing is in range |
+    | walls         | MultiBinary(9)            | whether that nearest thing is the map's border                     |
+    | target_region | Discrete(9)               | sector that holds the target                                       |
+    | target_seen   | Discrete(2)               | whether the target is within 10 m                                  |
+
+    ## Rewards
+
+    1 for an arrival, -1 for a collision, else 0.
+
+    ## Starting state
+
+    A new random map. The robot stands at (10, 10), at least 6 m from every obstacle, and faces its target at (90, 90).
+
+    ## Episode end
+
+    1. Termination: the robot comes nearer than 1 m to an obstacle or a border, anywhere on its way.
+    2. Termination: the robot arrives, within 3 m of the target.
+
+    There is no limit of steps; Gymnasium's wrapper ``TimeLimit`` adds one.
+
+    Examples
+    --------
+    >>> from robonav.robot.plain_environment import PlainNavigationEnv
+    >>> env = PlainNavigationEnv(obstacles=0)
+    >>> observation, _ = env.reset(seed=0)
+    >>> observation, reward, terminated, truncated, _ = env.step(0)
+    >>> env.position.round(3)  # 2 m nearer to the target
+    array([11.414, 11.414])
+    """
+
+    def __init__(self, obstacles: int = 10, speed: float = 2.0) -> None:
+        self.obstacles, self.speed = obstacles, speed
+        self.action_space = spaces.Discrete(6)
+        self.observation_space = spaces.Dict(
+            {
+                "ranges": spaces.Box(0.0, SENSOR_RANGE, (9,), np.float64),
+                "walls": spaces.MultiBinary(9),
+                "target_region": spaces.Discrete(9),
+                "target_seen": spaces.Discrete(2),
+            }
+        )
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, Info]:
+        """Put the robot into a new random map."""
+        super().reset(seed=seed)
+        self.enter(draw_worlds(random_keys([self.np_random]), self.obstacles, 0))
+        return self.sense(), {}
+
+    def enter(self, world: Worlds) -> None:
+        """Put the robot at the start of a map. These five attributes are the state."""
+        self.position, self.heading = world.starts[0], world.start_poses[0, 2]
+        self.target = world.targets[0]
+        obstacles = np.column_stack([world.centres[0], world.shapes[0]])
+        self.circles = obstacles[world.kinds[0] == CIRCLE]  # x, y, radius
+        self.rectangles = np.concatenate(  # x, y, half length, half width, angle
+            [border(world.size), obstacles[world.kinds[0] == RECTANGLE]]
+        )
+
+    def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
+        """Simulate one second: the robot moves, its episode may end, it senses again."""
+        start = self.position
+        self.heading, distance = self.heading_and_distance(action)
+        direction = np.array([math.cos(self.heading), math.sin(self.heading)])
+        self.position = start + distance * direction
+
+        collided = self.clearance(start, self.position) < COLLISION_DISTANCE
+        arrived = not collided and self.to_target()[0] <= ARRIVAL_DISTANCE
+        reward = 1.0 if arrived else -1.0 if collided else 0.0
+        return self.sense(), reward, collided or arrived, False, {}
+
+    def heading_and_distance(self, action: int) -> tuple[float, float]:
+        """Return where the robot turns and how far it goes, by its reflex or the action."""
+        if self.ranges.min() == SENSOR_RANGE:  # nothing is near
+            return self.to_target()[1], self.speed
+        if (self.ranges[AHEAD] < self.speed + COLLISION_DISTANCE).all():  # blocked
+            action = Action.B
+        heading = math.remainder(self.heading + TURNS[action], math.tau)
+        return heading, -self.speed if action == Action.B else self.speed
+
+    def to_target(self) -> tuple[float, float]:
+        """Return the distance of the target, rounded to a micrometre, and its direction."""
+        dx, dy = self.target - self.position
+        return round(math.hypot(dx, dy), 6), math.atan2(dy, dx)
+
+    def sense(self) -> Observation:
+        """Return the least distance in each sector, whether it is to a border, and where the target is.
+
+        Seen from outside, the distance to a convex shape falls and then rises with the bearing. So its least distance
+        in a sector is at its nearest point, if the sector holds it, or else on one of the sector's two rays.
+        """
+        rays = self.heading + RAYS
+        rectangles = see_rectangles(self.rectangles, self.position, rays)
+        circles = see_circles(self.circles, self.position, rays)
+        both = zip(rectangles, circles, strict=True)
+        nearest, bearing, on_rays = map(np.concatenate, both)
+
+        holds_it = sector(bearing - self.heading)[:, None] == np.arange(9)
+        at_nearest = np.where(holds_it, nearest[:, None], np.inf)
+        beside = np.minimum(on_rays, np.roll(on_rays, 1, axis=1))
+        distances = np.minimum(at_nearest, beside)  # of each shape in each sector
+        self.ranges = np.minimum(distances.min(axis=0), SENSOR_RANGE).round(6)
+        is_border = distances.argmin(axis=0) < 4  # the first four rectangles
+        distance, direction = self.to_target()
+        return {
+            "ranges": self.ranges.copy(),
+            "walls": (is_border & (self.ranges < SENSOR_RANGE)).astype(np.int8),
+            "target_region": sector(round(direction - self.heading, 6)),
+            "target_seen": np.int64(distance <= SENSOR_RANGE),
+        }
+
+    def clearance(self, start: Array, end: Array) -> float:
+        """Return the least distance to anything on the straight way from ``start`` to ``end``.
+
+        A rectangle that the way does not meet is nearest to it at an end of the way, or at a corner.
+        """
+        dx, dy = end - start
+        way = np.array([math.atan2(dy, dx)])
+        at_start, _, along = see_rectangles(self.rectangles, start, way)
+        at_end, _, _ = see_rectangles(self.rectangles, end, way)
+        if (along <= math.hypot(dx, dy)).any():  # the way meets a rectangle
+            return 0.0
+        at_corners = distances_to_way(corners(self.rectangles), start, end)
+        to_centres = distances_to_way(self.circles[:, :2], start, end)
+        to_circles = to_centres - self.circles[:, 2]
+        least = np.concatenate([at_start, at_end, at_corners, to_circles]).min()
+        return round(max(float(least), 0.0), 6)
+
+
+def sector(bearing: Any) -> Any:
+    """Return the number, 0 to 8, of the sector that holds a bearing from the heading."""
+    return np.floor(bearing / SECTOR + 0.5).astype(np.int64) % 9
+
+
+def see_circles(
+    circles: Array, position: Array, rays: Array
+) -> tuple[Array, Array, Array]:
+    """Look at C circles: distance and bearing of the nearest point (C,), and distance on each of K rays (C, K)."""
+    radius, (x, y) = circles[:, 2:3], (circles[:, :2] - position).T
+    nearest = np.maximum(np.hypot(x, y) - radius[:, 0], 0.0)  # 0 inside
+    ahead, aside = rotated(x[:, None], y[:, None], -rays)  # the centre, from each ray
+    half_chord = np.sqrt(np.maximum(radius**2 - aside**2, 0.0))
+    meets = (abs(aside) <= radius) & (ahead + half_chord >= 0.0)
+    on_rays = np.where(meets, np.maximum(ahead - half_chord, 0.0), np.inf)
+    return nearest, np.arctan2(y, x), on_rays
+
+
+def see_rectangles(
+    rectangles: Array, position: Array, rays: Array
+) -> tuple[Array, Array, Array]:
+    """Look at R rectangles, as at circles.
+
+    In a rectangle's own frame, each coordinate of its nearest point is the robot's, kept between two sides. A ray is in
+    the rectangle where it is between two sides in both coordinates.
+    """
+    half, turned = rectangles[:, 2:4], rectangles[:, 4]
+    dx, dy = (position - rectangles[:, :2]).T
+    robot = rotated(dx, dy, -turned).T  # in the frame of each rectangle, (R, 2)
+    x, y = (np.clip(robot, -half, half) - robot).T
+    directions = rotated(1.0, 0.0, rays - turned[:, None]).transpose(1, 2, 0)
+    with np.errstate(divide="ignore"):  # a ray may be parallel to two sides
+        one = (-half - robot)[:, None] / directions  # (R, K, 2)
+        other = (half - robot)[:, None] / directions
+    enter = np.minimum(one, other).max(axis=2)
+    leave = np.maximum(one, other).min(axis=2)
+    meets = (enter <= leave) & (leave >= 0.0)
+    on_rays = np.where(meets, np.maximum(enter, 0.0), np.inf)
+    return np.hypot(x, y), np.arctan2(y, x) + turned, on_rays
+
+
+def rotated(x: Any, y: Any, angle: Array) -> Array:
+    """Turn points about the origin, to the left; the result has x and y along its first axis."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([c * x - s * y, s * x + c * y])
+
+
+def corners(rectangles: Array) -> Array:
+    """Return the corners (4 R, 2) of R rectangles."""
+    centres, (a, b, turned) = rectangles[:, :2], rectangles[:, 2:].T
+    around = [(a, b), (-a, b), (-a, -b), (a, -b)]
+    return np.concatenate([centres + rotated(x, y, turned).T for x, y in around])
+
+
+def distances_to_way(points: Array, start: Array, end: Array) -> Array:
+    """Return how far N points (N, 2) are from the straight way from ``start`` to ``end``."""
+    way = end - start
+    part = np.clip((points - start) @ way / (way @ way), 0.0, 1.0)  # of the way
+    x, y = (points - start - np.outer(part, way)).T
+    return np.hypot(x, y)
+
+
+def border(size: float) -> Array:
+    """Return the border of a square map as four rectangles outside it."""
+    half, far = size / 2, 1.5 * size
+    return np.array(
+        [
+            [-half, half, half, far, 0.0],  # left
+            [size + half, half, half, far, 0.0],  # right
+            [half, -half, far, half, 0.0],  # below
+            [half, size + half, far, half, 0.0],  # above
+        ]
+    )
