@@ -1,8 +1,9 @@
 """robonav: robot learning for autonomous navigation, the package of the book.
 
 Each chapter has its subpackage: ``mdp`` (chapter 2), ``robot`` (section 2.5), ``lfd`` (3, imitation learning),
-``nnql`` (4, reinforcement learning) and ``nirl`` (5, inverse reinforcement learning). The last three use ``networks``.
-Importing this package only registers the Gymnasium environments. Subpackages load when they are first used.
+``nnql`` (4, reinforcement learning), ``nirl`` (5, inverse reinforcement learning) and ``planners`` (6, which learn
+nothing). Chapters 3 to 5 use ``networks``. Importing this package only registers the Gymnasium environments.
+Subpackages load when they are first used.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ _SUBPACKAGES = (
     "networks",
     "nirl",
     "nnql",
+    "planners",
     "plots",
     "robot",
     "widgets",
@@ -36,6 +38,7 @@ if TYPE_CHECKING:
         mdp,
         nirl,
         nnql,
+        planners,
         plots,
         robot,
         widgets,

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,6 +29,29 @@ Chooser = Callable[[Simulator, Sensing, NDArray[np.int64]], ArrayLike]
 """``choose(simulator, sensing, robots) -> (K,)`` actions of the robots with these indices (K,) in the simulator.
 
 ``sensing`` has K rows: what these robots sense."""
+
+
+@runtime_checkable
+class PolicyWithMemory(Protocol):
+    """A policy that remembers something of its episode, or knows more than what the robot senses now.
+
+    ``begin`` makes a new chooser at the start of the episodes, which holds what is remembered.
+
+    Examples
+    --------
+    >>> from robonav.robot import PolicyWithMemory, follow_policy, navigate, random_worlds, straight
+    >>> class Straight:
+    ...     def begin(self, simulator, rng):
+    ...         return follow_policy(straight, rng)
+    >>> isinstance(Straight(), PolicyWithMemory), isinstance(straight, PolicyWithMemory)
+    (True, False)
+    >>> navigate(Straight(), random_worlds(3, obstacles=0, seed=0)).success
+    array([ True,  True,  True])
+    """
+
+    def begin(self, simulator: Simulator, rng: np.random.Generator) -> Chooser:
+        """Return a chooser for the robots of a simulator, whose episodes begin."""
+
 
 ReflexRule = Callable[[Sensing, float], NDArray[np.int64]]
 """``reflex(sensing, speed) -> (N,)`` actions, -1 where the policy decides; see :class:`Reflex`."""
@@ -217,7 +241,7 @@ class Navigation:
 
 
 def navigate(
-    policy: Policy,
+    policy: Policy | PolicyWithMemory,
     worlds: Worlds,
     speed: float = 2.0,
     max_steps: int = 500,
@@ -233,8 +257,9 @@ def navigate(
 
     Parameters
     ----------
-    policy : callable
-        ``policy(sensing, rng) -> (K,)`` actions, asked about the K robots whose reflex does not decide.
+    policy : callable or PolicyWithMemory
+        ``policy(sensing, rng) -> (K,)`` actions, asked about the K robots whose reflex does not decide; or a policy
+        that has a memory.
     worlds : Worlds
         A batch of N.
     speed : float
@@ -269,13 +294,15 @@ def navigate(
     >>> int(result.success.sum()), int(result.collision.sum())
     (97, 1)
     """
-    check_callable("policy", policy, "policy(sensing, rng)")
+    if not isinstance(policy, PolicyWithMemory):
+        check_callable("policy", policy, "policy(sensing, rng)")
     if reflex is not None and not callable(reflex):
         raise TypeError(
             f"reflex must be callable as reflex(sensing, speed), or None, got {reflex!r}"
         )
-    choose = follow_policy(policy, check_generator("seed", seed))
+    rng = check_generator("seed", seed)
     simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
+    choose = _chooser(policy, simulator, rng)
     n, ended = len(worlds), 0
     track: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
     for second in run_episodes(simulator, choose, reflex=reflex):
@@ -290,6 +317,15 @@ def navigate(
         simulator.steps,
         _by_robot(track, n) if record_paths else None,
     )
+
+
+def _chooser(
+    policy: Policy | PolicyWithMemory, simulator: Simulator, rng: np.random.Generator
+) -> Chooser:
+    """Return the chooser of a policy with or without a memory."""
+    if isinstance(policy, PolicyWithMemory):
+        return policy.begin(simulator, rng)
+    return follow_policy(policy, rng)
 
 
 def _by_robot(

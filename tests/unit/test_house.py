@@ -26,7 +26,7 @@ BASE = {
     "validation",
     "documentation",
 }
-CHAPTERS = {"mdp", "robot", "networks", "lfd", "nnql", "nirl"}
+CHAPTERS = {"mdp", "robot", "networks", "lfd", "nnql", "nirl", "planners"}
 ALLOWED = {
     "mdp": set(),
     "robot": set(),
@@ -34,6 +34,7 @@ ALLOWED = {
     "lfd": {"mdp", "robot", "networks"},
     "nnql": {"mdp", "robot", "networks"},
     "nirl": {"mdp", "robot", "networks", "lfd", "nnql"},
+    "planners": {"robot", "lfd"},
     "experiments": CHAPTERS | {"benchmark"},
     "benchmark": CHAPTERS,
     "plots": CHAPTERS | {"experiments", "benchmark"},

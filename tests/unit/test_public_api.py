@@ -19,7 +19,7 @@ from numpydoc.validate import validate
 import robonav
 from robonav.cli import app
 
-PUBLIC = ("mdp", "robot", "networks", "lfd", "nnql", "nirl")
+PUBLIC = ("mdp", "robot", "networks", "lfd", "nnql", "nirl", "planners")
 
 # Each call: its first parameters, in order, as they may be given by position. More may follow as keywords.
 CALLS = {

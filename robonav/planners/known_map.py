@@ -1,0 +1,57 @@
+"""The planner that knows the map, as the upper end of what planning can reach."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robonav.lfd import ComputerExpert
+from robonav.robot import Chooser, Sensing, Simulator
+from robonav.validation import check_real
+
+
+@dataclass(frozen=True)
+class KnownMap:
+    """A policy that plans with modified A* (Algorithm 4) in the map, and again whenever it has left its plan.
+
+    It is the expert of chapter 3. It knows the whole map, its own place and that of the target, and where moving
+    obstacles are now.
+
+    Parameters
+    ----------
+    margin, caution : float
+        As in :class:`robonav.lfd.ComputerExpert`.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.planners import KnownMap
+    >>> from robonav.robot import navigate, random_worlds
+    >>> float(navigate(KnownMap(), random_worlds(20, obstacles=20, seed=1)).success.mean())
+    1.0
+    """
+
+    margin: float = 3.0
+    caution: float = 2.0
+
+    def __post_init__(self) -> None:
+        check_real("margin", self.margin, at_least=1)
+        check_real("caution", self.caution, at_least=0)
+
+    def begin(self, simulator: Simulator, rng: np.random.Generator) -> Chooser:
+        """Return what chooses the actions of the robots of a simulator."""
+        expert = ComputerExpert(self.margin, self.caution)
+
+        def choose(
+            simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
+        ) -> NDArray[np.int64]:
+            """Return the next actions (K,) of the plans of K robots."""
+            return expert(simulator, robots)
+
+        return choose
