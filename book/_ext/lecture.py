@@ -15,7 +15,7 @@ import copy
 import json
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from html import escape, unescape
 
 from bs4 import BeautifulSoup, NavigableString, Tag
@@ -26,6 +26,7 @@ MOST_POINTS = 3
 LENGTHS_OF_A_POINT = range(20, 126)  # characters
 LINES_BESIDE, COLUMNS_BESIDE = 20, 70  # of a listing beside its equation
 LINES_BELOW = 8  # of a listing below its equation
+MOST_LINES = 25  # of a listing on one slide; a longer one gets two
 LONGEST_TITLE = 76  # characters
 MOST_WANTED = (
     50  # minutes of slides that only the long lecture has, before they share its time
@@ -716,10 +717,66 @@ def lecture(page: Page) -> list[Slide]:
             (slide.kind in ("summary", "homework")) + (slide.kind == "homework")
         )
     )
-    slides = choose(slides)
+    slides = with_short_listings(choose(slides))
     share([slide for slide in slides if not slide.long], "short", MINUTES)
     share(slides, "long", 2 * MINUTES)
     return slides
+
+
+def place_to_cut(lines: list[str]) -> int:
+    """Return where a listing is cut in two: near its middle, before a line that is indented least."""
+    middle = len(lines) / 2
+
+    def unfit(at: int) -> tuple[float, float]:
+        line, before = lines[at], lines[at - 1]
+        inside = len(line) - len(line.lstrip()) if line.strip() else 99
+        opened = before.rstrip().endswith((":", "(", "[", "{", ","))
+        return inside + 8 * opened - 2 * (not before.strip()), abs(at - middle)
+
+    return min(range(len(lines) // 2 - 5, len(lines) // 2 + 6), key=unfit)
+
+
+def cut(part: Part) -> list[Part]:
+    """Return a listing as two, if it is too long for one slide."""
+    if part.kind != "listing" or part.lines <= MOST_LINES:
+        return [part]
+    lines = part.tag.pre.get_text().rstrip("\n").split("\n")
+    code = part.tag.pre.decode_contents().rstrip("\n").split("\n")
+    if len(code) != len(lines):
+        raise ValueError(f"the markup of {min(part.names)} spans lines")
+    at = place_to_cut(lines)
+    halves = []
+    for found in (code[:at], code[at:]):
+        tag = copy.copy(part.tag)
+        tag.pre.clear()
+        tag.pre.append(BeautifulSoup("\n".join(found).strip("\n"), "html.parser"))
+        half = Part("listing", [tag], part.names, part.heading, part.section)
+        texts = tag.pre.get_text().split("\n")
+        half.lines, half.columns = len(texts), max(map(len, texts))
+        halves.append(half)
+    halves[0].before, halves[1].after = part.before, part.after
+    return halves
+
+
+def with_short_listings(slides: list[Slide]) -> list[Slide]:
+    """Return slides on which each listing is short enough to be read: a long one continues on the next slide."""
+    found = []
+    for slide in slides:
+        found.append(slide)
+        pieces = [cut(part) for part in slide.parts]
+        later = [halves[1] for halves in pieces if len(halves) > 1]
+        if not later:
+            continue
+        rest = replace(slide, title=f"{slide.title} (continued)", parts=later)
+        rest.points, rest.minutes = [], {}
+        rest.notes = ["<p>The second half of the function.</p>"]
+        slide.parts = [halves[0] for halves in pieces]
+        rest.wanted = slide.wanted = slide.wanted / 2
+        if slide.fixed:
+            rest.fixed = max(STEP, slide.fixed / 2 // STEP * STEP)
+            slide.fixed -= rest.fixed
+        found.append(rest)
+    return found
 
 
 def choose(slides: list[Slide]) -> list[Slide]:

@@ -26,6 +26,7 @@ from lecture import (
     COLUMNS_BESIDE,
     LINES_BELOW,
     MINUTES,
+    MOST_LINES,
     Page,
     Part,
     Slide,
@@ -97,9 +98,23 @@ def part_html(part: Part) -> str:
     if part.kind == "figure":
         return f"<figure>{inner(tag)}</figure>"
     if part.kind == "output":
+        lines = sum(len(block.get_text().split("\n")) for block in tag.select("pre"))
+        code = tag.select_one(".cell_input")
+        if code is not None and lines > MOST_LINES:
+            return inner(tag).replace(str(code), "")
         return inner(tag)
     attributes = " ".join(tag.get("class") or ())
-    return f'<{tag.name} class="{attributes}">{inner(tag)}</{tag.name}>'
+    content = lit(inner(tag)) if part.kind == "listing" else inner(tag)
+    return f'<{tag.name} class="{attributes}">{content}</{tag.name}>'
+
+
+def lit(listing: str) -> str:
+    """Return a listing in which the lines that compute a numbered equation are lit."""
+    lines = [
+        f'<span class="hll">{line}</span>' if re.search(r"#.*Eq\. \(", line) else line
+        for line in listing.split("\n")
+    ]
+    return "\n".join(lines)
 
 
 def aspect(part: Part) -> float:

@@ -3,9 +3,10 @@
 const query = new URLSearchParams(location.search);
 const long = query.has("long");
 const SMALLEST = 0.3;
-const LARGEST = [[".live", 1.6], ["figure, .animated", 1], [".math, pre, .admonition, table", 1.35], [".points", 1.3]];
-const READABLE = 0.66; // a live figure that would be smaller scrolls instead
-const ROOM_TO_GROW = 0.9; // of the height, for a live figure that will say more
+const LARGEST = [["figure, .animated", 1], [".math, pre, .admonition, table", 1.35], [".points", 1.3]];
+const SHARES = [0.26, 0.32, 0.38, 0.44, 0.5, 0.56, 0.62]; // of a slide's width, for the controls of a live figure
+const [SMALLEST_PICTURE, LARGEST_PICTURE] = [0.45, 2.2];
+const ROOM_TO_SAY = 40; // pixels below the controls of a live figure, for what it will say
 
 /** Shows what belongs to the lecture, and on the first slide where the other one is. */
 function choose() {
@@ -32,31 +33,125 @@ function fits(content, height, size) {
 }
 
 /** Draws the content of a slide as large as fits, up to the size at which its kind is read well. */
-function fit(body, room = 1) {
+function fit(body) {
   const content = body.querySelector(".fit");
   if (!content || !body.clientHeight) return;
-  body.classList.remove("scrolls");
-  const height = body.getBoundingClientRect().height * room;
+  const height = body.clientHeight;
   let [low, high] = [SMALLEST, LARGEST.find(([kind]) => content.querySelector(kind))?.[1] ?? 1];
   if (fits(content, height, high)) return;
-  for (let step = 0; step < 7; step += 1) {
+  for (let step = 0; step < 8; step += 1) {
     const middle = (low + high) / 2;
     if (fits(content, height, middle)) low = middle;
     else high = middle;
   }
-  const scrolls = low < READABLE && Boolean(content.querySelector(".live"));
-  body.classList.toggle("scrolls", scrolls);
-  content.style.zoom = scrolls ? READABLE : low;
+  content.style.zoom = low;
 }
 
-/** Makes a live figure smaller when its content grows, after an answer for instance. */
+// ---- Live figures: controls and words at the left, pictures at the right, as large as the slide allows ----------------
+
+const PICTURE = "canvas, svg[viewBox]";
+const SEEN = ".pictures, .plane, .grids, .curves, .charts, .legend, .viewer, .scroll, table, figure, canvas, svg";
+const PAGE_ONLY = ".my-drives, .kept, .file, .kernel, .snapshots, .readings, .hint"; // downloads, and what a lecturer says
+
+/** Whether something holds a picture, and not only the sign on a button or what is folded. */
+const pictured = (part) => [part, ...part.querySelectorAll(PICTURE)]
+  .some((found) => found.matches(PICTURE) && !found.closest("button, details, label, .snapshots"));
+
+/** Yields the parts of a live figure from top to bottom, each with whether it is looked at. A row of both comes apart. */
+function* partsOf(place) {
+  for (const part of [...place.children]) {
+    const whole = part.matches(SEEN) || [...part.children].every((inner) => inner.matches("figure"));
+    if (!pictured(part)) yield [part, part.matches(".legend, .viewer, .scroll:has(table)")];
+    else if (whole) yield [part, true];
+    else if (part.hidden) part.classList.add("page-only"); // an experiment for after this one
+    else yield* partsOf(part);
+  }
+}
+
+/** Lays a live figure out for a wide, low slide, and leaves away what belongs to the page only. */
+function arrange(widget) {
+  const [hand, eye] = ["hand", "eye"].map((name) => Object.assign(document.createElement("div"), { className: name }));
+  for (const part of widget.querySelectorAll(PAGE_ONLY)) part.classList.add("page-only");
+  for (const button of widget.querySelectorAll("button")) {
+    if (button.textContent.startsWith("Download")) button.classList.add("page-only");
+  }
+  for (const fold of widget.querySelectorAll("details")) {
+    fold.open = false;
+    fold.name = "folds"; // one at a time
+  }
+  for (const [part, seen] of [...partsOf(widget)]) {
+    if (!part.matches(".title, .question")) (seen ? eye : hand).append(part);
+  }
+  for (const rest of widget.children) if (!rest.matches(".question")) rest.classList.add("page-only");
+  widget.append(hand, eye);
+  widget.classList.add("arranged");
+}
+
+/** Draws the pictures of a live figure at a size; says whether they fit into their column and above a line. */
+function picturesFit(eye, bottom, size) {
+  eye.style.setProperty("--size", size);
+  const { right } = eye.getBoundingClientRect();
+  return [eye, ...eye.querySelectorAll(".pictures, .pictures *, figure, table, .curves, .row, svg, canvas")]
+    .map((part) => part.getBoundingClientRect())
+    .every((part) => part.bottom <= bottom + 1 && part.right <= right + 1);
+}
+
+/** Folds the last controls that do not fit beside the pictures, so that they open over them. Returns whether there was one. */
+function foldLast(hand) {
+  const rest = [...hand.children].filter((part) => !part.matches(".more, .status, .page-only, .title, details") && part.offsetHeight > 0);
+  if (rest.length < 3) return false;
+  let more = hand.querySelector(".more");
+  if (!more) {
+    more = Object.assign(document.createElement("details"), { className: "more", name: "folds" });
+    more.append(Object.assign(document.createElement("summary"), { textContent: "More" }));
+    hand.append(more);
+  }
+  more.firstElementChild.after(rest.at(-1));
+  return true;
+}
+
+/** Gives controls the share of the slide that lets pictures be largest. */
+function fitLive(body) {
+  const widget = body.querySelector(".arranged");
+  widget.classList.remove("crowded");
+  const [hand, eye] = [widget.querySelector(".hand"), widget.querySelector(".eye")];
+  const { bottom, height } = body.getBoundingClientRect();
+  const spoken = ROOM_TO_SAY * height / body.clientHeight; // the slide may be drawn smaller or larger
+  let [best, bestSize] = [SHARES.at(-1), 0];
+  const sized = () => {
+    let [low, high] = [SMALLEST_PICTURE, LARGEST_PICTURE];
+    if (!picturesFit(eye, bottom, low)) return 0;
+    for (let step = 0; step < 7; step += 1) {
+      const middle = (low + high) / 2;
+      if (picturesFit(eye, bottom, middle)) low = middle;
+      else high = middle;
+    }
+    return low;
+  };
+  for (const share of SHARES) {
+    widget.style.setProperty("--share", share);
+    if (hand.getBoundingClientRect().bottom > bottom - spoken || hand.scrollWidth > hand.clientWidth + 1) continue;
+    const size = sized();
+    if (size > bestSize) [best, bestSize] = [share, size];
+  }
+  if (bestSize === 0 && foldLast(hand)) {
+    fitLive(body);
+    return;
+  }
+  widget.classList.toggle("crowded", bestSize === 0);
+  widget.style.setProperty("--share", best);
+  eye.style.setProperty("--size", bestSize || sized() || SMALLEST_PICTURE);
+}
+
+/** Fits a slide again when its content grows, after an answer for instance. */
 function watch(body) {
-  const content = body.querySelector(".fit");
+  const widget = body.querySelector(".arranged");
+  const content = widget ?? body.querySelector(".fit");
+  const high = () => (widget ? Math.max(...[".hand", ".eye"].map((part) => widget.querySelector(part).getBoundingClientRect().bottom)) : content.getBoundingClientRect().bottom);
   const grown = new ResizeObserver(() => {
-    if (body.classList.contains("scrolls")) return;
-    if (content.getBoundingClientRect().height > body.getBoundingClientRect().height + 1) fit(body);
+    if (high() > body.getBoundingClientRect().bottom + 1) (widget ? fitLive : fit)(body);
   });
-  grown.observe(content);
+  for (const part of widget ? widget.querySelectorAll(".hand, .eye") : [content]) grown.observe(part);
 }
 
 /** The figure, link or field that has the keyboard. */
@@ -98,7 +193,8 @@ async function start() {
   document.addEventListener("keydown", beforeFigures, true);
   Reveal.on("slidechanged", () => document.activeElement?.closest("section") && document.activeElement.blur());
   const bodies = [...document.querySelectorAll(".body")];
-  for (const body of bodies) fit(body, body.querySelector(".live") ? ROOM_TO_GROW : 1);
+  for (const widget of document.querySelectorAll(".live .robonav:not(.drill)")) arrange(widget);
+  for (const body of bodies) (body.querySelector(".arranged") ? fitLive : fit)(body);
   if (!Reveal.isPrintView?.()) bodies.filter((body) => body.querySelector(".live, details")).forEach(watch);
   document.documentElement.dataset.ready = "";
 }

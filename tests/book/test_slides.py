@@ -10,7 +10,8 @@ import lecture
 import make_slides
 import pytest
 from browser import Visit, visiting
-from lecture import MINUTES, Mark, NoSuchPart, Page, Slide
+from bs4 import BeautifulSoup, Tag
+from lecture import MINUTES, Mark, NoSuchPart, Page, Part, Slide
 from notebooks import plain
 from playwright.sync_api import BrowserContext, expect
 
@@ -29,15 +30,52 @@ OVERFLOW = """() => Reveal.getSlides().flatMap((slide, number) => {
   const frame = slide.getBoundingClientRect();
   const kinds = "h1, h2, .points, .fit, .fit > div, figure, table, pre, .math, .robonav, img, svg";
   const inside = [...slide.querySelectorAll(kinds)];
-  return inside.filter((part) => !part.closest("aside, .scrolls .fit") && part.checkVisibility())
+  return inside.filter((part) => !part.closest("aside, .page-only") && part.checkVisibility())
     .map((part) => [part, part.getBoundingClientRect()])
     .filter(([, { left, right, top, bottom }]) =>
       left < frame.left - 1 || right > frame.right + 1 || top < frame.top - 1 || bottom > frame.bottom - 20)
     .map(([part]) => `slide ${number + 1}: ${part.tagName}.${part.className} ${part.textContent.slice(0, 40)}`);
 })"""
-SMALL = """() => Reveal.getSlides().flatMap((slide, number) => [...slide.querySelectorAll(".fit")]
-  .filter((content) => Number(content.style.zoom || 1) < 0.5)
-  .map((content) => `slide ${number + 1}: ${content.style.zoom}`))"""
+READABLE, READABLE_FIGURE = 14, 16  # pixels of letters, on a slide of 1280 by 720
+SMALL = """([least, leastLive]) => Reveal.getSlides().flatMap((slide, number) => {
+  Reveal.slide(number);
+  const texts = document.createTreeWalker(slide, NodeFilter.SHOW_TEXT);
+  const range = document.createRange();
+  const found = [];
+  while (texts.nextNode()) {
+    const text = texts.currentNode;
+    const place = text.parentElement;
+    if (!text.textContent.trim() || place.closest("aside, script, style, mjx-container, option")) continue;
+    if (!place.checkVisibility({ visibilityProperty: true, opacityProperty: true })) continue;
+    range.selectNodeContents(text);
+    const { width, height } = range.getBoundingClientRect();
+    if (!width || !height) continue;
+    const matrix = place.ownerSVGElement && place.getScreenCTM();
+    const drawn = matrix ? Math.sqrt(Math.abs(matrix.a * matrix.d - matrix.b * matrix.c)) : place.currentCSSZoom;
+    const size = parseFloat(getComputedStyle(place).fontSize) * drawn;
+    if (size < (place.closest(".live") ? leastLive : least) - 0.05) {
+      found.push(`slide ${number + 1}: ${size.toFixed(1)} px: ${text.textContent.trim().slice(0, 30)}`);
+    }
+  }
+  return found;
+})"""
+HIDDEN = """() => Reveal.getSlides().flatMap((slide, number) => {
+  Reveal.slide(number);
+  const frame = slide.getBoundingClientRect();
+  const live = [...slide.querySelectorAll(".live .robonav")];
+  const kinds = "button, select, input, canvas, svg, p, table";
+  const shown = live.flatMap((widget) => [widget, ...widget.querySelectorAll(kinds)])
+    .filter((part) => part.checkVisibility() && part.getBoundingClientRect().width > 0);
+  const cut = shown.filter((part) => {
+    const { left, right, top, bottom } = part.getBoundingClientRect();
+    return left < frame.left - 1 || right > frame.right + 1 || top < frame.top - 1 || bottom > frame.bottom - 18;
+  });
+  const places = live.flatMap((widget) => [widget.closest(".body"), widget, ...widget.querySelectorAll(".hand, .eye")]);
+  const scrolls = places.filter((part) => /auto|scroll/.test(getComputedStyle(part).overflowY))
+    .filter((part) => part.scrollHeight > part.clientHeight + 1);
+  return [...cut, ...scrolls]
+    .map((part) => `slide ${number + 1}: ${part.tagName}.${part.className} ${part.textContent.slice(0, 30)}`);
+})"""
 SUMMARY = """() => ({
   slides: Reveal.getTotalSlides(),
   minutes: Reveal.getSlides().reduce((sum, slide) => sum + Number(slide.dataset.minutes), 0),
@@ -100,7 +138,8 @@ def test_deck(context: BrowserContext, decks: Path, name: str) -> None:
     with visiting(context) as visit:
         short = opened(visit, address)
         assert visit.page.evaluate(OVERFLOW) == []
-        assert visit.page.evaluate(SMALL) == []
+        assert visit.page.evaluate(SMALL, [READABLE, READABLE_FIGURE]) == []
+        assert visit.page.evaluate(HIDDEN) == []
         assert short["minutes"] == MINUTES
         assert name in FEW_PARTS or 14 <= short["slides"] <= 26
         assert short["notes"] >= short["slides"] / 2
@@ -118,6 +157,8 @@ def test_long_deck(context: BrowserContext, decks: Path, name: str) -> None:
     with visiting(context) as visit:
         long = opened(visit, f"{address}?long")
         assert visit.page.evaluate(OVERFLOW) == []
+        assert visit.page.evaluate(SMALL, [READABLE, READABLE_FIGURE]) == []
+        assert visit.page.evaluate(HIDDEN) == []
         assert long["minutes"] == 2 * MINUTES
         assert long["broken"] == long["raw"] == long["pictures"] == []
         assert visit.errors == visit.external == []
@@ -274,6 +315,24 @@ def test_a_mark_may_show_what_stood_last_before_it() -> None:
     assert [part.kind for part in slide.parts] == ["equation"]
     with pytest.raises(NoSuchPart, match="no table stands before it"):
         lecture.lecture(page(marked("last-table")))
+
+
+def test_a_long_listing_continues_on_the_next_slide() -> None:
+    """It is cut between two statements, and no line and no minute is lost."""
+    code = "def f(x):\n" + "".join(
+        f"    if x > {k}:\n        x += {k}\n" for k in range(19)
+    )
+    listing = f'<div class="literal-block-wrapper"><pre>{code}</pre></div>'
+    tag = BeautifulSoup(listing, "html.parser").div
+    assert isinstance(tag, Tag)
+    part = Part("listing", [tag], {"f"}, "", "", lines=39, columns=16)
+    slide = Slide("listing", "f", "", [part], fixed=3)
+    first, second = lecture.with_short_listings([slide])
+    halves = [each.parts[0] for each in (first, second)]
+    assert "\n".join(half.tag.pre.get_text() for half in halves) == code.rstrip()
+    assert all(half.lines <= lecture.MOST_LINES for half in halves)
+    assert halves[1].tag.pre.get_text().startswith("    if x >")
+    assert first.fixed + second.fixed == 3
 
 
 def test_marks_that_take_too_long_are_refused() -> None:
