@@ -401,6 +401,12 @@ def grade(
             help="Grade everybody again with another secret than before.",
         ),
     ] = False,
+    roster: Annotated[
+        Path | None,
+        typer.Option(
+            help="The class as CSV, as for robonav gradebook start; it is kept beside the grades."
+        ),
+    ] = None,
     alike: Annotated[
         bool,
         typer.Option(
@@ -414,8 +420,9 @@ def grade(
     from robonav.grading import paths, sandbox_check, variants
     from robonav.grading.cases import secret_from
     from robonav.grading.classroom import GradingConfig, grade_class
-    from robonav.grading.commands import tell_similar, write_all
+    from robonav.grading.commands import keep_roster, tell_similar, write_all
     from robonav.grading.course import Course
+    from robonav.grading.roster import read_roster
     from robonav.grading.rules import read_rules
 
     course, each = Course.around(Path(__file__).parent, Path.cwd()), None
@@ -427,7 +434,9 @@ def grade(
         course = variants.course_for(course, variant, folder, out)
     else:
         variants.check_same_options(out, "")
-    read_rules(out, course)  # a fault in them is told before the work, not after it
+    rules = read_rules(out, course)  # faults are told before the work, not after it
+    if roster is not None:
+        read_roster(roster, rules.teams)
     ids = [course.named(key).id for key in exercise or []]
     config = GradingConfig(course, sandbox_check.best(), secret_from(secret), each)
     if config.tier == "practice" and not practice:
@@ -448,6 +457,8 @@ def grade(
             progress=report,
             new_secret=new_secret,
         )
+    if roster is not None:
+        keep_roster(out, roster)
     write_all(out)
     print(f"{out / 'index.html'}")
     if alike:

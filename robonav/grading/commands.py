@@ -36,27 +36,50 @@ def start(
     ] = None,
 ) -> None:
     """Put the roster and a commented file of rules into the folder of grades."""
-    from robonav.atomic import atomic_write, write_text
+    from robonav.atomic import write_text
 
-    from .gradebook import ROSTER
-    from .roster import ignored_groups, read_roster
-    from .rules import RULES, TEMPLATE, read_rules
+    from .rules import RULES, TEMPLATE
 
     if roster is not None:
-        rules = read_rules(graded, _course(graded))
-        students = read_roster(roster, rules.teams)
-        content = roster.read_bytes()
-        with atomic_write(graded / ROSTER) as file:
-            file.write(content)
-        print(f"{len(students)} students: {graded / ROSTER}")
-        if ignored_groups(students):
-            print(
-                "The column Groups makes no teams, so every submission counts for one student; "
-                f"if its groups are teams, write teams = true at the top of {graded / RULES}."
-            )
+        keep_roster(graded, roster)
     if not (graded / RULES).exists():
         write_text(graded / RULES, TEMPLATE)
     print(f"deadlines, groups, extensions: {graded / RULES}")
+
+
+def keep_roster(graded: Path, roster: Path) -> None:
+    """Put a roster into a folder of grades, and print how many students it has.
+
+    Raises
+    ------
+    ValueError
+        If the roster cannot be read.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> graded = Path(tempfile.mkdtemp())
+    >>> _ = (graded / "class.csv").write_text("name\\nAda\\n")
+    >>> keep_roster(graded, graded / "class.csv")
+    1 students: .../roster.csv
+    """
+    from robonav.atomic import atomic_write
+
+    from .gradebook import ROSTER
+    from .roster import ignored_groups, read_roster
+    from .rules import RULES, read_rules
+
+    rules = read_rules(graded, _course(graded))
+    students = read_roster(roster, rules.teams)
+    content = roster.read_bytes()
+    with atomic_write(graded / ROSTER) as file:
+        file.write(content)
+    print(f"{len(students)} students: {graded / ROSTER}")
+    if ignored_groups(students):
+        print(
+            "The column Groups makes no teams, so every submission counts for one student; "
+            f"if its groups are teams, write teams = true at the top of {graded / RULES}."
+        )
 
 
 @gradebook.command()
@@ -146,6 +169,8 @@ def export(
     write_text(file, exports.marks_for(book, platform, title))
     print(file)
     if platform == "canvas" and (remark := exports.without_canvas_id(book)):
+        print(remark, file=sys.stderr)
+    if platform == "moodle" and (remark := exports.other_maximum(book)):
         print(remark, file=sys.stderr)
     if names := exports.unsettled(book):
         print(f"Left empty, because they are not settled: {', '.join(names)}.", file=sys.stderr)  # fmt: skip

@@ -163,6 +163,32 @@ def without_canvas_id(book: Gradebook) -> str:
     )
 
 
+def other_maximum(book: Gradebook) -> str:
+    """Return a sentence if Moodle's grading worksheet has another maximum than the exercises that count.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from robonav.grading.course import Course
+    >>> from robonav.grading.ledger import Log
+    >>> other_maximum(Gradebook(Path(), Course.around(Path()), [], [], Log([], [], [], ""), {}))
+    ''
+    """
+    most = _most(book)
+    for account in book.accounts:
+        told = _named(account.student.row or {}, "Maximum grade")
+        try:
+            other = bool(told) and float(told.replace(",", ".")) != most
+        except ValueError:  # a scale, which has no number
+            other = True
+        if other:
+            return (
+                f"The worksheet's maximum grade is {told}, but the exercises that count have {most} points: "
+                "set the maximum grade of the assignment to this in Moodle before you upload the worksheet."
+            )
+    return ""
+
+
 def _gradescope(book: Gradebook, title: str) -> list[list[Any]]:
     """The columns of Gradescope's own export of an assignment, with one for each exercise."""
     ids = list(dict.fromkeys(id for a in book.accounts for id in a.marks))

@@ -16,7 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 from robonav.cli import app
-from robonav.grading import classroom, exports, ledger, objection, variants
+from robonav.grading import classroom, commands, exports, ledger, objection, variants
 from robonav.grading.class_statistics import counts
 from robonav.grading.classroom import GradingConfig, grade_class
 from robonav.grading.commands import write_all
@@ -524,6 +524,39 @@ def test_moodle_gets_its_own_worksheet_back(tmp_path, quick):
     for one, other in zip(before, after, strict=True):
         one[grade] = other[grade]
         assert other == one
+
+
+@pytest.mark.parametrize(
+    ("most", "said"), [("8.00", False), ("8,0", False), ("100.00", True), ("A", True)]
+)
+def test_another_maximum_in_moodle_is_said(tmp_path, quick, most, said):
+    text = f'Identifier,Full name,Grade,Maximum grade\nParticipant 17,ada,,"{most}"\n'
+    book_of(tmp_path, ["ada"], text)
+    done = invoke("export", tmp_path / "out", tmp_path / "m.csv", "--format", "moodle")
+    assert done.exit_code == 0
+    words = f"The worksheet's maximum grade is {most}, but the exercises that count have 8 points"
+    assert (words in done.stderr) == said
+    assert done.stderr.count("\n") == said
+
+
+def test_the_class_is_graded_with_its_roster(tmp_path, monkeypatch):
+    """A roster that cannot be read is told before the work; one that can is kept, and the marks follow it."""
+    done = []
+    monkeypatch.setattr(classroom, "grade_class", lambda *_, **__: done.append(1) or [])
+    monkeypatch.setattr(commands, "write_all", lambda out: done.append(out / ROSTER))
+    out, path = tmp_path / "out", tmp_path / "class.csv"
+    (tmp_path / "class").mkdir()
+    path.write_text("colour\nred\n")
+    grade = ["grade", tmp_path / "class", "--out", out, "--practice", "--roster", path]
+    refused = CliRunner().invoke(app, [str(word) for word in grade])
+    assert "names no student" in str(refused.exception)
+    assert done == []
+    path.write_text("name,id\nAda,1\nBo,2\n")
+    told = CliRunner().invoke(app, [str(word) for word in grade])
+    assert told.exit_code == 0
+    assert "2 students: " in told.output
+    assert done == [1, out / ROSTER]
+    assert (out / ROSTER).read_bytes() == path.read_bytes()
 
 
 def test_canvas_gets_its_columns_and_the_points_possible(tmp_path, quick):
