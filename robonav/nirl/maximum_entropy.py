@@ -25,6 +25,7 @@ gradient, :func:`causal_entropy_dual`; and its optimisation by L-BFGS, :func:`ma
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -208,6 +209,7 @@ def maximum_causal_entropy(
     regularisation: float = 1e-6,
     tolerance: float = 1e-6,
     iterations: int = 200,
+    watch: Callable[[Floats], None] = lambda _weights: None,
 ) -> MaximumCausalEntropy:
     """Maximum causal entropy IRL (Ziebart et al. 2010): the reward under which the demonstrations are most likely.
 
@@ -226,6 +228,8 @@ def maximum_causal_entropy(
         Largest entry of the gradient at which to stop, positive.
     iterations : int
         Iterations of L-BFGS at most.
+    watch : callable, optional
+        Called with the weights after each iteration.
 
     Returns
     -------
@@ -253,12 +257,17 @@ def maximum_causal_entropy(
         return -value, -gradient
 
     path: list[Floats] = []  # the weights after each iteration
+
+    def keep(theta: Floats) -> None:
+        path.append(theta)
+        watch(theta)
+
     found: Any = minimize(
         negative_dual,
         np.zeros(len(mu)),
         jac=True,
         method="L-BFGS-B",
-        callback=path.append,
+        callback=keep,
         options={"maxiter": iterations, "gtol": tolerance, "ftol": 0.0},
     )
     trace = [causal_entropy_dual(theta, mdp, mu) for theta in path]

@@ -54,9 +54,13 @@ FILES = (
 )
 
 
+Watch = Callable[[Network, Decisions, Floats], None]
+"""``watch(network, decisions, rewards)``: the network after an improvement, its decisions and their rewards (M,)."""
+
+
 @dataclass(frozen=True)
 class WatchedSGD(ReplaySGD):
-    """The improvement of the policy, watched: ``watch(network, decisions)`` is called after each.
+    """The improvement of the policy, watched: ``watch(network, decisions, rewards)`` is called after each.
 
     Examples
     --------
@@ -65,14 +69,14 @@ class WatchedSGD(ReplaySGD):
     >>> from robonav.robot import random_worlds
     >>> from robonav.widgets.reward_learning import WatchedSGD
     >>> arrived = []
-    >>> improver = WatchedSGD(watch=lambda network, episodes: arrived.append(episodes.arrived.mean()))
+    >>> improver = WatchedSGD(watch=lambda network, episodes, rewards: arrived.append(episodes.arrived.mean()))
     >>> demonstrations = demonstrate(random_worlds(2, 20, seed=3))
     >>> result = learn(demonstrations, iterations=3, improver=improver)
     >>> len(arrived)
     3
     """
 
-    watch: Callable[[Network, Decisions], None] = lambda _network, _decisions: None
+    watch: Watch = lambda _network, _decisions, _rewards: None
 
     def descend(
         self,
@@ -83,7 +87,7 @@ class WatchedSGD(ReplaySGD):
         rng: np.random.Generator,
     ) -> Improved:
         improved = super().descend(network, decisions, rewards, fraction, rng)
-        self.watch(improved.network, decisions)
+        self.watch(improved.network, decisions, rewards)
         return improved
 
 
@@ -121,7 +125,7 @@ class RewardLearning(KernelTraining):
         results: list[IRLResult] = []
         rates: list[float] = []
         for robot in range(robots):
-            watch = _watcher(
+            watch = iteration_watcher(
                 expert, task, report, robot * iterations, robots * iterations
             )
             results.append(
@@ -148,13 +152,13 @@ class RewardLearning(KernelTraining):
         }
 
 
-def _watcher(
+def iteration_watcher(
     expert: Decisions, task: RobotTask, report: Report, before: int, total: int
-) -> Callable[[Network, Decisions], None]:
+) -> Watch:
     """A function that reports the latest policy of a robot, after the ``before`` iterations of earlier robots."""
     done = 0
 
-    def watch(network: Network, decisions: Decisions) -> None:
+    def watch(network: Network, decisions: Decisions, _rewards: Floats) -> None:
         """Tell the page about an iteration."""
         nonlocal done
         done += 1

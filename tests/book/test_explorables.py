@@ -246,7 +246,9 @@ def test_is_small_and_on_one_page_with_its_answer_folded(name: str) -> None:
 
 def asked_on(page: Path, name: str = r"\w+") -> list[str]:
     """The explorables on a page whose answers are folded below them."""
-    cell = rf"""explorable\("({name})"[^)]*\)\n```\n\n```{{dropdown}} Answer\n"""
+    cell = (
+        rf"""explorable\("({name})"[^)]*\)\n(?:\w+\n)?```\n\n```{{dropdown}} Answer\n"""
+    )
     return re.findall(cell, page.read_text("utf-8"))
 
 

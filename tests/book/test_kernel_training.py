@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,13 +14,15 @@ from browser import DESKTOP, PHONE, Visit
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 
-from robonav import mdp
+from robonav import mdp, nirl
 from robonav.benchmark.policies import method
 from robonav.lfd import demonstrate
 from robonav.networks import NetworkPolicy, fit, toy_datasets
-from robonav.robot import random_worlds
+from robonav.robot import Sensing, random_worlds
 from robonav.widgets.boundary_lab import boundary_lab
 from robonav.widgets.dagger_lab import dagger_lab
+from robonav.widgets.explorables import explorable
+from robonav.widgets.explorables.training import TRAININGS
 from robonav.widgets.grid_lab import Replay, grid_lab
 from robonav.widgets.imitation_lab import imitation_lab
 from robonav.widgets.key_points_lab import key_points_lab
@@ -59,6 +62,7 @@ LABS: dict[str, Callable[[], Any]] = {
     "grids": grids,
     "imitation": imitation,
     "rewards": rewards,
+    **{name: partial(explorable, name) for name in TRAININGS},
 }
 
 
@@ -72,9 +76,9 @@ def panel(lab: Locator) -> Locator:
     return lab.locator("fieldset.kernel")
 
 
-def train(lab: Locator, sentence: str) -> None:
+def train(lab: Locator, sentence: str, action: str = "Train in Python") -> None:
     """Train by keyboard, and wait for the sentence at the end."""
-    panel(lab).get_by_role("button", name="Train in Python").press("Enter")
+    panel(lab).get_by_role("button", name=action).press("Enter")
     expect(panel(lab).locator(".status")).to_have_text(
         re.compile(rf"^Done in [\d.]+ s\. {sentence}")
     )
@@ -219,6 +223,182 @@ def test_a_reward_of_python_is_drawn_and_used(view, http):
     expect(
         lab.get_by_role("button", name="Train a new robot for this reward")
     ).to_be_visible()
+    all_right(view)
+
+
+def number_after(lab: Locator, words: str) -> float:
+    """The number that follows some words below the pictures of an explorable."""
+    text = lab.locator(".pictures + .status").inner_text()
+    found = re.search(rf"{re.escape(words)}:? ([−-]?[\d.]+[\d])", text)
+    assert found, text
+    return float(found[1].replace("−", "-"))
+
+
+def mixture_is_shown(lab: Locator, found: Any) -> None:
+    words = "Distance of the mixture to the expert"
+    assert number_after(lab, words) == pytest.approx(found.distances[0], abs=6e-4)
+    lab.get_by_role("slider", name="policies found after the first").press("End")
+    assert number_after(lab, words) <= found.distances[-1] + 6e-4
+
+
+def weights_are_shown(lab: Locator, found: Any) -> None:
+    for kind, weight in zip(nirl.TERRAIN_KINDS, found.weights, strict=True):
+        output = lab.get_by_text(f"reward of {kind}: ").locator("output")
+        shown = float(output.inner_text().replace("−", "-"))
+        assert shown == pytest.approx(weight, abs=0.026)
+
+
+def transfer_is_shown(lab: Locator, found: Any) -> None:
+    _, task = nirl.terrain()
+    learned = mdp.policy_iteration(task.with_reward(found.weights)).policy
+    values = mdp.policy_evaluation(task.with_reward(nirl.TRUE_WEIGHTS), learned)
+    shown = number_after(lab, "With the best actions for the learned reward")
+    assert shown == pytest.approx(task.starts @ values, abs=0.006)
+    lab.get_by_role("radio", name="top left").check(force=True)
+    copied = number_after(lab, "Value of the start with the copied actions")
+    assert copied < number_after(lab, "With the best actions for the learned reward")
+
+
+def ends_are_shown(lab: Locator, result: Any) -> None:
+    assert result.network.sizes[-1] == 5
+    assert number_after(lab, "Ending now") == 0.5
+    assert 0 <= number_after(lab, "Never") <= 1
+
+
+def network_is_shown(lab: Locator, training: Any) -> None:
+    assert training.network.sizes[1] == 1
+    picture = lab.locator(".pictures svg").first
+    expect(picture).to_contain_text("R60")
+    encoder = training.encoder
+    ranges = np.full((1, 9), 10.0)
+    ranges[0, 0] = 4.5
+    nothing = np.zeros((1, 9), bool)
+    ahead = encoder(Sensing(ranges, nothing, np.ones(1, int), np.zeros(1, bool)))
+    before = training.network[0].forward(ahead)[0]
+    lab.get_by_role("slider", name="its target").press("Home")
+    lab.get_by_role("slider", name="steps of gradient descent").press("End")
+    fallen = number_after(lab, "State A: F changed by")
+    assert -before[0] <= fallen < 0
+
+
+def methods_are_shown(lab: Locator, training: Any) -> None:
+    assert training.method == "online"
+    expect(lab.get_by_role("slider", name="trainings of each method")).to_have_value(
+        "1"
+    )
+
+
+def speed_is_shown(lab: Locator, slowest: Any) -> None:
+    assert len(slowest.outcome) == 20
+    expect(lab.get_by_role("radio", name="4 m", exact=True)).to_be_checked()
+    picture = lab.locator(".pictures canvas")
+    expect(picture).to_have_attribute("aria-label", re.compile("Forty episodes"))
+
+
+def vectors_are_shown(lab: Locator, plan: Any) -> None:
+    lab.get_by_role("slider", name="steps to go").first.press("End")
+    shown = number_after(lab, "Value")
+    assert shown == pytest.approx(plan.value([0.5, 0.5]), abs=0.006)
+
+
+def paths_are_shown(lab: Locator, driven: Any) -> None:
+    assert len(driven.outcome) == 20
+    for outcome in set(driven.outcome):
+        expect(lab.get_by_role("radio", name=f"one {outcome}")).to_be_enabled()
+
+
+def grid_is_shown(lab: Locator, returns: Any) -> None:
+    assert len(returns) == 200
+    expect(lab.locator(".pictures + .status")).to_contain_text("this policy is optimal")
+    values = lab.locator("figure svg text[text-anchor='middle']").all_text_contents()
+    best = mdp.policy_iteration(mdp.four_by_three(step_reward=-2.0).mdp(0.95)).values
+    shown = [float(text.replace("−", "-")) for text in values[:3]]
+    np.testing.assert_allclose(shown, best[:3], atol=0.006)
+
+
+EXPLORED: dict[str, tuple[dict[str, str], str, Callable[[Locator, Any], None]]] = {
+    "projection_steps": (
+        {"features of the reward": "mud and road", "policies to find at most": "Home"},
+        r"After 1 more policy the distance is [\d.]+\. Under the expert's own reward",
+        mixture_is_shown,
+    ),
+    "walk_features": (
+        {"demonstrations (0: exact expectations)": "End"},
+        r"The weights of the reward are -?[\d.]+ for grass, .* for target\. The learner's likeliest",
+        weights_are_shown,
+    ),
+    "reward_transfer": (
+        {"the expert's action is random in": "ArrowRight"},
+        r"The demonstrations visit \d+ of 41 cells\. With the target at the top left, ",
+        transfer_is_shown,
+    ),
+    "value_of_an_end": (
+        {"value of an end": "1/2", "demonstrations": "Home", "iterations": "Home"},
+        r"One robot crosses [\d.]+ % of 400 new maps\. It collides in [\d.]+ %, ",
+        ends_are_shown,
+    ),
+    "moving_together": (
+        {"targets are rescaled by": "clip", "hidden units": "Home", "episodes": "Home"},
+        r"One robot crosses [\d.]+ % of 400 new maps\. State A is an object ahead",
+        network_is_shown,
+    ),
+    "seeds_to_tell_apart": (
+        {
+            "one method": "online",
+            "trainings of each": "Home",
+            "episodes of each training": "Home",
+        },
+        r"online arrives in [\d.]+ % .*; double DQN arrives in .* The means differ by ",
+        methods_are_shown,
+    ),
+    "speed_and_sight": (
+        {"turns when something ahead": "4 m", "maps for each speed": "Home"},
+        r"At 1 m/s it arrives in [\d.]+ % of 20 maps, and at 9 m/s in ",
+        speed_is_shown,
+    ),
+    "tiger_vectors": (
+        {"a wrong door costs": "End", "beliefs to back up": "Home"},
+        r"Beliefs backed up: 1\. Vectors with 30 steps to go: \d\. The uniform belief has ",
+        vectors_are_shown,
+    ),
+    "reflex_map": (
+        {"rule": "straight on", "obstacles that move": "End", "maps": "Home"},
+        r"It arrives in [\d.]+ % of 20 maps, collides in ",
+        paths_are_shown,
+    ),
+    "turn_arrows": (
+        {"policy": "an optimal one", "reward of a step": "Home", "episodes": "Home"},
+        r"The mean return is -[\d.]+, with a standard error of ",
+        grid_is_shown,
+    ),
+}
+"""For each explorable: keys for sliders and options of lists, the sentence at the end, and what is shown."""
+
+
+@pytest.mark.parametrize("name", TRAININGS)
+def test_an_explorable_shows_what_python_has_trained(view, http, name):
+    asked, sentence, is_shown = EXPLORED[name]
+    widget = explorable(name)
+    lab = mounted(view, http, widget, kernel=True)
+    pictures = lab.locator(".row:has(> .pictures)")
+    before = pictures.inner_html()
+    for label, chosen in asked.items():
+        listed = panel(lab).get_by_label(label).and_(lab.locator("select"))
+        if listed.count():
+            listed.select_option(chosen)
+        else:
+            set_slider(lab, label, chosen)
+    train(lab, sentence, TRAININGS[name].action)
+    for curve in TRAININGS[name].curves.values():
+        grown = panel(lab).get_by_role(
+            "img", name=re.compile(f"^{re.escape(curve.label)}:")
+        )
+        expect(grown).to_be_visible()
+    assert pictures.inner_html() != before
+    is_shown(lab, widget.trainings[0])
+    lab.get_by_role("button", name="Reset").press("Enter")
+    expect(lab.get_by_role("button", name="Reset")).to_be_focused()
+    assert pictures.inner_html() == before
     all_right(view)
 
 

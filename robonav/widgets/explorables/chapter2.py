@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import gymnasium as gym
@@ -41,7 +42,9 @@ def discounted_return(
     }
 
 
-def _grid(grid: mdp.GridWorld, discount: float) -> tuple[mdp.FiniteMDP, dict[str, Any]]:
+def grid_to_touch(
+    grid: mdp.GridWorld, discount: float
+) -> tuple[mdp.FiniteMDP, dict[str, Any]]:
     """A grid's model, and what each explorable on a grid takes: picture, model, start and best values."""
     model = grid.mdp(discount)
     best = mdp.policy_iteration(model)
@@ -65,7 +68,7 @@ def _grid(grid: mdp.GridWorld, discount: float) -> tuple[mdp.FiniteMDP, dict[str
 )
 def turn_arrows(discount: float = 0.95) -> dict[str, Any]:
     """The policy that goes around, on the grid of four by three cells."""
-    _, given = _grid(mdp.four_by_three(), discount)
+    _, given = grid_to_touch(mdp.four_by_three(), discount)
     return given | {"policy": [1, 1, 1, 1, 0, 0, 0, 0, 3, 3, 3], "marked": 8}
 
 
@@ -82,7 +85,7 @@ def turn_arrows(discount: float = 0.95) -> dict[str, Any]:
 )
 def bellman_backup(discount: float = 0.9) -> dict[str, Any]:
     """Values to be backed up by hand, on the grid of four by three cells."""
-    return _grid(mdp.four_by_three(), discount)[1]
+    return grid_to_touch(mdp.four_by_three(), discount)[1]
 
 
 @asks(
@@ -98,7 +101,7 @@ def bellman_backup(discount: float = 0.9) -> dict[str, Any]:
 )
 def evaluate_improve(discount: float = 0.9) -> dict[str, Any]:
     """Policy iteration by hand, from a policy that always goes up."""
-    model, given = _grid(mdp.four_by_three(), discount)
+    model, given = grid_to_touch(mdp.four_by_three(), discount)
     q = model.action_values(np.array(given["best"]))
     ties = q >= q.max(axis=1, keepdims=True) - 1e-9
     optimal = [np.flatnonzero(row).tolist() for row in ties]
@@ -259,30 +262,36 @@ def own_corridor(cells: str = ".D....D..") -> dict[str, Any]:
 def tiger_vectors(steps: int = 12) -> dict[str, Any]:
     """The alpha vectors of the tiger with 1 to some steps to go, for three accuracies."""
     accuracies = (0.7, 0.85, 0.95)
+    left = np.linspace(0, 1, 401)
+    points = np.column_stack([left, 1 - left])
     return {
         "accuracies": list(accuracies),
         "plans": [
             [
-                {
-                    "vectors": plan.vectors.round(4).tolist(),
-                    "actions": plan.actions.tolist(),
-                }
-                for plan in plans_by_steps(mdp.tiger(accuracy=accuracy), steps)
+                page_vectors(plan)
+                for plan in plans_by_steps(mdp.tiger(accuracy=accuracy), points, steps)
             ]
             for accuracy in accuracies
         ],
     }
 
 
-def plans_by_steps(pomdp: mdp.POMDP, steps: int) -> list[AlphaVectors]:
-    """The best vectors at a fine grid of beliefs about two states, with 1, 2, ... steps to go."""
-    left = np.linspace(0, 1, 401)
-    points = np.column_stack([left, 1 - left])
-    known = AlphaVectors(np.zeros((1, 2)), np.zeros(1, dtype=np.int64))
-    plans = []
+def page_vectors(plan: AlphaVectors) -> dict[str, Any]:
+    """Pack alpha vectors for the page."""
+    return {
+        "vectors": plan.vectors.round(4).tolist(),
+        "actions": plan.actions.tolist(),
+    }
+
+
+def plans_by_steps(
+    pomdp: mdp.POMDP, points: NDArray[np.float64], steps: int
+) -> Iterator[AlphaVectors]:
+    """The best vectors at some beliefs (N, S), with 1, 2, ... steps to go."""
+    states = pomdp.mdp.n_states
+    known = AlphaVectors(np.zeros((1, states)), np.zeros(1, dtype=np.int64))
     for _ in range(steps):
         known = backup(pomdp, points, known)
         _, first = np.unique(known.vectors.round(9), axis=0, return_index=True)
         known = AlphaVectors(known.vectors[first], known.actions[first])
-        plans.append(known)
-    return plans
+        yield known

@@ -52,7 +52,12 @@ def one_q_update() -> dict[str, Any]:
 def moving_together() -> dict[str, Any]:
     """A small network with its first weights."""
     network = random_network((2, 4, 3), seed=8)
-    return {"network": packed_network(network), "states": [[1.0, 0.3], [0.6, 0.8]]}
+    return {
+        "network": packed_network(network),
+        "states": [[1.0, 0.3], [0.6, 0.8]],
+        "names": ["A, which is trained", "B, which is not trained"],
+        "actions": ["action 1", "action 2", "action 3"],
+    }
 
 
 @asks(
@@ -142,9 +147,15 @@ def overestimation() -> dict[str, Any]:
     "is more than the one point that is to be seen.",
 )
 def seeds_to_tell_apart() -> dict[str, Any]:
-    """The distribution function of a standard normal number, as a table."""
+    """The distribution function of a standard normal number, as a table, and what the sliders say at first."""
     x = np.linspace(-6, 6, 241)
-    return {"x": x.tolist(), "cdf": norm.cdf(x).tolist()}
+    return {
+        "x": x.tolist(),
+        "cdf": norm.cdf(x).tolist(),
+        "seeds": 1,
+        "difference": 1,
+        "scatter": 2,
+    }
 
 
 @asks(

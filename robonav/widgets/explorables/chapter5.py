@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robonav import mdp, nirl
 from robonav.nirl.benchmark_mdps import CELLS, TERRAIN
@@ -13,7 +14,7 @@ from ..grid import page_grid
 from .registry import asks
 
 
-def _ground(target: tuple[int, int]) -> tuple[mdp.GridWorld, nirl.RewardFreeMDP]:
+def ground_with(target: tuple[int, int]) -> tuple[mdp.GridWorld, nirl.RewardFreeMDP]:
     """The ground of mud, road and grass with its target in another cell."""
     rows = [row.split() for row in TERRAIN.split("\n") if row.strip()]
     rows = [["." if symbol == "T" else symbol for symbol in row] for row in rows]
@@ -51,21 +52,27 @@ TARGETS = {
 def reward_transfer() -> dict[str, Any]:
     """For each place of the target: the copied policy and the best one for the expert's reward, with their values."""
     copied = mdp.policy_iteration(
-        _ground(TARGETS["where it was"])[1].with_reward(nirl.TRUE_WEIGHTS)
+        ground_with(TARGETS["where it was"])[1].with_reward(nirl.TRUE_WEIGHTS)
     ).policy
+    return {"grounds": transferred(copied, nirl.TRUE_WEIGHTS), "learned": False}
+
+
+def transferred(
+    copied: NDArray[np.intp], weights: NDArray[np.float64]
+) -> list[dict[str, Any]]:
+    """For each place of the target: copied actions, the best ones for a reward, and their values for the expert's."""
     grounds = []
     for name, target in TARGETS.items():
-        grid, task = _ground(target)
+        grid, task = ground_with(target)
         model = task.with_reward(nirl.TRUE_WEIGHTS)
-        best = mdp.policy_iteration(model)
-        q = model.action_values(best.values)
+        q = model.action_values(mdp.policy_iteration(model).values)
         still = q[np.arange(len(copied)), copied] >= q.max(axis=1) - 1e-9
-        begin = int(grid.start.argmax())
+        best = mdp.policy_iteration(task.with_reward(weights)).policy
         grounds.append(
             {
                 "name": name,
                 "layout": page_grid(grid),
-                "start": begin,
+                "start": int(grid.start.argmax()),
                 "still": int(still[~grid.terminal].sum()),
                 "cells": int((~grid.terminal).sum()),
                 "copied": {
@@ -73,12 +80,12 @@ def reward_transfer() -> dict[str, Any]:
                     "values": mdp.policy_evaluation(model, copied).tolist(),
                 },
                 "reward": {
-                    "policy": best.policy.tolist(),
-                    "values": best.values.tolist(),
+                    "policy": best.tolist(),
+                    "values": mdp.policy_evaluation(model, best).tolist(),
                 },
             }
         )
-    return {"grounds": grounds}
+    return grounds
 
 
 @asks(
@@ -143,6 +150,7 @@ def walk_features() -> dict[str, Any]:
         "walks": walks,
         "kinds": list(nirl.TERRAIN_KINDS),
         "weights": nirl.TRUE_WEIGHTS.tolist(),
+        "discount": 0.9,
     }
 
 
@@ -207,7 +215,14 @@ def projection_steps(policies: int = 12) -> dict[str, Any]:
     """Feature expectations of twelve policies on a circle, and an expert inside it."""
     angles = 2 * np.pi * np.arange(policies) / policies
     points = np.column_stack([np.cos(angles), np.sin(angles)])
-    return {"points": points.tolist(), "expert": [0.45, 0.55], "first": 7}
+    return {
+        "points": points.tolist(),
+        "expert": [0.45, 0.55],
+        "first": 7,
+        "names": ["feature 1", "feature 2"],
+        "least": -1,
+        "most": 1,
+    }
 
 
 @asks(
@@ -270,5 +285,5 @@ def weights_of_samples() -> dict[str, Any]:
     because="Each further step gives 0.3, and the end gives 0.",
 )
 def value_of_an_end() -> dict[str, Any]:
-    """Nothing but the discount of the chapter."""
-    return {"discount": nirl.ReplaySGD().discount}
+    """A reward and the same value of an end, with the discount of the chapter."""
+    return {"reward": 0.3, "end": 0.3, "discount": nirl.ReplaySGD().discount}

@@ -110,36 +110,54 @@ function whenAnswered(element, call) {
  */
 export const explorable = ({ controls, start = () => ({}), draw }) => ({
   render({ model, el }) {
-    const { title, question, given, ...answers } = model.get("data");
+    const { title, question, given: own, kernel, ...answers } = model.get("data");
     const guess = guessing(answers);
-    const stage = h("div", { class: "pictures" });
+    const [tools, pictures] = [h("div", { class: "row" }), h("div", { class: "row" })];
     const said = h("p", { class: "status grow", role: "status" });
-    const act = (change) => {
-      change(state);
+    let [shown, again] = [own, () => {}];
+    const reset = h("button", { type: "button", click: () => {
+      if (shown === own) again();
+      else build(own);
+      reset.focus(); // it may have been put into its row again
+    } }, "Reset");
+    /** Makes the controls and pictures for some numbers: those of the page, or some of Python's in their place. */
+    const build = (given) => {
+      shown = given;
+      const stage = h("div", { class: "pictures" });
+      const act = (change) => {
+        change(state);
+        show();
+        guess.move();
+      };
+      const made = Object.entries(controls(given)).map(([name, make]) => [
+        name, make({ put: (value) => act((now) => (now[name] = value)), act }),
+      ]);
+      const first = () => ({ ...Object.fromEntries(made.map(([name, { value }]) => [name, value])), ...start(given) });
+      let state = first();
+      const picture = draw({ given, stage, act });
+      const show = () => {
+        made.forEach(([name, control]) => control.show?.(state[name], state));
+        said.textContent = picture(state);
+      };
+      again = () => {
+        state = first();
+        show();
+      };
+      tools.replaceChildren(...made.map(([, { element }]) => element), reset);
+      pictures.replaceChildren(stage, said);
       show();
-      guess.move();
     };
-    const made = Object.entries(controls(given)).map(([name, make]) => [
-      name, make({ put: (value) => act((now) => (now[name] = value)), act }),
-    ]);
-    const first = () => ({ ...Object.fromEntries(made.map(([name, { value }]) => [name, value])), ...start(given) });
-    let state = first();
-    const picture = draw({ given, stage, act });
-    const show = () => {
-      made.forEach(([name, control]) => control.show?.(state[name], state));
-      said.textContent = picture(state);
-    };
-    const reset = h("button", { type: "button", click: () => { state = first(); show(); } }, "Reset");
     asWidget(el, title, "explorable");
-    el.replaceChildren(
-      h("p", { class: "title" }, title),
-      h("p", { class: "question" }, question),
-      guess.element,
-      h("div", { class: "row" }, ...made.map(([, { element }]) => element), reset),
-      h("div", { class: "row" }, stage, said),
-    );
-    show();
-    return whenAnswered(el, guess.judge);
+    el.replaceChildren(h("p", { class: "title" }, title), h("p", { class: "question" }, question), guess.element, tools, pictures);
+    build(own);
+    const unwatch = whenAnswered(el, guess.judge);
+    if (!kernel) return unwatch;
+    const python = kernelPart({ model, described: kernel, show: (given) => build({ ...own, ...given }) });
+    el.append(python.element);
+    return () => {
+      unwatch();
+      python.cancel();
+    };
   },
 });
 

@@ -26,13 +26,15 @@ export function mixtures(points, expert, first, count) {
 const MOST = 20;
 
 export default explorable({
-  controls: ({ expert }) => ({
+  controls: ({ expert, names, least, most }) => ({
     policies: range({ label: "policies found after the first", from: 0, to: MOST, value: 0 }),
-    x: range({ label: "expert, feature 1", from: -1, to: 1, step: 0.05, value: expert[0], text: (value) => number(value) }),
-    y: range({ label: "expert, feature 2", from: -1, to: 1, step: 0.05, value: expert[1], text: (value) => number(value) }),
+    x: range({ label: `expert, ${names[0]}`, from: least, to: most, step: 0.05, value: expert[0], text: (value) => number(value) }),
+    y: range({ label: `expert, ${names[1]}`, from: least, to: most, step: 0.05, value: expert[1], text: (value) => number(value) }),
   }),
-  draw({ given: { points, first }, stage }) {
-    const chart = plot({ x: [-1.3, 1.3], y: [-1.3, 1.3], xLabel: "feature 1", yLabel: "feature 2", width: 360, height: 360 });
+  draw({ given: { points, first, names, least, most }, stage }) {
+    const margin = 0.15 * (most - least);
+    const axis = [least - margin, most + margin];
+    const chart = plot({ x: axis, y: axis, xLabel: names[0], yLabel: names[1], width: 360, height: 360 });
     stage.append(h("figure", {}, chart.element, legend([PALETTE.GREY, "policies"], [PALETTE.ORANGE, "the expert"], [PALETTE.GREEN, "the mixture"], [PALETTE.BLUE, "the reward"])));
     return ({ policies, x, y }) => {
       const expert = [x, y];

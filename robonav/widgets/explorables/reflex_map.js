@@ -19,10 +19,10 @@ export function decisions(world, { sight, speed }) {
 }
 
 export default explorable({
-  controls: ({ worlds }) => ({
-    map: segments({ label: "obstacles", options: worlds.map(({ obstacles }, k) => [k, String(obstacles.length)]), value: 2 }),
+  controls: ({ worlds, maps, map, speed }) => ({
+    map: segments({ label: maps, options: worlds.map(({ name }, k) => [k, name]), value: map }),
     sight: segments({ label: "the sensors see", options: [2, 4, 6, 8, 10].map((metres) => [metres, `${metres} m`]), value: 10 }),
-    speed: range({ label: "speed", from: 1, to: 8, value: 2, text: (value) => `${value} m/s` }),
+    speed: range({ label: "speed", from: 1, to: 8, value: speed, text: (value) => `${value} m/s` }),
   }),
   draw({ given: { worlds }, stage }) {
     const board = mapCanvas({ role: "img" });
@@ -40,6 +40,7 @@ export default explorable({
       world.obstacles.forEach((obstacle) => board.obstacle(obstacle));
       board.start(world.start);
       board.target(world.target);
+      if (world.path) board.line(world.path, PALETTE.INK, 2);
       const free = all.filter((kind) => kind !== HIT).length;
       const share = (kind) => number((100 * all.filter((own) => own === kind).length) / free, 1);
       set(board.canvas, { "aria-label": `Map with ${world.obstacles.length} obstacles; the policy decides in ${share(ASKED)} % of its free places` });

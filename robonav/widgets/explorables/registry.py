@@ -6,10 +6,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import anywidget
-import traitlets
-
+from ..kernel_training import KernelTraining, Report
 from ..shared import HERE, front_end, style_sheet
+from .training import TRAININGS, KernelPart
+
+KERNEL_FILES = (
+    "learning/worker",
+    "learning/training_panel",
+    "learning/kernel_panel",
+    "explorables/kernel_part",
+)
+"""What an explorable needs besides its own files if Python trains something for it."""
 
 
 @dataclass(frozen=True)
@@ -77,25 +84,43 @@ def asks(
     return register
 
 
-class Explorable(anywidget.AnyWidget):
-    """A question, a few controls, a picture and what it says in words."""
+class Explorable(KernelTraining):
+    """A question, a few controls, a picture and what it says in words. Some can train in the kernel."""
 
-    data = traitlets.Dict().tag(sync=True)
-
-    def __init__(self, asked: Question, given: dict[str, Any]) -> None:
-        self._esm = front_end(*asked.front_end)
-        styled = [name for name in asked.files if (HERE / f"{name}.css").is_file()]
-        self._css = style_sheet(*styled, "explorables/explorable")
+    def __init__(
+        self, asked: Question, given: dict[str, Any], part: KernelPart | None
+    ) -> None:
+        files, styles = list(asked.front_end), [*asked.files, "explorables/explorable"]
+        if part is not None:
+            files += KERNEL_FILES
+            styles.append("learning/training_panel")
+        self._esm = front_end(*dict.fromkeys(files))
+        self._css = style_sheet(
+            *(name for name in styles if (HERE / f"{name}.css").is_file())
+        )
+        self._part = part
         super().__init__(
-            data={
+            {
                 "title": asked.title,
                 "question": asked.question,
                 "guesses": list(asked.guesses),
                 "right": asked.right,
                 "because": asked.because,
                 "given": given,
+                "kernel": None if part is None else part.for_page(),
             }
         )
+
+    def uses_kernel(self) -> bool:
+        """Whether Python trains anything for it."""
+        return self._part is not None
+
+    def train(self, request: dict[str, Any], report: Report) -> dict[str, Any]:
+        """Train as the page asked, and return the numbers that it then shows."""
+        assert self._part is not None
+        trained = self._part.compute(self._part.checked(request["settings"]), report)
+        self.trainings = list(trained.results)
+        return {"sentence": trained.sentence, "given": trained.given}
 
 
 def explorable(name: str, **settings: Any) -> Explorable:
@@ -127,4 +152,4 @@ def explorable(name: str, **settings: Any) -> Explorable:
             f"name must be one of {', '.join(sorted(EXPLORABLES))}, got {name!r}"
         )
     asked = EXPLORABLES[name]
-    return Explorable(asked, asked.given(**settings))
+    return Explorable(asked, asked.given(**settings), TRAININGS.get(name))

@@ -15,7 +15,7 @@ export default explorable({
     target: segments({ label: "the target stands", options: grounds.map(({ name }, k) => [k, name]), value: 0 }),
     learner: segments({ label: "the learner has", options: [["copied", "the actions"], ["reward", "the reward"]], value: "copied" }),
   }),
-  draw({ given: { grounds }, stage }) {
+  draw({ given: { grounds, learned }, stage }) {
     const pictures = grounds.map(({ layout }) => gridPicture({ layout, name: "the learner's policy" }));
     const clear = pictures.map(({ element }) => bare(element));
     const holder = h("figure", {});
@@ -29,7 +29,7 @@ export default explorable({
       return [
         `The copied action is still the best one in ${ground.still} of ${ground.cells} cells.`,
         `Value of the start with the copied actions: ${number(ground.copied.values[ground.start])}.`,
-        `With the best actions for the same reward: ${number(ground.reward.values[ground.start])}.`, "",
+        `With the best actions for ${learned ? "the learned" : "the same"} reward: ${number(ground.reward.values[ground.start])}.`, "",
         "The reward gives a number to each kind of ground, and the target is one of the kinds. So the reward stays correct when the target moves.",
       ].join("\n");
     };

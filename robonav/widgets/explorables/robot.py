@@ -51,8 +51,11 @@ def sensor_sectors() -> dict[str, Any]:
 )
 def reflex_map(seed: int = 41) -> dict[str, Any]:
     """Worlds with 5, 10, 20 and 30 obstacles."""
-    worlds = [random_worlds(1, number, seed=seed) for number in (5, 10, 20, 30)]
-    return {"worlds": [page_world(world) for world in worlds]}
+    worlds = [
+        {"name": str(number), **page_world(random_worlds(1, number, seed=seed))}
+        for number in (5, 10, 20, 30)
+    ]
+    return {"worlds": worlds, "maps": "obstacles", "map": 2, "speed": 2}
 
 
 @asks(
@@ -68,7 +71,7 @@ def reflex_map(seed: int = 41) -> dict[str, Any]:
 def speed_and_sight() -> dict[str, Any]:
     """One circle between start and target."""
     world = make_world(circles=[(50, 50, 4)], start=(10, 50), target=(90, 50))
-    return {"world": page_world(world)}
+    return {"world": page_world(world), "speed": 2, "turnAt": 10}
 
 
 @asks(

@@ -10,10 +10,10 @@ export function normalCdf(x, cdf, at) {
 }
 
 export default explorable({
-  controls: () => ({
-    seeds: range({ label: "trainings of each method", from: 1, to: 64, value: 1 }),
-    difference: range({ label: "true difference, in points", from: 0, to: 5, step: 0.25, value: 1, text: (value) => value.toFixed(2) }),
-    scatter: range({ label: "standard deviation of single trainings", from: 0.5, to: 6, step: 0.25, value: 2, text: (value) => value.toFixed(2) }),
+  controls: ({ seeds, difference, scatter }) => ({
+    seeds: range({ label: "trainings of each method", from: 1, to: 64, value: seeds }),
+    difference: range({ label: "true difference, in points", from: 0, to: Math.max(5, difference), step: 0.25, value: difference, text: (value) => value.toFixed(2) }),
+    scatter: range({ label: "standard deviation of single trainings", from: 0.5, to: Math.max(6, scatter), step: 0.25, value: scatter, text: (value) => value.toFixed(2) }),
   }),
   draw({ given: { x, cdf }, stage }) {
     const chart = plot({ x: [0, 64], y: [0.5, 1], xLabel: "trainings of each method", yLabel: "better one has the higher mean" });

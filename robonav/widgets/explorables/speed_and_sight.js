@@ -20,9 +20,9 @@ export function episodes(world, { speed, turnAt }) {
 }
 
 export default explorable({
-  controls: () => ({
-    speed: range({ label: "speed", from: 1, to: 9, step: 0.5, value: 2, text: (value) => `${value} m/s` }),
-    turnAt: segments({ label: "turns when something ahead is nearer than", options: [4, 6, 8, 10].map((metres) => [metres, `${metres} m`]), value: 10 }),
+  controls: ({ speed, turnAt }) => ({
+    speed: range({ label: "speed", from: 1, to: 9, step: 0.5, value: speed, text: (value) => `${value} m/s` }),
+    turnAt: segments({ label: "turns when something ahead is nearer than", options: [4, 6, 8, 10].map((metres) => [metres, `${metres} m`]), value: turnAt }),
   }),
   draw({ given: { world }, stage }) {
     const board = mapCanvas({ role: "img" });

@@ -15,8 +15,8 @@ const ACTIONS = ["listen", "open left", "open right"];
 export default explorable({
   controls: ({ accuracies, plans }) => ({
     more: range({ label: "heard more often on the left than on the right", from: -4, to: 4, value: 0, text: (value) => `${number(value, 0)} times` }),
-    accuracy: segments({ label: "listening is right in", options: accuracies.map((share, k) => [k, `${Math.round(100 * share)} %`]), value: 1 }),
-    steps: range({ label: "steps to go", from: 1, to: plans[0].length, value: 8 }),
+    accuracy: segments({ label: "listening is right in", options: accuracies.map((share, k) => [k, `${Math.round(100 * share)} %`]), value: Math.min(1, accuracies.length - 1) }),
+    steps: range({ label: "steps to go", from: 1, to: plans[0].length, value: Math.min(8, plans[0].length) }),
   }),
   draw({ given, stage }) {
     const colours = [PALETTE.BLUE, PALETTE.GREEN, PALETTE.ORANGE];

@@ -6,9 +6,9 @@ export const valueOfEnding = (steps, reward, end, discount) => (1 - discount ** 
 const LONGEST = 15;
 
 export default explorable({
-  controls: ({ discount }) => ({
-    reward: range({ label: "reward of each step", from: 0, to: 1, step: 0.05, value: 0.3, text: (value) => value.toFixed(2) }),
-    end: range({ label: "value of an end", from: 0, to: 1, step: 0.05, value: 0.3, text: (value) => value.toFixed(2) }),
+  controls: ({ reward, end, discount }) => ({
+    reward: range({ label: "reward of each step", from: 0, to: 1, step: 0.05, value: reward, text: (value) => value.toFixed(2) }),
+    end: range({ label: "value of an end", from: 0, to: 1, step: 0.05, value: end, text: (value) => value.toFixed(2) }),
     discount: range({ label: "discount γ", from: 0.3, to: 0.95, step: 0.05, value: discount, text: (value) => value.toFixed(2) }),
   }),
   draw({ stage }) {

@@ -8,9 +8,9 @@ export const collected = (kinds, count, discount) =>
 export const returnOf = (weights, mu) => weights.reduce((sum, weight, k) => sum + weight * mu[k], 0);
 
 export default explorable({
-  controls: ({ kinds, weights }) => ({
-    discount: range({ label: "discount γ", from: 0.3, to: 1, step: 0.01, value: 0.9, text: (value) => value.toFixed(2) }),
-    ...Object.fromEntries(kinds.map((name, k) => [name, range({ label: `reward of ${name}`, from: -2, to: 4, step: 0.05, value: weights[k], text: (value) => number(value) })])),
+  controls: ({ kinds, weights, discount }) => ({
+    discount: range({ label: "discount γ", from: 0.3, to: 1, step: 0.01, value: discount, text: (value) => value.toFixed(2) }),
+    ...Object.fromEntries(kinds.map((name, k) => [name, range({ label: `reward of ${name}`, from: Math.min(-2, Math.floor(Math.min(...weights))), to: Math.max(4, Math.ceil(Math.max(...weights))), step: 0.05, value: weights[k], text: (value) => number(value) })])),
   }),
   draw({ given: { layout, walks, kinds }, stage }) {
     const chart = plot({ x: [0, 8], y: [0, 8], xLabel: "", yLabel: "discounted steps", xTicks: [], height: 210 });

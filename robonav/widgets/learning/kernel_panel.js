@@ -9,11 +9,11 @@ export function base64Of(bytes) {
 
 /**
  * A training in Python (`kernel_training.py`). There is nothing of it until a kernel says that it is there.
- * @param {{model: any, title: string, unit: string, total: () => number, controls?: Element[], lines: object[],
+ * @param {{model: any, title: string, action?: string, unit: string, total: () => number, controls?: Element[], lines: object[],
  *   request: () => object | string, live?: (news: any[]) => void, done?: (result: any) => string | void}} options
- *   request: what Python is asked for, or a sentence that says why nothing is asked; the others as in `trainingPanel`
+ *   action: what the button says; request: what Python is asked for, or a sentence that says why nothing is asked; the others as in `trainingPanel`
  */
-export function kernelPanel({ model, title, unit, total, controls = [], lines, request, live = () => {}, done = (sentence) => sentence }) {
+export function kernelPanel({ model, title, action = "Train in Python", unit, total, controls = [], lines, request, live = () => {}, done = (sentence) => sentence }) {
   let [number, inbox, wake] = [0, [], () => {}];
   /** A job that Python does: what Python says becomes its steps. */
   async function* pythonTraining(asked) {
@@ -31,7 +31,7 @@ export function kernelPanel({ model, title, unit, total, controls = [], lines, r
     }
   }
   const panel = trainingPanel({
-    source: null, title: `Python: ${title}`, action: "Train in Python", unit, total, lines, live, done,
+    source: null, title: `Python: ${title}`, action, unit, total, lines, live, done,
     begin: () => {
       const asked = request();
       return typeof asked === "string" ? asked : { job: pythonTraining, argument: asked };

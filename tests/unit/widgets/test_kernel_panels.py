@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import threading
 from itertools import product
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +24,9 @@ from robonav.widgets import (
     q_learning_lab,
     reward_learning,
 )
-from robonav.widgets.kernel_training import Cancelled, KernelTraining, Report
+from robonav.widgets.explorables import explorable
+from robonav.widgets.explorables.training import TRAININGS
+from robonav.widgets.kernel_training import Cancelled, Report
 from robonav.widgets.shared import HERE
 
 ROOT = HERE.parents[1]
@@ -36,18 +39,14 @@ LABS = {
     "q_learning_lab": q_learning_lab.QLearningLab,
     "reward_learning": reward_learning.RewardLearning,
 }
-TRAINS = re.compile(
-    r"\b(learn_policy|dagger|fit|lbfgs|gradient_descent|q_learning|monte_carlo_control|nnql\.(nnql|train)|nirl\.learn)\("
-)
-ONE_UPDATE = "book/networks-for-q"
-"""This page looks at single updates of a network that is trained for the purpose, and trains nothing for the reader."""
 
 
 def chapter_pages() -> list[str]:
-    """The pages of chapters 2 to 5, without exercises and results."""
+    """The playground, and the pages of chapters 2 to 5 without exercises and results."""
     parts = yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))["parts"]
     chapters = [part for part in parts if re.match(r"Chapter [2-5]", part["caption"])]
-    return [page["file"] for part in chapters for page in part["chapters"]]
+    pages = [page["file"] for part in chapters for page in part["chapters"]]
+    return list(dict.fromkeys(["book/playground", *pages]))
 
 
 def code_of(page: str) -> str:
@@ -55,18 +54,32 @@ def code_of(page: str) -> str:
     return "\n".join(re.findall(r"```\{code-cell\}[^\n]*\n(.*?)\n```", text, re.DOTALL))
 
 
-def pages_that_train() -> list[str]:
-    pages = [page for page in chapter_pages() if TRAINS.search(code_of(page))]
-    return [page for page in pages if page != ONE_UPDATE]
+def widgets_on(page: str) -> list[Any]:
+    """The labs of a page, as classes, and its explorables for which Python trains something."""
+    code = code_of(page)
+    labs = [LABS[name] for name in re.findall(rf"\b({'|'.join(LABS)})\(", code)]
+    named = re.findall(r"^(\w+) = explorable\(\"(\w+)\"\)\n\1$", code, re.MULTILINE)
+    explorables = [explorable(name) for _, name in named]
+    return [*labs, *(widget for widget in explorables if widget.uses_kernel())]
 
 
-@pytest.mark.parametrize("page", pages_that_train())
-def test_a_page_that_trains_offers_a_training_in_the_kernel(page):
-    called = re.findall(rf"\b({'|'.join(LABS)})\(", code_of(page))
-    assert called
-    lab = LABS[called[-1]]
-    assert issubclass(lab, KernelTraining)
-    assert "kernelPanel({" in str(lab._esm)
+@pytest.mark.parametrize("page", chapter_pages())
+def test_a_page_offers_a_training_in_the_kernel(page):
+    widgets = widgets_on(page)
+    assert widgets
+    for widget in widgets:
+        assert "kernelPanel({" in str(widget._esm)
+
+
+@pytest.mark.parametrize("name", TRAININGS)
+def test_a_name_of_the_notebook_holds_what_was_trained(name):
+    """The explorable that trains has a name on its page, and the text says what ``trainings`` holds."""
+    call = rf"^(\w+) = explorable\(\"{name}\"\)\n\1$"
+    texts = {page: (ROOT / f"{page}.md").read_text("utf-8") for page in chapter_pages()}
+    (variable,) = {
+        found[1] for text in texts.values() if (found := re.search(call, text, re.M))
+    }
+    assert any(f"`{variable}.trainings`" in text for text in texts.values())
 
 
 @pytest.fixture

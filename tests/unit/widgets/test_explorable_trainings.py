@@ -1,0 +1,238 @@
+"""What the kernel trains for explorables: what is asked for, what the page is told, and what the notebook gets."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import pytest
+
+from robonav import mdp, nirl, nnql
+from robonav.robot import navigate, random_worlds, straight
+from robonav.widgets.explorables import EXPLORABLES, explorable, robot_trainings
+from robonav.widgets.explorables.training import TRAININGS, Dial, Menu
+from robonav.widgets.kernel_training import Cancelled, Report
+
+QUICK = {
+    "maps": 20,
+    "fastest": 2,
+    "episodes": 200,
+    "iterations": 5,
+    "demonstrations": 5,
+    "trainings": 2,
+    "steps": 5,
+    "hidden": 2,
+}
+
+
+def at_first(name: str) -> dict:
+    """The settings with which a page begins, but with less work."""
+    settings = {
+        key: own.options[0] if isinstance(own, Menu) else own.value
+        for key, own in TRAININGS[name].settings.items()
+    }
+    less = QUICK | (
+        {"episodes": 25 if name == "seeds_to_tell_apart" else 20}
+        if name in ("moving_together", "seeds_to_tell_apart")
+        else {}
+    )
+    return settings | {key: less[key] for key in settings.keys() & less.keys()}
+
+
+class Page:
+    """Trains for an explorable, and keeps what its page is told."""
+
+    def __init__(self, name: str) -> None:
+        self.lab = explorable(name)
+        self.told: list[dict] = []
+        self.cancelled = threading.Event()
+
+    def train(self, **settings):
+        asked = {"settings": at_first(self.lab_name()) | settings}
+        return self.lab.train(asked, Report(self.told.append, self.cancelled))
+
+    def lab_name(self) -> str:
+        titles = {question.title: name for name, question in EXPLORABLES.items()}
+        return titles[self.lab.data["title"]]
+
+    def points(self, name: str) -> list[float]:
+        live = [point for message in self.told for point in message.get("live", [])]
+        return [point[name] for point in live if name in point]
+
+
+@pytest.mark.parametrize("name", TRAININGS)
+def test_its_settings_can_be_sent_and_are_checked(name):
+    part = TRAININGS[name]
+    assert name in EXPLORABLES
+    begin = at_first(name)
+    assert part.checked(begin) == begin
+    for key, own in part.settings.items():
+        if isinstance(own, Dial):
+            steps = (own.stop - own.start) / own.step
+            assert abs(steps - round(steps)) < 1e-9
+            assert own.start <= own.value <= own.stop
+            wrong = [own.start - 1, own.stop + 1, None, "many"]
+        else:
+            wrong = ["another", None, 0]
+        for value in wrong:
+            with pytest.raises((ValueError, TypeError), match=key):
+                part.checked(begin | {key: value})
+    assert isinstance(part.length, int) or part.length in part.settings
+
+
+@pytest.mark.parametrize("name", TRAININGS)
+def test_it_tells_the_page_how_far_it_is_and_gives_it_numbers_of_its_own_form(name):
+    page = Page(name)
+    ended = page.train()
+    assert page.lab.trainings
+    assert page.told[-1]["done"] == page.told[-1]["total"]
+    done = [message["done"] for message in page.told]
+    assert done == sorted(done)
+    for curve in TRAININGS[name].curves:
+        assert page.points(curve), curve
+    assert ended["sentence"].endswith(".")
+    own = page.lab.data["given"]
+    assert ended["given"].keys() <= own.keys()
+    for key, value in ended["given"].items():
+        kinds = {type(own[key]), type(value)}
+        assert len(kinds) == 1 or kinds <= {int, float}
+
+
+@pytest.mark.parametrize("name", TRAININGS)
+def test_a_cancelled_one_ends_at_its_next_report_and_leaves_nothing(name):
+    page = Page(name)
+    page.cancelled.set()
+    with pytest.raises(Cancelled):
+        page.train()
+    assert page.lab.trainings == []
+
+
+@pytest.mark.parametrize("name", sorted(EXPLORABLES.keys() - TRAININGS.keys())[:3])
+def test_an_explorable_without_a_training_asks_for_no_kernel(name):
+    lab = explorable(name)
+    assert not lab.uses_kernel()
+    assert lab.data["kernel"] is None
+    assert "kernelPanel({" not in str(lab._esm)
+
+
+@pytest.mark.parametrize("guess", ["projection", "widest margin"])
+def test_apprenticeship_on_the_ground(guess):
+    page = Page("projection_steps")
+    page.train(guess=guess, features="mud and road", iterations=10, demonstrations=0)
+    (found,) = page.lab.trainings
+    _, ground = nirl.terrain()
+    features = ground.features[:, :, [1, 2]]
+    expert = mdp.policy_iteration(ground.with_reward(nirl.TRUE_WEIGHTS)).policy
+    task = nirl.RewardFreeMDP(ground.transitions, features, 0.9, ground.starts)
+    np.testing.assert_allclose(found.expert, nirl.initial_expectations(task, expert))
+    np.testing.assert_allclose(page.points("distance"), found.distances)
+    assert found.distances[-1] < 0.1 * found.distances[0]
+    assert min(page.points("lost")) >= 0
+
+
+def test_the_reward_of_maximum_entropy():
+    page = Page("walk_features")
+    ended = page.train(demonstrations=0, iterations=40, regularisation=0.1)
+    (found,) = page.lab.trainings
+    _, task = nirl.terrain()
+    expert = mdp.policy_iteration(task.with_reward(nirl.TRUE_WEIGHTS)).policy
+    goal = nirl.initial_expectations(task, expert)
+    again = nirl.maximum_causal_entropy(
+        task, goal, regularisation=0.1, tolerance=1e-3, iterations=40
+    )
+    np.testing.assert_array_equal(found.weights, again.weights)
+    np.testing.assert_allclose(ended["given"]["weights"], found.weights, atol=0.0251)
+    np.testing.assert_allclose(page.points("gap")[1:], found.gaps, atol=0.02)
+
+
+def test_a_reward_moves_with_the_target_and_copied_actions_do_not():
+    page = Page("reward_transfer")
+    grounds = page.train(demonstrations=50)["given"]["grounds"]
+    values = [
+        [ground[who]["values"][ground["start"]] for who in ("copied", "reward")]
+        for ground in grounds
+    ]
+    assert values[0][0] == pytest.approx(values[0][1], abs=0.5)
+    assert all(copied < learned for copied, learned in values[1:])
+
+
+def test_a_network_learns_as_without_a_watcher():
+    page = Page("moving_together")
+    ended = page.train(rescale="clip", seed=4)
+    (training,) = page.lab.trainings
+    alone = nnql.train("nnql", [4], 20, hidden=2, rescale="clip")
+    np.testing.assert_array_equal(training.outcomes, alone.outcomes)
+    np.testing.assert_array_equal(training.network.weights[0], alone.network.weights[0])
+    hits = (training.outcomes == "collided").sum()
+    assert page.points("collided")[-1] == pytest.approx(100 * hits / 20)
+    assert ended["given"]["actions"] == ["F", "L30", "L60", "R30", "R60"]
+
+
+def test_two_methods_are_compared():
+    page = Page("seeds_to_tell_apart")
+    given = page.train(one="online", other="NNQL", seed=10)["given"]
+    one, other = page.lab.trainings
+    assert (one.method, other.method) == ("online", "nnql")
+    assert one.seeds == other.seeds == (10, 11)
+    assert given["seeds"] == 2
+    assert given["scatter"] % 0.25 == given["difference"] % 0.25 == 0
+
+
+@pytest.mark.parametrize("ends", ["1/2", "0"])
+def test_a_reward_is_learned_with_ends_of_a_chosen_value(ends):
+    page = Page("value_of_an_end")
+    given = page.train(ends=ends, method="SCIRL")["given"]
+    (result,) = page.lab.trainings
+    assert len(result.history.costs) == 5
+    assert given["end"] == {"1/2": 0.5, "0": 0.0}[ends]
+    assert 0 <= given["reward"] <= 1
+
+
+def test_a_rule_drives_as_navigate_does():
+    page = Page("reflex_map")
+    given = page.train(rule="straight on", maps=60, speed=3)["given"]
+    (result,) = page.lab.trainings
+    worlds = random_worlds(60, 10, 0, seed=robot_trainings.SEED)
+    alone = navigate(straight, worlds, 3, record_paths=True)
+    np.testing.assert_array_equal(result.outcome, alone.outcome)
+    np.testing.assert_array_equal(result.steps, alone.steps)
+    assert page.points("arrived")[-1] == pytest.approx(100 * alone.success.mean())
+    for world in given["worlds"]:
+        outcome = world["name"].removeprefix("one ")
+        at = np.flatnonzero(alone.outcome == outcome)[0]
+        np.testing.assert_allclose(world["path"], alone.paths[at][:, :2], atol=0.006)
+
+
+def test_a_robot_gets_faster():
+    page = Page("speed_and_sight")
+    given = page.train(sight="4 m", fastest=6)["given"]
+    results = page.lab.trainings
+    assert len(results) == 6
+    assert page.points("collided") == [100 * r.collision.mean() for r in results]
+    assert results[given["speed"] - 1].collision.any()
+    assert given["turnAt"] == 4
+
+
+def test_plans_for_the_reader_s_tiger():
+    page = Page("tiger_vectors")
+    page.train(accuracy=85, bite=100, beliefs=40, steps=60)
+    (plan,) = page.lab.trainings
+    full = mdp.point_based_value_iteration(
+        mdp.tiger(), mdp.spread_beliefs(mdp.tiger(), [0.5, 0.5], 40)
+    )
+    # After 60 steps the discount has left 5 % of what is to come.
+    assert plan.value([0.5, 0.5]) == pytest.approx(full.value([0.5, 0.5]), rel=0.06)
+    assert page.points("value")[-1] == plan.value([0.5, 0.5])
+    page.train(bite=300)
+    assert page.lab.trainings[0].value([0.5, 0.5]) < plan.value([0.5, 0.5])
+
+
+def test_the_mean_return_is_the_value():
+    page = Page("turn_arrows")
+    page.train(episodes=2000, policy="an optimal one", slip=0.3, discount=0.9)
+    (returns,) = page.lab.trainings
+    model = mdp.four_by_three(slip=0.3).mdp(0.9)
+    value = mdp.policy_iteration(model).values[mdp.four_by_three().start.argmax()]
+    error = returns.std() / np.sqrt(len(returns))
+    assert returns.mean() == pytest.approx(value, abs=4 * error)
+    assert page.points("error")[-1] == pytest.approx(error, rel=1e-3)
