@@ -11,6 +11,18 @@ if (document.documentElement.dataset.mode === "auto") {
 // All icons stand in the page from the beginning: there is no need to look for more in every formula that is set.
 globalThis.FontAwesomeConfig = { observeMutations: false };
 
+// Formulas are set a few at a time, so that the page answers to a touch in between.
+const FORMULAS_AT_ONCE = 10;
+if (globalThis.MathJax) {
+  MathJax.startup = { ...MathJax.startup, pageReady: async () => {
+    const places = [...document.querySelectorAll(".math, .output_area")].filter((place) => !place.parentElement.closest(".math, .output_area"));
+    for (let at = 0; at < places.length; at += FORMULAS_AT_ONCE) {
+      await MathJax.typesetPromise(places.slice(at, at + FORMULAS_AT_ONCE));
+      await new Promise((resolve) => setTimeout(resolve));
+    }
+  } };
+}
+
 // The page's notebook is saved under its name, where the browser by itself might show its text.
 document.addEventListener("click", (event) => {
   const link = event.target.closest("a.btn-download-notebook-button");

@@ -116,6 +116,22 @@ def test_trainings_that_are_measured_are_on_their_pages(
     assert training.button(visit.page).is_enabled()
 
 
+COUNTING = """(() => {
+  const counts = window.formulaCounts = new Set();
+  setInterval(() => counts.add(document.querySelectorAll("mjx-container").length), 0);
+})()"""
+
+
+def test_a_page_answers_while_its_formulas_are_set(visit: Visit, site: Path) -> None:
+    """A timer of the page finds only some of them set, many times."""
+    visit.page.add_init_script(COUNTING)
+    visit.open(f"{site.as_uri()}/book/neural-network.html")
+    counts = visit.page.evaluate("[...formulaCounts]")
+    assert visit.page.locator("mjx-container").count() > 200
+    assert len(counts) > 10
+    assert visit.page.locator(".math:not(:has(mjx-container))").count() == 0
+
+
 HEIGHTS = """async () => {
   const heights = new Set();
   for (let frame = 0; frame < 20; frame += 1) {
