@@ -10,6 +10,7 @@ import yaml
 from browser import (
     DESKTOP,
     PATIENCE,
+    PHONE,
     ROOT,
     SITE,
     Visit,
@@ -92,6 +93,15 @@ def some_page(request: pytest.FixtureRequest) -> str:
 def served_dark(context: BrowserContext, http: str, some_page: str) -> Shown:
     """What a page shows over http, in the dark."""
     return over_http(context, http, some_page)
+
+
+@pytest.fixture(params=["desktop", "phone"])
+def place(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[str]:
+    """Where the book is: served to a desktop, or on the disk of a phone without a network."""
+    desktop = request.param == "desktop"
+    visit.page.set_viewport_size(DESKTOP if desktop else PHONE)
+    yield request.getfixturevalue("http") if desktop else site.as_uri()
+    assert visit.external == []
 
 
 @pytest.fixture(params=["http", "file"])

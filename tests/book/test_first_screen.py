@@ -6,34 +6,42 @@ import re
 from collections.abc import Iterator
 from copy import deepcopy
 
+import numpy as np
 import pytest
-from browser import DESKTOP, PHONE, Visit
+from accessibility import violations
+from browser import Visit
 from mounting import mounted, mounted_alone
 from playwright.sync_api import Locator, expect
 
 from robonav.benchmark.policies import method
 from robonav.networks import NetworkPolicy
+from robonav.robot import random_worlds
 from robonav.widgets.first_screen import first_screen
 
 ABOUT = "A network steers."
 
 
-@pytest.fixture(params=["desktop", "phone"])
-def screen(
-    request: pytest.FixtureRequest, visit: Visit, http: str
-) -> Iterator[Locator]:
+@pytest.fixture
+def screen(visit: Visit, place: str) -> Iterator[Locator]:
     """The first screen alone on a page."""
-    visit.page.set_viewport_size(DESKTOP if request.param == "desktop" else PHONE)
     widget = first_screen(
         method("dagger"), ABOUT, {"Train a robot of your own": "here.html"}, seed=2015
     )
-    yield mounted(visit, http, widget)
+    yield mounted(visit, place, widget)
     assert visit.errors == []
 
 
 def pixels(screen: Locator) -> str:
     """What the map shows now."""
     return screen.locator("canvas").evaluate("(canvas) => canvas.toDataURL()")
+
+
+def wait_for_change(screen: Locator, before: str) -> None:
+    """Wait until the map shows something else than before."""
+    screen.page.wait_for_function(
+        "([canvas, before]) => canvas.toDataURL() !== before",
+        arg=[screen.locator("canvas").element_handle(), before],
+    )
 
 
 def test_robot_crosses_maps_by_itself(screen):
@@ -51,8 +59,7 @@ def test_robot_stops_and_goes_on(screen):
     screen.page.wait_for_timeout(300)
     assert pixels(screen) == before
     screen.get_by_role("button", name="Go on").click()
-    screen.page.wait_for_timeout(300)
-    assert pixels(screen) != before
+    wait_for_change(screen, before)
 
 
 def test_reader_steers_by_button_and_by_key(screen):
@@ -61,12 +68,11 @@ def test_reader_steers_by_button_and_by_key(screen):
     screen.page.wait_for_timeout(300)
     before = pixels(screen)
     screen.get_by_role("button", name="left 30°").click()
+    wait_for_change(screen, before)
     screen.page.wait_for_timeout(300)
     turned = pixels(screen)
-    assert turned != before
     screen.locator("canvas").press("ArrowUp")
-    screen.page.wait_for_timeout(300)
-    assert pixels(screen) != turned
+    wait_for_change(screen, turned)
     screen.get_by_role("button", name="Let the network steer").click()
     expect(screen.locator(".status")).to_have_text(ABOUT)
 
@@ -86,6 +92,51 @@ def test_target_is_dragged(screen):
     screen.page.mouse.move(target[0] - 60, target[1] + 20, steps=4)
     screen.page.mouse.up()
     assert pixels(screen) != before
+
+
+@pytest.fixture
+def still(visit: Visit, place: str) -> Locator:
+    """The first screen of a reader who wants no motion: the robot waits at its start."""
+    visit.page.emulate_media(reduced_motion="reduce")
+    return mounted(visit, place, first_screen(method("dagger"), ABOUT, {}, seed=2015))
+
+
+def test_obstacles_and_target_are_moved_by_keyboard(still):
+    status, keyboard = still.locator(".status"), still.page.keyboard
+    hold = still.get_by_role("button", name="Move an obstacle")
+    expect(hold).to_have_attribute("aria-pressed", "false")
+    hold.press("Enter")  # the map has the focus now
+    expect(hold).to_have_attribute("aria-pressed", "true")
+    world = random_worlds(1, 15, seed=2015)
+    distances = np.linalg.norm(world.centres[0] - world.starts[0], axis=1)
+    x, y = world.centres[0, distances.argmin()]
+
+    def is_at(x: float, y: float, what: str = "An obstacle") -> None:
+        place = f"{what}, {x:.0f} m from the left and {y:.0f} m from below."
+        expect(status).to_contain_text(place)
+
+    is_at(x, y)
+    before = pixels(still)
+    keyboard.press("ArrowRight")
+    is_at(x + 2, y)
+    keyboard.press("Shift+ArrowUp")
+    is_at(x + 2, y + 10)
+    assert pixels(still) != before
+    for _ in range(15):
+        keyboard.press("Enter")
+    is_at(90, 90, "The target")
+    keyboard.press("Shift+ArrowLeft")
+    is_at(80, 90, "The target")
+    keyboard.press("Escape")
+    expect(hold).to_have_attribute("aria-pressed", "false")
+    expect(status).to_have_text("Stopped.")
+    keyboard.press("ArrowUp")  # steers the robot again
+    expect(status).to_contain_text("You steer")
+
+
+def test_nothing_of_axe_core_is_violated_while_an_obstacle_is_moved(still):
+    still.get_by_role("button", name="Move an obstacle").click()
+    assert violations(still.page) == []
 
 
 def test_a_robot_that_lost_its_way_is_taken_to_the_next_map(visit):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from browser import DESKTOP, PHONE, Visit, empty_storage
+from browser import DESKTOP, Visit, empty_storage
 from driving import keep_robots
 from mounting import mounted
 from playwright.sync_api import Locator, expect
@@ -19,15 +19,14 @@ from robonav.widgets.leaderboard_row import leaderboard_row
 FEW = 20
 
 
-@pytest.fixture(params=["desktop", "phone"])
-def row(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Locator]:
+@pytest.fixture
+def row(visit: Visit, place: str) -> Iterator[Locator]:
     """The widget alone on a page, with few worlds a setting."""
-    visit.page.set_viewport_size(DESKTOP if request.param == "desktop" else PHONE)
     rates = {"straight": [30.0] * len(SETTINGS)}
-    found = mounted(visit, http, leaderboard_row(rates, worlds=FEW))
+    found = mounted(visit, place, leaderboard_row(rates, worlds=FEW))
     empty_storage(visit.page)
     cut = found.page.locator(".scroll").get_attribute("data-cut")
-    assert (cut is None) == (request.param == "desktop")
+    assert (cut is None) == (visit.page.viewport_size == DESKTOP)
     yield found
     assert visit.errors == []
     assert visit.page.evaluate(

@@ -6,7 +6,6 @@ import re
 
 import numpy as np
 import pytest
-from browser import DESKTOP, PHONE
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 
@@ -22,10 +21,9 @@ WORLDS = {"one": random_worlds(1, 20, seed=5), "another": random_worlds(1, 20, s
 OTHERS = random_worlds(10, 20, seed=6)
 
 
-@pytest.fixture(params=[DESKTOP, PHONE], ids=["desktop", "phone"])
-def lab(request, visit, http):
-    visit.page.set_viewport_size(request.param)
-    yield mounted(visit, http, reward_lab(THETA, ENCODER, SHOWN, WORLDS, OTHERS))
+@pytest.fixture
+def lab(visit, place):
+    yield mounted(visit, place, reward_lab(THETA, ENCODER, SHOWN, WORLDS, OTHERS))
     assert visit.errors == []
 
 

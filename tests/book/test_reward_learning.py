@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from browser import DESKTOP, PHONE, Visit
+from browser import PHONE, Visit, empty_storage
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 
@@ -23,16 +23,9 @@ SLOW = 240_000  # milliseconds: a training on a busy machine
 DRIVES = demonstrate(random_worlds(6, 20, seed=3))
 
 
-EMPTIED = """() => {
-  localStorage.clear();
-  window.dispatchEvent(new StorageEvent("storage", { key: null }));
-}"""  # other tests in the same browser keep drives and robots
-
-
-@pytest.fixture(params=["desktop", "phone"])
-def lab(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Locator]:
+@pytest.fixture
+def lab(visit: Visit, place: str) -> Iterator[Locator]:
     """The widget alone on a page."""
-    visit.page.set_viewport_size(DESKTOP if request.param == "desktop" else PHONE)
     widget = reward_learning(
         {"six": DRIVES},
         random_worlds(1, 20, seed=8),
@@ -40,8 +33,8 @@ def lab(request: pytest.FixtureRequest, visit: Visit, http: str) -> Iterator[Loc
         maps=100,
         seed=55_000,
     )
-    found = mounted(visit, http, widget)
-    visit.page.evaluate(EMPTIED)
+    found = mounted(visit, place, widget)
+    empty_storage(visit.page)
     yield found
     assert visit.errors == []
     assert visit.page.evaluate(
@@ -228,7 +221,7 @@ def test_own_drives_are_chosen_and_those_that_collided_left_out(lab):
     lab.page.evaluate(KEPT, [*drives[:1], drives[1] | {"outcome": "collided"}])
     expect(chosen).to_have_value("my own drives (1)")
     expect(about).to_contain_text("1 of your drives did not arrive and is left out. 1")
-    lab.page.evaluate(EMPTIED)
+    empty_storage(lab.page)
     expect(chosen).to_have_value("six")
 
 

@@ -16,10 +16,9 @@ from robonav.widgets.search_lab import search_lab
 WORLDS = {"ten": random_worlds(1, 10, seed=41), "thirty": random_worlds(1, 30, seed=43)}
 
 
-@pytest.fixture(params=[DESKTOP, PHONE], ids=["desktop", "phone"])
-def lab(request, visit, http):
-    visit.page.set_viewport_size(request.param)
-    yield mounted(visit, http, search_lab(WORLDS))
+@pytest.fixture
+def lab(visit, place):
+    yield mounted(visit, place, search_lab(WORLDS))
     assert visit.errors == []
 
 

@@ -7,7 +7,6 @@ import threading
 
 import numpy as np
 import pytest
-from browser import DESKTOP, PHONE
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 
@@ -54,10 +53,9 @@ def widget():
     return training_lab(CONTROLS, RUNS, step="episode", measures=measures, train=train)
 
 
-@pytest.fixture(params=[DESKTOP, PHONE], ids=["desktop", "phone"])
-def lab(request, visit, http):
-    visit.page.set_viewport_size(request.param)
-    yield mounted(visit, http, widget())
+@pytest.fixture
+def lab(visit, place):
+    yield mounted(visit, place, widget())
     assert visit.errors == []
 
 
