@@ -63,58 +63,6 @@ function render({ model, el }) {
   const dataset = () => [...(base === 0 ? experts.slice(0, 1) : mine()), ...corrected];
   const count = () => corrected.flatMap(effective).length;
 
-  // Learning
-  const table = ranking();
-  const showTable = () => table.show([...(now ? [now] : []), ...robots, ...baselines.filter(({ outcomes }) => outcomes.length)], { ...trial, obstacles: 10 });
-  const panel = trainingPanel({
-    source: model.get("_esm"), title: "Learn from the demonstrations and your corrections, and test the robot in new maps", action: "Train", unit: "iterations", total: () => LEARNING.iterations,
-    lines: [{ name: "cost", label: "cost J", note: COST_NOTE }, { name: "agreement", label: "agreement (%)", note: AGREEMENT_NOTE, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) }],
-    begin: () => {
-      finish();
-      const examples = examplesFrom(dataset());
-      if (examples.m === 0) return "There is nothing to learn from: drive a few maps in the playground, or begin with the expert's demonstration.";
-      const known = baselines.every(({ outcomes }) => outcomes.length === trial.maps);
-      if (!known) for (const each of baselines) each.outcomes = [];
-      const begun = base === 0 ? "one demonstration of the expert" : `${mine().length} of my drives`;
-      now = { name: `robot ${robots.length + 1}: ${begun}${count() ? `, ${count()} corrections` : ""}`, outcomes: [], colour: PALETTE.BLUE };
-      return { job: imitate, argument: { ...LEARNING, examples, network: null, encoder: ENCODER, rivals: known ? [] : rivals, trial: { ...trial, obstacles: 10 } } };
-    },
-    live: (news) => {
-      for (const { outcomes } of news) {
-        if (!outcomes) continue;
-        now.outcomes.push(outcomes[0]);
-        outcomes.slice(1).forEach((outcome, k) => baselines[k].outcomes.push(outcome));
-      }
-      showTable();
-    },
-    done: (network) => {
-      robots = [{ ...now, policy: { network, encoder: ENCODER } }, ...robots];
-      const warning = keepRobot({ name: `DAgger, ${now.name}`, network, encoder: ENCODER });
-      now = null;
-      showTable();
-      choose();
-      const [last, before] = robots.map(({ outcomes }) => percent(rateOf(outcomes).rate));
-      const sentence = before === undefined ? `Your robot arrives in ${last} % of the new maps. Now watch it, and correct it.` : `It arrives in ${last} % of the new maps. Before this training it arrived in ${before} %.`;
-      return `${sentence} ${warning}`.trim();
-    },
-    cancelled: () => {
-      now = null;
-      showTable();
-      return "This robot is dropped; your corrections and the robots in the table stay.";
-    },
-  });
-  const first = choice({ label: "the robot first learns from", options: BASES, change: (index) => {
-    panel.cancel();
-    pause();
-    [base, corrected, robots, episode, map] = [index, [], [], null, -1];
-    stage.hidden = true;
-    showTable();
-    tell();
-  } });
-
-  const about = h("p", { class: "about" });
-  const tell = () => (about.textContent = `The robot learns from ${BASES[base]}, ${dataset().flatMap(effective).length} steps in all, ${count()} of them corrections.`);
-
   // Driving
   const board = mapCanvas({ tabindex: 0, role: "application" });
   const told = h("p", { class: "status told", role: "status" });
@@ -218,9 +166,63 @@ function render({ model, el }) {
   const next = h("button", { type: "button", click: choose }, "Next map where it fails");
   const stage = h("div", { class: "stage", hidden: true }, board.canvas, wheel, told, h("div", { class: "row tools" }, play, back, ask, next));
 
+  // Learning
+  const table = ranking();
+  const showTable = () => table.show([...(now ? [now] : []), ...robots, ...baselines.filter(({ outcomes }) => outcomes.length)], { ...trial, obstacles: 10 });
+  const panel = trainingPanel({
+    source: model.get("_esm"), title: "Learn from the demonstrations and your corrections, and test the robot in new maps", action: "Train", unit: "iterations", total: () => LEARNING.iterations,
+    lines: [{ name: "cost", label: "cost J", note: COST_NOTE }, { name: "agreement", label: "agreement (%)", note: AGREEMENT_NOTE, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) }],
+    beside: stage,
+    begin: () => {
+      finish();
+      const examples = examplesFrom(dataset());
+      if (examples.m === 0) return "There is nothing to learn from: drive a few maps in the playground, or begin with the expert's demonstration.";
+      const known = baselines.every(({ outcomes }) => outcomes.length === trial.maps);
+      if (!known) for (const each of baselines) each.outcomes = [];
+      const begun = base === 0 ? "one demonstration of the expert" : `${mine().length} of my drives`;
+      now = { name: `robot ${robots.length + 1}: ${begun}${count() ? `, ${count()} corrections` : ""}`, outcomes: [], colour: PALETTE.BLUE };
+      return { job: imitate, argument: { ...LEARNING, examples, network: null, encoder: ENCODER, rivals: known ? [] : rivals, trial: { ...trial, obstacles: 10 } } };
+    },
+    live: (news) => {
+      for (const { outcomes } of news) {
+        if (!outcomes) continue;
+        now.outcomes.push(outcomes[0]);
+        outcomes.slice(1).forEach((outcome, k) => baselines[k].outcomes.push(outcome));
+      }
+      showTable();
+    },
+    done: (network) => {
+      robots = [{ ...now, policy: { network, encoder: ENCODER } }, ...robots];
+      const warning = keepRobot({ name: `DAgger, ${now.name}`, network, encoder: ENCODER });
+      now = null;
+      showTable();
+      choose();
+      if (inSight(panel.button)) requestAnimationFrame(() => stage.scrollIntoView({ block: "nearest" }));
+      const [last, before] = robots.map(({ outcomes }) => percent(rateOf(outcomes).rate));
+      const sentence = before === undefined ? `Your robot arrives in ${last} % of the new maps. Now watch it, and correct it.` : `It arrives in ${last} % of the new maps. Before this training it arrived in ${before} %.`;
+      return `${sentence} ${warning}`.trim();
+    },
+    cancelled: () => {
+      now = null;
+      showTable();
+      return "This robot is dropped; your corrections and the robots in the table stay.";
+    },
+  });
+  const first = choice({ label: "the robot first learns from", options: BASES, change: (index) => {
+    panel.cancel();
+    pause();
+    [base, corrected, robots, episode, map] = [index, [], [], null, -1];
+    stage.hidden = true;
+    showTable();
+    tell();
+  } });
+
+  const about = h("p", { class: "about" });
+  const tell = () => (about.textContent = `The robot learns from ${BASES[base]}, ${dataset().flatMap(effective).length} steps in all, ${count()} of them corrections.`);
+
   const kernel = roundsPanel(model);
   asWidget(el, "DAgger lab", "imitation", "dagger-lab");
-  el.replaceChildren(h("div", { class: "row" }, first.element), about, panel.element, table.element, stage, kernel.element);
+  el.replaceChildren(h("div", { class: "row" }, first.element), about, panel.element, table.element, kernel.element);
   showTable();
   tell();
   return () => {

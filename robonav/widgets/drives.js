@@ -71,19 +71,23 @@ export const nextMap = (drives) => 1 + Math.max(0, ...drives.map(({ map }) => ma
 
 // ---- Seen by the reader ---------------------------------------------------------------------------------------------
 
+const FEW_DRIVES = 3; // as many as the pages recommend at first
 const ENDS = { arrived: "arrived", collided: "collided", running: "given up" };
 
 /**
  * What is said after a drive: whether it is kept, how many there are, and how a robot is trained on them.
  * @param {{added: number, warning: string}} kept what `keepDrives` returned
- * @param {{what?: string, training: string, next: string}} words what was made, the page that trains, what else there is to do
+ * @param {{what?: string, training: string, next: string | Element}} words what was made, the page that trains, what else there is to do
  */
 export function keptWords({ added, warning }, { what = "drive", training, next }) {
-  const count = keptDrives().length;
+  const drives = keptDrives();
+  const [count, arrived] = [drives.length, drives.filter(({ outcome }) => outcome === "arrived").length];
   const have = count === 1 ? "It is your first." : `You have ${count} now.`;
+  const advice = [arrived < count ? `A robot learns only from drives that arrive: ${arrived} so far. ` : "", arrived < FEW_DRIVES ? "Three are enough for a first robot. " : ""];
   if (warning) return [`${warning} ${have} To train a robot on another page, press Download all, and load the file there.`];
   const kept = added ? `This ${what} is kept.` : `You made exactly this ${what} before, and it is kept.`;
-  return [`${kept} ${have} `, h("a", { href: training }, "Train a robot on your drives"), `, or ${next}.`];
+  const train = arrived > 0 ? [h("a", { href: training }, "Train a robot on your drives"), typeof next === "string" ? ", or " : " "] : [];
+  return [`${kept} ${have} `, ...advice, ...train, next, typeof next === "string" ? "." : ""];
 }
 
 /** A number of drives, in words. */

@@ -158,8 +158,8 @@ function viewer({ world, robots, maps }) {
     if (still) load();
     else frame = requestAnimationFrame(step);
   } }, "Watch it drive");
-  const element = h("div", { class: "viewer", hidden: true }, board.canvas,
-    h("div", { class: "row tools" }, h("label", {}, h("span", {}, "robot to watch"), who), track.element, watch, fails), told);
+  const element = h("div", { class: "viewer", hidden: true }, told, board.canvas,
+    h("div", { class: "row tools" }, h("label", {}, h("span", {}, "robot to watch"), who), track.element, watch, fails));
   return {
     element,
     /** While the maps are driven: the one that was driven just now. */

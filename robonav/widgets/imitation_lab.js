@@ -36,22 +36,23 @@ function render({ model, el }) {
     return settings.source === 0 ? own : [...own, ...experts(Math.min(settings.count, total()) - own.length)];
   };
   const about = h("p", { class: "about" });
+  const plan = h("p", { class: "about" });
   const source = choice({ label: "learn from", options: SOURCES, change: (index) => { settings.source = index; settings.count = index === 1 ? FEW : Infinity; refresh(); } });
   const place = h("div", {});
   /** What the robot will learn from, how, and what then. */
   const tell = () => {
     const [own, kept] = [mine(), keptDrives()];
+    const { count, hidden, regularisation, iterations, seed, obstacles } = settings;
+    plan.textContent = `A network with ${hidden} hidden ${hidden === 1 ? "unit" : "units"} learns from the demonstrations in at most ${iterations} ${iterations === 1 ? "iteration" : "iterations"}, with λ = ${regularisation} and initial weights from seed ${seed}. `
+      + `Then the robot is tested in ${trial.maps} new maps with ${obstacles} obstacles.`;
     if (own.length === 0 && settings.source !== 1) {
       about.replaceChildren("None of your drives has arrived yet. Drive a few maps in the ", h("a", { href: playground }, "playground"), ", or learn from the expert's demonstrations.");
       return;
     }
-    const { count, hidden, regularisation, iterations, seed, obstacles } = settings;
     const steps = chosen().flatMap(effective).length;
     const lost = settings.source === 1 ? 0 : kept.length - own.length;
     about.textContent = `${count} ${count === 1 ? "demonstration" : "demonstrations"} with ${steps} steps to learn from: steps with something in range. `
-      + (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out. ` : "")
-      + `A network with ${hidden} hidden ${hidden === 1 ? "unit" : "units"} learns them in at most ${iterations} ${iterations === 1 ? "iteration" : "iterations"}, with λ = ${regularisation} and initial weights from seed ${seed}. `
-      + `Then the robot is tested in ${trial.maps} new maps with ${obstacles} obstacles.`;
+      + (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out.` : "");
   };
   const refresh = () => {
     const all = total();
@@ -111,7 +112,7 @@ function render({ model, el }) {
   let brought = null; // a network from a file, to be tried
   const panel = trainingPanel({
     source: model.get("_esm"), title: "Learn a policy from the demonstrations, and test it in new maps", action: "Train", unit: "iterations", total: () => settings.iterations,
-    lines: [
+    beside: view.element, lines: [
       { name: "cost", label: "cost J", note: COST_NOTE },
       { name: "agreement", label: "agreement (%)", note: AGREEMENT_NOTE, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
     ],
@@ -203,8 +204,8 @@ function render({ model, el }) {
   const kept = drivesList();
   el.replaceChildren(
     h("div", { class: "row" }, source.element, place), about,
-    h("details", { open: (globalThis.innerWidth ?? Infinity) >= ROOM }, h("summary", {}, "How it learns"), h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element)),
-    panel.element, table.element, view.element,
+    h("details", { open: (globalThis.innerWidth ?? Infinity) >= ROOM }, h("summary", {}, "How it learns"), h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element), plan),
+    panel.element, table.element,
     release,
     h("div", { class: "row tools" }, download, h("label", { class: "file" }, h("span", {}, "try weights from a file (safetensors)"), upload), note),
     kept.element, kept.said, kernel.element);

@@ -141,7 +141,8 @@ function render({ model, el }) {
       values.replaceChildren(...[...thought.z].map((z, k) => h("span", { class: k === thought.action ? "chosen" : "" }, `${ROBOT.actions[k]} ${sigmoid(z).toFixed(2)}`)));
       who.picture.show(who.network, thought.activations);
     } else values.replaceChildren(h("span", {}, mine() ? howToSteer() : "a rule, no network"));
-    const will = own === ROBOT.toTarget ? "nothing in range: its reflex turns it to the target" : own === ROBOT.backward ? "blocked ahead: its reflex steps back"
+    const will = own === ROBOT.toTarget && coast.checked && mine() ? (step > 0 ? "nothing in range: it goes on by itself" : `press ${whatSteers()}, and it sets off`)
+      : own === ROBOT.toTarget ? "nothing in range: its reflex turns it to the target" : own === ROBOT.backward ? "blocked ahead: its reflex steps back"
       : thought ? `it takes ${ROBOT.actions[thought.action]}, ${actionName(thought.action)}` : "it waits for you";
     const ended = { arrived: `Arrived after ${step} s.`, collided: `Collided after ${step} s.` }[outcome];
     status.textContent = ended ?? `${step} s, target in sector ${sensing.region}${sensing.seen ? ", seen" : ""}; ${will}.`;
@@ -206,7 +207,7 @@ function render({ model, el }) {
   const save = h("button", { type: "button", click: () => saveFile("my-drive.npz", demonstrationsFile([record()])) }, "Download this drive");
   const mineKept = drivesList();
   const keep = () => {
-    mineKept.say(...keptWords(keepDrives([record()]), { training, next: "drive another map" }));
+    mineKept.say(...keptWords(keepDrives([record()]), { training, next: h("button", { type: "button", click: newMap }, "Drive the next map") }));
   };
   const note = h("span", { role: "status" });
   const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights to drive with", change: async () => {
@@ -256,7 +257,7 @@ function render({ model, el }) {
     const number = nextMap(keptDrives());
     where.move(worlds.length);
     go(ownMap(number), number);
-    mineKept.say(`Map ${number}. Bring the robot to the circle without touching anything: press ${whatSteers()}. While nothing is near, it goes on by itself; then it waits for you.`);
+    mineKept.say(`Map ${number}. Bring the robot to the circle without touching anything: press ${whatSteers()}. Left and right are the robot's. While nothing is near, it goes on by itself; then it waits for you.`);
     pick(ME);
   };
   const coast = h("input", { type: "checkbox", checked: true, change: () => {

@@ -39,6 +39,12 @@ export function holdFinger(element, holds) {
   element.addEventListener("touchstart", (event) => holds(event.touches[0]) && event.preventDefault(), { passive: false });
 }
 
+/** Whether an element is on the screen, at least in part. */
+export function inSight(element) {
+  const { top, bottom } = element.getBoundingClientRect();
+  return bottom > 0 && top < globalThis.innerHeight;
+}
+
 // ---- Numbers --------------------------------------------------------------------------------------------------------
 
 const TYPES = { float64: Float64Array, float32: Float32Array, int32: Int32Array, uint16: Uint16Array, uint8: Uint8Array };

@@ -41,7 +41,7 @@ def lab(view: Visit, site: Path) -> Locator:
 def train(lab: Locator) -> float:
     """Train, and give the rate of the robot in per cent."""
     lab.get_by_role("button", name="Train").press("Enter")
-    said = lab.locator(".training .status")
+    said = lab.locator(".training > .status")
     expect(said).to_contain_text(re.compile("arrives in"))
     return float(re.search(r"arrives in ([\d.]+) %", said.inner_text())[1])
 
@@ -74,7 +74,7 @@ def test_corrections_by_hand_raise_the_rate(lab):
         expect(told).to_contain_text("last until you leave the page or change what")
         lab.get_by_role("button", name="Next map where it fails").click()
     lab.get_by_role("button", name="Train").click()
-    said = lab.locator(".training .status")
+    said = lab.locator(".training > .status")
     expect(said).to_contain_text(f"Before this training it arrived in {before:.1f} %.")
     after = float(re.search(r"arrives in ([\d.]+) %", said.inner_text())[1])
     assert after > before + 20
@@ -86,7 +86,7 @@ def test_corrections_by_hand_raise_the_rate(lab):
 def test_without_drives_one_sentence_and_cancel(lab):
     lab.get_by_label("the robot first learns from").select_option("my drives")
     lab.get_by_role("button", name="Train").click()
-    expect(lab.locator(".training .status")).to_contain_text(
+    expect(lab.locator(".training > .status")).to_contain_text(
         "There is nothing to learn from"
     )
     expect(lab.locator(".stage")).to_be_hidden()
@@ -95,7 +95,7 @@ def test_without_drives_one_sentence_and_cancel(lab):
     )
     lab.get_by_role("button", name="Train").press("Enter")
     lab.get_by_role("button", name=re.compile("Cancel|Train")).press("Enter")
-    expect(lab.locator(".training .status")).to_have_text(
+    expect(lab.locator(".training > .status")).to_have_text(
         re.compile("Cancelled|arrives in")
     )
 

@@ -54,7 +54,7 @@ def test_three_maps_are_driven_and_a_robot_is_trained(site: Path) -> None:
         lab = go(page, link, "policy-learning.html")
         expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
         lab.get_by_role("button", name="Train", exact=True).tap()
-        said = lab.locator(".training .status").first
+        said = lab.locator(".training > .status").first
         expect(said).to_contain_text("always goes straight on")
         own, straight = map(float, re.findall(r"in ([\d.]+) %", said.inner_text()))
         assert own > straight + 20
