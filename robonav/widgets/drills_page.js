@@ -51,6 +51,12 @@ document.addEventListener("DOMContentLoaded", () => {
     };
     element.addEventListener("toggle", unfolded);
   }
+  const unfoldLinked = () => {
+    const linked = document.getElementById(location.hash.slice(1));
+    if (drills.includes(linked)) linked.open = true;
+  };
+  unfoldLinked();
+  addEventListener("hashchange", unfoldLinked);
   tell();
   addEventListener("pageshow", tell); // the reader comes back to a page that was kept as it was
   addEventListener("storage", tell); // a question was answered in another tab

@@ -107,6 +107,18 @@ def test_an_answer_in_another_tab_is_told_here(visit: Visit, site: Path) -> None
     other.close()
 
 
+def test_a_link_unfolds_its_drill(visit: Visit, site: Path) -> None:
+    address = f"{site.as_uri()}/book/dynamic-programming.html"
+    visit.open(f"{address}#drill-stopping-bound")
+    linked = visit.page.locator("#drill-stopping-bound")
+    expect(linked.locator("form")).to_be_visible()
+    expect(linked.locator("summary").first).to_be_in_viewport()
+    other = visit.page.locator("#drill-bellman-backup")
+    expect(other.locator("form")).to_have_count(0)
+    visit.page.goto(f"{address}#drill-bellman-backup")
+    expect(other.locator("form")).to_be_visible()
+
+
 def test_three_in_a_row_are_mastered_and_a_mistake_begins_anew(
     visit: Visit, site: Path
 ) -> None:

@@ -104,6 +104,14 @@ def test_every_exercise_with_variants_has_three_knobs(exercise):
     assert all(len(set(knob.values)) >= 2 for knob in of)
 
 
+def test_the_instructors_page_says_how_many_variants_there_are():
+    others = [variants.product(variants.knobs(COURSE, e)) - 1 for e in VARIED]
+    many = sum(number >= 11 for number in others)
+    assert {number for number in others if number < 11} == {7}
+    page = (COURSE.root / "book/instructors.md").read_text("utf-8")
+    assert f"{many} of the {len(others)} exercises have 11 variants or more" in page
+
+
 @pytest.mark.slow
 def test_a_solution_passes_its_own_variant_and_no_other(exercise, made):
     found = made(exercise)
