@@ -21,7 +21,7 @@ from robonav.validation import (
 )
 
 from ._fast.constants import NO_REFLEX, RUNNING, TO_SECTOR
-from .rollout import REFLEX, ReflexRule
+from .rollout import REFLEX, ReflexRule, undecided
 from .simulator import (
     DIRECTIONS,
     NEVER,
@@ -159,6 +159,17 @@ def as_reflex(given: ReflexRule | str | None) -> ReflexRule | None:
     return given
 
 
+def check_reflexes(given: ArrayLike, number: int) -> NDArray[np.int64]:
+    """Return what a reflex of one's own gives: ``number`` whole numbers -1 to 7; raise ValueError for anything else."""
+    reflexes = np.asarray(given)
+    fits = reflexes.dtype.kind in "iu" and reflexes.shape == (number,)
+    if not fits or (reflexes < NO_REFLEX).any() or (reflexes > TO_SECTOR).any():
+        raise ValueError(
+            f"reflex must give an array of {number} whole numbers -1 to 7, got {given!r}"
+        )
+    return reflexes.astype(np.int64)
+
+
 def as_limit(given: int) -> int:
     """Return the number of steps after which an episode is truncated, for Gymnasium's ``max_episode_steps``."""
     if given == NO_LIMIT:
@@ -197,20 +208,20 @@ class NavigationSettings:
             random_keys(generators), self.obstacles, self.moving, self.starts, self.targets, self.moving_speeds
         )  # fmt: skip
 
-    def reflex_of_one(self, sensing: Sensing) -> int:
-        """Return the action of one robot's reflex, -1 where the action given counts."""
+    def reflexes(self, sensing: Sensing) -> NDArray[np.int64]:
+        """Return the actions (N,) of the reflexes of N robots, -1 where the action given counts."""
         if self.reflex is None:
-            return NO_REFLEX
-        reflex = int(self.reflex(sensing, self.speed)[0])
-        if not NO_REFLEX <= reflex <= TO_SECTOR:
-            raise ValueError(f"reflex must give -1 or an action 0 to 7, got {reflex}")
-        return reflex
+            return undecided(sensing, self.speed)
+        reflexes = self.reflex(sensing, self.speed)
+        if isinstance(self.reflex, Reflex):
+            return reflexes
+        return check_reflexes(reflexes, len(sensing))
 
     def rewards(
         self, before: Sensing, after: Sensing, outcome: NDArray[np.int8]
     ) -> NDArray[np.float64]:
         """Return the rewards (N,) of N robots."""
-        rewards = np.array(self.reward(before, after, outcome), dtype=float)
+        rewards = np.asarray(self.reward(before, after, outcome), dtype=float)
         if rewards.shape != outcome.shape:
             raise ValueError(
                 f"reward must give an array of shape {outcome.shape}, got {rewards.shape}"

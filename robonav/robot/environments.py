@@ -35,9 +35,6 @@ from .worlds import MOVING_SPEEDS, START, TARGET
 __all__ = ["NavigationEnv", "as_sensing"]
 
 
-ONE = np.arange(1)  # the rows of a simulator of one robot
-
-
 class NavigationEnv(gymnasium.Env):
     """The compiled twin of :class:`PlainNavigationEnv`, with options: a :class:`Simulator` of one robot.
 
@@ -123,6 +120,7 @@ class NavigationEnv(gymnasium.Env):
         self.action_space = plain.action_space
         self.observation_space = plain.observation_space
         self.outcome: Any = None  # no episode before the first reset
+        self._command = np.zeros(1, dtype=np.int64)
         self._window: Any = None
 
     def reset(
@@ -145,10 +143,9 @@ class NavigationEnv(gymnasium.Env):
     def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
         """Simulate one second."""
         simulator, settings, before = self.simulator, self.settings, self.sensing
-        reflex = settings.reflex_of_one(before)
-        command = action if reflex == NO_REFLEX else reflex
-        simulator.advance(ONE, np.array([command]))
-        self.sensing = simulator.sense()
+        reflex = int(settings.reflexes(before)[0])
+        self._command[0] = action if reflex == NO_REFLEX else reflex
+        self.sensing = simulator.second(self._command)
         self.outcome = int(simulator.outcome[0])
 
         reward = settings.rewards(before, self.sensing, simulator.outcome)

@@ -129,29 +129,35 @@ class PlainNavigationEnv(gymnasium.Env):
 
     def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
         """Simulate one second: the robot moves, its episode may end, it senses again."""
+        assert self.action_space.contains(action), f"no action: {action!r}"
         start = self.position
         self.heading, distance = self.heading_and_distance(action)
         direction = np.array([math.cos(self.heading), math.sin(self.heading)])
         self.position = start + distance * direction
 
         collided = self.clearance(start, self.position) < COLLISION_DISTANCE
-        arrived = not collided and self.to_target()[0] <= ARRIVAL_DISTANCE
+        arrived = not collided and self.target_distance() <= ARRIVAL_DISTANCE
         reward = 1.0 if arrived else -1.0 if collided else 0.0
         return self.sense(), reward, collided or arrived, False, {}
 
     def heading_and_distance(self, action: int) -> tuple[float, float]:
         """Return where the robot turns and how far it goes, by its reflex or the action."""
         if self.ranges.min() == SENSOR_RANGE:  # nothing is near
-            return self.to_target()[1], self.speed
+            return self.target_direction(), self.speed
         if (self.ranges[AHEAD] < self.speed + COLLISION_DISTANCE).all():  # blocked
             action = Action.B
-        heading = math.remainder(self.heading + TURNS[action], math.tau)
+        turned = self.heading + TURNS[action]
+        heading = math.remainder(turned, math.tau)  # within a half turn of 0
         return heading, -self.speed if action == Action.B else self.speed
 
-    def to_target(self) -> tuple[float, float]:
-        """Return the distance of the target, rounded to a micrometre, and its direction."""
+    def target_distance(self) -> float:
+        """Return how far the target is, rounded to a micrometre as all distances are."""
+        return round(math.dist(self.target, self.position), 6)
+
+    def target_direction(self) -> float:
+        """Return the direction in which the target lies."""
         dx, dy = self.target - self.position
-        return round(math.hypot(dx, dy), 6), math.atan2(dy, dx)
+        return math.atan2(dy, dx)
 
     def sense(self) -> Observation:
         """Return the least distance in each sector, whether it is to a border, and where the target is.
@@ -167,16 +173,15 @@ class PlainNavigationEnv(gymnasium.Env):
 
         holds_it = sector(bearing - self.heading)[:, None] == np.arange(9)
         at_nearest = np.where(holds_it, nearest[:, None], np.inf)
-        beside = np.minimum(on_rays, np.roll(on_rays, 1, axis=1))
-        distances = np.minimum(at_nearest, beside)  # of each shape in each sector
+        at_rays = np.minimum(on_rays, np.roll(on_rays, 1, axis=1))  # left and right
+        distances = np.minimum(at_nearest, at_rays)  # a row for each shape
         self.ranges = np.minimum(distances.min(axis=0), SENSOR_RANGE).round(6)
         is_border = distances.argmin(axis=0) < 4  # the first four rectangles
-        distance, direction = self.to_target()
         return {
             "ranges": self.ranges.copy(),
             "walls": (is_border & (self.ranges < SENSOR_RANGE)).astype(np.int8),
-            "target_region": sector(round(direction - self.heading, 6)),
-            "target_seen": np.int64(distance <= SENSOR_RANGE),
+            "target_region": sector(round(self.target_direction() - self.heading, 6)),
+            "target_seen": np.int64(self.target_distance() <= SENSOR_RANGE),
         }
 
     def clearance(self, start: Array, end: Array) -> float:
@@ -220,26 +225,27 @@ def see_rectangles(
 ) -> tuple[Array, Array, Array]:
     """Look at R rectangles, as at circles.
 
-    In a rectangle's own frame, each coordinate of its nearest point is the robot's, kept between two sides. A ray is in
-    the rectangle where it is between two sides in both coordinates.
+    In a rectangle's own frame, each coordinate of its nearest point is the robot's, kept between two sides. A ray is
+    inside from where it has passed one side in both coordinates to where it passes the other side in either.
     """
     half, turned = rectangles[:, 2:4], rectangles[:, 4]
     dx, dy = (position - rectangles[:, :2]).T
     robot = rotated(dx, dy, -turned).T  # in the frame of each rectangle, (R, 2)
     x, y = (np.clip(robot, -half, half) - robot).T
-    directions = rotated(1.0, 0.0, rays - turned[:, None]).transpose(1, 2, 0)
+    angles = rays - turned[:, None]
+    directions = np.stack([np.cos(angles), np.sin(angles)], axis=2)  # (R, K, 2)
     with np.errstate(divide="ignore"):  # a ray may be parallel to two sides
-        one = (-half - robot)[:, None] / directions  # (R, K, 2)
-        other = (half - robot)[:, None] / directions
-    enter = np.minimum(one, other).max(axis=2)
-    leave = np.maximum(one, other).min(axis=2)
+        one_side = (-half - robot)[:, None] / directions  # how far along each ray
+        other_side = (half - robot)[:, None] / directions
+    enter = np.minimum(one_side, other_side).max(axis=2)
+    leave = np.maximum(one_side, other_side).min(axis=2)
     meets = (enter <= leave) & (leave >= 0.0)
     on_rays = np.where(meets, np.maximum(enter, 0.0), np.inf)
     return np.hypot(x, y), np.arctan2(y, x) + turned, on_rays
 
 
-def rotated(x: Any, y: Any, angle: Array) -> Array:
-    """Turn points about the origin, to the left; the result has x and y along its first axis."""
+def rotated(x: Array, y: Array, angle: Array) -> Array:
+    """Turn points about the origin, to the left, and return their x and y."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([c * x - s * y, s * x + c * y])
 

@@ -172,10 +172,10 @@ class Reflex:
 
     def __call__(self, sensing: Sensing, speed: float) -> NDArray[np.int64]:
         """Return ``TO_TARGET`` or ``TO_SECTOR``, ``B``, or -1 (``NO_REFLEX``) where the policy decides, (N,)."""
-        commands = np.empty(len(sensing), dtype=np.int64)
-        to_target = int(DIRECTIONS[self.direction])
+        n, to_target = len(sensing), int(DIRECTIONS[self.direction])
+        commands = np.empty(n, dtype=np.int64)
         _fast.in_threads(
-            _fast.reflexes, len(sensing), sensing.ranges, speed, to_target, commands
+            _fast.reflexes, n, sensing.ranges, speed, to_target, commands, least=16384
         )
         return commands
 
@@ -361,12 +361,7 @@ class Simulator:
             raise ValueError(
                 f"commands must be an array of {len(rows)} whole numbers 0 to 7, got {commands!r}"
             )
-        return self.advance(rows, commands.astype(np.int64, copy=False))
-
-    def advance(
-        self, rows: NDArray[np.int64], commands: NDArray[np.int64]
-    ) -> NDArray[np.int64]:
-        """Do what :meth:`step` does, for robots and commands that have been checked."""
+        commands = commands.astype(np.int64, copy=False)
         w = self.worlds
         executed = commands.copy() if len(self.slip) else commands
         _fast.in_threads(
@@ -374,6 +369,19 @@ class Simulator:
             self.max_steps, executed, self.poses, self.centres, self.headings, self.steps, self.outcome,
         )  # fmt: skip
         return executed
+
+    def second(self, commands: NDArray[np.int64]) -> Sensing:
+        """One second for all N robots, as :meth:`step`, and what they perceive then.
+
+        ``commands`` are (N,) int64 numbers 0 to 7, which are not checked; those of robots that slip change.
+        """
+        w, read = self.worlds, Sensing.empty(len(self))
+        _fast.in_threads(
+            _fast.second, len(self), self._everyone, w.kinds, w.shapes, w.speeds, w.keys, w.size, w.targets, self.slip,
+            self.speed, self.max_steps, self.noise, commands, self.poses, self.centres, self.headings, self.steps,
+            self.outcome, read.ranges, read.walls, read.target_region, read.target_seen,
+        )  # fmt: skip
+        return read
 
     def stop(self, robots: NDArray[np.int64]) -> None:
         """End the episodes of ``robots`` (K,) that still run; their outcome is "out of steps"."""

@@ -23,7 +23,7 @@ from .environment_settings import (
     worlds_in,
 )
 from .environments import NavigationEnv
-from .rollout import REFLEX, ReflexRule, undecided
+from .rollout import REFLEX, ReflexRule
 from .simulator import Simulator, check_actions
 from .worlds import MOVING_SPEEDS, START, TARGET, Worlds
 
@@ -195,14 +195,13 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
                 f"step: the episodes of robots {np.flatnonzero(fresh).tolist()} have ended; "
                 "call reset with options={'reset_mask': ...} first"
             )
-        reflex = self.settings.reflex or undecided
-        reflexes = np.where(fresh, NO_REFLEX, reflex(before, simulator.speed))
-        simulator.step(np.where(reflexes == NO_REFLEX, commands, reflexes))
+        reflexes = np.where(fresh, NO_REFLEX, self.settings.reflexes(before))
+        executed = np.where(reflexes == NO_REFLEX, commands, reflexes)
+        self.sensing = simulator.second(executed)
         if fresh.any():  # robots whose episode has ended stood still; a new one begins
             self._restart(fresh)
-        self.sensing = simulator.sense()
-        reward = self.settings.rewards(before, self.sensing, simulator.outcome)
-        reward[fresh] = 0.0
+        rewards = self.settings.rewards(before, self.sensing, simulator.outcome)
+        reward = np.where(fresh, 0.0, rewards)
         ended = simulator.outcome != RUNNING
         terminated = ended & (simulator.outcome != OUT_OF_STEPS)
         truncated = simulator.steps >= simulator.max_steps
@@ -222,8 +221,6 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         for i in np.flatnonzero(ended):
             final_obs[i] = {name: value[i] for name, value in last.items()}
         self._restart(ended)
-        for name, rows in vars(self.simulator.sense(np.flatnonzero(ended))).items():
-            getattr(self.sensing, name)[ended] = rows
         everyone = np.ones(self.num_envs, dtype=np.bool_)
         info = self._info(np.where(ended, NO_REFLEX, reflexes), everyone)
         return info | {
@@ -232,9 +229,11 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         }  # fmt: skip
 
     def _restart(self, chosen: NDArray[np.bool_]) -> None:
-        """Put the chosen robots into new worlds."""
+        """Put the chosen robots into new worlds, and let them sense there."""
         index = np.flatnonzero(chosen)
         self.simulator.restart(index, self._next_worlds(index))
+        for name, rows in vars(self.simulator.sense(index)).items():
+            getattr(self.sensing, name)[index] = rows
 
     def _next_worlds(self, index: NDArray[np.intp]) -> Worlds:
         return self.settings.next_worlds([self._generators[i] for i in index])

@@ -30,7 +30,7 @@ from .constants import (
 )
 from .drawing import draw_worlds, reachable
 from .geometry import micrometres, swept_clearance
-from .motion import drift, step
+from .motion import drift, second, step
 from .random_numbers import DRIFTING, MAX_OBSTACLES, uniform
 from .sensing import reflexes, sense
 from .threads import in_threads
@@ -62,6 +62,7 @@ __all__ = [
     "micrometres",
     "reachable",
     "reflexes",
+    "second",
     "sense",
     "step",
     "swept_clearance",

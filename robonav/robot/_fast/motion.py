@@ -30,7 +30,7 @@ from .geometry import (
     swept_distance,
 )
 from .random_numbers import DRIFTING, SLIPPING, uniform
-from .sensing import target_region
+from .sensing import sense, target_region
 
 compiled = compiler(constants, geometry, random_numbers, sensing)
 
@@ -154,3 +154,19 @@ def step(
             outcome[i] = ARRIVED
         elif steps[i] >= max_steps:
             outcome[i] = OUT_OF_STEPS
+
+
+@compiled
+def second(
+    start, stop, robots, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, noise, actions, poses,
+    centres, headings, steps, outcome, ranges, walls, region, seen,
+):  # fmt: skip
+    """One second, as ``step`` has it, and what the robots sense then: one call where a call costs much."""
+    step(
+        start, stop, robots, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, actions, poses,
+        centres, headings, steps, outcome,
+    )  # fmt: skip
+    sense(
+        start, stop, robots, kinds, shapes, centres, size, poses, targets, keys, steps, noise, ranges, walls, region,
+        seen,
+    )  # fmt: skip

@@ -22,6 +22,10 @@ from .constants import (
 from .geometry import box_entry, micrometres
 from .random_numbers import SENSING, normal
 
+# Directions of the rays between the sectors k and k + 1, in the robot's frame
+COSINES = np.array([math.cos((k + 0.5) * SECTOR) for k in range(SENSORS)])
+SINES = np.array([math.sin((k + 0.5) * SECTOR) for k in range(SENSORS)])
+
 compiled = compiler(constants, geometry, random_numbers)
 
 
@@ -185,23 +189,21 @@ def sense(
 ):  # fmt: skip
     """What ``robots[start]`` to ``robots[stop - 1]`` read: ranges and walls (K, 9), target region and seen (K,).
 
-    ``robots`` (K,) are rows of the N worlds. Each reads what ``sense`` of ``plain_environment.py`` says. The rays are
-    made only once, and no row is cut out of an array: ``motion.py`` says why. ``noise`` is the standard deviation, in
-    metres, of an error on every range that sees something.
+    ``robots`` (K,) are rows of the N worlds. Each reads what ``sense`` of ``plain_environment.py`` says. No row is
+    cut out of an array: ``motion.py`` says why. ``noise`` is the standard deviation, in metres, of an error on every
+    range that sees something.
     """
-    cosines, sines, along = np.empty(SENSORS), np.empty(SENSORS), np.empty(SENSORS)
-    for k in range(SENSORS):  # directions of the rays between neighbouring sectors
-        cosines[k], sines[k] = math.cos((k + 0.5) * SECTOR), math.sin((k + 0.5) * SECTOR)  # fmt: skip
-    near, border = np.empty(SENSORS), np.empty(SENSORS, dtype=np.bool_)
+    along, near = np.empty(SENSORS), np.empty(SENSORS)
+    border = np.empty(SENSORS, dtype=np.bool_)
     for j in range(start, stop):
         i = robots[j]
         x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
         for k in range(SENSORS):
             near[k], border[k] = SENSOR_RANGE, False
         _sense_obstacles(
-            i, kinds, shapes, centres, x, y, heading, cosines, sines, along, near
+            i, kinds, shapes, centres, x, y, heading, COSINES, SINES, along, near
         )
-        _sense_borders(size, x, y, heading, cosines, sines, near, border)
+        _sense_borders(size, x, y, heading, COSINES, SINES, near, border)
         for k in range(SENSORS):
             distance = near[k]
             if distance < SENSOR_RANGE:  # otherwise rounding and noise change nothing

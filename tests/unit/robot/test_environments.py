@@ -406,12 +406,23 @@ def test_bad_rewards_options_and_seeds_are_refused_with_a_sentence():
     env.reset(seed=0)
     with pytest.raises(ValueError, match=r"reward must give an array of shape \(1,\)"):
         env.step(0)
-    env = NavigationEnv(reflex=lambda sensing, speed: np.array([8]))
-    env.reset(seed=0)
-    with pytest.raises(ValueError, match="reflex must give -1 or an action 0 to 7"):
-        env.step(0)
     with pytest.raises(ValueError, match=r"options\['worlds'\] must hold 1 worlds"):
         env.reset(options={"worlds": random_worlds(2, seed=0)})
+
+
+@pytest.mark.parametrize(
+    "given", [np.array([8]), np.array([-2]), np.array([0.0]), [1, 1], None]
+)
+def test_a_bad_reflex_of_ones_own_is_refused_with_a_sentence(given):
+    message = "reflex must give an array of 1 whole numbers -1 to 7"
+    env = NavigationEnv(reflex=lambda sensing, speed: given)
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match=message):
+        env.step(0)
+    batch = NavigationVectorEnv(1, reflex=lambda sensing, speed: given)
+    batch.reset(seed=0)
+    with pytest.raises(ValueError, match=message):
+        batch.step([0])
 
 
 def test_the_array_of_ones_own_reflex_is_left_alone():
