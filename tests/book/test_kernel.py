@@ -9,6 +9,7 @@ import pytest
 from jupyter_client.blocking import BlockingKernelClient
 from jupyter_client.manager import start_new_kernel
 
+from robonav.widgets.explorables.training import TRAININGS, Menu
 from robonav.widgets.q_learning_settings import QLearningSettings
 
 PATIENCE = 300  # seconds
@@ -43,6 +44,16 @@ runs = {(rate,): {"cost": Curve([0, 1], [1, 0])} for rate in ("0", "1", "1e9")}
 trainings = training_lab({"rate": ["0", "1", "1e9"]}, runs, step="step", measures={"cost": "J"}, train=train)
 print(grids.comm.comm_id, searches.comm.comm_id, trainings.comm.comm_id)
 """
+WORK = {
+    "demonstrations",
+    "episodes",
+    "fastest",
+    "iterations",
+    "maps",
+    "steps",
+    "trainings",
+}
+"""Settings of explorables that say how much is to be done: they stay small."""
 
 
 class Asker:
@@ -148,3 +159,25 @@ def test_robots_learn_from_a_reward(kernel):
     assert last["run"] == 7
     assert last["ended"].startswith("2 robots cross ")
     assert asker.run("print(len(learning.trainings))").strip() == "2"
+
+
+@pytest.mark.parametrize("largest", [False, True], ids=["least", "largest"])
+@pytest.mark.parametrize("name", TRAININGS)
+def test_an_explorable_is_trained(kernel, name, largest):
+    asker, _ = kernel
+    widget = asker.run(
+        "from robonav.widgets.explorables import explorable\n"
+        f"explored = explorable({name!r})\n"
+        "print(explored.comm.comm_id)"
+    ).strip()
+    settings: dict[str, Any] = {}
+    for key, own in TRAININGS[name].settings.items():
+        if isinstance(own, Menu):
+            settings[key] = own.options[-1 if largest else 0]
+        else:
+            settings[key] = own.stop if largest and key not in WORK else own.start
+    asked = {"ask": "train", "run": 1, "settings": settings}
+    ended = asker.ask(widget, asked, "ended")[-1]["ended"]
+    assert ended["sentence"].endswith(".")
+    assert ended["given"]
+    assert int(asker.run("print(len(explored.trainings))")) > 0

@@ -402,7 +402,7 @@ def test_an_explorable_shows_what_python_has_trained(view, http, name):
     all_right(view)
 
 
-@pytest.mark.parametrize("name", ["grids", "rewards"])
+@pytest.mark.parametrize("name", ["grids", "rewards", "value_of_an_end"])
 def test_a_training_is_cancelled_and_begun_again(visit, http, name):
     widget = LABS[name]()
     lab = mounted(visit, http, widget, kernel=True)
@@ -421,6 +421,8 @@ def test_a_training_is_cancelled_and_begun_again(visit, http, name):
     assert widget.trainings == []
     if name == "grids":
         set_slider(lab, "episodes", "Home")
+    elif name in TRAININGS:
+        set_slider(lab, "iterations", "Home")
     else:
         iterations(lab, 2)
     train(lab, "")
