@@ -78,7 +78,9 @@ class PlainNavigationEnv(gymnasium.Env):
 
     ## Starting state
 
-    A new random map. The robot stands at (10, 10), at least 6 m from every obstacle, and faces its target at (90, 90).
+    A new random map. Half of its obstacles are circles with a radius of 1.5 to 4 m, half rectangles with sides of 3 to
+    8 m; there is a way to the target. The robot stands at (10, 10), at least 6 m from every obstacle, and faces its
+    target at (90, 90).
 
     ## Episode end
 
@@ -128,7 +130,10 @@ class PlainNavigationEnv(gymnasium.Env):
         )
 
     def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
-        """Simulate one second: the robot moves, its episode may end, it senses again."""
+        """Simulate one second: the robot moves, its episode may end, it senses again.
+
+        Nothing here looks whether the episode has ended before.
+        """
         assert self.action_space.contains(action), f"no action: {action!r}"
         start = self.position
         self.heading, distance = self.heading_and_distance(action)
@@ -142,7 +147,7 @@ class PlainNavigationEnv(gymnasium.Env):
 
     def heading_and_distance(self, action: int) -> tuple[float, float]:
         """Return where the robot turns and how far it goes, by its reflex or the action."""
-        if self.ranges.min() == SENSOR_RANGE:  # nothing is near
+        if self.ranges.min() == SENSOR_RANGE:  # it has sensed nothing
             return self.target_direction(), self.speed
         if (self.ranges[AHEAD] < self.speed + COLLISION_DISTANCE).all():  # blocked
             action = Action.B
