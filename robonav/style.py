@@ -30,6 +30,11 @@ METHODS: dict[str, str] = {
     "relative_entropy": PURPLE,
     "scirl": SKY,
     "cloning": BLUE,
+    "potential-field": BLUE,
+    "vfh": ORANGE,
+    "dynamic-window": GREEN,
+    "bug": PURPLE,
+    "known-map": VERMILION,
 }
 
 # On a phone a figure is as wide as the page. At this width its 10 pt text is then 9 px high.

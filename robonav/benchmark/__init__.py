@@ -9,6 +9,7 @@ from .leaderboard import (
     board_worlds,
     digest,
     evaluate_on_board,
+    evaluate_policy,
     shortest_paths,
     spl,
 )
@@ -31,6 +32,7 @@ __all__ = [
     "digest",
     "evaluate",
     "evaluate_on_board",
+    "evaluate_policy",
     "fingerprint",
     "method",
     "methods",

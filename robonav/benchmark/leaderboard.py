@@ -15,7 +15,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.lfd import plan_on_grid
-from robonav.robot import Worlds, navigate, neighbour_slip, random_worlds
+from robonav.robot import (
+    Policy,
+    PolicyWithMemory,
+    Worlds,
+    navigate,
+    neighbour_slip,
+    random_worlds,
+)
 
 from .evaluation import outcome_rates
 from .policies import method
@@ -200,9 +207,42 @@ def evaluate_on_board(
     >>> evaluate_on_board("straight", "10 obstacles", 0, worlds=20)["success"] > 10
     True
     """
+    return evaluate_policy(method(name), setting, number, worlds)
+
+
+def evaluate_policy(
+    policy: Policy | PolicyWithMemory,
+    setting: str,
+    number: int,
+    worlds: int = WORLDS,
+) -> dict[str, float]:
+    """Outcome rates and SPL of any policy in one set of worlds.
+
+    Parameters
+    ----------
+    policy : callable or PolicyWithMemory
+        As :func:`robonav.robot.navigate` takes it.
+    setting : str
+        A key of :data:`SETTINGS`.
+    number : int
+        The number of the set, from 0 to 9.
+    worlds : int
+        The number of worlds, starting with the first one of the set.
+
+    Returns
+    -------
+    dict
+        As :func:`evaluate_on_board` returns it.
+
+    Examples
+    --------
+    >>> from robonav.robot import turn_to_clearer_side
+    >>> evaluate_policy(turn_to_clearer_side, "10 obstacles", 0, worlds=20)["success"] > 90
+    True
+    """
     chosen = SETTINGS[setting]
     navigation = navigate(
-        method(name),
+        policy,
         board_worlds(setting, number, worlds),
         chosen.speed,
         slip=neighbour_slip(chosen.slip) if chosen.slip else None,

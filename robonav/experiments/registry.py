@@ -19,6 +19,8 @@ MODULES = (
     "chapter5.inputs",
     "chapter5.transfer",
     "chapter5.tuning",
+    "chapter6.planners",
+    "chapter6.tuning",
     "single_runs",
     "leaderboard",
     "labs",

@@ -53,9 +53,16 @@ class BugMemory:
 
 
 def bug(
-    memory: BugMemory, sensing: Sensing, target: Floats, distance: Floats, *, speed: float, clearance: float,
-    half_width: float, sight: float,
-) -> tuple[NDArray[np.int64], BugMemory]:  # fmt: skip
+    memory: BugMemory,
+    sensing: Sensing,
+    target: Floats,
+    distance: Floats,
+    *,
+    speed: float,
+    clearance: float,
+    half_width: float,
+    sight: float,
+) -> tuple[NDArray[np.int64], BugMemory]:
     """One step of a bug algorithm with range sensors (Kamon, Rimon and Rivlin 1998).
 
     1. A robot that follows an obstacle leaves it where it sees a free point nearer to the target than all places at
@@ -247,7 +254,7 @@ class Bug:
         def choose(
             simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
         ) -> NDArray[np.int64]:
-            """Return the actions (K,) of K robots; robots whose episode is new have forgotten the one before."""
+            """Return the actions (K,) of K robots; a new episode has no memories."""
             new = robots[simulator.steps[robots] <= asked[robots]]
             kept.side[new], kept.least[new] = 0, np.inf
             asked[robots] = simulator.steps[robots]

@@ -16,6 +16,9 @@ BINS = 72  # of 5 degrees each, as in the paper
 DIRECTIONS: Floats = turned(np.arange(BINS) * 2 * np.pi / BINS)
 """Bearings (72,) of the bins in radians, counter-clockwise from 0, which is ahead."""
 
+OFF: Floats = np.abs(turned(DIRECTIONS - CENTRES[:, None]))
+"""Angles (9, 72) between the middles of the sectors and the bins."""
+
 FARTHEST = np.radians(90) + 1e-9
 """A robot that turns by at most 60 degrees in a step does not go in directions beyond this one; they are masked."""
 
@@ -54,9 +57,8 @@ def polar_histogram(
     distance = np.maximum(np.asarray(ranges, dtype=float), 1e-9)
     magnitude = 1 - (distance / SENSOR_RANGE) ** 2
     reach = half_width + np.arcsin(np.minimum(clearance / distance, 1.0))
-    off = np.abs(turned(DIRECTIONS - CENTRES[:, None]))
-    covered = off <= reach[:, :, None] + 1e-9
-    histogram: Floats = (magnitude[:, :, None] * covered).sum(axis=1)
+    covered = reach[:, :, None] + 1e-9 >= OFF
+    histogram: Floats = np.einsum("nk,nkb->nb", magnitude, covered)
     return histogram
 
 
@@ -101,10 +103,11 @@ def vector_field_histogram(
     array([-25.])
     """
     free = (np.asarray(histogram) < threshold) & (np.abs(DIRECTIONS) <= FARTHEST)
+    beside = range(1, wide + 1)
     left, right = (
-        np.cumprod([np.roll(free, sign * b, axis=1) for b in range(1, wide + 1)], axis=0).sum(axis=0)
-        for sign in (-1, 1)
-    )  # free bins beside each bin, at most `wide`  # fmt: skip
+        np.logical_and.accumulate([np.roll(free, b, axis=1) for b in bins]).sum(axis=0)
+        for bins in ([-b for b in beside], beside)
+    )
     half = wide // 2
     inside = free & (np.minimum(left, right) >= half)
     narrow = free & (left + right < wide) & (np.abs(left - right) <= 1)

@@ -253,12 +253,12 @@ def asked_on(page: Path, name: str = r"\w+") -> list[str]:
 
 
 def chapter_pages() -> list[str]:
-    """The pages of chapters 2 to 5 that teach, without exercises and results."""
+    """The pages of chapters 2 to 6 that teach, without exercises and results."""
     parts = yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))["parts"]
     files = [
         chapter["file"]
         for part in parts
-        if re.match(r"Chapter [2-5]", part["caption"])
+        if re.match(r"Chapter [2-5]|Beyond the thesis", part["caption"])
         for chapter in part["chapters"]
     ]
     return [file for file in files if "exercises" not in file]

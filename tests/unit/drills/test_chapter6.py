@@ -1,8 +1,9 @@
-"""The answers of the conclusions' drills, worked out another way from the numbers in their texts."""
+"""The answers of chapter 6's drills, worked out another way from the numbers in their texts."""
 
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -49,3 +50,54 @@ def test_more_than_chance_by_the_quadratic_equation() -> None:
             "first" if low > other_high else "second" if other_low > high else "not"
         )
         assert expected in question.asked.right
+
+
+def test_sum_of_forces_by_a_derivative_of_the_potential() -> None:
+    for question in drawn("sum-of-forces"):
+        rho, eta, influence = (
+            float(re.search(pattern, question.text)[1])
+            for pattern in (r"reads \$([\d.]+)", r"eta = ([\d.]+)", r"rho_0 = ([\d.]+)")
+        )
+
+        def potential(x: float, rho=rho, eta=eta, influence=influence) -> float:
+            return -x + eta / 2 * (1 / (rho - x) - 1 / influence) ** 2
+
+        slope = (potential(1e-5) - potential(-1e-5)) / 2e-5
+        assert question.asked.answer == pytest.approx(-slope, abs=1e-6)
+
+
+def test_angle_of_the_clearance_by_a_right_angled_triangle() -> None:
+    for question in drawn("angle-of-the-clearance"):
+        distance, clearance = (float(n) for n in re.findall(r"\$([\d.]+)\$", question.text))  # fmt: skip
+        along = math.sqrt(distance**2 - clearance**2)
+        expected = math.degrees(math.atan2(clearance, along))
+        assert question.asked.answer == pytest.approx(expected)
+
+
+def test_cheapest_opening_by_adding_up() -> None:
+    for question in drawn("cheapest-opening"):
+        *degrees, target, keep = numbers(question.text.replace("°", " "))
+        cost = {d: abs(d - target) + keep * abs(d) for d in degrees}
+        assert question.asked.right == f"{min(cost, key=cost.get):g}°"
+
+
+def test_best_of_the_window_by_adding_up() -> None:
+    for question in drawn("best-of-the-window"):
+        ways = dict(re.findall(r"(F|[LR][36]0) (\d+\.?\d*)", question.text))
+        bearing = float(re.search(r"lies at (-?\d+)°", question.text)[1])
+        heading, distance = (
+            float(n) for n in re.search(r"scores ([\d.]+) .* \+ ([\d.]+) \(free", question.text).groups()
+        )  # fmt: skip
+        turns = {"F": 0, "L30": 30, "L60": 60, "R30": -30, "R60": -60}
+        score = {
+            name: heading * (1 - abs(bearing - turns[name]) / 180) + distance * float(way) / 10
+            for name, way in ways.items() if float(way) >= 2
+        }  # fmt: skip
+        assert question.asked.right == max(score, key=score.get)
+
+
+def test_leave_or_follow_by_the_distance_of_the_free_point() -> None:
+    for question in drawn("leave-or-follow"):
+        least, distance, free, step = numbers(question.text)
+        leaves = distance - free < least - step
+        assert ("leaves" in question.asked.right) == leaves

@@ -11,7 +11,7 @@ from scipy.optimize import minimize_scalar
 from scipy.special import logsumexp
 from scipy.stats import binomtest, norm
 
-from robonav import mdp, networks, nirl, nnql
+from robonav import mdp, networks, nirl, nnql, planners
 from robonav.lfd import demonstrate, plan, plan_on_grid
 from robonav.nnql.reward import ROW_NUMBERS
 from robonav.nnql.updates import RESCALE
@@ -29,6 +29,7 @@ from robonav.robot import (
     turn_to_clearer_side,
 )
 from robonav.widgets.explorables import EXPLORABLES, chapter2, chapter3, explorable
+from robonav.widgets.simulator import page_world
 
 
 @pytest.fixture
@@ -921,3 +922,96 @@ def test_values_out_of_range(compute, discount):
     np.testing.assert_allclose(shifted, nnql.shift(np.array(values)), atol=1e-12)
     if discount == 0.9:
         assert set(clipped) == {1}  # none can be told apart, as the page says
+
+
+def places_among(world, n, seed):
+    """Places with headings in the first world, none of which collides."""
+    rng = np.random.default_rng(seed)
+    poses = np.column_stack(
+        [rng.uniform(2, world.size - 2, (n, 2)), rng.uniform(-np.pi, np.pi, n)]
+    )
+    ranges = sense(concatenate([world] * n), poses).ranges
+    return poses[ranges.min(axis=1) >= 1]
+
+
+def two_circles(gap, size=50.0):
+    """The world of the explorable with its circles so far apart."""
+    away = 3.5 + gap / 2
+    circles = [(24, 25 + away, 3.5), (24, 25 - away, 3.5)]
+    return make_world(circles, start=(4, 25), target=(46, 25), size=size)
+
+
+def test_forces_are_those_of_the_package(compute):
+    world = two_circles(4.0)
+    poses = places_among(world, 150, seed=0)
+    body = """
+    return data.poses.map(([x, y, heading]) => {
+      const seen = page.sense(data.world, { x, y, heading });
+      const action = page.potentialFieldAction(seen, { ...data.settings, inertia: 1 });
+      return [...page.totalForce(seen, data.settings), action];
+    });"""
+    settings = {"repulsion": 60.0, "influence": 10.0}
+    seen = np.array(
+        compute(
+            "potential_field_forces", body,
+            world=page_world(world), poses=poses.tolist(), settings=settings,
+        )
+    )  # fmt: skip
+    sensing = sense(concatenate([world] * len(poses)), poses)
+    attraction, repulsions = planners.potential_field(sensing, **settings)
+    np.testing.assert_allclose(
+        seen[:, :2], attraction + repulsions.sum(axis=1), atol=1e-9
+    )
+    actions = planners.PotentialField(**settings, inertia=1.0)(sensing, None)
+    np.testing.assert_array_equal(seen[:, 2], actions)
+
+
+@pytest.mark.parametrize("gap", [0.5, 2.0, 6.0, 10.0])
+@pytest.mark.parametrize("inertia", [0.0, 1.0])
+def test_a_robot_follows_forces_as_in_python(compute, gap, inertia):
+    world = two_circles(gap)
+    settings = {"repulsion": 80.0, "influence": 10.0, "inertia": inertia}
+    body = "return page.followForces(data.world, data.settings);"
+    seen = compute("potential_field_forces", body, world=page_world(world), settings=settings)  # fmt: skip
+    policy = planners.PotentialField(**settings)
+    result = navigate(policy, world, max_steps=120, record_paths=True)
+    assert (seen["outcome"] == "arrived") == result.success[0]
+    np.testing.assert_allclose(seen["path"], result.paths[0][:, :2], atol=1e-9)
+    if gap <= 2 and inertia == 0:
+        assert not result.success[0]  # as the answer on the page says
+
+
+def test_histograms_and_directions_are_those_of_the_package(compute):
+    given = explorable("polar_histogram_openings").data["given"]
+    world = make_world(
+        circles=[(24, 26, 2), (25, 15, 2.5)], rectangles=[(34, 21, 3, 6, 20)],
+        start=(5, 5), target=(38, 20), size=40.0,
+    )  # fmt: skip
+    assert page_world(world) == given["world"]
+    poses = places_among(world, 200, seed=1)
+    body = """
+    const settings = { clearance: 1.4, threshold: 0.4, halfWidth: 0.1, wide: 12, keep: 0.3 };
+    return data.poses.map(([x, y, heading]) => page.lookAround(given.world, { x, y, heading }, settings));"""
+    seen = compute("polar_histogram_openings", body, poses=poses.tolist())
+    sensing = sense(concatenate([world] * len(poses)), poses)
+    histogram = planners.polar_histogram(sensing.ranges, clearance=1.4, half_width=0.1)
+    np.testing.assert_allclose([one["histogram"] for one in seen], histogram, atol=1e-9)
+    bearings = planners.vector_field_histogram(
+        histogram, planners.target_bearing(sensing), threshold=0.4, wide=12, keep=0.3
+    )
+    chosen = [np.pi if one["bearing"] is None else one["bearing"] for one in seen]
+    np.testing.assert_allclose(chosen, bearings, atol=1e-9)
+
+
+def test_a_larger_clearance_narrows_the_openings(compute):
+    body = """
+    const [x, y] = given.pose;
+    return [1, 3].map((clearance) => {
+      const settings = { clearance, threshold: 0.3, halfWidth: 0, wide: 16, keep: 0.2 };
+      const { free } = page.lookAround(given.world, { x, y, heading: 0 }, settings);
+      return [page.openings(free), free.filter(Boolean).length];
+    });"""
+    (openings, bins), (fewer, left) = compute("polar_histogram_openings", body)
+    assert openings >= 2
+    assert fewer <= openings
+    assert left < bins

@@ -1,0 +1,64 @@
+"""The numbers of the explorables of chapter 6."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from robonav.robot import make_world
+
+from ..simulator import page_world
+from .registry import asks
+
+PLANNERS = ("simulator", "maps", "planners")
+
+
+@asks(
+    "Forces that cancel",
+    "The robot follows the forces alone, without inertia. "
+    "You move the two circles so close together in front of the target that it cannot pass between them. "
+    "What happens?",
+    guesses=[
+        "the robot goes round both circles",
+        "the robot does not arrive",
+        "the robot pushes through between them",
+    ],
+    right="the robot does not arrive",
+    because="In front of the two circles the repulsion cancels the attraction, and beside that place "
+    "the forces lead back to it.",
+    files=PLANNERS,
+)
+def potential_field_forces() -> dict[str, Any]:
+    """A small world with two circles, which the reader moves."""
+    world = make_world(
+        circles=[(24, 34, 3.5), (24, 16, 3.5)],
+        start=(4, 25),
+        target=(46, 25),
+        size=50.0,
+    )
+    return {"world": page_world(world)}
+
+
+@asks(
+    "Openings in the polar histogram",
+    "The robot keeps a clearance of 1 m. "
+    "What happens to the openings ahead of it when it has to keep 3 m?",
+    guesses=[
+        "they stay, as the obstacles have not moved",
+        "they become wider",
+        "they become narrower, or close",
+        "they move to the left",
+    ],
+    right="they become narrower, or close",
+    because="Each reading covers the angle that the clearance takes at its distance, to either side.",
+    files=PLANNERS,
+)
+def polar_histogram_openings() -> dict[str, Any]:
+    """A small world with three obstacles, and the robot's first place in it."""
+    world = make_world(
+        circles=[(24, 26, 2), (25, 15, 2.5)],
+        rectangles=[(34, 21, 3, 6, 20)],
+        start=(5, 5),
+        target=(38, 20),
+        size=40.0,
+    )
+    return {"world": page_world(world), "pose": [17.0, 20.0]}

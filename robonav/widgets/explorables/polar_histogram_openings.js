@@ -1,0 +1,79 @@
+// The polar histogram of VFH+ for a robot that one moves, and the direction that it chooses.
+
+/** All that VFH+ computes at a pose. */
+export function lookAround(world, pose, settings) {
+  const seen = sense(world, pose);
+  const histogram = polarHistogram(seen, settings);
+  const free = freeBins(histogram, settings.threshold);
+  return { seen, histogram, free, bearing: chosenBearing(histogram, targetBearing(seen), settings) };
+}
+
+/** How many openings, groups of free bins side by side, there are between 90 degrees to the right and to the left. */
+export function openings(free) {
+  const ahead = Array.from({ length: 37 }, (_, k) => free[(k + 54) % 72]); // from -90 to 90 degrees
+  return ahead.filter((isFree, k) => isFree && !ahead[k - 1]).length;
+}
+
+export default explorable({
+  controls: () => ({
+    heading: range({ label: "heading", from: 0, to: 350, step: 10, value: 0, text: (value) => `${value}°` }),
+    clearance: range({ label: "clearance", from: 0.5, to: 3, step: 0.1, value: 1, text: (value) => `${value} m` }),
+    threshold: range({ label: "threshold", from: 0.1, to: 1.5, step: 0.1, value: 0.3 }),
+  }),
+  start: ({ pose: [x, y] }) => ({ x, y }),
+  draw({ given: { world }, stage, act }) {
+    const keys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const within = (value) => Math.min(world.size - 1, Math.max(1, Number(value.toFixed(1))));
+    const put = (x, y) => act((state) => Object.assign(state, { x: within(x), y: within(y) }));
+    const board = mapCanvas({ tabindex: 0, role: "application", "data-keys": "ArrowLeft ArrowUp", "data-touch": "" });
+    const bars = plot({ x: [-180, 180], y: [0, 3], xLabel: "right (−)   direction in degrees   left (+)", yLabel: "obstacle", xTicks: [-180, -90, 0, 90, 180] });
+    stage.append(h("figure", {}, board.canvas, h("p", { class: "told" }, "Drag the robot, touch where it should be, or use the arrow keys.")), h("figure", {}, bars.element));
+    let [now, dragging] = [null, false];
+    const near = ([x, y]) => Math.hypot(x - now.x, y - now.y) < 3;
+    board.canvas.addEventListener("pointerdown", (event) => {
+      dragging = near(board.place(event));
+      if (dragging) board.canvas.setPointerCapture(event.pointerId);
+    });
+    board.canvas.addEventListener("pointermove", (event) => dragging && put(...board.place(event)));
+    for (const end of ["pointerup", "pointercancel"]) board.canvas.addEventListener(end, () => (dragging = false));
+    board.canvas.addEventListener("click", (event) => near(board.place(event)) || put(...board.place(event)));
+    board.canvas.addEventListener("keydown", (event) => {
+      if (!keys[event.key]) return;
+      event.preventDefault();
+      put(now.x + keys[event.key][0], now.y + keys[event.key][1]);
+    });
+    holdFinger(board.canvas, (touch) => near(board.place(touch)));
+    return ({ x, y, heading, clearance, threshold }) => {
+      now = { x, y, heading: (heading * Math.PI) / 180 };
+      const { seen, histogram, free, bearing } = lookAround(world, now, { clearance, threshold, halfWidth: 0, wide: 16, keep: 0.2 });
+      board.begin(world.size);
+      world.obstacles.forEach((obstacle) => board.obstacle(obstacle));
+      board.target(world.target);
+      board.sectors(now, seen.ranges);
+      board.robot(now);
+      if (bearing !== null) {
+        const way = now.heading + bearing;
+        board.line([[x, y], [x + 8 * Math.cos(way), y + 8 * Math.sin(way)]], PALETTE.VERMILION, 3);
+      }
+      const shapes = histogram.map((value, b) => {
+        const from = (BIN_BEARINGS[b] * 180) / Math.PI - 2.5;
+        const top = Math.min(value, 3);
+        return svg("rect", {
+          x: bars.X(Math.max(from, -180)), y: bars.Y(top), width: bars.X(5) - bars.X(0) - 0.5, height: bars.Y(0) - bars.Y(top),
+          fill: free[b] ? PALETTE.GREEN : PALETTE.ORANGE,
+        });
+      });
+      const count = openings(free);
+      const degrees = bearing === null ? null : Math.round((bearing * 180) / Math.PI);
+      const side = degrees === 0 ? "straight ahead" : `${Math.abs(degrees)}° to the ${degrees > 0 ? "left" : "right"}`;
+      const choice = bearing === null ? "Nothing is free: the robot steps back." : `It goes ${side}, where the red line points.`;
+      bars.put(
+        `Polar histogram with ${count} openings. ${choice}`, ...shapes,
+        bars.line([[-180, threshold], [180, threshold]], { stroke: PALETTE.VERMILION }),
+        bearing === null ? svg("g", {}) : bars.line([[degrees, 0], [degrees, 3]], { stroke: PALETTE.VERMILION, "stroke-dasharray": "4 4" }),
+      );
+      set(board.canvas, { "aria-label": `Map. The robot is at ${number(x, 1)}, ${number(y, 1)} and heads ${heading} degrees. Arrow keys move it by a metre.` });
+      return `Between 90° to the right and 90° to the left there ${count === 1 ? "is 1 opening" : `are ${count} openings`}, in which the bars stay below the threshold.\n\n${choice}`;
+    };
+  },
+});
