@@ -21,7 +21,7 @@ from robonav.networks import NetworkPolicy, fit, toy_datasets
 from robonav.robot import Sensing, random_worlds
 from robonav.widgets.boundary_lab import boundary_lab
 from robonav.widgets.dagger_lab import dagger_lab
-from robonav.widgets.explorables import explorable
+from robonav.widgets.explorables import explorable, robot_trainings
 from robonav.widgets.explorables.training import TRAININGS
 from robonav.widgets.grid_lab import Replay, grid_lab
 from robonav.widgets.imitation_lab import imitation_lab
@@ -304,7 +304,8 @@ def vectors_are_shown(lab: Locator, plan: Any) -> None:
 def paths_are_shown(lab: Locator, driven: Any) -> None:
     assert len(driven.outcome) == 20
     for outcome in set(driven.outcome):
-        expect(lab.get_by_role("radio", name=f"one {outcome}")).to_be_enabled()
+        ended = lab.get_by_role("radio", name=robot_trainings.SAID[outcome])
+        expect(ended).to_be_enabled()
 
 
 def grid_is_shown(lab: Locator, returns: Any) -> None:

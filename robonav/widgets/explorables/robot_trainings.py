@@ -33,6 +33,13 @@ AT_ONCE = 20
 """Worlds between two points of a curve."""
 
 SEED = 59_000
+SAID = {
+    "arrived": "arrived",
+    "collided": "collided",
+    "out of steps": "ran out of steps",
+}
+"""How a robot's episode ended, in the words of the page."""
+
 ARRIVED = Curve("arrived (%)", high=100.0, digits=0)
 COLLIDED = Curve("collided (%)", high=100.0, digits=0)
 OBSTACLES = Dial("obstacles that stand still", 0, 40, 5, 10)
@@ -90,11 +97,11 @@ def rule_and_reflex(settings: dict[str, Any], report: Report) -> Trained:
     result = Navigation(np.array(outcomes), np.array(steps), tuple(paths))
     shown = [
         {
-            "name": f"one {outcome}",
+            "name": said,
             "path": paths[at][:, :2].round(2).tolist(),
             **page_world(worlds[at]),
         }
-        for outcome in ("arrived", "collided", "out of steps")
+        for outcome, said in SAID.items()
         for at in np.flatnonzero(result.outcome == outcome)[:1]
     ]
     arrived, collided = percent(result.success), percent(result.collision)
@@ -102,7 +109,12 @@ def rule_and_reflex(settings: dict[str, Any], report: Report) -> Trained:
         [result],
         f"It arrives in {arrived:.1f} % of {total} maps, collides in {collided:.1f} %, and is out of steps in "
         f"{100 - arrived - collided:.1f} %. The picture shows a map of each kind with the robot's path.",
-        {"worlds": shown, "maps": "a map", "map": len(shown) - 1, "speed": speed},
+        {
+            "worlds": shown,
+            "maps": "a map in which the robot",
+            "map": len(shown) - 1,
+            "speed": speed,
+        },
     )
 
 
