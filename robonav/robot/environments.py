@@ -40,7 +40,8 @@ class NavigationEnv(gymnasium.Env):
 
     ``reset(options={"worlds": world})`` puts the robot into a given world, a batch of one. A new world is drawn again
     if no way leads to the target 2 m clear of what stands still. The time limit of ``gymnasium.make``, 500 steps by
-    default, is outside the environment, whose outcome then stays ``RUNNING``.
+    default, is outside the environment, whose outcome then stays ``RUNNING``. ``target_region`` is counted from 0 here,
+    and from 1 in a :class:`Sensing`, which policies take: see :func:`as_sensing`.
 
     ## Information
 
