@@ -92,6 +92,13 @@ def test_clearance_anywhere():
     assert 50 < collisions < 500
 
 
+def test_a_way_through_a_thin_wall_is_a_collision():
+    env = PlainNavigationEnv()
+    env.enter(make_world(rectangles=[(50, 50, 0.5, 30, 0)]))
+    assert env.clearance(np.array([48.0, 50.0]), np.array([52.0, 50.0])) == 0.0
+    assert env.clearance(np.array([48.0, 50.0]), np.array([48.0, 52.0])) == 1.75
+
+
 def test_a_robot_that_is_blocked_steps_back():
     env = PlainNavigationEnv()
     walls = [(50 + 2.5 + 1, 50, 2, 30, 0), (50, 52.6, 8, 1, 0), (50, 47.4, 8, 1, 0)]
