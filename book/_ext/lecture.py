@@ -525,13 +525,16 @@ def paired(slides: list[Slide]) -> list[Slide]:
 
 
 def of_section(name: str, blocks: list[Part | Mark], page: Page) -> list[Slide]:
-    """Return the slides of one section. Its marks are the short lecture; what they leave out is for the long one."""
+    """Return the slides of one section. Its marks are the short lecture; what they leave out is for the long one.
+
+    What a mark of another section shows is not shown again.
+    """
     marks = [block for block in blocks if isinstance(block, Mark)]
-    taken: set[int] = set()
+    everywhere = [block for block in page.blocks if isinstance(block, Mark)]
+    taken = {id(part) for mark in everywhere for part in shown_by(mark, page)}
     marked: dict[int, Slide] = {}
     for mark in marks:
         shown = shown_by(mark, page)
-        taken |= {id(part) for part in shown}
         wanted = sum(WANTED[part.kind][0] for part in shown) or 2
         notes = mark.notes + [note for part in shown for note in notes_of(part)]
         kind = shown[0].kind if shown else "text"
@@ -554,7 +557,7 @@ def of_section(name: str, blocks: list[Part | Mark], page: Page) -> list[Slide]:
             slides.append(marked[id(block)])
         elif id(block) not in taken:
             slide = of_part(block, page)
-            slide.long = bool(marks)
+            slide.long = bool(marks) or name == "Related work"
             slides.append(slide)
     return paired(slides)
 
@@ -668,7 +671,7 @@ def special(name: str, blocks: list[Part | Mark], page: Page) -> list[Slide] | N
             if points
             else []
         )
-    if name == "Where to read on":
+    if name in ("Where to read on", "References"):
         return []
     return None
 

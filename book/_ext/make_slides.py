@@ -25,8 +25,8 @@ from check_site import ROOT, SITE
 from lecture import (
     COLUMNS_BESIDE,
     LINES_BELOW,
+    LINES_BESIDE,
     MINUTES,
-    MOST_LINES,
     Page,
     Part,
     Slide,
@@ -100,7 +100,7 @@ def part_html(part: Part) -> str:
     if part.kind == "output":
         lines = sum(len(block.get_text().split("\n")) for block in tag.select("pre"))
         code = tag.select_one(".cell_input")
-        if code is not None and lines > MOST_LINES:
+        if code is not None and lines > LINES_BESIDE:
             return inner(tag).replace(str(code), "")
         return inner(tag)
     attributes = " ".join(tag.get("class") or ())

@@ -54,7 +54,7 @@ const SEEN = ".pictures, .plane, .grids, .curves, .charts, .legend, .viewer, .sc
 const PAGE_ONLY = ".my-drives, .kept, .file, .kernel, .snapshots, .readings, .hint"; // downloads, and what a lecturer says
 
 /** Whether something holds a picture, and not only the sign on a button or what is folded. */
-const pictured = (part) => [part, ...part.querySelectorAll(PICTURE)]
+const pictured = (part) => part.matches(".pictures") || part.querySelector(".pictures") !== null || [part, ...part.querySelectorAll(PICTURE)]
   .some((found) => found.matches(PICTURE) && !found.closest("button, details, label, .snapshots"));
 
 /** Yields the parts of a live figure from top to bottom, each with whether it is looked at. A row of both comes apart. */
@@ -68,6 +68,12 @@ function* partsOf(place) {
   }
 }
 
+/** Lets what a fold holds lie over the slide, above the summary if there is no room below. */
+function openOver(fold) {
+  const { bottom } = fold.closest(".body").getBoundingClientRect();
+  if ([...fold.children].some((part) => part.getBoundingClientRect().bottom > bottom)) fold.classList.add("upwards");
+}
+
 /** Lays a live figure out for a wide, low slide, and leaves away what belongs to the page only. */
 function arrange(widget) {
   const [hand, eye] = ["hand", "eye"].map((name) => Object.assign(document.createElement("div"), { className: name }));
@@ -78,6 +84,7 @@ function arrange(widget) {
   for (const fold of widget.querySelectorAll("details")) {
     fold.open = false;
     fold.name = "folds"; // one at a time
+    fold.addEventListener("toggle", () => openOver(fold));
   }
   for (const [part, seen] of [...partsOf(widget)]) {
     if (!part.matches(".title, .question")) (seen ? eye : hand).append(part);
@@ -102,7 +109,7 @@ function foldLast(hand) {
   if (rest.length < 3) return false;
   let more = hand.querySelector(".more");
   if (!more) {
-    more = Object.assign(document.createElement("details"), { className: "more", name: "folds" });
+    more = Object.assign(document.createElement("details"), { className: "more upwards", name: "folds" });
     more.append(Object.assign(document.createElement("summary"), { textContent: "More" }));
     hand.append(more);
   }
@@ -111,12 +118,12 @@ function foldLast(hand) {
 }
 
 /** Gives controls the share of the slide that lets pictures be largest. */
-function fitLive(body) {
+function fitLive(body, room = ROOM_TO_SAY) {
   const widget = body.querySelector(".arranged");
   widget.classList.remove("crowded");
   const [hand, eye] = [widget.querySelector(".hand"), widget.querySelector(".eye")];
   const { bottom, height } = body.getBoundingClientRect();
-  const spoken = ROOM_TO_SAY * height / body.clientHeight; // the slide may be drawn smaller or larger
+  const spoken = room * height / body.clientHeight; // the slide may be drawn smaller or larger
   let [best, bestSize] = [SHARES.at(-1), 0];
   const sized = () => {
     let [low, high] = [SMALLEST_PICTURE, LARGEST_PICTURE];
@@ -135,7 +142,7 @@ function fitLive(body) {
     if (size > bestSize) [best, bestSize] = [share, size];
   }
   if (bestSize === 0 && foldLast(hand)) {
-    fitLive(body);
+    fitLive(body, room);
     return;
   }
   widget.classList.toggle("crowded", bestSize === 0);
@@ -149,7 +156,10 @@ function watch(body) {
   const content = widget ?? body.querySelector(".fit");
   const high = () => (widget ? Math.max(...[".hand", ".eye"].map((part) => widget.querySelector(part).getBoundingClientRect().bottom)) : content.getBoundingClientRect().bottom);
   const grown = new ResizeObserver(() => {
-    if (high() > body.getBoundingClientRect().bottom + 1) (widget ? fitLive : fit)(body);
+    if (high() > body.getBoundingClientRect().bottom + 1) {
+      if (widget) fitLive(body, 0);
+      else fit(body);
+    }
   });
   for (const part of widget ? widget.querySelectorAll(".hand, .eye") : [content]) grown.observe(part);
 }
@@ -192,6 +202,9 @@ async function start() {
   });
   document.addEventListener("keydown", beforeFigures, true);
   Reveal.on("slidechanged", () => document.activeElement?.closest("section") && document.activeElement.blur());
+  const drills = [...document.querySelectorAll(".live details.drill")];
+  for (const drill of drills) drill.open = true;
+  await until(() => drills.every((drill) => drill.querySelector(".drill-place > *")), 5_000);
   const bodies = [...document.querySelectorAll(".body")];
   for (const widget of document.querySelectorAll(".live .robonav:not(.drill)")) arrange(widget);
   for (const body of bodies) (body.querySelector(".arranged") ? fitLive : fit)(body);

@@ -76,6 +76,42 @@ HIDDEN = """() => Reveal.getSlides().flatMap((slide, number) => {
   return [...cut, ...scrolls]
     .map((part) => `slide ${number + 1}: ${part.tagName}.${part.className} ${part.textContent.slice(0, 30)}`);
 })"""
+ANSWERED = """async () => {
+  const rest = () => new Promise((resolve) => setTimeout(resolve, 150));
+  for (const [number, slide] of Reveal.getSlides().entries()) {
+    const widget = slide.querySelector(".live .explorable");
+    if (!widget) continue;
+    Reveal.slide(number);
+    widget.querySelector(".guess input").click();
+    const first = widget.querySelector(".row:not(.guess) :is(input[type=range], input[type=radio], button:enabled)");
+    if (first?.type === "range") {
+      first.value = first.max;
+      first.dispatchEvent(new Event("input"));
+    } else first?.click();
+    await rest();
+    widget.querySelector(".guess button").click();
+    await rest();
+  }
+}"""
+FOLDS = """async () => {
+  const found = [];
+  for (const [number, slide] of Reveal.getSlides().entries()) {
+    Reveal.slide(number);
+    const frame = slide.getBoundingClientRect();
+    for (const fold of slide.querySelectorAll(".live .hand details")) {
+      if (!fold.checkVisibility()) continue;
+      fold.open = true;
+      await new Promise((resolve) => setTimeout(resolve, 100));
+      for (const part of fold.querySelectorAll("*")) {
+        const { left, right, top, bottom, width } = part.getBoundingClientRect();
+        const cut = left < frame.left || right > frame.right + 1 || top < frame.top || bottom > frame.bottom + 1;
+        if (width && cut && part.checkVisibility()) found.push(`slide ${number + 1}: ${part.tagName}`);
+      }
+      fold.open = false;
+    }
+  }
+  return found;
+}"""
 SUMMARY = """() => ({
   slides: Reveal.getTotalSlides(),
   minutes: Reveal.getSlides().reduce((sum, slide) => sum + Number(slide.dataset.minutes), 0),
@@ -148,6 +184,9 @@ def test_deck(context: BrowserContext, decks: Path, name: str) -> None:
         if name not in WITHOUT_EXPLORABLES:
             assert short["live"] >= 1
             assert a_control_reacts(visit)
+            visit.page.evaluate(ANSWERED)
+            assert visit.page.evaluate(HIDDEN) == []
+            assert visit.page.evaluate(FOLDS) == []
         assert visit.errors == visit.external == []
 
 
@@ -301,6 +340,13 @@ def test_a_mark_says_what_a_slide_shows() -> None:
     assert slide.notes[0] == "<p>Say this.</p>"
     assert sum(slide.kind == "equation" for slide in slides) == 1
     assert sum(slide.minutes["short"] for slide in slides) == MINUTES
+
+
+def test_a_part_that_a_mark_of_another_section_shows_is_not_shown_again() -> None:
+    body = BODY.format(mark="")
+    early = body.replace('<section id="b">', marked("eq-9.1") + '<section id="b">', 1)
+    slides = lecture.lecture(Page(early, {}))
+    assert [slide.kind for slide in slides].count("equation") == 1
 
 
 def test_a_mark_that_shows_nothing_known_is_refused() -> None:
