@@ -56,6 +56,8 @@ def test_three_maps_are_driven_and_a_robot_is_trained(site: Path) -> None:
         lab.get_by_role("button", name="Train", exact=True).tap()
         said = lab.locator(".training > .status").first
         expect(said).to_contain_text("always goes straight on")
+        expect(said).to_be_in_viewport(ratio=1)  # and so is much of the map
+        expect(lab.locator(".viewer canvas")).to_be_in_viewport(ratio=0.9)
         own, straight = map(float, re.findall(r"in ([\d.]+) %", said.inner_text()))
         assert own > straight + 20
         lab = go(

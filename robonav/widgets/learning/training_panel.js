@@ -136,7 +136,11 @@ export function trainingPanel({ source, title = "", action, busy = "It learns.",
     rest("");
     said.textContent = `Cancelled. ${cancelled() ?? "Nothing of this run is kept."}`;
   };
-  const button = h("button", { type: "button", class: "main", click: () => (running ? cancel() : start()) }, action);
+  const button = h("button", { type: "button", class: "main", click: () => {
+    if (running) return cancel();
+    element.scrollIntoView({ block: "nearest" }); // what is learned is below the button
+    return start();
+  } }, action);
   const element = h("div", { class: "training", role: "group", "aria-label": title || action },
     h("div", { class: "row tools" }, button, h("div", { class: "grow" }, title && h("p", { class: "label" }, title), bar, left)), said,
     h("div", { class: beside ? "seen" : "" }, ...(beside ? [beside] : []), h("div", { class: "row curves" }, ...curves.map((each) => each.element))));
