@@ -112,6 +112,7 @@ def draw_histogram(axes: Axes, sensing: Sensing, policy: VectorFieldHistogram) -
         axes.axvline(np.degrees(bearing), color=colour, linewidth=2, label=label)
     axes.set(
         xlim=(180, -180),
+        ylim=(0, 1.6 * max(histogram[0].max(), policy.threshold)),
         xticks=[180, 90, 0, -90, -180],
         xlabel="direction (degrees, left is positive)",
         ylabel="obstacle",

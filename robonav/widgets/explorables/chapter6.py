@@ -15,7 +15,7 @@ PLANNERS = ("simulator", "maps", "planners")
 @asks(
     "Forces that cancel",
     "The robot follows the forces alone, without inertia. "
-    "You move the two circles so close together in front of the target that it cannot pass between them. "
+    "You move the two circles close together in the middle of its way, so that it cannot pass between them. "
     "What happens?",
     guesses=[
         "the robot goes round both circles",
@@ -30,7 +30,7 @@ PLANNERS = ("simulator", "maps", "planners")
 def potential_field_forces() -> dict[str, Any]:
     """A small world with two circles, which the reader moves."""
     world = make_world(
-        circles=[(24, 34, 3.5), (24, 16, 3.5)],
+        circles=[(22, 29, 3.5), (30, 14, 3.5)],
         start=(4, 25),
         target=(46, 25),
         size=50.0,
