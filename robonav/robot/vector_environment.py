@@ -196,10 +196,10 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
                 "call reset with options={'reset_mask': ...} first"
             )
         reflexes = np.where(fresh, NO_REFLEX, self.settings.reflexes(before))
-        executed = np.where(reflexes == NO_REFLEX, commands, reflexes)
-        self.sensing = simulator.second(executed)
+        simulator.step(np.where(reflexes == NO_REFLEX, commands, reflexes))
         if fresh.any():  # robots whose episode has ended stood still; a new one begins
             self._restart(fresh)
+        self.sensing = simulator.sense()
         rewards = self.settings.rewards(before, self.sensing, simulator.outcome)
         reward = np.where(fresh, 0.0, rewards)
         ended = simulator.outcome != RUNNING
@@ -221,6 +221,8 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         for i in np.flatnonzero(ended):
             final_obs[i] = {name: value[i] for name, value in last.items()}
         self._restart(ended)
+        for name, rows in vars(self.simulator.sense(np.flatnonzero(ended))).items():
+            getattr(self.sensing, name)[ended] = rows
         everyone = np.ones(self.num_envs, dtype=np.bool_)
         info = self._info(np.where(ended, NO_REFLEX, reflexes), everyone)
         return info | {
@@ -229,11 +231,9 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         }  # fmt: skip
 
     def _restart(self, chosen: NDArray[np.bool_]) -> None:
-        """Put the chosen robots into new worlds, and let them sense there."""
+        """Put the chosen robots into new worlds."""
         index = np.flatnonzero(chosen)
         self.simulator.restart(index, self._next_worlds(index))
-        for name, rows in vars(self.simulator.sense(index)).items():
-            getattr(self.sensing, name)[index] = rows
 
     def _next_worlds(self, index: NDArray[np.intp]) -> Worlds:
         return self.settings.next_worlds([self._generators[i] for i in index])
