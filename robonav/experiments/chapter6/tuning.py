@@ -135,17 +135,21 @@ def finals() -> Experiment:
 EXPERIMENTS = (TUNING, finals())
 
 
-def tune_and_test(folder: str | Path = RESULTS, *, scale: str = "thesis") -> None:
+def tune_and_test(
+    folder: str | Path = RESULTS, *, scale: str = "thesis", jobs: int = -1
+) -> None:
     """Run both stages and the table, and write the finalists and the tuned settings."""
     written = "Written by robonav.experiments.chapter6.tuning."
-    ranked = best_trials(reproduce(TUNING, folder, scale=scale), FINAL_TRIALS)
+    ranked = best_trials(
+        reproduce(TUNING, folder, scale=scale, jobs=jobs), FINAL_TRIALS
+    )
     comment = f"The best trials of planner-tuning, the best first. {written}"
     write_hyperparameters(FINALISTS, comment, ranked)
-    ranked = best_trials(reproduce(finals(), folder, scale=scale), 1)
+    ranked = best_trials(reproduce(finals(), folder, scale=scale, jobs=jobs), 1)
     best = {method: {"": next(iter(found.values()))} for method, found in ranked.items()}  # fmt: skip
     comment = f"The best finalist of planner-finals. {written}"
     write_hyperparameters(HYPERPARAMETERS, comment, best)
-    reproduce(table(), folder, scale=scale)
+    reproduce(table(), folder, scale=scale, jobs=jobs)
 
 
 if __name__ == "__main__":

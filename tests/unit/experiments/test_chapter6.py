@@ -1,0 +1,98 @@
+"""The tuning of the planners, and what the page says about the results."""
+
+import json
+
+import pytest
+
+from robonav.experiments import read_results
+from robonav.experiments.chapter4 import tuning as learners
+from robonav.experiments.chapter6 import planners, tuning
+from robonav.experiments.chapter6.setup import PLANNERS, SETUP, planner, tuned
+from robonav.planners import DynamicWindow
+
+
+def test_planners_have_as_many_trials_as_the_learners():
+    assert (tuning.TRIALS, tuning.FINAL_TRIALS) == (
+        learners.TRIALS,
+        learners.FINAL_TRIALS,
+    )
+    assert tuning.SEEDS["thesis"] == learners.TUNING.seeds["thesis"]
+    assert tuning.FINAL_SEEDS["thesis"] == learners.FINALS.seeds["thesis"]
+
+
+def test_finalists_and_settings_are_those_of_the_committed_results():
+    ranked = tuning.best_trials(read_results("planner-tuning"), tuning.FINAL_TRIALS)
+    cases = [
+        (method, int(trial), settings.as_json())
+        for method, trials in ranked.items()
+        for trial, settings in trials.items()
+    ]
+    assert cases == [tuple(case.values()) for case in tuning.finals().cases]
+    best = tuning.best_trials(read_results("planner-finals"), 1)
+    assert tuned() == {name: next(iter(best[name].values())) for name in PLANNERS}
+
+
+def test_each_trial_makes_a_planner():
+    for case in tuning.TUNING.cases:
+        made = planner(case["method"], json.loads(case["settings"]), 3.0)
+        assert isinstance(made, PLANNERS[case["method"]])
+        if isinstance(made, DynamicWindow):
+            assert made.speed == 3.0
+
+
+def test_both_stages_and_the_table_by_one_call(tmp_path, monkeypatch):
+    """At the quick scale, with two trials of each planner, into other files."""
+    from dataclasses import replace
+
+    few = [case for case in tuning.TUNING.cases if case["trial"] < 2]
+    monkeypatch.setattr(tuning, "TUNING", replace(tuning.TUNING, cases=few))
+    monkeypatch.setattr(tuning, "FINALISTS", tmp_path / "finalists.toml")
+    monkeypatch.setattr(tuning, "HYPERPARAMETERS", tmp_path / "best.toml")
+    monkeypatch.setattr(tuning, "FINAL_TRIALS", 1)
+    shown = replace(planners.table(), cases=planners.table().cases[:1])
+    monkeypatch.setattr(tuning, "table", lambda: shown)
+    monkeypatch.setitem(SETUP.navigations, "quick", 5)
+    tuning.tune_and_test(tmp_path, scale="quick", jobs=1)
+    found = tuning.read_settings(tmp_path / "best.toml")
+    assert set(found) == set(PLANNERS)
+    assert (tmp_path / "planners.csv").is_file()
+
+
+def rate(metric, method, setting):
+    results = read_results("planners")
+    place = list(results.experiment.cases).index({"method": method, "setting": setting})
+    return results.summary(metric, place).mean
+
+
+def test_what_the_page_says_about_failures():
+    assert rate("out of steps", "vfh", "30 obstacles") > 5 * rate(
+        "collision", "vfh", "30 obstacles"
+    )
+    exact, noisy = (
+        rate("success", "vfh", setting)
+        for setting in ("20 obstacles", "20, ranges off by 0.5 m")
+    )
+    assert noisy > exact
+    assert rate("success", "bug", "30 obstacles") > rate("success", "vfh", "30 obstacles")  # fmt: skip
+
+
+def test_what_the_page_says_about_tuning():
+    results = read_results("planner-tuning")
+    means = [
+        results.summary("success", place).mean
+        for place, case in enumerate(results.experiment.cases)
+        if case["method"] == "potential-field"
+    ]
+    assert max(means) - min(means) > 20
+
+
+def test_known_map_is_the_upper_end():
+    for setting in planners.BOARD:
+        best = max(rate("success", name, setting) for name in PLANNERS)
+        assert rate("success", "known-map", setting) >= best - 1e-9
+
+
+@pytest.mark.parametrize("method", PLANNERS)
+def test_trials_differ(method):
+    drawn = {tuning.trial_settings(method, trial) for trial in range(tuning.TRIALS)}
+    assert len(drawn) >= 12
