@@ -194,12 +194,14 @@ async function start() {
   await Promise.all([...document.images].map((image) => image.decode().catch(() => {})));
   await until(drawn, 20_000);
   for (const place of document.querySelectorAll(".live, .animated")) place.dataset.preventSwipe = "";
+  const laidOut = new Promise((resolve) => document.querySelector(".reveal").addEventListener("pdf-ready", resolve));
   await Reveal.initialize({
     width: 1280, height: 720, margin: 0, minScale: 0.1, maxScale: 4, center: false, hash: true, transition: "none",
     slideNumber: "c/t", viewDistance: 1000, mobileViewDistance: 1000, keyboardCondition: () => !focused(),
     pdfMaxPagesPerSlide: 1, pdfSeparateFragments: false, navigationMode: "linear", controlsTutorial: false,
     totalTime: 60 * (long ? 90 : 45), plugins: [RevealNotes],
   });
+  if (Reveal.isPrintView?.()) await Promise.race([laidOut, new Promise((resolve) => setTimeout(resolve, 5_000))]);
   document.addEventListener("keydown", beforeFigures, true);
   Reveal.on("slidechanged", () => document.activeElement?.closest("section") && document.activeElement.blur());
   const drills = [...document.querySelectorAll(".live details.drill")];

@@ -76,6 +76,14 @@ HIDDEN = """() => Reveal.getSlides().flatMap((slide, number) => {
   return [...cut, ...scrolls]
     .map((part) => `slide ${number + 1}: ${part.tagName}.${part.className} ${part.textContent.slice(0, 30)}`);
 })"""
+CUT_IN_PRINT = """() => [...document.querySelectorAll(".pdf-page")].flatMap((page, number) => {
+  const { left, right, bottom } = page.getBoundingClientRect();
+  return [...page.querySelectorAll("h1, h2, .points, .hand, .eye, pre, table, img")]
+    .filter((part) => part.checkVisibility() && !part.closest("aside"))
+    .map((part) => [part, part.getBoundingClientRect()])
+    .filter(([, box]) => box.left < left + 30 || box.right > right - 30 || box.bottom > bottom - 15)
+    .map(([part]) => `page ${number + 1}: ${part.tagName}.${part.className}`);
+})"""
 ANSWERED = """async () => {
   const rest = () => new Promise((resolve) => setTimeout(resolve, 150));
   for (const [number, slide] of Reveal.getSlides().entries()) {
@@ -216,6 +224,7 @@ def test_printed(context: BrowserContext, decks: Path, name: str) -> None:
         opened(visit, opened_at)
         pages = visit.page.locator(".pdf-page")
         assert pages.count() == slides - long
+        assert visit.page.evaluate(CUT_IN_PRINT) == []
         printed = visit.page.pdf(prefer_css_page_size=True, print_background=True)
         assert len(re.findall(rb"/Type\s*/Page\b", printed)) == slides - long
         assert visit.errors == []
