@@ -89,3 +89,9 @@ def test_workflows_name_extras_that_exist() -> None:
     for path in ROOT.glob(".github/workflows/*.yml"):
         for named in re.findall(r'"\.\[([\w,]+)\]"', path.read_text("utf-8")):
             assert set(named.split(",")) <= set(extras)
+
+
+@pytest.mark.parametrize("page", sorted(ROOT.glob("book/*.md")), ids=lambda p: p.stem)
+def test_all_cells_of_a_page_name_the_same_language(page: Path) -> None:
+    languages = re.findall(r"^`{3,}\{code-cell\} *(\S*)", page.read_text("utf-8"), re.M)
+    assert set(languages) <= {"ipython3"}
