@@ -33,7 +33,7 @@ def _readings(ranges: np.ndarray, region: int = 1) -> Sensing:
 @drill("planners", "The sum of two forces")
 def sum_of_forces(rng: Rng) -> Question:
     """Compute the force of a potential field in front of an obstacle."""
-    eta, influence = float(rng.choice([8, 12, 20, 30])), float(rng.choice([5, 8, 10]))
+    eta, influence = float(rng.integers(6, 31)), float(rng.choice([5, 6, 8, 10]))
     rho = float(rng.choice([2.0, 2.5, 3.0, 4.0]))
     ranges = np.full(9, FREE)
     ranges[0] = rho
@@ -43,8 +43,8 @@ def sum_of_forces(rng: Rng) -> Question:
     answer = float(attraction[0, 0] + repulsions[0, :, 0].sum())
     difference = 1 / rho - 1 / influence
     return Question(
-        f"The target lies straight ahead and attracts the robot with a force of 1. Sensor 1 reads ${rho:g}$ m, and all "
-        f"others read 10 m. What is the sum of the forces ahead, with $\\eta = {eta:g}$ and "
+        f"The target lies straight ahead and attracts the robot with a force of 1. Sensor 1, which looks ahead, reads "
+        f"${rho:g}$ m, and all others read 10 m. What is the sum of the forces ahead, with $\\eta = {eta:g}$ and "
         f"$\\rho_0 = {influence:g}$ m?",
         Number(
             answer,
@@ -52,7 +52,7 @@ def sum_of_forces(rng: Rng) -> Question:
                 "The repulsion pushes back, so it is subtracted.": 2 - answer,
                 "This is the slope without the factor 1 / rho squared.": 1
                 - eta * difference,
-                "The influence ends at rho 0: subtract 1 / rho 0 first.": 1
+                "The force is zero where the influence ends: subtract one over the distance of influence.": 1
                 - eta / rho**3,
                 "This is the potential, not the force.": 1 - eta / 2 * difference**2,
             },
@@ -65,8 +65,8 @@ def sum_of_forces(rng: Rng) -> Question:
 @drill("planners", "How wide does an obstacle become?")
 def angle_of_the_clearance(rng: Rng) -> Question:
     """Compute the angle by which VFH+ enlarges an obstacle."""
-    clearance = float(rng.choice([1.0, 1.5, 2.0]))
-    distance = clearance * float(rng.choice([1.25, 1.6, 2.0, 2.5, 4.0]))
+    clearance = float(rng.integers(10, 21)) / 10
+    distance = round(clearance * float(rng.uniform(1.25, 4)), 1)
     answer = math.degrees(math.asin(clearance / distance))
     return Question(
         f"A sensor reads ${distance:g}$ m. The robot and its safety distance take ${clearance:g}$ m. By how many "
