@@ -107,14 +107,26 @@ const numberField = (label) =>
   h("input", { type: "text", inputmode: "decimal", autocomplete: "off", "aria-label": label, size: 8 });
 
 /**
+ * How many decimals the numbers of an answer need, in words. Empty where the question says it, or all numbers are whole.
+ * @param {Question} question
+ */
+export function decimals({ text, asked: { answer, tolerance, wrong } }) {
+  const numbers = [answer, ...wrong.map(([, number]) => number)].flat(2);
+  const count = Math.ceil(-Math.log10(2 * tolerance)); // rounding to so many decimals stays within the tolerance
+  if (/decimal|digits/.test(text) || numbers.every(Number.isInteger) || !(count > 0 && count < 9)) return "";
+  return count === 1 ? "(one decimal)" : `(${["two", "three", "four"][count - 2] ?? count} decimals)`;
+}
+
+/**
  * Each kind of answer: its element, and `read()`, which gives the answer or a sentence about what is missing.
  * @type {Record<string, (question: Question, name: string) => {element: Element, read: () => any}>}
  */
 const FORMS = {
-  number({ asked }) {
+  number(question) {
+    const { unit } = question.asked;
     const field = numberField("Your answer");
     return {
-      element: h("label", { class: "number" }, "Your answer: ", field, asked.unit ? ` ${asked.unit}` : ""),
+      element: h("label", { class: "number" }, "Your answer: ", field, unit ? ` ${unit} ` : " ", decimals(question)),
       read: () => (Number.isNaN(typed(field.value)) ? "Type a number, such as 0.25." : { answer: typed(field.value) }),
     };
   },
@@ -174,14 +186,15 @@ const FORMS = {
     draw();
     return { element: list, read: () => ({ answer: [...order] }) };
   },
-  table({ asked }) {
+  table(question) {
+    const { asked } = question;
     const fields = asked.rows.map(() => asked.columns.map((_, j) => numberField(`column ${j + 1}`)));
     const head = h("tr", {}, h("td"), ...asked.columns.map((column) => rich("th", column, { scope: "col" })));
     const rows = asked.rows.map((row, i) =>
       h("tr", {}, rich("th", row, { scope: "row" }), ...fields[i].map((field) => h("td", {}, field))),
     );
     return {
-      element: h("div", { class: "scroll" }, h("table", {}, h("tbody", {}, head, ...rows))),
+      element: h("div", { class: "scroll" }, h("table", {}, h("tbody", {}, head, ...rows)), decimals(question)),
       read() {
         const answer = fields.map((row) => row.map((field) => typed(field.value)));
         return answer.flat().some(Number.isNaN) ? "Type a number into each cell." : { answer };

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
-from robonav.drills import DRILLS, Choice, Order, Place
+from robonav.drills import DRILLS, Choice, Number, Order, Place, Question, Table
 from robonav.drills.markup import as_json, html
 
 SEEDS = 20
@@ -91,3 +93,38 @@ def test_a_browser_that_keeps_nothing(node):
       return [page.remembered(), page.remember({})];
     """
     assert node("drills", body, None) == [{}, False]
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        (Number(17.857), "(two decimals)"),
+        (Number(0.1234, 0.0011), "(three decimals)"),
+        (Number(53.13, 0.06), "(one decimal)"),
+        (Number(4), ""),
+        (Number(4, wrong={"Half of it is missing.": 2.5}), "(two decimals)"),
+        (Number(4.2, 0.5), ""),
+        (Number(0.1 + 0.2, 0.0), ""),
+        (Table(["V"], ["A", "B"], [[1.0, 2.25]]), "(two decimals)"),
+        (Table(["V"], ["A", "B"], [[1.0, 2.0]]), ""),
+    ],
+)
+def test_a_form_says_how_many_decimals_count(node, asked, words) -> None:
+    question = Question("What is $V(s)$?", asked, "So it is.")
+    assert node("drills", "return page.decimals(data);", as_json(question)) == words
+    question = Question("What is $V(s)$? Give three decimals.", asked, "So it is.")
+    assert node("drills", "return page.decimals(data);", as_json(question)) == ""
+
+
+@pytest.mark.parametrize("name", DRILLS)
+def test_an_answer_with_the_decimals_that_the_form_asks_for_is_right(name) -> None:
+    """Whether a form asks for two decimals or a text for three, rounding to them costs nothing."""
+    for seed in range(20):
+        question = DRILLS[name].question(seed)
+        if not isinstance(question.asked, Number) or "digits" in question.text:
+            continue
+        named = re.search(r"(one|two|three|four) decimals?", question.text)
+        count = {"one": 1, "two": 2, "three": 3, "four": 4}[named[1]] if named else 2
+        if question.asked.tolerance < 0.005 and not named:
+            count = 3
+        assert question.asked.judge(round(question.asked.answer, count)).right, seed
