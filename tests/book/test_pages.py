@@ -118,7 +118,7 @@ def test_trainings_that_are_measured_are_on_their_pages(
 
 COUNTING = """(() => {
   const counts = window.formulaCounts = new Set();
-  setInterval(() => counts.add(document.querySelectorAll("mjx-container").length), 0);
+  setInterval(() => counts.add(document.querySelectorAll("mjx-container").length), 20);
 })()"""
 
 
