@@ -39,6 +39,19 @@ DEMONSTRATIONS = Dial("demonstrations (0: exact expectations)", 0, 200, 5, 0)
 SLIP = Dial("a step slips with probability", 0.0, 0.5, 0.05, 0.2)
 DISCOUNT = Dial("discount γ", 0.5, 0.95, 0.05, 0.9)
 REGULARISATION = Dial("regularisation λ", 0.0, 1.0, 0.01, 0.05)
+GAP_AND_AGREEMENT = {  # of maximum causal entropy, after each iteration
+    "gap": Curve(
+        "gap",
+        "How far the learner's feature expectations are from the expert's.",
+        digits=3,
+    ),
+    "agreement": Curve(
+        "agreement (%)",
+        "In how many cells the learner's likeliest action is the best one.",
+        high=100.0,
+        digits=0,
+    ),
+}
 
 
 def _expert_expectations(
@@ -141,19 +154,7 @@ def apprentice(settings: dict[str, Any], report: Report) -> Trained:
         "regularisation": REGULARISATION,
         "iterations": Dial("iterations of L-BFGS at most", 1, 100, 1, 40),
     },
-    curves={
-        "gap": Curve(
-            "gap",
-            "How far the learner's feature expectations are from the expert's.",
-            digits=3,
-        ),
-        "agreement": Curve(
-            "agreement (%)",
-            "In how many cells the learner's likeliest action is the best one.",
-            high=100.0,
-            digits=0,
-        ),
-    },
+    curves=GAP_AND_AGREEMENT,
 )
 def causal_entropy(settings: dict[str, Any], report: Report) -> Trained:
     """Maximum causal entropy; the page gets the weights of the four kinds of ground."""
@@ -227,19 +228,7 @@ def _watched_causal_entropy(
         "regularisation": REGULARISATION,
         "iterations": Dial("iterations of L-BFGS at most", 1, 100, 1, 40),
     },
-    curves={
-        "gap": Curve(
-            "gap",
-            "How far the learner's feature expectations are from the expert's.",
-            digits=3,
-        ),
-        "agreement": Curve(
-            "agreement (%)",
-            "In how many cells the learner's likeliest action is the best one.",
-            high=100.0,
-            digits=0,
-        ),
-    },
+    curves=GAP_AND_AGREEMENT,
 )
 def copied_and_learned(settings: dict[str, Any], report: Report) -> Trained:
     """Both learners; the page gets their policies and values for each place of the target."""
@@ -296,7 +285,7 @@ DEMONSTRATION_SEED, MAPS_SEED = 3, 57_000
     curves={
         "balanced": Curve(
             "balanced accuracy (%)",
-            "How well the policy predicts the demonstrations, every action counted alike.",
+            "How well the policy predicts the demonstrations, each action with the same weight.",
             high=100.0,
             digits=0,
         ),

@@ -55,7 +55,7 @@ class CountedCollisions:
         marks: deque[tuple[int, int]] = deque([(0, 0)])
 
         def progress(done: int, total: int) -> None:
-            """Tell the page, once in so many episodes as there are robots."""
+            """Report a point of the curve after every ``robots`` episodes."""
             if done - marks[-1][0] < robots and done < total:
                 report(before + done, of_all)
                 return

@@ -119,7 +119,7 @@ def rule_and_reflex(settings: dict[str, Any], report: Report) -> Trained:
 
 
 def turning_at(metres: float) -> Callable[[Sensing, np.random.Generator], Any]:
-    """The rule of the explorable: turn left by 60 degrees when something ahead is nearer than so many metres."""
+    """The rule of the explorable: turn left by 60 degrees when something ahead is nearer than ``metres``."""
 
     def rule(sensing: Sensing, _rng: np.random.Generator) -> NDArray[np.int64]:
         return np.where(sensing.ranges[:, 0] < metres, Action.L60, Action.F)
