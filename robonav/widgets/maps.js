@@ -110,3 +110,32 @@ export function mapCanvas(attributes = {}) {
 
   return { canvas, begin, obstacle, start, target, sectors, robot, line, dots, place };
 }
+
+/**
+ * A map on which the reader moves a robot: by dragging it, by touching a place, or with the arrow keys.
+ * @param {{size: number}} world
+ * @param {() => {x: number, y: number}} robot where the robot is now
+ * @param {(place: {x: number, y: number}) => void} move called with a place within the map
+ */
+export function mapToMoveOn(world, robot, move) {
+  const keys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+  const within = (value) => Math.min(world.size - 1, Math.max(1, Number(value.toFixed(1))));
+  const put = (x, y) => move({ x: within(x), y: within(y) });
+  const board = mapCanvas({ tabindex: 0, role: "application", "data-keys": "ArrowLeft ArrowUp", "data-touch": "" });
+  let dragging = false;
+  const near = ([x, y]) => Math.hypot(x - robot().x, y - robot().y) < 3;
+  board.canvas.addEventListener("pointerdown", (event) => {
+    dragging = near(board.place(event));
+    if (dragging) board.canvas.setPointerCapture(event.pointerId);
+  });
+  board.canvas.addEventListener("pointermove", (event) => dragging && put(...board.place(event)));
+  for (const end of ["pointerup", "pointercancel"]) board.canvas.addEventListener(end, () => (dragging = false));
+  board.canvas.addEventListener("click", (event) => near(board.place(event)) || put(...board.place(event)));
+  board.canvas.addEventListener("keydown", (event) => {
+    if (!keys[event.key]) return;
+    event.preventDefault();
+    put(robot().x + keys[event.key][0], robot().y + keys[event.key][1]);
+  });
+  holdFinger(board.canvas, (touch) => near(board.place(touch)));
+  return board;
+}

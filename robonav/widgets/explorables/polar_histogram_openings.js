@@ -22,27 +22,10 @@ export default explorable({
   }),
   start: ({ pose: [x, y] }) => ({ x, y }),
   draw({ given: { world }, stage, act }) {
-    const keys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-    const within = (value) => Math.min(world.size - 1, Math.max(1, Number(value.toFixed(1))));
-    const put = (x, y) => act((state) => Object.assign(state, { x: within(x), y: within(y) }));
-    const board = mapCanvas({ tabindex: 0, role: "application", "data-keys": "ArrowLeft ArrowUp", "data-touch": "" });
+    let now = null;
+    const board = mapToMoveOn(world, () => now, (place) => act((state) => Object.assign(state, place)));
     const bars = plot({ x: [-180, 180], y: [0, 3], xLabel: "right (−)   direction in degrees   left (+)", yLabel: "obstacle", xTicks: [-180, -90, 0, 90, 180] });
     stage.append(h("figure", {}, board.canvas, h("p", { class: "told" }, "Drag the robot, touch where it should be, or use the arrow keys.")), h("figure", {}, bars.element));
-    let [now, dragging] = [null, false];
-    const near = ([x, y]) => Math.hypot(x - now.x, y - now.y) < 3;
-    board.canvas.addEventListener("pointerdown", (event) => {
-      dragging = near(board.place(event));
-      if (dragging) board.canvas.setPointerCapture(event.pointerId);
-    });
-    board.canvas.addEventListener("pointermove", (event) => dragging && put(...board.place(event)));
-    for (const end of ["pointerup", "pointercancel"]) board.canvas.addEventListener(end, () => (dragging = false));
-    board.canvas.addEventListener("click", (event) => near(board.place(event)) || put(...board.place(event)));
-    board.canvas.addEventListener("keydown", (event) => {
-      if (!keys[event.key]) return;
-      event.preventDefault();
-      put(now.x + keys[event.key][0], now.y + keys[event.key][1]);
-    });
-    holdFinger(board.canvas, (touch) => near(board.place(touch)));
     return ({ x, y, heading, clearance, threshold }) => {
       now = { x, y, heading: (heading * Math.PI) / 180 };
       const { seen, histogram, free, bearing } = lookAround(world, now, { clearance, threshold, halfWidth: 0, wide: 16, keep: 0.2 });

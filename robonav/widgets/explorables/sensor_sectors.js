@@ -14,29 +14,12 @@ export default explorable({
   }),
   start: ({ pose: [x, y] }) => ({ x, y }),
   draw({ given: { world }, stage, act }) {
-    const keys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-    const clampTo = (value) => Math.min(world.size - 1, Math.max(1, Number(value.toFixed(1))));
-    const put = (x, y) => act((state) => Object.assign(state, { x: clampTo(x), y: clampTo(y) }));
-    const board = mapCanvas({ tabindex: 0, role: "application", "data-keys": "ArrowLeft ArrowUp", "data-touch": "" });
+    let now = null;
+    const board = mapToMoveOn(world, () => now, (place) => act((state) => Object.assign(state, place)));
     const cells = ["sensor", "metres", "danger"].map((name) => [h("th", { scope: "row" }, name), ...Array.from({ length: ROBOT.sensors }, () => h("td", {}))]);
     cells[0].slice(1).forEach((cell, k) => (cell.textContent = String(k + 1)));
     stage.append(h("figure", {}, board.canvas, h("p", { class: "told" }, "Drag the robot, touch where it should be, or use the arrow keys.")),
       h("table", { class: "results" }, h("tbody", {}, ...cells.map((row) => h("tr", {}, ...row)))));
-    let [now, dragging] = [null, false];
-    const near = ([x, y]) => Math.hypot(x - now.x, y - now.y) < 3;
-    board.canvas.addEventListener("pointerdown", (event) => {
-      dragging = near(board.place(event));
-      if (dragging) board.canvas.setPointerCapture(event.pointerId);
-    });
-    board.canvas.addEventListener("pointermove", (event) => dragging && put(...board.place(event)));
-    for (const end of ["pointerup", "pointercancel"]) board.canvas.addEventListener(end, () => (dragging = false));
-    board.canvas.addEventListener("click", (event) => near(board.place(event)) || put(...board.place(event)));
-    board.canvas.addEventListener("keydown", (event) => {
-      if (!keys[event.key]) return;
-      event.preventDefault();
-      put(now.x + keys[event.key][0], now.y + keys[event.key][1]);
-    });
-    holdFinger(board.canvas, (touch) => near(board.place(touch)));
     return ({ x, y, heading }) => {
       now = { x, y, heading: (heading * Math.PI) / 180 };
       const read = readings(world, now);
