@@ -81,7 +81,9 @@ check: $(INSTALLED)
 
 # There is one process more than there are cores, because many tests wait for a browser or for a time limit, and each
 # process has one thread. It takes its share of the tests in order, and then part of another's, so that tests which share
-# a fixture mostly run in the same process.
+# a fixture mostly run in the same process. A test that takes longer than ten minutes hangs: its process ends, after it has
+# printed where it was, and the test counts as failed.
+HANGS := -o faulthandler_timeout=600 -o faulthandler_exit_on_timeout=true
 test: WHICH := not exhaustive
 test-all: WHICH :=
 test test-all: $(INSTALLED)
@@ -92,7 +94,7 @@ test test-all: $(INSTALLED)
 	@command -v bwrap >/dev/null || echo "bubblewrap is missing: tests of the strongest sandbox are skipped"
 	@command -v node >/dev/null || echo "Node is missing: tests of the widgets' JavaScript are skipped"
 	@test -e _build/html/index.html || echo "The book is not built: tests of its pages are skipped; run make book first"
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(PROCESSES) --dist worksteal -rs -m "$(WHICH)" $(PYTEST_OPTIONS)
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(PROCESSES) --dist worksteal -rs $(HANGS) -m "$(WHICH)" $(PYTEST_OPTIONS)
 
 # The notebooks are copies in plain Markdown, so changes to them change no page of the book.
 lab: $(INSTALLED)

@@ -1,8 +1,9 @@
 """Settings of all tests.
 
-With the option ``--no-skips``, a test that would be skipped fails instead. Hypothesis tries 100 examples of each
-property, and 20 with its profile ``quick``, which ``make check`` uses. Examples have no deadline, because a slow or
-busy machine would miss it.
+With the option ``--no-skips``, a test that would be skipped fails instead. The name of a test that fails is printed at
+once, so that a run which is cut off has told what it found. Hypothesis tries 100 examples of each property, and 20 with
+its profile ``quick``, which ``make check`` uses. Examples have no deadline, because a slow or busy machine would miss
+it.
 """
 
 from __future__ import annotations
@@ -59,3 +60,23 @@ def pytest_make_collect_report(
     report = yield
     _refuse_skip(report, collector.config)
     return report
+
+
+class FailuresAtOnce:
+    """Prints the name of each test that fails when it fails, and not only at the end."""
+
+    def __init__(self, reporter: pytest.TerminalReporter) -> None:
+        self.reporter = reporter
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Print the name of a failed test."""
+        if report.failed:
+            self.reporter.ensure_newline()
+            self.reporter.write_line(f"FAILED {report.nodeid}")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_configure(config: pytest.Config) -> None:
+    reporter = config.pluginmanager.get_plugin("terminalreporter")
+    if reporter is not None:
+        config.pluginmanager.register(FailuresAtOnce(reporter))
