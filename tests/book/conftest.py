@@ -59,9 +59,15 @@ def context() -> Iterator[BrowserContext]:
 
 @pytest.fixture
 def visit(context: BrowserContext) -> Iterator[Visit]:
-    """A new, empty page."""
+    """A new, empty page. A test that leaves another one open fails: its widgets would slow all later tests down."""
+    before = set(context.pages)
     with visiting(context) as new:
         yield new
+    left = [page for page in context.pages if page not in before]
+    addresses = [page.url for page in left]
+    for page in left:
+        page.close()
+    assert addresses == []
 
 
 @pytest.fixture(scope="session")

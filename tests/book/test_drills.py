@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from browser import DESKTOP, PHONE, Visit
+from browser import DESKTOP, PHONE, Visit, visiting
 from playwright.sync_api import Locator, expect
 
 from robonav.drills import DRILLS
@@ -80,23 +80,22 @@ def test_each_drill_is_answered_by_keyboard(
         assert overhang <= 1, name
     assert visit.errors == []
     assert visit.external == []
-    later = visit.page.context.new_page()
-    later.goto(visit.page.url)
-    standings = later.locator("details.drill .drill-standing")
-    expect(standings).to_have_text([re.compile("1 right in a row")] * len(names))
+    with visiting(visit.page.context) as later:
+        later.open(visit.page.url, settled=False)
+        standings = later.page.locator("details.drill .drill-standing")
+        expect(standings).to_have_text([re.compile("1 right in a row")] * len(names))
 
 
 def test_an_answer_in_another_tab_is_told_here(visit: Visit, site: Path) -> None:
     address = f"{site.as_uri()}/book/dynamic-programming.html"
     visit.open(address)
     visit.page.evaluate("localStorage.removeItem('robonav-drills')")
-    other = visit.page.context.new_page()
-    other.goto(address)
-    drill = other.locator('details.drill[data-drill="bellman-backup"]')
-    expect(drill.locator(".drill-standing")).to_have_text("not tried yet")
-    give_right_answer(visit, open_drill(visit, "bellman-backup"))
-    expect(drill.locator(".drill-standing")).to_contain_text("1 right in a row")
-    other.close()
+    with visiting(visit.page.context) as other:
+        other.open(address, settled=False)
+        drill = other.page.locator('details.drill[data-drill="bellman-backup"]')
+        expect(drill.locator(".drill-standing")).to_have_text("not tried yet")
+        give_right_answer(visit, open_drill(visit, "bellman-backup"))
+        expect(drill.locator(".drill-standing")).to_contain_text("1 right in a row")
 
 
 def test_a_link_unfolds_its_drill(visit: Visit, site: Path) -> None:
