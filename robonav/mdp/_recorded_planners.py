@@ -1,4 +1,9 @@
-"""Policy iteration with the record that its readable function leaves out."""
+"""Policy iteration for every model, with the record that its readable function leaves out.
+
+Systems of many equations are solved by a Krylov method from the values of the policy before, models without discount
+are allowed, and the rounding error of a gain is bounded from the residual of the equations. On other models the twin
+gives the numbers of the readable function, bit for bit.
+"""
 
 from __future__ import annotations
 

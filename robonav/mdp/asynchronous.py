@@ -59,8 +59,8 @@ def in_place_value_iteration(
     >>> in_place_value_iteration(mdp).iterations, value_iteration(mdp).iterations
     (2, 6)
     """
-    epsilon = mdp.residual_for(tolerance)
-    values = np.array(start)
+    epsilon = mdp.residual_for(tolerance)  # as in value iteration
+    values = np.zeros(mdp.n_states) if start is None else np.array(start)
     for iteration in range(1, max_iterations + 1):
         residual = 0.0
         for state in range(mdp.n_states):
@@ -118,7 +118,7 @@ def prioritized_sweeping(
     9
     """
     epsilon = error_limit(mdp, tolerance)
-    values = np.array(start)
+    values = np.zeros(mdp.n_states) if start is None else np.array(start)
     # row s', column s: max over a of T(s, a, s')
     likeliest = mdp.likeliest_predecessors()
     q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)

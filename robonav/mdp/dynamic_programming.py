@@ -10,28 +10,40 @@ The optimal values solve Bellman's optimality equation, and the values of a poli
     V*(s)   = max over a of Q*(s, a)
     V_pi(s) = Q_pi(s, pi(s)),      in matrices  V_pi = r_pi + gamma T_pi V_pi.
 
-- Value iteration (Algorithm 2) replaces V by the maximum of its action values, again and again. With
-  gamma < 1 each sweep brings V closer to V*, by the factor gamma or more. The change in the last sweep therefore bounds
-  the distance to V*.
+- Value iteration (Algorithm 2) replaces V by the maximum of its action values, written B V, again and again. With
+  gamma < 1 the backup B is a contraction: ||B V - V*|| <= gamma ||V - V*||, with ||.|| the largest absolute value of
+  all states. All later sweeps together therefore change a value by at most gamma / (1 - gamma) times the last change.
 - Policy iteration (Algorithm 1) solves the linear equation for its policy, and then takes the best action of every
-  state. It repeats both until no action changes.
+  state. It repeats both until no action gains anything.
 - Modified policy iteration only approaches the solution of the linear equation, by a few sweeps.
 
+A model of one's own needs one matrix T[a][s, s'] for each action, and rewards r(s, a). Here an agent can stay where it
+is or move to the other of two states, and staying in state 1 pays 1 a step. So V*(1) = 1 + 0.5 V*(1) = 2, and
+V*(0) = 0.5 V*(1) = 1:
+
+>>> from robonav.mdp import FiniteMDP, policy_iteration
+>>> stay, move = [[1, 0], [0, 1]], [[0, 1], [1, 0]]
+>>> mdp = FiniteMDP([stay, move], rewards=[[0, 0], [1, 0]], discount=0.5)
+>>> solution = policy_iteration(mdp)
+>>> solution.values, solution.policy
+(array([1., 2.]), array([1, 0]))
+
 In the code ``values`` are an array (S,), a ``policy`` is an array (S,) of actions, and ``q`` and the rewards are arrays
-(S, A). ``mdp.expected_next_values(values)`` are the sums over s'. The numbers in the comments are the steps of the
-thesis's algorithms. What stands around an algorithm, such as the checks of its arguments and its compiled twin, is the
-work of the decorator :func:`robonav.mdp.planner.planner`.
+(S, A). The numbers in the comments are the steps of the thesis's algorithms. Each function is complete for a discount
+below 1. The decorator :func:`robonav.mdp.planner.planner` checks the arguments and then runs a twin of the function,
+which is faster, keeps the history if ``record`` is true, and also plans without discount (``undiscounted.py``).
 """
 
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
+from scipy.sparse.linalg import spsolve
 
-from .evaluation import evaluation_residual, least_gain, policy_evaluation
+from .evaluation import evaluation_residual, least_gain
 from .models import FiniteMDP
 from .planner import planner
-from .rounding import improve
 from .solutions import (
     Solution,
     first_policy,
@@ -39,6 +51,7 @@ from .solutions import (
     first_values_below,
     greedy_policy,
 )
+from .undiscounted import shortest_path_policy
 
 Floats = NDArray[np.float64]
 Actions = NDArray[np.intp]
@@ -55,9 +68,9 @@ def value_iteration(
 ) -> Solution:
     """Value iteration, Algorithm 2, Eq. (2.26).
 
-    Stops when a sweep changes no value by more than ``tolerance * (1 - discount) / (2 * discount)``. The greedy policy
-    then loses at most ``tolerance`` in every state, and the values are within half of that (Puterman 2005, Theorem
-    6.3.1). Without discount there is no such bound, and ``tolerance`` itself is used.
+    Stops when a sweep changes no value by more than ``tolerance * (1 - discount) / (2 * discount)``. The values are
+    then within half of ``tolerance`` of the optimal ones, and the greedy policy loses at most ``tolerance`` in every
+    state (Puterman 2005, Theorem 6.3.1). Without discount there is no such bound, and ``tolerance`` itself is used.
 
     Parameters
     ----------
@@ -89,17 +102,21 @@ def value_iteration(
     >>> solution.iterations, solution.values.round(2)[:4]
     (29, array([0.69, 0.8 , 0.9 , 0.  ]))
     """
-    epsilon = mdp.residual_for(tolerance)
-    values = np.asarray(start)  # 1 and 2
+    gamma = mdp.discount
+    values = np.zeros(mdp.n_states) if start is None else np.asarray(start)  # 1 and 2
     for iteration in range(1, max_iterations + 1):  # 3: repeat
         previous = values
-        q = mdp.rewards + mdp.discount * mdp.expected_next_values(previous)
+        # (S, A): the sum over s' of T(s, a, s') V(s'); one matrix (S, S) an action
+        expected = np.stack([matrix @ previous for matrix in mdp.transitions], axis=1)
+        q = mdp.rewards + gamma * expected  # Eq. (2.15)
         values = q.max(axis=1)  # 4 and 5  Eq. (2.26)
         residual = abs(values - previous).max()
-        if residual <= epsilon:  # 6
+        # the most that the greedy policy can lose; without discount there is no bound
+        loss = 2 * gamma / (1 - gamma) * residual if gamma < 1 else residual
+        if loss <= tolerance:  # 6
             break
-    policy = greedy_policy(mdp, values, tolerance)  # 7  Eq. (2.25)
-    return Solution(values, policy, iteration, residual, residual <= epsilon)
+    policy = greedy_policy(mdp, values, tolerance)  # 7: argmax of Q(s, a)  Eq. (2.25)
+    return Solution(values, policy, iteration, residual, loss <= tolerance)
 
 
 @planner(start=first_policy, limit=least_gain, twin="_recorded_planners")
@@ -114,8 +131,12 @@ def policy_iteration(
     """Policy iteration, Algorithm 1, with each policy evaluated exactly.
 
     Actions are switched only if the gain exceeds ``tolerance * (1 - discount)`` and the floating-point error. Each
-    switch is then a strict improvement, so the loop terminates even with ties. Without discount there is no bound on
-    the loss, and only the floating-point error counts.
+    switch is then a strict improvement, so the loop terminates even with ties. A gain of this size in each of 1 / (1 -
+    discount) steps adds up to ``tolerance``. Without discount there is no bound on the loss, and only the
+    floating-point error counts.
+
+    The twin that runs does the same with three additions: it solves large systems by a Krylov method, it bounds the
+    floating-point error from the residual of the equations (``rounding.py``), and it plans without discount.
 
     Parameters
     ----------
@@ -153,19 +174,31 @@ def policy_iteration(
     >>> solution.iterations, solution.policy
     (3, array([1, 1, 1, 0, 0, 0, 0, 0, 3, 0, 3]))
     """
-    policy = np.asarray(start)  # 1 and 2
-    values = np.zeros(mdp.n_states)  # 3
-    for iteration in range(1, max_iterations + 1):  # 4: repeat
-        # 5 to 8: the values of the policy, the solution of V = r_pi + discount * T_pi V
-        values = policy_evaluation(mdp, policy, guess=values)
-        # 9: its greedy policy, Eq. (2.25): the argmax of q where that gains something
-        q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
-        improved, gain = improve(mdp, policy, values, q, tolerance)
-        previous, policy = policy, improved  # 10
-        converged = np.array_equal(policy, previous)
+    gamma, states = mdp.discount, np.arange(mdp.n_states)
+    identity = sp.eye_array(mdp.n_states, format="csc")
+    if start is None:  # 1 and 2: towards a terminal state, else the largest reward
+        steps, shortest = shortest_path_policy(mdp, mdp.terminal)
+        start = np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
+    policy = np.asarray(start)
+    for iteration in range(1, max_iterations + 1):  # 3 and 4: repeat
+        # 5 to 8, evaluate: solve V = r_pi + gamma T_pi V, one linear equation a state
+        # (mdp.rows has T(s, a, .) in its row s * n_actions + a)
+        transitions = mdp.rows[states * mdp.n_actions + policy]  # T_pi (S, S)
+        rewards = mdp.rewards[states, policy]  # r_pi (S,): r(s, pi(s))
+        values = spsolve(identity - gamma * transitions, rewards)  # V_pi (S,)
+
+        # 9, improve: the best action of each state, where it gains something
+        expected = np.stack([matrix @ values for matrix in mdp.transitions], axis=1)
+        q = mdp.rewards + gamma * expected  # Q_pi (S, A)  Eq. (2.15)
+        gains = q - q[states, policy][:, None]  # Q_pi(s, a) - V_pi(s)
+        # Of two equal actions, rounding makes one look better: that is no gain.
+        rounding = 4 * np.spacing(abs(values).max()) / (1 - gamma)
+        better = gains.max(axis=1) > max(tolerance * (1 - gamma), rounding)
+        policy = np.where(better, gains.argmax(axis=1), policy)  # 10  Eq. (2.25)
+        converged = not better.any()
         if converged:  # 11
             break
-    return Solution(values, policy, iteration, gain, converged)
+    return Solution(values, policy, iteration, gains.max(), converged)
 
 
 @planner(start=first_values_below, limit=evaluation_residual, twin="_fast_planners")
@@ -184,9 +217,12 @@ def modified_policy_iteration(
 
     Each iteration improves the policy once and evaluates it by ``sweeps`` sweeps (0: value iteration; many: policy
     iteration). Stops when the changes of the improvement differ by at most ``tolerance * (1 - discount) / discount``
-    between states. The greedy policy then loses at most ``tolerance``, and the values, shifted by the middle of the
-    bounds on what is still missing, are within half of that (Puterman 2005, section 6.6). Without discount no value
-    may change by more than ``tolerance``.
+    between states. The greedy policy then loses at most ``tolerance`` (Puterman 2005, section 6.6). The optimal values
+    lie between two bounds, of which the function returns the middle:
+
+        V + gamma / (1 - gamma) * min change <= V* <= V + gamma / (1 - gamma) * max change.
+
+    Without discount no value may change by more than ``tolerance``.
 
     Parameters
     ----------
@@ -220,21 +256,24 @@ def modified_policy_iteration(
     >>> solution.values.round(2)[:4]
     array([0.69, 0.8 , 0.9 , 0.  ])
     """
-    epsilon = evaluation_residual(mdp, tolerance)
+    gamma = mdp.discount
+    if start is None:  # the least reward forever: no sweep lowers these values
+        start = np.where(mdp.terminal, 0, min(mdp.rewards.min(), 0) / (1 - gamma))
     values = np.asarray(start)
     for iteration in range(1, max_iterations + 1):
-        q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)
+        q = mdp.rewards + gamma * mdp.expected_next_values(values)
         change = q.max(axis=1) - values
         policy, values = q.argmax(axis=1), q.max(axis=1)  # improve  Eqs. (2.25), (2.26)
-        spread = change.max() - change.min() if mdp.discount < 1 else abs(change).max()
-        if spread <= epsilon:
+        spread = change.max() - change.min() if gamma < 1 else abs(change).max()
+        loss = gamma / (1 - gamma) * spread if gamma < 1 else spread  # at most
+        if loss <= tolerance:
             break
         transitions, rewards = mdp.induced_chain(policy)  # T_pi (S, S) and r_pi (S,)
         for _ in range(sweeps):  # evaluate  Eq. (2.24)
-            values = rewards + mdp.discount * (transitions @ values)
+            values = rewards + gamma * (transitions @ values)
     policy = greedy_policy(mdp, values, tolerance)
-    converged = spread <= epsilon
-    if converged and mdp.discount < 1:  # the middle of the bounds on the optimal values
-        missing = mdp.discount / (1 - mdp.discount) * (change.min() + change.max()) / 2
+    converged = loss <= tolerance
+    if converged and gamma < 1:  # V* - V lies between two bounds: take their middle
+        missing = gamma / (1 - gamma) * (change.min() + change.max()) / 2
         values = np.where(mdp.terminal, 0, values + missing)
     return Solution(values, policy, iteration, spread, converged)

@@ -3,8 +3,8 @@
 The decorator :func:`planner` turns an algorithm into the function that users call. It
 
 1. checks the arguments;
-2. fills in the default of ``start``;
-3. runs the compiled twin of the algorithm from ``_fast_planners`` where there is one. It gives the same numbers, bit
+2. fills in the default of ``start``, which without discount is a proper policy or its values;
+3. runs the twin of the algorithm from ``_fast_planners`` or ``_recorded_planners``. It gives the same numbers, bit
    for bit on sparse models and within rounding on dense ones, and keeps the values of each iteration if ``record`` is
    true. (On dense models NumPy adds the terms of an expected value in another order. Where two actions are equally
    good, modified policy iteration may then evaluate another policy on its way; both results keep the tolerance);
@@ -12,7 +12,7 @@ The decorator :func:`planner` turns an algorithm into the function that users ca
 5. adds the greedy policy of each row of the history if ``record`` is true, and otherwise drops the history of an
    algorithm that has no twin.
 
-``inspect.unwrap(planner)`` is the algorithm as written. It needs ``start``.
+``inspect.unwrap(planner)`` is the algorithm as written, for a discount below 1.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ def test_compiled_prioritized_sweeping(seed):
     mdp = FiniteMDP(sparse, rng.normal(size=(20, 3)), 0.9)
     algorithm = inspect.unwrap(prioritized_sweeping)
     compiled = prioritized_sweeping(mdp)
-    readable = algorithm(mdp, start=np.zeros(20))
+    readable = algorithm(mdp)
     for name in ("values", "policy", "iterations", "residual", "converged"):
         np.testing.assert_array_equal(getattr(compiled, name), getattr(readable, name))
 
@@ -32,5 +32,5 @@ def test_compiled_prioritized_sweeping(seed):
 def test_prioritized_sweeping_as_written_where_priorities_tie():
     mdp = four_by_three().mdp(0.95)
     best = policy_iteration(mdp).values
-    readable = inspect.unwrap(prioritized_sweeping)(mdp, start=np.zeros(11))
+    readable = inspect.unwrap(prioritized_sweeping)(mdp)
     np.testing.assert_allclose(readable.values, best, atol=1e-6)

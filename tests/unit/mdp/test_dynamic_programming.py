@@ -570,7 +570,7 @@ def test_compiled_twins(planner, seed):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", ConvergenceWarning)
                 compiled = planner(mdp, 1e-3, record=True, **options)
-            readable = algorithm(mdp, 1e-3, start=start, **options)
+            readable = algorithm(mdp, 1e-3, **options)
             for name in ("values", "policy", "iterations", "residual", "converged"):
                 np.testing.assert_array_equal(
                     getattr(compiled, name), getattr(readable, name)
@@ -578,17 +578,22 @@ def test_compiled_twins(planner, seed):
             np.testing.assert_array_equal(compiled.history[0], start)
             np.testing.assert_array_equal(compiled.history[-1], readable.values)
             for count in range(1, min(compiled.iterations, 10)):
-                stopped = algorithm(mdp, 1e-3, start=start, max_iterations=count)
+                stopped = algorithm(mdp, 1e-3, max_iterations=count)
                 np.testing.assert_array_equal(compiled.history[count], stopped.values)
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_recorded_policy_iteration_is_what_the_page_shows(seed):
     algorithm = inspect.unwrap(policy_iteration)
-    for mdp in (with_terminal_states(seed, 0.9), four_by_three().mdp(0.99)):
+    for mdp in (
+        with_terminal_states(seed, 0.9),
+        four_by_three().mdp(0.99),
+        sampled(seed, sparse=True),
+        sampled(seed, sparse=False),
+    ):
         start = first_policy(mdp, None)
         recorded = policy_iteration(mdp, 1e-9, record=True)
-        readable = algorithm(mdp, 1e-9, start=start)
+        readable = algorithm(mdp, 1e-9)
         for name in ("values", "policy", "iterations", "residual", "converged"):
             np.testing.assert_array_equal(
                 getattr(recorded, name), getattr(readable, name)
@@ -598,9 +603,19 @@ def test_recorded_policy_iteration_is_what_the_page_shows(seed):
         for count in range(1, readable.iterations):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", ConvergenceWarning)
-                stopped = algorithm(mdp, 1e-9, start=start, max_iterations=count)
+                stopped = algorithm(mdp, 1e-9, max_iterations=count)
             np.testing.assert_array_equal(recorded.history[count - 1], stopped.values)
             np.testing.assert_array_equal(recorded.policies[count], stopped.policy)
+
+
+def test_policy_iteration_as_written_ends_where_actions_tie():
+    """Its twin solves so many equations by another method, so the two agree to rounding."""
+    mdp = tie_rich_grid(0.95)
+    readable, recorded = inspect.unwrap(policy_iteration)(mdp), policy_iteration(mdp)
+    assert readable.converged
+    assert readable.iterations == recorded.iterations
+    np.testing.assert_array_equal(readable.policy, recorded.policy)
+    np.testing.assert_allclose(readable.values, recorded.values, atol=1e-11)
 
 
 @pytest.mark.parametrize("planner", COMPILED)
@@ -620,13 +635,8 @@ def test_compiled_twins_on_dense_models(planner):
             rng.choice([0.3, 0.9, 0.99]),
         )
         for mdp in (full, sampled(seed, sparse=False)):
-            start = (
-                first_values_below(mdp, None)
-                if planner is modified_policy_iteration
-                else np.zeros(mdp.n_states)
-            )
             compiled = planner(mdp, tolerance)
-            readable = algorithm(mdp, tolerance, start=start)
+            readable = algorithm(mdp, tolerance)
             exact = planner is not modified_policy_iteration
             error = 1e-10 if exact else tolerance
             np.testing.assert_allclose(compiled.values, readable.values, 0, error)
