@@ -6,19 +6,33 @@ After each step from s by action a to s' with reward r, an estimate moves by the
 
 The methods differ in what they take for the value of s':
 
-- Q-learning: the largest Q(s', a') over all actions a';
-- SARSA: Q(s', a') of the action a' that comes next;
+- Q-learning: the largest Q(s', a') over all actions a'. It is off-policy: it learns the values of the greedy policy,
+  while it follows one that explores;
+- SARSA: Q(s', a') of the action a' that comes next. It is on-policy: it learns the values of the policy that it
+  follows, exploration included;
 - expected SARSA: the mean of Q(s', a') over the actions a', with the probabilities of the policy;
 - TD(0), which learns the values V of a given policy: V(s').
 
 A terminal state s' has the value 0.
 
-In each function ``q[state][action]`` is Q(s, a), or ``values[state]`` is V(s), and ``visits`` counts the updates of
-each entry. All of them are changed in place. ``epsilon(episode)`` and ``learning_rate(n)`` are schedules: the
-probability of a random action in an episode, and the learning rate alpha after n earlier updates.
+Along a cliff the first two disagree. Q-learning goes along the edge (1 is right), where the greedy policy is safe.
+SARSA goes up (0), away from the edge, since its random actions fall down there:
 
-The decorators of ``learner`` make these tables (step 1 of the algorithms) and schedules, so users call
-``q_learning(env, episodes, epsilon=0.1)``.
+>>> import gymnasium
+>>> from robonav.mdp import q_learning, sarsa
+>>> cliff, edge = gymnasium.make("CliffWalking-v1"), 28  # a cell beside the cliff
+>>> [int(learn(cliff, 500, learning_rate=0.5).policy[edge]) for learn in (q_learning, sarsa)]
+[1, 0]
+
+Each function changes two tables in place, and their decorator makes both before it calls the function, as step 1 of
+the algorithms says. That is why users call ``q_learning(env, episodes)`` without them::
+
+    q = [[initial] * n_actions for _ in range(n_states)]  # q[state][action] is Q(s, a)
+    visits = [[0] * n_actions for _ in range(n_states)]  # how often each entry was updated
+
+(TD(0) has lists ``values`` and ``visits`` with one entry a state.) Users give ``learning_rate`` and ``epsilon`` as
+numbers or as schedules. Here both are schedules: ``learning_rate(n)`` is alpha after n updates of an entry, and
+``epsilon(episode)`` is the probability of a random action in an episode.
 """
 
 from __future__ import annotations
@@ -53,9 +67,10 @@ def q_learning(
     --------
     >>> from robonav.mdp import GridWorld, q_learning
     >>> env = GridWorld("S . . G", step_reward=-1).environment()
-    >>> q_learning(env, 50, learning_rate=0.5).policy[:3]
+    >>> q_learning(env, 50, learning_rate=0.5).policy[:3]  # 1 is right, towards G
     array([1, 1, 1])
     """
+    # 1: q holds the initial values, and visits only zeros
     for episode in range(episodes):  # 2
         eps = epsilon(episode)
         state, _ = env.reset()  # 3
@@ -63,8 +78,10 @@ def q_learning(
         while not done:  # 4
             action = epsilon_greedy_action(q[state], eps, rng)  # 5
             next_state, reward, terminated, truncated, _ = env.step(action)  # 6
+            # off-policy: the best action in s', whichever comes next
             next_value = 0.0 if terminated else max(q[next_state])
-            td_error = reward + discount * next_value - q[state][action]
+            target = reward + discount * next_value
+            td_error = target - q[state][action]
             alpha = learning_rate(visits[state][action])
             q[state][action] += alpha * td_error  # 7  Eqs. (2.29) and (4.1)
             visits[state][action] += 1
@@ -92,9 +109,10 @@ def sarsa(
     --------
     >>> from robonav.mdp import GridWorld, sarsa
     >>> env = GridWorld("S . . G", step_reward=-1).environment()
-    >>> sarsa(env, 50, learning_rate=0.5).policy[:3]
+    >>> sarsa(env, 50, learning_rate=0.5).policy[:3]  # 1 is right, towards G
     array([1, 1, 1])
     """
+    # 1: q holds the initial values, and visits only zeros
     for episode in range(episodes):  # 2
         eps = epsilon(episode)
         state, _ = env.reset()  # 3
@@ -103,8 +121,10 @@ def sarsa(
         while not done:  # 5
             next_state, reward, terminated, truncated, _ = env.step(action)  # 6
             next_action = epsilon_greedy_action(q[next_state], eps, rng)  # 7
+            # on-policy: the action that comes next in s'
             next_value = 0.0 if terminated else q[next_state][next_action]
-            td_error = reward + discount * next_value - q[state][action]
+            target = reward + discount * next_value
+            td_error = target - q[state][action]
             alpha = learning_rate(visits[state][action])
             q[state][action] += alpha * td_error  # 8  Eqs. (2.30) and (4.2)
             visits[state][action] += 1
@@ -133,7 +153,7 @@ def expected_sarsa(
     --------
     >>> from robonav.mdp import GridWorld, expected_sarsa
     >>> env = GridWorld("S . . G", step_reward=-1).environment()
-    >>> expected_sarsa(env, 50, learning_rate=0.5).policy[:3]
+    >>> expected_sarsa(env, 50, learning_rate=0.5).policy[:3]  # 1 is right, towards G
     array([1, 1, 1])
     """
     for episode in range(episodes):
@@ -143,11 +163,12 @@ def expected_sarsa(
         while not done:
             action = epsilon_greedy_action(q[state], eps, rng)
             next_state, reward, terminated, truncated, _ = env.step(action)
-            # any action with probability epsilon, else a best one
+            # on-policy on average: any action with probability epsilon, else a best one
             next_q = q[next_state]
             expected = eps * sum(next_q) / len(next_q) + (1 - eps) * max(next_q)
             next_value = 0.0 if terminated else expected
-            td_error = reward + discount * next_value - q[state][action]
+            target = reward + discount * next_value
+            td_error = target - q[state][action]
             alpha = learning_rate(visits[state][action])
             q[state][action] += alpha * td_error
             visits[state][action] += 1
@@ -180,7 +201,8 @@ def td_prediction(
         while not done:
             next_state, reward, terminated, truncated, _ = env.step(policy(state))
             next_value = 0.0 if terminated else values[next_state]
-            td_error = reward + discount * next_value - values[state]
+            target = reward + discount * next_value
+            td_error = target - values[state]
             alpha = learning_rate(visits[state])
             values[state] += alpha * td_error
             visits[state] += 1
