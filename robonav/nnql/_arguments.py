@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
@@ -12,6 +13,7 @@ from robonav.networks.multilayer_perceptron import Network
 from robonav.validation import (
     Rule,
     check_array,
+    check_callable,
     check_instance,
     check_integer,
     check_one_of,
@@ -79,6 +81,9 @@ RULES: dict[str, Rule] = {
     "epochs": _count,
     "batch_size": _count,
     "target_update_interval": _count,
+    "targets": partial(
+        check_callable, call="targets(q_net, target_net, batch, discount)"
+    ),
     "dqn.gradient_step": check_positive,
     "softmax_policy.temperature": _temperatures,
 }

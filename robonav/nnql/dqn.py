@@ -1,26 +1,43 @@
-"""Deep Q-learning (Mnih et al. 2015) in its variant "double DQN" (van Hasselt et al. 2016).
+"""Deep Q-learning, DQN (Mnih et al. 2015), with the targets of double DQN (van Hasselt et al. 2016) as an option.
 
-DQN learns Q-values with a network. For a transition (s, a, r, s') it makes Q(s, a) more like a target,
+DQN learns Q-values with a network. For a transition (s, a, r, s') it makes Q(s, a) more like a target. Two ideas keep
+this stable although the network trains on targets that contain a network:
 
-    target = r + gamma * max over a' of Q(s', a'),      or r where the episode ended.
+1. Replay: the network trains on transitions drawn at random from those made so far, not on the latest one.
+2. A target network: the targets come from Q_target, a copy of the network that stands still between its updates.
 
-The target contains the network that it trains, and it changes with every step. Three ideas make this stable:
+In plain DQN the copy does all of the work, :func:`dqn_targets`:
 
-1. Replay: the network trains on transitions drawn at random from all that were made, not on the latest one.
-2. A target network: the targets come from a copy of the network that stands still between its updates.
-3. Double estimator (van Hasselt et al. 2016): the network chooses the next action, and the target network gives its
-   value. In plain DQN the target network does both, :func:`dqn_targets`. The maximum then prefers actions whose values
-   are too large by error, and the targets are too large.
+    target = r + gamma * max over a' of Q_target(s', a'),      or r where the episode ended.
 
-Two things differ from the papers. The robot explores with the softmax policy, Eq. (4.7), in place of epsilon-greedy,
-as all methods of chapter 4 do, so that a comparison shows how they learn. The buffer keeps every transition: a training
-of 300 episodes makes about ten thousand, and each is a few numbers.
+This maximum prefers actions whose values are too large by error, so that the targets are too large. In double DQN the
+network Q that learns chooses the action, and the copy gives its value, :func:`double_dqn_targets`:
+
+    target = r + gamma * Q_target(s', a*),  a* = argmax over a' of Q(s', a'),      or r where the episode ended.
+
+``dqn(..., targets=double_dqn_targets)`` is double DQN. The network has three layers, the inputs, hidden sigmoid units
+and one linear output an action, in torch ``Sequential(Linear(n, hidden), Sigmoid(), Linear(hidden, A))``.
+
+These things differ from Mnih et al.:
+
+- The state is a vector of a few numbers, not four images, and the network is small and not convolutional.
+- The robot explores with the softmax policy, Eq. (4.7), in place of epsilon-greedy, as all methods of chapter 4 do. Its
+  temperature falls from the first episode to the last.
+- The buffer keeps every transition, not the latest million: a training of 300 episodes makes about ten thousand.
+- Learning starts with the first full batch, not after 50,000 random steps, and there is an update after each step, not
+  after every fourth.
+- Adam makes the steps in place of RMSProp.
+- The cost is Huber's loss. Its slope is the error clipped to [-1, 1], and this is what the paper clips.
+- Rewards are used as they are, not clipped to [-1, 1], and no action is repeated for four frames.
+- A robot's reflex may act in place of the policy. Such a step is not stored, since its reward and its next state do not
+  follow from the action that the policy chose.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import SupportsFloat
+from typing import SupportsFloat, TypeAlias
 
 import gymnasium
 import numpy as np
@@ -36,6 +53,101 @@ from .schedules import geometric_schedule, softmax_policy
 from .task import EXPLORING, REPLAYING, make_rng, reflex_acted
 
 
+def dqn_targets(
+    q_net: torch.nn.Module,
+    target_net: torch.nn.Module,
+    batch: Batch,
+    discount: float,
+) -> torch.Tensor:
+    """Targets of plain DQN: r + gamma max_a Q_target(s', a), or r where the episode ended.
+
+    The network that learns has no part in them.
+
+    Parameters
+    ----------
+    q_net : torch.nn.Module
+        The network that learns, which only the double estimator asks.
+    target_net : torch.nn.Module
+        The older copy of the network.
+    batch : Batch
+        m transitions.
+    discount : float
+        The thesis's gamma.
+
+    Returns
+    -------
+    (m,) tensor
+        The targets, without a gradient.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.networks.torch_module import as_module
+    >>> from robonav.nnql import ReplayBuffer, dqn_targets
+    >>> buffer, q_net = ReplayBuffer(), as_module(random_network((4, 8, 2), seed=0))
+    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
+    >>> dqn_targets(q_net, q_net, buffer.all(), 0.9)
+    tensor([0.7000], dtype=torch.float64)
+    """
+    with torch.no_grad():
+        next_values = target_net(batch.next_states).max(dim=1).values
+        # ~terminal is 0 where the episode ended
+        return batch.rewards + discount * (~batch.terminal * next_values)
+
+
+def double_dqn_targets(
+    q_net: torch.nn.Module,
+    target_net: torch.nn.Module,
+    batch: Batch,
+    discount: float,
+) -> torch.Tensor:
+    """Targets by the double estimator: r + gamma Q_target(s', argmax_a Q(s', a)), or r where the episode ended.
+
+    The two lines differ from :func:`dqn_targets`: the network chooses the next action, the target network values it.
+
+    Parameters
+    ----------
+    q_net : torch.nn.Module
+        The network that learns. It chooses the next action.
+    target_net : torch.nn.Module
+        Its older copy. It gives the value of that action.
+    batch : Batch
+        m transitions.
+    discount : float
+        The thesis's gamma.
+
+    Returns
+    -------
+    (m,) tensor
+        The targets, without a gradient.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.networks.torch_module import as_module
+    >>> from robonav.nnql import ReplayBuffer
+    >>> from robonav.nnql import double_dqn_targets
+    >>> buffer, q_net = ReplayBuffer(), as_module(random_network((4, 8, 2), seed=0))
+    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
+    >>> double_dqn_targets(q_net, q_net, buffer.all(), 0.9)
+    tensor([0.7000], dtype=torch.float64)
+    """
+    with torch.no_grad():
+        best = q_net(batch.next_states).argmax(dim=1, keepdim=True)
+        # gather picks in each row the column that best names
+        next_values = target_net(batch.next_states).gather(1, best)[:, 0]
+        # ~terminal is 0 where the episode ended
+        return batch.rewards + discount * (~batch.terminal * next_values)
+
+
+TargetRule: TypeAlias = (
+    "Callable[[torch.nn.Module, torch.nn.Module, Batch, float], torch.Tensor]"
+)
+"""``targets(q_net, target_net, batch, discount)``: the targets (m,) of a batch of m transitions."""
+
+
 @checked
 def dqn(
     env: gymnasium.Env,
@@ -47,9 +159,10 @@ def dqn(
     temperature: Schedule = (0.9, 0.1),
     batch_size: int = 32,
     target_update_interval: int = 1000,
+    targets: TargetRule = dqn_targets,
     seed: int,
 ) -> Network:
-    """Deep Q-learning by double DQN (van Hasselt et al. 2016).
+    """Deep Q-learning, DQN (Mnih et al. 2015).
 
     After each step the network makes one update on a batch drawn from all transitions so far. Its outputs are linear,
     so that Q-values need no rescaling into [0, 1].
@@ -62,6 +175,8 @@ def dqn(
         Transitions drawn for an update.
     target_update_interval : int
         Updates after which the target network becomes a copy of the network.
+    targets : callable
+        :func:`dqn_targets`, or :func:`double_dqn_targets` for double DQN.
     seed : int
         Seed of the environment, of the exploration and of the replay.
 
@@ -77,29 +192,31 @@ def dqn(
 
     Examples
     --------
-    >>> from robonav.nnql import NavigationTask, dqn, q_network
+    >>> from robonav.nnql import NavigationTask, double_dqn_targets, dqn, q_network
     >>> env = NavigationTask().environment()
-    >>> dqn(env, q_network(env, seed=0), episodes=1, seed=0).sizes
+    >>> dqn(env, q_network(env, seed=0), episodes=1, targets=double_dqn_targets, seed=0).sizes
     (16, 8, 5)
     """
-    q_net = as_module(network)  # torch layers: Linear, Sigmoid, Linear
-    target_net = as_module(network)
+    q_net = as_module(network)  # Q, torch layers: Linear, Sigmoid, Linear
+    target_net = as_module(network)  # Q_target, a copy
     optimiser = torch.optim.Adam(q_net.parameters(), lr=gradient_step)
     buffer, updates = ReplayBuffer(), 0
     for episode in range(episodes):
         t = geometric_schedule(temperature, episode / max(episodes - 1, 1))
         rng = make_rng(seed, EXPLORING, episode)
         replay_rng = make_rng(seed, REPLAYING, episode)
-        state, done = env.reset(seed=None if episode else seed)[0], False
+        # the seed of the first reset is that of all later worlds
+        state, _ = env.reset(seed=seed if episode == 0 else None)
+        done = False
         while not done:
             action = select_action(q_net, state, t, rng)  # act
             next_state, reward, terminated, truncated, info = env.step(action)
-            if not reflex_acted(info):
+            if not reflex_acted(info):  # a step of the reflex teaches nothing
                 buffer.append(state, action, reward, next_state, terminated)  # store
                 if len(buffer) >= batch_size:
                     batch = buffer.sample(batch_size, replay_rng)  # replay
-                    targets = double_dqn_targets(q_net, target_net, batch, discount)
-                    loss = huber_loss(values_taken(q_net, batch), targets)  # learn
+                    y = targets(q_net, target_net, batch, discount)
+                    loss = huber_loss(values_taken(q_net, batch), y)  # learn
                     optimiser.zero_grad()
                     loss.backward()
                     optimiser.step()
@@ -181,93 +298,6 @@ def values_taken(q_net: torch.nn.Module, batch: Batch) -> torch.Tensor:
     return q_net(batch.states).gather(1, batch.actions[:, None])[:, 0]
 
 
-def dqn_targets(
-    q_net: torch.nn.Module,
-    target_net: torch.nn.Module,
-    batch: Batch,
-    discount: float,
-) -> torch.Tensor:
-    """Targets of plain DQN: r + gamma max_a Q_target(s', a), or r where the episode ended.
-
-    Parameters
-    ----------
-    q_net : torch.nn.Module
-        Not used.
-    target_net : torch.nn.Module
-        The older copy of the network.
-    batch : Batch
-        m transitions.
-    discount : float
-        The thesis's gamma.
-
-    Returns
-    -------
-    (m,) tensor
-        The targets, without a gradient.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.networks import random_network
-    >>> from robonav.networks.torch_module import as_module
-    >>> from robonav.nnql import ReplayBuffer, dqn_targets
-    >>> buffer, q_net = ReplayBuffer(), as_module(random_network((4, 8, 2), seed=0))
-    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
-    >>> dqn_targets(q_net, q_net, buffer.all(), 0.9)
-    tensor([0.7000], dtype=torch.float64)
-    """
-    with torch.no_grad():
-        next_values = target_net(batch.next_states).max(dim=1).values
-        # ~terminal is 0 where the episode ended
-        return batch.rewards + discount * (~batch.terminal * next_values)
-
-
-def double_dqn_targets(
-    q_net: torch.nn.Module,
-    target_net: torch.nn.Module,
-    batch: Batch,
-    discount: float,
-) -> torch.Tensor:
-    """Targets by the double estimator: r + gamma Q_target(s', argmax_a Q(s', a)), or r where the episode ended.
-
-    The two lines differ from :func:`dqn_targets`: the network chooses the next action, the target network values it.
-
-    Parameters
-    ----------
-    q_net : torch.nn.Module
-        The network that learns. It chooses the next action.
-    target_net : torch.nn.Module
-        Its older copy. It gives the value of that action.
-    batch : Batch
-        m transitions.
-    discount : float
-        The thesis's gamma.
-
-    Returns
-    -------
-    (m,) tensor
-        The targets, without a gradient.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.networks import random_network
-    >>> from robonav.networks.torch_module import as_module
-    >>> from robonav.nnql import ReplayBuffer
-    >>> from robonav.nnql import double_dqn_targets
-    >>> buffer, q_net = ReplayBuffer(), as_module(random_network((4, 8, 2), seed=0))
-    >>> buffer.append(np.eye(4)[0], 1, 0.7, np.eye(4)[1], True)
-    >>> double_dqn_targets(q_net, q_net, buffer.all(), 0.9)
-    tensor([0.7000], dtype=torch.float64)
-    """
-    with torch.no_grad():
-        best = q_net(batch.next_states).argmax(dim=1, keepdim=True)
-        # gather picks in each row the column that best names
-        next_values = target_net(batch.next_states).gather(1, best)[:, 0]
-        # ~terminal is 0 where the episode ended
-        return batch.rewards + discount * (~batch.terminal * next_values)
-
-
 @dataclass(frozen=True, eq=False)
 class Batch:
     """m transitions as tensors; the first axis runs over the transitions.
@@ -292,7 +322,7 @@ class Batch:
 
 
 class ReplayBuffer:
-    """All transitions made so far.
+    """All transitions made so far. (A ``collections.deque(maxlen=...)`` in place of the list would drop the oldest.)
 
     Examples
     --------

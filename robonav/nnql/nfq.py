@@ -8,9 +8,23 @@ fitted Q iteration repeats two steps: compute a target for every transition so f
 and fit the network to these targets by supervised learning on the whole batch. While the network is fitted, the
 targets do not change.
 
-Two things differ from Riedmiller's paper. His network has state and action as inputs and one output; ours has one
-output an action, as in Fig. 4.1, and only the output of the action taken is fitted. His Q-values are costs, so that he
-takes their minimum; ours are rewards, and we take the maximum.
+These things differ from Riedmiller's paper:
+
+- His network has state and action as inputs and one output; ours has one output an action, as in Fig. 4.1, and only the
+  output of the action taken is fitted.
+- His Q-values are costs, so that he takes their minimum; ours are rewards, and we take the maximum.
+- Our outputs are sigmoids, between 0 and 1, and so the targets are clipped into [0, 1]. A target below 0 counts as 0: a
+  punishment cannot be told from a step that brings nothing. He scales his costs so that they fit.
+- We fit by the cross-entropy of Eq. (4.11), he by the squared error.
+- We collect by the softmax policy, Eq. (4.7), whose temperature falls, and fit after every 20 episodes. He collects by
+  random actions, or greedily and with a fit after each episode.
+- A fit ends when its cost settles, or after 30 epochs.
+- He may add artificial transitions, "hints to the goal", which start in the goal and cost nothing. We add none.
+- A robot's reflex may act in place of the policy. Such a step is not stored, since its reward and its next state do not
+  follow from the action that the policy chose.
+
+Each sweep copies the network into torch, fits it, and copies it back. The weights go on from sweep to sweep; the step
+sizes of Rprop start anew with each.
 """
 
 from __future__ import annotations
@@ -68,12 +82,13 @@ def nfq(
     buffer = ReplayBuffer()
     for episode in range(episodes):
         t = geometric_schedule(temperature, episode / max(episodes - 1, 1))
-        rng = make_rng(seed, EXPLORING, episode)
-        state, _ = env.reset(seed=None if episode else seed)
+        rng = make_rng(seed, EXPLORING, episode)  # explores in this episode
+        # the seed of the first reset is that of all later worlds
+        state, _ = env.reset(seed=seed if episode == 0 else None)
         collect_episode(env, state, network, t, buffer, rng)
         if (episode + 1) % episodes_per_fit == 0 and len(buffer) > 0:
             transitions = buffer.all()
-            for _ in range(sweeps):
+            for _ in range(sweeps):  # targets, then the fit; the targets stand still
                 targets = nfq_targets(network, transitions, discount)
                 network = rprop_fit(network, transitions, targets, epochs, tolerance)
     return network
@@ -120,7 +135,7 @@ def collect_episode(
         probabilities = softmax_policy(network.forward(state), temperature)
         action = sample_actions(probabilities, rng.random())
         next_state, reward, terminated, truncated, info = env.step(action)
-        if not reflex_acted(info):
+        if not reflex_acted(info):  # a step of the reflex teaches nothing
             buffer.append(state, action, reward, next_state, terminated)
         state, done = next_state, terminated or truncated
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robonav.experiments.chapter4.ablations import EVADING, RawNumbers
-from robonav.nnql import NavigationTask, reward_row
+from robonav.nnql import NavigationTask, double_dqn_targets, reward_row
 from robonav.nnql.reward import REWARDS
 from robonav.robot import NNQL_SENSORS, TARGET_ENCODINGS, Encoder, Sensing
 from robonav.robot.environment_settings import Reward
@@ -132,6 +132,7 @@ class QLearningSettings:
                 "discount": self.discount,
                 "gradient_step": self.gradient_step[0],
                 "temperature": self.temperature,
+                "targets": double_dqn_targets,
             }
         names = (
             "learning_rate",

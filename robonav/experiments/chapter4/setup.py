@@ -17,7 +17,14 @@ from numpy.typing import ArrayLike
 
 from robonav.benchmark import BASELINES
 from robonav.networks import NetworkPolicy
-from robonav.nnql import STARTS, TARGETS, NavigationTask, TrainingResult, train
+from robonav.nnql import (
+    STARTS,
+    TARGETS,
+    NavigationTask,
+    TrainingResult,
+    double_dqn_targets,
+    train,
+)
 from robonav.robot import NNQL_SENSORS, Encoder, Policy, Worlds
 
 from ..runner.settings import Settings, read_settings
@@ -32,6 +39,8 @@ SEEDS_PER_BATCH: Mapping[str, int] = CONDITIONS["seeds_per_batch"]
 SHORTENED: Mapping[str, float] = CONDITIONS["shortened"]
 EVALUATION_TEMPERATURE: Mapping[str, float] = CONDITIONS["evaluation_temperature"]
 THESIS = {name: Settings.of(values) for name, values in CONDITIONS["thesis"].items()}
+VARIANTS: dict[str, dict[str, Any]] = {"dqn": {"targets": double_dqn_targets}}
+"""What all trainings of a method have in common besides their hyperparameters: DQN is double DQN in every table."""
 DECAYING = Settings.of(CONDITIONS["decaying"]["nnql"])
 
 HYPERPARAMETERS = FOLDER / "hyperparameters.toml"
@@ -105,7 +114,7 @@ def _training(
     record: bool = False,
     **changes: Any,
 ) -> TrainingResult:
-    options = dict(settings)
+    options = dict(settings) | VARIANTS.get(method, {})
     where = task(target=options.pop("target"), **changes)
     return train(method, seeds, episodes, task=where, record=record, **options)
 

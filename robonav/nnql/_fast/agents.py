@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit
 
+from ..dqn import TargetRule, double_dqn_targets, dqn_targets
 from ..schedules import Schedule, geometric_schedule
 from ..task import REPLAYING, make_rng
 from ..updates import RESCALE, clip, q_targets
@@ -221,6 +222,13 @@ class DQNAgent(Agent):
         n.
     discount, gradient_step, batch_size, target_update_interval
         See :func:`robonav.nnql.dqn`.
+    targets : callable
+        :func:`robonav.nnql.dqn_targets` or :func:`robonav.nnql.double_dqn_targets`.
+
+    Raises
+    ------
+    ValueError
+        If ``targets`` is another function, which has no twin here.
     """
 
     def __init__(
@@ -233,8 +241,14 @@ class DQNAgent(Agent):
         gradient_step: float,
         batch_size: int,
         target_update_interval: int,
+        targets: TargetRule = dqn_targets,
     ) -> None:
         super().__init__(networks)
+        if targets not in (dqn_targets, double_dqn_targets):
+            raise ValueError(
+                f"targets must be dqn_targets or double_dqn_targets in fast training, got {targets}"
+            )
+        self.targets = targets
         self.target, self.seeds = deepcopy(networks), seeds
         self.discount, self.gradient_step = discount, gradient_step
         self.batch_size, self.interval = batch_size, target_update_interval
@@ -274,8 +288,11 @@ class DQNAgent(Agent):
             for row in rows
         ]
         x, actions, rewards, reached, terminal = self.buffers.at(rows, np.array(drawn))
-        best = self.networks.logits(rows, reached).argmax(axis=2)[..., None]
-        future = np.take_along_axis(self.target.logits(rows, reached), best, axis=2)
+        values = self.target.logits(rows, reached)
+        double = self.targets is double_dqn_targets
+        choosing = self.networks.logits(rows, reached) if double else values
+        best = choosing.argmax(axis=2)[..., None]
+        future = np.take_along_axis(values, best, axis=2)
         targets = rewards + self.discount * np.where(terminal, 0.0, future[..., 0])
         gradient, _ = self.networks.gradients(rows, x, actions, targets, linear=True)
         direction, self.first[rows], self.second[rows] = adam(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robonav.experiments.chapter4.setup import EVALUATION_TEMPERATURE
-from robonav.nnql import STARTS, TARGETS, NavigationTask, train
+from robonav.nnql import STARTS, TARGETS, NavigationTask, double_dqn_targets, train
 from robonav.nnql.reward import reward
 from robonav.nnql.training import TrainingResult
 from robonav.progress import Progress
@@ -22,7 +22,13 @@ from .training import Curve, Dial, Menu, Trained, trains
 
 Floats = NDArray[np.float64]
 
-METHODS = {"NNQL": "nnql", "online": "online", "NFQ": "nfq", "double DQN": "dqn"}
+METHODS: dict[str, tuple[str, dict[str, Any]]] = {
+    "NNQL": ("nnql", {}),
+    "online": ("online", {}),
+    "NFQ": ("nfq", {}),
+    "double DQN": ("dqn", {"targets": double_dqn_targets}),
+}
+"""Method and settings of :func:`robonav.nnql.train`, by the name in the menu."""
 WINDOW = 30
 """Episodes of each robot over which the live curves count, as in Fig. 4.4."""
 
@@ -174,10 +180,9 @@ def two_methods(settings: dict[str, Any], report: Report) -> Trained:
             before=number * robots * episodes,
             of_all=2 * robots * episodes,
         )
+        method, options = METHODS[settings[which]]
         results.append(
-            train(
-                METHODS[settings[which]], seeds, episodes, task=task, progress=watcher
-            )
+            train(method, seeds, episodes, task=task, progress=watcher, **options)
         )
         rates.append(_tested(results[-1], worlds, task))
     means = [float(np.mean(own)) for own in rates]

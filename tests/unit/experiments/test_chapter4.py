@@ -19,6 +19,7 @@ from robonav.experiments.chapter4.setup import (
     HYPERPARAMETERS,
     SETUP,
     THESIS,
+    VARIANTS,
     blocks,
     evaluate,
     task,
@@ -245,7 +246,7 @@ def test_the_best_of_several_seeds_ships():
 )
 def test_seeds_in_a_batch_train_as_alone(name):
     together = training(name, 11, "thesis", THESIS[name], length=1 / 75)
-    options = dict(THESIS[name])
+    options = dict(THESIS[name]) | VARIANTS.get(name, {})
     where = task(target=options.pop("target"))
     alone = train(name, [11], 4, task=where, **options)
     assert together.seeds == alone.seeds == (11,)

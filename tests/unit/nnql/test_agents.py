@@ -11,6 +11,7 @@ from robonav.networks.multilayer_perceptron import (
     random_network,
 )
 from robonav.networks.network_stack import stacked
+from robonav.nnql import double_dqn_targets, dqn_targets
 from robonav.nnql._fast.agents import (
     Agent,
     DQNAgent,
@@ -335,8 +336,21 @@ def test_adam_is_that_of_torch():
         np.testing.assert_allclose(mine, theirs.detach(), rtol=1e-12, atol=1e-15)
 
 
-def test_dqn_learns_from_the_double_estimate():
-    """One update on one step: the network chooses the next action, the target network values it."""
+def plain(own, target):
+    """The largest value of the target network."""
+    return target.max()
+
+
+def double(own, target):
+    """The target network's value of the action that the network chooses."""
+    return target[own.argmax()]
+
+
+@pytest.mark.parametrize(
+    ("targets", "estimate"), [(dqn_targets, plain), (double_dqn_targets, double)]
+)
+def test_dqn_learns_from_its_estimate(targets, estimate):
+    """One update on one step, of which the two estimates differ."""
     agent = DQNAgent(
         networks(seeds=1),
         (0,),
@@ -345,6 +359,7 @@ def test_dqn_learns_from_the_double_estimate():
         gradient_step=0.01,
         batch_size=1,
         target_update_interval=1000,
+        targets=targets,
     )
     rng, zero = np.random.default_rng(1), np.array([0])
     agent.target.load(
@@ -354,7 +369,9 @@ def test_dqn_learns_from_the_double_estimate():
     own, target = (
         unpacked(n.parameters(), (4, 8, 2))[0] for n in (agent.networks, agent.target)
     )
-    wanted = 0.2 + GAMMA * target.logits(reached[0])[own.logits(reached[0]).argmax()]
+    after = own.logits(reached[0]), target.logits(reached[0])
+    assert after[0].argmax() != after[1].argmax()
+    wanted = 0.2 + GAMMA * estimate(*after)
     before, action = agent.networks.parameters(), np.array([[1]])
     slope, _ = agent.networks.gradients(
         zero, x[None], action, np.array([[wanted]]), linear=True

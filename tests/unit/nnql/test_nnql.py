@@ -1,5 +1,7 @@
 """The readable functions: equal to their fast twins on the robot, and at work on other environments."""
 
+from functools import partial
+
 import gymnasium
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ from robonav.networks import random_network
 from robonav.nnql import (
     METHODS,
     NavigationTask,
+    double_dqn_targets,
     dqn,
     navigate_greedily,
     network_environment,
@@ -27,6 +30,16 @@ TWINS = [
     ("nfq", {"episodes": 9, "episodes_per_fit": 3, "sweeps": 4, "epochs": 20}, 1e-12),
     # Adam divides by the size of a gradient, which magnifies the rounding of very small ones.
     ("dqn", {"episodes": 9, "batch_size": 16, "target_update_interval": 40}, 1e-6),
+    (
+        "dqn",
+        {
+            "episodes": 9,
+            "batch_size": 16,
+            "target_update_interval": 40,
+            "targets": double_dqn_targets,
+        },
+        1e-6,
+    ),
 ]
 
 
@@ -97,6 +110,10 @@ def test_environment_goes_through_the_worlds_of_the_task():
         (online, {"episodes": 150}),
         (nfq, {"episodes": 40, "sweeps": 10, "epochs": 100}),
         (dqn, {"episodes": 60, "gradient_step": 0.01, "target_update_interval": 50}),
+        (
+            partial(dqn, targets=double_dqn_targets),
+            {"episodes": 60, "gradient_step": 0.01, "target_update_interval": 50},
+        ),
     ],
 )
 def test_discrete_toy_environment(method, settings):
