@@ -2,10 +2,7 @@
 
 from .apprenticeship import (
     Apprenticeship,
-    apprenticeship,
     apprenticeship_learning,
-    from_all_states,
-    from_initial_state,
     max_margin_guess,
     nearest_mixture,
     project,
@@ -77,6 +74,11 @@ from .reward_update import (
     expert_margin,
     feature_gap,
     inverse_frequency_weights,
+)
+from .robot_apprenticeship import (
+    apprenticeship,
+    from_all_states,
+    from_initial_state,
 )
 from .scirl import (
     Classification,

@@ -1,12 +1,27 @@
 """Apprenticeship learning via inverse reinforcement learning (Abbeel and Ng 2004).
 
-The algorithm alternates between a reward and a policy. It guesses a reward under which the expert does better than all
-policies found so far, finds the best policy for this reward, and adds this policy to the list. The feature expectations
-of the expert come ever closer to those of a mixture of the policies.
+The reward is linear in features f of state and action (the paper has features phi of the state), with unknown weights
+theta. Then the value of a policy is linear in its *feature expectations* mu:
 
-:func:`apprenticeship_learning` is the algorithm. It has two ways to guess a reward: :func:`max_margin_guess` solves a
-quadratic program, and :func:`projection_guess` needs none. :func:`apprenticeship` runs it for the robot, where there is
-no model and a neural network learns each policy.
+    R(s, a) = theta . f(s, a),      ||theta|| <= 1
+    mu(pi)  = E[ sum over t of gamma^t f(s_t, a_t) ]
+    V(pi)   = E[ sum over t of gamma^t R(s_t, a_t) ] = theta . mu(pi).
+
+So a policy whose mu lies within epsilon of the expert's mu_E has nearly the expert's value, whatever theta is:
+
+    |V(pi_E) - V(pi)| = |theta . (mu_E - mu(pi))| <= ||theta|| ||mu_E - mu(pi)|| <= epsilon.
+
+The algorithm looks for such a policy, and it alternates between a reward and a policy. It guesses a reward under which
+the expert does better than all policies found so far, finds the best policy for this reward, and adds it to the list.
+What comes near the expert is a mixture of the policies: one of them, drawn at the start of each episode. The paper has
+two ways to guess the reward from mu_E and the mu_j of the policies found so far:
+
+    max-margin    max over theta, t of t    subject to  theta . (mu_E - mu_j) >= t for all j,  ||theta|| <= 1
+    projection    theta = mu_E - mean,      where the mean of a mixture moves with each new policy, mean +=
+                  lambda (mu_j - mean), to the point nearest to mu_E on the segment from the mean to mu_j.
+
+:func:`apprenticeship_learning` is the algorithm, :func:`max_margin_guess` and :func:`projection_guess` are the two
+ways. ``robot_apprenticeship.py`` is the same for the robot, where there is no model.
 """
 
 from __future__ import annotations
@@ -19,19 +34,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import nnls
 
-from robonav.networks import random_network
-from robonav.progress import Progress
-
 from ._arguments import checked
-from .decisions import Decisions, concatenate
-from .feature_expectations import discounted_feature_sums, empirical_expectations
-from .features import state_action_features
-from .max_margin import maximum_margin, project_to_unit_ball
-from .model_selection import Score, balanced_accuracy
-from .policy import exploring_policy
-from .policy_improvement import ReplaySGD, decision_rewards
-from .tasks import Task
-from .training import IRLRecorder, IRLResult
+from .max_margin import maximum_margin
 
 Floats = NDArray[np.float64]
 
@@ -40,10 +44,7 @@ Solver = Callable[[Floats], tuple[Any, ArrayLike]]
 
 RewardGuess = Callable[[Floats, Sequence[Floats]], tuple[Floats, float]]
 """``guess(expert, found) -> (weights, distance)``: a reward under which the expert does better than the policies found
-so far, and the distance of the expert's feature expectations from those of the nearest mixture of these policies."""
-
-PolicyExpectations = Callable[[Decisions, int, float], Floats]
-"""``expectations(decisions, n_actions, discount) -> (A (k + 1),)``: estimated feature expectations."""
+so far, and the distance of the expert's feature expectations from those of a mixture of these policies."""
 
 
 def project(mean: Floats, found: Floats, expert: Floats) -> Floats:
@@ -93,7 +94,8 @@ def projection_guess(expert: Floats, found: Sequence[Floats]) -> tuple[Floats, f
     -------
     weights : (K,) array
     distance : float
-        The length of the weights.
+        The length of the weights: the distance of the expert from this mixture. The nearest of all mixtures may be
+        nearer.
 
     Examples
     --------
@@ -123,7 +125,7 @@ def max_margin_guess(expert: Floats, found: Sequence[Floats]) -> tuple[Floats, f
     -------
     weights : (K,) array
     distance : float
-        The margin, see :func:`maximum_margin`.
+        The margin, see :func:`maximum_margin`. It is the distance of the expert from the nearest of all mixtures.
 
     Examples
     --------
@@ -163,7 +165,7 @@ def apprenticeship_learning(
     guess : callable
         :func:`projection_guess`, the projection method, or :func:`max_margin_guess`, the max-margin method.
     tolerance : float
-        epsilon: the algorithm ends when the expert is no farther than this from a mixture of the policies found.
+        epsilon: the algorithm ends when the expert is no farther than this from the guess's mixture of the policies.
     iterations : int
         Policies to find at most.
 
@@ -189,11 +191,11 @@ def apprenticeship_learning(
     rewards: list[Floats] = []
     distances: list[float] = []
     for iteration in range(iterations + 1):
-        theta, distance = guess(mu_expert, found)  # 2
+        theta, distance = guess(mu_expert, found)  # 2: from mu_E and all mu_j
         distances.append(distance)
         if distance <= tolerance or iteration == iterations:  # 3
             break
-        policy, mu = solve(theta)  # 4 and 5
+        policy, mu = solve(theta)  # 4: the best policy for theta . f, and 5: its mu
         rewards.append(theta)
         policies.append(policy)
         found.append(np.asarray(mu, dtype=float))  # 6
@@ -241,148 +243,6 @@ def nearest_mixture(expert: ArrayLike, found: ArrayLike) -> Floats:
     return shares / shares.sum()
 
 
-def from_initial_state(decisions: Decisions, n_actions: int, discount: float) -> Floats:
-    """Feature expectations discounted from the first decision of each episode.
-
-    Uses Eq. (5.13). With the thesis's discount of 0.65, decisions after the first dozen hardly count.
-
-    Parameters
-    ----------
-    decisions : Decisions
-        M decisions; if there is none, the expectations are zero.
-    n_actions : int
-        A.
-    discount : float
-        gamma.
-
-    Returns
-    -------
-    (A (k + 1),) array
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.nirl import TabularTask, from_initial_state, terrain
-    >>> task = TabularTask(terrain()[1], max_steps=2)
-    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
-    >>> from_initial_state(expert, 4, 0.5).sum()  # a feature and the constant, at two steps
-    np.float64(3.0)
-    """
-    taken = state_action_features(decisions.features, decisions.actions, n_actions)
-    if not len(taken):
-        return np.zeros(taken.shape[1])
-    return empirical_expectations(taken, decisions.trajectory, discount)
-
-
-def from_all_states(decisions: Decisions, n_actions: int, discount: float) -> Floats:
-    """Feature expectations discounted from every decision, and averaged over all decisions.
-
-    All parts of an episode then have equal weight.
-
-    Parameters
-    ----------
-    decisions : Decisions
-        M decisions; if there is none, the expectations are zero.
-    n_actions : int
-        A.
-    discount : float
-        gamma.
-
-    Returns
-    -------
-    (A (k + 1),) array
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.nirl import TabularTask, from_all_states, terrain
-    >>> task = TabularTask(terrain()[1], max_steps=2)
-    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
-    >>> from_all_states(expert, 4, 0.5).sum()  # the mean of 3 and 2
-    np.float64(2.5)
-    """
-    taken = state_action_features(decisions.features, decisions.actions, n_actions)
-    sums = discounted_feature_sums(taken, decisions.trajectory, discount)
-    return sums.mean(axis=0) if len(sums) else np.zeros(sums.shape[1])
-
-
-@checked
-def apprenticeship(
-    demonstrations: Decisions,
-    task: Task,
-    *,
-    guess: RewardGuess = projection_guess,
-    expectations: PolicyExpectations = from_all_states,
-    n_rewards: int = 14,
-    iterations: int = 140,
-    hidden: int = 10,
-    inverse_temperature: float = 25.0,
-    improver: ReplaySGD = ReplaySGD(),  # noqa: B008 - frozen
-    score: Score = balanced_accuracy,
-    seed: int | np.random.Generator = 0,
-    progress: Progress | None = None,
-) -> IRLResult:
-    """Apprenticeship learning (Abbeel and Ng 2004) without a model: a neural network learns the policy of each reward.
-
-    The numbers in the code are the steps of the paper, as in :func:`apprenticeship_learning`. Feature expectations are
-    estimated from episodes. The policies differ by one network, which goes on from one reward to the next.
-
-    Parameters
-    ----------
-    demonstrations : Decisions
-        The expert's decisions.
-    task : Task
-        The task on which the network trains.
-    guess : callable
-        :func:`projection_guess` or :func:`max_margin_guess`.
-    expectations : callable
-        :func:`from_all_states`, or :func:`from_initial_state`, which takes the equation literally.
-    n_rewards : int
-        Rewards to guess at most. The ``iterations`` are divided equally among them, and the network keeps its weights
-        from one reward to the next.
-    iterations, hidden, inverse_temperature, score, seed, progress
-        As in :func:`nirl`.
-    improver : ReplaySGD
-        Improves the network; its discount is that of the feature expectations.
-
-    Returns
-    -------
-    IRLResult
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.nirl import TabularTask, apprenticeship, terrain
-    >>> task = TabularTask(terrain()[1])
-    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
-    >>> len(apprenticeship(expert, task, n_rewards=2, iterations=4).history.costs)
-    4
-    """
-    rng, eta = np.random.default_rng(seed), inverse_temperature
-    n_actions, discount = task.n_actions, improver.discount
-    network = random_network((task.n_inputs, hidden, n_actions), seed=rng)
-    per_reward = max(iterations // n_rewards, 1)
-    total = n_rewards * per_reward
-    record = IRLRecorder(demonstrations, task, network, eta, total, progress)
-    mu_expert = expectations(demonstrations, n_actions, discount)
-    episodes = [task.rollout(exploring_policy(network, eta), rng)]
-    found = [expectations(episodes[0], n_actions, discount)]  # 1
-    for _ in range(n_rewards):
-        weights, distance = guess(mu_expert, found)  # 2
-        if distance <= 0:  # 3
-            break
-        theta = project_to_unit_ball(weights.reshape(n_actions, -1))
-        for _ in range(per_reward):  # 4
-            pairs = concatenate(episodes[-improver.replay :])
-            rewards = decision_rewards(theta, pairs)  # theta . f(s, a)
-            fraction = (len(episodes) - 1) / max(total - 1, 1)
-            network, cost = improver.descend(network, pairs, rewards, fraction, rng)
-            record.add(episodes[-1], theta, network, cost)
-            episodes.append(task.rollout(exploring_policy(network, eta), rng))
-        found.append(expectations(episodes[-1], n_actions, discount))  # 5, 6
-    return record.result(score)
-
-
 @dataclass(frozen=True, eq=False)
 class Apprenticeship:
     """The result of :func:`apprenticeship_learning` after n iterations.
@@ -396,7 +256,9 @@ class Apprenticeship:
     weights : (n, K) array
         The reward for which each policy after the first is the best one.
     distances : (n + 1,) array
-        Distance of the expert's feature expectations from those of the nearest mixture of the first 1, 2, ... policies.
+        Distance of the expert's feature expectations from those of a mixture of the first 1, 2, ... policies: with
+        :func:`max_margin_guess` the nearest mixture, with :func:`projection_guess` the one that it keeps, which is at
+        least as far.
     expert : (K,) array
         The expert's feature expectations.
 

@@ -10,11 +10,11 @@ import numpy as np
 from robonav.lfd.demonstrations import Demonstrations
 from robonav.validation import check_instance, check_one_of
 
-from .apprenticeship import apprenticeship
 from .decisions import Decisions, Floats, expert_decisions
 from .nirl import nirl
 from .refinement import Refined
 from .relative_entropy import relative_entropy
+from .robot_apprenticeship import apprenticeship
 from .scirl import scirl
 from .tasks import RobotTask
 from .training import IRLResult, train_under_reward

@@ -1,6 +1,8 @@
 """Maximum margin: the reward under which the expert's lead over the best of the other policies is largest.
 
-Two methods find the same weights: a quadratic program, and subgradient steps (Ratliff et al. 2006).
+For the gaps mu_E - mu_j between the feature expectations of the expert and of other policies, the margin of a reward
+theta is the least of the leads theta . (mu_E - mu_j). Two methods find the theta of length 1 at most with the largest
+margin: a quadratic program, and subgradient steps (Ratliff et al. 2006).
 """
 
 from __future__ import annotations
@@ -9,14 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import nnls
+from scipy.optimize import minimize
 
 from ._arguments import checked
+from .max_margin_dual import NO_MARGIN, largest_margin
+from .twins import runs
 
 Floats = NDArray[np.float64]
-
-NO_MARGIN = 1e-7
-"""A margin below this share of the largest gap counts as 0."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,13 +42,22 @@ class Margin:
     margin: float
 
 
+def by_dual(expert: ArrayLike, others: ArrayLike) -> Margin:
+    """The twin of :func:`maximum_margin`: the same result from the dual problem, faster and to more digits."""
+    return Margin(*largest_margin(np.asarray(expert) - np.asarray(others)))
+
+
 @checked
+@runs(by_dual)
 def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
     """The weights theta, ||theta|| <= 1, with the largest margin min_j theta . (mu_E - mu_j) (Abbeel and Ng 2004).
 
-    This is a quadratic program. In the form min ||w||^2 subject to w . (mu_E - mu_j) >= 1 it is the least-distance
-    problem of Lawson and Hanson (1974, chapter 23). Its dual is a least-squares problem with one non-negative unknown,
-    or multiplier, for each policy, which scipy solves. The residual of the solution is proportional to (-w, 1).
+    This is a quadratic program in theta and the margin t:
+
+        max t  subject to  theta . (mu_E - mu_j) >= t for all j,  and  ||theta||^2 <= 1.
+
+    Here a general solver for constrained problems, SLSQP, finds the solution. What runs is a twin that solves the dual
+    problem (``max_margin_dual.py``); ``inspect.unwrap`` gives the function as written.
 
     Parameters
     ----------
@@ -67,20 +77,25 @@ def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
     >>> maximum_margin([3.0, 4.0], [[0.0, 0.0]])
     Margin(weights=array([0.6, 0.8]), margin=5.0)
     """
-    gaps = np.asarray(expert) - np.asarray(others)
-    scale = np.linalg.norm(gaps, axis=1).max()
-    if scale == 0:
-        return Margin(np.zeros(gaps.shape[1]), 0.0)
-    matrix = np.vstack([gaps.T / scale, np.ones(len(gaps))])
-    target = np.zeros(len(matrix))
-    target[-1] = 1.0
-    multipliers, _ = nnls(matrix, target, maxiter=30 * len(gaps) + 100)
-    residual = target - matrix @ multipliers
-    length = np.linalg.norm(residual[:-1])
-    if length <= NO_MARGIN * residual[-1] or residual[-1] <= NO_MARGIN**2:
-        return Margin(np.zeros(gaps.shape[1]), 0.0)
-    weights = -residual[:-1] / length
-    return Margin(weights, max(float((gaps @ weights).min()), 0.0))
+    gaps = np.asarray(expert) - np.asarray(others)  # (n, K): row j is mu_E - mu_j
+
+    def leads(x: Floats) -> Floats:  # x holds theta (K,), and the margin t at its end
+        return gaps @ x[:-1] - x[-1]  # theta . (mu_E - mu_j) - t
+
+    def room(x: Floats) -> float:
+        return 1 - float(x[:-1] @ x[:-1])  # 1 - ||theta||^2
+
+    found = minimize(
+        lambda x: -x[-1],  # maximise t
+        np.zeros(gaps.shape[1] + 1),
+        method="SLSQP",
+        constraints=[{"type": "ineq", "fun": part} for part in (leads, room)],  # >= 0
+        options={"maxiter": 1000, "ftol": 1e-12},
+    )
+    theta, margin = found.x[:-1], float(found.x[-1])
+    if margin <= NO_MARGIN * abs(gaps).max():  # the expert is a mixture of the others
+        return Margin(np.zeros_like(theta), 0.0)
+    return Margin(theta, margin)
 
 
 @checked

@@ -1,5 +1,7 @@
 """Max-margin: quadratic program against brute force and against subgradient steps; projection (Abbeel and Ng 2004)."""
 
+import inspect
+
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -42,6 +44,26 @@ def test_the_margin_is_the_widest_of_all_directions(others):
     assert ((expert - others) @ found.weights).min() == pytest.approx(
         found.margin, abs=1e-9
     )
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_primal_and_its_dual_agree(seed):
+    """The function as written, by a general solver, and the twin that runs."""
+    rng = np.random.default_rng(seed)
+    policies, features = rng.integers(1, 9, size=2)
+    expert, others = rng.normal(size=features), rng.normal(size=(policies, features))
+    written = inspect.unwrap(maximum_margin)(expert, others)
+    ran = maximum_margin(expert, others)
+    assert written.margin == pytest.approx(ran.margin, abs=1e-6)
+    np.testing.assert_allclose(written.weights, ran.weights, atol=1e-5)
+
+
+@pytest.mark.parametrize("find", [maximum_margin, inspect.unwrap(maximum_margin)])
+def test_an_expert_among_the_others_has_no_margin(find):
+    corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+    for expert in ([0.25, 0.25], [0.0, 0.0], [0.5, 0.5]):
+        found = find(np.array(expert), np.array(corners))
+        assert (found.margin, found.weights.tolist()) == (0.0, [0.0, 0.0])
 
 
 @settings(deadline=None, max_examples=20)

@@ -1,0 +1,175 @@
+"""Apprenticeship learning (Abbeel and Ng 2004) for the robot: no model, and a neural network for each policy.
+
+The loop is that of :func:`robonav.nirl.apprenticeship_learning`. Three things are different here. The feature
+expectations of expert and policies are estimated from episodes. A neural network learns the policy of each reward, and
+goes on from one reward to the next. And what is returned is not a mixture, but the best network of all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robonav.networks import random_network
+from robonav.progress import Progress
+
+from ._arguments import checked
+from .apprenticeship import RewardGuess, projection_guess
+from .decisions import Decisions, concatenate
+from .feature_expectations import discounted_feature_sums, empirical_expectations
+from .features import state_action_features
+from .max_margin import project_to_unit_ball
+from .model_selection import Score, balanced_accuracy
+from .policy import exploring_policy
+from .policy_improvement import ReplaySGD, decision_rewards
+from .tasks import Task
+from .training import IRLRecorder, IRLResult
+
+Floats = NDArray[np.float64]
+
+PolicyExpectations = Callable[[Decisions, int, float], Floats]
+"""``expectations(decisions, n_actions, discount) -> (A (k + 1),)``: estimated feature expectations."""
+
+
+def from_initial_state(decisions: Decisions, n_actions: int, discount: float) -> Floats:
+    """Feature expectations discounted from the first decision of each episode.
+
+    Uses Eq. (5.13). With the thesis's discount of 0.65, decisions after the first dozen hardly count.
+
+    Parameters
+    ----------
+    decisions : Decisions
+        M decisions; if there is none, the expectations are zero.
+    n_actions : int
+        A.
+    discount : float
+        gamma.
+
+    Returns
+    -------
+    (A (k + 1),) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import TabularTask, from_initial_state, terrain
+    >>> task = TabularTask(terrain()[1], max_steps=2)
+    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+    >>> from_initial_state(expert, 4, 0.5).sum()  # a feature and the constant, at two steps
+    np.float64(3.0)
+    """
+    taken = state_action_features(decisions.features, decisions.actions, n_actions)
+    if not len(taken):
+        return np.zeros(taken.shape[1])
+    return empirical_expectations(taken, decisions.trajectory, discount)
+
+
+def from_all_states(decisions: Decisions, n_actions: int, discount: float) -> Floats:
+    """Feature expectations discounted from every decision, and averaged over all decisions.
+
+    All parts of an episode then have equal weight.
+
+    Parameters
+    ----------
+    decisions : Decisions
+        M decisions; if there is none, the expectations are zero.
+    n_actions : int
+        A.
+    discount : float
+        gamma.
+
+    Returns
+    -------
+    (A (k + 1),) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import TabularTask, from_all_states, terrain
+    >>> task = TabularTask(terrain()[1], max_steps=2)
+    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+    >>> from_all_states(expert, 4, 0.5).sum()  # the mean of 3 and 2
+    np.float64(2.5)
+    """
+    taken = state_action_features(decisions.features, decisions.actions, n_actions)
+    sums = discounted_feature_sums(taken, decisions.trajectory, discount)
+    return sums.mean(axis=0) if len(sums) else np.zeros(sums.shape[1])
+
+
+@checked
+def apprenticeship(
+    demonstrations: Decisions,
+    task: Task,
+    *,
+    guess: RewardGuess = projection_guess,
+    expectations: PolicyExpectations = from_all_states,
+    n_rewards: int = 14,
+    iterations: int = 140,
+    hidden: int = 10,
+    inverse_temperature: float = 25.0,
+    improver: ReplaySGD = ReplaySGD(),  # noqa: B008 - frozen
+    score: Score = balanced_accuracy,
+    seed: int | np.random.Generator = 0,
+    progress: Progress | None = None,
+) -> IRLResult:
+    """Apprenticeship learning (Abbeel and Ng 2004) without a model: a neural network learns the policy of each reward.
+
+    The numbers in the code are the steps of the paper, as in :func:`apprenticeship_learning`. Feature expectations are
+    estimated from episodes. The policies differ by one network, which goes on from one reward to the next.
+
+    Parameters
+    ----------
+    demonstrations : Decisions
+        The expert's decisions.
+    task : Task
+        The task on which the network trains.
+    guess : callable
+        :func:`projection_guess` or :func:`max_margin_guess`.
+    expectations : callable
+        :func:`from_all_states`, or :func:`from_initial_state`, which takes the equation literally.
+    n_rewards : int
+        Rewards to guess at most. The ``iterations`` are divided equally among them, and the network keeps its weights
+        from one reward to the next.
+    iterations, hidden, inverse_temperature, score, seed, progress
+        As in :func:`nirl`.
+    improver : ReplaySGD
+        Improves the network; its discount is that of the feature expectations.
+
+    Returns
+    -------
+    IRLResult
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import TabularTask, apprenticeship, terrain
+    >>> task = TabularTask(terrain()[1])
+    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+    >>> len(apprenticeship(expert, task, n_rewards=2, iterations=4).history.costs)
+    4
+    """
+    rng, eta = np.random.default_rng(seed), inverse_temperature
+    n_actions, discount = task.n_actions, improver.discount
+    network = random_network((task.n_inputs, hidden, n_actions), seed=rng)
+    per_reward = max(iterations // n_rewards, 1)
+    total = n_rewards * per_reward
+    record = IRLRecorder(demonstrations, task, network, eta, total, progress)
+    mu_expert = expectations(demonstrations, n_actions, discount)
+    episodes = [task.rollout(exploring_policy(network, eta), rng)]
+    found = [expectations(episodes[0], n_actions, discount)]  # 1
+    for _ in range(n_rewards):
+        weights, distance = guess(mu_expert, found)  # 2
+        if distance <= 0:  # 3
+            break
+        theta = project_to_unit_ball(weights.reshape(n_actions, -1))
+        for _ in range(per_reward):  # 4
+            pairs = concatenate(episodes[-improver.replay :])
+            rewards = decision_rewards(theta, pairs)  # theta . f(s, a)
+            fraction = (len(episodes) - 1) / max(total - 1, 1)
+            network, cost = improver.descend(network, pairs, rewards, fraction, rng)
+            record.add(episodes[-1], theta, network, cost)
+            episodes.append(task.rollout(exploring_policy(network, eta), rng))
+        found.append(expectations(episodes[-1], n_actions, discount))  # 5, 6
+    return record.result(score)
