@@ -1,10 +1,22 @@
 """A robot on its way to a target among obstacles: the environment to read (section 2.5).
 
 One class in plain NumPy: what the robot can do and sense, how it moves, what it earns, when an episode ends. Below the
-class stands the geometry that it uses. It runs as it is, and is a pattern for an environment of your own.
+class stands the geometry that it uses. Only the random maps come from another file, ``worlds.py``. The class is a
+pattern for an environment of your own. An episode with a rule of one line, which turns to the freer side:
 
-``gymnasium.make("robonav/Navigation-v0")`` makes its compiled twin, which has options: see ``environments.py``. Tests
-hold the two equal.
+>>> env, steps, done = PlainNavigationEnv(obstacles=10), 0, False
+>>> observation, _ = env.reset(seed=0)
+>>> while not done and steps < 200:
+...     ahead, left, right = observation["ranges"][[0, 1, 8]]
+...     action = 0 if ahead > 4 else 1 if left > right else 3  # F, L30 or R30
+...     observation, reward, done, _, _ = env.step(action)
+...     steps += 1
+>>> reward, steps  # it arrived
+(1.0, 56)
+
+Distances are rounded to a micrometre before anything is decided on them. So this code and its compiled twin decide
+alike, although their numbers differ in the last digits. ``gymnasium.make("robonav/Navigation-v0")`` makes this twin,
+which has options: see ``environments.py``. Tests hold the two equal.
 """
 
 from __future__ import annotations
@@ -15,20 +27,17 @@ from typing import Any
 import gymnasium
 import numpy as np
 from gymnasium import spaces
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ._fast.constants import (
-    ARRIVAL_DISTANCE,  # 3 m
-    CIRCLE,
-    COLLISION_DISTANCE,  # 1 m
-    RECTANGLE,
-    SECTOR,  # 40 degrees, in radians
-    SENSOR_RANGE,  # 10 m
-    TURNS,  # of the actions 0 to 5: 0, 30, 60, -30, -60, 0 degrees, in radians
-)
-from .simulator import Action
+from ._fast.constants import CIRCLE, RECTANGLE  # the kinds of obstacles
 from .worlds import Worlds, draw_worlds, random_keys
 
+SENSOR_RANGE = 10.0  # metres, as all distances
+COLLISION_DISTANCE = 1.0
+ARRIVAL_DISTANCE = 3.0
+SECTOR = math.radians(40)  # angles are in radians
+TURNS = np.radians([0.0, 30.0, 60.0, -30.0, -60.0, 0.0])  # F, L30, L60, R30, R60, B
+BACK = 5  # the number of the action B
 AHEAD = [0, 1, 2, 7, 8]  # the five sectors that look ahead
 RAYS = (np.arange(9) + 0.5) * SECTOR  # ray k lies between the sectors k and k + 1
 
@@ -91,12 +100,18 @@ class PlainNavigationEnv(gymnasium.Env):
 
     Examples
     --------
+    A map by hand. A circle with a radius of 1 m stands 4 m ahead of the robot, so that it begins after 3 m:
+
     >>> from robonav.robot.plain_environment import PlainNavigationEnv
-    >>> env = PlainNavigationEnv(obstacles=0)
-    >>> observation, _ = env.reset(seed=0)
-    >>> observation, reward, terminated, truncated, _ = env.step(0)
-    >>> env.position.round(3)  # 2 m nearer to the target
-    array([11.414, 11.414])
+    >>> env = PlainNavigationEnv()
+    >>> observation = env.place((50, 50, 0), target=(60, 50), circles=[(54, 50, 1)])
+    >>> observation["ranges"]
+    array([ 3., 10., 10., 10., 10., 10., 10., 10., 10.])
+    >>> observation, reward, terminated, _, _ = env.step(0)  # 2 m forward
+    >>> observation["ranges"][0], reward, terminated
+    (np.float64(1.0), 0.0, False)
+    >>> env.step(0)[1:3]  # 2 m more
+    (-1.0, True)
     """
 
     def __init__(self, obstacles: int = 10, speed: float = 2.0) -> None:
@@ -116,18 +131,50 @@ class PlainNavigationEnv(gymnasium.Env):
     ) -> tuple[Observation, Info]:
         """Put the robot into a new random map."""
         super().reset(seed=seed)
-        self.enter(draw_worlds(random_keys([self.np_random]), self.obstacles, 0))
-        return self.sense(), {}
+        world = draw_worlds(random_keys([self.np_random]), self.obstacles, 0)
+        return self.enter(world), {}
 
-    def enter(self, world: Worlds) -> None:
-        """Put the robot at the start of a map. These five attributes are the state."""
-        self.position, self.heading = world.starts[0], world.start_poses[0, 2]
-        self.target = world.targets[0]
+    def enter(self, world: Worlds) -> Observation:
+        """Put the robot at the start of a map that was drawn, and return what it senses."""
         obstacles = np.column_stack([world.centres[0], world.shapes[0]])
-        self.circles = obstacles[world.kinds[0] == CIRCLE]  # x, y, radius
-        self.rectangles = np.concatenate(  # x, y, half length, half width, angle
-            [border(world.size), obstacles[world.kinds[0] == RECTANGLE]]
-        )
+        circles = obstacles[world.kinds[0] == CIRCLE, :3]
+        rectangles = obstacles[world.kinds[0] == RECTANGLE]
+        pose, target = world.start_poses[0], world.targets[0]
+        return self.place(pose, target, circles, rectangles, world.size)
+
+    def place(
+        self,
+        pose: ArrayLike,
+        target: ArrayLike,
+        circles: ArrayLike = (),
+        rectangles: ArrayLike = (),
+        size: float = 100.0,
+    ) -> Observation:
+        """Put the robot into a map, and return what it senses.
+
+        The state of the environment are these five attributes and ``self.ranges``, which :meth:`sense` sets: what the
+        robot sensed last decides whether its reflex acts in the next step.
+
+        Parameters
+        ----------
+        pose : (3,) array
+            x, y and heading of the robot.
+        target : (2,) array
+            x and y.
+        circles : (C, 3) array
+            x, y and radius of each.
+        rectangles : (R, 5) array
+            x, y, half length, half width and angle of each.
+        size : float
+            Side of the map.
+        """
+        x, y, self.heading = np.array(pose, dtype=float)
+        self.position = np.array([x, y])
+        self.target = np.array(target, dtype=float)
+        self.circles = np.array(circles, dtype=float).reshape(-1, 3)
+        boxes = np.array(rectangles, dtype=float).reshape(-1, 5)
+        self.rectangles = np.concatenate([border(size), boxes])
+        return self.sense()
 
     def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
         """Simulate one second: the robot moves, its episode may end, it senses again.
@@ -142,7 +189,11 @@ class PlainNavigationEnv(gymnasium.Env):
 
         collided = self.clearance(start, self.position) < COLLISION_DISTANCE
         arrived = not collided and self.target_distance() <= ARRIVAL_DISTANCE
-        reward = 1.0 if arrived else -1.0 if collided else 0.0
+        reward = 0.0
+        if collided:
+            reward = -1.0
+        if arrived:
+            reward = 1.0
         return self.sense(), reward, collided or arrived, False, {}
 
     def heading_and_distance(self, action: int) -> tuple[float, float]:
@@ -150,13 +201,13 @@ class PlainNavigationEnv(gymnasium.Env):
         if self.ranges.min() == SENSOR_RANGE:  # it has sensed nothing
             return self.target_direction(), self.speed
         if (self.ranges[AHEAD] < self.speed + COLLISION_DISTANCE).all():  # blocked
-            action = Action.B
+            action = BACK
         turned = self.heading + TURNS[action]
         heading = math.remainder(turned, math.tau)  # within a half turn of 0
-        return heading, -self.speed if action == Action.B else self.speed
+        return heading, -self.speed if action == BACK else self.speed
 
     def target_distance(self) -> float:
-        """Return how far the target is, rounded to a micrometre as all distances are."""
+        """Return how far the target is, to the micrometre."""
         return round(math.dist(self.target, self.position), 6)
 
     def target_direction(self) -> float:
@@ -178,7 +229,8 @@ class PlainNavigationEnv(gymnasium.Env):
 
         holds_it = sector(bearing - self.heading)[:, None] == np.arange(9)
         at_nearest = np.where(holds_it, nearest[:, None], np.inf)
-        at_rays = np.minimum(on_rays, np.roll(on_rays, 1, axis=1))  # left and right
+        # sector k lies between ray k - 1, on its right, and ray k, on its left
+        at_rays = np.minimum(np.roll(on_rays, 1, axis=1), on_rays)
         distances = np.minimum(at_nearest, at_rays)  # a row for each shape
         self.ranges = np.minimum(distances.min(axis=0), SENSOR_RANGE).round(6)
         is_border = distances.argmin(axis=0) < 4  # the first four rectangles
@@ -230,8 +282,17 @@ def see_rectangles(
 ) -> tuple[Array, Array, Array]:
     """Look at R rectangles, as at circles.
 
-    In a rectangle's own frame, each coordinate of its nearest point is the robot's, kept between two sides. A ray is
-    inside from where it has passed one side in both coordinates to where it passes the other side in either.
+    In a rectangle's own frame, each coordinate of its nearest point is the robot's, kept between two sides. For the
+    rays this is the *slab method* (Kay and Kajiya 1986). The rectangle is where two strips, or slabs, cross. A ray is
+    in both from the later one of its two entrances to the earlier one of its two exits, if this is later::
+
+               :  slab  :
+               :  of x  :
+        .......+--------+.......        o-----+-----+=========+-----+----->  a ray
+        slab   |        |   slab              |     |         |     |
+        of y   |        |   of y             in x  in y      out    out
+        .......+--------+.......                   enter     leave
+               :        :
     """
     half, turned = rectangles[:, 2:4], rectangles[:, 4]
     dx, dy = (position - rectangles[:, :2]).T

@@ -8,8 +8,15 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
-from robonav.robot import Action, Outcome, make_world, random_worlds, sense
-from robonav.robot._fast import micrometres, swept_clearance
+from robonav.robot import (
+    Action,
+    Outcome,
+    make_world,
+    plain_environment,
+    random_worlds,
+    sense,
+)
+from robonav.robot._fast import constants, micrometres, swept_clearance
 from robonav.robot.environments import NavigationEnv
 from robonav.robot.plain_environment import PlainNavigationEnv, border, sector
 
@@ -90,6 +97,25 @@ def test_clearance_anywhere():
         assert abs(env.clearance(start, end) - micrometres(expected)) < 1.1e-6
         collisions += expected < 1
     assert 50 < collisions < 500
+
+
+def test_the_constants_are_those_of_the_twin():
+    for name in ("SENSOR_RANGE", "COLLISION_DISTANCE", "ARRIVAL_DISTANCE", "SECTOR"):
+        assert getattr(plain_environment, name) == getattr(constants, name)
+    np.testing.assert_array_equal(plain_environment.TURNS, constants.TURNS)
+    assert plain_environment.BACK == Action.B
+
+
+def test_a_map_by_hand_is_the_one_that_is_made():
+    env, other = PlainNavigationEnv(), PlainNavigationEnv()
+    made = make_world(
+        circles=[(53, 50, 2)], rectangles=[(30, 40, 3, 1, 0)], start=(50, 45)
+    )
+    circles, rectangles = [(53, 50, 2)], [(30, 40, 1.5, 0.5, 0)]
+    pose, target = made.start_poses[0], made.targets[0]
+    equal(env.place(pose, target, circles, rectangles), other.enter(made))
+    for action in (0, 4, 1, 5):
+        equal(env.step(action)[0], other.step(action)[0])
 
 
 def test_a_way_through_a_thin_wall_is_a_collision():
