@@ -1,7 +1,9 @@
 """Dataset aggregation (DAgger): train on the states that the learner itself visits (Ross, Gordon and Bagnell 2011).
 
 A cloned policy is trained on the states that the expert visits. Once it makes a mistake, it meets states that the
-training examples do not cover, and makes more mistakes there. DAgger repeats three things, in round i = 1, 2, ...:
+training examples do not cover, and makes more mistakes there. If it errs with probability epsilon in the expert's
+states, its cost over T steps can exceed the expert's by the order of epsilon T^2. DAgger trains on the states that the
+learner itself visits, and brings this down to the order of epsilon T. It repeats three things, in round i = 1, 2, ...:
 
 1. Roll out the learner pi_i, and label each state s that it visits with the action pi*(s) that the expert would take
    there. In a mixture with the expert, each step is the expert's with probability beta_i: it then takes the action
@@ -9,7 +11,11 @@ training examples do not cover, and makes more mistakes there. DAgger repeats th
 2. Aggregate: D_i = D_(i-1) and all these pairs (s, pi*(s)).
 3. Train a new policy pi_(i+1) on D_i by supervised learning.
 
-D_0 are the expert's demonstrations. :func:`dagger` is this loop, and :func:`labelled_rollout` its first step.
+Two things differ from the paper. It starts with an empty D and lets the expert choose all actions of its first round;
+here D_0 are the expert's demonstrations, which is the same. And it returns the policy of all rounds that does best in
+states kept for validation; here the result is the policy of the last round, and ``policies`` holds all of them.
+
+:func:`dagger` is this loop, and :func:`labelled_rollout` its first step.
 """
 
 from __future__ import annotations
@@ -26,14 +32,15 @@ from robonav.progress import Progress
 from robonav.robot import (
     REFLEX,
     Encoder,
+    Outcome,
     Policy,
     ReflexRule,
-    Sensing,
     Simulator,
     Transition,
     Worlds,
-    run_episodes,
 )
+from robonav.robot.rollout import undecided
+from robonav.robot.simulator import check_actions
 from robonav.validation import (
     check_array,
     check_generator,
@@ -46,7 +53,6 @@ from .behaviour_cloning import learn_policy
 from .computer_expert import ComputerExpert
 from .demonstrations import (
     MAX_STEPS,
-    Actions,
     Demonstrations,
     Expert,
     by_trajectory,
@@ -160,7 +166,8 @@ def labelled_rollout(
 ) -> Demonstrations:
     """Roll out the mixture of expert and learner, and label each state visited with the expert's action.
 
-    Where a reflex decides, neither of the two is asked, and the reflex's action is recorded.
+    Where a reflex decides, neither of the two is asked, and the reflex's action is recorded. All robots act at once: an
+    array has one entry for each robot whose episode has not ended.
 
     Parameters
     ----------
@@ -195,17 +202,28 @@ def labelled_rollout(
     True
     """
     coin = rng.spawn(1)[0]  # a generator of its own leaves the learner's draws alone
-    labels = np.zeros(len(simulator), dtype=np.int64)
-
-    def mixture(simulator: Simulator, sensing: Sensing, robots: Actions) -> Actions:
-        labels[robots] = expert(simulator, robots)
-        expert_acts = coin.random(len(robots)) < beta
-        return np.where(expert_acts, labels[robots], policy(sensing, rng))
-
+    reflex = reflex or undecided
     steps: list[Transition] = []
-    for step in run_episodes(simulator, mixture, reflex=reflex):
-        recorded = np.where(step.asked, labels[step.robots], step.actions)
-        steps.append(replace(step, actions=recorded))
+    robots = np.flatnonzero(simulator.outcome == Outcome.RUNNING)
+    sensing = simulator.sense(robots)  # observe
+    while len(robots):
+        actions = reflex(sensing, simulator.speed)
+        asked = actions < 0  # the reflex leaves the choice
+        labels = actions.copy()
+        if asked.any():
+            labels[asked] = expert(simulator, robots[asked])  # what the expert would do
+            learner = policy(sensing[asked], rng)  # what the learner would do
+            expert_acts = coin.random(asked.sum()) < beta
+            chosen = np.where(expert_acts, labels[asked], learner)
+            actions[asked] = check_actions(chosen, (asked.sum(),))
+        poses = simulator.poses[robots]
+        executed = simulator.step(actions, robots)  # one second
+        after, outcome = simulator.sense(robots), simulator.outcome[robots]
+        steps.append(  # what was sensed, with the expert's action
+            Transition(robots, sensing, labels, executed, asked, poses, after, outcome)
+        )
+        running = outcome == Outcome.RUNNING
+        robots, sensing = robots[running], after[running]
     return by_trajectory(simulator, steps)
 
 
@@ -272,7 +290,8 @@ class DaggerResult:
     Attributes
     ----------
     policies : tuple of NetworkPolicy
-        The policy trained in each round. The last one is the result.
+        The policy trained in each round. The last one is the result; the paper takes the one that does best in
+        validation.
     demonstrations : tuple of Demonstrations
         The aggregate that each of these policies was trained on.
 
