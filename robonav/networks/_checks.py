@@ -92,20 +92,26 @@ def checked_inputs(x: ArrayLike, units: int) -> Array:
 
 
 def takes_inputs(
-    propagate: Callable[[Any, Array], Any],
-) -> Callable[[Any, ArrayLike], Any]:
+    propagate: Callable[[Any, Array], R],
+) -> Callable[[Any, ArrayLike], R]:
     """Decorate a network's pass over inputs (..., m, s[0]): it checks them, and takes a single input (s[0],) too."""
 
     @wraps(propagate)
-    def checked(network: Any, x: ArrayLike) -> tuple[list[Array], Array]:
+    def checked(network: Any, x: ArrayLike) -> R:
         """Make the pass; a single input is a batch of one."""
         inputs = checked_inputs(x, network.sizes[0])
         if inputs.ndim > 1:
             return propagate(network, inputs)
-        a, z = propagate(network, inputs[None])
-        return [layer[..., 0, :] for layer in a], z[..., 0, :]
+        return _first_row(propagate(network, inputs[None]))
 
     return checked
+
+
+def _first_row(rows: Any) -> Any:
+    """The first row of an array (..., m, s), or of each array in a list or tuple."""
+    if isinstance(rows, list | tuple):
+        return type(rows)(_first_row(part) for part in rows)
+    return rows[..., 0, :]
 
 
 def _checked_sizes(name: str, sizes: Any) -> list[int]:

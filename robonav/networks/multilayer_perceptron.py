@@ -8,15 +8,32 @@ A network learns the exclusive or of two bits:
 >>> network.forward(x).round(1).tolist()
 [[0.0], [1.0], [1.0], [0.0]]
 
-In this file an example is a row: row k of ``x``, ``y``, ``a[l]`` and ``delta`` belongs to example k. Layers count from
-0, and ``weights[l][i, j]`` leads from unit j of layer l to unit i of layer l + 1. For m examples, and s[l] units in
-layer l::
+Layers count from 0 to L, and ``weights[l][i, j]`` leads from unit j of layer l to unit i of layer l + 1. With C for the
+cost, f for the sigmoid, and delta[l] for the derivative of C by the weighted sums z[l]::
 
-    inputs   a[0] = x                                           (m, s[0])
-    hidden   a[1] = sigmoid(a[0] @ weights[0].T + biases[0])    (m, s[1])
-    outputs  a[2] = sigmoid(a[1] @ weights[1].T + biases[1])    (m, s[2])
+               m examples, one a row (this file)              one example, a column (the thesis)
 
-The numbers at the ends of lines are those of the thesis's equations. They say the same for one example as a column.
+    forward    z[l+1] = a[l] W[l]^T + b[l]                    z[l+1] = W[l] a[l] + b[l]
+               a[l+1] = f(z[l+1]),  a[0] = x                  a[l+1] = f(z[l+1]),  a[0] = x
+    backward   delta[l] = (delta[l+1] W[l]) * f'(z[l])        delta[l] = (W[l]^T delta[l+1]) * f'(z[l])
+    gradient   dC/dW[l] = delta[l+1]^T a[l]                   dC/dW[l] = delta[l+1] a[l]^T
+               dC/db[l] = sum of the rows of delta[l+1]       dC/db[l] = delta[l+1]
+
+with f'(z[l]) = a[l] (1 - a[l]), element by element. The backward pass begins with delta[L] = (a[L] - y) f'(z[L]) for
+the squared error, and with delta[L] = a[L] - y for the cross-entropy. The numbers at the ends of lines are those of the
+thesis's equations.
+
+A gradient can be checked without any of this: move one weight a little, and see how the cost changes.
+
+>>> start = random_network((2, 4, 1), seed=0)
+>>> def cost(weight):  # with this weight from input 1 to hidden unit 3
+...     first = start.weights[0].copy()
+...     first[3, 1] = weight
+...     return squared_error_cost(Network((first, start.weights[1]), start.biases), x, y)
+>>> weight, little = start.weights[0][3, 1], 1e-5
+>>> slope = (cost(weight + little) - cost(weight - little)) / (2 * little)
+>>> bool(np.isclose(slope, squared_error_gradient(start, x, y).weights[0][3, 1]))
+True
 """
 
 from __future__ import annotations
@@ -34,7 +51,7 @@ from scipy.special import expit
 from ._checks import keep_layers, takes_inputs
 
 Array = NDArray[np.float64]
-Layers = Sequence[Any]  # one array for each layer but the last, in NumPy or torch
+Layers = Sequence[Any]  # one array for each layer but the last
 
 # 1. Forward: from the inputs to the outputs, layer by layer.
 
@@ -54,11 +71,11 @@ def propagate(
 ) -> tuple[list[Any], Any]:
     """Forward propagation, Eq. (3.3): activations of all layers, and the sums z of the last one.
 
-    The lines serve NumPy arrays and, with ``f=torch.sigmoid``, torch tensors.
+    (With ``f=torch.sigmoid`` the same lines serve torch tensors.)
     """
-    a = [x]
+    a = [x]  # of the inputs (m, s[0])
     for W, b in zip(weights, biases, strict=True):
-        z = a[-1] @ W.T + b  # Eq. (3.3)
+        z = a[-1] @ W.T + b  # (m, s[l + 1])  Eq. (3.3)
         a.append(f(z))
     return a, z
 
@@ -100,25 +117,27 @@ class Network:
         inputs = self.weights[0].shape[-1]
         return inputs, *(weight.shape[-2] for weight in self.weights)
 
-    def forward(self, x: ArrayLike) -> Array:
+    @takes_inputs  # one row or many, as the next two
+    def forward(self, x: Array) -> Array:
         """Outputs h(x) of the network, Eq. (3.2): (..., m, s[-1]) numbers between 0 and 1."""
-        return self.activations(x)[-1]  # Eq. (3.2)
+        a, _ = propagate(self.weights, self.biases, x)
+        return a[-1]  # Eq. (3.2)
+
+    @takes_inputs
+    def activations(self, x: Array) -> list[Array]:
+        """Return the activations of every layer, the input (s[0],) or (..., m, s[0]) first and the output last."""
+        a, _ = propagate(self.weights, self.biases, x)
+        return a
+
+    @takes_inputs
+    def logits(self, x: Array) -> Array:
+        """Return the weighted sums z (..., m, s[-1]) of the output layer, before its sigmoid."""
+        _, z = propagate(self.weights, self.biases, x)
+        return z
 
     def decide(self, x: ArrayLike) -> NDArray[np.intp]:
         """Return the largest output unit (..., m) for each input, compared before the sigmoid rounds to 1."""
         return self.logits(x).argmax(axis=-1)
-
-    def activations(self, x: ArrayLike) -> list[Array]:
-        """Return the activations of every layer, the input (s[0],) or (..., m, s[0]) first and the output last."""
-        return self._propagate(x)[0]
-
-    def logits(self, x: ArrayLike) -> Array:
-        """Return the weighted sums z (..., m, s[-1]) of the output layer, before its sigmoid."""
-        return self._propagate(x)[1]
-
-    @takes_inputs  # one row or many
-    def _propagate(self, x: Array) -> tuple[list[Array], Array]:
-        return propagate(self.weights, self.biases, x)
 
 
 def random_network(
@@ -127,7 +146,11 @@ def random_network(
     seed: int | np.random.Generator,
     spread: float | None = None,
 ) -> Network:
-    """Draw a network with small random weights: hidden units that start with equal weights would stay equal."""
+    """Draw a network with small random weights: hidden units that start with equal weights would stay equal.
+
+    With the bound sqrt(6 / (inputs + outputs)) the activations of all layers vary about equally, and so do the errors
+    on the way back (Glorot and Bengio 2010).
+    """
     rng = np.random.default_rng(seed)
     weights, biases = [], []
     for inputs, outputs in pairwise(sizes):
@@ -148,7 +171,7 @@ def squared_error(output: Array, label: Array) -> Array:
 def squared_error_cost(
     network: Network, x: Array, y: Array, *, regularisation: float = 0.0
 ) -> float:
-    """Mean squared-error cost with weight decay, Eq. (3.7)."""
+    """Mean squared-error cost with weight decay, Eq. (3.7): mean error + lambda / 2 * sum of W^2."""
     error = squared_error(network.forward(x), y).mean()
     squares = sum((W**2).sum() for W in network.weights)  # not of the biases
     return float(error + regularisation / 2 * squares)  # Eq. (3.7)
@@ -157,7 +180,10 @@ def squared_error_cost(
 def cross_entropy_cost(
     network: Network, x: Array, y: Array, *, regularisation: float = 0.0
 ) -> float:
-    """Mean cross-entropy cost with weight decay, Eq. (3.22).
+    """Mean cross-entropy cost with weight decay, Eq. (3.22): mean error + lambda / (2 m) * sum of W^2.
+
+    As in the thesis, lambda is divided by the number m of examples here, and not in Eq. (3.7). The same lambda then
+    matters less, the more examples there are.
 
     With p = sigmoid(z), the cost -y log p - (1 - y) log(1 - p) of an output equals log(1 + exp(z)) - y z. The second
     form stays finite where p rounds to 1 and log(1 - p) fails: ``logaddexp(0, z)`` is log(exp(0) + exp(z)) for any z.
@@ -225,7 +251,10 @@ def cross_entropy_gradient(
 def descend(
     network: Network, gradient: Gradient, gradient_step: float | Array
 ) -> Network:
-    """One step of gradient descent, Eqs. (3.8), (3.28) and (4.12)."""
+    """One step of gradient descent, Eqs. (3.8), (3.28) and (4.12).
+
+    The thesis prints this step three times: for the two costs, and for the Q-network of chapter 4.
+    """
     pairs = zip(network.weights, gradient.weights, strict=True)
     weights = [W - gradient_step * dW for W, dW in pairs]  # Eqs. (3.8), (3.28), (4.12)
     pairs = zip(network.biases, gradient.biases, strict=True)
@@ -264,6 +293,7 @@ def stochastic_gradient_descent(
     """Stochastic gradient descent: every step uses a mini-batch, the next ``batch_size`` examples in a random order.
 
     A mini-batch costs less than all examples, and its gradient is right on average. An epoch uses each example once.
+    There is no weight decay here.
     """
     rng = np.random.default_rng(seed)
     for _ in range(epochs):

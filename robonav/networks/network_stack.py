@@ -58,8 +58,19 @@ class NetworkStack(Network):
         )
 
     @takes_inputs
-    def _propagate(self, x: Array) -> tuple[list[Array], Array]:
-        return propagate_stack(self.weights, self.biases, x)
+    def forward(self, x: Array) -> Array:
+        """Outputs (..., m, s[-1]) of each network."""
+        return propagate_stack(self.weights, self.biases, x)[0][-1]
+
+    @takes_inputs
+    def activations(self, x: Array) -> list[Array]:
+        """Return the activations of every layer of each network, the input first and the output last."""
+        return propagate_stack(self.weights, self.biases, x)[0]
+
+    @takes_inputs
+    def logits(self, x: Array) -> Array:
+        """Return the weighted sums z (..., m, s[-1]) of each network's output layer, before its sigmoid."""
+        return propagate_stack(self.weights, self.biases, x)[1]
 
 
 def network_of(weights: Sequence[Array], biases: Sequence[Array]) -> Network:
