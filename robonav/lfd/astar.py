@@ -6,8 +6,43 @@ the cost of a whole path through it,
     F = G + H,                                                                                         (3.31)
 
 where G is the cost of the path from the start to the node, and H estimates the cost that remains by the straight
-distance to the target. No path is shorter than H. When the target itself has the smallest F of the list, no other path
-can therefore be cheaper than the one found. With H = 0 this is Dijkstra's algorithm, which searches in all directions.
+distance to the target. Two properties of H matter:
+
+- It is *admissible*: no path from a node to the target is shorter than H. When the target itself has the smallest F of
+  the list, no other path can therefore be cheaper than the one found.
+- It is *consistent*: H(n) <= cost of a step from n to n' + H(n'), by the triangle inequality. Along a path F therefore
+  never falls. When a node is taken from the list, its G is final, and the node can go into the closed set for good.
+
+With H = 0 this is Dijkstra's algorithm, which searches in all directions.
+
+Here the target is not a node but a disc: the search ends with the first node within 3 m of it. H is the distance to
+the middle of the disc, up to 3 m more than the cost that remains. So the path may be up to 3 m longer than the shortest
+one into the disc. (With max(H - 3 m, 0) in place of H it would be the shortest, but more nodes would be expanded.)
+
+A wall, and the path (o) around it, from the left to the right:
+
+>>> from robonav.robot import make_world
+>>> world = make_world(rectangles=[(10, 9, 2, 10, 0)], start=(3, 7), target=(17, 7), size=20)
+>>> found, path, expanded = grid_astar(world, world.starts[0], margin=0.5, cell=2.0)
+>>> places = {node.index for node in path}
+>>> def mark(column, row):
+...     point = (2.0 * column + 1, 2.0 * row + 1)
+...     wall = step_clearance(world, point, point, 0.5) < 0.5
+...     return "#" if wall else "o" if (column, row) in places else "."
+>>> for row in reversed(range(10)):
+...     print(*(mark(column, row) for column in range(10)))
+. . . . . . . . . .
+. . . . . . . . . .
+. . . . . . . . . .
+. . . . # # . . . .
+. . . . # # . . . .
+. . . . # # . . . .
+. o o . # # . o . .
+. . . o # # o . . .
+. . . . o o . . . .
+. . . . . . . . . .
+
+The path ends 2 m before the target at (17, 7).
 
 The file reads from top to bottom:
 
@@ -145,11 +180,11 @@ def grid_astar(
             return True, path_to(current), len(closed_set)
         for right, up in EIGHT_DIRECTIONS:
             neighbour = (index[0] + right, index[1] + up)
+            if neighbour in closed_set:
+                continue  # its G is final: H is consistent
             point = grid_point(origin, neighbour, cell)
             if step_clearance(world, current.point, point, margin) < margin:
                 continue  # the step would come too near to an obstacle or leave the map
-            if neighbour in closed_set:
-                continue
             G = current.G + cell * math.sqrt(right * right + up * up)  # the tentative G
             if neighbour not in nodes or G < nodes[neighbour].G:
                 H = distance(point, target)
