@@ -181,6 +181,9 @@ def point_based_value_iteration(
     vectors that are equally good there, it keeps the one with the larger sum, since the next backup may start from
     another belief. So the values of the beliefs rise and stay lower bounds everywhere. More beliefs come closer.
 
+    The beliefs are fixed beforehand. The published method alternates: after some backups it adds a successor of each
+    belief, the one that is furthest from all others, and backs up again.
+
     Parameters
     ----------
     pomdp : POMDP
@@ -229,9 +232,10 @@ def point_based_value_iteration(
 def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
     """The best vector at each of N beliefs, one step ahead of the known ones.
 
-    For each action and observation, the known vectors, which are values of the next state s', are carried back to the
-    present state s: g(s) = sum over s' of T(s, a, s') Z(o, s', a) alpha(s'). Each belief takes the best g for each
-    observation.
+    1. For each action a and observation o, the known vectors, which are values of the next state s', are carried back
+       to the present state s: g(s) = sum over s' of T(s, a, s') Z(o, s', a) alpha(s').
+    2. Each belief b takes the best g for each observation, alpha_ab = r_a + gamma * sum over o of argmax_g b . g,
+    3. and the best action, alpha_b = argmax over the alpha_ab of b . alpha_ab.
 
     Examples
     --------
@@ -244,15 +248,20 @@ def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
     (array([0]), array([[-1901., -1901.]]))
     """
     mdp = pomdp.mdp
-    candidates = np.empty((mdp.n_actions, *points.shape))
+    alphas = np.empty((mdp.n_actions, *points.shape))  # (A, N, S): alpha_ab
     for action in range(mdp.n_actions):
-        candidates[action] = mdp.rewards[:, action]
-        for likelihood in pomdp.observations[action].T:  # Z(o, s', a) over s'
-            g = (mdp.transitions[action] @ (likelihood * known.vectors).T).T  # (K, S)
-            best_g = (points @ g.T).argmax(axis=1)
-            candidates[action] += mdp.discount * g[best_g]
-    best = np.einsum("ans,ns->na", candidates, points).argmax(axis=1)
-    return AlphaVectors(candidates[best, np.arange(len(points))], best)
+        alphas[action] = mdp.rewards[:, action]
+        for likelihood in pomdp.observations[action].T:  # (S',): Z(o, s', a) of one o
+            # 1: carry the known vectors back
+            weighted = likelihood * known.vectors  # (K, S'): Z(o, s', a) alpha(s')
+            g = (mdp.transitions[action] @ weighted.T).T  # (K, S): the sum over s'
+            # 2: take the best one for each belief
+            best_g = (points @ g.T).argmax(axis=1)  # (N,)
+            alphas[action] += mdp.discount * g[best_g]  # (N, S)
+    # 3: take the best action for each belief
+    values = np.einsum("ans,ns->na", alphas, points)  # (N, A): b . alpha_ab
+    best = values.argmax(axis=1)  # (N,)
+    return AlphaVectors(alphas[best, np.arange(len(points))], best)
 
 
 def as_points(pomdp: POMDP, beliefs: Any) -> Floats:

@@ -170,8 +170,9 @@ class POMDP:
     def update(self, belief: ArrayLike, action: int, observation: int) -> Floats:
         """Belief after an action and an observation, Eq. (2.18).
 
-        Eq. (2.19) names this function tau. The thesis writes the sum of Eq. (2.18) over s', the state *before*. Here s
-        is summed over: b'(s') is proportional to Z(o, s', a) times the sum over s of b(s) T(s, a, s').
+        b'(s') is proportional to Z(o, s', a) times the sum over s of b(s) T(s, a, s'). Here s is the state before the
+        action, and s' the one after it. (Eq. (2.18) of the thesis has the two names the other way round.) Eq. (2.19)
+        names this function tau.
 
         Parameters
         ----------

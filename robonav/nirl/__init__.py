@@ -30,6 +30,7 @@ from .max_margin import (
 from .maximum_entropy import (
     MaximumCausalEntropy,
     SoftSolution,
+    causal_entropy_ascent,
     causal_entropy_dual,
     maximum_causal_entropy,
     occupancy_measure,
@@ -129,6 +130,7 @@ __all__ = [
     "apprenticeship_learning",
     "balanced_accuracy",
     "boltzmann_policy",
+    "causal_entropy_ascent",
     "causal_entropy_dual",
     "decision_rewards",
     "discounted_feature_sums",

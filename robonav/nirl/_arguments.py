@@ -129,6 +129,7 @@ SHAPES: dict[str, dict[str, str]] = {
     "most_frequent": {"actions": "M:int"},
     "map_uniform_prior": {"actions": "M:int"},
     "maximum_causal_entropy": {"expert": "K"},
+    "causal_entropy_ascent": {"expert": "K"},
 }
 """Dimensions of arrays, by function and argument: equal letters are equal lengths, ``:int`` means whole numbers."""
 

@@ -3,23 +3,28 @@
 Of all policies with the expert's feature expectations, take the one with the largest causal entropy: it prefers nothing
 that the demonstrations do not show. With the reward r(s, a) = theta . f(s, a) it is the Boltzmann policy
 
-    pi(a | s) = exp(Q(s, a) - V(s)),
+    pi(a | s) = exp((Q(s, a) - V(s)) / T),
     Q(s, a)   = r(s, a) + gamma * sum over s' of T(s, a, s') V(s'),
-    V(s)      = log sum over a of exp(Q(s, a)),
+    V(s)      = T log sum over a of exp(Q(s, a) / T),
 
-with a soft maximum in the last line, where Bellman's equation has the maximum of Q(s, a).
+with a soft maximum in the last line, where Bellman's equation has the maximum of Q(s, a). The temperature T, not to
+be confused with T(s, a, s'), is 1 in inverse reinforcement learning, where another one would only scale theta. As it
+falls to 0, the soft maximum becomes the maximum.
 
 How often this policy visits the states, each visit discounted by its step, follows from the initial distribution p_0:
 
     d(s')     = p_0(s') + gamma * sum over s and a of d(s) pi(a | s) T(s, a, s').
 
-The weights theta make the demonstrations most likely where the gradient is zero,
+The expert's feature expectations mu_E come from its demonstrations: the sum over the steps of gamma^t f(s_t, a_t),
+averaged over the trajectories (``empirical_expectations``). The weights theta make the demonstrations most likely where
+the gradient is zero,
 
     mu_E - sum over s and a of d(s) pi(a | s) f(s, a) = 0:
 
-the policy then has the expert's feature expectations mu_E. The file has these parts in order: the backward pass,
+the policy then has the expert's feature expectations. The file has these parts in order: the backward pass,
 :func:`soft_value_iteration`; the forward pass, :func:`occupancy_measure`; the function that is maximised and its
-gradient, :func:`causal_entropy_dual`; and its optimisation by L-BFGS, :func:`maximum_causal_entropy`.
+gradient, :func:`causal_entropy_dual`; plain gradient ascent, :func:`causal_entropy_ascent`; and the fast way to the
+same maximum, L-BFGS, :func:`maximum_causal_entropy`.
 """
 
 from __future__ import annotations
@@ -82,8 +87,9 @@ def soft_value_iteration(
 ) -> SoftSolution:
     """The backward pass: repeat the soft backup V(s) = T log sum_a exp(Q(s, a) / T) until the values settle.
 
-    The result maximises the discounted reward plus T times the discounted entropy. A terminal state continues to
-    collect entropy, since its A actions all have the same effect.
+    The result maximises the discounted reward plus T times the discounted entropy. A terminal state is a state like all
+    others here: its A actions have the same effect, so that the policy draws them with equal probability, and the state
+    goes on collecting the entropy T log A in each step. Its value is T log(A) / (1 - gamma), not 0.
 
     Parameters
     ----------
@@ -116,8 +122,9 @@ def soft_value_iteration(
     epsilon = evaluation_residual(mdp, tolerance)
     for iteration in range(1, max_iterations + 1):
         before = values
-        q = mdp.action_values(before)  # r(s, a) + gamma sum_s' T(s, a, s') V(s')
-        values = soft_maximum(q, temperature)
+        expected = mdp.expected_next_values(before)  # sum over s' of T(s, a, s') V(s')
+        q = mdp.rewards + mdp.discount * expected  # (S, A)
+        values = soft_maximum(q, temperature)  # (S,)
         residual = float(abs(values - before).max())
         if residual <= epsilon:
             break
@@ -154,7 +161,8 @@ def occupancy_measure(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
     """
     pi = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
     chain = np.einsum("sa,ast->st", pi, mdp.transitions)  # from s to s' under pi
-    visits = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * chain.T, mdp.starts)
+    arriving = chain.T  # row s': the probabilities of coming into s' from each s
+    visits = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * arriving, mdp.starts)
     return visits[:, None] * pi
 
 
@@ -163,8 +171,9 @@ def causal_entropy_dual(
 ) -> tuple[float, Floats]:
     """The penalised dual theta . mu_E - E[V_theta(s_0)] - lambda ||theta||^2 / 2, and its gradient.
 
-    Without the penalty it is the log-likelihood of the demonstrations, up to a constant. It is concave. Its gradient is
-    the expert's feature expectations minus those of the soft policy, minus lambda theta.
+    Without the penalty it is the expected log-likelihood of the expert's actions, where log pi(a_t | s_t) is discounted
+    by gamma^t and summed over the steps. It is concave. Its gradient is the expert's feature expectations minus those
+    of the soft policy, minus lambda theta.
 
     Parameters
     ----------
@@ -199,6 +208,53 @@ def causal_entropy_dual(
     value = weights @ expert - mdp.starts @ soft.values - penalty
     gradient = expert - expected - regularisation * weights
     return float(value), gradient
+
+
+@checked
+def causal_entropy_ascent(
+    mdp: RewardFreeMDP,
+    expert: ArrayLike,
+    *,
+    regularisation: float = 1e-6,
+    gradient_step: float = 0.1,
+    iterations: int = 200,
+) -> Floats:
+    """Maximum causal entropy IRL by plain gradient ascent: raise the weight of what the expert has more of.
+
+    Parameters
+    ----------
+    mdp : RewardFreeMDP
+        S states, A actions, K features.
+    expert : (K,) array
+        Feature expectations mu_E of the expert from the initial state.
+    regularisation : float
+        lambda, at least 0.
+    gradient_step : float
+        Step along the gradient, positive. A step that is too large jumps to and fro over the maximum.
+    iterations : int
+        Number of steps.
+
+    Returns
+    -------
+    (K,) array
+        The weights theta. :func:`maximum_causal_entropy` finds them faster, and says whether they have converged.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import causal_entropy_ascent, initial_expectations, terrain
+    >>> grid, mdp = terrain()
+    >>> uniform = np.full((42, 4), 0.25)  # an expert without a preference
+    >>> bool(abs(causal_entropy_ascent(mdp, initial_expectations(mdp, uniform), iterations=5)).max() < 1e-9)
+    True
+    """
+    theta = np.zeros(len(np.asarray(expert)))
+    for _ in range(iterations):
+        soft = soft_value_iteration(mdp.with_reward(theta))  # backward: r = theta . f
+        occupancy = occupancy_measure(mdp, soft.policy)  # forward: d(s) pi(a | s)
+        expected = np.einsum("sa,sak->k", occupancy, mdp.features)  # of the policy
+        theta = theta + gradient_step * (expert - expected - regularisation * theta)
+    return theta
 
 
 @checked

@@ -13,6 +13,7 @@ from robonav.mdp.dynamic_programming import value_iteration
 from robonav.mdp.models import FiniteMDP
 from robonav.nirl import (
     boltzmann_policy,
+    causal_entropy_ascent,
     causal_entropy_dual,
     empirical_expectations,
     initial_expectations,
@@ -21,6 +22,16 @@ from robonav.nirl import (
     soft_maximum,
     soft_value_iteration,
 )
+
+
+def test_plain_ascent_comes_to_the_same(terrain):
+    mu = initial_expectations(terrain.task, terrain.expert)
+    fast = maximum_causal_entropy(terrain.task, mu, regularisation=1.0)
+    plain = causal_entropy_ascent(
+        terrain.task, mu, regularisation=1.0, gradient_step=0.3, iterations=20
+    )
+    assert abs(fast.weights).max() > 1
+    np.testing.assert_allclose(plain, fast.weights, atol=1e-4)
 
 
 @settings(deadline=None)
