@@ -53,7 +53,12 @@ install: $(INSTALLED)
 open: book
 	$(BIN)/python -m webbrowser "file://$(CURDIR)/_build/html/index.html"
 
+# The notebooks' kernels have an IPython profile of their own, so that a user's profile cannot change the book. It leaves
+# out a warning of each kernel, that its messages are not encrypted: they do not leave this machine.
+book: export IPYTHONDIR := $(CURDIR)/_build/ipython
 book: $(INSTALLED)
+	@mkdir -p "$$IPYTHONDIR/profile_default"
+	@echo 'c.IPKernelApp.log_level = "ERROR"' > "$$IPYTHONDIR/profile_default/ipython_kernel_config.py"
 	$(BIN)/python book/_ext/execute_notebooks.py
 	$(BIN)/jupyter-book build . -W --keep-going -n --all
 	$(BIN)/python book/_ext/check_site.py

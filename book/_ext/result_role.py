@@ -13,8 +13,8 @@ such as 98.5. The parts are separated by semicolons, and their order after the f
 ``{benchmark}`300 iterations: * ms``` becomes the number at the place of the (last) star in the output of the benchmarks
 (``book/benchmarks.md``).
 
-The numbers are put into the source before it is parsed. They therefore work in tables, captions, and descriptions of
-pictures as well.
+The numbers are put into the source before it is parsed. They therefore work in tables and captions as well. They do not
+stand in code cells: a notebook is executed before its numbers are put in, and would be executed once more after that.
 """
 
 from __future__ import annotations

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser import ROOT
-from notebooks import plain
-from result_role import benchmark, result, with_results
+from notebooks import FENCE, plain
+from result_role import ROLE, benchmark, result, with_results
 
 from robonav.experiments import load_results
 
@@ -83,3 +83,11 @@ def test_every_page_names_results_that_exist(page: Path) -> None:
     text = with_results(page.read_text("utf-8"))
     assert "{result}" not in text
     assert "{benchmark}" not in text
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_no_number_stands_in_a_code_cell(page: Path) -> None:
+    """The cell would be executed twice: before its numbers are put in, and after."""
+    fences = FENCE.finditer(page.read_text("utf-8"))
+    cells = [fence["body"] for fence in fences if fence["name"] == "code-cell"]
+    assert [cell for cell in cells if ROLE.search(cell)] == []
