@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
+from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -22,31 +24,69 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 import robonav.drills
-from robonav.drills import DRILLS, Drill, of_page
+from robonav.drills import DRILLS, Drill, Question, of_page
+from robonav.drills.export import seen
 from robonav.drills.markup import as_json, html
 from robonav.widgets.shared import front_end, style_sheet
 
-QUESTIONS = 100  # different ones of each drill, where its numbers allow as many
+QUESTIONS = 100  # different ones of each drill
 SEEDS = 500  # of which they are drawn
+SHARED = 20  # letters of a text that is worth being shared
+FORMULA = re.compile(r'<span class="math inline">(\\\(.*?\\\))</span>', re.DOTALL)
 FOLDER = "drills"
 MARK = "drills"  # the class of what the directives make
 
 
-def different_questions(drill: Drill) -> list[str]:
-    """Return the questions of a drill, each once, as JSON. A drill without numbers has few different ones."""
-    texts: dict[str, None] = {}
+def different_questions(drill: Drill) -> list[Question]:
+    """Return questions of a drill, no two of which look alike to a reader."""
+    found: dict[tuple[object, ...], Question] = {}
     for seed in range(SEEDS):
-        question = as_json(drill.question(seed))
-        texts[json.dumps(question, ensure_ascii=False, separators=(",", ":"))] = None
-        if len(texts) == QUESTIONS:
+        question = drill.question(seed)
+        found.setdefault(seen(question), question)
+        if len(found) == QUESTIONS:
             break
-    return list(texts)
+    return list(found.values())
+
+
+def every_text(value: Any) -> Iterator[str]:
+    """Yield all texts in lists and dictionaries."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, list | dict):
+        for one in value.values() if isinstance(value, dict) else value:
+            yield from every_text(one)
+
+
+def packed(questions: list[Any]) -> tuple[list[Any], list[str]]:
+    """Return questions with less text, and the texts that several of them share.
+
+    A shared text is replaced by its number behind an at sign. The elements around formulas are left out, and the page's
+    script puts them back.
+    """
+    counts = Counter(every_text(questions))
+    shared = [text for text, n in counts.items() if n > 1 and len(text) >= SHARED]
+    number = {text: f"@{k}" for k, text in enumerate(shared)}
+
+    def short(value: Any) -> Any:
+        if isinstance(value, str):
+            return number.get(value) or FORMULA.sub(r"\1", value)
+        if isinstance(value, list):
+            return [short(one) for one in value]
+        if isinstance(value, dict):
+            return {key: short(one) for key, one in value.items()}
+        return value
+
+    return short(questions), [FORMULA.sub(r"\1", text) for text in shared]
 
 
 def script(drill: Drill) -> str:
     """Return the script with a drill's questions."""
-    questions = ",".join(different_questions(drill))
-    return f"robonavDrill({json.dumps(drill.name)},[{questions}]);\n"
+    questions, texts = packed(list(map(as_json, different_questions(drill))))
+    parts = (
+        json.dumps(part, ensure_ascii=False, separators=(",", ":"))
+        for part in (drill.name, questions, texts)
+    )
+    return f"robonavDrill({','.join(parts)});\n"
 
 
 def page_script() -> str:

@@ -11,8 +11,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any
+
+from .rounding import decimals, rounded_too_far, too_far, words
 
 
 @dataclass(frozen=True)
@@ -35,8 +37,11 @@ RIGHT = Verdict(True)
 _Flat = list[float]
 
 
+SLACK = 1e-7  # pages hold numbers with eight decimals, and judge alike
+
+
 def _near(number: float, answer: float, tolerance: float) -> bool:
-    return abs(number - answer) <= tolerance
+    return abs(number - answer) <= tolerance + SLACK
 
 
 @dataclass(frozen=True)
@@ -67,7 +72,7 @@ class Number:
     unit: str = ""
 
     def judge(self, answer: float) -> Verdict:
-        """Compare a number with the right one, then with the usual wrong ones."""
+        """Compare a number with the right one, then with the usual wrong ones, then with what rounding makes of it."""
         if _near(self.answer, answer, self.tolerance):
             return RIGHT
         hints = (
@@ -75,7 +80,8 @@ class Number:
             for hint, number in self.wrong.items()
             if _near(number, answer, self.tolerance)
         )
-        return Verdict(False, next(hints, ""))
+        rounded = rounded_too_far(answer, self.answer, self.tolerance)
+        return Verdict(False, next(hints, too_far(self.tolerance) if rounded else ""))
 
     @property
     def clear(self) -> bool:
@@ -83,7 +89,7 @@ class Number:
         numbers = sorted((self.answer, *self.wrong.values()))
         gaps = (after - before for before, after in pairwise(numbers))
         return all(map(math.isfinite, numbers)) and all(
-            gap > 2 * self.tolerance for gap in gaps
+            gap > 2 * (self.tolerance + SLACK) for gap in gaps
         )
 
 
@@ -98,7 +104,8 @@ class Choice:
     wrong : mapping of str to str
         The hint of each wrong answer.
     order : sequence of str, optional
-        The order in which the answers are shown. By default they are sorted, so that the order tells nothing.
+        The order in which the answers are shown, if they have an order of their own, as numbers have. A drill shuffles
+        the others.
 
     Examples
     --------
@@ -233,15 +240,22 @@ class Table:
     wrong: Mapping[str, Sequence[Sequence[float]]] = field(default_factory=dict)
 
     def judge(self, answer: Sequence[Sequence[float]]) -> Verdict:
-        """Compare a table with the right one, then with the usual wrong ones."""
+        """Compare a table with the right one, then with the usual wrong ones, then with what rounding makes of it."""
         given, right = _flat(answer), _flat(self.answer)
         if self._equals(given, right, right):
             return RIGHT
-        for agrees in (self._equals, self._makes_its_mistakes):
-            for hint, table in self.wrong.items():
-                if agrees(given, _flat(table), right):
-                    return Verdict(False, hint)
-        return Verdict(False)
+        tables = [(hint, _flat(table)) for hint, table in self.wrong.items()]
+        equal = (h for h, table in tables if self._equals(given, table, right))
+        rounded = [too_far(self.tolerance)] * self._is_rounded(given, right)
+        alike = (h for h, table in tables if self._makes_its_mistakes(given, table, right))  # fmt: skip
+        return Verdict(False, next(chain(equal, rounded, alike), ""))
+
+    def _is_rounded(self, given: _Flat, right: _Flat) -> bool:
+        """Whether each number is right, or would be if it were not rounded too far."""
+        return all(
+            self._is(a, b) or rounded_too_far(a, b, self.tolerance)
+            for a, b in zip(given, right, strict=True)
+        )
 
     def _is(self, number: float, answer: float) -> bool:
         return _near(number, answer, self.tolerance)
@@ -260,7 +274,8 @@ class Table:
         tables = [_flat(self.answer), *map(_flat, self.wrong.values())]
         return all(
             any(
-                abs(a - b) > 2 * self.tolerance for a, b in zip(one, other, strict=True)
+                abs(a - b) > 2 * (self.tolerance + SLACK)
+                for a, b in zip(one, other, strict=True)
             )
             for k, one in enumerate(tables)
             for other in tables[:k]
@@ -305,6 +320,22 @@ class Question:
     def clear(self) -> bool:
         """Whether the right answer can be told from every usual wrong one."""
         return self.asked.clear
+
+    @property
+    def decimals(self) -> str:
+        """How many decimals the numbers of an answer need, in words.
+
+        Empty where no number is asked for, where the text says it, and where all numbers are whole.
+        """
+        asked = self.asked
+        if not isinstance(asked, Number | Table) or "decimal" in self.text:
+            return ""
+        if isinstance(asked, Number):
+            numbers = [asked.answer, *asked.wrong.values()]
+        else:
+            numbers = [*chain(*asked.answer), *chain(*chain(*asked.wrong.values()))]
+        whole = all(round(float(number), 8).is_integer() for number in numbers)
+        return "" if whole else words(decimals(asked.tolerance))
 
     def judge(self, answer: Any) -> Verdict:
         """Judge an answer of the kind that is asked for."""

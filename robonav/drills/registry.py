@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .question import Question
+from .question import Choice, Question
+
+Draw = Callable[[np.random.Generator], Question | None]
+"""Draws a question, or None if the numbers that it drew leave more than one answer, or none that a reader can tell."""
 
 ATTEMPTS = 1000  # a drill whose numbers are so rarely clear is wrong
 
@@ -26,13 +29,13 @@ class Drill:
     title : str
         What it practises, in a few words.
     draw : callable
-        ``draw(rng)`` returns a :class:`Question` with new numbers.
+        ``draw(rng)`` returns a :class:`Question` with new numbers, or None if these numbers make no good question.
     """
 
     name: str
     page: str
     title: str
-    draw: Callable[[np.random.Generator], Question]
+    draw: Draw
 
     @property
     def goal(self) -> str:
@@ -41,6 +44,8 @@ class Drill:
 
     def question(self, seed: int) -> Question:
         """Draw a question, again and again until its usual wrong answers can be told from the right one.
+
+        Options that have no order of their own are shuffled, so that their places tell nothing.
 
         Parameters
         ----------
@@ -66,21 +71,25 @@ class Drill:
         rng = np.random.default_rng(seed)
         for _ in range(ATTEMPTS):
             question = self.draw(rng)
-            if question.clear:
-                return question
+            if question is not None and question.clear:
+                return _shuffled(question, rng)
         raise RuntimeError(f"the drill {self.name} draws no question that is clear")
+
+
+def _shuffled(question: Question, rng: np.random.Generator) -> Question:
+    """The question with its options in a random order, unless they have an order of their own."""
+    asked = question.asked
+    if not isinstance(asked, Choice) or asked.order:
+        return question
+    order = [asked.options[k] for k in rng.permutation(len(asked.options))]
+    return replace(question, asked=replace(asked, order=order))
 
 
 DRILLS: dict[str, Drill] = {}
 """All drills by name, chapter by chapter."""
 
 
-def drill(
-    page: str, title: str
-) -> Callable[
-    [Callable[[np.random.Generator], Question]],
-    Callable[[np.random.Generator], Question],
-]:
+def drill(page: str, title: str) -> Callable[[Draw], Draw]:
     """Register the function below as a drill of a page.
 
     Parameters
@@ -96,9 +105,7 @@ def drill(
         A decorator that keeps the function as it is. The drill's name is the function's, with hyphens.
     """
 
-    def register(
-        draw: Callable[[np.random.Generator], Question],
-    ) -> Callable[[np.random.Generator], Question]:
+    def register(draw: Draw) -> Draw:
         """Keep the function."""
         name = draw.__name__.replace("_", "-")
         DRILLS[name] = Drill(name, page, title, draw)

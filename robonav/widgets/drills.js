@@ -11,11 +11,37 @@
 const RIGHT = { right: true, hint: "" };
 const wrongWith = (hint) => ({ right: false, hint: hint ?? "" });
 const flat = (table) => table.flat();
+const SLACK = 1e-7; // pages hold numbers with eight decimals
+const near = (number, answer, tolerance) => Math.abs(number - answer) <= tolerance + SLACK;
+
+/** How many decimals an answer needs: rounding to so many stays within the tolerance. 0 if none, or if it is exact. */
+function decimalsNeeded(tolerance) {
+  const count = Math.ceil(-Math.log10(2 * tolerance));
+  return count > 0 && count < 9 ? count : 0;
+}
+
+/** A number of decimals in words. */
+const inWords = (count) => `${["one", "two", "three", "four"][count - 1] ?? count} decimal${count > 1 ? "s" : ""}`;
+
+/** Whether a number that is not right is the right one, rounded to fewer decimals than it needs. */
+function roundedTooFar(given, answer, tolerance) {
+  const isRounded = (k) => {
+    const scaled = given * 10 ** k;
+    return Math.abs(scaled - Math.round(scaled)) < 1e-6 && Math.abs(given - answer) <= 0.5 * 10 ** -k + 1e-9;
+  };
+  const first = Math.abs(answer) >= 1 ? 0 : 1; // 1 is no rounded probability
+  for (let k = first; k < decimalsNeeded(tolerance); k += 1) if (given !== 0 && isRounded(k)) return true;
+  return false;
+}
+
+const tooFar = (tolerance) => `This is rounded too far: give ${inWords(decimalsNeeded(tolerance))}.`;
 
 const JUDGES = {
   number({ answer, tolerance, wrong }, given) {
-    const is = (number) => Math.abs(number - given) <= tolerance;
-    return is(answer) ? RIGHT : wrongWith(wrong.find(([, number]) => is(number))?.[0]);
+    const is = (number) => near(number, given, tolerance);
+    if (is(answer)) return RIGHT;
+    const rounded = roundedTooFar(given, answer, tolerance) ? tooFar(tolerance) : "";
+    return wrongWith(wrong.find(([, number]) => is(number))?.[0] ?? rounded);
   },
   choice: ({ right, hints }, given) => (given === right ? RIGHT : wrongWith(hints[given])),
   place: ({ right, hints }, given) => (right.includes(given) ? RIGHT : wrongWith(hints[given])),
@@ -25,7 +51,7 @@ const JUDGES = {
     return wrongWith(broken ? broken[2] : hint);
   },
   table({ answer, tolerance, wrong }, given) {
-    const is = (a, b) => Math.abs(a - b) <= tolerance;
+    const is = (a, b) => near(a, b, tolerance);
     const [own, right] = [flat(given), flat(answer)];
     const equals = (cells) => own.every((number, k) => is(number, cells[k]));
     const makesItsMistakes = (cells) => {
@@ -33,8 +59,9 @@ const JUDGES = {
       return mistaken.length > 0 && own.every((number, k) => is(cells[k], right[k]) || is(number, cells[k]));
     };
     if (equals(right)) return RIGHT;
+    const isRounded = own.every((number, k) => is(number, right[k]) || roundedTooFar(number, right[k], tolerance));
     const hint = (agrees) => wrong.find(([, table]) => agrees(flat(table)))?.[0];
-    return wrongWith(hint(equals) ?? hint(makesItsMistakes));
+    return wrongWith(hint(equals) ?? (isRounded ? tooFar(tolerance) : hint(makesItsMistakes)));
   },
 };
 
@@ -45,6 +72,22 @@ export const judge = (asked, given) => JUDGES[asked.kind](asked, given);
 export function typed(text) {
   const number = text.trim().replace(",", ".").replace("−", "-");
   return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(number) ? Number(number) : NaN;
+}
+
+// ---- Questions as they are stored ---------------------------------------------------------------------------------------
+
+/** A text as pages show it: a formula, whose parts have spaces between them, stands in an element of its own. */
+const withFormulas = (text) => text.replace(/\\\(.*?\\\)( \\\(.*?\\\))*/gs, '<span class="math inline">$&</span>');
+
+/**
+ * Questions as Python's `as_json` makes them, from what `packed` of the book's extension wrote.
+ * A text such as "@3" stands for the fourth of the shared texts, and formulas have no elements around them.
+ */
+export function unpacked(value, texts) {
+  if (typeof value === "string") return withFormulas(value.startsWith("@") ? texts[value.slice(1)] : value);
+  if (Array.isArray(value)) return value.map((one) => unpacked(one, texts));
+  if (value === null || typeof value !== "object") return value;
+  return Object.fromEntries(Object.entries(value).map(([key, one]) => [key, unpacked(one, texts)]));
 }
 
 // ---- Memory: what is mastered, and when it comes back -----------------------------------------------------------------
@@ -112,9 +155,8 @@ const numberField = (label) =>
  */
 export function decimals({ text, asked: { answer, tolerance, wrong } }) {
   const numbers = [answer, ...wrong.map(([, number]) => number)].flat(2);
-  const count = Math.ceil(-Math.log10(2 * tolerance)); // rounding to so many decimals stays within the tolerance
-  if (/decimal|digits/.test(text) || numbers.every(Number.isInteger) || !(count > 0 && count < 9)) return "";
-  return count === 1 ? "(one decimal)" : `(${["two", "three", "four"][count - 2] ?? count} decimals)`;
+  const count = decimalsNeeded(tolerance);
+  return text.includes("decimal") || numbers.every(Number.isInteger) || count === 0 ? "" : `(${inWords(count)})`;
 }
 
 /**

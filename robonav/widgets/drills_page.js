@@ -3,7 +3,7 @@
 const waiting = new Map();
 
 /** Called by the script of a drill. */
-globalThis.robonavDrill = (name, questions) => waiting.get(name)?.(questions);
+globalThis.robonavDrill = (name, questions, texts) => waiting.get(name)?.(unpacked(questions, texts));
 
 /** The questions of a drill, by a script, since a page that was opened from disk may load nothing else. */
 function load(name, address) {

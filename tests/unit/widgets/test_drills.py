@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 import pytest
+from drills import packed
 
 from robonav.drills import DRILLS, Choice, Number, Order, Place, Question, Table
 from robonav.drills.markup import as_json, html
@@ -26,7 +25,16 @@ def answers(question, rng):
         return [(order, order) for order in [*orders, sorted(orders[0])]]
     tables = [asked.answer, *asked.wrong.values()]
     near = [np.round(np.asarray(table, float), 2).tolist() for table in tables]
+    near += [np.round(np.asarray(asked.answer, float), k).tolist() for k in (0, 1)]
     return [(table, table) for table in near]
+
+
+def test_unpacks_what_the_book_packs(node):
+    for name in ("which-sensor-reports", "td-error", "fair-or-not", "refined"):
+        drawn = [as_json(DRILLS[name].question(seed)) for seed in range(9)]
+        questions, texts = packed(drawn)
+        body = "return page.unpacked(data[0], data[1]);"
+        assert node("drills", body, [questions, texts]) == drawn
 
 
 def test_judges_as_python_does(node):
@@ -116,15 +124,11 @@ def test_a_form_says_how_many_decimals_count(node, asked, words) -> None:
     assert node("drills", "return page.decimals(data);", as_json(question)) == ""
 
 
-@pytest.mark.parametrize("name", DRILLS)
-def test_an_answer_with_the_decimals_that_the_form_asks_for_is_right(name) -> None:
-    """Whether a form asks for two decimals or a text for three, rounding to them costs nothing."""
-    for seed in range(20):
-        question = DRILLS[name].question(seed)
-        if not isinstance(question.asked, Number) or "digits" in question.text:
-            continue
-        named = re.search(r"(one|two|three|four) decimals?", question.text)
-        count = {"one": 1, "two": 2, "three": 3, "four": 4}[named[1]] if named else 2
-        if question.asked.tolerance < 0.005 and not named:
-            count = 3
-        assert question.asked.judge(round(question.asked.answer, count)).right, seed
+def test_pages_say_of_every_question_what_python_says(node) -> None:
+    """The exports say what Python says."""
+    drawn = [drill.question(seed) for drill in DRILLS.values() for seed in range(SEEDS)]
+    drawn = [one for one in drawn if isinstance(one.asked, Number | Table)]
+    body = "return data.map(page.decimals);"
+    found = node("drills", body, [as_json(question) for question in drawn])
+    assert found == [f"({one.decimals})" if one.decimals else "" for one in drawn]
+    assert set(found) == {"", "(one decimal)", "(two decimals)"}
