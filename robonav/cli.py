@@ -241,52 +241,32 @@ def drills_export(
 ) -> None:
     """Write questions of drills as a question bank or an exam. All drills take part unless you choose."""
     from robonav.drills import export
-    from robonav.drills.export import files
-    from robonav.validation import check_integer
 
-    kind = files.format_of(file, format)
-    files.check_installed(kind)
-    check_integer("papers", papers, at_least=1)
-    if papers > 1 and kind != "pdf":
-        raise ValueError("only an exam (--format pdf) has several papers")
-    chosen = export.selected(chapter or (), page or (), drill or ())
-    left_out: list[str] = []
-    if kind == "pdf":  # a drill that is named takes part in any case
-        kept = export.varied(chosen, papers, each)
-        kept = [one for one in chosen if one in kept or one.name in (drill or ())]
-        left_out = [one.name for one in chosen if one not in kept]
-        if not kept:
-            raise ValueError(
-                f"too few different questions for {papers} papers: {', '.join(left_out)}; "
-                "choose more drills, or name these with --drill"
-            )
-        chosen = kept
-    if at_most or kind == "pdf":
-        chosen = export.spread(chosen, at_most or 10)
-    targets = [file, files.beside(file, "solutions")][: 2 if kind == "pdf" else 1]
-    files.check_free(*targets, force=force)
-    sets = [export.drawn(chosen, seed + k, each) for k in range(papers)]
-    if kind == "moodle":
-        contents = [export.moodle_xml(sets[0], title)]
-    elif kind == "qti":
-        contents = [export.qti_zip(sets[0], title, platform)]
-    else:
-        exams = [export.Paper(seed + k, one) for k, one in enumerate(sets)]
-        contents = [export.exam_pdf(exams, title, paper)]
-        contents.append(export.solutions_pdf(exams, title, paper))
-    files.write(dict(zip(targets, contents, strict=True)))
-    many = f"{papers} papers of " if papers > 1 else ""
-    for target in targets:
-        print(f"{target}: {many}{len(sets[0])} questions")
-    if left_out:
+    request = export.Request(
+        format=format,
+        chapters=chapter or (),
+        pages=page or (),
+        drills=drill or (),
+        at_most=at_most,
+        each=each,
+        seed=seed,
+        papers=papers,
+        paper=paper,
+        platform=platform,
+        title=title,
+    )
+    made = export.export(file, request, force=force)
+    many = f"{made.papers} papers of " if made.papers > 1 else ""
+    for path in made.paths:
+        print(f"{path}: {many}{made.questions} questions")
+    if made.left_out:
         print(
-            f"Left out, because they have too few different questions: {', '.join(left_out)}",
+            f"Left out, because they have too few different questions: {', '.join(made.left_out)}",
             file=sys.stderr,
         )
-    drew = [one.drill.name for one in sets[0]]
-    if fewer := [one.name for one in chosen if drew.count(one.name) < each]:
+    if made.fewer:
         print(
-            f"These have fewer than {each} different questions and gave all: {', '.join(fewer)}",
+            f"These have fewer than {each} different questions and gave all: {', '.join(made.fewer)}",
             file=sys.stderr,
         )
 

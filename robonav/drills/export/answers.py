@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from ..question import Asked, Choice, Number, Order, Place, Question, Table
+from ..rounding import roundings, too_far
 
 CLICK = re.compile(r"\b([Cc])lick (?:on|at)\b")
 
@@ -111,6 +112,29 @@ def _number_of_cell(table: Table, i: int, j: int) -> Number:
     return Number(answer, tolerance, wrong)
 
 
+def mistakes(asked: Number) -> list[tuple[str, float]]:
+    """Return the wrong numbers that have a hint: usual ones, and the right one rounded too far.
+
+    Parameters
+    ----------
+    asked : Number
+
+    Returns
+    -------
+    list of (str, float)
+        The hint of each, and the number.
+
+    Examples
+    --------
+    >>> mistakes(Number(0.72, wrong={"The reward of the step is missing.": 0.648}))[1]
+    ('This is rounded too far: give two decimals.', 0.7)
+    """
+    hint = too_far(asked.tolerance)
+    rounded = roundings(asked.answer, asked.tolerance)
+    told = [(hint, number) for number in rounded if asked.judge(number).hint == hint]
+    return [*asked.wrong.items(), *told]
+
+
 def points(asked: Asked) -> int:
     """Return what an answer counts: 1 for a choice, 2 for a number or an order, and 1 for each cell of a table.
 
@@ -133,7 +157,7 @@ def points(asked: Asked) -> int:
 
 
 def asked_text(question: Question) -> str:
-    """Return what a question asks, for readers who cannot click on its picture.
+    """Return what a question asks, for readers who have neither the page's picture to click on nor its form.
 
     Parameters
     ----------
@@ -148,7 +172,11 @@ def asked_text(question: Question) -> str:
     --------
     >>> asked_text(Question("Click on the goal.", Place(["A", "B"], ["B"]), "B."))
     'Choose the goal.'
+    >>> asked_text(Question("What is $1 / 3$?", Number(1 / 3), "A third."))
+    'What is $1 / 3$? Give two decimals.'
     """
+    if question.decimals:
+        return f"{question.text} Give {question.decimals}."
     if not isinstance(question.asked, Place):
         return question.text
     return CLICK.sub(lambda found: f"{found[1]}hoose", question.text)

@@ -8,7 +8,16 @@ from html import escape
 
 from ..markup import block, html
 from ..question import Choice, Number, Order, Place, Table
-from .answers import Cell, Option, asked_text, cells, number_text, options, points
+from .answers import (
+    Cell,
+    Option,
+    asked_text,
+    cells,
+    mistakes,
+    number_text,
+    options,
+    points,
+)
 from .selection import Drawn
 from .svg import png, read
 
@@ -113,10 +122,10 @@ def _item(
 
 def _mistakes(asked: Number | list[Option] | Order) -> str:
     """The hints of wrong answers that a platform cannot tell apart."""
-    if isinstance(asked, Number) and asked.wrong:
+    if isinstance(asked, Number) and (told := mistakes(asked)):
         lines = "".join(
             f"<li>{number_text(round(number, 4))}: {html(hint)}</li>"
-            for hint, number in asked.wrong.items()
+            for hint, number in told
         )
         return f"<p>Is this your answer?</p><ul>{lines}</ul>"
     if isinstance(asked, Order):

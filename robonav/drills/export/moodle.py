@@ -9,7 +9,15 @@ from xml.etree import ElementTree
 
 from ..markup import block, html
 from ..question import Choice, Number, Order, Place, Table
-from .answers import Cell, asked_text, cells, number_text, options, points
+from .answers import (
+    Cell,
+    asked_text,
+    cells,
+    mistakes,
+    number_text,
+    options,
+    points,
+)
 from .selection import Drawn, chapter_of
 from .svg import png, read
 
@@ -120,13 +128,12 @@ def _answer(node: Element, text: str, right: bool, hint: str, kind: str) -> Elem
 
 
 def _numerical(node: Element, asked: Number) -> None:
-    numbers = [("", asked.answer), *asked.wrong.items()]
-    for hint, number in numbers:
+    for hint, number in (("", asked.answer), *mistakes(asked)):
         answer = _answer(
             node, number_text(number), not hint, hint, "moodle_auto_format"
         )
         tolerance = ElementTree.SubElement(answer, "tolerance")
-        tolerance.text = number_text(asked.tolerance)
+        tolerance.text = number_text(_tolerance(asked, hint))
     for tag, text in (
         ("unitgradingtype", "0"),
         ("unitpenalty", "0.1"),
@@ -134,6 +141,11 @@ def _numerical(node: Element, asked: Number) -> None:
         ("unitsleft", "0"),
     ):
         ElementTree.SubElement(node, tag).text = text
+
+
+def _tolerance(asked: Number, hint: str) -> float:
+    """How much an answer may differ from the right number or a usual wrong one; a rounded number is exact."""
+    return asked.tolerance if not hint or hint in asked.wrong else 0.0
 
 
 def _multichoice(node: Element, asked: Choice | Place) -> None:
@@ -177,10 +189,11 @@ def _cloze_table(table: Table) -> str:
 
 def _field(cell: Cell) -> str:
     """A field for a number: braces, tildes and hash signs of its feedback are written as character references."""
-    tolerance = number_text(cell.number.tolerance)
-    answers = [f"={number_text(cell.number.answer)}:{tolerance}"]
-    for hint, number in cell.number.wrong.items():
-        feedback = html(hint)
+    answers = [
+        f"={number_text(cell.number.answer)}:{number_text(cell.number.tolerance)}"
+    ]
+    for hint, number in mistakes(cell.number):
+        feedback, tolerance = html(hint), number_text(_tolerance(cell.number, hint))
         for sign in "}~":
             feedback = feedback.replace(sign, f"&#{ord(sign)};")
         answers.append(f"%0%{number_text(number)}:{tolerance}#{feedback}")

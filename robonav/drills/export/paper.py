@@ -262,10 +262,7 @@ def _head(paper: Paper, title: str, measure: float) -> list[_Block]:
             TEXT,
         )
 
-    rules = (
-        f"This paper has {len(paper.questions)} questions and {total} points. Show your work. "
-        "Give numbers with two decimals, unless a question says otherwise."
-    )
+    rules = f"This paper has {len(paper.questions)} questions and {total} points. Show your work."
     return [
         _Block(76, draw),
         _text(rules, measure, SMALL + 1, ITALIC),

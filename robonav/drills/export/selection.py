@@ -177,8 +177,8 @@ def seen(question: Question) -> tuple[object, ...]:
 def varied(drills: Sequence[Drill], papers: int, each: int = 1) -> list[Drill]:
     """Return the drills that have enough different questions for an exam.
 
-    In one paper no two questions are equal. Among many papers, a drill that asks for the steps of one algorithm would
-    ask the same of everybody. A drill must therefore have as many different questions as there are papers, up to 8.
+    In one paper no two questions are equal, and many papers should not ask the same of everybody. A drill must
+    therefore have as many different questions as there are papers, up to 8, times those on a paper.
 
     Parameters
     ----------
@@ -194,8 +194,8 @@ def varied(drills: Sequence[Drill], papers: int, each: int = 1) -> list[Drill]:
 
     Examples
     --------
-    >>> [drill.name for drill in varied(selected(drills=["td-error", "order-of-policy-iteration"]), papers=30)]
-    ['td-error']
+    >>> [drill.name for drill in varied(selected(drills=["td-error", "epsilon-greedy"]), papers=30, each=2)]
+    ['td-error', 'epsilon-greedy']
     """
     check_integer("papers", papers, at_least=1)
     needed = each * min(papers, VARIED)
@@ -213,8 +213,7 @@ def drawn(drills: Sequence[Drill], seed: int = 0, each: int = 1) -> list[Drawn]:
     seed : int, default 0
         Makes the numbers.
     each : int, default 1
-        Questions of each drill. A drill that has fewer, such as one that asks for the steps of one algorithm, gives all
-        that it has.
+        Questions of each drill. A drill that has fewer gives all that it has.
 
     Returns
     -------

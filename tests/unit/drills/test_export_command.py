@@ -6,11 +6,12 @@ import zipfile
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from robonav.cli import app
-from robonav.drills import DRILLS
+from robonav.drills import DRILLS, Drill, Number, Question
 from robonav.drills.export import drawn, files, seen, selected, varied
 
 
@@ -100,26 +101,37 @@ def test_wrong_input_is_said_in_a_sentence(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_drills_with_few_questions_are_named(tmp_path: Path) -> None:
-    chosen = ["--drill", "td-error", "--drill", "order-of-policy-iteration"]
+@pytest.fixture
+def constant(monkeypatch) -> str:
+    """A drill of chapter 2 that has one question only."""
+
+    def draw(rng: np.random.Generator) -> Question:
+        return Question("What is $1 + 1$?", Number(2), "Two.")
+
+    draw.__module__ = DRILLS["td-error"].draw.__module__
+    monkeypatch.setitem(DRILLS, "constant", Drill("constant", "sums", "A sum", draw))
+    return "constant"
+
+
+def test_drills_with_few_questions_are_named(tmp_path: Path, constant: str) -> None:
+    chosen = ["--drill", "td-error", "--drill", constant]
     said = run("export", tmp_path / "bank.xml", *chosen, "--each", 2)
     assert "3 questions" in said
-    assert said.strip().endswith("gave all: order-of-policy-iteration")
+    assert said.strip().endswith(f"gave all: {constant}")
 
 
 def test_an_exam_of_many_papers_leaves_out_drills_that_ask_everybody_the_same(
-    tmp_path: Path,
+    tmp_path: Path, constant: str
 ) -> None:
     pytest.importorskip("reportlab")
-    chosen = ["--page", "nnql", "--papers", 3]
-    said = run("export", tmp_path / "exam.pdf", *chosen)
-    assert "too few different questions: " in said
-    left_out = said.rpartition(": ")[2].strip().split(", ")
-    assert "order-of-nnql" in left_out
-    assert all(DRILLS[name].page == "nnql" for name in left_out)
-    named = ["--drill", "order-of-nnql", "--papers", 30]
+    said = run("export", tmp_path / "exam.pdf", "--page", "sums", "--papers", 3)
+    assert "too few different questions for 3 papers: constant" in said
+    both = ["--page", "sums", "--page", "playground", "--papers", 3]
+    said = run("export", tmp_path / "exam.pdf", *both)
+    assert said.strip().endswith(f"too few different questions: {constant}")
+    named = ["--drill", constant, "--papers", 30]
     assert "30 papers of 1 questions" in run("export", tmp_path / "named.pdf", *named)
-    one = run("export", tmp_path / "one.pdf", "--page", "nnql")
+    one = run("export", tmp_path / "one.pdf", "--page", "sums")
     assert "too few" not in one
 
 

@@ -11,6 +11,7 @@ import pytest
 
 from robonav.drills import DRILLS, Choice, Number, Order, Place, Table
 from robonav.drills.export import Drawn, drawn, moodle_xml, selected
+from robonav.drills.markup import html
 
 TYPES = {
     Number: "numerical",
@@ -60,11 +61,26 @@ def test_numbers_have_their_tolerance_and_hints(bank, nodes) -> None:
         assert [float(text(answer, ".")) for answer in right] == pytest.approx(
             [asked.answer]
         )
+        usual = 1 + len(asked.wrong)
         allowed = [float(answer.findtext("tolerance") or 0) for answer in answers]
-        assert allowed == pytest.approx([asked.tolerance] * len(answers))
+        assert allowed[:usual] == pytest.approx([asked.tolerance] * usual)
+        assert allowed[usual:] == [0] * (len(answers) - usual)
         for answer in answers[1:]:
             hint = asked.judge(float(text(answer, "."))).hint
-            assert bool(hint) == bool(text(answer, "feedback"))
+            assert html(hint) == text(answer, "feedback")
+        for answer in answers[usual:]:
+            assert "rounded too far" in text(answer, "feedback")
+
+
+def test_the_decimals_that_count_are_said_in_every_question(bank, nodes) -> None:
+    said = 0
+    for one, node in zip(bank, nodes, strict=True):
+        said += bool(one.question.decimals)
+        asked = text(node, "questiontext")
+        assert (f"Give {one.question.decimals}." in asked) == bool(
+            one.question.decimals
+        )
+    assert said > 50
 
 
 def test_choices_mark_what_is_right(bank, nodes) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import re
 import zipfile
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
@@ -12,6 +14,7 @@ from robonav.drills import Choice, Number, Order, Place, Table
 from robonav.drills.export import Drawn, drawn, qti_zip, selected
 from robonav.drills.export.items import Item, items
 from robonav.drills.markup import html
+from robonav.drills.rounding import roundings
 
 QTI = "{http://www.imsglobal.org/xsd/imsqti_v2p1}"
 CANVAS = "{http://www.imsglobal.org/xsd/ims_qtiasiv1p2}"
@@ -167,6 +170,24 @@ def test_every_item_has_its_explanation_and_hints(made, canvas, blackboard) -> N
             assert len(feedback) > 2
 
 
+def test_decimals_and_roundings_are_said(bank, made, canvas, blackboard) -> None:
+    questions = {one.name: one.question for one in bank}
+    rounded = 0
+    for name, item in made.items():
+        question = questions.get(name) or questions[name[:-2]]
+        if question.decimals:
+            assert f"Give {question.decimals}." in item.text
+        if not isinstance(item.asked, Number):
+            continue
+        for node in (canvas[name], blackboard[name]):
+            shown = "".join(node.itertext())
+            for number in roundings(item.asked.answer, item.asked.tolerance):
+                hint = item.asked.judge(number).hint
+                assert html(hint) in shown or plain(html(hint)) in shown
+                rounded += "rounded too far" in hint
+    assert rounded > 50
+
+
 def test_blocks_do_not_stand_in_paragraphs(blackboard) -> None:
     """The schema of QTI 2.1 forbids it."""
     for node in blackboard.values():
@@ -181,6 +202,19 @@ def test_pictures_are_in_the_package(package, bank) -> None:
     assert len(pictures) >= sum(bool(one.question.picture) for one in bank)
     for name in pictures:
         assert package.read(name).startswith(b"\x89PNG")
+
+
+def test_blackboard_s_files_follow_a_schema_of_qti_21(bank) -> None:
+    etree = pytest.importorskip("lxml.etree")
+    schema = etree.RelaxNG(etree.parse(Path(__file__).with_name("qti21.rng")))
+    package = zipfile.ZipFile(io.BytesIO(qti_zip(bank, platform="blackboard")))
+    names = [name for name in package.namelist() if re.search(r"/.*\.xml$", name)]
+    assert len(names) > len(bank)
+    for name in names:
+        schema.assertValid(etree.fromstring(package.read(name)))
+    wrong = etree.fromstring(package.read("questions/td-error-1.xml"))
+    wrong.append(wrong[0])  # a declaration behind the text
+    assert not schema.validate(wrong)
 
 
 def test_another_checker_finds_nothing(package, tmp_path) -> None:
