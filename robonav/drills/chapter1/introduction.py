@@ -10,8 +10,9 @@ from robonav import robot
 from robonav.robot.encoding import DANGER_BORDERS, LFD_SENSORS, NNQL_SENSORS
 
 from ..pictures import label, picture, place
-from ..question import Choice, Number, Order, Place, Question
+from ..question import Choice, Number, Place, Question
 from ..registry import drill
+from ..runs import Line, some_in_order
 
 Rng = np.random.Generator
 
@@ -26,16 +27,19 @@ WAYS = {
         "It follows a line that was painted for it",
         "It goes from one magnet in the floor to the next",
         "It runs along a reflecting strip",
+        "It keeps to a rail, and turns where a switch of the rail was set",
     ),
     MOBILE: (
         "It chooses its way from what a laser shows",
         "It decides at each moment where to go, by its sonar",
         "It finds its own way with two cameras",
         "It plans its way again when a door is closed",
+        "It was shown no way, and drives to any room that is named to it",
     ),
     ARM: (
         "It is bolted to the floor and repeats a programmed motion",
         "Each part is brought to it, and it does not move from its place",
+        "It is bolted to a table, and a computer repeats its motions",
     ),
 }
 HABITS = {
@@ -43,13 +47,19 @@ HABITS = {
         "A bumper stops it at an obstacle",
         "It waits until somebody has taken the obstacle away",
         "Sensors at its front make it slow down",
+        "It rings a bell until the obstacle goes away",
     ),
     MOBILE: (
         "It goes around an obstacle",
         "A bumper stops it, and then it takes another way",
         "It slows down and passes an obstacle",
+        "It turns round in a corridor that is blocked",
     ),
-    ARM: ("It stops if somebody opens the fence",),
+    ARM: (
+        "It stops if somebody opens the fence",
+        "It goes on, whatever stands beside it",
+        "It welds one seam after the other",
+    ),
 }
 KINDS = {
     GUIDED: "Its way was laid out for it, and it cannot leave it.",
@@ -82,39 +92,56 @@ COMPETENCES = {
         "A robot tells a wall from a person in the reading of its laser",
         "A robot turns echoes into the distances of the nearest things",
         "A robot recognises in a camera's picture that the door before it is open",
+        "A robot finds out whether the dark spot ahead is a hole or a shadow",
+        "A robot notices that something comes nearer from behind",
+        "A robot tells by the nine numbers of its sensors that its left side is free",
     ),
     "exploration": (
         "Where should I go next, knowing little?",
         "A robot goes to the part of a cellar of which it knows least",
         "A robot tries an action whose value it does not know yet",
         "A robot searches an unknown building and decides which corridor to look into first",
+        "A robot leaves a room that it knows by heart, to see what lies behind the next door",
+        "A robot that learns takes the action with the second best value now and then",
+        "A robot drives first where it will learn most about a garden that nobody has described to it",
     ),
     "mapping": (
         "What does this place look like as a whole?",
         "A robot joins all its readings into a plan of the floor",
         "A robot marks in a grid which cells are free and which are not",
         "A robot notes where the walls of all rooms stand, for later journeys",
+        "A robot draws a plan of all shelves of a warehouse while it drives through",
+        "A robot enters a door that it has found into its sketch of the house",
+        "A robot joins what it saw on two journeys into one plan",
     ),
     "localisation": (
         "Where am I?",
         "A robot has a plan of the building, is switched on, and finds out in which room it stands",
         "A robot compares its readings with a map, to find its own position in it",
         "A robot counts the turns of its wheels, to know how far it is from where it began",
+        "A robot was carried to another floor, and finds out which one it is",
+        "A robot sees two towers whose positions it knows, and computes its own",
+        "A robot believes with probability 0.8 that it stands in the kitchen, and looks for the stove to be sure",
     ),
     "path planning": (
         "Which way leads to the goal?",
         "A robot with a complete map searches for the shortest way to the lift before it moves",
         "A robot runs A* on a grid",
         "A robot chooses between two corridors that both lead to its goal on the map",
+        "A robot computes from a plan which stairs it can avoid on its way",
+        "A robot works out in which order of rooms it comes to the exit soonest",
+        "A robot's map says that a bridge is closed, and it computes another way before it starts",
     ),
     "path execution": (
         "Which motion now, given what I sense now?",
         "A box stands on the planned way, and within a second the robot turns 30 degrees to the left",
         "A robot keeps to a given path although its wheels slip",
         "A robot has to choose between turning left and going on, with a wall 3 m ahead",
+        "A person steps into the robot's way, and it brakes",
+        "A robot that was pushed 10 cm aside steers back to the line that it follows",
+        "A robot steps back, because all its sensors ahead report less than 3 m",
     ),
 }
-
 
 OURS = {
     "perception": "Our robot has it: nine sensors, each for a sector of 40 degrees.",
@@ -129,22 +156,33 @@ OURS = {
 @drill("introduction", "Which competence is at work?")
 def which_competence(rng: Rng) -> Question:
     """Name the competence of navigation that a situation needs."""
-    right = str(rng.choice([*COMPETENCES]))
-    _, *situations = COMPETENCES[right]
-    others = rng.choice(
-        [name for name in COMPETENCES if name != right], 3, replace=False
-    )
+    right, *others = (str(name) for name in rng.permutation([*COMPETENCES])[:4])
+    why = f'{right.capitalize()} answers the question "{COMPETENCES[right][0]}" {OURS[right]}'
+    if rng.random() < 0.5:
+        return Question(
+            f"{rng.choice(COMPETENCES[right][1:])}. Which competence of navigation is this?",
+            Choice(
+                right,
+                {
+                    other: f'{other.capitalize()} answers another question, "{COMPETENCES[other][0]}".'
+                    for other in others
+                },
+            ),
+            why,
+        )
+    shown = {name: str(rng.choice(COMPETENCES[name][1:])) for name in (right, *others)}
     return Question(
-        f"{rng.choice(situations)}. Which competence of navigation is this?",
+        f"In which of these situations is {right} at work?",
         Choice(
-            right,
+            shown[right],
             {
-                str(other): f"{str(other).capitalize()} answers another question, "
-                f'"{COMPETENCES[str(other)][0]}".'
+                shown[
+                    other
+                ]: f'This is {other}. It answers the question "{COMPETENCES[other][0]}".'
                 for other in others
             },
         ),
-        f'{right.capitalize()} answers the question "{COMPETENCES[right][0]}" {OURS[right]}',
+        why,
     )
 
 
@@ -159,11 +197,15 @@ GIVEN = {
             "An expert can drive the robot well",
             "A person steers the robot through many rooms without an error",
             "A planner that knows all maps can act as the expert",
+            "There are ten thousand recorded steps of a driver who made no mistake",
+            "A skilled driver has an hour for us",
         ),
         (
             "every collision would destroy the robot, so it must not practise",
             "there is no time for trials, and the robot stays in rooms like those of the expert",
             "a policy is needed within a minute, for places like those that were shown",
+            "the robot may not move before it has a policy, and it will see only rooms like those that were shown",
+            "trials are forbidden, and the robot's rooms look like the expert's",
         ),
         "Imitation needs an expert and no trials of the robot's own. It holds in states like those "
         "that the expert visited.",
@@ -173,11 +215,15 @@ GIVEN = {
             "Nobody knows how to do the task",
             "No expert is at hand",
             "The robot has a shape that nobody has ever driven",
+            "There is no record of anybody who did the task",
+            "The robot should become better than anybody who could show it the task, and nobody shows it anything",
         ),
         (
             "a simulator allows a million collisions, and everybody agrees on what each step is worth",
             "the robot may fail as often as it likes, and it is easy to score what it does",
             "trials cost nothing, and the reward has three lines",
+            "the robot practises night after night, and a counter says how well it did",
+            "a step in the simulator takes a microsecond, and what counts can be written as a number",
         ),
         "Trial and error needs no expert, but a reward that describes the task, and many trials.",
     ),
@@ -186,6 +232,8 @@ GIVEN = {
             "An expert drives with a few errors",
             "People show how to do it, and contradict each other now and then",
             "An expert drives well, but cannot say by which rule",
+            "Drives of several people are recorded, some of them clumsy",
+            "A driver shows what matters to him, now and then with a slip of the hand",
         ),
         (
             "the robot may practise, nobody manages to write a reward down, and other robots must do the task later at "
@@ -193,6 +241,9 @@ GIVEN = {
             "every reward that was written by hand led to circles; the robot may practise, and should become better "
             "than what it was shown",
             "the robot may practise; what is wanted is a statement of the aim that can train a robot of another size",
+            "the robot may practise; the aim should outlive the robot, whose wheels will be replaced by legs",
+            "the robot may practise, and nobody can say in numbers what the expert wants; the same aim is to be "
+            "reached in a town with other streets",
         ),
         "The reward is inferred from the demonstrations. It states the aim, and other robots can be trained with it.",
     ),
@@ -213,15 +264,29 @@ WEAKNESS = {
 }
 
 
+def _situation(rng: Rng, way: str) -> str:
+    """What is given, and what is wanted, where one way to learn fits best."""
+    experts, circumstances, _ = GIVEN[way]
+    return f"{rng.choice(experts)}; {rng.choice(circumstances)}"
+
+
 @drill("introduction", "Which way to learn?")
 def which_way_to_learn(rng: Rng) -> Question:
     """Choose one of the three ways to learn a policy by what is given."""
     right = str(rng.choice([*GIVEN]))
-    experts, circumstances, why = GIVEN[right]
+    others = [other for other in GIVEN if other != right]
+    why = GIVEN[right][2]
+    if rng.random() < 0.5:
+        return Question(
+            f"{_situation(rng, right)}. Which of the three ways fits best?",
+            Choice(right, {other: WEAKNESS[other][right] for other in others}),
+            why,
+        )
     return Question(
-        f"{rng.choice(experts)}; {rng.choice(circumstances)}. Which of the three ways fits best?",
+        f"Where does {right[0].lower()}{right[1:]} fit best?",
         Choice(
-            right, {other: WEAKNESS[other][right] for other in GIVEN if other != right}
+            _situation(rng, right),
+            {_situation(rng, other): WEAKNESS[right][other] for other in others},
         ),
         why,
     )
@@ -229,55 +294,111 @@ def which_way_to_learn(rng: Rng) -> Question:
 
 TURNS = {
     "a robot's step": (
-        (
-            "The sensors report what is around the robot",
-            "The readings are encoded as a state",
-            "The policy chooses an action for this state",
-            "The robot moves",
+        Line("The sensors report what is around the robot", ""),
+        Line(
+            "Each reading becomes a degree of danger",
+            "A degree of danger says how near a reading is, so the sensors come first.",
         ),
-        (
-            "There is nothing to encode before the sensors have reported.",
-            "A policy reads the encoded state, so the state comes first.",
-            "The robot moves as the policy has chosen, so the choice comes first.",
+        Line(
+            "The degrees of danger and the target's sector are joined to a state",
+            "The state is put together from the degrees of danger of what was sensed.",
+        ),
+        Line(
+            "The network gives a number for each action",
+            "The network reads the whole state, which comes from the sensors.",
+        ),
+        Line(
+            "The policy chooses an action",
+            "The policy chooses by the network's numbers for the state that was sensed.",
+        ),
+        Line(
+            "The robot turns and goes one step",
+            "The robot moves as the policy has chosen for what it sensed.",
+        ),
+        Line(
+            "It is checked whether the robot has arrived or collided",
+            "Whether it has arrived or collided is known only after the move.",
         ),
     ),
     "learning from demonstration": (
-        (
-            "An expert drives through maps",
-            "Pairs of state and action are recorded",
-            "A network is trained to give the expert's action in each state",
-            "The network drives in a map that nobody has shown",
+        Line("Maps are drawn for the demonstrations", ""),
+        Line(
+            "An expert drives through the maps",
+            "There must be maps before somebody can drive in them.",
         ),
-        (
-            "Without an expert's episode there is nothing to record.",
-            "A network is trained on recorded pairs, so these come first.",
-            "Only a trained network can drive.",
+        Line(
+            "The recorded steps in which the reflex acted are left out",
+            "Steps can be left out only after an expert's drives were recorded.",
+        ),
+        Line(
+            "The pairs of state and action that are left become the rows of two matrices",
+            "The rows are those pairs of the expert's drives in which the expert decided.",
+        ),
+        Line(
+            "A network is trained to give the action of each row",
+            "A network is trained on the expert's pairs, so these come first.",
+        ),
+        Line(
+            "The network drives in maps that nobody has shown",
+            "Only a network that was trained on the expert's pairs can drive.",
+        ),
+        Line(
+            "The share of these maps in which it has arrived is given with its interval",
+            "How often it arrives is counted after it has driven.",
         ),
     ),
     "reinforcement learning": (
-        (
-            "The robot chooses an action with its present values",
-            "It moves, and receives a reward and a new state",
-            "The value of the action is updated with the reward",
-            "The network is trained on the updated value",
+        Line("The robot senses its state", ""),
+        Line(
+            "The network gives the value of each action",
+            "The values are those of the state, so the robot senses it first.",
         ),
-        (
-            "A reward follows an action, so the choice comes first.",
-            "An update needs the reward, so the step comes first.",
-            "The network is trained on the new value, so the update comes first.",
+        Line(
+            "An action is drawn, more probably one with a high value",
+            "The action is drawn by the values of the state.",
+        ),
+        Line(
+            "The robot carries the action out",
+            "An action is carried out after it was drawn for the state.",
+        ),
+        Line(
+            "The robot gets a reward and senses what the action has led to",
+            "A reward follows an action, so the action comes first.",
+        ),
+        Line(
+            "The target is computed: the reward plus the discounted best value there",
+            "The target needs the reward of the action.",
+        ),
+        Line(
+            "The value of the action moves towards the target",
+            "An update needs the reward of the action, so the step comes first.",
         ),
     ),
     "inverse reinforcement learning": (
-        (
-            "An expert gives demonstrations",
-            "A reward is found under which the expert is better than the robot's policy",
-            "The policy is trained with this reward",
-            "The new policy is compared with the expert again",
+        Line("An expert gives demonstrations", ""),
+        Line(
+            "The expert's feature expectations are computed",
+            "They are computed from the expert's demonstrations.",
         ),
-        (
-            "The reward is inferred from demonstrations, so these come first.",
-            "The policy is trained with the reward, so the reward comes first.",
-            "Only a trained policy can be compared.",
+        Line(
+            "A reward is found under which the expert is better than the robot's policy",
+            "The reward is inferred from the expert's demonstrations, by their features.",
+        ),
+        Line(
+            "The policy is trained with this reward",
+            "The policy is trained with a reward that was inferred from the expert.",
+        ),
+        Line(
+            "The new policy drives",
+            "The policy is new only after it was trained with the inferred reward.",
+        ),
+        Line(
+            "The new policy's feature expectations are computed",
+            "They are computed from episodes that the new policy has driven.",
+        ),
+        Line(
+            "The new policy is compared with the expert, to see whether another reward is needed",
+            "Only a policy that was trained, and has driven, can be compared.",
         ),
     ),
 }
@@ -287,21 +408,11 @@ TURNS = {
 def one_round_in_order(rng: Rng) -> Question:
     """Put the steps of a way to learn in order."""
     name = str(rng.choice([*TURNS]))
-    steps, hints = TURNS[name]
-    first, last = sorted(rng.choice(len(steps) + 1, size=2, replace=False))
-    if last - first < 3:
-        first, last = 0, len(steps)
-    shown = steps[first:last]
-    before = {(k, k + 1): hints[first + k] for k in range(len(shown) - 1)}
-    of = (
-        "What belongs to a robot's step"
-        if name == "a robot's step"
-        else f"What belongs to {name}"
-    )
+    asked = some_in_order(rng, TURNS[name], int(rng.integers(4, 6)))
     return Question(
-        f"{of}? Put these parts in order.",
-        Order(shown, "Each part uses the result of the part before it.", before),
-        "; ".join(f"{k + 1}. {step}" for k, step in enumerate(shown)) + ".",
+        f"What belongs to {name}? Put these parts in order.",
+        asked,
+        "; ".join(f"{k + 1}. {step}" for k, step in enumerate(asked.steps)) + ".",
     )
 
 
@@ -385,9 +496,9 @@ def which_sensor_reports(rng: Rng) -> Question:
 @drill("introduction", "How many situations would a program have to list?")
 def situations_to_list(rng: Rng) -> Question:
     """Count the situations that a programmer would have to foresee."""
-    sensors = int(rng.choice([3, 4, 5, len(NNQL_SENSORS), len(LFD_SENSORS)]))
-    degrees = int(rng.choice([2, 3, 4, len(DANGER_BORDERS) + 1]))
-    sectors = 9
+    sensors = int(rng.choice([3, 4, 6, 8, len(NNQL_SENSORS), len(LFD_SENSORS)]))
+    degrees = int(rng.choice([2, 3, 4, 5, len(DANGER_BORDERS) + 1]))
+    sectors = int(rng.choice([4, 6, 9, 12]))
     answer = int(np.prod([degrees] * sensors, dtype=object)) * sectors
     listed = sensors * degrees * sectors
     return Question(

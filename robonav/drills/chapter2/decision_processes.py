@@ -69,8 +69,9 @@ def return_backwards(rng: Rng) -> Question:
 
 def _two_states(rng: Rng) -> tuple[mdp.FiniteMDP, float, float]:
     """A model in which the only action stays in state 0 with probability p, and else ends; p and its reward."""
-    stay, reward = float(rng.choice([0.5, 0.6, 0.8])), float(rng.integers(1, 6))
-    discount = float(rng.choice([0.5, 0.8, 0.9]))
+    stay = float(rng.integers(1, 10)) / 10
+    reward = float(rng.choice([-5, -4, -3, -2, -1, 1, 2, 3, 4, 5, 6, 8, 10]))
+    discount = float(rng.choice([0.5, 0.6, 0.8, 0.9, 0.95]))
     model = mdp.FiniteMDP([[[stay, 1 - stay], [0, 1]]], [[reward], [0]], discount)
     return model, stay, reward
 
@@ -150,22 +151,23 @@ def _fault(rows: list[list[float]], reward: float, discount: float) -> str:
 
 
 @drill("decision-processes", "What does the check find?")
-def what_the_check_finds(rng: Rng) -> Question:
+def what_the_check_finds(rng: Rng) -> Question | None:
     """Tell whether numbers are a model of a decision process."""
-    stays, discount = (
-        float(rng.choice([0.2, 0.4, 0.6, 0.8])),
-        float(rng.choice([0.9, 1.0])),
-    )
-    leaves = round(1 - stays, 1)
     fault = str(rng.choice([*FAULTS]))
-    first, second = [stays, leaves], [0.0, 1.0]
+    discount = 1.0 if fault == "terminal" else float(rng.choice([0.8, 0.9, 1.0]))
+    stays, returns = (int(n) / 10 for n in rng.integers(1, 10, size=2))
+    ends = discount == 1 and fault != "terminal"  # then B has to be terminal
+    first = [stays, round(1 - stays, 1)]
+    second = [0.0, 1.0] if ends else [returns, round(1 - returns, 1)]
+    rows = [first, second]
+    broken = rows[int(rng.integers(1 if ends else 2))]
     if fault == "sum":
-        first = [stays, round(leaves + float(rng.choice([-0.1, 0.1])), 1)]
+        broken[1] = round(broken[1] + float(rng.choice([-0.1, 0.1])), 1)
     if fault == "negative":
-        first = [round(1 + stays, 1), -stays]
-    if fault == "terminal":
-        second, discount = [leaves, stays], 1.0
-    found = _fault([first, second], 1.0, discount)
+        broken[:] = [round(1 + broken[0], 1), -broken[0]]
+    found = _fault(rows, 1.0, discount)
+    if ends and first[1] <= 0:  # B would be terminal, but A would not reach it
+        return None
     hints = {
         "sum": "Each row sums to 1.",
         "negative": "No number is below 0.",

@@ -7,8 +7,9 @@ import numpy as np
 from robonav import mdp
 
 from ..pictures import grid_picture
-from ..question import Number, Order, Place, Question, Table
+from ..question import Number, Place, Question, Table
 from ..registry import drill
+from ..runs import Line, as_list, some_in_order
 
 Rng = np.random.Generator
 
@@ -62,16 +63,16 @@ def bellman_backup(rng: Rng) -> Question:
 @drill("dynamic-programming", "When may value iteration stop?")
 def stopping_bound(rng: Rng) -> Question:
     """Turn an accepted loss into the change at which to stop."""
-    discount = float(rng.choice([0.8, 0.9, 0.95, 0.99]))
-    loss = float(rng.choice([0.5, 1.0, 2.0, 5.0]))
+    discount = float(rng.choice([0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.92, 0.95]))
+    loss = float(rng.integers(1, 41)) / 2
     model = mdp.FiniteMDP([[[1.0]]], [[1.0]], discount)
     answer = model.residual_for(loss)
     return Question(
         f"Your policy may lose at most ${loss:g}$ in every state, and $\\gamma = {discount:g}$. "
-        "At which largest change of a sweep may value iteration stop? Give three significant digits.",
+        "At which largest change of a sweep may value iteration stop? Give three decimals.",
         Number(
             answer,
-            tolerance=0.006 * answer,
+            tolerance=0.0011,
             wrong={
                 "This is the accepted loss itself. Later sweeps can still change the values much more.": loss,
                 "This is a bound on the values. The policy's loss can be twice as large.": loss
@@ -88,66 +89,136 @@ def stopping_bound(rng: Rng) -> Question:
     )
 
 
+def _grid(rng: Rng) -> mdp.GridWorld | None:
+    """A grid of three by three cells with a goal and one or two walls, or None if the goal cannot be reached."""
+    rows = [["."] * 3 for _ in range(3)]
+    goal, *walls = (divmod(int(k), 3) for k in rng.permutation(9)[: rng.integers(2, 4)])
+    rows[goal[0]][goal[1]] = "G"
+    for i, j in walls:
+        rows[i][j] = "#"
+    grid = mdp.GridWorld("\n".join("".join(row) for row in rows))
+    values = mdp.policy_iteration(grid.mdp(discount=0.9)).values
+    reached = np.delete(values, grid.numbers[goal]) > 0
+    return grid if reached[: len(grid.cells) - 1].all() else None
+
+
 @drill("dynamic-programming", "Which arrow changes?")
-def improved_cell(rng: Rng) -> Question:
+def improved_cell(rng: Rng) -> Question | None:
     """Find the state in which a policy is not greedy."""
-    grid = mdp.GridWorld("S . . \n . # . \n . . G")
+    grid = _grid(rng)
+    if grid is None:
+        return None
     model = grid.mdp(discount=0.9)
     best = mdp.policy_iteration(model)
     q = model.action_values(best.values)
-    unique = np.flatnonzero((mdp.greedy_actions(q).sum(axis=1) == 1) & ~model.terminal)
-    changed = int(rng.choice(unique))
+    greedy = mdp.greedy_actions(q)
+    asked = np.flatnonzero(~model.terminal)
+    changed = int(rng.choice(asked))
     policy = best.policy.copy()
-    policy[changed] = (policy[changed] + rng.integers(1, 4)) % 4
-    letters = "ABCDEFH"  # G is the goal
-    places = {tuple(cell): letters[s] for s, cell in enumerate(grid.cells[:7].tolist())}
-    shown: list[list[str | None]] = [["", "", ""], ["", None, ""], ["", "", "G"]]
-    for s, (i, j) in enumerate(grid.cells[:7].tolist()):
-        shown[i][j] = mdp.gridworld.ARROWS[policy[s]]
+    worse = np.flatnonzero(~greedy[changed])
+    if len(worse) == 0:
+        return None
+    policy[changed] = rng.choice(worse)
+    letters = dict(zip(asked.tolist(), "ABCDEFHI", strict=False))  # G is the goal
+    shown: list[list[str | None]] = [[None] * 3 for _ in range(3)]
+    for s, (i, j) in enumerate(grid.cells.tolist()):
+        shown[i][j] = mdp.gridworld.ARROWS[policy[s]] if s in letters else "G"
+    places = {tuple(grid.cells[s].tolist()): name for s, name in letters.items()}
     name = letters[changed]
+    better = int(best.policy[changed])
     return Question(
         "The goal G gives the reward 1 and ends the episode; steps never slip. One arrow of this "
         "policy is not greedy "
         "with respect to the optimal values. Which cell's arrow does an improvement change?",
-        Place([*letters], [name]),
-        f"In {name} the greedy action is {mdp.gridworld.ARROWS[best.policy[changed]]}: "
+        Place(
+            [*letters.values()],
+            [name],
+            {
+                other: f"This arrow is greedy: it has the largest action value of its cell, ${q[s].max():.3g}$."
+                for s, other in letters.items()
+                if s != changed
+            },
+        ),
+        f"In {name} the greedy action is {mdp.gridworld.ARROWS[better]}: "
         f"its action value is {q[changed].max():.3g}, and the arrow's is {q[changed, policy[changed]]:.3g}.",
         grid_picture(
             shown,
             names=places,
-            title="A policy on a grid of three by three cells with a wall in the middle.",
+            title="A policy on a grid of three by three cells with the goal and walls.",
         ),
     )
 
 
-@drill("dynamic-programming", "The steps of policy iteration")
-def order_of_policy_iteration(rng: Rng) -> Question:
+STAY_OR_GO = ("stay", "go")
+
+
+def _said(policy: np.ndarray) -> str:
+    return ", ".join(STAY_OR_GO[int(action)] for action in policy)
+
+
+def _run_of_policy_iteration(
+    model: mdp.FiniteMDP, policy: np.ndarray
+) -> list[Line] | None:
+    """The lines of a run from a policy on, or None if two actions of a state are nearly equally good."""
+    lines = []
+    while True:
+        values = np.asarray(mdp.policy_evaluation(model, policy))
+        numbers = ", ".join(f"{value:.4g}" for value in values + 0.0)
+        lines.append(
+            Line(
+                f"The values of A, B and C are ${numbers}$.",
+                "These are the values of a policy that was found before. "
+                "No value falls from one policy to the next.",
+            )
+        )
+        q = model.action_values(values)
+        if abs(q[:, 0] - q[:, 1]).min() < 0.05:
+            return None
+        better = q.argmax(axis=1)
+        if (better == policy).all():
+            end = "The run ends only when an improvement changes nothing, so that this is its last line."
+            lines.append(Line("An improvement changes no action.", end))
+            return lines
+        policy = better
+        lines.append(
+            Line(
+                f"The actions in A, B and C become {_said(policy)}.",
+                "These actions come out of an improvement, which needs the values of the policy before it.",
+            )
+        )
+
+
+@drill("dynamic-programming", "A run of policy iteration")
+def order_of_policy_iteration(rng: Rng) -> Question | None:
     """Put the steps of an algorithm in order."""
+    rewards = rng.integers(-3, 6, size=(3, 2)).astype(float)
+    discount = float(rng.choice([0.5, 0.8]))
+    moves = [np.eye(3), np.roll(np.eye(3), 1, axis=1)]  # stay, or go to the next state
+    model = mdp.FiniteMDP(moves, rewards, discount)
+    first = rng.integers(2, size=3)
+    lines = _run_of_policy_iteration(model, first)
+    if lines is None or len(lines) < 6:
+        return None
+    asked = some_in_order(rng, lines, int(rng.integers(4, 6)))
+    table = ", ".join(
+        f"$R({state}, \\text{{{action}}}) = {rewards[i, j]:g}$"
+        for i, state in enumerate("ABC")
+        for j, action in enumerate(STAY_OR_GO)
+    )
     return Question(
-        "Put the steps of policy iteration in order.",
-        Order(
-            [
-                "Choose any policy.",
-                "Compute the values of the policy.",
-                "Take in each state the action with the largest action value.",
-                "Stop if no action has changed; else evaluate again.",
-            ],
-            hint="An evaluation comes before each improvement, because the improvement needs the values.",
-            before={
-                (0, 1): "There must be a policy before it can be evaluated.",
-                (1, 2): "The improvement needs the values of the policy.",
-                (2, 3): "Whether an action has changed is known after the improvement.",
-            },
-        ),
-        "Evaluation and improvement alternate, beginning with any policy, until an improvement changes nothing.",
+        "In each of the states A, B and C the robot can stay, or go to the next one: from A to B, from B to C, from C "
+        f"to A. {table}, and $\\gamma = {discount:g}$. Policy iteration begins with the actions {_said(first)}. Put "
+        "these lines of its run in order.",
+        asked,
+        f"Evaluation and improvement alternate until an improvement changes nothing. {as_list(asked)}",
     )
 
 
 @drill("dynamic-programming", "Does the model fit into memory?")
 def memory_of_a_model(rng: Rng) -> Question:
     """Compute what a full and a sparse model need, on which the choice of a planner depends."""
-    states = int(rng.choice([10_000, 20_000, 50_000, 100_000, 1_000_000]))
-    actions, reached = int(rng.choice([4, 5, 8])), int(rng.choice([3, 4]))
+    states = 1000 * int(rng.choice([5, 8, 10, 12, 15, 20, 25, 30, 40, 50, 100, 1000]))
+    actions, reached = int(rng.choice([2, 3, 4, 5, 6, 8])), int(rng.integers(2, 6))
     full, sparse = (
         8.0 * actions * states**2 / 1e9,
         12.0 * actions * states * reached / 1e6,

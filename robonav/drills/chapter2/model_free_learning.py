@@ -190,19 +190,20 @@ def epsilon_greedy(rng: Rng) -> Question:
 @drill("model-free-learning", "Along the edge of a cliff")
 def along_the_edge(rng: Rng) -> Question:
     """Compute how often an exploring robot falls where the greedy path runs along a cliff."""
-    epsilon, length = float(rng.choice([0.1, 0.2, 0.4])), int(rng.integers(4, 11))
-    policy = mdp.exploration.epsilon_greedy(np.array([1.0, 0.0, 0.0, 0.0]), epsilon)
+    epsilon = float(rng.choice([0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4]))
+    length, actions = int(rng.integers(3, 16)), int(rng.choice([4, 8]))
+    policy = mdp.exploration.epsilon_greedy(np.eye(actions)[0], epsilon)
     down = float(policy[2])
     answer = 1 - (1 - down) ** length
     return Question(
         f"A robot that learns goes {length} steps along a cliff. In each it takes the greedy action with probability "
-        f"$1 - \\varepsilon$ and otherwise any of its four actions with equal probability, and $\\varepsilon = "
-        f"{epsilon:g}$. One of the four leads over the edge. Count no other detours. With which probability does it "
-        "fall on this way?",
+        f"$1 - \\varepsilon$ and otherwise any of its {actions} actions with equal probability, and $\\varepsilon = "
+        f"{epsilon:g}$. One of the {actions} leads over the edge. Count no other detours. With which probability does "
+        "it fall on this way?",
         Number(
             answer,
             wrong={
-                "Only one of the four random actions leads over the edge.": 1
+                f"Only one of the {actions} actions that are drawn at random leads over the edge.": 1
                 - (1 - epsilon) ** length,
                 "It can fall only once: the probability is not the sum over the steps.": down
                 * length,
@@ -210,8 +211,8 @@ def along_the_edge(rng: Rng) -> Question:
                 "This is the probability for one step.": down,
             },
         ),
-        f"In each step it falls with probability ${epsilon:g} / 4 = {down:.4g}$, so it arrives with $(1 - {down:.4g})^"
-        f"{{{length}}} = {1 - answer:.4g}$. SARSA learns from these falls and keeps away from the "
+        f"In each step it falls with probability ${epsilon:g} / {actions} = {down:.4g}$, so it arrives with "
+        f"$(1 - {down:.4g})^{{{length}}} = {1 - answer:.4g}$. SARSA learns from these falls and keeps away from the "
         f"edge; Q-learning values "
         "the greedy path and goes along it.",
     )

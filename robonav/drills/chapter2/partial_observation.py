@@ -12,17 +12,27 @@ from ..registry import drill
 Rng = np.random.Generator
 
 
+def _belief(rng: Rng) -> np.ndarray:
+    """Probabilities of three places, with one or two decimals."""
+    parts = [[0.2, 0.3, 0.5], [0.1, 0.3, 0.6], [0.1, 0.2, 0.7], [0.15, 0.25, 0.6]]
+    belief: np.ndarray = rng.permutation(parts[int(rng.integers(len(parts)))])
+    return belief
+
+
 @drill("partial-observation", "A belief after one observation")
 def belief_after_observation(rng: Rng) -> Question:
     """Apply Bayes' rule to a belief over three places."""
-    belief = rng.permutation([0.2, 0.3, 0.5])
-    door = rng.permutation([0.1, 0.4, 0.8])
-    posterior, probability = mdp.bayes(belief, door)
-    joint = belief * door
+    belief = _belief(rng)
+    door = rng.choice([0.1, 0.2, 0.4, 0.5, 0.7, 0.8, 0.9], size=3, replace=False)
+    seen = bool(rng.integers(2))
+    report, other = (door, 1 - door) if seen else (1 - door, door)
+    posterior, probability = mdp.bayes(belief, report)
+    joint = belief * report
     return Question(
         "A robot believes itself in A, B or C with the probabilities "
         f"${', '.join(f'{b:g}' for b in belief)}$. Its sensor reports a door with probability "
-        f"${', '.join(f'{d:g}' for d in door)}$ in A, B and C. It reports a door. What does the robot believe now?",
+        f"${', '.join(f'{d:g}' for d in door)}$ in A, B and C. It reports {'a' if seen else 'no'} door. What does the "
+        "robot believe now?",
         Table(
             ["belief"],
             ["A", "B", "C"],
@@ -32,10 +42,10 @@ def belief_after_observation(rng: Rng) -> Question:
                     joint.tolist()
                 ],
                 "The old belief is missing: these are the sensor's probabilities alone.": [
-                    (door / door.sum()).tolist()
+                    (report / report.sum()).tolist()
                 ],
-                "These are the probabilities if the sensor had reported no door.": [
-                    (belief * (1 - door) / (belief * (1 - door)).sum()).tolist()
+                f"These are the probabilities if the sensor had reported {'no' if seen else 'a'} door.": [
+                    (belief * other / (belief * other).sum()).tolist()
                 ],
             },
         ),
@@ -48,64 +58,76 @@ def belief_after_observation(rng: Rng) -> Question:
 @drill("partial-observation", "A belief after one action")
 def belief_after_action(rng: Rng) -> Question:
     """Predict a belief before the next observation."""
-    moves = float(rng.choice([0.7, 0.8, 0.9]))
-    belief = rng.permutation([0.1, 0.3, 0.6])
-    right = [[1 - moves, moves, 0], [0, 1 - moves, moves], [0, 0, 1]]
-    model = mdp.FiniteMDP([right], np.zeros((3, 1)), 0.9)
+    moves = float(rng.choice([0.5, 0.6, 0.7, 0.8, 0.9]))
+    belief = _belief(rng)
+    to_right = bool(rng.integers(2))
+    right = np.array([[1 - moves, moves, 0], [0, 1 - moves, moves], [0, 0, 1]])
+    model = mdp.FiniteMDP(
+        [right if to_right else right[::-1, ::-1]], np.zeros((3, 1)), 0.9
+    )
     pomdp = mdp.POMDP(model, np.ones((1, 3, 1)))
     predicted = pomdp.predict(belief, 0)
-    always = [0, belief[0], belief[1] + belief[2]]
-    left_alone = [(1 - moves) * belief[0], (1 - moves) * belief[1], belief[2]]
+    # along the way of the action: its first place, the middle, and the last, in which it stays
+    first, middle, last = belief if to_right else belief[::-1]
+    always = np.array([0, first, middle + last])
+    left_alone = np.array([(1 - moves) * first, (1 - moves) * middle, last])
+    if not to_right:
+        always, left_alone = always[::-1], left_alone[::-1]
+    way, ends, begins = ("right", "C", "A") if to_right else ("left", "A", "C")
+    shown = predicted if to_right else predicted[::-1]
     return Question(
-        "Three places A, B and C lie in a row. The action right goes one place on with probability "
-        f"${moves:g}$, and otherwise the robot stays; in C it always stays. It believes itself there with the "
-        f"probabilities ${', '.join(f'{b:g}' for b in belief)}$. What does it believe after the action, before it "
-        "observes anything?",
+        f"Three places A, B and C lie in a row, from left to right. The action {way} goes one place on with "
+        f"probability ${moves:g}$, and otherwise the robot stays; in {ends} it always stays. It believes itself there "
+        f"with the probabilities ${', '.join(f'{b:g}' for b in belief)}$. What does it believe after the action, "
+        "before it observes anything?",
         Table(
             ["belief"],
             ["A", "B", "C"],
             [predicted.tolist()],
             wrong={
                 "The action may fail, too: the robot can still be where it was.": [
-                    always
+                    always.tolist()
                 ],
-                "The ways from the left into a place are missing: these numbers do not sum to 1.": [
-                    left_alone
+                "The ways into a place from the one beside it are missing: these numbers do not sum to 1.": [
+                    left_alone.tolist()
                 ],
                 "An action changes the belief even without an observation.": [
                     belief.tolist()
                 ],
             },
         ),
-        f"$b'(A) = {1 - moves:.2g} \\cdot {belief[0]:g} = {predicted[0]:.4g}$; "
-        f"$b'(B) = {moves:g} \\cdot {belief[0]:g} + {1 - moves:.2g} \\cdot {belief[1]:g} = {predicted[1]:.4g}$; "
-        f"$b'(C)$ is the rest, ${predicted[2]:.4g}$.",
+        f"$b'({begins}) = {1 - moves:.2g} \\cdot {first:g} = {shown[0]:.4g}$; "
+        f"$b'(B) = {moves:g} \\cdot {first:g} + {1 - moves:.2g} \\cdot {middle:g} = {shown[1]:.4g}$; "
+        f"$b'({ends})$ is the rest, ${shown[2]:.4g}$.",
     )
 
 
 @drill("partial-observation", "How probable is an observation?")
 def probability_of_observation(rng: Rng) -> Question:
     """Compute the probability of an observation from a belief."""
-    left, accuracy = (
-        float(rng.choice([0.3, 0.6, 0.7, 0.9])),
-        float(rng.choice([0.8, 0.85])),
-    )
+    left = float(rng.integers(1, 20)) / 20
+    accuracy = float(rng.choice([0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95]))
     pomdp = mdp.tiger(accuracy=accuracy)
-    heard = float(pomdp.observation_probabilities([left, 1 - left], action=0)[0])
+    side = int(rng.integers(2))
+    asked, opposite = (("left", "right"), ("right", "left"))[side]
+    belief = [left, 1 - left]
+    heard = float(pomdp.observation_probabilities(belief, action=0)[side])
+    there = belief[side]
     return Question(
-        f"The tiger is behind the left door with probability ${left:g}$. Listening reports the right side with "
-        f"probability ${accuracy:g}$. How probable is it that the next report says left?",
+        f"The tiger is behind the left door with probability ${left:g}$, and otherwise behind the right one. Listening "
+        f"reports the side where it is with probability ${accuracy:g}$, and else the other side. How probable is it "
+        f"that the next report says {asked}?",
         Number(
             heard,
             wrong={
-                "The report may err, too: it also says left if the tiger is on the right and the report is wrong.": left
-                * accuracy,
-                "This is the belief itself. The report is not always right.": left,
-                "This holds if the tiger is surely on the left.": accuracy,
-                "This is the probability that the report says right.": 1 - heard,
+                f"The report may err, too: it also says {asked} if the tiger is on the {opposite} and the report is "
+                "wrong.": there * accuracy,
+                "This is the belief itself. The report is not always right.": there,
+                f"This holds if the tiger is surely on the {asked}.": accuracy,
+                f"This is the probability that the report says {opposite}.": 1 - heard,
             },
         ),
-        f"${left:g} \\cdot {accuracy:g} + {1 - left:.2g} \\cdot {1 - accuracy:.2g} = {heard:.4g}$.",
+        f"${there:g} \\cdot {accuracy:g} + {1 - there:.2g} \\cdot {1 - accuracy:.2g} = {heard:.4g}$.",
     )
 
 

@@ -117,30 +117,45 @@ def steps_of_an_episode(rng: Rng) -> Question:
     )
 
 
-ORDERS = {
-    "right, up, down, left": (1, 0, 2, 3),
-    "right, down, up, left": (1, 2, 0, 3),
-}
+WAYS = {"right": (0, 1), "up": (-1, 0), "down": (1, 0), "left": (0, -1)}
+PLACES = {"right": "left", "left": "right", "down": "top", "up": "bottom"}
+ALONG = {"right": "row", "left": "row", "down": "column", "up": "column"}
+Cells = np.ndarray
+
+
+def _turned(cells: Cells, ahead: str) -> Cells:
+    """A grid whose robot goes right, as one whose robot goes ahead."""
+    turned = {
+        "right": cells,
+        "left": cells[:, ::-1],
+        "down": cells.T,
+        "up": cells.T[::-1],
+    }
+    return turned[ahead]
 
 
 @drill("playground", "A robot without a memory")
 def without_memory(rng: Rng) -> Question:
     """Follow a rule that remembers nothing into a pocket, and see what it does there."""
-    words = str(rng.choice([*ORDERS]))
     row, length = int(rng.integers(1, 3)), int(rng.integers(2, 4))
-    rows = [[".", ".", ".", ".", "."] for _ in range(4)]
-    for i in (row - 1, row, row + 1):
-        rows[i][length + 1] = "#"
-    for i in (row - 1, row + 1):
-        rows[i][length] = "#"
-        rows[i][length - 1] = "#"
-    grid = mdp.GridWorld("\n".join("".join(symbols) for symbols in rows))
+    cells = np.full((4, 5), ".")
+    cells[row - 1 : row + 2, length + 1] = "#"
+    cells[[row - 1, row - 1, row + 1, row + 1], [length, length - 1] * 2] = "#"
+    cells[row, 0] = "S"
+    ahead = str(rng.choice([*WAYS]))
+    cells = _turned(cells, ahead)
+    back = {"right": "left", "left": "right", "up": "down", "down": "up"}[ahead]
+    aside = rng.permutation([way for way in WAYS if way not in (ahead, back)])
+    order = [ahead, *map(str, aside), back]
+    grid = mdp.GridWorld("\n".join("".join(symbols) for symbols in cells))
+    start = tuple(int(k) for k in np.argwhere(cells == "S")[0])
     steps = int(rng.integers(length + 1, length + 7))
-    at = int(grid.numbers[row, 0])
+    numbers = [list(map(tuple, mdp.gridworld.STEPS)).index(WAYS[way]) for way in order]
+    at = int(grid.numbers[start])
     visited = [at]
     for _ in range(steps):
         moves = grid.moves[at]
-        at = next(int(moves[a]) for a in ORDERS[words] if moves[a] != at)
+        at = next(int(moves[a]) for a in numbers if moves[a] != at)
         visited.append(at)
     places = [(int(i), int(j)) for i, j in grid.cells]
     name = list("ABCDEFGHIJKLMNOPQRST"[: len(places)])
@@ -148,22 +163,24 @@ def without_memory(rng: Rng) -> Question:
     wrong = {}
     if visited[-2] != at:
         wrong[name[visited[-2]]] = "This is where it is one step earlier. Count again."
+    inner = [name[k] for k in visited if k not in (at, visited[-2])]
+    wrong |= dict.fromkeys(inner, "It is there earlier, but not after so many steps.")
     shown: list[list[str | None]] = [
-        [None if symbol == "#" else "" for symbol in symbols] for symbols in rows
+        [None if symbol == "#" else "" for symbol in symbols] for symbols in cells
     ]
-    shown[row][0] = "robot"
+    shown[start[0]][start[1]] = "robot"
     last = ", ".join(name[state] for state in visited)
+    line = start[0] if ALONG[ahead] == "row" else start[1]
     return Question(
-        f"A robot goes to the first free cell in the order {words}, and remembers nothing. A wall or the border blocks "
-        f"a cell. In which cell is it after {steps} steps?",
+        f"A robot goes to the first free cell in the order {', '.join(order)}, and remembers nothing. A wall or the "
+        f"border blocks a cell. In which cell is it after {steps} steps?",
         Place([*name], [name[at]], wrong),
         f"It visits {last}. In the same place it senses the same and does the same again, so it goes to and fro and "
         "never leaves the pocket.",
         grid_picture(
             shown,
             names=letters,
-            title=f"A grid of four rows and five columns. The robot stands in row {row + 1} at the "
-            f"left. A pocket of walls "
-            f"opens towards it; its end is in column {length + 2}.",
+            title=f"A grid of {len(cells)} rows and {len(cells[0])} columns. The robot stands in {ALONG[ahead]} "
+            f"{line + 1} at the {PLACES[ahead]}. A pocket of walls opens towards it.",
         ),
     )

@@ -16,6 +16,11 @@ NAMES = ("F", "L30", "L60", "R30", "R60", "B")
 FREE = 10.0  # metres that a sector reads with nothing in range
 
 
+def _alike(table: list[list[float]], position: np.ndarray) -> bool:
+    """Whether a mistake does not show in this question."""
+    return bool(np.abs(table[0] - position).max() < 0.02)
+
+
 @drill("robot", "Where does a step lead?")
 def one_step(rng: Rng) -> Question:
     """Compute the pose after an action."""
@@ -43,6 +48,11 @@ def one_step(rng: Rng) -> Question:
     if NAMES[action] == "B":
         wrong["B goes backwards."] = moved(heading)
     end = heading + turn
+    sign = -1 if NAMES[action] == "B" else 1
+    wrong["The cosine belongs to x and the sine to y."] = moved(90 - end, sign * speed)
+    if speed > 1:
+        wrong["The step is as long as the robot goes in a second."] = moved(end, sign)
+    wrong = {hint: table for hint, table in wrong.items() if not _alike(table, after)}
     return Question(
         f"The robot stands at $({x:g}, {y:g})$ with the heading ${heading}°$ and goes at ${speed:g}$ m/s in an empty "
         f"map. Where is it after one step of action {NAMES[action]}?",
@@ -57,8 +67,9 @@ def one_step(rng: Rng) -> Question:
 @drill("robot", "What does a sensor read?")
 def sensor_reading(rng: Rng) -> Question:
     """Compute the distance that a sector reads."""
-    ahead, radius = float(rng.integers(4, 9)), float(rng.choice([1.0, 1.5, 2.0]))
-    side = float(rng.choice([0.0, 1.0]))
+    ahead = float(rng.integers(8, 19)) / 2
+    radius = float(rng.choice([0.5, 1.0, 1.5, 2.0]))
+    side = float(rng.choice([-1.0, -0.5, 0.0, 0.5, 1.0]))
     world = robot.make_world(circles=[(50 + ahead, 50 + side, radius)])
     reading = float(robot.sense(world, [(50, 50, 0)]).ranges[0, 0])
     distance = math.hypot(ahead, side)

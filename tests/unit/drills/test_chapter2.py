@@ -54,30 +54,91 @@ def test_stopping_bound() -> None:
         assert 2 * discount / (1 - discount) * change == pytest.approx(loss)
 
 
+def distances(goal: tuple[int, int], free: set[tuple[int, int]]) -> dict[tuple, int]:
+    """Steps to the goal from each cell."""
+    found, reached = {goal: 0}, [goal]
+    for i, j in reached:
+        for cell in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
+            if cell in free and cell not in found:
+                found[cell] = found[i, j] + 1
+                reached.append(cell)
+    return found
+
+
 def test_the_improved_cell_points_away_from_the_shortest_path() -> None:
-    distance = dict(zip("ABCDEFH", (4, 3, 2, 3, 1, 2, 1), strict=True))
-    position = dict(
-        zip(
-            "ABCDEFH",
-            [(0, 0), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)],
-            strict=True,
-        )
-    )
-    at = {cell: name for name, cell in position.items()} | {(2, 2): "goal"}
-    distance["goal"] = 0
     for question in drawn("improved-cell"):
-        wrong = []
-        for name, (i, j) in position.items():
-            group = re.search(rf'data-place="{name}">(.*?)</g>', question.picture)
-            assert group
-            x0, y0, x1, y1 = map(
-                float, re.search(r"M(\S+) (\S+)L(\S+) ([\d.]+)", group[1]).groups()
+        cells = {
+            (int(y) // 64, int(x) // 64)
+            for x, y in re.findall(r'<rect x="(\d+)" y="(\d+)"', question.picture)
+        }
+        walls = {
+            (int(y) // 64, int(x) // 64)
+            for x, y in re.findall(
+                r'<rect x="(\d+)" y="(\d+)"[^>]*fill="#888"', question.picture
             )
-            step = (i + int(np.sign(y1 - y0)), j + int(np.sign(x1 - x0)))
-            reached = at.get(step, name)
-            if distance[reached] != distance[name] - 1:
-                wrong.append(name)
+        }
+        arrows = {}
+        for name, group in re.findall(r'data-place="(\w)">(.*?)</g>', question.picture):
+            x, y = map(int, re.search(r'x="(\d+)" y="(\d+)"', group).groups())
+            x0, y0, x1, y1 = map(
+                float, re.search(r"M(\S+) (\S+)L(\S+) ([\d.]+)", group).groups()
+            )
+            turn = (int(np.sign(y1 - y0)), int(np.sign(x1 - x0)))
+            arrows[y // 64, x // 64] = (name, turn)
+        (goal,) = cells - walls - set(arrows)
+        steps = distances(goal, cells - walls)
+        wrong = [
+            name
+            for (i, j), (name, (down, right)) in arrows.items()
+            if steps.get((i + down, j + right), 99) != steps[i, j] - 1
+        ]
         assert wrong == list(question.asked.right)
+
+
+def test_a_run_of_policy_iteration_line_by_line() -> None:
+    for question in drawn("order-of-policy-iteration"):
+        rewards = re.findall(r"\\text\{\w+\}\) = (-?\d+)", question.text)
+        table = np.reshape([float(r) for r in rewards], (3, 2))
+        gamma = float(re.search(r"\\gamma = ([\d.]+)", question.text)[1])
+        policy = re.search(r"with the actions ([a-z, ]+)\.", question.text)[1].split(
+            ", "
+        )
+        happened: list[object] = []
+        while "end" not in map(str, happened):
+            values = np.zeros(3)
+            for _ in range(300):
+                values = np.array(
+                    [
+                        table[s, int(goes)] + gamma * values[(s + goes) % 3]
+                        for s, goes in enumerate(name == "go" for name in policy)
+                    ]
+                )
+            happened.append(values)
+            better = [
+                "stay"
+                if table[s, 0] + gamma * values[s]
+                > table[s, 1] + gamma * values[(s + 1) % 3]
+                else "go"
+                for s in range(3)
+            ]
+            happened.append("end" if better == policy else better)
+            policy = better
+
+        def place(line: str, happened=happened) -> int:
+            if "changes no action" in line:
+                return len(happened) - 1
+            if "become" in line:
+                actions = line.split("become ")[1].rstrip(".").split(", ")
+                return [isinstance(one, list) and one == actions for one in happened].index(True)  # fmt: skip
+            shown = numbers(line.split("are")[1])
+            return next(
+                k
+                for k, one in enumerate(happened)
+                if isinstance(one, np.ndarray) and np.allclose(one, shown, 1e-3, 1e-3)
+            )
+
+        places = [place(line) for line in question.asked.steps]
+        assert places == sorted(set(places))
 
 
 def test_td_error() -> None:
@@ -123,6 +184,8 @@ def test_belief_after_observation() -> None:
     for question in drawn("belief-after-observation"):
         (*given,) = numbers(question.text)
         belief, door = np.array(given[:3]), np.array(given[3:])
+        if "reports no door" in question.text:
+            door = 1 - door
         rng = np.random.default_rng(0)
         places = rng.choice(3, p=belief, size=200_000)
         reported = places[rng.random(len(places)) < door[places]]
@@ -132,8 +195,12 @@ def test_belief_after_observation() -> None:
 
 def test_belief_after_action() -> None:
     for question in drawn("belief-after-action"):
-        moves, a, b, c = numbers(question.text)
-        after = [a * (1 - moves), a * moves + b * (1 - moves), b * moves + c]
+        moves, *belief = numbers(question.text)
+        shift = 1 if "action right" in question.text else -1
+        after = [0.0, 0.0, 0.0]
+        for place, probability in enumerate(belief):
+            after[place] += probability * (1 - moves)
+            after[min(max(place + shift, 0), 2)] += probability * moves
         assert question.asked.answer[0] == pytest.approx(after)
 
 
@@ -141,6 +208,8 @@ def test_probability_of_observation() -> None:
     for question in drawn("probability-of-observation"):
         left, accuracy = numbers(question.text)
         heard = left * accuracy + (1 - left) * (1 - accuracy)
+        if "says right" in question.text:
+            heard = 1 - heard
         assert question.asked.answer == pytest.approx(heard)
 
 

@@ -52,8 +52,8 @@ def test_without_memory_from_the_picture() -> None:
         names = iter(question.asked.places)
         letter = {cell: next(names) for cell, is_free in free.items() if is_free}
         order = re.search(r"order ([a-z, ]+), and", question.text)[1].split(", ")
-        row = int(re.search(r"stands in row (\d)", question.picture)[1]) - 1
-        at = (row, 0)
+        x, y = re.search(r'<text x="(\d+)" y="(\d+)"[^>]*>robot<', question.picture).groups()  # fmt: skip
+        at = (int(y) // 64, int(x) // 64)
         for _ in range(int(numbers(question.text)[-1])):
             ahead = ((at[0] + STEPS[word][0], at[1] + STEPS[word][1]) for word in order)
             at = next(cell for cell in ahead if free.get(cell, False))
