@@ -52,6 +52,12 @@ def next_node(rng: Rng) -> Question:
         wrong[names[nearest]] = (
             "This is the node nearest to the target by its estimate. A* also counts the way from the start."
         )
+    tied = np.flatnonzero(np.isclose(total, total.min()))
+    for k, name in enumerate(names):
+        if k not in tied and name not in wrong:
+            wrong[name] = (
+                f"The sum $g + h = {total[k]:.4g}$ of this node is not the smallest."
+            )
     parts = []
     for k, name in enumerate(names):
         x = 1 + 1.4 * CELL * k
@@ -67,7 +73,6 @@ def next_node(rng: Rng) -> Question:
         title="Five open nodes, each with its cost g and its estimate h.",
     )
     sums = ", ".join(f"{name} {t:.4g}" for name, t in zip(names, total, strict=True))
-    tied = np.flatnonzero(np.isclose(total, total.min()))
     return Question(
         "Five nodes are open. $g$ is the cost of the way from the start, $h$ the estimate of the way that is left. "
         "Which node does A* expand next?",
@@ -102,11 +107,14 @@ def effective_steps(rng: Rng) -> Question:
     )
 
 
+PARTS = [[3, 4], [6, 8], [8, 6], [5, 12], [4, 3], [4, -3], [8, -6], [12, 5], [3, -4], [12, -9]]  # fmt: skip
+
+
 @drill("demonstrations", "The length of a path")
 def path_length(rng: Rng) -> Question:
     """Compare the length of a planned path with the distance of its ends."""
     points = np.cumsum(
-        [[10, 10], *rng.choice([[3, 4], [6, 8], [8, 6], [5, 12], [4, 3]], size=3)],
+        [[20, 40], *rng.choice(PARTS, size=3)],
         axis=0,
     ).astype(float)
     steps = np.diff(points, axis=0)

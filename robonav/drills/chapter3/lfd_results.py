@@ -9,8 +9,9 @@ import numpy as np
 from robonav import lfd, mdp, robot
 from robonav.lfd.dagger import beta_schedule
 
-from ..question import Choice, Number, Order, Question, Table
+from ..question import Choice, Number, Question, Table
 from ..registry import drill
+from ..runs import Line, as_list, some_in_order
 
 Rng = np.random.Generator
 NAMES = ("F", "L30", "L60", "R30", "R60")
@@ -20,8 +21,8 @@ FREE = 10.0  # what a sensor reads if nothing is in its range
 @drill("lfd-results", "Two bounds on what errors cost")
 def two_bounds(rng: Rng) -> Question:
     """Tell the bound for a cloned policy from that of errors in a policy's own states."""
-    steps = int(rng.choice([20, 30, 40, 50, 60, 80, 100]))
-    error = float(rng.choice([0.001, 0.002, 0.005, 0.01]))
+    steps = 10 * int(rng.integers(2, 16))
+    error = float(rng.choice([0.001, 0.002, 0.003, 0.004, 0.005, 0.006, 0.008, 0.01, 0.015, 0.02]))  # fmt: skip
     own, expert = error * steps, error * steps**2
     return Question(
         f"An episode has ${steps}$ steps, and each costs at most 1 more than the expert's. A policy takes another "
@@ -59,8 +60,8 @@ def two_bounds(rng: Rng) -> Question:
 @drill("lfd-results", "Errors after the first error")
 def compounding(rng: Rng) -> Question:
     """Compute the expected number of errors if the first one is never repaired."""
-    error = float(rng.choice([0.05, 0.1, 0.2, 0.3]))
-    steps = int(rng.integers(2, 5))
+    error = float(rng.integers(2, 41)) / 100
+    steps = int(rng.integers(2, 6))
     # state 0 is on the expert's path and state 1 off it; the reward counts errors; action 1 would end the episode
     drives = [[1 - error, error, 0], [0, 1, 0], [0, 0, 1]]
     rewards = [[error, 0], [1, 0], [0, 0]]
@@ -154,32 +155,39 @@ def labelled_state(rng: Rng) -> Question:
 @drill("lfd-results", "Who steers in which round?")
 def mixture_of_rounds(rng: Rng) -> Question:
     """Compute the probabilities of the mixture that collects DAgger's data."""
-    decay = float(rng.choice([0.2, 0.4, 0.5, 0.6, 0.8]))
-    schedule = beta_schedule(decay, 3)
-    learner = [1 - beta for beta in schedule]
+    decay = float(rng.integers(10, 91)) / 100
+    of_expert = bool(rng.integers(2))
+    betas = beta_schedule(decay, 3)
+    learner = [1 - beta for beta in betas]
+    late = [decay ** (i + 1) for i in range(4)]
+    steady = [max(1 - (1 - decay) * i, 0.0) for i in range(4)]
+
+    def asked(beta: list[float]) -> list[list[float]]:
+        """What is asked for, if these are the probabilities of the expert."""
+        return [beta if of_expert else [1 - b for b in beta]]
+
+    who = "expert" if of_expert else "learner"
     return Question(
-        f"DAgger is called with `beta_decay={decay:g}`. With which probability does the *learner* choose a step's "
+        f"DAgger is called with `beta_decay={decay:g}`. With which probability does the *{who}* choose a step's "
         "action in rounds 0 to 3? Give three decimals.",
         Table(
-            ["learner"],
+            [who],
             [f"round {i}" for i in range(4)],
-            [learner],
+            asked(betas),
             tolerance=0.0011,
             wrong={
-                "$\\beta$ is the probability that the expert chooses.": [schedule],
-                "Round 0 is steered by the expert alone: $\\beta_0 = 1$.": [
-                    [1 - decay ** (i + 1) for i in range(4)]
-                ],
-                "$\\beta$ is multiplied by the same factor in each round.": [
-                    [1 - max(1 - (1 - decay) * i, 0) for i in range(4)]
-                ],
-                "Without a decay $\\beta$ would be 0 from round 1 on. Here it is a power of the decay.": [
-                    [0, 1, 1, 1]
-                ],
+                "$\\beta$ is the probability that the expert chooses.": asked(learner),
+                "Round 0 is steered by the expert alone: $\\beta_0 = 1$.": asked(late),
+                "$\\beta$ is multiplied by the same factor in each round.": asked(
+                    steady
+                ),
+                "Without a decay $\\beta$ would be 0 from round 1 on. Here it is a power of the decay.": asked(
+                    [1.0, 0.0, 0.0, 0.0]
+                ),
             },
         ),
         f"$\\beta_i = {decay:g}^i$ is the expert's probability, and $1 - \\beta_i$ the learner's: "
-        + ", ".join(f"{share:.3g}" for share in learner)
+        + ", ".join(f"{share:.3f}" for share in (betas if of_expert else learner))
         + ".",
     )
 
@@ -228,7 +236,7 @@ class _AtZero:
 
 
 @drill("lfd-results", "A vote of neighbours")
-def vote_of_neighbours(rng: Rng) -> Question:
+def vote_of_neighbours(rng: Rng) -> Question | None:
     """Predict the action of a policy by nearest neighbours."""
     k = int(rng.choice([3, 5]))
     distances = np.round(np.sort(rng.uniform(0.1, 2.0, size=7)), 2)
@@ -236,14 +244,14 @@ def vote_of_neighbours(rng: Rng) -> Question:
     names = np.array(["F", "L30", "R30"])
     votes = np.bincount(actions[:k], minlength=3)
     if np.diff(distances).min() < 0.02 or (votes == votes.max()).sum() > 1:
-        return vote_of_neighbours(rng)
+        return None
     at_zero: Any = _AtZero()
     states = distances[:, None].astype(np.float64)
     policy = lfd.NeighbourPolicy(states, actions, at_zero, k)
     chosen = int(policy(at_zero, rng)[0])
     everyone = np.bincount(actions, minlength=3)
     if chosen == actions[0] == everyone.argmax():
-        return vote_of_neighbours(rng)  # every rule gives the same answer
+        return None  # every rule gives the same answer
     wrong = {}
     for action in range(3):
         hint = f"Fewer of the {k} nearest states have this action."
@@ -266,28 +274,51 @@ def vote_of_neighbours(rng: Rng) -> Question:
     )
 
 
-@drill("lfd-results", "The steps of DAgger")
+def _round(
+    number: int, maps: int, before: int, visited: int, steered: int
+) -> list[Line]:
+    """The lines of one round of DAgger."""
+    after = before + visited
+    return [
+        Line(
+            f"In {maps} new maps the robot, steered by the policy of {steered} pairs, visits {visited} states in which "
+            "a policy is asked.",
+            "There must be a policy, trained on the data so far, before it can steer.",
+        ),
+        Line(
+            f"The expert says what it would do in the {visited} states of round {number}.",
+            "The states that are labelled are those that the policy of the round before visits.",
+        ),
+        Line(
+            f"The data grow to {after} pairs.",
+            "Pairs are added when the expert has labelled the states of the round, and no earlier ones are lost.",
+        ),
+        Line(
+            f"A policy is trained on {after} pairs.",
+            "A new policy is trained on all data, with those of its round.",
+        ),
+    ]
+
+
+@drill("lfd-results", "A run of DAgger")
 def order_of_dagger(rng: Rng) -> Question:
     """Put the steps of DAgger in order."""
-    return Question(
-        "Put the steps of DAgger in order.",
-        Order(
-            [
-                "Clone a first policy from the expert's demonstrations.",
-                "Let the policy steer the robot in new maps.",
-                "Label each state that it visited with the expert's action.",
-                "Add these pairs to all data so far.",
-                "Train a new policy on all data.",
-            ],
-            before={
-                (0, 1): "There must be a policy before it can steer.",
-                (
-                    1,
-                    2,
-                ): "The states that are labelled are those that the policy visits.",
-                (2, 3): "Pairs have a label before they are added.",
-                (3, 4): "The new policy is trained on the data of this round, too.",
-            },
+    demonstrations, maps = int(rng.integers(5, 16)), int(rng.choice([10, 20, 25]))
+    first = int(rng.integers(150, 400))
+    added = [int(n) for n in rng.choice(np.arange(120, 300), size=2, replace=False)]
+    lines = [
+        Line(f"The expert drives {demonstrations} demonstrations.", ""),
+        Line(
+            f"A policy is cloned from {first} pairs.",
+            "The first policy is cloned from the demonstrations, so these come first.",
         ),
-        "A round of DAgger visits, labels, adds and trains. The first policy is a clone.",
+        *_round(1, maps, first, added[0], first),
+        *_round(2, maps, first + added[0], added[1], first + added[0]),
+    ]
+    asked = some_in_order(rng, lines, 5)
+    return Question(
+        f"A run of DAgger begins with ${first}$ pairs from demonstrations. Its rounds 1 and 2 visit ${added[0]}$ and "
+        f"${added[1]}$ states in which the expert is asked. Put these lines of the run in order.",
+        asked,
+        f"A round of DAgger visits, labels, adds and trains. The first policy is a clone. {as_list(asked)}",
     )

@@ -6,8 +6,9 @@ import numpy as np
 
 from robonav import networks
 
-from ..question import Number, Order, Question, Table
+from ..question import Number, Question, Table
 from ..registry import drill
+from ..runs import Line, as_list, some_in_order
 from ..text import sign
 
 Rng = np.random.Generator
@@ -46,7 +47,7 @@ def one_neuron(rng: Rng) -> Question:
 @drill("neural-network", "The error of an output unit")
 def output_errors(rng: Rng) -> Question:
     """Compute output errors under two costs."""
-    output, label = float(rng.choice([0.2, 0.3, 0.6, 0.7, 0.9])), int(rng.integers(2))
+    output, label = float(rng.integers(10, 96)) / 100, int(rng.integers(2))
     entropy = output - label
     squared = entropy * float(networks.sigmoid_slope(np.array(output)))
     return Question(
@@ -54,7 +55,7 @@ def output_errors(rng: Rng) -> Question:
         "What is its error $\\delta$ under each cost? Give three decimals.",
         Table(
             ["squared error", "cross-entropy"],
-            ["delta"],
+            ["$\\delta$"],
             [[squared], [entropy]],
             tolerance=0.0011,
             wrong={
@@ -118,31 +119,67 @@ def hidden_error(rng: Rng) -> Question:
     )
 
 
-@drill("neural-network", "The steps of one iteration of training")
+def _iteration(
+    number: int, network: networks.Network, x: np.ndarray, y: np.ndarray, step: float
+) -> tuple[list[Line], networks.Network]:
+    """The lines of one iteration of gradient descent, and the network after it."""
+    _, hidden, output = (float(a.squeeze()) for a in network.activations(x))
+    gradient = networks.cross_entropy_gradient(network, x, y)
+    slopes = [float(slope.squeeze()) for slope in gradient.weights]
+    after = networks.descend(network, gradient, step)
+    kept = networks.Network(after.weights, network.biases)  # there are no biases
+    new = [float(weight.squeeze()) for weight in kept.weights]
+    errors = [float(error.squeeze()) for error in gradient.biases]
+    lines = [
+        (
+            f"the hidden unit has the activation ${hidden:.3f}$.",
+            "It is computed with the weights at the beginning of the iteration, so the iteration before has ended.",
+        ),
+        (
+            f"the output is ${output:.3f}$.",
+            "Activations go forward: the output needs that of the hidden unit.",
+        ),
+        (
+            f"the error of the output unit is ${errors[1]:.3f}$.",
+            "The error of an output needs the output, which comes last on the way forward.",
+        ),
+        (
+            f"the error of the hidden unit is ${errors[0]:.3f}$.",
+            "Errors come back: that of a hidden unit is computed from those of the output units.",
+        ),
+        (
+            f"the derivatives by the two weights are ${slopes[0]:.3f}$ and ${slopes[1]:.3f}$.",
+            "A derivative is an error times an activation, so all errors come first.",
+        ),
+        (
+            f"the weights become ${new[0]:.3f}$ and ${new[1]:.3f}$.",
+            "The step needs the derivatives, for which activations and errors come first.",
+        ),
+    ]
+    return [Line(f"Iteration {number}: {text}", why) for text, why in lines], kept
+
+
+@drill("neural-network", "A run of training")
 def order_of_training(rng: Rng) -> Question:
     """Put the steps of gradient descent with backpropagation in order."""
+    first, second = _halves(rng, 2)
+    x, label = float(rng.choice([0.5, 1.0, 2.0])), int(rng.integers(2))
+    step = float(rng.choice([0.5, 1.0, 2.0]))
+    network = networks.Network(
+        (np.array([[first]]), np.array([[second]])), (np.zeros(1), np.zeros(1))
+    )
+    lines = []
+    for number in (1, 2):
+        made, network = _iteration(
+            number, network, np.array([[x]]), np.array([[float(label)]]), step
+        )
+        lines += made
+    asked = some_in_order(rng, lines, 5)
     return Question(
-        "Put the steps of one iteration of batch gradient descent in order.",
-        Order(
-            [
-                "Forward propagation: the activations of all layers.",
-                "The errors of the output units.",
-                "Backpropagation: the errors of the hidden units.",
-                "The derivatives by the weights: error times activation.",
-                "A step of all weights against the gradient.",
-            ],
-            before={
-                (0, 1): "The error of an output needs the output.",
-                (
-                    1,
-                    2,
-                ): "Errors of hidden units are computed from those of the output units.",
-                (
-                    2,
-                    3,
-                ): "The derivatives by the first layer's weights need the errors of the hidden units.",
-                (3, 4): "The step needs all derivatives.",
-            },
-        ),
-        "Activations go forward, errors come back, derivatives are products of both, and then the weights change.",
+        f"A network has one input, one hidden unit, one output unit, the weights ${first:g}$ and ${second:g}$, and no "
+        f"biases. It is trained with the input ${x:g}$, the label ${label}$ and the step size ${step:g}$. Put these "
+        "lines of the run in order.",
+        asked,
+        "Activations go forward, errors come back, derivatives are products of both, and then the weights change. "
+        f"{as_list(asked)}",
     )

@@ -92,7 +92,7 @@ def agreement_of_two(rng: Rng) -> Question:
 
 
 @drill("policy-learning", "Which action is learned worst?")
-def least_recalled(rng: Rng) -> Question:
+def least_recalled(rng: Rng) -> Question | None:
     """Find the action of the expert that a network repeats in the smallest part of its states."""
     counts = _confusion(rng)
     repeated = counts.diagonal()
@@ -100,8 +100,14 @@ def least_recalled(rng: Rng) -> Question:
     precision = repeated / counts.sum(axis=0)
     right = [NAMES[int(recall.argmin())]]
     if np.diff(np.sort(recall))[0] < 0.02:
-        return least_recalled(rng)  # too near to tell apart by two decimals
-    wrong = {}
+        return None  # too near to tell apart by two decimals
+    wrong = {
+        name: f"Its share, ${hit} / {row} = {share:.2f}$, is not the smallest."
+        for name, hit, row, share in zip(
+            NAMES, repeated, counts.sum(axis=1), recall, strict=True
+        )
+        if name not in right
+    }
     for name, hint in (
         (
             NAMES[int(precision.argmin())],
@@ -135,12 +141,15 @@ def least_recalled(rng: Rng) -> Question:
 def chosen_regularisation(rng: Rng) -> Question:
     """Choose a constant by the cost on a validation set."""
     decays = (0.01, 0.1, 1.0)
-    training = np.round(np.sort(rng.uniform(1.0, 2.2, size=3)), 2)
-    validation = np.round(training + rng.uniform(0.02, 1.2, size=3), 2)
-    best, fitted = int(validation.argmin()), int(training.argmin())
+    best = int(rng.integers(3))
+    while True:
+        training = np.round(np.sort(rng.uniform(1.0, 2.2, size=3)), 2)
+        validation = np.round(training + rng.uniform(0.02, 1.2, size=3), 2)
+        apart = np.diff(np.sort([*training, *validation])).min() > 0.02
+        if apart and best == validation.argmin():
+            break
+    fitted = int(training.argmin())
     closest = int((validation - training).argmin())
-    if np.diff(np.sort([*training, *validation])).min() < 0.02:
-        return chosen_regularisation(rng)
     wrong = {}
     for k in range(3):
         hint = "Another value has a lower cost on demonstrations that the network has not seen."
@@ -170,7 +179,7 @@ def chosen_regularisation(rng: Rng) -> Question:
 
 
 @drill("policy-learning", "Is a success rate possible?")
-def rate_in_interval(rng: Rng) -> Question:
+def rate_in_interval(rng: Rng) -> Question | None:
     """Decide by Wilson's condition whether a true rate is in the interval of a test."""
     n = int(rng.choice([50, 100, 200, 400]))
     k = round(n * rng.uniform(0.75, 0.97))
@@ -187,7 +196,7 @@ def rate_in_interval(rng: Rng) -> Question:
     error = math.sqrt(p * (1 - p) / n)
     simple = math.sqrt(k / n * (1 - k / n) / n)
     if abs(gap - Z * error) < 0.003:
-        return rate_in_interval(rng)  # too near to decide by three decimals
+        return None  # too near to decide by three decimals
     return Question(
         f"A policy arrives in ${k}$ of ${n}$ maps. Does Wilson's 95 % interval contain $p = {p:g}$? Give both sides of "
         "its condition with three decimals, and then 1 for yes or 0 for no.",
@@ -230,18 +239,22 @@ def perfect_test(rng: Rng) -> Question:
     """Compute where Wilson's interval begins after a test in which every episode arrived."""
     n = int(rng.integers(8, 300))
     low, _ = success_interval(n, n)
+    only_below = (n - Z**2) / n
+    wrong = {
+        "Policies with a smaller rate pass such a test, too. The simplest interval overlooks this.": 1.0,
+        "The 95 % say how often such intervals contain the true rate, not where they begin.": 0.95,
+        "The 1.96 is squared.": n / (n + Z),
+    }
+    if low - only_below > 0.003:
+        hint = "The square of 1.96 is added to the denominator, not subtracted from the numerator."
+        wrong[hint] = only_below
     return Question(
         f"A policy arrives in all of ${n}$ new maps. Where does Wilson's 95 % interval of its success rate begin? Give "
         "a fraction with three decimals.",
         Number(
             low,
             tolerance=0.0011,
-            wrong={
-                "Policies with a smaller rate pass such a test, too. The simplest interval overlooks this.": 1.0,
-                "The 95 % say how often such intervals contain the true rate, not where they begin.": 0.95,
-                "The 1.96 is squared.": n / (n + Z),
-                "The square of 1.96 stands in the denominator only.": (n - Z**2) / n,
-            },
+            wrong=wrong,
         ),
         "With $k = n$ the condition is $1 - p \\le 1.96^2 p / n$. The interval begins at "
         f"${n} / ({n} + 3.84) = {low:.3f}$.",
@@ -251,7 +264,8 @@ def perfect_test(rng: Rng) -> Question:
 @drill("policy-learning", "A lucky test")
 def lucky_test(rng: Rng) -> Question:
     """Compute how often a policy that fails sometimes passes a short test."""
-    one_in, maps = int(rng.choice([5, 10, 20, 50])), int(rng.integers(4, 20))
+    one_in = int(rng.choice([4, 5, 8, 10, 12, 15, 20, 25, 30, 40, 50]))
+    maps = int(rng.integers(4, 26))
     passed = (1 - 1 / one_in) ** maps
     return Question(
         f"A policy fails in one map of ${one_in}$. With which probability does it arrive in all of ${maps}$ new maps?",
@@ -264,7 +278,7 @@ def lucky_test(rng: Rng) -> Question:
                 "This is the probability that it arrives in one map.": 1 - 1 / one_in,
             },
         ),
-        f"The maps are independent: ${1 - 1 / one_in:g}^{{{maps}}} = {passed:.3g}$.",
+        f"The maps are independent: ${1 - 1 / one_in:.4g}^{{{maps}}} = {passed:.3g}$.",
     )
 
 
@@ -336,7 +350,7 @@ def penalty(rng: Rng) -> Question:
             term,
             tolerance=0.0011,
             wrong={
-                "The factor 1/2 is missing.": 2 * term,
+                "The factor $1/2$ is missing.": 2 * term,
                 "The penalty is divided by the number of pairs.": term * pairs,
                 "$\\lambda$ is missing.": term / decay,
             },

@@ -31,13 +31,13 @@ def _arrival(steps: int, discount: float) -> float:
 
 
 @drill("my-robot-circles", "What a round earns, forever")
-def round_forever(rng: Rng) -> Question:
+def round_forever(rng: Rng) -> Question | None:
     """Compute the return of going round a circle without end."""
     rewards = rng.choice([-0.5, -0.2, 0.0, 0.4, 0.5, 0.6], size=int(rng.integers(2, 4)))
     discount = float(rng.choice([0.5, 0.6, 0.8, 0.9]))
     answer, k = _forever(rewards, discount), len(rewards)
     if rewards[0] == 0 or len(set(rewards)) == 1:
-        return round_forever(rng)
+        return None
     once = float(mdp.discounted_return(rewards, discount)[0])
     factors = discount ** np.arange(k)
     return Question(
@@ -63,8 +63,8 @@ def round_forever(rng: Rng) -> Question:
 @drill("my-robot-circles", "The circle or the target?")
 def circle_against_target(rng: Rng) -> Question:
     """Compare the returns of circling and of an arrival."""
-    reward = float(rng.choice([0.05, 0.1, 0.2, 0.3, 0.4]))
-    discount = float(rng.choice([0.5, 0.6, 0.8, 0.9]))
+    reward = float(rng.choice([0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4]))
+    discount = float(rng.choice([0.5, 0.6, 0.7, 0.8, 0.9]))
     steps = int(rng.integers(2, 9))
     circle, target = _forever(np.array([reward]), discount), _arrival(steps, discount)
     better = "the circle" if circle > target else "the target"
@@ -101,12 +101,14 @@ def circle_against_target(rng: Rng) -> Question:
 @drill("my-robot-circles", "From which reward on a circle pays")
 def reward_that_pays(rng: Rng) -> Question:
     """Compute the reward of a step above which staying is worth more than an arrival."""
-    discount, steps = float(rng.choice([0.5, 0.6, 0.7, 0.8])), int(rng.integers(2, 6))
-    arrival = _arrival(steps, discount)
+    discount = float(rng.choice([0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9]))
+    steps, prize = int(rng.integers(2, 7)), float(rng.choice([1, 2, 5, 10]))
+    arrival = prize * _arrival(steps, discount)
     border = arrival / _forever(np.array([1.0]), discount)
+    times = "" if prize == 1 else f"{prize:g} \\cdot "
     return Question(
-        f"The target is ${steps}$ steps ahead, and an arrival earns 1. From which reward per step on does a robot "
-        f"prefer to stay where it is, forever, with $\\gamma = {discount:g}$? Give three decimals.",
+        f"The target is ${steps}$ steps ahead, and an arrival earns ${prize:g}$. From which reward per step on does a "
+        f"robot prefer to stay where it is, forever, with $\\gamma = {discount:g}$? Give three decimals.",
         Number(
             border,
             tolerance=0.0011,
@@ -114,49 +116,47 @@ def reward_that_pays(rng: Rng) -> Question:
                 "The robot gets the reward in every step, so a smaller one is enough.": arrival,
                 "An arrival in the next step is not discounted, so the exponent is the number of steps minus 1.": border
                 * discount,
-                "The arrival is later than the next step, and therefore discounted.": 1
-                - discount,
+                "The arrival is later than the next step, and therefore discounted.": prize
+                * (1 - discount),
             },
         ),
-        f"Staying is worth more if $r / (1 - \\gamma) > \\gamma^{{{steps - 1}}}$. The border is "
-        f"${1 - discount:.2g} \\cdot {discount:g}^{{{steps - 1}}} = {border:.3f}$.",
+        f"Staying is worth more if $r / (1 - \\gamma) > {times}\\gamma^{{{steps - 1}}}$. The border is "
+        f"${1 - discount:.2g} \\cdot {times}{discount:g}^{{{steps - 1}}} = {border:.3f}$.",
     )
 
 
 @drill("my-robot-circles", "How far may the target be?")
-def farthest_target(rng: Rng) -> Question:
+def farthest_target(rng: Rng) -> Question | None:
     """Find the largest distance at which an arrival is worth more than a circle."""
-    reward = float(rng.choice([0.01, 0.02, 0.05, 0.1]))
-    discount = float(rng.choice([0.6, 0.7, 0.8, 0.9]))
+    reward = float(rng.choice([0.01, 0.02, 0.05, 0.1, 0.2]))
+    discount = float(rng.choice([0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9]))
+    prize = float(rng.choice([1, 2, 5, 10]))
     circle = _forever(np.array([reward]), discount)
-
-    def farthest(least: float) -> int:
-        """The most steps at which an arrival has a larger return."""
-        return sum(_arrival(n, discount) > least for n in range(1, 80))
-
-    steps = farthest(circle)
-    gap = min(abs(_arrival(n, discount) - circle) for n in (max(steps, 1), steps + 1))
-    if steps < 2 or gap < 0.002:
-        return farthest_target(rng)
+    arrivals = prize * np.array([_arrival(n, discount) for n in range(1, 80)])
+    steps = int((arrivals > circle).sum())
+    gaps = abs(arrivals[steps - 1 : steps + 1] - circle)
+    if steps < 2 or gaps.min() < 0.002 * circle:
+        return None
+    times = "" if prize == 1 else f"{prize:g} \\cdot "
     return Question(
-        f"A robot that stays earns ${reward:g}$ in each step, forever, and an arrival earns 1. With "
+        f"A robot that stays earns ${reward:g}$ in each step, forever, and an arrival earns ${prize:g}$. With "
         f"$\\gamma = {discount:g}$, how many steps may the target be ahead at most, so that arriving has the larger "
         "return?",
         Number(
             steps,
             tolerance=0.1,
             wrong={
-                "The arrival in the next step has the return 1: the exponent is the number of steps minus 1.": steps
+                "The arrival in the next step is not discounted: the exponent is the number of steps minus 1.": steps
                 - 1,
                 "With one step more the circle is better already.": steps + 1,
-                "The circle earns its reward in every step, not once.": farthest(
-                    reward
+                "The circle earns its reward in every step, not once.": int(
+                    (arrivals > reward).sum()
                 ),
             },
         ),
         f"The circle's return is ${reward:g} / (1 - {discount:g}) = {circle:.3g}$. An arrival in {steps} steps has "
-        f"${discount:g}^{{{steps - 1}}} = {_arrival(steps, discount):.3g}$, and one in {steps + 1} steps "
-        f"${_arrival(steps + 1, discount):.3g}$.",
+        f"${times}{discount:g}^{{{steps - 1}}} = {arrivals[steps - 1]:.3g}$, and one in {steps + 1} "
+        f"steps ${arrivals[steps]:.3g}$.",
     )
 
 
@@ -258,7 +258,7 @@ def _ring(corner: tuple[int, int], clockwise: bool) -> dict[tuple[int, int], str
 
 
 @drill("my-robot-circles", "Where does the greedy robot end?")
-def caught_in_a_circle(rng: Rng) -> Question:
+def caught_in_a_circle(rng: Rng) -> Question | None:
     """Follow a greedy policy until it repeats itself."""
     grid = mdp.GridWorld("S . . G \n . . . . \n . . . .")
     model = grid.mdp(discount=0.9)
@@ -285,7 +285,7 @@ def caught_in_a_circle(rng: Rng) -> Question:
         if cell not in ring and cell != GOAL and later[s, cells.index(min(ring))] > 0
     ]
     if not into:
-        return caught_in_a_circle(rng)
+        return None
     start = int(rng.choice(into))
     names = dict(zip((c for c in cells if c != GOAL), LETTERS, strict=False))
     right = [names[cell] for s, cell in enumerate(cells) if later[start, s] > 0]

@@ -87,8 +87,8 @@ def rescaled(rng: Rng) -> Question:
 @drill("networks-for-q", "How many states has a table?")
 def count_states(rng: Rng) -> Question:
     """Count the states of a discretised robot."""
-    sensors, degrees = int(rng.choice([3, 4, 5])), int(rng.choice([3, 4, 5]))
-    regions = int(rng.choice([3, 5, 9]))
+    sensors, degrees = int(rng.integers(3, 7)), int(rng.integers(2, 8))
+    regions = int(rng.choice([3, 4, 5, 6, 8, 9, 12]))
     answer = degrees**sensors * regions * 2
     return Question(
         f"A robot has ${sensors}$ sensors with ${degrees}$ degrees of danger each, knows which of "

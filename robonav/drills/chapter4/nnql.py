@@ -8,8 +8,9 @@ from robonav import nnql
 from robonav.networks import Network, NetworkStack
 
 from ..pictures import CELL, box, label, picture, place
-from ..question import Choice, Number, Order, Place, Question, Table
+from ..question import Choice, Number, Place, Question, Table
 from ..registry import drill
+from ..runs import Line, as_list, some_in_order
 from ..text import sign
 
 Rng = np.random.Generator
@@ -25,8 +26,8 @@ def _list(numbers: np.ndarray) -> str:
 @drill("nnql", "The target of the last step")
 def last_step(rng: Rng) -> Question:
     """Compute the new value of the action of an episode's last step."""
-    q = float(rng.choice([0.3, 0.4, 0.6, 0.7]))
-    following = float(rng.choice([0.5, 0.8, 0.9]))
+    q = float(rng.integers(1, 10)) / 10
+    following = float(rng.integers(3, 10)) / 10
     rate, discount = float(rng.choice([0.5, 0.8])), float(rng.choice([0.6, 0.7]))
     reward, end = [
         (1.0, "arrives"),
@@ -67,7 +68,7 @@ def last_step(rng: Rng) -> Question:
 @drill("nnql", "Steps of gradient descent in an episode")
 def descents_of_episode(rng: Rng) -> Question:
     """Count how many pairs an episode of NNQL and one of online learning train on."""
-    decisions, passes = int(rng.integers(8, 41)), int(rng.integers(1, 4))
+    decisions, passes = int(rng.integers(6, 61)), int(rng.integers(1, 4))
     growing = passes * decisions * (decisions + 1) // 2
     online = passes * decisions
     times = f"{passes} \\cdot " if passes > 1 else ""
@@ -107,18 +108,18 @@ def descents_of_episode(rng: Rng) -> Question:
 
 
 @drill("nnql", "When has the list so many pairs?")
-def pairs_so_far(rng: Rng) -> Question:
+def pairs_so_far(rng: Rng) -> Question | None:
     """Find the step after which NNQL trains on a given number of pairs."""
     ranges = np.round(rng.uniform(3.6, 9.5, size=7), 1)
     free = rng.random(7) < 0.4
     ranges[free] = FREE
     learns = nnql.property_at(ranges) != nnql.Property.SAFE
     if not 3 <= learns.sum() <= 5:
-        return pairs_so_far(rng)
+        return None
     count = int(rng.integers(2, learns.sum() + 1))
     step = int(np.flatnonzero(learns)[count - 1]) + 1
     if count == step:
-        return pairs_so_far(rng)
+        return None
     wrong = {str(count): "In safe states the reflex acts, and no pair is kept."}
     parts = []
     for k, metres in enumerate(ranges, start=1):
@@ -233,42 +234,44 @@ def output_weights(rng: Rng) -> Question:
 
 
 @drill("nnql", "How long is a first value remembered?")
-def memory_of_a_value(rng: Rng) -> Question:
+def memory_of_a_value(rng: Rng) -> Question | None:
     """Compute how much of a wrong first value is left after some updates."""
-    rate, updates = float(rng.choice([0.1, 0.2, 0.5, 0.8])), int(rng.integers(2, 6))
-    value = np.array([1.0])
+    rate = float(rng.choice([0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8]))
+    updates, error = int(rng.integers(2, 8)), float(rng.choice([0.5, 1.0, 2.0]))
+    value = np.array([error])
     for _ in range(updates):
         value = nnql.q_targets(value, 0, 0.0, 0.0, rate, 0.6)
     left = float(value[0])
     if left < 0.01:
-        return memory_of_a_value(rng)
+        return None
+    times = "" if error == 1 else f"{error:g} \\cdot "
     return Question(
-        "A value is too large by 1 at first. All later targets are right. By how much is it still too large after "
-        f"${updates}$ updates with $\\alpha = {rate:g}$, if the network stores each value exactly? Give three "
+        f"A value is too large by ${error:g}$ at first. All later targets are right. By how much is it still too large "
+        f"after ${updates}$ updates with $\\alpha = {rate:g}$, if the network stores each value exactly? Give three "
         "decimals.",
         Number(
             left,
             tolerance=0.0011,
             wrong={
-                "An update keeps the part $1 - \\alpha$ of the error, not $\\alpha$.": rate
-                ** updates,
-                "Each update takes a part of what is left, not of the first error.": 1
-                - rate * updates,
-                "This is the part of the error that has gone.": 1 - left,
-                "This is what is left after one update less.": (1 - rate)
-                ** (updates - 1),
+                "An update keeps the part $1 - \\alpha$ of the error, not $\\alpha$.": error
+                * rate**updates,
+                "Each update takes a part of what is left, not of the first error.": error
+                * (1 - rate * updates),
+                "This is the part of the error that has gone.": error - left,
+                "This is what is left after one update less.": error
+                * (1 - rate) ** (updates - 1),
             },
         ),
-        f"Each update keeps $1 - \\alpha$ of the error: ${1 - rate:g}^{updates} = {left:.3f}$.",
+        f"Each update keeps $1 - \\alpha$ of the error: ${times}{1 - rate:g}^{updates} = {left:.3f}$.",
     )
 
 
 @drill("nnql", "Signed and absolute changes")
-def sums_of_changes(rng: Rng) -> Question:
+def sums_of_changes(rng: Rng) -> Question | None:
     """Sum the changes of a layer's weights in two ways."""
     changes = np.round(rng.uniform(-0.6, 0.6, size=5), 1)
     if 0 in changes:
-        return sums_of_changes(rng)
+        return None
     weights = np.stack([np.zeros(4), changes[:4]])[None, :, None, :]
     biases = np.array([0.0, changes[4]])[None, :, None]
     history = NetworkStack((weights,), (biases,))
@@ -302,44 +305,83 @@ def sums_of_changes(rng: Rng) -> Question:
     )
 
 
-@drill("nnql", "The steps of NNQL")
+def _step_of_nnql(rng: Rng, number: int, pairs: int) -> list[Line]:
+    """What NNQL does in one step of an episode, with numbers."""
+    q = np.round(rng.choice(np.arange(2, 9), size=3, replace=False) / 10, 1)
+    taken, following = int(rng.integers(3)), float(rng.integers(2, 10)) / 10
+    reward = float(rng.choice([-1.0, -0.5, 0.1, 0.5, 1.0]))
+    new = nnql.q_targets(q, taken, reward, following, 0.8, 0.6)
+    lines = [
+        (
+            f"the network gives ${_list(q)}$ for F, L30 and L60.",
+            "The network is asked at the beginning of a step, after it was trained in the step before.",
+        ),
+        (
+            f"the softmax policy draws {NAMES[taken]}, and the robot carries it out.",
+            "The softmax policy needs the values that the network gives in this step.",
+        ),
+        (
+            f"the reward is ${reward:g}$, and the largest value of the next state ${following:g}$.",
+            "The reward and the next state are known after the action.",
+        ),
+        (
+            f"line 13 of Algorithm 8 gives the value ${new[taken]:.3g}$.",
+            "The update needs the reward and the next state, which follow the action.",
+        ),
+        (
+            f"shifted into the range from 0 to 1 the three values are ${_list(nnql.shift(new))}$.",
+            "The update can lead out of the range, so the values are brought into it afterwards.",
+        ),
+        (
+            f"with this pair the list has {pairs} pairs.",
+            "A pair holds the rescaled values of its step, so these come first.",
+        ),
+        (
+            f"the network is trained on {pairs} pairs.",
+            "The pair of the step is among those that the network is trained on.",
+        ),
+    ]
+    return [Line(f"Step {number}: {text}", why) for text, why in lines]
+
+
+@drill("nnql", "A run of NNQL")
 def order_of_nnql(rng: Rng) -> Question:
     """Put what NNQL does in one step of an episode in order."""
+    number = int(rng.integers(3, 30))
+    pairs = int(rng.integers(1, number + 1))
+    lines = _step_of_nnql(rng, number, pairs) + _step_of_nnql(rng, number + 1, pairs + 1)  # fmt: skip
+    asked = some_in_order(rng, lines, 5)
     return Question(
-        "Put what NNQL does in one step of an episode in order.",
-        Order(
-            [
-                "Compute the Q-values of the state by the network.",
-                "Draw an action by the softmax policy, and carry it out.",
-                "Update the value of this action by the reward and the next state.",
-                "Bring the values into the range from 0 to 1.",
-                "Keep the pair of state and values.",
-                "Train the network on all pairs of the episode so far.",
-            ],
-            before={
-                (0, 1): "The softmax policy needs the Q-values.",
-                (1, 2): "The reward and the next state are known after the action.",
-                (
-                    2,
-                    3,
-                ): "The update can lead out of the range, so rescaling comes after it.",
-                (3, 4): "The pair holds the rescaled values.",
-                (4, 5): "The latest pair is among those that the network trains on.",
-            },
-        ),
-        "Lines 9 to 16 of Algorithm 8: values, action, update, rescaling, pair, training.",
+        f"In steps {number} and {number + 1} of an episode something is in range, so that the robot learns. With "
+        "$\\alpha = 0.8$ and $\\gamma = 0.6$ NNQL prints these lines. Put them in order.",
+        asked,
+        f"Lines 9 to 16 of Algorithm 8: values, action, update, rescaling, pair, training. {as_list(asked)}",
     )
 
 
-NEEDED = {
+LEARNED = {
     "the weights of the network": "They are what was learned. Without them the training begins again from the start.",
-    "the number of episodes so far": "The temperature, and the seeds of the next episode, depend on it.",
+    "the number of episodes so far": "How the robot explores, and the seeds of the next episode, depend on it.",
+}
+ALSO_OF_DQN = {
+    "the weights of the target network": "They are older than those of the network, and the next targets need them.",
+    "the transitions in the replay memory": "The next batches are drawn from all of them.",
+    "the means that Adam keeps of past gradients": "The next step of Adam depends on them.",
 }
 NOT_NEEDED = {
-    "the pairs of the present episode": "Each episode begins with an empty list of pairs.",
     "the maps of the episodes so far": "A map is made again from its seed and its number.",
     "the random numbers drawn so far": "Those of an episode depend only on its seed and its number.",
     "the paths of the robot": "No later step depends on where the robot was.",
+    "how much the robot explored in the last episode": "That follows from the number of the episode.",
+    "the Q-values of the states that it has seen": "The network computes them again.",
+    "what the sensors read at the end of the last episode": "The next episode begins in another map.",
+}
+EMPTY = "the pairs of the last episode"
+NEW = "the batch of the last step"
+METHODS = {
+    "NNQL": (LEARNED, {EMPTY: "Each episode begins with an empty list of pairs."}),
+    "online Q-learning": (LEARNED, {EMPTY: "It trains on the latest pair alone."}),
+    "DQN": (LEARNED | ALSO_OF_DQN, {NEW: "Each step draws a batch of its own."}),
 }
 
 
@@ -347,14 +389,17 @@ NOT_NEEDED = {
 def what_a_checkpoint_holds(rng: Rng) -> Question:
     """Tell what has to be saved between two episodes so that a training continues as if never interrupted."""
     seeds, episodes = int(rng.choice([4, 8, 16])), int(rng.choice([50, 100, 200]))
-    needed = bool(rng.integers(2))
-    good, bad = (NEEDED, NOT_NEEDED) if needed else (NOT_NEEDED, NEEDED)
+    method = str(rng.choice([*METHODS], p=[0.3, 0.2, 0.5]))
+    needed, not_needed = METHODS[method]
+    not_needed = NOT_NEEDED | not_needed
+    is_needed = bool(rng.integers(2))
+    good, bad = (needed, not_needed) if is_needed else (not_needed, needed)
     right = str(rng.choice([*good]))
-    others = [str(name) for name in rng.permutation([*bad])[: 3 if needed else 2]]
+    others = [str(name) for name in rng.permutation([*bad])[:3]]
     return Question(
-        f"A training of {seeds} robots with NNQL is saved after {episodes} episodes and continued later, with the same "
-        "result to the last bit. Its seeds and settings are known. Which of these "
-        f"{'has to be' if needed else 'need not be'} in the file?",
+        f"A training of {seeds} robots with {method} is saved after {episodes} episodes and continued later, as if it "
+        "had never been interrupted. Its seeds and settings are known. Which of these "
+        f"{'has to be' if is_needed else 'need not be'} in the file?",
         Choice(right, {name: bad[name] for name in others}),
         good[right],
     )

@@ -79,31 +79,37 @@ def two_targets(rng: Rng) -> Question:
 
 @drill("nnql-comparison", "How noise lifts a maximum")
 def lifted_maximum(rng: Rng) -> Question:
-    """Compute the mean of a maximum of two noisy estimates."""
-    value, error = (
-        round(float(rng.uniform(0, 1)), 1),
-        float(rng.choice([0.1, 0.2, 0.4])),
-    )
-    answer = value + error / 2
+    """Compute the mean of a maximum of noisy estimates."""
+    value = round(float(rng.uniform(-1, 2)), 1) + 0.0  # no -0
+    error = float(rng.choice([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8]))
+    words, cases = [("Two", 4), ("Three", 8)][int(rng.integers(2))]
+    high, low = value + error, value - error
+    answer = ((cases - 1) * high + low) / cases
     return Question(
-        f"Two actions have the same true value ${value:g}$. Each estimate is too high or too low by "
+        f"{words} actions have the same true value ${value:g}$. Each estimate is too high or too low by "
         f"${error:g}$, with equal "
-        "probability and independently of the other. What is the mean of the larger estimate?",
+        "probability and independently of the others. What is the mean of the largest estimate?",
         Number(
             answer,
             wrong={
-                "Each estimate is right in the mean, but the larger of the two is not.": value,
-                "The larger one is too high in three of four cases, not always.": value
-                + error,
-                "The larger one is too low only if both are: in one of four cases.": value
-                - error / 2,
-                "The two cases with opposite errors count as well: there, too, the larger one is too high.": value
-                + error / 4,
+                "Each estimate is right in the mean, but the largest of them is not.": value,
+                f"The largest one is too high in {cases - 1} of {cases} cases, not always.": high,
+                f"The largest one is too low only if all are: in one of {cases} cases.": (
+                    high + (cases - 1) * low
+                )
+                / cases,
+                "This is half as much above the true value as it should be.": value
+                + (answer - value) / 2,
             },
         ),
-        f"In three of four cases the larger estimate is ${value + error:.4g}$, in one it is ${value - error:.4g}$: "
-        f"$(3 \\cdot {value + error:.4g} {sign(value - error)}) / 4 = {answer:.4g}$.",
+        f"All estimates are too low in one of {cases} cases. In the others the largest is "
+        f"${high:.4g}$: $({cases - 1} \\cdot {_in_brackets(high)} {sign(low)}) / {cases} = {answer:.4g}$.",
     )
+
+
+def _in_brackets(number: float) -> str:
+    """A factor of a product."""
+    return f"({number:.4g})" if number < 0 else f"{number:.4g}"
 
 
 @drill("nnql-comparison", "Targets of NFQ")
@@ -170,13 +176,13 @@ def targets_of_nfq(rng: Rng) -> Question:
 
 
 @drill("nnql-comparison", "On how many pairs does each method train?")
-def pairs_of_methods(rng: Rng) -> Question:
+def pairs_of_methods(rng: Rng) -> Question | None:
     """Say how many pairs or transitions the training of each method uses at once."""
     episodes, decisions = int(rng.integers(5, 21)), int(rng.integers(10, 41))
     batch = int(rng.choice([16, 32, 64]))
     whole = episodes * decisions
     if len({1, decisions, whole, batch}) < 4 or whole <= 2 * batch:
-        return pairs_of_methods(rng)
+        return None
     return Question(
         f"Each of ${episodes}$ episodes had ${decisions}$ decisions, and the last one has just been made. NFQ now "
         f"fits its network, and DQN draws batches of ${batch}$. On how many pairs or transitions does the next "
@@ -220,7 +226,7 @@ def pairs_of_methods(rng: Rng) -> Question:
 
 
 @drill("nnql-comparison", "How surely is one method better?")
-def better_robot(rng: Rng) -> Question:
+def better_robot(rng: Rng) -> Question | None:
     """Compute the probability that a robot of one method beats one of another."""
     ours = np.sort(rng.integers(88, 100, size=4))
     theirs = np.sort(rng.integers(86, 99, size=3))
@@ -228,7 +234,7 @@ def better_robot(rng: Rng) -> Question:
     ties = int((ours[:, None] == theirs).sum())
     answer, pairs = (wins + ties / 2) / 12, 12
     if wins == pairs:
-        return better_robot(rng)
+        return None
     wrong = {
         "This is the probability that the other method is better.": 1 - answer,
     }
@@ -252,12 +258,17 @@ UNFAIR = {
     "{a} trained for {m} episodes, and {b} until it arrived in nine of ten maps": "Both must have "
     "the same budget, or the budget is what is reported.",
     "{a} was tested in {m} maps with 10 obstacles, and {b} in as many with 20": "Both must be tested in the same maps.",
+    "{n} robots of {a} and one robot of {b} were trained": "One robot may be lucky; both need as many.",
+    "{a} drove at 1 m/s and {b} at 2 m/s in the same {m} maps": "Both must drive at the same speed.",
+    "The {n} robots of {a} that failed in training were left out, those of {b} were not": "A failure counts for both.",
 }
 FAIR = (
     "{a} and {b} had {n} trials each, in maps that the test does not use",
     "{a} and {b} were tested in the same {m} maps, which neither had seen",
     "{a} and {b} have settings of their own, found in {n} trials each on tuning maps",
     "Of {a} and of {b} the mean of {n} runs is given, each with its interval",
+    "{n} robots of {a} and as many of {b} were trained, and all of them count",
+    "{a} and {b} drove at the same speed in {m} maps with as many obstacles",
 )
 
 

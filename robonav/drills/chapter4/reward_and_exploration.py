@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from robonav import nnql
+from robonav.robot import Outcome
 
-from ..question import Choice, Number, Order, Question, Table
+from ..question import Choice, Number, Question, Table
 from ..registry import drill
+from ..runs import Line, as_list, some_in_order
 from ..text import sign
 
 Rng = np.random.Generator
@@ -46,8 +48,9 @@ def softmax(rng: Rng) -> Question:
 @drill("reward-and-exploration", "A geometric schedule")
 def schedule(rng: Rng) -> Question:
     """Compute a temperature that falls by a factor each episode."""
-    start, end = rng.choice([(1.0, 0.01), (0.9, 0.1), (0.8, 0.05), (1.0, 0.04)])
-    fraction = float(rng.choice([0.25, 0.5, 0.75]))
+    start = float(rng.choice([0.5, 0.6, 0.8, 0.9, 1.0, 2.0]))
+    end = float(rng.choice([0.01, 0.02, 0.04, 0.05, 0.1]))
+    fraction = float(rng.choice([0.1, 0.2, 0.25, 0.4, 0.5, 0.6, 0.75, 0.8]))
     value = float(nnql.geometric_schedule((start, end), fraction))
     return Question(
         f"A temperature falls geometrically from ${start:g}$ to ${end:g}$. What is it after ${fraction:g}$ of all "
@@ -67,25 +70,51 @@ def schedule(rng: Rng) -> Question:
     )
 
 
+def _nine_ranges(rng: Rng, nearest: float) -> list[float]:
+    """Nine readings, the least of which is given."""
+    others = np.round(rng.uniform(nearest, 10, size=9), 1)
+    others[rng.random(9) < 0.3] = 10.0  # nothing in range
+    others[int(rng.integers(9))] = nearest
+    return [float(reading) for reading in others]
+
+
 @drill("reward-and-exploration", "The property of a state")
 def property_of_state(rng: Rng) -> Question:
     """Name the property of a state from the nearest distance."""
-    nearest = round(float(rng.uniform(1.1, 10)), 1) if rng.random() < 0.75 else 10.0
-    found = nnql.Property(int(nnql.property_at(np.array([nearest]))[0])).name.lower()
+    wanted = str(rng.choice(["safe", "cozy", "dangerous"]))
+    borders = {"safe": (10, 10), "cozy": (nnql.COZY_DISTANCE, 9.9)}
+    low, high = borders.get(wanted, (1.1, nnql.COZY_DISTANCE - 0.1))
+    nearest = round(float(rng.uniform(low, high)), 1)
+    ranges = _nine_ranges(rng, nearest)
+    outcomes = (
+        "is on its way",
+        "has arrived in this step",
+        "has collided in this step",
+    )
+    outcome = int(rng.choice(3, p=[0.7, 0.15, 0.15]))
+    codes = (
+        None
+        if outcome == 0
+        else np.array([(Outcome.ARRIVED, Outcome.COLLIDED)[outcome - 1]])
+    )
+    found = nnql.property_at(np.array([min(ranges)]), codes)[0]
+    name = nnql.Property(int(found)).name.lower()
     hints = {
-        "safe": "A state is safe only if nothing is in sensor range.",
-        "cozy": "In a cozy state something is in range, and nothing is near.",
-        "dangerous": "A state is dangerous only if something is nearer than the border of cozy states.",
-        "winning": "A winning state is an arrival; the robot is still on its way.",
-        "failure": "A failure is a collision; nothing is nearer than 1 m.",
+        "safe": "A state is safe only if nothing is in sensor range, and the episode goes on.",
+        "cozy": "In a cozy state something is in range, nothing is near, and the episode goes on.",
+        "dangerous": "A state is dangerous only if something is nearer than the border of cozy states, and the episode "
+        "goes on.",
+        "winning": "A winning state is an arrival.",
+        "failure": "A failure is a collision.",
     }
-    wrong = {name: hint for name, hint in hints.items() if name != found}
+    wrong = {name_: hint for name_, hint in hints.items() if name_ != name}
+    shown = ", ".join(f"{reading:g}" for reading in ranges)
     return Question(
-        f"The robot is on its way, and the least of its nine ranges is ${nearest:g}$ m. Which "
-        f"property has its state by "
-        "Eq. (4.6)?",
-        Choice(found, wrong),
-        f"With the nearest thing at ${nearest:g}$ m the state is {found}: nothing in range is safe, nearer than "
+        f"The robot {outcomes[outcome]}. Its nine sensors read ${shown}$ m. Which property has its state by Eq. (4.6)?",
+        Choice(name, wrong),
+        f"The robot {outcomes[outcome]}, so the state is {name}, whatever its sensors read."
+        if outcome
+        else f"The nearest thing is at ${nearest:g}$ m, so the state is {name}: nothing in range is safe, nearer than "
         f"${nnql.COZY_DISTANCE:g}$ m is dangerous, and what lies between is cozy.",
     )
 
@@ -114,42 +143,50 @@ def potential(rng: Rng) -> Question:
     )
 
 
+ANSWERS = {
+    (True, True): "It is exclusive and total",
+    (False, True): "It is total, but not exclusive",
+    (True, False): "It is exclusive, but not total",
+    (False, False): "It is neither exclusive nor total",
+}
+
+
+def _border(rng: Rng, at: int, kind: str) -> tuple[str, str, int, int]:
+    """How a row ends and the next one begins: words, and the last distance of the one and the first of the other."""
+    first = at + {"exact": 1, "both": 0, "neither": 2}[kind]
+    ends = rng.choice([f"at most {at} m", f"less than {at + 1} m"])
+    begins = rng.choice([f"at least {first} m", f"more than {first - 1} m"])
+    return str(ends), str(begins), at, first
+
+
 @drill("reward-and-exploration", "One row for every step?")
 def one_row_for_every_step(rng: Rng) -> Question:
     """Tell whether a table of rewards is exclusive and total."""
-    border = int(rng.integers(3, 8))
-    low_closed, high_closed = bool(rng.integers(2)), bool(rng.integers(2))
-    shift = int(rng.choice([0, 0, 1, -1]))
-    low, high = border, border + shift
-    whole = np.arange(0, 11)
-    first = whole <= low if low_closed else whole < low
-    second = whole >= high if high_closed else whole > high
-    exclusive, total = not (first & second).any(), bool((first | second).all())
-    answers = {
-        (True, True): "It is exclusive and total",
-        (False, True): "It is total, but not exclusive",
-        (True, False): "It is exclusive, but not total",
-        (False, False): "It is neither exclusive nor total",
+    kinds = {
+        (True, True): ("exact", "exact"),
+        (False, True): ("both", "exact"),
+        (True, False): ("neither", "exact"),
+        (False, False): ("both", "neither"),
     }
-    both = [int(n) for n in whole[first & second]]
-    none = [int(n) for n in whole[~first & ~second]]
-    hint = (
-        f"At {both[0]} m both rows hold."
-        if both
-        else f"At {none[0]} m no row holds."
-        if none
-        else "At each distance exactly one row holds."
-    )
-    right = answers[exclusive, total]
+    exclusive, total = (bool(rng.integers(2)) for _ in range(2))
+    low, high = int(rng.integers(1, 4)), int(rng.integers(5, 8))
+    first, second = rng.permutation(kinds[exclusive, total])
+    near_ends, middle_begins, last_near, first_middle = _border(rng, low, str(first))
+    middle_ends, far_begins, last_middle, first_far = _border(rng, high, str(second))
+    rows = f"*{near_ends}*, *{middle_begins} and {middle_ends}*, and *{far_begins}*"
+    whole = np.arange(11)
+    holds = [whole <= last_near, (first_middle <= whole) & (whole <= last_middle), whole >= first_far]  # fmt: skip
+    often = np.sum(holds, axis=0)
+    both, none = np.flatnonzero(often > 1), np.flatnonzero(often == 0)
+    found = (len(both) == 0, len(none) == 0)
+    said = [f"At {n} m two rows hold." for n in both] + [
+        f"At {n} m no row holds." for n in none
+    ]
+    hint = " ".join(said) or "At each distance exactly one row holds."
+    right = ANSWERS[found]
     return Question(
-        f"Distances are whole metres from 0 to 10. A table of rewards has two rows: "
-        f"*{'at most' if low_closed else 'less than'} "
-        f"{low} m* and *{'at least' if high_closed else 'more than'} {high} m*. What is true of it?",
-        Choice(
-            right,
-            {answer: hint for answer in answers.values() if answer != right},
-            order=tuple(answers.values()),
-        ),
+        f"Distances are whole metres from 0 to 10. A table of rewards has three rows: {rows}. What is true of it?",
+        Choice(right, {answer: hint for answer in ANSWERS.values() if answer != right}),
         f"{hint} A table is exclusive if no two rows hold at once, and total if some row always holds.",
     )
 
@@ -157,30 +194,45 @@ def one_row_for_every_step(rng: Rng) -> Question:
 @drill("reward-and-exploration", "An episode with Gymnasium")
 def parts_of_an_episode(rng: Rng) -> Question:
     """Put the parts of an episode in order, as any Gymnasium environment needs them."""
-    lines = [
-        f"`reset` with the seed {int(rng.integers(100))} gives the first state.",
-        "The policy chooses an action for the state.",
-        "`step` gives the next state, the reward, and whether the episode has ended.",
-        f"The target is the reward; unless the episode has ended, plus {rng.choice([0.65, 0.9])} "
-        f"times the best next value.",
-        "The value of state and action moves towards the target.",
-        "The next state becomes the state.",
+    seed, discount = int(rng.integers(100)), float(rng.choice([0.5, 0.65, 0.8, 0.9]))
+    rate = float(rng.choice([0.1, 0.2, 0.5]))
+    states = [int(n) for n in rng.choice(20, size=3, replace=False)]
+    actions = [str(name) for name in rng.choice(["F", "L30", "R30", "L60"], size=2)]
+    old, following = rng.choice(np.arange(1, 10), size=(2, 2)) / 10
+    reward = float(rng.choice([-0.1, 0.0, 0.1]))
+    targets = [reward + discount * following[0], 1.0]
+    new = [
+        float(nnql.q_targets(np.array([q]), 0, target, 0.0, rate, 0.0)[0])
+        for q, target in zip(old, targets, strict=True)
     ]
-    hints = (
-        "A policy needs a state, and the first one comes from the reset.",
-        "The environment is told an action, so that it must be chosen before.",
-        "The target needs the reward and the next state.",
-        "The value moves towards the target, so the target comes first.",
-        "The update is that of the old state, so the state changes after it.",
-    )
-    first = int(rng.integers(3))
-    shown = lines[first : first + 4]
+    ends = [f"and the reward ${reward:g}$.", "the reward $1$, and that the episode has ended."]  # fmt: skip
+    lines = [Line(f"`reset` with the seed {seed} gives the state {states[0]}.", "")]
+    for k in range(2):
+        now, then = states[k], states[k + 1]
+        lines += [
+            Line(
+                f"The policy chooses {actions[k]} for the state {now}.",
+                "A policy needs a state, and the values after the update of the step before.",
+            ),
+            Line(
+                f"`step` gives the state {then}{',' if k else ''} {ends[k]}",
+                "The environment is told an action for the state that it has given before.",
+            ),
+            Line(
+                f"The target for the state {now} is ${targets[k]:.4g}$.",
+                "The target needs the reward and the state that `step` gives.",
+            ),
+            Line(
+                f"The value of {actions[k]} in the state {now} becomes ${new[k]:.4g}$.",
+                "The value moves towards the target of its step, so the target comes first.",
+            ),
+        ]
+    asked = some_in_order(rng, lines, 5)
     return Question(
-        "Put these parts of an episode in order. The parts after the reset are repeated until the episode ends.",
-        Order(
-            shown,
-            "Each part uses what the parts before it have computed.",
-            {(k, k + 1): hints[first + k] for k in range(3)},
-        ),
-        " ".join(f"({k + 1}) {part}" for k, part in enumerate(shown)),
+        "Q-learning updates a value after each step, before it chooses the next action, with "
+        f"$\\gamma = {discount:g}$ and $\\alpha = {rate:g}$. In an episode of two steps the robot is in the states "
+        f"{states[0]}, {states[1]} and {states[2]}. The largest value in the state {states[1]} is ${following[0]:g}$. "
+        "Put these lines of the run in order.",
+        asked,
+        f"Reset, choose, step, target, update, and again from the next state on. {as_list(asked)}",
     )

@@ -200,9 +200,10 @@ def test_mixture_of_rounds_by_drawing_who_steers() -> None:
     rng = np.random.default_rng(0)
     for question in drawn("mixture-of-rounds")[:10]:
         decay = numbers(question.text)[0]
-        for i, learner in enumerate(question.asked.answer[0]):
-            experts = (rng.random((200_000, i)) < decay).all(axis=1)
-            assert learner == pytest.approx(1 - experts.mean(), abs=0.006)
+        for i, share in enumerate(question.asked.answer[0]):
+            expert = (rng.random((200_000, i)) < decay).all(axis=1).mean()
+            drawn_share = expert if "the *expert*" in question.text else 1 - expert
+            assert share == pytest.approx(drawn_share, abs=0.006)
 
 
 def test_share_of_other_data() -> None:
@@ -219,3 +220,41 @@ def test_vote_of_neighbours() -> None:
         k = int(numbers(question.text)[-1])
         voters = [name for _, name in sorted(pairs, key=lambda p: float(p[0]))[:k]]
         assert question.asked.right == max(voters, key=voters.count)
+
+
+def test_a_run_of_training_line_by_line() -> None:
+    words = ["has the activation", "output is", "output unit", "of the hidden", "deriv", "become"]  # fmt: skip
+    for question in drawn("order-of-training"):
+        w1, w2, x, label, step = numbers(question.text)
+        happened = []
+        for _ in range(2):
+            hidden = sigmoid(w1 * x)
+            output = sigmoid(w2 * hidden)
+            error = output - label
+            back = error * w2 * hidden * (1 - hidden)
+            slopes = [back * x, error * hidden]
+            w1, w2 = w1 - step * slopes[0], w2 - step * slopes[1]
+            happened += [[hidden], [output], [error], [back], slopes, [w1, w2]]
+        places = []
+        for line in question.asked.steps:
+            iteration, *shown = numbers(line)
+            place = next(k for k, word in enumerate(words) if word in line)
+            places.append(6 * (int(iteration) - 1) + place)
+            assert shown == pytest.approx(happened[places[-1]], abs=6e-4)
+        assert places == sorted(set(places))
+
+
+def test_a_run_of_dagger_line_by_line() -> None:
+    for question in drawn("order-of-dagger"):
+        first, *added = (int(n) for n in numbers(question.text.replace("rounds 1 and 2", "")))  # fmt: skip
+        happened = ["drives", f"cloned from {first}"]
+        pairs = first
+        for visited in added:
+            happened += [f"visits {visited} ", f"in the {visited} "]
+            pairs += visited
+            happened += [f"grow to {pairs} ", f"trained on {pairs} "]
+        places = [
+            next(k for k, words in enumerate(happened) if words in line)
+            for line in question.asked.steps
+        ]
+        assert places == sorted(set(places))
