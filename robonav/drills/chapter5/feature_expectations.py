@@ -26,7 +26,7 @@ def of_one_trajectory(rng: Rng) -> Question:
         f"The three steps of a trajectory have the features {shown}. What are its feature expectations with "
         f"$\\gamma = {discount:g}$?",
         Table(
-            ["mu"],
+            ["$\\mu$"],
             ["feature 1", "feature 2"],
             [mu.tolist()],
             wrong={

@@ -51,7 +51,7 @@ def margin_of_one(rng: Rng) -> Question:
 
 
 @drill("max-margin", "Which reward prefers the expert most?")
-def best_of_three(rng: Rng) -> Question:
+def best_of_three(rng: Rng) -> Question | None:
     """Compare the margins of three rewards against two policies."""
     expert = rng.integers(2, 8, size=2).astype(float)
     others = rng.integers(0, 8, size=(2, 2)).astype(float)
@@ -61,7 +61,7 @@ def best_of_three(rng: Rng) -> Question:
     names = [f"$({a:g}, {b:g})$" for a, b in rewards]
     best = int(margins.argmax())
     if np.sort(margins)[-1] - np.sort(margins)[-2] < 0.05:
-        names[best] = names[best - 1]  # a tie: not clear, so another question is drawn
+        return None  # a tie, or nearly one
     hint = "Its margin is its smallest lead over the policies"
     wrong = {
         name: f"{hint}, ${margin:.4g}$"
@@ -75,7 +75,7 @@ def best_of_three(rng: Rng) -> Question:
         f"The expert has $\\mu_E = {_pair(expert)}$, and two policies have ${_pair(others[0])}$ and "
         f"${_pair(others[1])}$. "
         "Which of these weights prefers the expert by the largest margin?",
-        Choice(names[best], wrong, order=names),
+        Choice(names[best], wrong),
         "The margins, the smaller lead of each: "
         + ", ".join(f"{name} ${m:.4g}$" for name, m in zip(names, margins, strict=True))
         + ".",
@@ -121,8 +121,9 @@ def projection(rng: Rng) -> Question:
 @drill("max-margin", "Back into the unit ball")
 def into_the_ball(rng: Rng) -> Question:
     """Project weights that are too long."""
-    pairs = np.array([[3, 4], [6, 8], [-3, 4], [0.3, 0.4], [5, 12], [0.6, -0.8]])
-    weights = rng.choice(pairs) * rng.choice([0.5, 1.0])
+    sides = np.array([[3, 4], [5, 12], [8, 15], [7, 24], [20, 21]])
+    weights = rng.permutation(rng.choice(sides)) * rng.choice([-1, 1], size=2)
+    weights = weights * rng.choice([0.02, 0.05, 0.1, 0.2, 0.5])
     projected = nirl.project_to_unit_ball(weights)
     length = float(np.linalg.norm(weights))
     wrong = {

@@ -6,8 +6,9 @@ import numpy as np
 
 from robonav import nirl
 
-from ..question import Choice, Number, Order, Question, Table
+from ..question import Choice, Number, Question, Table
 from ..registry import drill
+from ..runs import Line, as_list, some_in_order
 from ..text import sign
 
 Rng = np.random.Generator
@@ -76,9 +77,9 @@ def sarsa_target(rng: Rng) -> Question:
 @drill("nirl", "Plain and balanced accuracy")
 def two_accuracies(rng: Rng) -> Question:
     """Compute both accuracies from a confusion matrix."""
-    often, seldom = int(rng.choice([40, 60, 80, 90])), int(rng.choice([5, 10, 20]))
-    hit_often = int(often * rng.choice([0.8, 0.9, 1.0]))
-    hit_seldom = int(seldom * rng.choice([0.0, 0.2, 0.4, 0.6]))
+    often, seldom = int(rng.choice([40, 50, 60, 80, 90])), int(rng.choice([5, 8, 10, 20]))  # fmt: skip
+    hit_often = int(often * rng.uniform(0.7, 1.0))
+    hit_seldom = int(seldom * rng.uniform(0.0, 0.8))
     own = np.repeat([0, 1], [often, seldom])
     predicted = np.concatenate(
         [
@@ -113,61 +114,86 @@ def two_accuracies(rng: Rng) -> Question:
 @drill("nirl", "A learned reward on the unit interval")
 def scaled_rewards(rng: Rng) -> Question:
     """Map rewards into the network's range."""
-    rewards = np.array([-1.0, 1.0, 0.0]) * float(rng.choice([2.0, 4.0, 5.0]))
-    rewards[2] = float(rng.choice([-1.0, 0.5, 1.0, 1.5]))
-    rewards[1] *= float(rng.choice([0.5, 0.25]))
+    rewards = rng.choice(np.arange(-10, 11), size=3, replace=False) / 2
     scaled = nirl.scale_to_unit_interval(rewards, percentile=100)
     scale = abs(rewards).max()
     low, high = rewards.min(), rewards.max()
     return Question(
         f"The learned rewards of three steps are ${', '.join(f'{r:g}' for r in rewards)}$. Divide "
         f"them by the largest "
-        "absolute value and map the result so that 0 becomes 1/2. What are they then?",
+        "absolute value and map the result so that 0 becomes $1/2$. What are they then?",
         Table(
             ["reward"],
             ["step 1", "step 2", "step 3"],
             [scaled.tolist()],
             wrong={
-                "These are only divided. They must lie between 0 and 1, with 0 at 1/2.": [
+                "These are only divided. They must lie between 0 and 1, with 0 at $1/2$.": [
                     (rewards / scale).tolist()
                 ],
-                "This maps the least to 0 and the largest to 1, so 0 does not become 1/2.": [
+                "This maps the least to 0 and the largest to 1, so 0 does not become $1/2$.": [
                     ((rewards - low) / (high - low)).tolist()
                 ],
             },
         ),
-        "$(r / " + f"{scale:g}" + " + 1) / 2$: "
-        f"{', '.join(f'{r:.4g}' for r in scaled)}.",
+        f"$(r / {scale:g} + 1) / 2$: {', '.join(f'{r:.4g}' for r in scaled)}.",
     )
 
 
-@drill("nirl", "The steps of NIRL")
+def _iteration(
+    number: int, arrived: int, margin: float, pairs: int, last: bool
+) -> list[Line]:
+    """What one iteration of Algorithm 10 does; the last one stops."""
+    lines = [
+        (
+            f"run episodes in new maps with the present policy, which arrives in {arrived} of 10.",
+            "An iteration begins with episodes of the present policy, which was trained in the iteration before.",
+        ),
+        (
+            f"find the reward that separates the expert from this policy; the margin is ${margin:.2f}$.",
+            "The reward is compared with the present policy, which must have been run before.",
+        ),
+    ]
+    if last:
+        lines.append(
+            (
+                f"stop, because the margin ${margin:.2f}$ is small.",
+                "There is no margin yet that could be small.",
+            )
+        )
+    else:
+        lines += [
+            (
+                f"do not stop, because the margin ${margin:.2f}$ is not small.",
+                "There is no margin yet that could be small.",
+            ),
+            (
+                f"compute the targets of {pairs} pairs under this reward.",
+                "The targets need the reward, and are computed only if the margin is not small.",
+            ),
+            (
+                "train the network on the targets.",
+                "The network is trained on the targets of the iteration, so these come first.",
+            ),
+        ]
+    return [Line(f"Iteration {number}: {text}", why) for text, why in lines]
+
+
+@drill("nirl", "A run of NIRL")
 def order_of_nirl(rng: Rng) -> Question:
     """Put the steps of one iteration of Algorithm 10 in order."""
-    steps = [
-        "Run episodes in new maps with the present policy",
-        "Find the reward that separates the expert from this policy, and its margin",
-        "Stop if the margin is small",
-        "Compute the targets of the pairs under this reward",
-        "Train the network on the targets",
-    ]
-    hints = (
-        "The reward is compared with the present policy, which must have been run before.",
-        "There is no margin yet that could be small.",
-        "The algorithm looks at the margin first. If it is small, no training is needed.",
-        "The network is trained on the targets, so these come first.",
-    )
-    first = int(rng.integers(2))
-    shown = steps[first : first + 4] if rng.random() < 0.5 else steps
-    start = steps.index(shown[0])
+    number, pairs = int(rng.integers(2, 30)), int(rng.integers(90, 200))
+    arrived = np.sort(rng.integers(2, 11, size=2))
+    margin = float(rng.uniform(0.3, 0.9))
+    stops = bool(rng.integers(2))
+    small = float(rng.uniform(0.01, 0.09)) if stops else margin - 0.1
+    lines = _iteration(number, int(arrived[0]), margin, pairs, last=False)
+    lines += _iteration(number + 1, int(arrived[1]), small, pairs + 20, last=stops)
+    asked = some_in_order(rng, lines, 5)
     return Question(
-        "Put these steps of an iteration of Algorithm 10 in order.",
-        Order(
-            shown,
-            "Each step uses the result of the step before it.",
-            {(k, k + 1): hints[start + k] for k in range(len(shown) - 1)},
-        ),
-        "; ".join(f"{k + 1}. {step}" for k, step in enumerate(shown)) + ".",
+        f"Put these lines of the iterations {number} and {number + 1} of Algorithm 10 in order. A margin below 0.1 is "
+        "small.",
+        asked,
+        f"Episodes, reward and margin, the decision whether to stop, targets, training. {as_list(asked)}",
     )
 
 
@@ -177,17 +203,33 @@ GIVEN = {
     "the discount": "0.65",
     "the number of hidden units": "10, or 8",
     "the number of episodes in an iteration": "10",
+    "the number of iterations": "about 140",
+    "the range of the sensors": "10 m",
+    "the distance from which on a state is dangerous": "5 m",
+    "the number of demonstrations": "30",
 }
 OPEN = (
     "the inverse temperature",
     "the number of seconds of an episode",
     "the number of gradient steps in an iteration",
+    "the number of obstacles in the maps of the demonstrations",
 )
 
 
 @drill("nirl", "What does the thesis leave open?")
 def left_open(rng: Rng) -> Question:
     """Tell which settings of NIRL the thesis does not give."""
+    if rng.random() < 0.3:
+        right = str(rng.choice([*GIVEN]))
+        others = [str(name) for name in rng.permutation(OPEN)[:3]]
+        return Question(
+            "Which of these settings of NIRL does the thesis give?",
+            Choice(
+                right,
+                {name: f"The thesis does not give {name}." for name in others},
+            ),
+            f"The thesis gives {right}: {GIVEN[right]}. A repetition has to try several values of the others.",
+        )
     right = str(rng.choice(OPEN))
     others = [str(name) for name in rng.choice([*GIVEN], size=3, replace=False)]
     return Question(
@@ -196,5 +238,5 @@ def left_open(rng: Rng) -> Question:
             right,
             {name: f"The thesis gives it: {GIVEN[name]}." for name in others},
         ),
-        f"The thesis does not say {right}, so that a repetition has to try several.",
+        f"The thesis does not give {right}, so that a repetition has to try several.",
     )

@@ -17,7 +17,7 @@ Rng = np.random.Generator
 @drill("nirl-comparison", "Importance weights")
 def importance_weights(rng: Rng) -> Question:
     """Weight sampled trajectories by the reward."""
-    features = rng.choice(np.arange(0, 4), size=3, replace=False).astype(float)
+    features = rng.choice(np.arange(0, 6), size=3, replace=False).astype(float)
     base = int(rng.choice([2, 3]))
     weights = nirl.importance_weights([np.log(base)], features[:, None], np.zeros(3))
     powers = base**features
@@ -259,6 +259,9 @@ CHANGES = {
         "Now it has to drive in other maps of the same kind, at the same speed",
         "Now its maps are drawn with another seed",
         "Now another robot of the same make takes its place",
+        "Now its battery is exchanged for one of the same weight",
+        "Now its targets stand elsewhere in maps of the same kind",
+        "Now it drives at night, too, and its sensors need no light",
     ),
     REWARD: (
         "Now it has to drive at twice the speed",
@@ -266,11 +269,17 @@ CHANGES = {
         "Now the obstacles stand twice as densely",
         "Now its greatest turn is 30 degrees instead of 60",
         "Now its floor is slippery, and some turns come out too small",
+        "Now it may also go sideways",
+        "Now some of the obstacles move",
+        "Now it senses and decides only half as often",
     ),
     NEITHER: (
         "Now it should keep away from people, and no feature tells people from walls",
         "Now a camera replaces its sensors, and the old features cannot be computed any more",
         "Now it should follow the walls, which the expert never did",
+        "Now it should be quiet, and no feature measures noise",
+        "Now it should fetch a parcel on its way, and no feature knows of parcels",
+        "Now it should arrive with its back to the target, and no feature tells how it stands",
     ),
 }
 AIM = "The aim and the features are the same, so the reward holds."
@@ -295,11 +304,20 @@ WHY = {
 def after_a_change(rng: Rng) -> Question:
     """Decide whether a policy or a reward can be kept when the task changes."""
     right = str(rng.choice([*CHANGES]))
-    change = str(rng.choice(CHANGES[right]))
+    changes = {kind: str(rng.choice(CHANGES[kind])) for kind in CHANGES}
     obstacles, speed = int(rng.choice([10, 20, 30])), int(rng.choice([1, 2, 3]))
+    learned = f"A robot learned a reward and a policy from demonstrations among {obstacles} obstacles at {speed} m/s."
+    if rng.random() < 0.5:
+        return Question(
+            f"{learned} {changes[right]}. Which statement is right?",
+            Choice(right, HINTS[right], order=(BOTH, REWARD, NEITHER)),
+            WHY[right],
+        )
     return Question(
-        f"A robot learned a reward and a policy from demonstrations among {obstacles} obstacles at {speed} m/s. "
-        f"{change}. Which statement is right?",
-        Choice(right, HINTS[right], order=(BOTH, REWARD, NEITHER)),
+        f"{learned} After which change does this hold? *{right}.*",
+        Choice(
+            changes[right],
+            {changes[kind]: HINTS[kind][right] for kind in CHANGES if kind != right},
+        ),
         WHY[right],
     )

@@ -205,7 +205,7 @@ def target_has_moved(rng: Rng) -> Question:
 def rare_and_frequent(rng: Rng) -> Question:
     """Compute the likelihoods from which contradictory demonstrations are corrected."""
     here = rng.choice(np.arange(1, 21), size=2, replace=False)
-    there = rng.choice([0, 5, 10, 40, 100, 400], size=2, replace=False)
+    there = rng.choice([0, 5, 10, 20, 30, 50, 60], size=2, replace=False)
     states = np.repeat([0, 0, 1, 1], [*here, *there])
     actions = np.repeat([0, 1, 0, 1], [*here, *there])
     likelihood = [float(here[a] / (here[a] + there[a])) for a in (0, 1)]
@@ -231,7 +231,6 @@ def rare_and_frequent(rng: Rng) -> Question:
             ],
             ["s"],
             column(*likelihood, uniform),
-            tolerance=0.0011,
             wrong={
                 "These are the shares $P(a \\mid s)$. A likelihood divides by all steps with the action.": column(
                     *share, uniform
@@ -291,7 +290,7 @@ BY_ANGLE = ("R60", "R30", "F", "L30", "L60")
 @drill("why-learn-the-reward", "An expert that slips")
 def slipping_expert(rng: Rng) -> Question:
     """Compute which actions an expert with an unsteady hand demonstrates."""
-    chance = float(rng.choice([0.1, 0.2, 0.3, 0.4]))
+    chance = float(rng.integers(5, 46)) / 100
     meant = str(rng.choice(BY_ANGLE))
     numbers = [int(robot.Action[name]) for name in BY_ANGLE]
     answer = robot.neighbour_slip(chance)[int(robot.Action[meant]), numbers]

@@ -119,9 +119,17 @@ FIRST, SECOND, OPEN = (
 )
 
 
+def _shown(first: tuple[float, float], second: tuple[float, float]) -> str:
+    """What two intervals show."""
+    if first[0] > second[1]:
+        return FIRST
+    return SECOND if second[0] > first[1] else OPEN
+
+
 @drill("conclusions", "Is the difference more than chance?")
 def more_than_chance(rng: Rng) -> Question:
     """Judge a difference of success rates by the number of maps."""
+    right = str(rng.choice([FIRST, SECOND, OPEN]))
     while True:
         maps = int(rng.choice([20, 50, 100, 400, 1000]))
         rates = rng.choice(np.arange(60, 98), size=2, replace=False) / 100
@@ -131,14 +139,9 @@ def more_than_chance(rng: Rng) -> Question:
         )
         half = max(high - low, other_high - other_low) / 2
         gap = abs(arrived[0] - arrived[1]) / maps
-        if arrived[0] != arrived[1] and (gap < half or gap > 3 * half):
+        plain = arrived[0] != arrived[1] and (gap < half or gap > 3 * half)
+        if plain and right == _shown((low, high), (other_low, other_high)):
             break
-    if low > other_high:
-        right = FIRST
-    elif other_low > high:
-        right = SECOND
-    else:
-        right = OPEN
     intervals = (
         f"{100 * low:.1f} to {100 * high:.1f} %",
         f"{100 * other_low:.1f} to {100 * other_high:.1f} %",

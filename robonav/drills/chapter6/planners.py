@@ -10,9 +10,11 @@ from robonav.planners import (
     BugMemory,
     bug,
     dynamic_window,
+    free_way,
     potential_field,
     vector_field_histogram,
 )
+from robonav.planners.sectors import WAYS
 from robonav.planners.vector_field_histogram import BINS
 from robonav.robot import Sensing
 
@@ -50,9 +52,9 @@ def sum_of_forces(rng: Rng) -> Question:
             answer,
             wrong={
                 "The repulsion pushes back, so it is subtracted.": 2 - answer,
-                "This is the slope without the factor 1 / rho squared.": 1
+                "This is the slope without the factor $1 / \\rho^2$.": 1
                 - eta * difference,
-                "The force is zero where the influence ends: subtract one over the distance of influence.": 1
+                "The force is zero where the influence ends: $1 / \\rho_0$ is subtracted.": 1
                 - eta / rho**3,
                 "This is the potential, not the force.": 1 - eta / 2 * difference**2,
             },
@@ -91,9 +93,16 @@ def angle_of_the_clearance(rng: Rng) -> Question:
 @drill("planners", "Which opening costs least?")
 def cheapest_opening(rng: Rng) -> Question:
     """Choose a direction by the cost of VFH+."""
-    keep = float(rng.choice([0.0, 0.5, 1.0, 2.0]))
-    middles = rng.choice(np.arange(-16, 17, 8), size=3, replace=False)
-    target = int(rng.choice([-60, -30, 0, 30, 60]))
+    place = int(rng.integers(3))  # of the right one from the right
+    while True:
+        keep = float(rng.choice([0.5, 1.0, 2.0]))
+        middles = np.sort(rng.choice(np.arange(-16, 17, 4), size=3, replace=False))
+        target = int(rng.choice([-60, -30, 0, 30, 60]))
+        degrees = [int(5 * middle) for middle in middles]
+        costs = [abs(d - target) + keep * abs(d) for d in degrees]
+        first, second, _ = np.sort(costs)
+        if np.diff(middles).min() > 4 and first < second and costs[place] == first:
+            break
     free = np.zeros(BINS, bool)
     for middle in middles:
         free[(middle + np.arange(-1, 2)) % BINS] = True
@@ -105,18 +114,13 @@ def cheapest_opening(rng: Rng) -> Question:
         wide=8,
         keep=keep,
     )
-    degrees = [int(5 * middle) for middle in sorted(middles)]
-    costs = [abs(d - target) + keep * abs(d) for d in degrees]
     right = round(math.degrees(found[0]))
     written = [f"{d}°" for d in degrees]
-    tied = sorted(costs)[1] - min(costs) < 1e-9
     hints = {
-        f"{d}°": f"Its cost is {abs(d - target)} + {keep:g} × {abs(d)} = {cost:g}."
+        f"{d}°": f"Its cost is ${abs(d - target)} + {keep:g} \\cdot {abs(d)} = {cost:g}$."
         for d, cost in zip(degrees, costs, strict=True)
         if d != right
     }
-    if tied:  # the question is drawn again
-        hints = {}
     return Question(
         f"Three narrow openings have their middles at {', '.join(written)} (left is positive). The target lies at "
         f"{target}°. The cost of a direction is its angle to the target plus {keep:g} times its angle to the heading. "
@@ -126,48 +130,45 @@ def cheapest_opening(rng: Rng) -> Question:
     )
 
 
+BEARINGS = {1: 0, 2: 40, 3: 80, 8: -80, 9: -40}
+"""Degrees of the middles of the sectors ahead, by their number."""
+
+
 @drill("planners", "Which action wins in the window?")
 def best_of_the_window(rng: Rng) -> Question:
     """Find the admissible action with the best score."""
-    heading, distance = (
-        float(rng.choice([0.2, 0.5, 1.0])),
-        float(rng.choice([0.2, 1.0])),
-    )
+    best, robot = int(rng.integers(5)), {"clearance": 1.0, "half_width": 0.0}
+    while True:
+        heading = float(rng.choice([0.2, 0.5, 1.0]))
+        distance = float(rng.choice([0.2, 1.0]))
+        region = int(rng.choice([*BEARINGS]))
+        ranges = np.full(9, FREE)
+        for sector in rng.choice([0, 1, 8], size=2, replace=False):
+            ranges[sector] = float(rng.choice([2.5, 3.0, 4.0, 6.0, 10.0]))
+        sensing = _readings(ranges, region)
+        scores = dynamic_window(
+            sensing, speed=2.0, heading=heading, distance=distance, **robot
+        )[0, :5]
+        others = np.delete(scores, best)
+        if scores[best] - others.max() > 0.011:  # clear by two decimals
+            break
+    bearing = BEARINGS[region]
+    ways = free_way(sensing.ranges, WAYS, **robot)[0, :5].round(1)
     names = ("F", "L30", "L60", "R30", "R60")
-    region, sector = int(rng.choice([1, 2, 9])), int(rng.choice([0, 1, 8]))
-    ranges = np.full(9, FREE)
-    ranges[sector] = float(rng.choice([2.5, 3.0, 4.0, 6.0]))
-    scores = dynamic_window(
-        _readings(ranges, region), speed=2.0, clearance=1.0, half_width=0.0,
-        heading=heading, distance=distance,
-    )[0, :5].round(3)  # fmt: skip
-    way = np.where(
-        scores < 0, np.round(scores + FREE, 1), 0.0
-    )  # of those that are not admissible
-    bearing = {1: 0, 2: 40, 9: -40}[region]
-    turns = np.array([0, 30, 60, -30, -60])
-    towards = 1 - np.abs(bearing - turns) / 180
-    ways = np.where(
-        scores < 0, way, ((scores - 1 - heading * towards) / distance * FREE).round(1)
-    )
-    best = int(scores.argmax())
-    hints = {}
-    for k, name in enumerate(names):
-        if k != best:
-            hints[name] = (
-                "Its step is not admissible: the way is shorter than 2 m."
-                if scores[k] < 0
-                else f"Its score is {scores[k]:.2f}, that of {names[best]} {scores[best]:.2f}."
-            )
-    if (scores > scores[best] - 0.011).sum() > 1:  # too close: drawn again
-        hints = {}
+    hints = {
+        name: "Its step is not admissible: the way is shorter than 2 m."
+        if score < 0
+        else f"Its score is ${score:.2f}$, that of {names[best]} ${scores[best]:.2f}$."
+        for name, score in zip(names, scores, strict=True)
+        if name != names[best]
+    }
     listed = ", ".join(
         f"{name} {free:g}" for name, free in zip(names, ways, strict=True)
     )
     return Question(
         f"The ways that are free in metres are: {listed}. The target lies at {bearing}° (left is positive), and a "
-        f"step is 2 m long. An admissible action scores {heading:g} (1 - angle to the target / 180°) + "
-        f"{distance:g} (free way / 10 m) + 1. Which action wins?",
+        f"step is 2 m long. An admissible action with the free way $w$ and the angle $\\alpha$ to the target scores "
+        f"${heading:g} \\, (1 - \\alpha / 180°) + {distance:g} \\, w / 10 + 1$. Which action wins?",
         Choice(names[best], hints, order=names),
         "The scores are "
         + ", ".join(

@@ -9,7 +9,7 @@ from robonav.drills import DRILLS, Question
 SEEDS = range(50)
 NAMES = re.compile(
     r"TD\(0\)|Eq\. \(\d\.\d+\)|Table 3\.1|[A-Za-z]_\{?[\w+]+\}?|[LR][36]0"
-    r"|sensors? 1( to 9)?|0 to 7|0 to 1|0 becomes 1/2"
+    r"|sensors? 1( to 9)?|0 to 7|0 to 1|0 becomes \$1/2\$"
 )
 
 

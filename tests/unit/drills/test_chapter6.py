@@ -86,7 +86,7 @@ def test_best_of_the_window_by_adding_up() -> None:
         ways = dict(re.findall(r"(F|[LR][36]0) (\d+\.?\d*)", question.text))
         bearing = float(re.search(r"lies at (-?\d+)°", question.text)[1])
         heading, distance = (
-            float(n) for n in re.search(r"scores ([\d.]+) .* \+ ([\d.]+) \(free", question.text).groups()
+            float(n) for n in re.search(r"scores \$([\d.]+) .* \+ ([\d.]+) \\, w", question.text).groups()
         )  # fmt: skip
         turns = {"F": 0, "L30": 30, "L60": 60, "R30": -30, "R60": -60}
         score = {
