@@ -14,7 +14,7 @@ import typer
 
 from robonav._version import __version__
 from robonav.errors import WorkerLost
-from robonav.grading.commands import gradebook, similarity
+from robonav.grading.commands import grade, gradebook, similarity
 
 if TYPE_CHECKING:
     from robonav.experiments.runner.experiment import Experiment, Results
@@ -321,134 +321,7 @@ def check(
         raise typer.Exit(1)
 
 
-@app.command()
-def grade(
-    folder: Annotated[
-        Path,
-        typer.Argument(
-            help="A folder that holds one folder, zip file or notebook per student."
-        ),
-    ],
-    out: Annotated[
-        Path, typer.Option(help="The folder for grades, feedback and the overview.")
-    ],
-    secret: Annotated[
-        Path | None,
-        typer.Option(
-            help="A file whose content seeds the test cases. ROBONAV_SECRET does the same."
-        ),
-    ] = None,
-    student: Annotated[
-        list[str] | None,
-        typer.Option(help="Grade this student again. May be repeated."),
-    ] = None,
-    exercise: Annotated[
-        list[str] | None,
-        typer.Option(help="Grade only this exercise again. May be repeated."),
-    ] = None,
-    jobs: Annotated[
-        int,
-        typer.Option(help="How many submissions at once; -1 for one per processor."),
-    ] = -1,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(help="Address of a Dask scheduler that does the work."),
-    ] = None,
-    variant: Annotated[
-        str | None,
-        typer.Option(
-            help="The text that chose the variant of the exercises, as for robonav exercises build."
-        ),
-    ] = None,
-    each_student: Annotated[
-        bool,
-        typer.Option(
-            "--each-student",
-            help="Each student has a variant of their own, as with robonav exercises build --student NAME. A name is "
-            "that of the submission.",
-        ),
-    ] = False,
-    practice: Annotated[
-        bool,
-        typer.Option(
-            "--practice", help="Continue without a sandbox. The grades do not count."
-        ),
-    ] = False,
-    new_secret: Annotated[
-        bool,
-        typer.Option(
-            "--new-secret",
-            help="Grade everybody again with another secret than before.",
-        ),
-    ] = False,
-    roster: Annotated[
-        Path | None,
-        typer.Option(
-            help="The class as CSV, as for robonav gradebook start; it is kept beside the grades."
-        ),
-    ] = None,
-    alike: Annotated[
-        bool,
-        typer.Option(
-            "--similarity",
-            help="Also write similarity.html: the pairs of submissions that are too alike.",
-        ),
-    ] = False,
-) -> None:
-    """Grade a class. Run the command again to resume: grades that exist are kept."""
-    from robonav import progress
-    from robonav.grading import paths, sandbox_check, variants
-    from robonav.grading.cases import secret_from
-    from robonav.grading.classroom import GradingConfig, grade_class
-    from robonav.grading.commands import keep_roster, tell_similar, write_all
-    from robonav.grading.course import Course
-    from robonav.grading.roster import read_roster
-    from robonav.grading.rules import read_rules
-
-    course, each = Course.around(Path(__file__).parent, Path.cwd()), None
-    if each_student and variant is None:
-        raise ValueError("--each-student needs --variant")
-    if variant is not None and each_student:
-        each = variants.for_each_student(course, variant, folder, out)
-    elif variant is not None:
-        course = variants.course_for(course, variant, folder, out)
-    else:
-        variants.check_same_options(out, "")
-    rules = read_rules(out, course)  # faults are told before the work, not after it
-    if roster is not None:
-        read_roster(roster, rules.teams)
-    ids = [course.named(key).id for key in exercise or []]
-    config = GradingConfig(course, sandbox_check.best(), secret_from(secret), each)
-    if config.tier == "practice" and not practice:
-        raise ValueError(
-            f"this machine has no sandbox, so only --practice works: {sandbox_check.fault('official')}"
-        )
-    if config.tier == "practice" and config.secret:
-        raise ValueError("without a sandbox no secret is safe: give none")
-    with paths.without_submissions(folder), progress.bar("grading") as report:
-        unfinished = grade_class(
-            config,
-            folder,
-            out,
-            again=student or [],
-            ids=ids,
-            jobs=jobs,
-            scheduler=scheduler,
-            progress=report,
-            new_secret=new_secret,
-        )
-    if roster is not None:
-        keep_roster(out, roster)
-    write_all(out)
-    print(f"{out / 'index.html'}")
-    if alike:
-        tell_similar(folder, out / "similarity.html", course)
-    if unfinished:
-        print(
-            f"The grader failed for {', '.join(unfinished)}. Run the command again to grade them.",
-            file=sys.stderr,
-        )
-        raise typer.Exit(1)
+app.command()(grade)
 
 
 @app.command()

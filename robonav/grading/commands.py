@@ -1,4 +1,4 @@
-"""The commands ``robonav gradebook`` and ``robonav similarity``. Each imports what it needs when it runs."""
+"""The commands ``robonav grade``, ``gradebook`` and ``similarity``. Each imports what it needs when it runs."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from .classroom import GradingConfig
     from .course import Course
     from .gradebook import Gradebook
+    from .variants import EachStudent
 
 gradebook = typer.Typer(
     no_args_is_help=True,
@@ -23,6 +25,198 @@ Who = Annotated[
     str, typer.Argument(help="The student's id, name, login or email address.")
 ]
 Which = Annotated[str, typer.Argument(help="The exercise, such as 2.3.")]
+
+
+def grade(
+    folder: Annotated[
+        Path,
+        typer.Argument(
+            help="A folder that holds one folder, zip file or notebook per student."
+        ),
+    ],
+    out: Annotated[
+        Path, typer.Option(help="The folder for grades, feedback and the overview.")
+    ],
+    secret: Annotated[
+        Path | None,
+        typer.Option(
+            help="A file whose content seeds the test cases. ROBONAV_SECRET does the same."
+        ),
+    ] = None,
+    student: Annotated[
+        list[str] | None,
+        typer.Option(help="Grade this student again. May be repeated."),
+    ] = None,
+    exercise: Annotated[
+        list[str] | None,
+        typer.Option(help="Grade only this exercise again. May be repeated."),
+    ] = None,
+    jobs: Annotated[
+        int,
+        typer.Option(help="How many submissions at once; -1 for one per processor."),
+    ] = -1,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(help="Address of a Dask scheduler that does the work."),
+    ] = None,
+    variant: Annotated[
+        str | None,
+        typer.Option(
+            help="The text that chose the variant of the exercises, as for robonav exercises build."
+        ),
+    ] = None,
+    each_student: Annotated[
+        bool,
+        typer.Option(
+            "--each-student",
+            help="Each student has a variant of their own, as with robonav exercises build --student NAME. A name is "
+            "that of the submission.",
+        ),
+    ] = False,
+    practice: Annotated[
+        bool,
+        typer.Option(
+            "--practice", help="Continue without a sandbox. The grades do not count."
+        ),
+    ] = False,
+    new_secret: Annotated[
+        bool,
+        typer.Option(
+            "--new-secret",
+            help="Grade everybody again with another secret than before.",
+        ),
+    ] = False,
+    roster: Annotated[
+        Path | None,
+        typer.Option(
+            help="The class as CSV, as for robonav gradebook start; it is kept beside the grades."
+        ),
+    ] = None,
+    alike: Annotated[
+        bool,
+        typer.Option(
+            "--similarity",
+            help="Also write similarity.html: the pairs of submissions that are too alike.",
+        ),
+    ] = False,
+) -> None:
+    """Grade a class. Run the command again to resume: grades that exist are kept."""
+    from robonav import progress
+
+    from . import paths
+    from .classroom import grade_class
+
+    course, each = class_course(folder, out, variant, each_student=each_student)
+    check_roster_and_rules(out, roster, course)  # before the work, not after it
+    ids = [course.named(key).id for key in exercise or []]
+    config = grading_config(course, secret, each, practice=practice)
+    with paths.without_submissions(folder), progress.bar("grading") as report:
+        unfinished = grade_class(
+            config,
+            folder,
+            out,
+            again=student or [],
+            ids=ids,
+            jobs=jobs,
+            scheduler=scheduler,
+            progress=report,
+            new_secret=new_secret,
+        )
+    if roster is not None:
+        keep_roster(out, roster)
+    write_all(out)
+    print(f"{out / 'index.html'}")
+    if alike:
+        tell_similar(folder, out / "similarity.html", course)
+    if unfinished:
+        print(
+            f"The grader failed for {', '.join(unfinished)}. Run the command again to grade them.",
+            file=sys.stderr,
+        )
+        raise typer.Exit(1)
+
+
+def class_course(
+    folder: Path, out: Path, variant: str | None, *, each_student: bool
+) -> tuple[Course, EachStudent | None]:
+    """Return the course with which a class is graded, and the exercises of each student's own if they have them.
+
+    Raises
+    ------
+    ValueError
+        If the class was graded with other options before.
+
+    Examples
+    --------
+    >>> class_course(Path("class"), Path("graded"), None, each_student=True)
+    Traceback (most recent call last):
+    ValueError: --each-student needs --variant
+    """
+    from . import variants
+
+    course = _books_course()
+    if each_student and variant is None:
+        raise ValueError("--each-student needs --variant")
+    if variant is None:
+        variants.check_same_options(out, "")
+        return course, None
+    if each_student:
+        return course, variants.for_each_student(course, variant, folder, out)
+    return variants.course_for(course, variant, folder, out), None
+
+
+def check_roster_and_rules(out: Path, roster: Path | None, course: Course) -> None:
+    """Check that the rules and a roster can be read.
+
+    Raises
+    ------
+    ValueError
+        If one of them has something that it should not.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> out = Path(tempfile.mkdtemp())
+    >>> _ = (out / "rules.toml").write_text("[late]\\npenalty = -1\\n")
+    >>> check_roster_and_rules(out, None, _books_course())
+    Traceback (most recent call last):
+    ValueError: ...: penalty must be a number from 0 to 100, got -1
+    """
+    from .roster import read_roster
+    from .rules import read_rules
+
+    rules = read_rules(out, course)
+    if roster is not None:
+        read_roster(roster, rules.teams)
+
+
+def grading_config(
+    course: Course, secret: Path | None, each: EachStudent | None, *, practice: bool
+) -> GradingConfig:
+    """Return how a class is graded on this machine.
+
+    Raises
+    ------
+    ValueError
+        If the machine has no sandbox, and practice is not wanted or there is a secret.
+
+    Examples
+    --------
+    >>> grading_config(_books_course(), None, None, practice=True).secret
+    b''
+    """
+    from . import sandbox_check
+    from .cases import secret_from
+    from .classroom import GradingConfig
+
+    config = GradingConfig(course, sandbox_check.best(), secret_from(secret), each)
+    if config.tier == "practice" and not practice:
+        raise ValueError(
+            f"this machine has no sandbox, so only --practice works: {sandbox_check.fault('official')}"
+        )
+    if config.tier == "practice" and config.secret:
+        raise ValueError("without a sandbox no secret is safe: give none")
+    return config
 
 
 @gradebook.command()
@@ -213,12 +407,19 @@ def _book(folder: Path) -> Gradebook:
     return read_gradebook(folder, _course(folder))
 
 
+def _books_course() -> Course:
+    """Return the course of the checkout. The current folder counts only if the package stands in none."""
+    from .course import Course
+
+    return Course.around(Path(__file__).parent, Path.cwd())
+
+
 def _course(folder: Path) -> Course:
     """Return the course with which a class was graded."""
     from .course import Course
     from .variants import MARK
 
-    course = Course.around(Path(__file__).parent, Path.cwd())
+    course = _books_course()
     if (folder / "exercises" / MARK).is_file():
         course = Course((folder / "exercises").resolve())  # of robonav grade --variant
     return course
@@ -245,9 +446,7 @@ def similarity(
     ] = Path("similarity.html"),
 ) -> None:
     """Show the pairs of submissions that are too alike, side by side. No code is run."""
-    from .course import Course
-
-    tell_similar(folder, out, Course.around(Path(__file__).parent, Path.cwd()))
+    tell_similar(folder, out, _books_course())
 
 
 def tell_similar(folder: Path, out: Path, course: Course) -> None:

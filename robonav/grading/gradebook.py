@@ -21,7 +21,7 @@ from .classroom import HANDED_IN
 from .course import Course
 from .ledger import Log
 from .report import csv_text, page
-from .roster import Matching, Student, forms, match, one, read_roster
+from .roster import Matching, Student, fitting, forms, match, one, read_roster
 from .rules import Late, Rules, read_rules
 
 ROSTER = "roster.csv"
@@ -105,9 +105,9 @@ class Account:
 
     @property
     def free_days(self) -> int:
-        """How many free days the student used."""
+        """How many free days the student used. Exercises that were due at the same time share them."""
         late = [mark.late for mark in self.marks.values()]
-        return sum(free for _, _, free in {(x.deadline, x.days, x.free) for x in late})
+        return sum(free for _, free in {(one.due, one.free) for one in late})
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,12 +179,15 @@ def read_gradebook(folder: Path, course: Course) -> Gradebook:
     same = {name: grade["submission"] for name, grade in grades.items()}
     people = {name: told["people"] for name, told in handed_in.items()}
     if (folder / ROSTER).exists():
-        students = _in_groups(read_roster(folder / ROSTER, rules.teams), rules)
+        students = read_roster(folder / ROSTER, rules.teams)
+        rules, unknown = with_ids(rules, students)
+        students = _in_groups(students, rules)
         matching = match(students, people, rules.matches, same)
     else:
         students = [
             Student(name, name, names=frozenset(forms(name))) for name in handed_in
         ]
+        rules, unknown = with_ids(rules, students)
         students = _in_groups(students, rules)
         matching = Matching({name: name for name in handed_in}, [], set())
         if rules.groups:
@@ -200,10 +203,7 @@ def read_gradebook(folder: Path, course: Course) -> Gradebook:
         f"Line {number} of {ledger.LOG} was changed by something else than robonav."
         for number in log.broken
     ]
-    problems += [
-        f"The rules name {who}, who is not in the roster."
-        for who in _named(rules) - {s.id for s in students}
-    ]
+    problems += unknown
     book = Gradebook(folder, course, [], problems, log, grades)
     earlier, changed = _earlier(folder, rules, course), _by_student(log)
     graded = {e["id"] for grade in grades.values() for e in grade["exercises"]}
@@ -355,9 +355,61 @@ def _in_groups(students: list[Student], rules: Rules) -> list[Student]:
     return [replace(s, group=of.get(s.id, s.group)) for s in students]
 
 
-def _named(rules: Rules) -> set[str]:
-    members = {who for members in rules.groups.values() for who in members}
-    return members | {extension["student"] for extension in rules.extensions}
+def with_ids(rules: Rules, students: Sequence[Student]) -> tuple[Rules, list[str]]:
+    """Return rules in which students have the ids of the roster, and a sentence for each word that is not one student.
+
+    Parameters
+    ----------
+    rules : Rules
+        The rules as the file has them, where students have ids, names, email addresses or accounts.
+    students : sequence of Student
+        The roster.
+
+    Returns
+    -------
+    Rules
+        The rules. A word that fits nobody, or several, stays as it is, and applies to nobody.
+    list of str
+        What is wrong with these words.
+
+    Examples
+    --------
+    >>> ada, bo = (Student(f"s{k}", name, names=frozenset(forms(name))) for k, name in enumerate(("Ada L.", "Bo D.")))
+    >>> rules, problems = with_ids(Rules(groups={"team": ["Ada L.", "Zoe"]}), [ada, bo])
+    >>> rules.groups["team"], problems
+    (['s0', 'Zoe'], ['The rules name Zoe, who is not in the roster.'])
+    """
+    problems = list[str]()
+
+    def id_of(word: str, said: str = "The rules name") -> str:
+        fits = fitting(students, word)
+        if len(fits) == 1:
+            return fits[0].id
+        whom = " or ".join(student.id for student in fits)
+        problems.append(
+            f"{said} {word}, but several students are called so: write {whom} instead."
+            if fits
+            else f"{said} {word}, who is not in the roster."
+        )
+        return word
+
+    teams = {*rules.groups, *(student.group for student in students), ""}
+    extensions = [
+        {**extension, "student": id_of(extension["student"])}
+        for extension in rules.extensions
+    ]
+    groups = {
+        name: [id_of(member) for member in members]
+        for name, members in rules.groups.items()
+    }
+    matches = {
+        submission: who
+        if who in teams
+        else id_of(who, f"The rules give {submission} to")
+        for submission, who in rules.matches.items()
+    }
+    found = replace(rules, extensions=extensions, groups=groups, matches=matches)
+    return found, list(dict.fromkeys(problems))
 
 
 def _earlier(folder: Path, rules: Rules, course: Course) -> list[dict[str, int]]:

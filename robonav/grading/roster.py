@@ -271,7 +271,8 @@ def match(
     handed_in : dict of str to sequence
         The submissions by name, each with its authors and what the platform calls them.
     decided : dict of str to str
-        A student's id, or a group, by submission, where the instructor decides; an empty string sets one aside.
+        A student's id, or a group, by submission, where the instructor decides. An empty string, or what is neither,
+        sets the submission aside.
     same : dict of str to str
         A hash of each submission. Two equal ones of a group are one.
 
@@ -297,10 +298,6 @@ def match(
     for submission, people in handed_in.items():
         if submission in decided:
             who = decided[submission]
-            if who and who not in by_id and who not in groups:
-                problems.append(
-                    f"The rules give {submission} to {who}, who is not in the roster."
-                )
             owners = [who] if who in by_id else groups.get(who, [])
         else:
             owners, problem, near = _owners(students, groups, submission, people)
@@ -372,6 +369,23 @@ def _ends(name: str, word: str) -> bool:
     return name.casefold() == word or name.casefold().endswith(f"-{word}")
 
 
+def fitting(students: Iterable[Student], word: str) -> list[Student]:
+    """Return the students whom a word may mean: an id, or else a name, login, GitHub name, email address or number.
+
+    Examples
+    --------
+    >>> [student.id for student in fitting([Student("s1", names=frozenset(forms("Ada Lovelace")))], "Lovelace, Ada")]
+    ['s1']
+    """
+    known = list(students)
+    exact = [student for student in known if student.id == word]
+    return exact or [
+        student
+        for student in known
+        if word.casefold() in student.keys or student.names & forms(word)
+    ]
+
+
 def one(students: Iterable[Student], word: str) -> Student:
     """Return the student with this id, name, login or address.
 
@@ -386,12 +400,7 @@ def one(students: Iterable[Student], word: str) -> Student:
     's1'
     """
     known = list(students)
-    exact = [student for student in known if student.id == word]
-    fits = exact or [
-        student
-        for student in known
-        if word.casefold() in student.keys or student.names & forms(word)
-    ]
+    fits = fitting(known, word)
     if len(fits) != 1:
         whom = ", ".join(student.id for student in fits or known[:20])
         raise ValueError(

@@ -37,7 +37,7 @@ TEMPLATE = """\
 # earlier = ["../graded-ch2"]     # folders of grades in which free days were used before
 
 # [[extensions]]
-# student = "ada"
+# student = "ada"                 # here and below: an id, name, email address or account of the roster
 # exercises = ["2"]
 # until = 2026-10-19T23:59:00
 # reason = "ill, certificate of 11 October"
@@ -81,15 +81,15 @@ class Late:
         The share of the points that is taken off.
     said : str
         The same in words, or an empty string if the answer is on time.
-    deadline : str
-        The exercise or chapter whose deadline it is.
+    due : datetime or None
+        The deadline, or None if there is none.
     """
 
     days: int = 0
     free: int = 0
     share: float = 0.0
     said: str = ""
-    deadline: str = ""
+    due: datetime | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +103,8 @@ class Rules:
     extensions : sequence of dict
         Other deadlines for some students.
     groups, matches : dict
-        Members by group, and students by submission.
+        Members by group, and students by submission. The file may have a student's name, address or account instead of
+        the id; :func:`robonav.grading.gradebook.with_ids` finds the ids.
     submitted : dict of str to datetime
         Times by submission.
     zone : tzinfo
@@ -139,8 +140,8 @@ class Rules:
     exercises: frozenset[str] = frozenset()
     teams: bool = False
 
-    def due(self, student: str, exercise: str) -> tuple[str, datetime] | None:
-        """Return which deadline holds for a student's exercise, and when it is, or None."""
+    def due(self, student: str, exercise: str) -> datetime | None:
+        """Return the deadline of a student's exercise, or None if it has none."""
         chapter = exercise.partition(".")[0]
         key = next((key for key in (exercise, chapter) if key in self.deadlines), None)
         if key is None:
@@ -151,7 +152,7 @@ class Rules:
             if extension["student"] == student
             and {exercise, chapter} & set(extension["exercises"])
         ]
-        return key, max([self.deadlines[key], *times])
+        return max([self.deadlines[key], *times])
 
     def lateness(
         self, student: str, exercises: Sequence[str], time: datetime, free: int
@@ -167,7 +168,8 @@ class Rules:
         time : datetime
             When they were handed in.
         free : int
-            Free days that the student has left. They go to the deadlines in order.
+            Free days that the student has left. They go to the deadlines in order. Exercises that are due at the same
+            time share them.
 
         Returns
         -------
@@ -181,34 +183,31 @@ class Rules:
         >>> rules.lateness("ada", ["2.1"], due + timedelta(days=2), free=1)["2.1"].share
         0.1
         """
-        found, spent = dict[str, Late](), dict[tuple[datetime, str], int]()
-        whens = {exercise: self.due(student, exercise) for exercise in exercises}
-        for key, due in sorted(
-            {when for when in whens.values() if when is not None},
-            key=lambda when: (when[1], when[0]),
-        ):
-            after = time - due - self.grace
-            days = max(0, math.ceil(after / timedelta(days=1)))
-            spent[due, key] = min(days, free)
-            free -= spent[due, key]
-        for exercise, when in whens.items():
-            if when is not None:
-                after = time - when[1] - self.grace
-                days = max(0, math.ceil(after / timedelta(days=1)))
-                found[exercise] = self._late(when[0], days, spent[when[1], when[0]])
-        return found
+        dues = {
+            exercise: due
+            for exercise in exercises
+            if (due := self.due(student, exercise)) is not None
+        }
+        late = dict[datetime, Late]()
+        for due in sorted(set(dues.values())):
+            late[due] = self._late(due, time, free)
+            free -= late[due].free
+        return {exercise: late[due] for exercise, due in dues.items()}
 
-    def _late(self, key: str, days: int, free: int) -> Late:
+    def _late(self, due: datetime, time: datetime, free: int) -> Late:
+        """Return how late something is that was due at a time, with so many free days left."""
+        days = max(0, math.ceil((time - due - self.grace) / timedelta(days=1)))
         if days == 0:
-            return Late(deadline=key)
+            return Late(due=due)
         said = f"{days} day{'s' * (days > 1)} late"
         if self.closed_after is not None and days > self.closed_after:
             return Late(
-                days, 0, 1.0, f"{said}, no points after {self.closed_after}", key
+                days, 0, 1.0, f"{said}, no points after {self.closed_after}", due
             )
+        free = min(days, free)
         share = min(self.most, self.penalty * (days - free)) / 100
         free_said = f", {free} of them free" if free else ""
-        return Late(days, free, share, f"{said}{free_said}, {100 * share:g} % off", key)
+        return Late(days, free, share, f"{said}{free_said}, {100 * share:g} % off", due)
 
     def time(self, written: str) -> datetime | None:
         """Return the time that a platform wrote down, or None if it cannot be told.

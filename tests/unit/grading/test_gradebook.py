@@ -21,8 +21,8 @@ from robonav.grading.class_statistics import counts
 from robonav.grading.classroom import GradingConfig, grade_class
 from robonav.grading.commands import write_all
 from robonav.grading.course import Course
-from robonav.grading.gradebook import ROSTER, change, read_gradebook
-from robonav.grading.roster import match, read_roster
+from robonav.grading.gradebook import ROSTER, Account, Mark, change, read_gradebook
+from robonav.grading.roster import Student, match, read_roster
 from robonav.grading.rules import RULES, TEMPLATE, Rules, read_rules
 
 COURSE = Course.around(Path(__file__).parent)
@@ -297,14 +297,84 @@ def test_extensions_and_free_days_in_the_order_of_deadlines():
     ]
 
 
+def test_exercises_that_are_due_at_the_same_time_share_a_free_day():
+    """The deadline of one and the extension of the other coincide, so one late day is one late day."""
+    later = DUE + timedelta(days=7)
+    rules = Rules(
+        deadlines={"2": DUE, "2.9": later, "3": later},
+        extensions=[{"student": "ada", "exercises": ["2"], "until": later}],
+        penalty=10,
+        closed_after=3,
+    )
+    everything = ["2.1", "2.9", "3.1"]
+    late = rules.lateness("ada", everything, later + timedelta(days=1), free=1)
+    assert [(one.days, one.free, one.share) for one in late.values()] == [(1, 1, 0)] * 3
+    marks = {id: Mark(id, 4, 4, "correct", late=one) for id, one in late.items()}
+    assert Account(Student("ada"), "ada", marks).free_days == 1
+    # Free days that would not open an exercise again go to the next deadline.
+    late = rules.lateness("bo", everything, later + timedelta(days=1), free=1)
+    assert [(one.days, one.free, one.share) for one in late.values()] == [
+        (8, 0, 1.0),
+        (1, 1, 0),
+        (1, 1, 0),
+    ]
+
+
+@pytest.mark.parametrize(
+    "who", ["s1", "Ada Lovelace", "lovelace, ada", "ALovelace", "ada@uni.edu"]
+)
+def test_the_rules_name_students_as_people_do(tmp_path, quick, who):
+    """An id, the name in either order, the account, and the address, in each table of the rules."""
+    text = CANVAS.replace("Section", "Email").replace(",A,", ",ada@uni.edu,", 1)
+    rules = f"""
+[deadlines]
+2 = 2026-10-12T23:59:00
+[late]
+penalty = 10
+[[extensions]]
+student = "{who}"
+exercises = ["2"]
+until = 2026-10-19T23:59:00
+[groups]
+team = ["{who}", "s2"]
+[matches]
+one = "{who}"
+[submitted]
+one = 2026-10-14T12:00:00
+"""
+    book = book_of(tmp_path, ["one"], text, rules)
+    assert book.problems == []
+    assert [a.student.group for a in book.accounts] == ["team", "team"]
+    assert [a.submission for a in book.accounts] == ["one", "one"]
+    assert [a.points for a in book.accounts] == [8, 6.4]
+
+
+def test_a_name_in_the_rules_that_is_not_one_student_is_one_sentence(tmp_path, quick):
+    text = "id,name\ns1,Ada Lovelace\ns2,Ada Lovelace\n"
+    rules = (
+        '[groups]\nteam = ["Ada Lovelace", "Zoe"]\n[matches]\none = "Ada Lovelace"\n'
+        'two = "Yo"\n[[extensions]]\nstudent = "Zoe"\nexercises = ["2"]\n'
+        "until = 2026-10-19T23:59:00\n"
+    )
+    book = book_of(tmp_path, ["one", "two"], text, rules)
+    assert book.problems == [
+        "The rules name Zoe, who is not in the roster.",
+        "The rules name Ada Lovelace, but several students are called so: write s1 or s2 instead.",
+        "The rules give one to Ada Lovelace, but several students are called so: write s1 or s2 instead.",
+        "The rules give two to Yo, who is not in the roster.",
+    ]
+    assert [a.submission for a in book.accounts] == ["", ""]
+    assert [a.student.group for a in book.accounts] == ["", ""]
+
+
 def test_the_template_is_valid_with_and_without_its_marks(tmp_path):
     (tmp_path / RULES).write_text(TEMPLATE)
     assert read_rules(tmp_path, COURSE).deadlines == {}
     lines = [re.sub(r"^# (?=[\[a-z0-9\"])", "", x) for x in TEMPLATE.splitlines()[1:]]
     (tmp_path / RULES).write_text("\n".join(lines))
     rules = read_rules(tmp_path, COURSE)
-    assert rules.due("ada", "2.1")[1].isoformat() == "2026-10-19T23:59:00+02:00"
-    assert rules.due("bo", "2.9")[1].isoformat() == "2026-10-26T23:59:00+01:00"
+    assert rules.due("ada", "2.1").isoformat() == "2026-10-19T23:59:00+02:00"
+    assert rules.due("bo", "2.9").isoformat() == "2026-10-26T23:59:00+01:00"
     assert rules.matches == {"submission_17": "ada"}
 
 

@@ -26,6 +26,7 @@ from robonav.grading.session import Answer
 
 COURSE = Course.around(Path(__file__).parent)
 ROBONAV = str(Path(sys.executable).with_name("robonav"))
+OPEN = [e for e in COURSE.exercises.values() if e.difficulty == "open task"]
 VARIED = [e for e in COURSE.exercises.values() if variants.knobs(COURSE, e)]
 
 
@@ -36,13 +37,18 @@ def exercise(request):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """All variants of an exercise that are tried: values, course and the reference of its answers."""
+    """The variants of an exercise that are tried: values, course and the reference of its answers.
+
+    These are all of them. Of an open task, in which each answer drives or trains, they have every two values together,
+    and only the tests marked exhaustive try ``every`` one.
+    """
 
     @functools.cache
-    def of(exercise):
-        found, of = [], variants.knobs(COURSE, exercise)
-        most = 4 if exercise.difficulty == "open task" else 12  # those take long
-        for values in variants.combinations(of, most):
+    def of(exercise, every=False):
+        found, tried = [], variants.combinations(variants.knobs(COURSE, exercise))
+        if exercise.difficulty == "open task" and not every:
+            tried = variants.covering(tried)
+        for values in tried:
             folder = tmp_path_factory.mktemp(exercise.name)
             with pytest.MonkeyPatch.context() as patch:
                 patch.setattr(os, "fsync", lambda file: None)  # many small files
@@ -114,7 +120,19 @@ def test_the_instructors_page_says_how_many_variants_there_are():
 
 @pytest.mark.slow
 def test_a_solution_passes_its_own_variant_and_no_other(exercise, made):
-    found = made(exercise)
+    passes_its_own_and_no_other(exercise, made(exercise))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("exercise", OPEN, ids=lambda exercise: exercise.name)
+def test_so_it_is_for_all_pairs_of_an_open_task(exercise, made):
+    found = made(exercise, every=True)
+    assert len(found) == variants.product(variants.knobs(COURSE, exercise))
+    passes_its_own_and_no_other(exercise, found)
+
+
+def passes_its_own_and_no_other(exercise, found):
+    """Let every solution answer every variant."""
     functions = [solution(course, exercise) for _, course, _ in found]
     for (values, course, known), function in zip(found, functions, strict=True):
         assert passes(course, known, exercise, function), values
