@@ -180,7 +180,13 @@ function render({ model, el }) {
       const known = baselines.every(({ outcomes }) => outcomes.length === trial.maps);
       if (!known) for (const each of baselines) each.outcomes = [];
       const begun = base === 0 ? "one demonstration of the expert" : `${mine().length} of my drives`;
-      now = { name: `robot ${robots.length + 1}: ${begun}${count() ? `, ${count()} corrections` : ""}`, outcomes: [], colour: PALETTE.BLUE };
+      const number = nextNumber("DAgger, robot", [...keptRobots(), ...robots.map(({ name }) => ({ name: `DAgger, ${name}` }))].map(({ name }) => name));
+      const { regularisation, iterations, seed } = LEARNING;
+      now = {
+        name: `robot ${number}: ${begun}${count() ? `, ${count()} corrections` : ""}`, outcomes: [], colour: PALETTE.BLUE,
+        about: `Learned by DAgger from ${begun} and ${count()} corrections, ${examples.m} steps in all: λ ${regularisation}, at most ${iterations} iterations, initial weights from seed ${seed}.`,
+        made: { first: BASES[base], corrections: count(), steps: examples.m, regularisation, iterations, seed },
+      };
       return { job: imitate, argument: { ...LEARNING, examples, network: null, encoder: ENCODER, rivals: known ? [] : rivals, trial: { ...trial, obstacles: 10 } } };
     },
     live: (news) => {
@@ -193,7 +199,7 @@ function render({ model, el }) {
     },
     done: (network) => {
       robots = [{ ...now, policy: { network, encoder: ENCODER } }, ...robots];
-      const warning = keepRobot({ name: `DAgger, ${now.name}`, network, encoder: ENCODER });
+      const warning = keepRobot({ name: `DAgger, ${now.name}`, network, encoder: ENCODER, method: "dagger", about: now.about, made: now.made });
       now = null;
       showTable();
       choose();

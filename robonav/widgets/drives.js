@@ -69,9 +69,48 @@ export const watchDrives = (listener) => DRIVES.watch(listener);
 /** The number of the next map to drive: one more than the largest that was driven. */
 export const nextMap = (drives) => 1 + Math.max(0, ...drives.map(({ map }) => map ?? 0));
 
-// ---- Seen by the reader ---------------------------------------------------------------------------------------------
+// ---- What makes drives poor examples --------------------------------------------------------------------------------
 
 const FEW_DRIVES = 3; // as many as the pages recommend at first
+const FEW_STEPS = 6; // steps of a drive to learn from
+const WANDERING = 1.5; // times the straight line
+const TURNS = 0.2; // share of turns among the steps to learn from
+
+/** How drives were made: steps to learn from in a drive, length over the straight line, and the share of turns among the steps to learn from. */
+export function drivingStyle(drives) {
+  const total = (numbers) => numbers.reduce((sum, number) => sum + number, 0);
+  const direct = total(drives.map(({ world: { start, target } }) => Math.hypot(target[0] - start[0], target[1] - start[1])));
+  const steps = drives.flatMap(effective);
+  return {
+    steps: steps.length / Math.max(1, drives.length),
+    length: total(drives.map(({ speed, steps: all }) => speed * all.length)) / Math.max(1, direct),
+    turns: steps.filter(({ action }) => action > 0).length / Math.max(1, steps.length),
+  };
+}
+
+const WORDS = ["none", "one", "two", "three"];
+
+/**
+ * What would help a robot that learned from these drives and is no better than one that always goes straight on, in one sentence.
+ * @param {RecordedDrive[]} learned the drives that it learned from @param {RecordedDrive[]} all all drives of the reader
+ */
+export function adviceOn(learned, all) {
+  const arrived = all.filter(({ outcome }) => outcome === "arrived").length;
+  if (learned.length < Math.min(FEW_DRIVES, arrived)) return `It learned from ${WORDS[learned.length]} of your ${arrived} drives that arrived: choose more of them.`;
+  if (arrived < FEW_DRIVES) {
+    const missing = `bring the robot to its target in ${WORDS[FEW_DRIVES - arrived]} more ${FEW_DRIVES - arrived === 1 ? "map" : "maps"}`;
+    return arrived < all.length ? `Only ${arrived} of your ${all.length} drives arrived, and a robot learns from no others: ${missing}.` : `Three drives are enough for a first robot: ${missing}.`;
+  }
+  const { steps, length, turns } = drivingStyle(learned);
+  if (length > WANDERING) return `Your drives are ${length.toFixed(1)} times as long as the straight line, and the robot learned to wander: drive again, and turn only where something is in the way.`;
+  if (steps < FEW_STEPS) return `Your drives have only ${Math.round(steps)} steps each with something in range, and the robot learns from no others: drive maps in which obstacles stand in the way.`;
+  if (turns < TURNS) return `You turned in only ${Math.round(100 * turns)} % of the steps with something in range, and the robot learned to go straight on: turn as soon as something is in the way.`;
+  if (arrived < all.length - arrived) return `More of your drives collided than arrived: drive at a larger distance from the obstacles, and turn earlier.`;
+  return "Drive more maps, turn earlier and at a larger distance from the obstacles, and turn alike in like places.";
+}
+
+// ---- Seen by the reader ---------------------------------------------------------------------------------------------
+
 const ENDS = { arrived: "arrived", collided: "collided", running: "given up" };
 
 /**
@@ -83,11 +122,14 @@ export function keptWords({ added, warning }, { what = "drive", training, next }
   const drives = keptDrives();
   const [count, arrived] = [drives.length, drives.filter(({ outcome }) => outcome === "arrived").length];
   const have = count === 1 ? "It is your first." : `You have ${count} now.`;
-  const advice = [arrived < count ? `A robot learns only from drives that arrive: ${arrived} so far. ` : "", arrived < FEW_DRIVES ? "Three are enough for a first robot. " : ""];
+  const lost = arrived < count ? `A robot learns only from drives that arrive: ${arrived || "none"} so far. ` : "";
+  const missing = FEW_DRIVES - arrived;
+  const advice = [lost, missing > 0 ? `Bring the robot to its target in ${WORDS[missing]} more ${missing === 1 ? "map" : "maps"}, and you can train one of your own. ` : ""];
   if (warning) return [`${warning} ${have} To train a robot on another page, press Download all, and load the file there.`];
   const kept = added ? `This ${what} is kept.` : `You made exactly this ${what} before, and it is kept.`;
-  const train = arrived > 0 ? [h("a", { href: training }, "Train a robot on your drives"), typeof next === "string" ? ", or " : " "] : [];
-  return [`${kept} ${have} `, ...advice, ...train, next, typeof next === "string" ? "." : ""];
+  const train = missing <= 0 ? [h("a", { href: training }, "Train a robot on your drives"), typeof next === "string" ? ", or " : " "] : [];
+  if (typeof next !== "string") return [`${kept} ${have} `, ...advice, ...train, next];
+  return [`${kept} ${have} `, ...advice, ...train, missing <= 0 ? `${next}.` : `${next[0].toUpperCase()}${next.slice(1)}.`];
 }
 
 /** A number of drives, in words. */

@@ -232,6 +232,30 @@ export async function drivesFromFile(buffer) {
   return made;
 }
 
+// ---- Rewards --------------------------------------------------------------------------------------------------------
+
+/** A reward's weights as a file: in Python, `numpy.load(path)["reward_weights"]`. @param {ArrayLike<number>} theta @param {number} actions */
+export const rewardFile = (theta, actions) => npz({ reward_weights: { descr: "<f8", shape: [actions, theta.length / actions], values: [...theta] } });
+
+/**
+ * The reward's weights in a file that this page wrote, or `numpy.savez(path, reward_weights=...)`.
+ * @param {ArrayBuffer} buffer @param {number[]} shape how many rows, one an action, and columns there must be
+ */
+export async function rewardFromFile(buffer, [rows, columns]) {
+  const refuse = (why) => new Error(`The file must hold a reward, an array reward_weights of ${rows} rows and ${columns} columns: ${why}.`);
+  let found = null;
+  try {
+    ({ reward_weights: found } = await npzRead(buffer));
+  } catch {
+    throw refuse("it is damaged or of another kind");
+  }
+  if (!found) throw refuse("it has no such array");
+  const { shape, values } = found;
+  if (shape.length !== 2 || shape[0] !== rows || shape[1] !== columns) throw refuse(`it is of the shape (${shape.join(", ")})`);
+  if (!values.every(Number.isFinite)) throw refuse("it holds what is no number");
+  return Float64Array.from(values);
+}
+
 // ---- safetensors ----------------------------------------------------------------------------------------------------
 
 /** How many numbers an encoder gives. @param {Encoder} encoder */
@@ -242,7 +266,7 @@ const base64 = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(b
 /**
  * The policy in a file that robonav.networks.save_weights wrote.
  * @param {ArrayBuffer} buffer
- * @returns {{network: PackedNetwork, encoder: Encoder, temperature: number}}
+ * @returns {{network: PackedNetwork, encoder: Encoder, method: string, temperature: number}}
  */
 export function weightsFromFile(buffer) {
   const refuse = (why) => new Error(`The file must hold weights saved by robonav: ${why}.`);
@@ -272,7 +296,7 @@ export function weightsFromFile(buffer) {
   const inputs = encoderSize(about.encoder);
   if (sizes[0] !== inputs) throw refuse(`its network has ${sizes[0]} inputs, and it says that it reads ${inputs} numbers`);
   if (sizes.at(-1) > 6) throw refuse(`its network has ${sizes.at(-1)} outputs, the robot six actions`);
-  return { network: { sizes, weights, biases }, encoder: about.encoder, temperature: about.temperature ?? 0 };
+  return { network: { sizes, weights, biases }, encoder: about.encoder, method: about.method, temperature: about.temperature ?? 0 };
 }
 
 /**
@@ -334,6 +358,21 @@ export function browserStore(prefix, { what, advice }) {
     }
   };
   const tellAll = () => shared().listeners.forEach((listener) => listener());
+  /** Keeps a text under a key, in place of one that is there; returns a sentence where the browser would not, or "". */
+  const write = (key, text) => {
+    const kept = storage();
+    shared().memory.delete(key);
+    kept?.removeItem(key);
+    try {
+      if (!kept) throw new Error("no storage");
+      kept.setItem(key, text);
+      return "";
+    } catch {
+      shared().memory.set(key, text);
+      return kept ? `The browser's storage is full: ${what} made from now on last until you close the page. ${advice}`
+        : `This browser keeps nothing for this page: ${what} last until you close it.`;
+    }
+  };
   return {
     /** Pairs of key and text, the oldest first. */
     all: () => {
@@ -343,18 +382,14 @@ export function browserStore(prefix, { what, advice }) {
     },
     /** Keeps texts; returns a sentence where the browser would not, or "". @param {string[]} texts */
     keep: (texts) => {
-      const kept = storage();
-      let sentence = kept ? "" : `This browser keeps nothing for this page: ${what} last until you close it.`;
-      texts.forEach((text, k) => {
-        const id = `${prefix}${String(Date.now()).padStart(15, "0")}.${String(k).padStart(5, "0")}.${Math.random().toString(36).slice(2, 8)}`;
-        try {
-          if (!kept) throw new Error("no storage");
-          kept.setItem(id, text);
-        } catch {
-          shared().memory.set(id, text);
-          sentence ||= `The browser's storage is full: ${what} made from now on last until you close the page. ${advice}`;
-        }
-      });
+      const sentences = texts.map((text, k) =>
+        write(`${prefix}${String(Date.now()).padStart(15, "0")}.${String(k).padStart(5, "0")}.${Math.random().toString(36).slice(2, 8)}`, text));
+      tellAll();
+      return sentences.find((sentence) => sentence !== "") ?? "";
+    },
+    /** Changes a text, or brings one back that was deleted; returns a sentence where the browser would not, or "". */
+    put: (key, text) => {
+      const sentence = write(key, text);
       tellAll();
       return sentence;
     },

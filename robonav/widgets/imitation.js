@@ -22,26 +22,26 @@ export function replayed({ seed, obstacles, actions }, from = 0, to = actions.le
 }
 
 /** Inputs and labels of the steps to learn from, Eqs. (3.29) and (3.30). @param {RecordedDrive[]} drives @returns {Examples} */
-export function examplesFrom(drives) {
+export function examplesFrom(drives, encoder = ENCODER) {
   const pairs = drives.flatMap(effective);
-  return examplesOf(pairs.map(({ sensing }) => encode(ENCODER, sensing)), pairs.map(({ action }) => Array.from({ length: CHOICES }, (_, k) => (k === action ? 1 : 0))));
+  return examplesOf(pairs.map(({ sensing }) => encode(encoder, sensing)), pairs.map(({ action }) => Array.from({ length: CHOICES }, (_, k) => (k === action ? 1 : 0))));
 }
 
 // ---- What is computed, in the worker --------------------------------------------------------------------------------
 
 /**
  * Algorithm 3, and then new maps: learn a network from examples, and let it and its rivals drive.
- * @param {{examples: Examples | null, network: Network | null, sizes: number[], seed: number, regularisation: number,
+ * @param {{examples: Examples | null, network: Network | null, start?: Network | null, sizes: number[], seed: number, regularisation: number,
  *   iterations: number, encoder: Encoder, rivals: object[], trial: {seed: number, maps: number, obstacles: number}}} task
- *   a `network` drives as it is; `null` learns one from the examples
+ *   a `network` drives as it is; `null` learns one from the examples, and begins with `start` or with random weights
  */
-export function* imitate({ examples, network, sizes, seed, regularisation, iterations, encoder, rivals, trial }) {
+export function* imitate({ examples, network, start = null, sizes, seed, regularisation, iterations, encoder, rivals, trial }) {
   const steps = network ? 0 : iterations;
   const total = steps + trial.maps;
   let learned = network;
   if (!network) {
-    learned = randomNetwork(sizes, defaultRng(seed)); // 1
-    const cost = costFunction("cross-entropy", sizes, examples, regularisation);
+    learned = start ? flattened(start) : randomNetwork(sizes, defaultRng(seed)); // 1
+    const cost = costFunction("cross-entropy", learned.sizes, examples, regularisation);
     let at = 0;
     for (const iterate of lbfgs(cost, learned.parameters, iterations)) { // 7
       yield { done: at, total, live: { at, cost: iterate.cost, agreement: 100 * iterate.agreement } };

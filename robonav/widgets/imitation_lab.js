@@ -9,8 +9,10 @@ const FEW = 25; // of the expert's demonstrations, as on the page
 const NO_STEP = "These demonstrations have no step with something in range, so there is nothing to learn from.";
 const NO_DRIVE = "There is nothing to learn from: drive a few maps in the playground, or choose the expert's demonstrations.";
 const ALWAYS_STRAIGHT = "Your robot always goes straight on. Drive more maps, turn earlier, or choose a smaller λ.";
+const PYTHON_BEGINS_ANEW = "The robots of Python begin with random weights: choose these under “begin with”.";
 const ROOM = 700; // pixels from which on the settings are open at first
 const MOST_ROBOTS = 6; // of the reader's, that stay in the table
+const LITTLE = 0.05; // a share of the maps: by so little a robot that has learned something is not better than straight on
 
 function render({ model, el }) {
   const { expert, book, trial, playground } = model.get("data");
@@ -22,7 +24,7 @@ function render({ model, el }) {
   const rivals = [{ ...book, name: "the book's robot" }, STRAIGHT];
   let settings = { source: 0, count: 1, hidden: 8, regularisation: 0.1, iterations: 300, seed: 0, obstacles: 10 };
   let robots = []; // {name, outcomes, colour, policy}: the reader's, the latest first
-  let finished = 0; // how many robots of the reader were tested so far, also those that left the table
+  let finished = 0; // the number of the robot that was trained last, also of one that left the table
   let baselines = rivals.map((rival) => ({ name: rival.name, outcomes: [], colour: PALETTE.GREY, policy: rival.network ? { ...rival, network: networks(rival.network)() } : rival }));
   let [worlds, now] = [null, null];
   const inMaps = () => ({ ...trial, obstacles: settings.obstacles });
@@ -43,15 +45,20 @@ function render({ model, el }) {
   const tell = () => {
     const [own, kept] = [mine(), keptDrives()];
     const { count, hidden, regularisation, iterations, seed, obstacles } = settings;
-    plan.textContent = `A network with ${hidden} hidden ${hidden === 1 ? "unit" : "units"} learns from the demonstrations in at most ${iterations} ${iterations === 1 ? "iteration" : "iterations"}, with λ = ${regularisation} and initial weights from seed ${seed}. `
+    const begun = begin.value();
+    const learner = begun ? `The network of ${begun.name}` : `A network with ${hidden} hidden ${hidden === 1 ? "unit" : "units"}`;
+    plan.textContent = `${learner} learns from the demonstrations in at most ${iterations} ${iterations === 1 ? "iteration" : "iterations"}, with λ = ${regularisation}${begun ? "" : ` and initial weights from seed ${seed}`}. `
       + `Then the robot is tested in ${trial.maps} new maps with ${obstacles} obstacles.`;
+    for (const field of [controls[0].element.querySelector("select"), seeds.element.querySelector("input")]) field.disabled = begun !== null;
     if (own.length === 0 && settings.source !== 1) {
       about.replaceChildren("None of your drives has arrived yet. Drive a few maps in the ", h("a", { href: playground }, "playground"), ", or learn from the expert's demonstrations.");
       return;
     }
     const steps = chosen().flatMap(effective).length;
     const lost = settings.source === 1 ? 0 : kept.length - own.length;
+    const missing = settings.source === 0 ? FEW_DRIVES - own.length : 0;
     about.textContent = `${count} ${count === 1 ? "demonstration" : "demonstrations"} with ${steps} steps to learn from: steps with something in range. `
+      + (missing > 0 ? `Three are enough for a first robot: bring it to its target in ${WORDS[missing]} more ${missing === 1 ? "map" : "maps"}. ` : "")
       + (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out.` : "");
   };
   const refresh = () => {
@@ -72,6 +79,7 @@ function render({ model, el }) {
     list("obstacles in the new maps", "", OBSTACLES, "obstacles"),
   ];
   const seeds = slider({ label: "initial weights drawn with seed", count: 10, text: String, change: (at) => { settings.seed = at; tell(); } });
+  const begin = beginning({ change: () => tell() });
 
   // What comes out
   const table = ranking();
@@ -96,20 +104,30 @@ function render({ model, el }) {
     view.flash(driven.at(-1).map, driven.at(-1).path);
     showTable();
   };
-  const task = ({ name, network = null, encoder = ENCODER, examples = null, made = {} }) => {
+  const task = (robot) => {
     const known = baselines.every(({ outcomes }) => outcomes.length === trial.maps);
     if (!known) for (const each of baselines) each.outcomes = [];
-    now = { name, outcomes: [], colour: PALETTE.BLUE, encoder, made };
+    now = { outcomes: [], colour: PALETTE.BLUE, encoder: ENCODER, network: null, start: null, examples: null, number: finished, keep: keepRobot, advise: () => "", ...robot };
+    const { encoder, network, start, examples } = now;
     const { hidden, seed, regularisation, iterations } = settings;
     return { job: imitate, argument: {
-      examples, network, sizes: [INPUTS, hidden, CHOICES], seed, regularisation, iterations, encoder, rivals: known ? [] : rivals, trial: inMaps(),
+      examples, network, start, sizes: [INPUTS, hidden, CHOICES], seed, regularisation, iterations, encoder, rivals: known ? [] : rivals, trial: inMaps(),
     } };
   };
-  const named = () => {
-    const what = [`${settings.count} of my drives`, `${settings.count} of the expert's demonstrations`, `${settings.count} demonstrations of both`][settings.source];
-    return `robot ${finished + 1}: ${what}, ${settings.hidden} hidden, λ ${settings.regularisation}`;
+  /** The robot that the settings train: its name, and how it is made, in words and as data. */
+  const described = (begun, steps) => {
+    const { source: from, count, hidden, regularisation, iterations, seed } = settings;
+    const number = Math.max(finished + 1, nextNumber("robot", keptRobots().map(({ name }) => name)));
+    const what = [`${count} of my drives`, `${count} of the expert's demonstrations`, `${count} demonstrations of both`][from];
+    const begins = begun ? `on from ${shortName(begun.name)}` : `${hidden} hidden`;
+    return {
+      number, name: `robot ${number}: ${what}, ${begins}, λ ${regularisation}`,
+      about: `Learned by imitation from ${what}, with ${steps} steps to learn from: λ ${regularisation}, at most ${iterations} iterations, `
+        + (begun ? `beginning with the weights of ${begun.name}.` : `${hidden} hidden units, initial weights from seed ${seed}.`),
+      made: { source: SOURCES[from], drives: count, steps, regularisation, iterations, ...(begun ? { begun: begun.name } : { hidden, seed }) },
+    };
   };
-  let brought = null; // a network from a file, to be tried
+  let brought = null; // a robot from a file or from Python, to be tried
   const panel = trainingPanel({
     source: model.get("_esm"), title: "Learn a policy from the demonstrations, and test it in new maps", action: "Train", unit: "iterations", total: () => settings.iterations,
     beside: view.element, lines: [
@@ -122,24 +140,25 @@ function render({ model, el }) {
         brought = null;
         return task(file);
       }
-      const learned = chosen();
-      const examples = examplesFrom(learned);
+      const [learned, begun] = [chosen(), begin.value()];
+      const encoder = begun?.encoder ?? ENCODER;
+      const examples = examplesFrom(learned, encoder);
       if (examples.m === 0) return learned.length ? NO_STEP : NO_DRIVE;
-      const { source: from, count, hidden, regularisation, iterations, seed } = settings;
-      return task({ name: named(), examples, made: { source: SOURCES[from], drives: count, hidden, regularisation, iterations, seed } });
+      return task({ ...described(begun, examples.m), encoder, examples, start: begun?.network ?? null, advise: settings.source === 0 ? () => adviceOn(learned, keptDrives()) : () => "" });
     },
     live,
     done: (network) => {
-      robots = [{ ...now, policy: { network, encoder: now.encoder } }, ...robots].slice(0, MOST_ROBOTS);
-      finished += 1;
-      const warning = keepRobot({ name: now.name, network, encoder: now.encoder });
+      const { name, about, made, encoder, number, keep, advise } = now;
+      robots = [{ ...now, examples: null, policy: { network, encoder } }, ...robots].slice(0, MOST_ROBOTS);
+      finished = Math.max(finished, number);
+      const warning = keep({ name, network, encoder, method: "lfd", about, made });
       now = null;
       download.disabled = release.hidden = false;
       showTable();
       view.update();
-      const [own, straight] = [robots[0], baselines[1]].map(({ outcomes }) => percent(rateOf(outcomes).rate));
-      const same = sameOutcomes(robots[0], baselines[1]) ? ALWAYS_STRAIGHT : "";
-      return [`Your robot arrives in ${own} % of the maps, one that always goes straight on in ${straight} %.`, same, warning].filter(Boolean).join(" ");
+      const [own, straight] = [robots[0], baselines[1]].map(({ outcomes }) => rateOf(outcomes).rate);
+      const advice = sameOutcomes(robots[0], baselines[1]) ? ALWAYS_STRAIGHT : own < straight + LITTLE ? advise() : "";
+      return [`Your robot arrives in ${percent(own)} % of the maps, one that always goes straight on in ${percent(straight)} %.`, advice, warning].filter(Boolean).join(" ");
     },
     cancelled: () => {
       now = null;
@@ -149,8 +168,8 @@ function render({ model, el }) {
     },
   });
   const several = numberOfRobots();
-  let best = null; // the robot of Python with the least cost
-  const tryBest = h("button", { type: "button", disabled: true, click: () => tryNetwork(best.network, best.encoder, best.name, { source: "Python" }) }, "Let the best robot of Python drive in the page");
+  let [best, python] = [null, null]; // the robot of Python with the least cost, and how it is made
+  const tryBest = h("button", { type: "button", disabled: true, click: () => tryNetwork(best) }, "Let the best robot of Python drive in the page");
   const kernel = kernelPanel({
     model, title: "The same settings in Python: several robots", unit: "iterations", total: () => settings.iterations, controls: [several.element, tryBest],
     lines: [
@@ -160,11 +179,13 @@ function render({ model, el }) {
     request: () => {
       const learnedFrom = chosen();
       if (learnedFrom.flatMap(effective).length === 0) return learnedFrom.length ? NO_STEP : NO_DRIVE;
+      if (begin.value()) return PYTHON_BEGINS_ANEW;
+      python = described(null, learnedFrom.flatMap(effective).length);
       const { hidden, regularisation, iterations, seed, obstacles } = settings;
       return { robots: several.value(), drives: base64Of(demonstrationsFile(learnedFrom)), settings: { hidden, regularisation, iterations, seed, obstacles } };
     },
     done: ({ sentence, policy }) => {
-      best = { ...policy, name: "trained in Python" };
+      best = { ...policy, ...python, number: finished, name: `trained in Python: ${python.name.split(": ")[1]}`, about: `The best of several robots of Python. ${python.about}` };
       tryBest.disabled = false;
       return sentence;
     },
@@ -172,23 +193,24 @@ function render({ model, el }) {
 
   const note = h("span", { role: "status" });
   /** Lets a network that was not trained in the page drive the new maps. */
-  const tryNetwork = (network, encoder, name, made) => {
-    brought = { name: `robot ${finished + 1}: ${name}`, network: networks(network)(), encoder, made };
+  const tryNetwork = (robot) => {
+    brought = { ...robot, network: networks(robot.network)() };
     note.textContent = "";
     panel.cancel();
     panel.start();
   };
   const release = h("p", { hidden: true }, h("a", { href: playground }, "Let your robot drive in the playground"), ", on maps that you change while it drives.");
   const download = h("button", { type: "button", disabled: true, click: () => {
-    const [{ policy, made }] = robots;
-    saveFile("my-robot.safetensors", weightsFile({ ...policy, method: "lfd" }, made));
+    const [{ policy, name, about, made }] = robots;
+    saveFile("my-robot.safetensors", robotFile({ ...policy, name, about, made, method: "lfd" }));
   } }, "Download the latest robot's weights");
   const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights to try", change: async () => {
     const [file] = upload.files;
     if (!file) return;
     try {
       const { network, encoder } = weightsFromFile(await file.arrayBuffer());
-      tryNetwork(network, encoder, file.name, { file: file.name });
+      const keep = () => ""; // it is in the file
+      tryNetwork({ network, encoder, name: distinctName(file.name, robots.map(({ name }) => name)), about: "", made: { file: file.name }, keep });
     } catch (error) {
       note.textContent = error.message;
     }
@@ -204,7 +226,7 @@ function render({ model, el }) {
   const kept = drivesList();
   el.replaceChildren(
     h("div", { class: "row" }, source.element, place), about,
-    h("details", { open: (globalThis.innerWidth ?? Infinity) >= ROOM }, h("summary", {}, "How it learns"), h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element), plan),
+    h("details", { open: (globalThis.innerWidth ?? Infinity) >= ROOM }, h("summary", {}, "How it learns"), h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element), begin.element, plan),
     panel.element, table.element,
     release,
     h("div", { class: "row tools" }, download, h("label", { class: "file" }, h("span", {}, "try weights from a file (safetensors)"), upload), note),
@@ -218,6 +240,7 @@ function render({ model, el }) {
     kernel.cancel();
     view.end();
     kept.end();
+    begin.end();
     unwatch();
   };
 }

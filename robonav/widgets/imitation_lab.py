@@ -30,7 +30,9 @@ class ImitationLab(KernelTraining):
         "learning/trials", "learning/worker", "learning/training_panel",
         "learning/kernel_panel", "drives", "kept_robots", "imitation", "imitation_lab",
     )  # fmt: skip
-    _css = style_sheet("maps", "drives", "learning/training_panel", "imitation")
+    _css = style_sheet(
+        "maps", "drives", "learning/training_panel", "kept_robots", "imitation"
+    )
 
     def train(self, request: dict[str, Any], report: Report) -> dict[str, Any]:
         """Train robots side by side by L-BFGS, and return the one with the least cost."""

@@ -37,11 +37,10 @@ function render({ model, el }) {
         ...methods.map(({ name, rates }) => h("tr", {}, h("th", { scope: "row" }, name), ...rates.map((rate) => h("td", {}, rate.toFixed(0))))))));
   const which = h("select", { "aria-label": "robot" });
   const fill = () => {
-    const found = robots();
-    which.replaceChildren(...found.map(({ name }) => h("option", {}, name)));
+    const [found, chosen] = [robots(), which.value];
+    which.replaceChildren(...found.map(({ id, name }) => h("option", { value: id, selected: id === chosen }, name)));
     which.disabled = found.length === 0;
     if (found.length === 0) which.append(h("option", {}, "none yet"));
-    remove.disabled = which.selectedIndex >= keptRobots().length || found.length === 0;
   };
   const about = h("p", { class: "about" });
   /** The seeds of the worlds that are chosen: the first set, or all. */
@@ -57,7 +56,7 @@ function render({ model, el }) {
     try {
       const { network, encoder, temperature } = weightsFromFile(await file.arrayBuffer());
       const name = distinctName(file.name, robots().map((other) => other.name));
-      brought.push({ name, network: networks(network)(), encoder, temperature });
+      brought.push({ id: `file ${name}`, name, network: networks(network)(), encoder, temperature });
       fill();
       which.selectedIndex = robots().length - 1;
       note.textContent = `${name} is ready to be tried.`;
@@ -66,8 +65,7 @@ function render({ model, el }) {
     }
     upload.value = "";
   } });
-  const remove = h("button", { type: "button", click: () => deleteRobots([robots()[which.selectedIndex].id]) }, "Delete this robot");
-  which.addEventListener("change", () => (remove.disabled = which.selectedIndex >= keptRobots().length));
+  const myRobots = robotsList();
   let each = worlds;
   const show = (arrived, until) => arrived.forEach((count, k) => {
     mine[k].textContent = k < until ? percent(count / each) : "";
@@ -98,14 +96,15 @@ function render({ model, el }) {
   const forget = watchRobots(fill);
   asWidget(el, "Your robot on the leaderboard");
   el.replaceChildren(
-    h("div", { class: "row tools" }, h("label", {}, h("span", {}, "robot"), which), sets.element, remove,
+    h("div", { class: "row tools" }, h("label", {}, h("span", {}, "robot"), which), sets.element,
       h("label", { class: "file" }, h("span", {}, "or weights from a file"), upload)),
-    about, note, panel.element, h("div", { class: "board" }, table),
+    about, note, panel.element, h("div", { class: "board" }, table), myRobots.element,
     h("p", {}, h("a", { class: "call", href: playground }, "Train a robot of your own")));
   fill();
   tell();
   return () => {
     forget();
+    myRobots.end();
     panel.cancel();
   };
 }

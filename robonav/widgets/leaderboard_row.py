@@ -21,7 +21,9 @@ class LeaderboardRow(anywidget.AnyWidget):
         "simulator", "files", "learning/random", "learning/worlds", "learning/trials",
         "learning/worker", "learning/training_panel", "kept_robots", "leaderboard_row",
     )  # fmt: skip
-    _css = style_sheet("learning/training_panel", "robot_playground", "leaderboard_row")
+    _css = style_sheet(
+        "learning/training_panel", "robot_playground", "kept_robots", "leaderboard_row"
+    )
     data = traitlets.Dict().tag(sync=True)
 
 

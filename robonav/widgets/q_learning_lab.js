@@ -1,5 +1,6 @@
 // Q-learning lab: the reader sets reward, exploration and learning, and a robot learns from nothing, in the page.
 
+const METHOD_WORDS = { nnql: "NNQL", online: "online Q-learning", dqn: "double DQN" };
 const BLOCK = 30; // episodes in which successes are counted, as in Fig. 4.4
 const OUTCOME_COLOURS = { arrived: PALETTE.BLUE, collided: PALETTE.VERMILION, "out of steps": PALETTE.PURPLE };
 const ENDINGS = { arrived: "arrived", collided: "collided", "out of steps": "never ended" };
@@ -51,6 +52,7 @@ const EXPLORATION_HINT = "The higher the temperature, the more random the action
 const LEARNING_HINT = "The discount γ says how much a reward counts that comes a step later. The learning rate α says how far a value moves to its new estimate. "
   + "The step of gradient descent σ says how far the weights then move, in each of several passes through the pairs of state and values. Both are multiplied by the same factor in every episode, from start to end.";
 const ADAM_STEP = [0.003, 0.003]; // the steps of the other methods are too large for DQN
+const SET_BY_WEIGHTS = ["inputs", "hidden"]; // settings that come with the weights that a training begins with
 /** Whether a method takes no notice of a setting. */
 const idle = (method, { key, part = 0 }) => method === "dqn" && (["learningRate", "passes", "rescale"].includes(key) || (key === "gradientStep" && part === 1));
 
@@ -70,20 +72,65 @@ export function complaint({ key, label, least, most, positive }, value) {
   return "";
 }
 
-/** What differs between two settings, in words: "discount 0.7 instead of 0.6". @param {{label: string}[]} rewards a field for each row */
-export function differences(settings, other, rewards) {
+/**
+ * What differs between two settings, in words: "discount 0.7 instead of 0.6".
+ * @param {{label: string}[]} rewards a field for each row @param {(field: {key: string, part?: number}) => boolean} unused whether a setting plays no part
+ */
+export function differences(settings, other, rewards, unused = () => false) {
   const shown = (field, from) => String(read(from, field));
   const named = ({ key, options }, from) => options.find(([value]) => value === from[key])[1];
   return [
-    ...[...rewards, ...Object.values(NUMBERS).flat()].filter((field) => read(settings, field) !== read(other, field))
+    ...[...rewards, ...Object.values(NUMBERS).flat()].filter((field) => !unused(field) && read(settings, field) !== read(other, field))
       .map((field) => `${field.label} ${shown(field, settings)} instead of ${shown(field, other)}`),
-    ...Object.values(CHOICES).filter(({ key }) => settings[key] !== other[key]).map((list) => `${list.label}: ${named(list, settings)}`),
+    ...Object.values(CHOICES).filter((list) => !unused(list) && settings[list.key] !== other[list.key]).map((list) => `${list.label}: ${named(list, settings)}`),
   ];
+}
+
+const MOST_CHANGES = 3; // that the name of a robot says
+const counted = (count, one, more = `${one}s`) => `${count} ${count === 1 ? one : more}`;
+const signed = (number) => String(number).replace("-", "−");
+/** What a setting that is not the book's is called in the name of a robot. */
+const SHORT = {
+  mustMoveAway: (value) => (value ? "evading is moving away" : "evading is staying away"),
+  obstacles: (count) => counted(count, "obstacle"),
+  moving: (count) => `${count} moving`,
+  speed: (pace) => `${pace} m/s`,
+  inputs: (name) => `inputs ${name}`,
+  hidden: (units) => `${units} hidden`,
+  episodes: (count) => counted(count, "episode"),
+  learningRate: (ends) => `learning rate ${course(ends)}`,
+  discount: (value) => `discount ${value}`,
+  gradientStep: (ends) => `step ${course(ends)}`,
+  temperature: (ends) => `temperature ${course(ends)}`,
+  rescale: (name) => (name === "clip" ? "Q clipped" : "Q shifted"),
+  passes: (count) => counted(count, "pass", "passes"),
+};
+/** A schedule in short. @param {[number, number]} ends */
+const course = ([start, end]) => (start === end ? String(start) : `${start} to ${end}`);
+
+/** The book's settings for a method. @param {LearningSettings} book */
+const bookSettings = (book, method) => ({ ...book, method, gradientStep: method === "dqn" ? ADAM_STEP : book.gradientStep });
+
+/**
+ * What a robot's name says of its settings: what is not the book's, in short.
+ * @param {LearningSettings} settings @param {LearningSettings} book @param {{before: string, after: string}[]} table of the rewards
+ */
+export function nameOf(settings, book, table, begun = "") {
+  const usual = bookSettings(book, settings.method);
+  const rows = table.map((row, part) => ({ ...row, part })).filter(({ part }) => settings.rewards[part] !== usual.rewards[part]);
+  const rewards = rows.length > 2 ? [`${rows.length} rewards changed`]
+    : rows.map(({ before, after, part }) => `${before} to ${after} ${signed(usual.rewards[part])} → ${signed(settings.rewards[part])}`);
+  const others = Object.entries(SHORT).filter(([key]) => !idle(settings.method, { key }) && !(begun && SET_BY_WEIGHTS.includes(key)) && String(settings[key]) !== String(usual[key]))
+    .map(([key, say]) => say(settings[key]));
+  const changes = [...rewards, ...others];
+  const left = changes.length - MOST_CHANGES;
+  const shown = left > 1 ? [...changes.slice(0, MOST_CHANGES), `${left} more changes`] : changes;
+  return [settings.method, ...(begun ? [`on from ${shortName(begun)}`] : []), ...(shown.length > 0 ? shown : ["the book's settings"]), `seed ${settings.seed}`].join(", ");
 }
 
 /** The form: all settings, in groups that open and close. */
 function settingsForm({ table, open, first, change }) {
-  let settings = first;
+  let [settings, begun] = [first, false];
   const [fields, lists] = [[], []];
   const numberInput = (field, attributes = {}) => {
     const input = h("input", { type: "number", step: field.step, min: field.least, max: field.most, "aria-label": field.label, ...attributes });
@@ -102,15 +149,18 @@ function settingsForm({ table, open, first, change }) {
     const { key, label, options } = CHOICES[name];
     const one = choice({ label, options: options.map(([, text]) => text), change: (index) => {
       settings = { ...settings, [key]: options[index][0] };
-      if (key === "method") put({ ...settings, gradientStep: settings.method === "dqn" ? ADAM_STEP : first.gradientStep });
+      if (key === "method") put(byMethod(settings.method));
       change();
     } });
     lists.push(() => {
       one.move(options.findIndex(([value]) => value === settings[key]));
-      one.element.querySelector("select").disabled = idle(settings.method, { key });
+      one.element.querySelector("select").disabled = unused({ key });
     });
     return one.element;
   };
+  /** The settings with another method, which may need other steps. */
+  const byMethod = (method) => bookSettings({ ...settings, gradientStep: first.gradientStep }, method);
+  const unused = (field) => idle(settings.method, field) || (begun && SET_BY_WEIGHTS.includes(field.key));
   const hints = (text) => h("p", { class: "told" }, text);
   const row = (...children) => h("div", { class: "row" }, ...children);
   const group = (name, title, ...children) => h("details", { open: open.includes(name) }, h("summary", {}, title), ...children);
@@ -127,7 +177,7 @@ function settingsForm({ table, open, first, change }) {
     settings = other;
     for (const { field, input } of fields) {
       input.value = String(read(settings, field));
-      input.disabled = idle(settings.method, field);
+      input.disabled = unused(field);
       input.removeAttribute("data-wrong");
       input.setAttribute("aria-invalid", "false");
     }
@@ -143,15 +193,21 @@ function settingsForm({ table, open, first, change }) {
     found.input.focus();
     return complaint(found.field, found.input.valueAsNumber);
   };
+  /** A training that begins with a robot's weights has its inputs and hidden units, and goes on by its method if that is one of these. */
+  const begin = (robot) => {
+    begun = robot !== null;
+    const known = CHOICES.method.options.some(([method]) => method === robot?.method);
+    put(known && robot.method !== settings.method ? byMethod(robot.method) : settings);
+  };
   put(first);
-  return { element, put, wrong, settings: () => settings, changes: () => differences(settings, first, rewardFields) };
+  return { element, put, wrong, begin, settings: () => settings, changes: (other = first) => differences(settings, other, rewardFields, unused) };
 }
 
 // ---- What is computed, in the worker --------------------------------------------------------------------------------
 
 /** The policies that are tried in new maps, by name. */
-function contestants(network, settings, { book, temperatures }) {
-  const [mine, temperature] = [{ network, encoder: encoderOf(settings) }, temperatures[settings.method]];
+function contestants(network, encoder, settings, { book, temperatures }) {
+  const [mine, temperature] = [{ network, encoder }, temperatures[settings.method]];
   return {
     "your robot": mine,
     [`your robot at T = ${temperature}`]: { ...mine, temperature },
@@ -162,24 +218,26 @@ function contestants(network, settings, { book, temperatures }) {
 
 /**
  * Learn, and then test the robot in new maps: a job for the worker. Its steps say what happened in each episode, and in each map.
- * @param {{settings: LearningSettings, trial: {seed: number, maps: number, book: object, temperatures: Record<string, number>}}} job
+ * @param {{settings: LearningSettings, start?: {network: Network, encoder: Encoder} | null,
+ *   trial: {seed: number, maps: number, book: object, temperatures: Record<string, number>}}} job `start`: what the training begins with
  */
-export function* learnAndDrive({ settings, trial }) {
+export function* learnAndDrive({ settings, start = null, trial }) {
   const total = settings.episodes + trial.maps;
   let [network, arrived] = [null, 0];
-  for (const ended of neuralQLearning(settings)) {
+  for (const ended of neuralQLearning(settings, { start })) {
     if (!ended) {
       yield;
       continue;
     }
-    const { network: learning, episode, world, path, outcome, changes } = ended;
+    const { network: learning, episode, world, path, outcome, changes, outside } = ended;
     [network, arrived] = [learning, arrived + (outcome === "arrived" ? 1 : 0)];
     const ends = (episode + 1) % BLOCK === 0;
     const [first, second] = changes.map(({ absolute }) => absolute);
-    yield { done: episode + 1, total, live: { at: episode + 1, successes: ends ? arrived : null, first, second, episode: { world, path, outcome } } };
+    const beyond = outside === null ? null : 100 * outside;
+    yield { done: episode + 1, total, live: { at: episode + 1, successes: ends ? arrived : null, first, second, beyond, episode: { world, path, outcome } } };
     if (ends) arrived = 0;
   }
-  const policies = Object.entries(contestants(network, settings, trial));
+  const policies = Object.entries(contestants(network, start?.encoder ?? encoderOf(settings), settings, trial));
   const keys = worldKeysOf(trial.maps, trial.seed);
   const { speed, maxSteps, obstacles, moving } = settings;
   for (let i = 0; i < trial.maps; i += 1) {
@@ -250,6 +308,7 @@ const LINES = [
   { name: "successes", label: "arrivals in 30", note: "How many of the last 30 episodes arrived.", colour: PALETTE.GREEN, high: BLOCK, text: String },
   { name: "first", label: "change of W(1)", note: "How much the weights between inputs and hidden units changed in an episode: the sum of the absolute changes.", text: (value) => value.toFixed(0) },
   { name: "second", label: "change of W(2)", note: "The same for the weights between hidden units and outputs.", colour: PALETTE.ORANGE, text: (value) => value.toFixed(0) },
+  { name: "beyond", label: "targets out of [0, 1] (%)", note: "How many of an episode's targets do not fit into the outputs, and are shifted or clipped. DQN's outputs have no bounds.", colour: PALETTE.VERMILION, low: 0, high: 100, text: (value) => value.toFixed(0) },
 ];
 
 /** A map to look back on a run: its episodes, or the new maps that it drove, second by second. */
@@ -329,15 +388,23 @@ function snapshots(pick) {
   return { element: h("div", { class: "snapshots", role: "group", "aria-label": "Eight episodes of the training" }, ...all.map(({ element }) => element)), clear, show };
 }
 
+/** Where a way to go wrong shows, and what is compared once it is cured. */
+const COMPARED = {
+  maps: "your robot with the row “the run before”",
+  training: "the arrivals with the grey curve of the run before",
+  targets: "the targets out of [0, 1] with the grey curve of the run before",
+  nothing: "your robot with the row “the run before”: the two hardly differ",
+};
+
 /** A list of ways to go wrong, each with what to watch and its cure. */
 function faults(presets, first, form, tell) {
   const about = h("p", { class: "told" });
   const apply = (index, cured) => {
-    const { seed, episodes } = presets[index].settings;
-    form.put(cured ? { ...first, seed, episodes } : presets[index].settings);
+    const { seed, episodes, obstacles, moving, speed } = presets[index].settings;
+    form.put(cured ? { ...first, seed, episodes, obstacles, moving, speed } : presets[index].settings);
     tell();
     cure.disabled = cured;
-    about.textContent = cured ? `${presets[index].cure} Press Train, and compare with the grey curve of the run before.` : presets[index].watch;
+    about.textContent = cured ? `${presets[index].cure} Press Train, and compare ${COMPARED[presets[index].shows]}.` : presets[index].watch;
   };
   let chosen = 0;
   const which = choice({ label: "what goes wrong", options: presets.map(({ name }) => name), change: (index) => apply((chosen = index), false) });
@@ -346,8 +413,10 @@ function faults(presets, first, form, tell) {
   return [h("div", { class: "row presets" }, which.element, cure), about];
 }
 
+const ANEW_IN_PYTHON = "The robots of Python begin with random weights: choose these under “begin with”.";
+
 /** Several robots in the kernel's Python, with the settings of the page. */
-function severalRobots({ model, form }) {
+function severalRobots({ model, form, start }) {
   const robots = numberOfRobots();
   return kernelPanel({
     model, title: "The same settings in Python: several robots", unit: "robot", total: robots.value, controls: [robots.element],
@@ -355,12 +424,12 @@ function severalRobots({ model, form }) {
       { name: "last", label: "arrivals, last 100", note: "How many of the last 100 episodes of a robot arrived.", high: 100, text: (value) => value.toFixed(0) },
       { name: "maps", label: "new maps (%)", note: "How many new maps a robot crosses.", colour: PALETTE.GREEN, high: 100, text: (value) => value.toFixed(0) },
     ],
-    request: () => form.wrong() || { settings: form.settings(), robots: robots.value() },
+    request: () => form.wrong() || (start.value() ? ANEW_IN_PYTHON : { settings: form.settings(), robots: robots.value() }),
   });
 }
 
 function render({ model, el }) {
-  const { table, open, first, thesis, presets, trial } = model.get("data");
+  const { table, open, first, usual, thesis, presets, trial } = model.get("data");
   let maps = trial.numbers[0];
   let [run, before, frame] = [null, null, 0];
 
@@ -369,9 +438,15 @@ function render({ model, el }) {
   const tell = () => {
     note.textContent = form.wrong({ focus: false });
     const changes = form.changes();
-    setting.textContent = note.textContent ? "" : `${changes.length > 0 ? `Changed: ${changes.join("; ")}.` : "Nothing is changed."} After its training the robot is tested in ${maps} new maps.`;
+    const begun = start.value();
+    const begins = begun ? ` It begins with the weights of ${begun.name}, and with the temperature and the steps of the form.` : "";
+    setting.textContent = note.textContent ? "" : `${changes.length > 0 ? `Changed: ${changes.join("; ")}.` : "Nothing is changed."}${begins} After its training the robot is tested in ${maps} new maps.`;
   };
   const form = settingsForm({ table, open, first, change: () => tell() });
+  const start = beginning({ change: () => {
+    form.begin(start.value());
+    tell();
+  } });
   /** Other settings in the form, with the reader's own seed and number of episodes. */
   const put = (settings) => {
     const { seed, episodes } = form.settings();
@@ -387,10 +462,7 @@ function render({ model, el }) {
     maps = trial.numbers[index];
     tell();
   } });
-  const save = h("button", { type: "button", disabled: true, click: () => {
-    const { episodes, seed } = run.settings;
-    saveFile("my-nnql.safetensors", weightsFile(learned(run), { episodes, seed }));
-  } }, "Download the weights");
+  const save = h("button", { type: "button", disabled: true, click: () => saveFile("my-nnql.safetensors", robotFile(run.robot)) }, "Download the weights");
 
   const paint = () => {
     frame = 0;
@@ -417,12 +489,12 @@ function render({ model, el }) {
         return wrong;
       }
       if (run?.network) [before] = trialRows(run.tests.map(({ outcomes }) => outcomes));
-      run = { settings: form.settings(), maps, episodes: [], tests: [], network: null };
+      run = { settings: form.settings(), changed: form.changes(bookSettings(usual, form.settings().method)), start: start.value(), maps, episodes: [], tests: [], network: null };
       map.hide();
       small.clear();
       results.show([], maps);
       save.disabled = true;
-      return { job: learnAndDrive, argument: { settings: run.settings, trial: { ...trial, maps } } };
+      return { job: learnAndDrive, argument: { settings: run.settings, start: run.start, trial: { ...trial, maps } } };
     },
     live: (news) => {
       for (const { episode, test } of news) {
@@ -433,8 +505,12 @@ function render({ model, el }) {
     },
     done: (network) => {
       run.network = network;
-      const { method, episodes, seed } = run.settings;
-      const warning = keepRobot({ ...learned(run), name: `${method}, ${episodes} episodes, seed ${seed}`, temperature: trial.temperatures[method] });
+      const { settings, changed, start: begun } = run;
+      run.robot = {
+        ...learned(run), name: nameOf(settings, usual, table, begun?.name), temperature: trial.temperatures[settings.method],
+        about: aboutRun(run), made: { ...settings, changed, ...(begun ? { begun: begun.name } : {}) },
+      };
+      const warning = keepRobot(run.robot);
       ended();
       return `${verdict(run)} ${warning}`.trim();
     },
@@ -445,13 +521,13 @@ function render({ model, el }) {
     beside: map.element,
   });
 
-  const kernel = severalRobots({ model, form });
+  const kernel = severalRobots({ model, form, start });
 
   panel.element.firstElementChild.after(setting, note); // below Train, which must not move away from under a finger
 
   asWidget(el, "Q-learning lab", "q-learning-lab");
   el.replaceChildren(
-    ...(presets.length > 0 ? faults(presets, first, form, tell) : []), form.element,
+    ...(presets.length > 0 ? faults(presets, first, form, tell) : []), form.element, start.element,
     h("div", { class: "row tools" }, count.element, button("The thesis's settings", thesis), button("The book's settings", first)),
     panel.element, results.element, small.element, h("div", { class: "row tools" }, save),
     kernel.element);
@@ -461,17 +537,24 @@ function render({ model, el }) {
   return () => {
     panel.cancel();
     kernel.cancel();
+    start.end();
     map.hide();
     cancelAnimationFrame(frame);
   };
 }
 
 /** The network of a run, and what it reads; a network of raw inputs becomes one of scaled inputs, which has the same outputs. */
-export function learned({ network, settings }) {
-  const { sensors, walls, target, raw } = encoderOf(settings);
+export function learned({ network, settings, start = null }) {
+  const { sensors, walls, target, raw = false } = start?.encoder ?? encoderOf(settings);
   const [inputs, scale] = [network.sizes[0], [...sensors.map(() => 7), 9]];
   const first = network.weights[0].map((weight, k) => (raw ? weight * (scale[k % inputs] ?? 1) : weight));
   return { network: { ...network, weights: [first, ...network.weights.slice(1)] }, encoder: { sensors, walls, target }, method: settings.method };
+}
+
+/** How a robot was made, in whole sentences. */
+function aboutRun({ settings: { method, episodes, seed }, changed, start }) {
+  const differs = changed.length > 0 ? `Not as in the book: ${changed.join("; ")}.` : "The settings are the book's.";
+  return `Learned by ${METHOD_WORDS[method]} from ${counted(episodes, "episode")}, ${start ? `beginning with the weights of ${start.name}, ` : ""}seed ${seed}. ${differs}`;
 }
 
 /** What came of a run, in one sentence. */

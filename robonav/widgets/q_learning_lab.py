@@ -25,6 +25,8 @@ from .q_learning_settings import METHODS, QLearningSettings
 from .shared import front_end, style_sheet
 from .simulator import page_policy
 
+SHOWS = ("maps", "training", "targets", "nothing")
+"""Where a fault shows."""
 GROUPS = ("reward", "exploration", "learning", "robot")
 MAPS = (100, 200)
 TOGETHER = 4
@@ -48,20 +50,32 @@ class Preset:
         One sentence on the correction.
     settings : QLearningSettings
         The settings with the fault.
+    shows : {"maps", "training", "targets", "nothing"}
+        Where the fault shows: in the new maps, in the arrivals of the training, in the targets that do not fit into
+        the outputs, or nowhere, where what looks like a fault is none.
+
+    Raises
+    ------
+    ValueError
+        If ``shows`` is none of these.
 
     Examples
     --------
     >>> from robonav.widgets.q_learning_lab import Preset
     >>> from robonav.widgets.q_learning_settings import QLearningSettings
     >>> cold = QLearningSettings(temperature=(0.03, 0.03))
-    >>> Preset("cold", "It hardly explores.", "The temperature falls.", cold).name
-    'cold'
+    >>> Preset("cold", "It hardly explores.", "The temperature falls.", cold).shows
+    'maps'
     """
 
     name: str
     watch: str
     cure: str
     settings: QLearningSettings
+    shows: str = "maps"
+
+    def __post_init__(self) -> None:
+        check_one_of("shows", self.shows, SHOWS)
 
 
 class QLearningLab(KernelTraining):
@@ -83,7 +97,9 @@ class QLearningLab(KernelTraining):
         "kept_robots",
         "q_learning_lab",
     )
-    _css = style_sheet("maps", "learning/training_panel", "q_learning_lab")
+    _css = style_sheet(
+        "maps", "learning/training_panel", "kept_robots", "q_learning_lab"
+    )
 
     def train(self, request: dict[str, Any], report: Report) -> str:
         """Train robots, a few at a time, and return a sentence with their results."""
@@ -143,7 +159,7 @@ def q_learning_lab(
     settings : QLearningSettings, optional
         The settings at first, to which the reader can return; by default the book's.
     presets : sequence of Preset
-        Settings with which learning fails. ``settings`` corrects them.
+        Settings with which learning fails. ``settings`` corrects them, for the same maps and the same seed.
 
     Returns
     -------
@@ -172,6 +188,7 @@ def q_learning_lab(
             ],
             "open": list(open_groups),
             "first": settings.for_page(),
+            "usual": QLearningSettings().for_page(),
             "thesis": thesis_settings(settings).for_page(),
             "presets": [
                 {
@@ -179,6 +196,7 @@ def q_learning_lab(
                     "watch": preset.watch,
                     "cure": preset.cure,
                     "settings": preset.settings.for_page(),
+                    "shows": preset.shows,
                 }
                 for preset in presets
             ],

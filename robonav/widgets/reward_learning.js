@@ -66,6 +66,13 @@ export function rewardMap(theta, cells, action) {
 /** The mean reward over the cells of a map. */
 export const meanReward = (cells) => cells.reduce((sum, { reward }) => sum + reward, 0) / Math.max(1, cells.length);
 
+/** The weights of a reward, a row an action. */
+const rowsOf = (theta) => ACTION_NAMES.map((_, a) => [...theta].slice((a * theta.length) / ACTION_NAMES.length, ((a + 1) * theta.length) / ACTION_NAMES.length));
+
+/** What a robot's name says of its settings: what is not as usual. @param {NIRLSettings} settings */
+export const changesOf = (settings) => [["iterations", (n) => `${n} iterations`], ["obstacles", (n) => `${n} obstacles`], ["inverseTemperature", (n) => `η ${n}`]]
+  .filter(([key]) => settings[key] !== NIRL_SETTINGS[key]).map(([key, say]) => `${say(settings[key])}, `).join("");
+
 /** What stands in each column of theta. */
 const featureNames = ({ sensors }) => [...sensors.map((s) => `danger in sector ${s}`),
   "target: sine of its direction", "target: cosine of its direction", "target seen", ...sensors.map((s) => `wall in sector ${s}`), "constant"];
@@ -185,14 +192,36 @@ function render({ model, el }) {
     { name: "arrived", label: "arrived (%)", note: "How many of the episodes of an iteration arrived.", low: 0, high: 100, colour: PALETTE.ORANGE },
   ].map((line) => ({ ...line, text: (value) => (line.high ? value.toFixed(0) : value.toPrecision(2)) }));
 
-  /** Shows a reward that was learned in the page or in Python, and keeps its robot. */
-  const learned = (result, title) => {
-    found = { ...result, name: `${title}, ${names()[chosen]}` };
-    kept = keepRobot({ name: found.name, network: found.network, encoder: settings.encoder });
+  /** Shows a reward that is there, and lets it be used elsewhere. */
+  const show = (reward_) => {
+    found = reward_;
     paint(found.theta);
     list(found.theta);
     elsewhere.hidden = false;
-    for (const each of [weights, reward]) each.disabled = false;
+    reward.disabled = false;
+    weights.disabled = !found.network;
+  };
+  /** A robot that was trained for a reward: how it was made, in words and as data. */
+  const described = ({ iteration, balanced, theta, network }, { method, conditions, seed, rewardFrom = "" }) => {
+    const { iterations, inverseTemperature, discount } = settings;
+    const { obstacles, moving, speed } = conditions;
+    const [name, count] = [names()[chosen], decisions(chosen).actions.length];
+    const what = rewardFrom ? `A policy for a given reward (${rewardFrom}).` : `A reward and a policy, learned by ${method} from ${name} with ${count} decisions.`;
+    return {
+      about: `${what} Of ${iterations} iterations number ${iteration} is kept, which predicts ${rewardFrom ? name : "them"} best. `
+        + `Trained among ${obstacles} standing and ${moving} moving obstacles at ${speed} m/s, with inverse temperature ${inverseTemperature} and seed ${seed}.`,
+      made: {
+        demonstrations: name, drives: sets[chosen]?.demonstrations ?? mine().length, decisions: count, iterations, kept: iteration, balanced, obstacles, moving, speed,
+        hidden: network.sizes[1], inverseTemperature, discount, seed, reward: rowsOf(theta), ...(rewardFrom ? { rewardFrom } : {}),
+      },
+    };
+  };
+  /** Shows a reward that was learned in the page or in Python, and keeps its robot. */
+  const learned = (result, title, method) => {
+    const [name, conditions] = [`${title}, ${names()[chosen]}`, trained()];
+    const robot = { name, network: result.network, encoder: settings.encoder, method: result.method, ...described(result, { method, conditions, seed: settings.seed }) };
+    kept = keepRobot(robot);
+    show({ ...robot, theta: result.theta, iteration: result.iteration });
   };
   let kept = ""; // what the browser says where it does not keep the robot
   const trained = () => ({ obstacles: settings.obstacles, moving: settings.moving, speed: settings.speed });
@@ -232,26 +261,43 @@ function render({ model, el }) {
   const learn = training({
     title: "Learn a reward and a policy for it, and drive new maps", action: "Learn the reward", lines, place: results, name: "your robot", paints: true,
     where: trained, argument: () => ({ settings, seed: settings.seed, reward: null }),
-    accept: (result) => learned({ ...result, method: "nirl" }, `NIRL, seed ${settings.seed}`),
+    accept: (result) => learned({ ...result, method: "nirl" }, `NIRL, ${changesOf(settings)}seed ${settings.seed}`, "NIRL"),
     ends: () => `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept. ${kept}`.trim(), beside: seen,
   });
-  let [newRobot, nextName, keptToo] = [null, "", ""]; // the robot of the other worlds, its name, and what the browser says where it does not keep it
+  let [newRobot, next, keptToo] = [null, null, ""]; // the robot of the other worlds, what it will be, and what the browser says where it does not keep it
   const again = training({
     title: "Learn a policy for the same reward in other worlds, and drive new maps there", action: "Train a new robot for this reward", lines: lines.slice(2), place: resultsElsewhere, name: "the new robot", paints: false,
     where: () => second, argument: () => {
-      nextName = `${found.name}, trained with ${second.obstacles} standing and ${second.moving} moving obstacles at ${second.speed} m/s`;
+      next = {
+        name: `${found.name}, trained with ${second.obstacles} standing and ${second.moving} moving obstacles at ${second.speed} m/s`,
+        how: { conditions: second, seed: settings.seed + 1, rewardFrom: found.name },
+      };
       return { settings: { ...settings, ...second }, seed: settings.seed + 1, reward: found.theta };
     },
-    accept: ({ network }) => {
-      newRobot = { network, encoder: settings.encoder, method: "nirl" };
-      keptToo = keepRobot({ ...newRobot, name: nextName });
+    accept: (result) => {
+      newRobot = { name: next.name, network: result.network, encoder: settings.encoder, method: "nirl", ...described(result, next.how) };
+      keptToo = keepRobot(newRobot);
       newWeights.disabled = false;
     },
     ends: () => `The new robot is kept. ${keptToo}`.trim(),
   });
-  const weights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl.safetensors", weightsFile({ network: found.network, encoder: settings.encoder, method: found.method })) }, "Download the policy");
-  const newWeights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl-elsewhere.safetensors", weightsFile(newRobot)) }, "Download the new robot's policy");
-  const reward = h("button", { type: "button", disabled: true, click: () => saveFile("my-reward.npz", npz({ reward_weights: { descr: "<f8", shape: [5, found.theta.length / 5], values: [...found.theta] } })) }, "Download the reward");
+  const weights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl.safetensors", robotFile(found)) }, "Download the policy");
+  const newWeights = h("button", { type: "button", disabled: true, click: () => saveFile("my-nirl-elsewhere.safetensors", robotFile(newRobot)) }, "Download the new robot's policy");
+  const reward = h("button", { type: "button", disabled: true, click: () => saveFile("my-reward.npz", rewardFile(found.theta, ACTION_NAMES.length)) }, "Download the reward");
+  const note = h("span", { role: "status" });
+  const upload = h("input", { type: "file", accept: ".npz", "aria-label": "File of a reward", change: async () => {
+    const [file] = upload.files;
+    if (!file) return;
+    try {
+      const theta = await rewardFromFile(await file.arrayBuffer(), [ACTION_NAMES.length, encoderSize(settings.encoder) + 1]);
+      learn.cancel();
+      show({ name: `reward ${file.name}`, theta, network: null });
+      note.textContent = `The map shows the reward in ${file.name}. Below it you can train a robot for it.`;
+    } catch (error) {
+      note.textContent = error.message;
+    }
+    upload.value = "";
+  } });
 
   const ready = sets.map(({ inputs, actions }) => {
     const { shape: [rows, width], values } = unpack(inputs);
@@ -300,10 +346,10 @@ function render({ model, el }) {
         settings: { iterations: settings.iterations, obstacles: settings.obstacles, inverseTemperature: settings.inverseTemperature, seed: settings.seed, hidden: python.hidden },
       };
     },
-    done: ({ sentence, theta, policy }) => {
+    done: ({ sentence, theta, policy, iteration, balanced }) => {
       const name = METHOD_NAMES[python.asked];
       const network = networks(policy.network)();
-      learned({ theta, network, method: Object.keys(PYTHON_METHODS)[python.asked].replace("_", "-") }, `${name} in Python, seed ${settings.seed}`);
+      learned({ theta, network, iteration, balanced, method: Object.keys(PYTHON_METHODS)[python.asked].replace("_", "-") }, `${name} in Python, ${changesOf(settings)}seed ${settings.seed}`, `${name} in Python`);
       tryPolicy(trained(), { network, encoder: settings.encoder }, `${name} in Python, the best of the robots`);
       return sentence;
     },
@@ -319,7 +365,7 @@ function render({ model, el }) {
       number("seed", 0, { least: 0, most: 1e6, hint: "Another seed draws other random numbers." }, (value) => (settings = { ...settings, seed: value }))),
     about, complain, learn.element,
     h("div", { class: "row" }, h("div", { class: "grow" }, results, listed)),
-    h("div", { class: "row tools" }, weights, reward),
+    h("div", { class: "row tools" }, weights, reward, h("label", { class: "file" }, h("span", {}, "or look at a reward from a file (npz)"), upload), note),
     elsewhere, kernel.element);
   elsewhere.append(
     h("fieldset", { class: "inspector" }, h("legend", {}, "The same reward somewhere else"),

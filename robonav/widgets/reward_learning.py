@@ -149,6 +149,7 @@ class RewardLearning(KernelTraining):
             "theta": best.reward_weights.ravel().tolist(),
             "policy": page_policy(best.policy),
             "iteration": best.chosen,
+            "balanced": float(best.history.balanced[best.chosen]),
         }
 
 

@@ -205,7 +205,7 @@ function render({ model, el }) {
   };
   const record = () => ({ world: episode.base, speed: episode.speed, steps: episode.steps, outcome: episode.outcome, map: mapNumber });
   const save = h("button", { type: "button", click: () => saveFile("my-drive.npz", demonstrationsFile([record()])) }, "Download this drive");
-  const mineKept = drivesList();
+  const [mineKept, myRobots] = [drivesList(), robotsList()];
   const keep = () => {
     mineKept.say(...keptWords(keepDrives([record()]), { training, next: h("button", { type: "button", click: newMap }, "Drive the next map") }));
   };
@@ -226,9 +226,9 @@ function render({ model, el }) {
   } });
 
   const list = h("select", { "aria-label": "who drives", change: () => pick(everybody()[list.selectedIndex]) });
-  /** Puts everybody who can drive on the list; a robot that is kept no longer leaves it. */
+  /** Puts everybody who can drive on the list, by its present name; a robot that is kept no longer leaves it. */
   const fill = () => {
-    trained = keptRobots().reverse().map((robot) => trained.find(({ id }) => id === robot.id) ?? ready(robot));
+    trained = keptRobots().reverse().map((robot) => Object.assign(trained.find(({ id }) => id === robot.id) ?? ready(robot), { name: robot.name }));
     const own = [...trained, ...brought].map(({ name }) => h("option", {}, name));
     list.replaceChildren(
       ...theBooks.map(({ name }) => h("option", {}, name)),
@@ -298,7 +298,7 @@ function render({ model, el }) {
     h("div", { class: "row tools" },
       h("button", { type: "button", click: add(true) }, "Add a circle"), h("button", { type: "button", click: add(false) }, "Add a rectangle"), save,
       h("label", { class: "file" }, h("span", {}, "drive with weights of your own"), upload), note),
-    mineKept.element,
+    mineKept.element, myRobots.element,
     inspect.element);
   fill();
   pick(who);
@@ -310,6 +310,7 @@ function render({ model, el }) {
     forgetPads();
     forgetRobots();
     mineKept.end();
+    myRobots.end();
   };
 }
 

@@ -24,7 +24,7 @@ class RobotPlayground(anywidget.AnyWidget):
         "simulator", "maps", "episode", "steering", "files", "learning/random", "learning/worlds",
         "drives", "kept_robots", "robot_playground",
     )  # fmt: skip
-    _css = style_sheet("maps", "steering", "drives", "robot_playground")
+    _css = style_sheet("maps", "steering", "drives", "kept_robots", "robot_playground")
     data = traitlets.Dict().tag(sync=True)
 
 

@@ -15,6 +15,8 @@ RUN = """async (rules) => {
     .filter(({ impact }) => impact === "serious" || impact === "critical")
     .flatMap(({ id, nodes }) => nodes.map(({ target, html }) => [id, target.flat().join(" "), html.slice(0, 160)]));
 }"""
+RUN_FROM_DISK = RUN.replace("resultTypes:", "preload: false, resultTypes:")
+"""On a page from disk, which may not read its own style sheets again."""
 
 # The theme's own faults: the rule, and a part of the element's selector or of its source.
 BASELINE = [

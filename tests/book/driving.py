@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from playwright.sync_api import Locator, Page
 
 from robonav.benchmark.policies import method
-from robonav.lfd import Demonstrations, demonstrate
+from robonav.lfd import ComputerExpert, Demonstrations, demonstrate, record
 from robonav.networks import NetworkPolicy
-from robonav.robot import Worlds, random_worlds
+from robonav.robot import Simulator, Worlds, random_worlds
 from robonav.widgets.robot_playground import robot_playground
 from robonav.widgets.simulator import page_policy
 
@@ -66,6 +67,25 @@ def own_map(number: int) -> Worlds:
 def good_drive(number: int) -> Demonstrations:
     """How a reader drives through a map who plans well."""
     return demonstrate(own_map(number))
+
+
+class Wanderer:
+    """A driver who turns on the spot for a while where something comes into range, and then drives well."""
+
+    def __init__(self, turns: int = 40) -> None:
+        self._left, self._expert = turns, ComputerExpert()
+
+    def __call__(self, simulator: Simulator, robots: Any) -> Any:
+        """Turn left by 60° while nothing is close and there are turns left."""
+        if self._left > 0 and simulator.sense().ranges[0].min() > 5:
+            self._left -= 1
+            return np.full(len(robots), 2)
+        return self._expert(simulator, robots)
+
+
+def clumsy_drive(number: int) -> Demonstrations:
+    """How a reader drives through a map who turns round and round."""
+    return record(Wanderer(), own_map(number))
 
 
 def keys_of(drive: Demonstrations) -> list[str]:

@@ -10,14 +10,35 @@ import numpy as np
 import pytest
 from accessibility import AXE, RUN, ours
 from browser import DESKTOP, PHONE, Visit
-from driving import drive_map, fast, good_drive, keys_of, playground
+from driving import (
+    clumsy_drive,
+    drive_map,
+    fast,
+    good_drive,
+    keys_of,
+    own_map,
+    playground,
+)
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 from test_controls import choose_everything, slide_everything
 
 from robonav.benchmark.policies import method
-from robonav.lfd import concatenate, learn_policy, record, save_demonstrations
-from robonav.networks import Weights, load_weights, random_network, save_weights
+from robonav.lfd import (
+    concatenate,
+    demonstrate,
+    labelled_states,
+    learn_policy,
+    record,
+    save_demonstrations,
+)
+from robonav.networks import (
+    Weights,
+    lbfgs,
+    load_weights,
+    random_network,
+    save_weights,
+)
 from robonav.networks.policy import NetworkPolicy
 from robonav.robot import Encoder, navigate, random_worlds, straight
 from robonav.widgets.imitation_lab import ImitationLab, imitation_lab
@@ -112,6 +133,33 @@ def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
     expect(said(lab)).to_contain_text(
         "%. Your robot always goes straight on. Drive more maps, turn earlier,"
     )
+
+
+def test_clumsy_drives_teach_a_poor_robot_and_get_advice(view, site, widget):
+    """Driven by keyboard: two maps into an obstacle, then three in which the robot turns round and round."""
+    lab = mounted(view, site.as_uri(), playground())
+    fast(lab)
+    link = lab.get_by_role("link", name="Train a robot on your drives")
+    number, ends = 0, {"Arrived": 0, "Collided": 0}
+    while ends["Arrived"] < 3:
+        number += 1
+        hits = ends["Collided"] < 2 and navigate(straight, own_map(number)).collision[0]
+        keys = ["ArrowUp"] * 200 if hits else keys_of(clumsy_drive(number))
+        ended = drive_map(lab, keys).split()[0]
+        ends[ended] += 1
+        heard = lab.locator(".status.kept")
+        if ends["Collided"]:
+            expect(heard).to_contain_text(
+                "A robot learns only from drives that arrive:"
+            )
+        expect(link).to_have_count(1 if ends["Arrived"] >= 3 else 0)
+        if ends["Arrived"] < 3:
+            expect(heard).to_contain_text("Bring the robot to its target in")
+    lab = opened(view, site, widget)
+    train(lab)
+    found = rates(lab)
+    assert found["robot 1"] < found["always straight on"] + 5
+    expect(said(lab)).to_contain_text("and the robot learned to wander: drive again")
 
 
 def test_without_drives_the_page_says_so_and_offers_the_experts(view, site, widget):
@@ -222,7 +270,8 @@ def test_weights_from_a_file_are_tried_and_watched(view, site, widget, tmp_path)
     upload.set_input_files(tmp_path / "own.safetensors")
     expect(said(lab)).to_contain_text("Your robot arrives in")
     own = navigate(NetworkPolicy(network, encoder), UNSEEN)
-    assert rates(lab)["robot 1"] == pytest.approx(100 * own.success.mean())
+    assert rates(lab)["own.safetensors"] == pytest.approx(100 * own.success.mean())
+    assert lab.page.evaluate(KEPT_NAMES) == []  # it was only tried
     lab.get_by_label("robot to watch").select_option("always straight on")
     track = lab.locator("input[aria-label='map']")
     track.press("Home")
@@ -239,6 +288,51 @@ def test_weights_from_a_file_are_tried_and_watched(view, site, widget, tmp_path)
         "([map, before]) => map.toDataURL() !== before",
         arg=[lab.locator(".viewer canvas").element_handle(), before],
     )
+
+
+def test_a_robot_is_trained_on_from_a_file_of_python_and_numbered_on(
+    view, site, widget, tmp_path
+):
+    """Python's first iterations, and the page's next, are Python's next; the page's file goes on in Python."""
+    lab = opened(view, site, widget)
+    begin = setting(lab, "begin with").and_(lab.locator("select"))
+    expect(begin).to_be_disabled()
+    encoder = Encoder(target="signed")
+    drives = demonstrate(random_worlds(30, 10, seed=7)).select_trajectories(range(25))
+    x, y = labelled_states(drives, encoder)
+    settings = {"regularisation": 0.1, "iterations": 3}
+    first = lbfgs(random_network((encoder.size, 4, 5), seed=5), x, y, **settings)
+    save_weights(tmp_path / "own.safetensors", Weights(first.network, "lfd", encoder))
+    wide = random_network((encoder.size, 4, 6), seed=5)
+    save_weights(tmp_path / "wide.safetensors", Weights(wide, "lfd", encoder))
+    upload = lab.get_by_label("Weights to begin with")
+    upload.set_input_files(tmp_path / "wide.safetensors")
+    expect(lab.get_by_text("has 6 outputs, and a robot that learns")).to_be_visible()
+    upload.set_input_files(tmp_path / "own.safetensors")
+    expect(begin).to_have_value("own.safetensors")
+    expect(setting(lab, "hidden units")).to_be_disabled()
+    setting(lab, "iterations of L-BFGS").select_option("3")
+    train(lab)
+    with lab.page.expect_download() as download:
+        lab.get_by_role("button", name="Download the latest").click()
+    download.value.save_as(tmp_path / "mine.safetensors")
+    mine = load_weights(tmp_path / "mine.safetensors")
+    second = lbfgs(first.network, x, y, **settings)
+    np.testing.assert_allclose(
+        mine.network.weights[0], second.network.weights[0], atol=1e-9
+    )
+    assert mine.made["begun"] == "own.safetensors"
+    assert "beginning with the weights of own.safetensors" in mine.made["about"]
+    third = lbfgs(mine.network, x, y, **settings)
+    assert third.costs[0] == pytest.approx(second.costs[-1])
+    lab = opened(view, site, widget)  # a later visit
+    setting(lab, "begin with").and_(lab.locator("select")).select_option(index=1)
+    train(lab)
+    learned = "25 of the expert's demonstrations, on from"
+    assert sorted(lab.page.evaluate(KEPT_NAMES)) == [
+        f"robot 1: {learned} own.safetensors, λ 0.1",
+        f"robot 2: {learned} robot 1, λ 0.1",
+    ]
 
 
 def test_other_maps_begin_a_new_table(view, site, widget):

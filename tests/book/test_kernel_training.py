@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from accessibility import AXE, RUN
-from browser import DESKTOP, PHONE, Visit
+from browser import DESKTOP, PHONE, Visit, empty_storage
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 
@@ -178,6 +178,7 @@ def test_a_network_of_python_is_shown_in_the_plane(view, http):
 def test_an_expert_that_slips_is_learned_from(view, http):
     widget = key_points_lab()
     lab = mounted(view, http, widget, kernel=True)
+    empty_storage(view.page)  # from drives that another test has left, Python learns
     set_slider(lab, "the computer's demonstrations", "Home")
     set_slider(lab, "slip with probability", "End")
     panel(lab).get_by_label("robots, each").select_option("1")

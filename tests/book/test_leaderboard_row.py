@@ -72,12 +72,16 @@ def test_kept_robot_is_offered_tried_cancelled_and_deleted(row):
         "encoder": {"sensors": [1, 2, 3, 4, 5, 6, 7, 8, 9], "walls": False, "target": "signed"},
     }  # fmt: skip
     keep_robots(row.page, robot)
-    expect(row.get_by_label("robot", exact=True)).to_have_value("walker")
+    chosen = row.get_by_label("robot", exact=True)
+    expect(chosen.locator("option:checked")).to_have_text("walker")
     row.get_by_role("button", name="Try this robot").click()
     row.get_by_role("button", name="Cancel").click()
     expect(row.locator(".status").nth(1)).to_contain_text("Cancelled. ")
-    row.get_by_role("button", name="Delete this robot").click()
-    expect(row.get_by_label("robot", exact=True)).to_be_disabled()
+    row.get_by_text("My robots (1)").click()
+    row.get_by_role("button", name="Delete walker").press("Enter")
+    expect(chosen).to_be_disabled()
+    row.get_by_role("button", name="Undo").press("Enter")
+    expect(chosen.locator("option:checked")).to_have_text("walker")
 
 
 def test_without_a_robot_one_sentence_says_where_to_train(row):

@@ -8,13 +8,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from accessibility import AXE, RUN_FROM_DISK
 from browser import DESKTOP, PHONE, Visit, empty_storage, swipe
-from driving import keep_robots, kept_robot
+from driving import keep_robots, kept_robot, playground
+from mounting import mounted
 from playwright.sync_api import Locator, expect
 
 from robonav.benchmark.policies import method, methods
 from robonav.lfd import load_demonstrations
-from robonav.networks import NetworkPolicy, Weights, random_network, save_weights
+from robonav.networks import (
+    NetworkPolicy,
+    Weights,
+    load_weights,
+    random_network,
+    save_weights,
+)
 from robonav.robot import Encoder, navigate, random_worlds, sense, turn_to_clearer_side
 
 ME = "you"
@@ -244,6 +252,64 @@ def test_robots_that_were_trained_and_kept_drive(lab):
     empty_storage(lab.page)
     expect(own).to_have_count(0)
     expect(drivers).to_have_value("LfD, then DAgger")  # the first of the list
+
+
+WIDER = "document.documentElement.scrollWidth - innerWidth"
+
+
+@pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_robots_are_listed_renamed_taken_along_and_deleted(visit, site, size, tmp_path):
+    visit.page.set_viewport_size(size)
+    lab = mounted(visit, site.as_uri(), playground())
+    empty_storage(visit.page)
+    drivers = lab.get_by_label("who drives", exact=True)
+    own = drivers.locator("optgroup[label='robots of yours'] option")
+    policy = method("lfd")
+    first, second = (kept_robot(name, policy) for name in ("first", "second"))
+    about = {"about": "Learned from five drives.", "made": {"drives": 5}}
+    keep_robots(lab.page, first | about, second)
+    robots = lab.locator(".my-robots")
+    robots.get_by_text("My robots (2)").press("Enter")
+    items = robots.locator("li")
+    expect(items.first).to_contain_text("second")  # the latest first
+    expect(items.last).to_contain_text("Learned from five drives.")
+    with lab.page.expect_download() as download:
+        robots.get_by_role("button", name="Download first").press("Enter")
+    assert download.value.suggested_filename == "first.safetensors"
+    download.value.save_as(tmp_path / "first.safetensors")
+    weights = load_weights(tmp_path / "first.safetensors")
+    assert weights.made["drives"] == 5
+    assert weights.made["about"] == "Learned from five drives."
+    np.testing.assert_array_equal(weights.network.weights[0], policy.network.weights[0])
+    choose(lab, "who drives", "first")
+    robots.get_by_role("button", name="Rename first").press("Enter")
+    field = robots.get_by_label("new name of first")
+    expect(field).to_be_focused()
+    field.fill("")
+    field.press("Enter")
+    heard = robots.get_by_role("status")
+    expect(heard).to_have_text("A robot needs a name.")
+    field.fill("second")
+    field.press("Enter")
+    expect(robots.get_by_role("button", name="Rename second (2)")).to_be_focused()
+    expect(own).to_have_text(["second", "second (2)"])
+    expect(drivers.locator("option:checked")).to_have_text("second (2)")
+    robots.get_by_role("button", name="Delete second (2)").press("Enter")
+    expect(own).to_have_text(["second"])
+    expect(drivers).to_have_value("LfD")  # the first of the list
+    expect(heard).to_have_text("second (2) is deleted.")
+    undo = robots.get_by_role("button", name="Undo")
+    expect(undo).to_be_focused()
+    assert lab.page.evaluate(WIDER) <= 0
+    lab.page.evaluate("() => { window.define = undefined; }")
+    lab.page.evaluate(AXE.read_text("utf-8"))
+    assert lab.page.evaluate(RUN_FROM_DISK.replace("document", "'.my-robots'")) == []
+    undo.press("Enter")
+    expect(own).to_have_text(["second", "second (2)"])
+    expect(items.last).to_contain_text("Learned from five drives.")
+    expect(undo).to_be_hidden()
+    empty_storage(visit.page)
+    assert visit.errors == visit.external == []
 
 
 @pytest.mark.parametrize("name", GREEDY[:1])

@@ -5,22 +5,32 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+import numpy as np
 import pytest
 from accessibility import AXE, RUN
-from browser import DESKTOP, PHONE, Visit, tap
+from browser import DESKTOP, PHONE, Visit, empty_storage, tap
 from mounting import mounted, mounted_alone
 from playwright.sync_api import Locator, expect
 from scipy.stats import binomtest
 from test_controls import choose_everything, press_everything
 
-from robonav.networks import NetworkPolicy, load_weights
-from robonav.nnql import STARTS, TARGETS
-from robonav.robot import navigate, random_worlds
+from robonav.networks import (
+    NetworkPolicy,
+    Weights,
+    load_weights,
+    random_network,
+    save_weights,
+)
+from robonav.nnql import STARTS, TARGETS, NavigationTask, nnql
+from robonav.robot import Encoder, navigate, random_worlds
 from robonav.widgets.q_learning_faults import FAULTS
 from robonav.widgets.q_learning_lab import MAPS_SEED, q_learning_lab
 from robonav.widgets.q_learning_settings import QLearningSettings
 
 PAYS_FOR_SAFETY = FAULTS[0]
+KEPT_NAMES = """() => Object.entries(localStorage)
+  .filter(([key]) => key.startsWith("robonav.robot."))
+  .map(([, text]) => JSON.parse(text).name)"""
 CROSSES = re.compile(
     r"^Done in [\d.]+ s\. Your robot crosses (\d+) of (\d+) new maps: "
 )
@@ -230,23 +240,77 @@ def test_a_fault_is_watched_and_cured(view):
 
 @pytest.mark.parametrize("inputs", ["number", "raw"])
 def test_the_weights_drive_in_python_as_in_the_page(visit, tmp_path, inputs):
-    lab = mounted_alone(
-        visit,
-        q_learning_lab(settings=QLearningSettings(inputs=inputs, episodes=90, seed=3)),
-    )
+    lab_settings = QLearningSettings(inputs=inputs, episodes=90, seed=3)
+    lab = mounted_alone(visit, q_learning_lab(settings=lab_settings))
+    empty_storage(visit.page)
     arrived, _ = train(lab)
     with visit.page.expect_download() as download:
         lab.get_by_role("button", name="Download the weights").click()
     download.value.save_as(tmp_path / "mine.safetensors")
     weights = load_weights(tmp_path / "mine.safetensors")
-    assert (weights.method, weights.made["seed"], weights.made["episodes"]) == (
-        "nnql",
-        3,
-        90,
-    )
+    made = weights.made
+    assert (weights.method, weights.temperature) == ("nnql", 0.4)
+    assert QLearningSettings.from_page(made) == lab_settings
+    changed = [
+        "episodes 90 instead of 300",
+        "seed of the random numbers 3 instead of 0",
+    ]
+    raw = ["target's sector: a number; no input is scaled"] if inputs == "raw" else []
+    assert made["changed"] == changed + raw
+    inputs_changed = "inputs raw, " if inputs == "raw" else ""
+    assert made["name"] == f"nnql, {inputs_changed}90 episodes, seed 3"
     worlds = random_worlds(100, 10, seed=MAPS_SEED, starts=STARTS, targets=TARGETS)
     policy = NetworkPolicy(weights.network, weights.encoder)
     assert navigate(policy, worlds, 2.5, 400).success.sum() == arrived
+
+
+def test_a_robot_is_trained_on_and_every_robot_has_a_name_that_tells_it(view, tmp_path):
+    """A policy of chapter 3, saved by Python, goes on by NNQL, and the robot that comes of it by the online method."""
+    lab = mounted_alone(view, q_learning_lab("learning", "robot", "exploration"))
+    empty_storage(view.page)
+    begin = lab.get_by_label("begin with", exact=True)
+    expect(begin).to_be_disabled()
+    encoder = Encoder()
+    network = random_network((encoder.size, 6, 5), seed=3)
+    save_weights(tmp_path / "lfd.safetensors", Weights(network, "lfd", encoder))
+    lab.get_by_label("Weights to begin with").set_input_files(
+        tmp_path / "lfd.safetensors"
+    )
+    expect(begin).to_have_value("lfd.safetensors")
+    hidden, reads = (
+        lab.get_by_label("hidden units"),
+        lab.get_by_label("target's sector"),
+    )
+    expect(hidden).to_be_disabled()
+    expect(reads).to_be_disabled()
+    expect(
+        lab.get_by_text("It begins with the weights of lfd.safetensors")
+    ).to_be_visible()
+    lab.get_by_label("episodes", exact=True).fill("1")
+    lab.get_by_label("temperature, start").fill("0.2")
+    lab.get_by_label("seed of the random numbers").fill("5")
+    train(lab)
+    with view.page.expect_download() as download:
+        lab.get_by_role("button", name="Download the weights").click()
+    download.value.save_as(tmp_path / "mine.safetensors")
+    mine = load_weights(tmp_path / "mine.safetensors")
+    env = NavigationTask(encoder=encoder).environment()
+    further = nnql(env, network, episodes=1, temperature=(0.2, 0.1), seed=5)
+    for ours, theirs in zip(mine.network.weights, further.weights, strict=True):
+        np.testing.assert_allclose(ours, theirs, atol=1e-9)
+    first = "nnql, on from lfd.safetensors, 1 episode, temperature 0.2 to 0.1, seed 5"
+    begin.select_option(first)
+    lab.get_by_label("method", exact=True).select_option(
+        "online: the latest pair alone"
+    )
+    train(lab)
+    begin.select_option("random weights")
+    expect(hidden).to_be_enabled()
+    train(lab)
+    names = view.page.evaluate(KEPT_NAMES)
+    second = "online, on from nnql, on from lfd.safet…, 1 episode, temperature 0.2 to 0.1, seed 5"
+    third = "online, 1 episode, temperature 0.2 to 0.1, seed 5"
+    assert sorted(names) == sorted([first, second, third])
 
 
 def test_dqn_takes_a_step_of_its_own_and_learns(view):

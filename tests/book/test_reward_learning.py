@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
-from browser import PHONE, Visit, empty_storage
+from accessibility import AXE, RUN_FROM_DISK
+from browser import DESKTOP, PHONE, Visit, empty_storage
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 
 from robonav.benchmark.policies import method
 from robonav.lfd import demonstrate
 from robonav.networks import load_weights
-from robonav.nirl import learn
+from robonav.nirl import RobotTask, learn, learn_under_reward
 from robonav.robot import random_worlds
 from robonav.widgets.reward_learning import reward_learning
 from robonav.widgets.simulator import page_world
@@ -23,9 +25,10 @@ SLOW = 240_000  # milliseconds: a training on a busy machine
 DRIVES = demonstrate(random_worlds(6, 20, seed=3))
 
 
-@pytest.fixture
-def lab(visit: Visit, place: str) -> Iterator[Locator]:
-    """The widget alone on a page."""
+@pytest.fixture(params=[DESKTOP, PHONE], ids=["desktop", "phone"])
+def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Locator]:
+    """The widget alone on a page, from disk, with no network."""
+    visit.page.set_viewport_size(request.param)
     widget = reward_learning(
         {"six": DRIVES},
         random_worlds(1, 20, seed=8),
@@ -33,10 +36,11 @@ def lab(visit: Visit, place: str) -> Iterator[Locator]:
         maps=100,
         seed=55_000,
     )
-    found = mounted(visit, place, widget)
+    found = mounted(visit, site.as_uri(), widget)
     empty_storage(visit.page)
     yield found
-    assert visit.errors == []
+    empty_storage(visit.page)
+    assert visit.errors == visit.external == []
     assert visit.page.evaluate(
         "document.documentElement.scrollWidth <= window.innerWidth"
     )
@@ -81,7 +85,14 @@ def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
     with lab.page.expect_download() as download:
         lab.get_by_role("button", name="Download the policy").click()
     download.value.save_as(tmp_path / "policy.safetensors")
-    assert load_weights(tmp_path / "policy.safetensors").network.sizes == (17, 10, 5)
+    policy = load_weights(tmp_path / "policy.safetensors")
+    assert policy.network.sizes == (17, 10, 5)
+    made = policy.made
+    assert (made["demonstrations"], made["drives"], made["iterations"], made["seed"]) == (
+        "six", 6, 30, 0,
+    )  # fmt: skip
+    assert made["reward"] == theta.tolist()
+    assert "learned by NIRL from six with" in made["about"]
 
     verdict = f"It arrives in {rates[0]} % of 100 new maps, one that always goes straight on in {rates[1]} %."
     expect(lab.locator(".status").nth(1)).to_contain_text(verdict)
@@ -104,10 +115,47 @@ def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
     assert new.sizes == first.sizes
     assert abs(new.weights[0] - first.weights[0]).max() > 0
     first_name, new_name = sorted(lab.page.evaluate(KEPT_NAMES), key=len)
-    assert first_name == "NIRL, seed 0, six"
+    assert first_name == "NIRL, 30 iterations, seed 0, six"
     assert new_name == (
         f"{first_name}, trained with 10 standing and 5 moving obstacles at 2 m/s"
     )
+
+
+def test_a_reward_from_a_file_is_shown_and_a_robot_trained_for_it(lab, tmp_path):
+    """The file is one that Python saved; with the same seed Python trains the same robot, up to rounding."""
+    upload = lab.get_by_label("File of a reward")
+    (tmp_path / "bad.npz").write_bytes(b"nothing")
+    upload.set_input_files(tmp_path / "bad.npz")
+    expect(lab.get_by_text("The file must hold a reward, an array")).to_be_visible()
+    reward = learn(DRIVES, "nirl", seed=3, iterations=3).reward_weights
+    np.savez(tmp_path / "python.npz", reward_weights=reward)
+    upload.set_input_files(tmp_path / "python.npz")
+    expect(lab.get_by_text("The map shows the reward in python.npz.")).to_be_visible()
+    assert min(lab.locator("canvas").evaluate(COLOURS)) > 200
+    lab.get_by_text("The weights of the reward").click()
+    cells = lab.locator("details table td").all_inner_texts()
+    shown = np.array(cells, dtype=float).reshape(-1, 5)
+    np.testing.assert_allclose(shown, reward.T, atol=0.0051)
+    expect(lab.get_by_role("button", name="Download the policy")).to_be_disabled()
+    set_number(lab, "iterations", 2)
+    lab.get_by_role("button", name="Train a new robot for this reward").press("Enter")
+    expect(lab.get_by_text("The new robot is kept. It arrives in")).to_be_visible(
+        timeout=SLOW
+    )
+    with lab.page.expect_download() as download:
+        lab.get_by_role("button", name="Download the new robot's policy").click()
+    download.value.save_as(tmp_path / "new.safetensors")
+    new = load_weights(tmp_path / "new.safetensors")
+    task = RobotTask(obstacles=10, moving=10)
+    expected = learn_under_reward(DRIVES, reward, task=task, seed=1, iterations=2)
+    np.testing.assert_allclose(
+        new.network.weights[0], expected.network.weights[0], atol=1e-9
+    )
+    assert new.made["rewardFrom"] == "reward python.npz"
+    np.testing.assert_allclose(new.made["reward"], reward, atol=1e-12)
+    lab.page.evaluate("() => { window.define = undefined; }")
+    lab.page.evaluate(AXE.read_text("utf-8"))
+    assert lab.page.evaluate(RUN_FROM_DISK.replace("document", "'#mounted'")) == []
 
 
 COLOURS = """(map) => {

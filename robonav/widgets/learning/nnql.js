@@ -129,29 +129,32 @@ export function weightChanges(before, after) {
 /**
  * What learns in {@link neuralQLearning}: Q-values of a state, what to do at the start of an episode, and learning from a step.
  * @typedef {{state: Float64Array, q: Float64Array, action: number, reward: number, next: Float64Array, terminal: boolean}} Decision
- * @typedef {{values: (state: Float64Array) => Float64Array, begin: (episode: number, fraction: number) => void, learn: (decision: Decision) => void}} Learner
+ * `outside` is the share of the episode's targets that were not in [0, 1] before they were rescaled, or null where none are.
+ * @typedef {{values: (state: Float64Array) => Float64Array, begin: (episode: number, fraction: number) => void, learn: (decision: Decision) => void, outside?: () => number | null}} Learner
  */
 
 /** NNQL, or with the latest pair alone its online form. @param {LearningSettings} settings @returns {Learner} */
 function nnqlLearner(settings, network) {
   const { discount, passes, tolerance } = settings;
   const [descend, rescale] = [stochasticGradientDescent(network), RESCALE[settings.rescale]];
-  let [inputs, targets, alpha, sigma] = [[], [], 0, 0];
+  let [inputs, targets, alpha, sigma, updates, beyond] = [[], [], 0, 0, 0, 0];
   const values = (state) => propagate(network, state).activations.at(-1);
   return {
     values,
     begin: (episode, fraction) => {
-      [inputs, targets] = [[], []]; // 6
+      [inputs, targets, updates, beyond] = [[], [], 0, 0]; // 6
       [alpha, sigma] = [geometricSchedule(settings.learningRate, fraction), geometricSchedule(settings.gradientStep, fraction)];
     },
     learn: ({ state, q, action, reward, next, terminal }) => {
       const future = terminal ? 0 : Math.max(...values(next));
       const target = qTargets(q, action, reward, future, alpha, discount); // 13
+      [updates, beyond] = [updates + 1, beyond + (target[action] < 0 || target[action] > 1 ? 1 : 0)];
       if (settings.method === "online") [inputs, targets] = [[], []]; // the latest pair alone
       inputs.push(state); // 15
       targets.push(rescale(target)); // 14, 15
       descend(inputs, targets, sigma, passes, tolerance); // 16
     },
+    outside: () => (updates > 0 ? beyond / updates : null),
   };
 }
 
@@ -162,13 +165,15 @@ const LEARNERS = { nnql: nnqlLearner, online: nnqlLearner };
  * Neural-network Q-learning (NNQL), Algorithm 8, or another method in its loop.
  *
  * Yields after each episode what happened in it, and nothing after each update, where a page without a worker may answer. With
- * `watch`, that function is called after each update of the network.
+ * `watch`, that function is called after each update of the network. With `start`, the training begins with the weights of a
+ * robot, and the network reads what that robot reads.
  * @param {LearningSettings} settings
- * @param {{watch?: (update: {q: Float64Array, network: Network}) => void}} options
+ * @param {{watch?: (update: {q: Float64Array, network: Network}) => void, start?: {network: Network, encoder: Encoder} | null}} options
  */
-export function* neuralQLearning(settings, { watch = () => {} } = {}) {
+export function* neuralQLearning(settings, { watch = () => {}, start = null } = {}) {
   const { episodes, speed, maxSteps, seed } = settings;
-  const [encoder, network, worldOf] = [encoderOf(settings), firstNetwork(settings), trainingWorlds(settings)];
+  const encoder = start?.encoder ?? encoderOf(settings);
+  const [network, worldOf] = [start ? flattened(start.network) : firstNetwork(settings), trainingWorlds(settings)];
   const learner = LEARNERS[settings.method](settings, network);
   for (let episode = 0; episode < episodes; episode += 1) { // 2
     const fraction = episode / Math.max(episodes - 1, 1);
@@ -196,6 +201,6 @@ export function* neuralQLearning(settings, { watch = () => {} } = {}) {
       [sensing, state, step] = [reached, next, step + 1];
       path.push([pose.x, pose.y]);
     } // 17 to 20
-    yield { episode, world: first, path, outcome: outcome === "running" ? "out of steps" : outcome, changes: weightChanges(before, network), network };
+    yield { episode, world: first, path, outcome: outcome === "running" ? "out of steps" : outcome, changes: weightChanges(before, network), outside: learner.outside?.() ?? null, network };
   }
 }

@@ -242,3 +242,43 @@ def test_the_readers_maps_are_random_worlds(node, number):
     assert [o["x"] for o in got["obstacles"]] == pytest.approx(
         [o["x"] for o in expected["obstacles"]]
     )
+
+
+ADVICE = """
+const { start, target } = data.world;
+const steps = (actions) => actions.map((action) => ({ action, sensing: { ranges: action < 0 ? [10] : [4] } }));
+const made = data.drives.map(([outcome, actions, count, safe = 0]) => Array.from({ length: count }, () => ({
+  outcome, speed: 2, world: { start, target }, steps: [...steps(actions), ...steps(Array(safe).fill(-1))],
+}))).flat();
+const arrived = made.filter(({ outcome }) => outcome === "arrived");
+return page.adviceOn(arrived.slice(0, data.learned ?? arrived.length), made);
+"""
+WORLD = {"start": [10, 10], "target": [90, 10]}  # forty steps at 2 m/s
+GOOD = [0, 3, 3, 0, 0, 1, 1, 0, 0, 2, 0, 4]
+
+
+@pytest.mark.parametrize(
+    ("drives", "learned", "sentence"),
+    [
+        ([("arrived", GOOD, 1, 30), ("collided", GOOD, 2)], None, "Only 1 of your 3 drives arrived, and"),
+        ([("arrived", GOOD, 2, 30)], None, "Three drives are enough for a first robot: bring the robot"),
+        ([("arrived", GOOD, 5, 30)], 2, "It learned from two of your 5 drives that arrived: choose more of them."),
+        ([("arrived", GOOD, 3, 80)], None, "Your drives are 2.3 times as long as the straight line"),
+        ([("arrived", [0, 3, 1], 3, 40)], None, "Your drives have only 3 steps each with something in range"),
+        ([("arrived", [0] * 9 + [3], 3, 30)], None, "You turned in only 10 % of the steps with something in range"),
+        ([("arrived", GOOD, 3, 30), ("collided", GOOD, 4)], None, "More of your drives collided than arrived"),
+        ([("arrived", GOOD, 3, 30)], None, "Drive more maps, turn earlier and at a larger distance"),
+    ],
+)  # fmt: skip
+def test_advice_says_what_is_poor_in_the_drives(node, drives, learned, sentence):
+    data = {"world": WORLD, "drives": drives, "learned": learned}
+    assert node(FILES, ADVICE, data).startswith(sentence)
+
+
+def test_careful_drives_are_not_called_poor(node, tmp_path):
+    """The computer expert's drives, which teach a good robot, are within all bounds of the advice."""
+    demonstrations = demonstrate(random_worlds(10, 10, seed=7))
+    save_demonstrations(tmp_path / "good.npz", demonstrations)
+    body = f"{BUFFER} return page.drivesFromFile(buffer).then((drives) => page.adviceOn(drives, drives));"
+    said = node(FILES, body, encoded(tmp_path / "good.npz"))
+    assert said.startswith("Drive more maps, turn earlier and at a larger distance")
