@@ -15,9 +15,9 @@ distance to the target. Two properties of H matter:
 
 With H = 0 this is Dijkstra's algorithm, which searches in all directions.
 
-Here the target is not a node but a disc: the search ends with the first node within 3 m of it. H is the distance to
-the middle of the disc, up to 3 m more than the cost that remains. So the path may be up to 3 m longer than the shortest
-one into the disc. (With max(H - 3 m, 0) in place of H it would be the shortest, but more nodes would be expanded.)
+Here the robot has arrived within 3 m of the target, so the search ends with the first node in this disc. This is A* on
+a graph with one more node, the target, to which a straight step leads from each node within 3 m. So the path and this
+last step are together as short as can be. The path alone may be up to 3 m longer than the shortest one into the disc.
 
 A wall, and the path (o) around it, from the left to the right:
 

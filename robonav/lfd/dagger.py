@@ -35,6 +35,7 @@ from robonav.robot import (
     Outcome,
     Policy,
     ReflexRule,
+    Sensing,
     Simulator,
     Transition,
     Worlds,
@@ -53,6 +54,7 @@ from .behaviour_cloning import learn_policy
 from .computer_expert import ComputerExpert
 from .demonstrations import (
     MAX_STEPS,
+    Actions,
     Demonstrations,
     Expert,
     by_trajectory,
@@ -214,8 +216,7 @@ def labelled_rollout(
             labels[asked] = expert(simulator, robots[asked])  # what the expert would do
             learner = policy(sensing[asked], rng)  # what the learner would do
             expert_acts = coin.random(asked.sum()) < beta
-            chosen = np.where(expert_acts, labels[asked], learner)
-            actions[asked] = check_actions(chosen, (asked.sum(),))
+            actions[asked] = np.where(expert_acts, labels[asked], learner)
         poses = simulator.poses[robots]
         executed = simulator.step(actions, robots)  # one second
         after, outcome = simulator.sense(robots), simulator.outcome[robots]
@@ -280,7 +281,11 @@ def collect_with_expert_labels(
     simulator = Simulator(worlds, speed, max_steps=max_steps)
     beta = check_real("beta", beta, at_least=0, at_most=1)
     rng = check_generator("seed", seed)
-    return labelled_rollout(simulator, policy, expert or ComputerExpert(), beta, rng)
+
+    def learner(sensing: Sensing, rng: np.random.Generator) -> Actions:
+        return check_actions(policy(sensing, rng), (len(sensing),))
+
+    return labelled_rollout(simulator, learner, expert or ComputerExpert(), beta, rng)
 
 
 @dataclass(frozen=True, eq=False)

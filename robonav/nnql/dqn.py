@@ -197,16 +197,14 @@ def dqn(
     >>> dqn(env, q_network(env, seed=0), episodes=1, targets=double_dqn_targets, seed=0).sizes
     (16, 8, 5)
     """
-    q_net = as_module(network)  # Q, torch layers: Linear, Sigmoid, Linear
-    target_net = as_module(network)  # Q_target, a copy
+    q_net, target_net = as_module(network), as_module(network)  # Q and Q_target
     optimiser = torch.optim.Adam(q_net.parameters(), lr=gradient_step)
     buffer, updates = ReplayBuffer(), 0
     for episode in range(episodes):
         t = geometric_schedule(temperature, episode / max(episodes - 1, 1))
         rng = make_rng(seed, EXPLORING, episode)
         replay_rng = make_rng(seed, REPLAYING, episode)
-        # the seed of the first reset is that of all later worlds
-        state, _ = env.reset(seed=seed if episode == 0 else None)
+        state, _ = env.reset(seed=seed if episode == 0 else None)  # once for all
         done = False
         while not done:
             action = select_action(q_net, state, t, rng)  # act

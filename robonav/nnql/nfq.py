@@ -83,8 +83,7 @@ def nfq(
     for episode in range(episodes):
         t = geometric_schedule(temperature, episode / max(episodes - 1, 1))
         rng = make_rng(seed, EXPLORING, episode)  # explores in this episode
-        # the seed of the first reset is that of all later worlds
-        state, _ = env.reset(seed=seed if episode == 0 else None)
+        state, _ = env.reset(seed=seed if episode == 0 else None)  # once for all
         collect_episode(env, state, network, t, buffer, rng)
         if (episode + 1) % episodes_per_fit == 0 and len(buffer) > 0:
             transitions = buffer.all()
