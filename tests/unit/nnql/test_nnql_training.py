@@ -303,6 +303,10 @@ def test_moving_obstacles_and_another_reward():
             "episodes_per_fit must be at least 1",
         ),
         ({"method": "dqn", "batch_size": 0}, "batch_size must be at least 1"),
+        (
+            {"method": "dqn", "targets": max},
+            "targets must be dqn_targets or double_dqn_targets in fast training",
+        ),
     ],
 )
 def test_a_wrong_argument_gets_one_clear_sentence(wrong, message):
