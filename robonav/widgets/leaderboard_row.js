@@ -41,13 +41,16 @@ function render({ model, el }) {
     which.replaceChildren(...found.map(({ id, name }) => h("option", { value: id, selected: id === chosen }, name)));
     which.disabled = found.length === 0;
     if (found.length === 0) which.append(h("option", {}, "none yet"));
+    tell();
   };
+  which.addEventListener("change", () => tell());
   const about = h("p", { class: "about" });
   /** The seeds of the worlds that are chosen: the first set, or all. */
   const seedsChosen = () => (sets.element.querySelector("select").selectedIndex === 0 ? seeds.slice(0, 1) : seeds);
   const tell = () => {
     const per = worlds * seedsChosen().length;
-    about.textContent = `${settings.length} settings with ${per.toLocaleString("en")} worlds each: the robot drives ${(per * settings.length).toLocaleString("en")} episodes.`;
+    const robot = robots()[which.selectedIndex];
+    about.textContent = `${robot?.about ? `${robot.about} ` : ""}${settings.length} settings with ${per.toLocaleString("en")} worlds each: the robot drives ${(per * settings.length).toLocaleString("en")} episodes.`;
   };
   const sets = choice({ label: "worlds of each setting", options: [`${worlds} (the first set)`, `${worlds * seeds.length} (all sets)`], change: tell });
   const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights of a robot", change: async () => {
@@ -101,7 +104,6 @@ function render({ model, el }) {
     about, note, panel.element, h("div", { class: "board" }, table), myRobots.element,
     h("p", {}, h("a", { class: "call", href: playground }, "Train a robot of your own")));
   fill();
-  tell();
   return () => {
     forget();
     myRobots.end();

@@ -77,7 +77,7 @@ export function complaint({ key, label, least, most, positive }, value) {
  * @param {{label: string}[]} rewards a field for each row @param {(field: {key: string, part?: number}) => boolean} unused whether a setting plays no part
  */
 export function differences(settings, other, rewards, unused = () => false) {
-  const shown = (field, from) => String(read(from, field));
+  const shown = (field, from) => signed(read(from, field));
   const named = ({ key, options }, from) => options.find(([value]) => value === from[key])[1];
   return [
     ...[...rewards, ...Object.values(NUMBERS).flat()].filter((field) => !unused(field) && read(settings, field) !== read(other, field))

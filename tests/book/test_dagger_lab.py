@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from accessibility import AXE, RUN, ours
-from browser import DESKTOP, PHONE, Visit
+from browser import DESKTOP, PHONE, Visit, empty_storage
 from driving import KEYS
 from mounting import mounted
 from playwright.sync_api import Locator, expect
@@ -35,7 +35,9 @@ def view(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[V
 def lab(view: Visit, site: Path) -> Locator:
     learned = method("dagger")
     assert isinstance(learned, NetworkPolicy)
-    return mounted(view, site.as_uri(), dagger_lab(learned))
+    found = mounted(view, site.as_uri(), dagger_lab(learned))
+    empty_storage(view.page)
+    return found
 
 
 def train(lab: Locator) -> float:

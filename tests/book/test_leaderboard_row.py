@@ -71,9 +71,10 @@ def test_kept_robot_is_offered_tried_cancelled_and_deleted(row):
         "network": {"sizes": [11, 1, 5], "weights": [[0] * 11, [0] * 5], "biases": [[0], [1, 0, 0, 0, 0]]},
         "encoder": {"sensors": [1, 2, 3, 4, 5, 6, 7, 8, 9], "walls": False, "target": "signed"},
     }  # fmt: skip
-    keep_robots(row.page, robot)
+    keep_robots(row.page, robot | {"about": "It walks."})
     chosen = row.get_by_label("robot", exact=True)
     expect(chosen.locator("option:checked")).to_have_text("walker")
+    expect(row.locator(".about")).to_contain_text("It walks. ")
     row.get_by_role("button", name="Try this robot").click()
     row.get_by_role("button", name="Cancel").click()
     expect(row.locator(".status").nth(1)).to_contain_text("Cancelled. ")

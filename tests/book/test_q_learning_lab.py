@@ -40,6 +40,7 @@ CROSSES = re.compile(
 def view(request: pytest.FixtureRequest, visit: Visit) -> Iterator[Visit]:
     visit.page.set_viewport_size(request.param)
     yield visit
+    empty_storage(visit.page)
     assert visit.errors == visit.external == []
 
 
@@ -97,7 +98,10 @@ def test_a_robot_learns_from_nothing_and_crosses_new_maps(view):
         "aria-label", re.compile(r"at first, \d+ after 300$")
     )
     grey = lab.locator(".curves path[stroke-opacity]")
-    assert [path.get_attribute("d") for path in grey.all()] == [""] * 3
+    assert [path.get_attribute("d") for path in grey.all()] == [""] * 4
+    beyond = lab.get_by_role("img", name=re.compile(r"^targets out of \[0, 1\] \(%\)"))
+    share = re.search(r"(\d+) after 300$", beyond.get_attribute("aria-label"))
+    assert 5 < int(share[1]) < 60
     lab.get_by_label("afterwards, test in").select_option("200 new maps")
     group(lab, "Robot and maps")
     lab.get_by_label("seed of the random numbers").fill("1")
