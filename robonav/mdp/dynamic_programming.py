@@ -21,12 +21,27 @@ A model of one's own needs one matrix T[a][s, s'] for each action, and rewards r
 is or move to the other of two states, and staying in state 1 pays 1 a step. So V*(1) = 1 + 0.5 V*(1) = 2, and
 V*(0) = 0.5 V*(1) = 1:
 
->>> from robonav.mdp import FiniteMDP, policy_iteration
+>>> from robonav.mdp import FiniteMDP, policy_iteration, value_iteration
 >>> stay, move = [[1, 0], [0, 1]], [[0, 1], [1, 0]]
 >>> mdp = FiniteMDP([stay, move], rewards=[[0, 0], [1, 0]], discount=0.5)
->>> solution = policy_iteration(mdp)
->>> solution.values, solution.policy
-(array([1., 2.]), array([1, 0]))
+
+Policy iteration starts here with a poor policy: stay (0) in state 0, move (1) in state 1. Nothing is ever paid, so that
+V = (0, 0). In state 1 staying gains 1 and is taken. Then V(1) = 2, and moving there gains 1 in state 0:
+
+>>> solution = policy_iteration(mdp, start=[0, 1], record=True)
+>>> for policy, values in zip(solution.policies, solution.history):
+...     print(policy, values)
+[0 1] [0. 0.]
+[0 0] [0. 2.]
+[1 0] [1. 2.]
+
+Value iteration starts at V = (0, 0). From the first sweep on, each sweep halves the distance to V* = (1, 2):
+
+>>> value_iteration(mdp, record=True).history[:4]
+array([[0.  , 0.  ],
+       [0.  , 1.  ],
+       [0.5 , 1.5 ],
+       [0.75, 1.75]])
 
 In the code ``values`` are an array (S,), a ``policy`` is an array (S,) of actions, and ``q`` and the rewards are arrays
 (S, A). The numbers in the comments are the steps of the thesis's algorithms. Each function is complete for a discount
