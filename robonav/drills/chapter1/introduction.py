@@ -481,6 +481,12 @@ def which_sensor_reports(rng: Rng) -> Question:
         wrong[f"sector {mirrored}"] = (
             "Left and right are exchanged: sectors are numbered counter-clockwise."
         )
+    for beside in (sector % 9 + 1, (sector - 2) % 9 + 1):
+        low = (40 * (beside - 1) + 180) % 360 - 200
+        wrong.setdefault(
+            f"sector {beside}",
+            f"Seen from ahead, this sector reaches from ${low}°$ to ${low + 40}°$.",
+        )
     return Question(
         f"The robot's heading is ${heading}°$. A post stands ${dx:g}$ m from it in the direction of x "
         f"and ${dy:g}$ m in "
