@@ -74,6 +74,7 @@ class Part:
     after: list[Tag] = field(default_factory=list)
     lines: int = 0  # of a listing
     columns: int = 0
+    halves: bool = False  # of a picture: the lower half stands beside the upper one
 
     @property
     def tag(self) -> Tag:
@@ -88,6 +89,7 @@ class Mark:
     show: list[str]
     minutes: float | None
     long: bool
+    halves: bool
     points: list[str]
     notes: list[str]
     section: str
@@ -375,6 +377,7 @@ class Page:
             show=str(tag.get("data-show") or "").split(),
             minutes=float(minutes) if minutes else None,
             long=tag.has_attr("data-long"),
+            halves=tag.has_attr("data-halves"),
             points=[
                 inner(item.p or item)
                 for block in rest
@@ -534,7 +537,7 @@ def of_section(name: str, blocks: list[Part | Mark], page: Page) -> list[Slide]:
     taken = {id(part) for mark in everywhere for part in shown_by(mark, page)}
     marked: dict[int, Slide] = {}
     for mark in marks:
-        shown = shown_by(mark, page)
+        shown = [replace(part, halves=mark.halves) for part in shown_by(mark, page)]
         wanted = sum(WANTED[part.kind][0] for part in shown) or 2
         notes = mark.notes + [note for part in shown for note in notes_of(part)]
         kind = shown[0].kind if shown else "text"
@@ -600,80 +603,80 @@ def named(name: str, parts: list[Part]) -> Part:
     )
 
 
-def special(name: str, blocks: list[Part | Mark], page: Page) -> list[Slide] | None:
-    """Return the slides of the sections that every page has: summary, questions, mistakes, exercises."""
-    parts = [block for block in blocks if isinstance(block, Part)]
-    if name == "In short":
-        points = [
-            inner(item.p or item)
-            for part in parts
-            for item in part.tag.find_all("li", recursive=False)
-        ]
-        return [Slide("summary", "In short", name, points=points, wanted=2, rank=9)]
-    if name == "Check yourself":
-        slides = []
-        for count, part in enumerate(
-            part for part in parts if part.kind in ("quiz", "drill")
-        ):
-            wanted, rank = WANTED[part.kind]
-            slides.append(
-                Slide(part.kind, "Check yourself" if part.kind == "quiz" else "Drills", name, [part],
-                      wanted=wanted, rank=9 if count == 0 else rank - count / 4, long=count > 1)
-            )  # fmt: skip
-        return slides
-    if name == "Common mistakes":
-        lists = [
-            tag
-            for part in parts
-            for tag in part.before + part.after + part.tags
-            if tag.name == "ul"
-        ]
-        points, notes = [], []
-        for tag in dict.fromkeys(lists):
-            points += list_points(tag, 7)
-            notes.append(f"<ul>{inner(tag)}</ul>")
-        if not points:
-            return None
-        return [
-            Slide(
-                "mistakes",
-                "Common mistakes",
-                name,
-                points=points[:6],
-                notes=notes,
-                wanted=2,
-                rank=4,
-            )
-        ]
-    if name == "Exercises":
-        tags = list(
-            dict.fromkeys(tag for part in parts for tag in part.before + part.tags)
-        )
-        points = [
-            inner(item.p or item)
-            for tag in tags
-            if tag.name == "ul"
-            for item in tag.find_all("li", recursive=False)
-        ]
-        notes = [f"<p>{inner(tag)}</p>" for tag in tags if tag.name == "p"]
-        return (
-            [
-                Slide(
-                    "homework",
-                    "Homework",
-                    name,
-                    points=points,
-                    notes=notes,
-                    wanted=1,
-                    rank=9,
-                )
-            ]
-            if points
-            else []
-        )
-    if name in ("Where to read on", "References"):
-        return []
-    return None
+# ---- The sections that every page has --------------------------------------------------------------------------------
+
+
+def items_of(tags: Iterable[Tag]) -> list[str]:
+    """Return the items of the lists among some tags as HTML."""
+    return [
+        inner(item.p or item)
+        for tag in tags
+        if tag.name in ("ul", "ol")
+        for item in tag.find_all("li", recursive=False)
+    ]
+
+
+def summary(name: str, parts: list[Part]) -> list[Slide]:
+    """Return the slide of the section "In short": its items."""
+    points = items_of(part.tag for part in parts)
+    return [Slide("summary", "In short", name, points=points, wanted=2, rank=9)]
+
+
+def questions(name: str, parts: list[Part]) -> list[Slide]:
+    """Return a slide for each quiz of "Check yourself", and one for its drills. The first one is in both lectures."""
+    asked = [part for part in parts if part.kind in ("quiz", "drill")]
+    slides = []
+    for count, part in enumerate(asked):
+        wanted, rank = WANTED[part.kind]
+        title = "Check yourself" if part.kind == "quiz" else "Drills"
+        slide = Slide(part.kind, title, name, [part], wanted=wanted)
+        slide.rank = 9 if count == 0 else rank - count / 4
+        slide.long = count > 1
+        slides.append(slide)
+    return slides
+
+
+def mistakes(name: str, parts: list[Part]) -> list[Slide]:
+    """Return the slide of "Common mistakes": what each is called, with the whole text in the notes."""
+    tags = [tag for part in parts for tag in part.before + part.after + part.tags]
+    lists = [tag for tag in dict.fromkeys(tags) if tag.name == "ul"]
+    slide = Slide("mistakes", "Common mistakes", name, wanted=2, rank=4)
+    slide.points = [point for tag in lists for point in list_points(tag, 7)][:6]
+    slide.notes = [f"<ul>{inner(tag)}</ul>" for tag in lists]
+    return [slide] if slide.points else []
+
+
+def homework(name: str, parts: list[Part]) -> list[Slide]:
+    """Return the slide of "Exercises": those that belong to the page."""
+    found = dict.fromkeys(tag for part in parts for tag in part.before + part.tags)
+    slide = Slide("homework", "Homework", name, wanted=1, rank=9)
+    slide.points = items_of(found)
+    slide.notes = [f"<p>{inner(tag)}</p>" for tag in found if tag.name == "p"]
+    return [slide] if slide.points else []
+
+
+def nothing(name: str, parts: list[Part]) -> list[Slide]:
+    """Return no slide: the section is to be read."""
+    return []
+
+
+BY_HEADING = {  # what makes the slides of these sections
+    "In short": summary,
+    "Check yourself": questions,
+    "Drills": questions,
+    "Common mistakes": mistakes,
+    "Exercises": homework,
+    "Where to read on": nothing,
+    "References": nothing,
+}
+
+
+def of_heading(name: str, blocks: list[Part | Mark], page: Page) -> list[Slide]:
+    """Return the slides of a section: by its heading, or as its parts and marks say."""
+    if name in BY_HEADING:
+        parts = [block for block in blocks if isinstance(block, Part)]
+        return BY_HEADING[name](name, parts)
+    return of_section(name, blocks, page)
 
 
 def opening(page: Page, blocks: list[Part | Mark]) -> list[Slide]:
@@ -713,8 +716,7 @@ def lecture(page: Page) -> list[Slide]:
         sections.setdefault(block.section, []).append(block)
     slides = opening(page, sections.pop(""))
     for name, blocks in sections.items():
-        made = special(name, blocks, page)
-        slides += of_section(name, blocks, page) if made is None else made
+        slides += of_heading(name, blocks, page)
     slides.sort(
         key=lambda slide: (
             (slide.kind in ("summary", "homework")) + (slide.kind == "homework")

@@ -1,4 +1,4 @@
-"""``make slides``: a deck of slides for each chapter page, from the built book.
+"""``make slides``: a deck of slides for each lecture, from the built book. A lecture is a page of a chapter with marks.
 
 Usage: python make_slides.py [--parts] [PAGE ...], after a build. Without pages it makes all decks and ``index.html``,
 in ``_build/slides``. With ``--parts`` it prints the parts of the pages instead, by the names that a mark can show
@@ -11,6 +11,7 @@ speaker's view. What a deck loads lies beside it; formulas, pictures and interac
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import re
@@ -21,6 +22,7 @@ from html import escape
 from pathlib import Path
 
 import yaml
+from bs4 import BeautifulSoup, Tag
 from check_site import ROOT, SITE
 from lecture import (
     COLUMNS_BESIDE,
@@ -57,21 +59,35 @@ MATHJAX = {
     "tex": {"inlineMath": [["\\(", "\\)"]]},
     "options": {"processHtmlClass": "math"},
 }
+COUNTED = re.compile(  # the book's own number of an algorithm, beside which the thesis's would confuse
+    r'(<p class="admonition-title">)<span class="caption-number">[^<]*</span>\s*\((.*?)\)</p>'
+)
+STOP = re.compile(r"(?:\s|\\[,;:! ])*(?<!\\)[.,;]\s*((?:\\end\{\w+\}\s*)*\\\])")
+PARTS = ("Chapter", "Beyond the thesis", "The thesis again")  # with lectures
 WIDE = (
     1.75  # a picture this much wider than high stands below its points, not beside them
 )
 
 
-def chapters() -> dict[str, list[str]]:
-    """Return the pages that are lectures, by the captions of their parts."""
+def lectures() -> dict[str, list[str]]:
+    """Return the pages that are lectures, by the captions of their parts: those of the thesis's and later chapters."""
     contents = yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))
-    return {
+    found = {
         part["caption"]: [
-            entry["file"].removeprefix("book/") for entry in part["chapters"]
+            name
+            for entry in part["chapters"]
+            if has_marks(name := entry["file"].removeprefix("book/"))
         ]
         for part in contents["parts"]
-        if part["caption"].startswith("Chapter")
+        if part["caption"].startswith(PARTS)
     }
+    return {caption: names for caption, names in found.items() if names}
+
+
+def has_marks(name: str) -> bool:
+    """Return whether a page says something about its slides."""
+    source = (ROOT / "book" / f"{name}.md").read_text("utf-8")
+    return re.search(r"^```\{slide\}", source, re.MULTILINE) is not None
 
 
 def read(name: str) -> Page:
@@ -96,7 +112,11 @@ def part_html(part: Part) -> str:
         first = tag.select_one("details.drill")
         return f'<div class="live">{first}</div>' if first else ""
     if part.kind == "figure":
-        return f"<figure>{inner(tag)}</figure>"
+        picture = in_halves(part) if part.halves else inner(tag)
+        return f"<figure>{picture}</figure>"
+    if part.kind in ("equation", "formula"):
+        attributes = " ".join(tag.get("class") or ())
+        return f'<div class="{attributes}">{without_stop(inner(tag))}</div>'
     if part.kind == "output":
         lines = sum(len(block.get_text().split("\n")) for block in tag.select("pre"))
         code = tag.select_one(".cell_input")
@@ -105,7 +125,30 @@ def part_html(part: Part) -> str:
         return inner(tag)
     attributes = " ".join(tag.get("class") or ())
     content = lit(inner(tag)) if part.kind == "listing" else inner(tag)
+    if part.kind == "algorithm":
+        content = COUNTED.sub(r"\1\2</p>", content)
     return f'<{tag.name} class="{attributes}">{content}</{tag.name}>'
+
+
+def without_stop(formula: str) -> str:
+    """Return a formula without the comma or full stop of the sentence in which it stands on the page."""
+    return STOP.sub(r"\1", formula)
+
+
+def in_halves(part: Part) -> str:
+    """Return a high picture as two: its upper half, and its lower half beside it."""
+    tag = copy.copy(part.tag)
+    upper = tag.find("img")
+    if not isinstance(upper, Tag):
+        raise ValueError("a picture that is shown in halves must be an image")
+    lower = copy.copy(upper)
+    upper["class"], lower["class"] = "upper", "lower"
+    lower["alt"] = ""  # the upper one's text tells all
+    both = BeautifulSoup("", "html.parser").new_tag("div")
+    both["class"], both["style"] = "halves", f"--aspect: {aspect(part) / 2:.3f}"
+    upper.replace_with(both)
+    both.extend([upper, lower])
+    return inner(tag)
 
 
 def lit(listing: str) -> str:
@@ -124,7 +167,7 @@ def aspect(part: Part) -> float:
     if path is None or path.suffix != ".png" or not path.is_file():
         return 1.4
     width, height = struct.unpack(">II", path.read_bytes()[16:24])
-    return width / height
+    return width / height * (4 if part.halves else 1)
 
 
 def layout(slide: Slide) -> str:
@@ -248,7 +291,7 @@ def write_files(decks: dict[str, str]) -> None:
 def index(made: dict[str, tuple[str, list[Slide]]]) -> str:
     """Return the list of all decks."""
     rows = []
-    for caption, names in chapters().items():
+    for caption, names in lectures().items():
         rows.append(f'<tr><th colspan="4" scope="colgroup">{escape(caption)}</th></tr>')
         for name in names:
             title, slides = made[name]
@@ -263,7 +306,8 @@ def index(made: dict[str, tuple[str, list[Slide]]]) -> str:
         '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
         f'<title>Slides: {escape(BOOK)}</title><link rel="icon" href="_static/favicon.svg">'
         '<link rel="stylesheet" href="_static/index.css"></head><body><main>'
-        f"<h1>Slides</h1><p>{escape(BOOK)}: a lecture for each chapter page. They work without a network.</p>"
+        f"<h1>Slides</h1><p>{escape(BOOK)}: a lecture for each page of the chapters, and for the "
+        "conclusions. They work without a network.</p>"
         "<p>Page Down and Page Up turn the slides, also while a figure has the keyboard. S opens the speaker's view "
         "with notes and a clock, Escape leaves a figure and then shows all slides. To print, open a version "
         f"to print in Chrome or Chromium, and print it.</p><table>{''.join(rows)}</table></main></body></html>\n"
@@ -272,7 +316,7 @@ def index(made: dict[str, tuple[str, list[Slide]]]) -> str:
 
 def make(names: list[str]) -> int:
     """Make the decks of pages, and the list of decks if they are all of them. Return the exit code."""
-    captions = {name: caption for caption, part in chapters().items() for name in part}
+    captions = {name: caption for caption, part in lectures().items() for name in part}
     made: dict[str, tuple[str, list[Slide]]] = {}
     decks: dict[str, str] = {}
     for name in names:
@@ -304,11 +348,11 @@ def main() -> int:
     if not (SITE / "index.html").is_file():
         print("the book is not built: run make book first", file=sys.stderr)
         return 2
-    known = [name for part in chapters().values() for name in part]
+    known = [name for part in lectures().values() for name in part]
     names = [name for name in sys.argv[1:] if name != "--parts"]
     if unknown := [name for name in names if name not in known]:
         print(
-            f"no chapter page is named {', '.join(unknown)}; there are {', '.join(known)}",
+            f"no page with slides is named {', '.join(unknown)}; there are {', '.join(known)}",
             file=sys.stderr,
         )
         return 2

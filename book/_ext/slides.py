@@ -15,8 +15,9 @@
 The list is on the slide, and paragraphs are the speaker's notes. ``show`` names parts of the page, separated by spaces:
 labels of figures, equations, theorems and algorithms, functions whose code is listed, explorables; or the last part of
 a kind before the mark, as ``last-output``, ``last-table`` or ``last-formula``. ``minutes`` is the slide's time, and
-``long`` leaves it to the lecture of 90 minutes. ``make slides`` makes a deck of each page (:mod:`make_slides`). A part
-that no mark shows gets a slide of its own (:mod:`lecture`).
+``long`` leaves it to the lecture of 90 minutes. ``halves`` puts the lower half of a high picture beside its upper one.
+``make slides`` makes a deck of each page with marks (:mod:`make_slides`). A part that no mark shows gets a slide of its
+own (:mod:`lecture`).
 """
 
 from __future__ import annotations
@@ -51,6 +52,7 @@ class Slide(SphinxDirective):
         "show": directives.unchanged_required,
         "minutes": half_minutes,
         "long": directives.flag,
+        "halves": directives.flag,
     }
 
     def run(self) -> list[nodes.Node]:
@@ -59,6 +61,7 @@ class Slide(SphinxDirective):
         mark["show"] = self.options.get("show", "")
         mark["minutes"] = self.options.get("minutes", "")
         mark["long"] = "long" in self.options
+        mark["halves"] = "halves" in self.options
         mark += self.parse_content_to_nodes()
         return [mark, *messages]
 
@@ -66,8 +69,9 @@ class Slide(SphinxDirective):
 def open_mark(translator: Any, node: SlideMark) -> None:
     """Begin the mark: a template, which browsers neither draw nor read out."""
     attributes = {"data-show": node["show"], "data-minutes": str(node["minutes"])}
-    if node["long"]:
-        attributes["data-long"] = "long"
+    for flag in ("long", "halves"):
+        if node[flag]:
+            attributes[f"data-{flag}"] = flag
     translator.body.append(
         translator.starttag(node, "template", CLASS="slide", **attributes)
     )

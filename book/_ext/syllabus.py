@@ -87,6 +87,7 @@ class Session:
     written_in: str = ""
     lecture: list[str] = field(default_factory=list)
     long_lecture: list[str] = field(default_factory=list)
+    minutes: dict[str, int] = field(default_factory=dict)  # the plan's, or its own
 
     @property
     def lecture_minutes(self) -> int:
@@ -119,6 +120,7 @@ def plan(name: str) -> Plan:
     table = tables[name]
     written = {one["title"]: one["written"] for one in tables["weeks"]["session"]}
     for session in table["session"]:
+        session.setdefault("minutes", table["minutes"])
         if title := session.get("written_in"):
             session["written"] = written[title]
     sessions = [Session(**session) for session in table["session"]]
@@ -184,10 +186,10 @@ def session_text(
         session.purpose,
         "",
         "- **Pages**: " + "; ".join(f"{{doc}}`/book/{page}`" for page in session.pages),
-        f"- **Lecture**, {course_plan.minutes['lecture']} minutes, slides: "
+        f"- **Lecture**, {session.minutes['lecture']} minutes, slides: "
         + ", ".join(decks),
-        f"- **Drills in class**, {course_plan.minutes['drills']} minutes: {_drills(session.class_drills)}",
-        f"- **Lab**, {course_plan.minutes['lab']} minutes: {_exercises(session.lab, course)}. The rest of the time "
+        f"- **Drills in class**, {session.minutes['drills']} minutes: {_drills(session.class_drills)}",
+        f"- **Lab**, {session.minutes['lab']} minutes: {_exercises(session.lab, course)}. The rest of the time "
         "is for the notebooks of the pages and for questions.",
         home,
         "- **An exam may ask**: " + " ".join(session.exam),

@@ -16,9 +16,9 @@ from notebooks import plain
 from playwright.sync_api import BrowserContext, expect
 
 SCREEN = {"width": 1280, "height": 720}
-DECKS = [name for names in make_slides.chapters().values() for name in names]
-WITHOUT_FORMULAS = {"introduction", "playground"}
-WITHOUT_EXPLORABLES = {"introduction"}
+DECKS = [name for names in make_slides.lectures().values() for name in names]
+WITHOUT_FORMULAS = {"introduction", "playground", "conclusions"}
+WITHOUT_EXPLORABLES = {"introduction", "conclusions"}
 FEW_PARTS = {"introduction", "playground"}
 SOME_DECKS = [
     pytest.param(name, marks=pytest.mark.exhaustive if number % 3 else ())
@@ -388,6 +388,49 @@ def test_a_long_listing_continues_on_the_next_slide() -> None:
     assert all(half.lines <= lecture.MOST_LINES for half in halves)
     assert halves[1].tag.pre.get_text().startswith("    if x >")
     assert first.fixed + second.fixed == 3
+
+
+@pytest.mark.parametrize(
+    ("on_the_page", "on_the_slide"),
+    [
+        (r"\[x = 1 \, .\]", r"\[x = 1\]"),
+        (r"\[x = 1,\]", r"\[x = 1\]"),
+        (
+            r"\[\begin{split} x &= 1. \end{split}\]",
+            r"\[\begin{split} x &= 1\end{split}\]",
+        ),
+        (r"\[f(x, y) = 0.5\]", r"\[f(x, y) = 0.5\]"),
+        (r"\[x\,\]", r"\[x\,\]"),
+    ],
+)
+def test_a_formula_on_a_slide_ends_no_sentence(
+    on_the_page: str, on_the_slide: str
+) -> None:
+    assert make_slides.without_stop(on_the_page) == on_the_slide
+
+
+def test_no_formula_of_a_deck_ends_with_a_comma_or_a_full_stop(decks: Path) -> None:
+    """The last formula of a deck's own parts; those inside theorems and sentences are theirs."""
+    stop = re.compile(r"(?<!\\)[.,;]\s*(?:\\end\{\w+\}\s*)*\\\]")
+    for name in DECKS:
+        html = BeautifulSoup((decks / f"{name}.html").read_text("utf-8"), "html.parser")
+        shown = html.select(".fit > div > div.math")
+        assert [part.get_text() for part in shown if stop.search(part.get_text())] == []
+
+
+def test_an_algorithm_of_a_deck_has_only_the_thesis_s_number(decks: Path) -> None:
+    html = BeautifulSoup((decks / "nirl.html").read_text("utf-8"), "html.parser")
+    titles = [part.get_text() for part in html.select(".algorithm .admonition-title")]
+    assert titles == ["NIRL (Algorithm 10 of the thesis)"]
+
+
+def test_a_high_picture_is_shown_in_halves(decks: Path) -> None:
+    """Both halves are the same file, and the text for those who do not see it is said once."""
+    html = BeautifulSoup((decks / "nirl.html").read_text("utf-8"), "html.parser")
+    upper, lower = html.select(".halves img")
+    assert (upper["src"], upper["class"]) == (lower["src"], ["upper"])
+    assert upper["alt"]
+    assert lower["alt"] == ""
 
 
 def test_marks_that_take_too_long_are_refused() -> None:

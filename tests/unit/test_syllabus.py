@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
+import make_slides
 import pytest
 import syllabus
 import yaml
@@ -28,7 +29,7 @@ def chapter_pages() -> list[str]:
 
 
 def later_pages() -> list[str]:
-    """The pages beyond the thesis, which no session of a course needs."""
+    """The pages beyond the thesis."""
     contents = yaml.safe_load((syllabus.ROOT / "_toc.yml").read_text("utf-8"))
     return [
         entry["file"].removeprefix("book/")
@@ -72,10 +73,11 @@ def test_no_goal_names_anything_twice() -> None:
 def test_each_chapter_page_and_each_deck_occurs(name: str) -> None:
     sessions = PLANS[name].sessions
     pages = [page for session in sessions for page in session.pages]
-    assert set(chapter_pages()) | {"conclusions"} <= set(pages)
+    lectures = {page for part in make_slides.lectures().values() for page in part}
+    assert {*chapter_pages(), "planners", "conclusions"} <= lectures <= set(pages)
     assert len(pages) == len(set(pages))
     decks = [d for session in sessions for d in session.lecture + session.long_lecture]
-    assert sorted(decks) == sorted(set(chapter_pages()) - {"playground"})
+    assert sorted(decks) == sorted(lectures - {"playground"})
     for session in sessions:
         assert set(session.lecture + session.long_lecture) <= set(session.pages)
 
@@ -84,13 +86,12 @@ def test_each_chapter_page_and_each_deck_occurs(name: str) -> None:
 def test_minutes_add_up(name: str) -> None:
     plan = PLANS[name]
     for session in plan.sessions:
-        assert session.lecture_minutes == plan.minutes["lecture"], session.title
+        assert session.minutes.keys() == plan.minutes.keys()
+        assert sum(session.minutes.values()) == plan.session_minutes, session.title
+        assert session.lecture_minutes == session.minutes["lecture"], session.title
         lab = syllabus.minutes_of(session.lab, COURSE)
-        assert 0 < lab <= plan.minutes["lab"], session.title
-    total = sum(
-        session.lecture_minutes + plan.minutes["drills"] + plan.minutes["lab"]
-        for session in plan.sessions
-    )
+        assert 0 < lab <= session.minutes["lab"], session.title
+    total = sum(sum(session.minutes.values()) for session in plan.sessions)
     words = syllabus.headline(plan, COURSE)
     assert words.startswith(f"{len(plan.sessions)} {plan.unit.lower()}s of ")
     assert f"{total / 60:g} hours in class" in words
@@ -109,7 +110,7 @@ def test_drills_in_class_belong_to_the_session_s_pages(name: str) -> None:
             session.pages
         )
         for drill in session.class_drills:
-            assert 3 * len(session.class_drills) <= plan.minutes["drills"], drill
+            assert 3 * len(session.class_drills) <= session.minutes["drills"], drill
 
 
 @both_plans
@@ -140,6 +141,10 @@ def test_no_exercise_comes_twice_or_before_its_page(name: str) -> None:
     assert set(done.values()) == {1}
     if name == "weeks":
         assert set(done) == set(COURSE.exercises)
+    open_tasks = {
+        e.id for e in COURSE.exercises.values() if e.difficulty == "open task"
+    }
+    assert open_tasks <= set(done)  # in both courses
 
 
 def test_each_page_shows_what_the_tables_say() -> None:
