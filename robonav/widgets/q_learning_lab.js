@@ -223,7 +223,7 @@ function contestants(network, encoder, settings, { book, temperatures }) {
  */
 export function* learnAndDrive({ settings, start = null, trial }) {
   const total = settings.episodes + trial.maps;
-  let [network, arrived] = [null, 0];
+  let [network, arrived, shares] = [null, 0, []]; // of a block: the arrivals, and the shares of targets out of [0, 1]
   for (const ended of neuralQLearning(settings, { start })) {
     if (!ended) {
       yield;
@@ -231,11 +231,12 @@ export function* learnAndDrive({ settings, start = null, trial }) {
     }
     const { network: learning, episode, world, path, outcome, changes, outside } = ended;
     [network, arrived] = [learning, arrived + (outcome === "arrived" ? 1 : 0)];
+    if (outside !== null) shares.push(outside);
     const ends = (episode + 1) % BLOCK === 0;
     const [first, second] = changes.map(({ absolute }) => absolute);
-    const beyond = outside === null ? null : 100 * outside;
+    const beyond = ends && shares.length > 0 ? (100 * shares.reduce((sum, share) => sum + share, 0)) / shares.length : null;
     yield { done: episode + 1, total, live: { at: episode + 1, successes: ends ? arrived : null, first, second, beyond, episode: { world, path, outcome } } };
-    if (ends) arrived = 0;
+    if (ends) [arrived, shares] = [0, []];
   }
   const policies = Object.entries(contestants(network, start?.encoder ?? encoderOf(settings), settings, trial));
   const keys = worldKeysOf(trial.maps, trial.seed);
@@ -308,7 +309,7 @@ const LINES = [
   { name: "successes", label: "arrivals in 30", note: "How many of the last 30 episodes arrived.", colour: PALETTE.GREEN, high: BLOCK, text: String },
   { name: "first", label: "change of W(1)", note: "How much the weights between inputs and hidden units changed in an episode: the sum of the absolute changes.", text: (value) => value.toFixed(0) },
   { name: "second", label: "change of W(2)", note: "The same for the weights between hidden units and outputs.", colour: PALETTE.ORANGE, text: (value) => value.toFixed(0) },
-  { name: "beyond", label: "targets out of [0, 1] (%)", note: "How many of an episode's targets do not fit into the outputs, and are shifted or clipped. DQN's outputs have no bounds.", colour: PALETTE.VERMILION, low: 0, high: 100, text: (value) => value.toFixed(0) },
+  { name: "beyond", label: "targets out of [0, 1] (%)", note: "How many targets of the last 30 episodes do not fit into the outputs, and are shifted or clipped. DQN's outputs have no bounds.", colour: PALETTE.VERMILION, low: 0, high: 100, text: (value) => value.toFixed(0) },
 ];
 
 /** A map to look back on a run: its episodes, or the new maps that it drove, second by second. */
