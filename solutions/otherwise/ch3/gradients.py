@@ -1,27 +1,27 @@
-"""3.3 by measuring: each weight changed a little, by complex steps, so that nothing is lost to rounding."""
+"""3.3 forwards: how the outputs change with the sum of each unit, through all layers behind it."""
 
 import numpy as np
 
 
 def gradients(weights, inputs, labels, decay):
-    step = 1e-20
-
-    def cost(layers):
-        a = inputs
-        for layer in layers[:-1]:
-            a = np.tanh(layer[:, 0] + a @ layer[:, 1:].T)
-        z = layers[-1][:, 0] + a @ layers[-1][:, 1:].T
-        z = z - z.real.max(axis=1, keepdims=True)
-        log_p = z - np.log(np.exp(z).sum(axis=1, keepdims=True))
-        decays = decay / 2 * sum((layer[:, 1:] ** 2).sum() for layer in layers)
-        return (-log_p[np.arange(len(labels)), labels].sum() + decays) / len(inputs)
+    values = [inputs]  # of each layer's units
+    for layer in weights[:-1]:
+        values.append(np.tanh(layer[:, 0] + values[-1] @ layer[:, 1:].T))
+    z = weights[-1][:, 0] + values[-1] @ weights[-1][:, 1:].T
+    p = np.exp(z - z.max(axis=1, keepdims=True))
+    p /= p.sum(axis=1, keepdims=True)
+    p[np.arange(len(labels)), labels] -= 1  # the cost's change with each output
 
     slopes = []
     for number, layer in enumerate(weights):
         slope = np.zeros(layer.shape)
-        for place in np.ndindex(layer.shape):
-            layers = [w.astype(complex) for w in weights]
-            layers[number][place] += 1j * step
-            slope[place] = cost(layers).imag / step
-        slopes.append(slope)
+        for unit in range(len(layer)):
+            change = np.zeros((len(inputs), len(layer)))
+            change[:, unit] = 1
+            for own, behind in zip(values[number + 1 :], weights[number + 1 :]):
+                change = change * (1 - own**2) @ behind[:, 1:].T
+            cost = (p * change).sum(axis=1)
+            slope[unit] = np.append(cost.sum(), cost @ values[number])
+        slope[:, 1:] += decay * layer[:, 1:]
+        slopes.append(slope / len(inputs))
     return slopes

@@ -16,13 +16,9 @@ from typer.testing import CliRunner
 
 from robonav.cli import app
 from robonav.grading import variants
-from robonav.grading.cases import PUBLIC, generator, parts_of
 from robonav.grading.check import InProcessCalls, graded
 from robonav.grading.course import Course, trusted
-from robonav.grading.evidence import Evidence
-from robonav.grading.grade import Unaccepted
 from robonav.grading.reference import Solutions, mistakes, solution
-from robonav.grading.session import Answer
 
 COURSE = Course.around(Path(__file__).parent)
 ROBONAV = str(Path(sys.executable).with_name("robonav"))
@@ -57,19 +53,6 @@ def made(tmp_path_factory):
         return found
 
     return of
-
-
-def passes(course, known, exercise, function):
-    """Whether a function passes all parts; it ends at the first one that it does not pass."""
-    calls, evidence = InProcessCalls(function), Evidence(known)
-    for test, _ in parts_of(course, exercise):
-        answer = Answer(calls, evidence, exercise, test.__name__)
-        try:
-            with np.errstate(all="ignore"):
-                test(answer, generator(PUBLIC, test.__name__))
-        except Unaccepted:
-            return False
-    return True
 
 
 def test_with_the_books_values_nothing_changes(exercise, tmp_path):
@@ -119,19 +102,19 @@ def test_the_instructors_page_says_how_many_variants_there_are():
 
 
 @pytest.mark.slow
-def test_a_solution_passes_its_own_variant_and_no_other(exercise, made):
-    passes_its_own_and_no_other(exercise, made(exercise))
+def test_a_solution_passes_its_own_variant_and_no_other(exercise, made, passes):
+    passes_its_own_and_no_other(exercise, made(exercise), passes)
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("exercise", OPEN, ids=lambda exercise: exercise.name)
-def test_so_it_is_for_all_pairs_of_an_open_task(exercise, made):
+def test_so_it_is_for_all_pairs_of_an_open_task(exercise, made, passes):
     found = made(exercise, every=True)
     assert len(found) == variants.product(variants.knobs(COURSE, exercise))
-    passes_its_own_and_no_other(exercise, found)
+    passes_its_own_and_no_other(exercise, found, passes)
 
 
-def passes_its_own_and_no_other(exercise, found):
+def passes_its_own_and_no_other(exercise, found, passes):
     """Let every solution answer every variant."""
     functions = [solution(course, exercise) for _, course, _ in found]
     for (values, course, known), function in zip(found, functions, strict=True):
@@ -146,7 +129,7 @@ def passes_its_own_and_no_other(exercise, found):
 
 
 @pytest.mark.slow
-def test_known_mistakes_are_hinted_in_every_variant(exercise, made):
+def test_known_mistakes_are_hinted_in_every_variant(exercise, made, passes):
     tried = variants.covering([values for values, _, _ in made(exercise)])
     for values, course, known in made(exercise):
         if values not in tried or values == tried[0]:
