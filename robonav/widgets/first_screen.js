@@ -4,7 +4,6 @@ const STEPS_A_SECOND = 8;
 const REST = 1200; // milliseconds between two maps
 const PATIENCE = 300; // steps after which the network has lost its way
 const [NUDGE, PUSH] = [2, 10]; // metres that an arrow key moves a thing, alone and with Shift
-const DIRECTIONS = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
 
 function render({ model, el }) {
   const { policy, about, links, keys, obstacles, speed } = model.get("data");
@@ -51,7 +50,7 @@ function render({ model, el }) {
     const [name, ...others] = queue;
     if (key === "Escape") take([]);
     else if (key === "Enter") take([...others, name]);
-    else if (key in DIRECTIONS) move(name, placeOf(name).map((value, axis) => value + DIRECTIONS[key][axis] * (shiftKey ? PUSH : NUDGE)));
+    else if (key in MAP_KEYS) move(name, placeOf(name).map((value, axis) => value + MAP_KEYS[key][axis] * (shiftKey ? PUSH : NUDGE)));
     else return false;
     return true;
   };

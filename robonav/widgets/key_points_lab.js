@@ -3,7 +3,6 @@
 const [SPACING, LOOKAHEAD] = [0.25, 1.5]; // as in robonav/lfd/human_expert.py: metres, and steps
 const [SPEED, MOST_STEPS, PACE] = [2, 500, 14]; // m/s, seconds, steps a second
 const GRAB = 3; // metres from a key point, or from the path, at which a pointer holds it
-const MOVES = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
 
 const apart = ([x, y], [u, v]) => Math.sqrt((x - u) * (x - u) + (y - v) * (y - v));
 
@@ -191,12 +190,12 @@ function render({ model, el }) {
   });
   holdFinger(board.canvas, (touch) => pointAt(board.place(touch)) >= 0);
   board.canvas.addEventListener("keydown", (event) => {
-    if (event.key in MOVES && points[selected]) {
+    if (event.key in MAP_KEYS && points[selected]) {
       const step = event.shiftKey ? 5 : 1;
-      move(selected, points[selected].map((value, axis) => value + step * MOVES[event.key][axis]));
+      move(selected, points[selected].map((value, axis) => value + step * MAP_KEYS[event.key][axis]));
     } else if (event.key === "Enter") addHalfWay();
     else if (event.key === "Delete" || event.key === "Backspace") take(selected);
-    else if (!(event.key in MOVES)) return;
+    else if (!(event.key in MAP_KEYS)) return;
     event.preventDefault();
   });
   const list = h("select", { "aria-label": "key point", change: () => {

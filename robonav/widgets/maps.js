@@ -111,31 +111,38 @@ export function mapCanvas(attributes = {}) {
   return { canvas, begin, obstacle, start, target, sectors, robot, line, dots, place };
 }
 
+/** Where the arrow keys lead on a map, in metres. */
+export const MAP_KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
 /**
- * A map on which the reader moves a robot: by dragging it, by touching a place, or with the arrow keys.
- * @param {{size: number}} world
- * @param {() => {x: number, y: number}} robot where the robot is now
- * @param {(place: {x: number, y: number}) => void} move called with a place within the map
+ * A map on which the reader moves things: by dragging one of them, or by touching a place or with the arrow keys for the chosen one.
+ * @param {{size: number, margin: number}} map its size in metres, and how far things stay from its border
+ * @param {() => {x: number, y: number, reach: number}[]} things where they are now, and how near to one a finger takes it
+ * @param {() => number} chosen the number of the one that keys move
+ * @param {(thing: number, place: {x: number, y: number}) => void} move called with a place within the map
  */
-export function mapToMoveOn(world, robot, move) {
-  const keys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-  const within = (value) => Math.min(world.size - 1, Math.max(1, Number(value.toFixed(1))));
-  const put = (x, y) => move({ x: within(x), y: within(y) });
+export function mapToMoveOn({ size, margin }, things, chosen, move) {
+  const within = (value) => Math.min(size - margin, Math.max(margin, Number(value.toFixed(1))));
+  const put = (thing, [x, y]) => move(thing, { x: within(x), y: within(y) });
   const board = mapCanvas({ tabindex: 0, role: "application", "data-keys": "ArrowLeft ArrowUp", "data-touch": "" });
-  let dragging = false;
-  const near = ([x, y]) => Math.hypot(x - robot().x, y - robot().y) < 3;
+  const thingAt = ([px, py]) => things().findIndex(({ x, y, reach }) => Math.hypot(px - x, py - y) < reach);
+  let dragged = -1;
   board.canvas.addEventListener("pointerdown", (event) => {
-    dragging = near(board.place(event));
-    if (dragging) board.canvas.setPointerCapture(event.pointerId);
+    dragged = thingAt(board.place(event));
+    if (dragged >= 0) board.canvas.setPointerCapture(event.pointerId);
   });
-  board.canvas.addEventListener("pointermove", (event) => dragging && put(...board.place(event)));
-  for (const end of ["pointerup", "pointercancel"]) board.canvas.addEventListener(end, () => (dragging = false));
-  board.canvas.addEventListener("click", (event) => near(board.place(event)) || put(...board.place(event)));
+  board.canvas.addEventListener("pointermove", (event) => dragged >= 0 && put(dragged, board.place(event)));
+  for (const end of ["pointerup", "pointercancel"]) board.canvas.addEventListener(end, () => (dragged = -1));
+  board.canvas.addEventListener("click", (event) => thingAt(board.place(event)) < 0 && put(chosen(), board.place(event)));
   board.canvas.addEventListener("keydown", (event) => {
-    if (!keys[event.key]) return;
+    if (!(event.key in MAP_KEYS)) return;
     event.preventDefault();
-    put(robot().x + keys[event.key][0], robot().y + keys[event.key][1]);
+    const [{ x, y }, [right, up]] = [things()[chosen()], MAP_KEYS[event.key]];
+    put(chosen(), [x + right, y + up]);
   });
-  holdFinger(board.canvas, (touch) => near(board.place(touch)));
+  holdFinger(board.canvas, (touch) => thingAt(board.place(touch)) >= 0);
   return board;
 }
+
+/** A map on which the reader moves the robot. @param {{size: number}} world @param {() => Pose} robot where it is now @param {(place: {x: number, y: number}) => void} move */
+export const mapForRobot = ({ size }, robot, move) => mapToMoveOn({ size, margin: 1 }, () => [{ ...robot(), reach: 3 }], () => 0, (_, place) => move(place));

@@ -51,10 +51,16 @@ def mounted(
     return visit.page.locator("#mounted")
 
 
-def mounted_alone(visit: Visit, widget: Any, *, theme: str = "light") -> Locator:
-    """Put the widget on an empty page from disk, in the theme's colours. This needs no built book."""
+def mounted_alone(
+    visit: Visit, widget: Any, *, theme: str = "light", first: str = "() => {}"
+) -> Locator:
+    """Put the widget on an empty page from disk, in the theme's colours. This needs no built book.
+
+    ``first`` is a function in JavaScript that the page calls before.
+    """
     assert isinstance(widget, anywidget.AnyWidget)
     visit.open(BLANK.as_uri())
+    visit.page.evaluate(first)
     visit.page.evaluate(
         "(theme) => { document.documentElement.dataset.theme = theme; }", theme
     )

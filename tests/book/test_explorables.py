@@ -3,119 +3,91 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 import yaml
 from accessibility import AXE, RUN
-from browser import DESKTOP, PHONE, ROOT, Visit, tap
+from browser import DESKTOP, PHONE, ROOT, Visit
+from explorables.expected import EXPECTED
+from explorables.reader import SEGMENTS, Finger, Keyboard, Reader, touch
 from mounting import mounted_alone
 from playwright.sync_api import Locator, expect
 
 from robonav.widgets.explorables import EXPLORABLES, explorable
 
 PICTURES = ROOT / "_build" / "widgets"
-SHOWN = """(widget) => [
-  ...[...widget.querySelectorAll(".status, .sum, td")].map((text) => text.textContent),
-  ...[...widget.querySelectorAll("svg:not(button svg)")].map((picture) => picture.outerHTML),
-  ...[...widget.querySelectorAll("canvas")].map((picture) => picture.toDataURL()),
-].join()"""
-SEGMENTS = "fieldset.segments:not(.guess *)"
-CHANGED = f"([widget, before]) => ({SHOWN})(widget) !== before"
 
 
-@contextmanager
-def something_changes(widget: Locator, control: str) -> Iterator[None]:
-    """Fails if pictures and text are the same afterwards."""
-    before = widget.evaluate(SHOWN)
-    yield
-    try:
-        arguments = [widget.element_handle(), before]
-        widget.page.wait_for_function(CHANGED, arg=arguments, timeout=3_000)
-    except Exception as error:
-        raise AssertionError(f"{control} changes nothing") from error
-
-
-def reset(widget: Locator) -> None:
-    widget.get_by_role("button", name="Reset", exact=True).click()
-
-
-def buttons(widget: Locator) -> list[Locator]:
-    """Its buttons that can be pressed now, without Reset."""
-    return [
-        button
-        for button in widget.locator("button").all()
-        if button.inner_text() != "Reset" and button.is_enabled()
-    ]
+def test_every_explorable_is_compared_with_python() -> None:
+    assert EXPECTED.keys() == EXPLORABLES.keys()
 
 
 @pytest.mark.parametrize("name", EXPLORABLES)
 def test_by_keyboard_on_a_desktop(visit: Visit, name: str) -> None:
+    """Each control does something, and what is shown then is what Python computes; see ``explorables``."""
     visit.page.set_viewport_size(DESKTOP)
-    widget = mounted_alone(visit, explorable(name))
-    first = widget.evaluate(SHOWN)
-    for slider in widget.locator("input[type=range]").all():
+    reader = Reader(visit, name, Keyboard())
+    widget, first = reader.widget, reader.seen.contents
+    for slider in reader.sliders():
         for key in ("End", "Home"):
-            with something_changes(widget, f"{key} of {slider}"):
+            with reader.doing(f"{key} of {slider}"):
                 slider.press(key)
-        reset(widget)
+        reader.reset()
     for group in widget.locator(SEGMENTS).all():
         chosen = group.locator("input:checked")
-        with something_changes(widget, f"arrows on {group}"):
+        with reader.doing(f"arrows on {group}"):
             (chosen if chosen.count() else group.locator("input").first).press(
                 "ArrowRight"
             )
     for number in widget.locator("input[type=number]").all():
-        with something_changes(widget, f"number {number}"):
+        with reader.doing(f"number {number}"):
             number.press("ArrowDown")
             number.press("Tab")
-    for button in buttons(widget):
-        reset(widget)
+    for button in reader.buttons():
+        reader.reset()
         if button.is_enabled():
-            with something_changes(widget, f"button {button.inner_text()}"):
+            with reader.doing(button.inner_text()):
                 button.press("Enter")
-    reset(widget)
+    reader.reset()
     for picture in widget.locator("[data-keys]").all():
         for key in (picture.get_attribute("data-keys") or "").split():
-            with something_changes(widget, f"{key} on {picture}"):
+            with reader.doing(key):
                 picture.press(key)
-    reset(widget)
-    assert widget.evaluate(SHOWN) == first
+    reader.reset()
+    assert reader.seen.contents == first
+    for move in EXPECTED[name].by_keyboard:
+        move(reader)
     assert visit.errors == visit.external == []
-
-
-def touch(control: Locator, share: float = 0.5) -> None:
-    """Tap a control, at a share of its width."""
-    control.scroll_into_view_if_needed()
-    box = control.bounding_box()
-    assert box is not None
-    tap(control.page, box["x"] + share * box["width"], box["y"] + box["height"] / 2)
 
 
 @pytest.mark.parametrize("name", EXPLORABLES)
 def test_by_touch_on_a_phone(visit: Visit, name: str) -> None:
+    """As by keyboard."""
     visit.page.set_viewport_size(PHONE)
-    widget = mounted_alone(visit, explorable(name))
-    for slider in widget.locator("input[type=range]").all():
-        reset(widget)
+    reader = Reader(visit, name, Finger())
+    widget = reader.widget
+    for slider in reader.sliders():
+        reader.reset()
         for share in (0.93, 0.07):
-            with something_changes(widget, f"touching {slider}"):
+            with reader.doing(f"touching {slider}"):
                 touch(slider, share)
     for group in widget.locator(SEGMENTS).all():
-        reset(widget)
-        with something_changes(widget, f"touching {group}"):
+        reader.reset()
+        with reader.doing(f"touching {group}"):
             touch(group.locator("label:not(:has(:checked))").last)
-    for button in buttons(widget):
-        reset(widget)
+    for button in reader.buttons():
+        reader.reset()
         if button.is_enabled():
-            with something_changes(widget, f"touching {button.inner_text()}"):
+            with reader.doing(button.inner_text()):
                 touch(button)
     for part in widget.locator("[data-touch]").all():
-        reset(widget)
-        with something_changes(widget, f"touching {part}"):
+        reader.reset()
+        with reader.doing("touch"):
             touch(part)
+    reader.reset()
+    for move in EXPECTED[name].by_touch:
+        move(reader)
     width = visit.page.evaluate("document.documentElement.scrollWidth")
     assert width <= PHONE["width"]
     assert visit.errors == visit.external == []
@@ -130,8 +102,8 @@ def move_something(widget: Locator) -> None:
     elif widget.locator(SEGMENTS).count():
         group = widget.locator(SEGMENTS).first
         group.locator("input:checked").press("ArrowRight")
-    elif buttons(widget):
-        buttons(widget)[0].press("Enter")
+    elif (enabled := widget.locator("button:enabled", has_not_text="Reset")).count():
+        enabled.first.press("Enter")
     else:
         picture = widget.locator("[data-keys]").first
         picture.press((picture.get_attribute("data-keys") or "").split()[0])

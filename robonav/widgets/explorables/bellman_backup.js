@@ -27,9 +27,10 @@ export default explorable({
       layout: given.layout, name: "values", act, once: true,
       help: "A grid with values. Arrow keys mark a cell, Enter backs it up.",
       press: (state, cell) => {
-        state.last = model.actions && Array.from({ length: model.actions }, (_, a) => written(model, given.discount, state.values, cell, a));
+        const sums = Array.from({ length: model.actions }, (_, a) => written(model, given.discount, state.values, cell, a));
         state.values[cell] = backedUp(model, given.discount, state.values, cell);
         state.backups += 1;
+        state.last = { cell, sums, value: state.values[cell] };
       },
     });
     stage.append(h("figure", {}, grid.element, h("p", { class: "told" }, "Touch a cell to back it up.")));
@@ -39,7 +40,7 @@ export default explorable({
       const off = Math.max(...given.best.map((value, s) => Math.abs(value - values[s])));
       return [
         `Backups of a cell: ${backups}. Value of the start S: ${number(values[given.marked])}.`,
-        ...(last ? ["", `The last one, in ${grid.where(marked)}. Mean reward + γ (sum of probability · value):`, ...last, `The largest of them is the new value: ${number(values[marked])}`] : []),
+        ...(last ? ["", `The last one, in ${grid.where(last.cell)}. Mean reward + γ (sum of probability · value):`, ...last.sums, `The largest of them is the new value: ${number(last.value)}`] : []),
         "", off < 0.005 ? "All values are right to two digits." : `The values are still wrong by up to ${number(off)}.`,
       ].join("\n");
     };

@@ -2,33 +2,31 @@
 
 const [EPISODES, RATE, LONGEST, ROBOTS] = [1500, 0.1, 200, 10];
 
-/** The update of one step: Eq. (2.30) for SARSA, Eq. (2.29) for Q-learning, which takes the best next action. */
-export function updated(q, { s, a, reward, next, nextAction, ended }, method, rate) {
-  const future = ended ? 0 : method === "SARSA" ? q[next][nextAction] : Math.max(...q[next]);
-  return q[s][a] + rate * (reward + future - q[s][a]);
+/** An action: any of them with probability epsilon, otherwise one of the best. */
+function epsilonGreedy(values, epsilon, random) {
+  if (random() < epsilon) return Math.floor(values.length * random());
+  const best = Math.max(...values);
+  const ties = [...values.keys()].filter((a) => values[a] === best);
+  return ties.length === 1 ? ties[0] : ties[Math.floor(ties.length * random())];
 }
 
-/** Learn for some episodes, without a discount; `seen` hears of every step. */
-export function learnOnCliff({ moves, rewards, ends, begin }, method, { epsilon, episodes = EPISODES, seed, seen = () => {} }) {
+/**
+ * Learn for some episodes, without a discount: Q-learning, Algorithm 5, Eq. (2.29), or SARSA, Algorithm 6, Eq. (2.30).
+ * With the same random numbers robonav.mdp.q_learning and robonav.mdp.sarsa learn the same.
+ */
+export function learnOnCliff({ moves, rewards, ends, begin }, method, { epsilon, episodes = EPISODES, seed }) {
   const random = numbersFrom(seed);
   const q = moves.map(() => [0, 0, 0, 0]);
-  const choose = (s) => {
-    if (random() < epsilon) return Math.floor(4 * random());
-    const best = Math.max(...q[s]);
-    const ties = [0, 1, 2, 3].filter((a) => q[s][a] === best);
-    return ties[Math.floor(ties.length * random())];
-  };
+  const choose = (s) => epsilonGreedy(q[s], epsilon, random);
   for (let episode = 0; episode < episodes; episode += 1) {
-    let [s, a] = [begin, choose(begin)];
-    for (let step = 0; step < LONGEST; step += 1) {
+    let [s, chosen] = [begin, null]; // SARSA chooses its next action before it learns, Q-learning afterwards
+    for (let step = 0; step < LONGEST && !ends[s]; step += 1) {
+      const a = chosen ?? choose(s);
       const next = moves[s][a];
-      const ended = ends[next];
-      const nextAction = ended ? 0 : choose(next);
-      const transition = { s, a, reward: rewards[next], next, nextAction, ended };
-      seen(transition);
-      q[s][a] = updated(q, transition, method, RATE);
-      if (ended) break;
-      [s, a] = [next, nextAction];
+      chosen = method === "SARSA" ? choose(next) : null;
+      const future = ends[next] ? 0 : method === "SARSA" ? q[next][chosen] : Math.max(...q[next]);
+      q[s][a] += RATE * (rewards[next] + future - q[s][a]);
+      s = next;
     }
   }
   return q;

@@ -1,5 +1,12 @@
 // Policy iteration by hand: a sweep of evaluation or an improvement, in any order.
 
+/** By how much a sweep of evaluation would still change a value. */
+export const misfit = (model, discount, values, policy) =>
+  Math.max(...evaluationSweep(model, discount, values, policy).map((value, s) => Math.abs(value - values[s])));
+
+/** How many arrows are not yet among the best of their cell. */
+export const wrongArrows = ({ layout, optimal }, policy) => policy.filter((a, s) => !layout.ends.includes(s) && !optimal[s].includes(a)).length;
+
 export default explorable({
   controls: ({ discount, model: packedModel }) => ({
     evaluate: press({
@@ -31,8 +38,8 @@ export default explorable({
     stage.append(h("figure", {}, grid.element));
     return ({ policy, values, sweeps, full, improvements }) => {
       grid.show({ values, policy, said: "values and policy", walk: [] }, 1, -1);
-      const unfit = Math.max(...evaluationSweep(model, given.discount, values, policy).map((value, s) => Math.abs(value - values[s])));
-      const wrong = policy.filter((a, s) => !given.layout.ends.includes(s) && !given.optimal[s].includes(a)).length;
+      const unfit = misfit(model, given.discount, values, policy);
+      const wrong = wrongArrows(given, policy);
       return [
         `Improvements: ${improvements}. Sweeps of evaluation: ${sweeps}. Full evaluations: ${full}.`, "",
         unfit < 0.0005 ? "The values fit the arrows." : `The values do not fit the arrows: a sweep would still change one by ${number(unfit, 3)}.`,

@@ -6,7 +6,19 @@ export const answer = ({ first, second, bias }, [x1, x2]) => sigmoid(first * x1 
 /** How many examples lie on the side where they belong. */
 export const right = (neuron, points, labels) => points.filter((point, i) => (answer(neuron, point) > 0.5 ? 1 : 0) === labels[i]).length;
 
+/** How fast the answer changes on the line and across it: the sigmoid's slope there, 1/4, times the length of the weights. */
+export const steepness = ({ first, second }) => 0.25 * Math.hypot(first, second);
+
 const [LOW, HIGH, SHADES] = [-3, 3, 24];
+
+/** The ends of the neuron's line in the picture, where w1 x1 + w2 x2 + b is 0; none where the line lies outside. */
+export function lineOf({ first, second, bias }) {
+  if (first === 0 && second === 0) return [];
+  const along = Math.abs(second) >= Math.abs(first)
+    ? [LOW, HIGH].map((x) => [x, (-bias - first * x) / second])
+    : [LOW, HIGH].map((y) => [(-bias - second * y) / first, y]);
+  return clipped(along);
+}
 
 export default explorable({
   controls: ({ sets }) => {
@@ -34,21 +46,17 @@ export default explorable({
           fill: a > 0.5 ? PALETTE.BLUE : PALETTE.ORANGE, "fill-opacity": (0.7 * Math.abs(a - 0.5)).toFixed(3),
         });
       });
-      const along = first === 0 && second === 0 ? [] : Math.abs(second) >= Math.abs(first)
-        ? [LOW, HIGH].map((x) => [x, (-bias - first * x) / second])
-        : [LOW, HIGH].map((y) => [(-bias - second * y) / first, y]);
-      const inside = clipped(along);
+      const inside = lineOf(neuron);
       const dots = points.map(([x, y], i) => svg("circle", { cx: plane.X(x), cy: plane.Y(y), r: 4, fill: labels[i] ? PALETTE.BLUE : PALETTE.ORANGE, stroke: "var(--ink)", "stroke-width": 0.7 }));
       const count = right(neuron, points, labels);
       plane.put(
         `Answers of a neuron with weights ${first} and ${second} and bias ${bias}`,
         ...shades, ...(inside.length ? [plane.line(inside, { stroke: "var(--ink)", "stroke-width": 2 })] : []), ...dots,
       );
-      const slope = 0.25 * Math.hypot(first, second);
       const sign = (w) => (w < 0 ? "−" : "+");
       return [
         `Line: ${number(first, 1)} x₁ ${sign(second)} ${number(Math.abs(second), 1)} x₂ ${sign(bias)} ${number(Math.abs(bias), 1)} = 0`,
-        inside.length ? `Across the line the answer changes by ${number(slope)} per unit.` : "There is no line within the picture: the neuron gives all points one answer.", "",
+        inside.length ? `Across the line the answer changes by ${number(steepness(neuron))} per unit.` : "There is no line within the picture: the neuron gives all points one answer.", "",
         `${count} of ${points.length} points are on the right side.`,
       ].join("\n");
     };
@@ -57,7 +65,6 @@ export default explorable({
 
 /** The part of a straight line, given by two points, that lies in the picture. */
 function clipped(ends) {
-  if (!ends.length) return [];
   const [[x0, y0], [x1, y1]] = ends;
   let [from, to] = [0, 1];
   for (const [start, change] of [[x0, x1 - x0], [y0, y1 - y0]]) {

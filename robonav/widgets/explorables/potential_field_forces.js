@@ -36,31 +36,14 @@ export default explorable({
   }),
   start: ({ world }) => ({ centres: world.obstacles.map(({ x, y }) => [x, y]) }),
   draw({ given: { world: first }, stage, act }) {
-    const keys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-    const board = mapCanvas({ tabindex: 0, role: "application", "data-keys": "ArrowLeft ArrowUp", "data-touch": "" });
+    let now = null;
+    const circles = () => now.centres.map(([x, y], k) => ({ x, y, reach: first.obstacles[k].a }));
+    const put = (k, { x, y }) => act((state) => {
+      state.chosen = k;
+      state.centres = state.centres.map((centre, other) => (other === k ? [x, y] : centre));
+    });
+    const board = mapToMoveOn({ size: first.size, margin: 6 }, circles, () => now.chosen, put);
     stage.append(h("figure", {}, board.canvas, h("p", { class: "told" }, "Drag a circle, or choose one and use the arrow keys.")));
-    const within = (value) => Math.min(first.size - 6, Math.max(6, Number(value.toFixed(1))));
-    const put = (k, x, y) =>
-      act((state) => {
-        state.chosen = k;
-        state.centres = state.centres.map((centre, other) => (other === k ? [within(x), within(y)] : centre));
-      });
-    let [now, dragged] = [null, -1];
-    const at = ([x, y]) => now.centres.findIndex(([cx, cy], k) => Math.hypot(x - cx, y - cy) < first.obstacles[k].a);
-    board.canvas.addEventListener("pointerdown", (event) => {
-      dragged = at(board.place(event));
-      if (dragged >= 0) board.canvas.setPointerCapture(event.pointerId);
-    });
-    board.canvas.addEventListener("pointermove", (event) => dragged >= 0 && put(dragged, ...board.place(event)));
-    for (const end of ["pointerup", "pointercancel"]) board.canvas.addEventListener(end, () => (dragged = -1));
-    board.canvas.addEventListener("click", (event) => at(board.place(event)) < 0 && put(now.chosen, ...board.place(event)));
-    board.canvas.addEventListener("keydown", (event) => {
-      if (!keys[event.key]) return;
-      event.preventDefault();
-      const [x, y] = now.centres[now.chosen];
-      put(now.chosen, x + keys[event.key][0], y + keys[event.key][1]);
-    });
-    holdFinger(board.canvas, (touch) => at(board.place(touch)) >= 0);
     return (state) => {
       now = state;
       const world = { ...first, obstacles: first.obstacles.map((obstacle, k) => ({ ...obstacle, x: state.centres[k][0], y: state.centres[k][1] })) };

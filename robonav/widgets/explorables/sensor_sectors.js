@@ -15,7 +15,7 @@ export default explorable({
   start: ({ pose: [x, y] }) => ({ x, y }),
   draw({ given: { world }, stage, act }) {
     let now = null;
-    const board = mapToMoveOn(world, () => now, (place) => act((state) => Object.assign(state, place)));
+    const board = mapForRobot(world, () => now, (place) => act((state) => Object.assign(state, place)));
     const cells = ["sensor", "metres", "danger"].map((name) => [h("th", { scope: "row" }, name), ...Array.from({ length: ROBOT.sensors }, () => h("td", {}))]);
     cells[0].slice(1).forEach((cell, k) => (cell.textContent = String(k + 1)));
     stage.append(h("figure", {}, board.canvas, h("p", { class: "told" }, "Drag the robot, touch where it should be, or use the arrow keys.")),

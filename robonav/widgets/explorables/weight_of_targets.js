@@ -16,6 +16,9 @@ export function weightsOf(rates) {
   return { weights, start: left };
 }
 
+/** Of how many targets a mean would vary as much: 1 over the sum of the squared shares. */
+export const asManyTargets = ({ weights, start }) => 1 / (weights.reduce((sum, weight) => sum + weight ** 2, 0) + start ** 2);
+
 export default explorable({
   controls: () => {
     const rate = (label, value) => range({ label, from: 0.05, to: 0.95, step: 0.05, value, text: (a) => a.toFixed(2) });
@@ -25,15 +28,15 @@ export default explorable({
     const chart = plot({ x: [0.4, UPDATES + 0.6], y: [0, 1], xLabel: "target of update", yLabel: "share of the value", xTicks: [1, 5, 10, 15, 20] });
     stage.append(h("figure", {}, chart.element));
     return (state) => {
-      const { weights, start } = weightsOf(ratesOf(state));
+      const shares = weightsOf(ratesOf(state));
+      const { weights, start } = shares;
       const bars = weights.map((weight, k) => svg("rect", {
         x: chart.X(k + 0.6), width: chart.X(0.8) - chart.X(0), y: chart.Y(weight), height: chart.Y(0) - chart.Y(weight), fill: k === weights.length - 1 ? PALETTE.ORANGE : PALETTE.BLUE,
       }));
       chart.put(`Parts of the value that come from each of ${UPDATES} targets: the latest ${weights.at(-1).toFixed(2)}`, ...bars);
-      const targets = 1 / (weights.reduce((sum, weight) => sum + weight ** 2, 0) + start ** 2);
       return [
         `${number(100 * weights.at(-1), 0)} % of the value come from the latest target and ${number(100 * weights.at(-2), 0)} % from the one before.`,
-        `The value is as reliable as a mean of ${number(targets, 1)} targets.`,
+        `The value is as reliable as a mean of ${number(asManyTargets(shares), 1)} targets.`,
         `${number(100 * start, 1)} % of the value come from the initial value.`,
       ].join("\n");
     };

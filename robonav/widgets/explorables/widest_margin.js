@@ -9,11 +9,20 @@ export function leadAt(expert, others, degrees) {
   return { lead: along(expert) - values[rival], rival };
 }
 
-/** The widest lead of all directions, tried at every tenth of a degree. */
+/** The point nearest to another one on the segment between two points. */
+function nearestBetween([x0, y0], [x1, y1], [x, y]) {
+  const [dx, dy] = [x1 - x0, y1 - y0];
+  const share = Math.max(0, Math.min(1, (dx * (x - x0) + dy * (y - y0)) / (dx * dx + dy * dy || 1)));
+  return [x0 + share * dx, y0 + share * dy];
+}
+
+/** The widest lead of all directions: from the hull's nearest point to the expert. This point lies between two of the others. */
 export function widestLead(expert, others) {
-  const leads = Array.from({ length: 3600 }, (_, k) => leadAt(expert, others, k / 10).lead);
+  const nearest = others.flatMap((one) => others.map((other) => nearestBetween(one, other, expert)));
+  const towards = nearest.map(([x, y]) => (Math.atan2(expert[1] - y, expert[0] - x) * 180) / Math.PI);
+  const leads = towards.map((degrees) => leadAt(expert, others, degrees).lead);
   const best = largest(leads);
-  return { lead: leads[best], degrees: best / 10 };
+  return { lead: leads[best], degrees: towards[best] };
 }
 
 export default explorable({

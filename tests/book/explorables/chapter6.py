@@ -1,0 +1,88 @@
+"""What the explorables of chapter 6 have to show."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robonav.planners import (
+    PotentialField,
+    polar_histogram,
+    potential_field,
+    target_bearing,
+    vector_field_histogram,
+)
+from robonav.planners.vector_field_histogram import DIRECTIONS, FARTHEST
+from robonav.robot import navigate
+from robonav.style import BLUE, GREEN, OBSTACLE, ORANGE, SKY, VERMILION
+
+from .maps import pose_of, sensed, towards_target, world_of
+from .reader import choose, keys, slide
+from .robot import ending
+from .shown import Shown
+from .table import expects
+
+
+@expects(
+    slide("repulsion", 0.4),
+    by_keyboard=[
+        choose("move the circle", "second"),
+        keys("ArrowUp ArrowUp ArrowLeft"),
+        slide("inertia", 0.5),
+    ],
+    by_touch=[slide("inertia", 0.3)],
+)
+def potential_field_forces(shown: Shown) -> None:
+    drawn = shown.map(50.0)
+    world = world_of(shown.given["world"], drawn.circles(OBSTACLE)[:, :2].round(6))
+    settings = {"repulsion": shown.number("repulsion"), "influence": 10.0}
+    policy = PotentialField(**settings, inertia=shown.number("inertia"))
+    result = navigate(policy, world, max_steps=120, record_paths=True)
+    shown.says(ending(result, 120, "the robot still has not arrived."))
+    drawn.has_line(BLUE, result.paths[0][:, :2])
+
+    middles = np.arange(1.25, 50, 2.5)
+    places = np.stack(np.meshgrid(middles, middles), axis=-1).reshape(-1, 2)
+    poses = towards_target(world, places)
+    seen = sensed(world, poses)
+    free = seen.ranges.min(axis=1) >= 1
+    attraction, repulsions = potential_field(seen, **settings)
+    force = attraction + repulsions.sum(axis=1)
+    angle = poses[:, 2] + np.arctan2(force[:, 1], force[:, 0])
+    tips = places + 0.8 * np.column_stack([np.cos(angle), np.sin(angle)])
+    weak = np.hypot(*force.T) < 0.35
+    for colour, chosen in ((VERMILION, free & weak), (SKY, free & ~weak)):
+        np.testing.assert_allclose(drawn.squares(colour), tips[chosen], atol=1e-6)
+
+
+@expects(
+    slide("heading", 0.1),
+    slide("clearance", 0.6),
+    slide("threshold", 0.3),
+    by_keyboard=[keys("ArrowRight ArrowRight ArrowUp")],
+)
+def polar_histogram_openings(shown: Shown) -> None:
+    world, (x, y, heading) = world_of(shown.given["world"]), pose_of(shown)
+    clearance, threshold = shown.number("clearance"), shown.number("threshold")
+    seen = sensed(world, (x, y, heading))
+    histogram = polar_histogram(seen.ranges, clearance=clearance, half_width=0.0)
+    (bearing,) = vector_field_histogram(
+        histogram, target_bearing(seen), threshold=threshold, wide=16, keep=0.2
+    )
+    in_order = DIRECTIONS.argsort()  # from right to left
+    free = (histogram[0] < threshold) & (abs(DIRECTIONS) <= FARTHEST)
+    count = (np.diff(free[in_order].astype(int)) == 1).sum()
+    degrees = round(float(np.degrees(bearing)))
+    side = f"{abs(degrees)}° to the {'left' if degrees > 0 else 'right'}"
+    shown.says(
+        "there is 1 opening" if count == 1 else f"there are {count} openings",
+        "Nothing is free: the robot steps back."
+        if not free.any() or degrees == 180
+        else f"It goes {'straight ahead' if degrees == 0 else side}, where the red line points.",
+    )
+    bars, heights = shown.picture(), np.minimum(histogram[0], 3)
+    bars.has_bars(GREEN, heights[free])
+    bars.has_bars(ORANGE, heights[~free])
+    if degrees < 180:
+        way = heading + bearing
+        end = (x + 8 * np.cos(way), y + 8 * np.sin(way))
+        shown.map(world.size).has_line(VERMILION, [(x, y), end])
