@@ -24,6 +24,7 @@ from page_visits import Shown, from_disk, over_http
 from playwright.sync_api import BrowserContext, expect
 
 expect.set_options(timeout=PATIENCE)
+pytest.register_assert_rewrite("explorables")  # so that their failures say what differs
 PAGES = list(pages(yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))))
 
 

@@ -408,7 +408,7 @@ def cliff_exploration(shown: Shown) -> None:
         f"that explores with ε = {epsilon} the best path leads {rows_away(greedy_walk(best))},"
         f" with an expected return of {value}.",
     )
-    if episodes > 150:  # more would take Python too long
+    if episodes > 100:  # more would take Python too long
         return
     grid = cliff()
     inside = np.flatnonzero(~grid.terminal)

@@ -23,11 +23,10 @@ from .table import expects
 
 
 @expects(
-    slide_all,
-    press("Double all three"),
     choose("points", "opposite corners"),
-    slide("weight w₁", 0.5),
-    slide("weight w₂", 0.5),
+    slide("weight w₁", 0.7),
+    press("Double all three"),
+    by_keyboard=[slide_all],
 )
 def neuron_line(shown: Shown) -> None:
     weights = np.array([shown.number("weight w₁"), shown.number("weight w₂")])
@@ -294,7 +293,7 @@ def margin_and_caution(shown: Shown) -> None:
     drawn.has_line(BLUE, mine.points.round(2))
 
 
-@expects(choose("what is counted", "balanced agreement"), slide_all)
+@expects(choose("what is counted", "balanced agreement"))
 def agreement_and_success(shown: Shown) -> None:
     given, measure = shown.given, shown.chosen("what is counted")
     counts, safe = np.array(given["counts"]), given["safe"]
@@ -370,7 +369,7 @@ def expected_errors(error: float, off: float, back: float) -> np.ndarray:
     return np.array(sums)
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def compounding_errors(shown: Shown) -> None:
     error = shown.share("errs on the expert's path")
     off, back = (

@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 from scipy.integrate import quad
+from scipy.special import ndtr
 from scipy.stats import norm
 
 from robonav import mdp, networks, nnql
@@ -25,7 +26,7 @@ def listed(numbers: np.ndarray) -> str:
     return ", ".join(str(float(number)) for number in numbers)
 
 
-@expects(slide_all, choose("rescaled by", "clipping"))
+@expects(choose("rescaled by", "clipping"), by_keyboard=[slide_all])
 def one_q_update(shown: Shown) -> None:
     q = np.array([0.2, 0.9, 0.5, 0.4, 0.6])
     target = shown.number("new target of the second action")
@@ -44,7 +45,7 @@ def one_q_update(shown: Shown) -> None:
         shown.picture().has_bars(colour, values, thinnest=0.5)
 
 
-@expects(choose("the action trained, in state A", "action 3"), slide_all)
+@expects(choose("the action trained, in state A", "action 3"), by_keyboard=[slide_all])
 def moving_together(shown: Shown) -> None:
     action = int(shown.number("the action trained, in state A")) - 1
     target, steps = (
@@ -78,9 +79,9 @@ def at_distance(nearest: float) -> Sensing:
 
 @expects(
     slide("nearest thing before the step", 0.4),
-    slide("nearest thing after the step", 0.2),
-    slide("nearest thing before the step", 0.3),
-    slide("nearest thing after the step", 0.6),
+    slide("nearest thing after the step", 0.1),
+    slide("nearest thing after the step", 0.5),
+    slide("nearest thing before the step", 0.8),
 )
 def row_of_the_reward(shown: Shown) -> None:
     before = shown.number("nearest thing before the step")
@@ -100,7 +101,7 @@ def row_of_the_reward(shown: Shown) -> None:
     assert shown.contents["held"] == row + 1  # the first one is the head
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def cooling_down(shown: Shown) -> None:
     schedule = shown.number("first temperature"), shown.number("last temperature")
     values = np.array([shown.number("lead of the best action"), 0, 0, 0, 0])
@@ -116,7 +117,7 @@ def cooling_down(shown: Shown) -> None:
     chart.has_dots(VERMILION, [[episode, taken[episode - 1]]])
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def work_of_an_episode(shown: Shown) -> None:
     decisions = int(shown.number("decisions in the episode"))
     passes = int(shown.number("passes after each decision"))
@@ -133,12 +134,12 @@ def work_of_an_episode(shown: Shown) -> None:
 @cache
 def mean_of_largest(n: int) -> float:
     """The mean of the largest of n standard normal numbers: the integral of P(largest > x), less that below 0."""
-    above, _ = quad(lambda x: 1 - norm.cdf(x) ** n, 0, 10)
-    below, _ = quad(lambda x: norm.cdf(x) ** n, -10, 0)
+    above, _ = quad(lambda x: 1 - ndtr(x) ** n, 0, 10)
+    below, _ = quad(lambda x: ndtr(x) ** n, -10, 0)
     return above - below
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def overestimation(shown: Shown) -> None:
     error, discount = (
         shown.number("standard deviation of the errors"),
@@ -147,7 +148,7 @@ def overestimation(shown: Shown) -> None:
     actions = int(shown.number("actions"))
     biases = error * np.array([mean_of_largest(n) for n in range(1, 21)])
     bias = biases[actions - 1]
-    rise = mdp.discounted_return(np.full(2000, bias), discount)[0]  # every target again
+    rise = mdp.discounted_return(np.full(700, bias), discount)[0]  # every target again
     shown.says(
         f"Mean of the largest estimate: {bias}. True largest value: 0.",
         f"If each target adds this error, the values rise by {rise} in the end.",
@@ -160,7 +161,7 @@ def overestimation(shown: Shown) -> None:
     chart.has_curve(GREEN, [[1, 0], [20, 0]])
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def seeds_to_tell_apart(shown: Shown) -> None:
     seeds = int(shown.number("trainings of each method"))
     difference = shown.number("true difference, in points")
@@ -178,7 +179,7 @@ def seeds_to_tell_apart(shown: Shown) -> None:
     chart.has_dots(VERMILION, [[seeds, right[seeds - 1]]])
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def circle_or_target(shown: Shown) -> None:
     circling = shown.number("reward of a second of circling")
     seconds, discount = (
@@ -187,7 +188,7 @@ def circle_or_target(shown: Shown) -> None:
     )
     ways = [np.r_[np.zeros(n), 1.0] for n in range(40)]
     target = np.array([mdp.discounted_return(way, discount)[0] for way in ways])
-    circle = mdp.discounted_return(np.full(2000, circling), discount)[0]
+    circle = mdp.discounted_return(np.full(700, circling), discount)[0]
     shown.says(
         f"Target: 1 · γ^{seconds - 1} = {target[seconds - 1]}.",
         f"Circle: {circling} / (1 − γ) = {circle}.",
@@ -201,7 +202,11 @@ def circle_or_target(shown: Shown) -> None:
     chart.has_dots(BLUE, [[seconds, target[seconds - 1]]])
 
 
-@expects(slide_all)
+@expects(
+    slide("learning rate of the first update", 0.05),
+    slide("of the last update", 0.05),
+    by_keyboard=[slide_all],
+)
 def weight_of_targets(shown: Shown) -> None:
     schedule = (
         shown.number("learning rate of the first update"),
@@ -223,7 +228,7 @@ def weight_of_targets(shown: Shown) -> None:
     chart.has_bars(ORANGE, parts[19])
 
 
-@expects(slide_all, choose("values above 1 are", "shifted and divided"))
+@expects(choose("values above 1 are", "shifted and divided"), by_keyboard=[slide_all])
 def values_out_of_range(shown: Shown) -> None:
     rewards, discount = np.array([0.6, 0.5, 0.4, 0.2, 0.0]), shown.number("discount γ")
     model = mdp.FiniteMDP(np.ones((5, 1, 1)), [rewards], discount)

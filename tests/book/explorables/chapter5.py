@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.special import logsumexp
 
 from robonav import mdp, nirl
 from robonav.style import BLUE, GREEN, GREY, ORANGE, VERMILION
@@ -39,7 +40,7 @@ def reward_transfer(shown: Shown) -> None:
     assert arrows == {s: own[s] for s in inside}
 
 
-@expects(slide_all, slide("forward, in this state", 0.1))
+@expects(by_keyboard=[slide_all, slide("forward, in this state", 0.1)])
 def inconsistent_expert(shown: Shown) -> None:
     here, elsewhere = (
         np.array(
@@ -98,26 +99,23 @@ def walk_features(shown: Shown) -> None:
         shown.picture(1).has_bars(colour, sums[number])
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def soft_maximum_of_three(shown: Shown) -> None:
     values = [shown.number(f"value of action {k}") for k in (1, 2, 3)]
     temperature, hard = shown.number("temperature"), max(values)
-
-    def soft(t: float) -> float:
-        return float(nirl.soft_maximum(values, t)) if t > 0 else hard
-
-    now = soft(temperature)
+    now = nirl.soft_maximum(values, temperature) if temperature > 0 else hard
     shown.says(
         f"Hard maximum: {hard}. Soft maximum: {now}.",
         f"It is larger by {now - hard}; the most it can be larger is {temperature * np.log(3)},",
     )
-    chart, temperatures = shown.picture(), np.arange(121) / 40
-    curve = [soft(t) for t in temperatures]
-    chart.has_curve(BLUE, np.column_stack([temperatures, curve]))
+    chart, temperatures = shown.picture(), np.arange(1, 121) / 40
+    scaled = np.divide.outer(values, temperatures)
+    curve = temperatures * logsumexp(scaled, axis=0)
+    chart.has_curve(BLUE, [[0, hard], *zip(temperatures, curve, strict=True)])
     chart.has_dots(VERMILION, [[temperature, now]])
 
 
-@expects(slide_all, slide("direction of the reward", 0.1))
+@expects(slide("direction of the reward", 0.1), by_keyboard=[slide_all])
 def widest_margin(shown: Shown) -> None:
     angle = np.radians(shown.number("direction of the reward"))
     expert = np.array([shown.number(f"expert, feature {k}") for k in (1, 2)])
@@ -167,7 +165,7 @@ def projection_steps(shown: Shown) -> None:
     chart.has_curve(BLUE, [mixtures[policies], expert])
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def boltzmann_temperature(shown: Shown) -> None:
     values = [shown.number(f"value of action {k}") for k in (1, 2, 3)]
     eta = shown.number("inverse temperature η")
@@ -179,13 +177,13 @@ def boltzmann_temperature(shown: Shown) -> None:
         else "The best action is taken less than nine times in ten.",
     )
     chart, etas = shown.picture(), np.arange(121) / 2
-    curves = np.array([nirl.boltzmann_policy(values, each) for each in etas])
+    curves = nirl.boltzmann_policy(np.multiply.outer(etas, values), 1.0)
     for action, colour in enumerate((BLUE, ORANGE, GREEN)):
         chart.has_curve(colour, np.column_stack([etas, curves[:, action]]))
         chart.has_dots(colour, [[eta, now[action]]])
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def accuracy_or_balance(shown: Shown) -> None:
     forward = shown.share("the expert goes forward in")
     careful = shown.share("the careful policy predicts")
@@ -213,7 +211,7 @@ def accuracy_or_balance(shown: Shown) -> None:
         shown.picture().has_bars(colour, np.array(bars)[:, number])
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def weights_of_samples(shown: Shown) -> None:
     theta = 20 * shown.number("θ, per step to the right")
     features = np.random.default_rng(9).binomial(20, 0.5, size=50) / 20
@@ -232,13 +230,13 @@ def weights_of_samples(shown: Shown) -> None:
     shown.picture().has_dots(BLUE, drawn)
 
 
-@expects(slide_all)
+@expects(by_keyboard=[slide_all])
 def value_of_an_end(shown: Shown) -> None:
     reward, end = shown.number("reward of each step"), shown.number("value of an end")
     discount = shown.number("discount γ")
     values = []
     for steps in range(16):  # the end counts like this reward in each step for ever
-        rewards = [reward] * steps + [end] * 2000
+        rewards = [reward] * steps + [end] * 500
         values.append((1 - discount) * mdp.discounted_return(rewards, discount)[0])
     shown.says(
         f"Ending now: {values[0]}. After 5 steps: {values[5]}. Never: {reward}.",

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 from browser import Visit, tap
 from mounting import mounted_alone
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, TimeoutError
 
 from robonav.widgets.explorables import explorable
 
@@ -18,9 +18,11 @@ from .table import EXPECTED
 
 SEGMENTS = "fieldset.segments:not(.guess *)"
 CHANGED = f"""([widget, before]) => {{
-  const now = ({LOOK})(widget);
-  return JSON.stringify(now.contents) !== JSON.stringify(before) && now;
+  const [controls, contents] = ({LOOK})(widget);
+  return contents !== before && [controls, contents];
 }}"""
+Look = list[Any]
+"""What ``LOOK`` returns: the controls, and all that is shown besides."""
 
 
 class Hand(Protocol):
@@ -83,30 +85,33 @@ class Reader:
         self.given: dict[str, Any] = widget.data["given"]
         self.widget = mounted_alone(visit, widget, first=RECORD_MAPS)
         self.acts: list[Act] = []
-        self.see(self.widget.evaluate(LOOK))
+        self.first: Look = self.widget.evaluate(LOOK)
+        self.see(self.first)
+        self.seen_first = self.seen
 
-    def see(self, now: dict[str, Any]) -> None:
+    def see(self, now: Look) -> None:
         """Take in what is shown, and compare it with what Python computes."""
-        self.seen = Shown(now["controls"], now["contents"], self.given, self.acts[:])
+        controls, self.contents = now
+        contents = json.loads(self.contents)
+        self.seen = Shown(controls, contents, self.given, tuple(self.acts))
         self.expected.check(self.seen)
 
     @contextmanager
     def doing(self, act: str) -> Iterator[None]:
         """Fails unless what is shown changes, and unless it is then right."""
-        before = self.seen
-        self.acts.append(Act(act, before))
+        self.acts.append(Act(act, self.seen))
         yield
-        self.see(self.changed(before.contents, act))
+        self.see(self.changed(act))
 
-    def changed(self, before: dict[str, Any], act: str) -> dict[str, Any]:
-        """What is shown as soon as it is something else."""
-        now: dict[str, Any] = self.widget.evaluate(LOOK)
-        if json.dumps(now["contents"]) != json.dumps(before):
+    def changed(self, act: str) -> Look:
+        """What is shown as soon as it is something else than before."""
+        now: Look = self.widget.evaluate(LOOK)
+        if now[1] != self.contents:
             return now
         try:
-            arguments = [self.widget.element_handle(), before]
+            arguments = [self.widget.element_handle(), self.contents]
             found = self.page.wait_for_function(CHANGED, arg=arguments, timeout=3_000)
-        except Exception as error:
+        except TimeoutError as error:
             raise AssertionError(f"{act} changes nothing") from error
         return found.json_value()
 
@@ -118,10 +123,11 @@ class Reader:
         self.see(self.widget.evaluate(LOOK))
 
     def reset(self) -> None:
-        """Press Reset; what was done before does not count any more."""
+        """Press Reset, which brings back what was shown first; what was done before does not count any more."""
         self.button("Reset").click()
         self.acts.clear()
-        self.see(self.widget.evaluate(LOOK))
+        assert self.widget.evaluate(LOOK) == self.first
+        self.seen, self.contents = self.seen_first, self.first[1]
 
     def button(self, name: str) -> Locator:
         """A button by its name."""

@@ -55,7 +55,7 @@ def sensor_sectors(shown: Shown) -> None:
 
 
 @expects(
-    choose("the sensors see", "6 m"), slide("speed", 0.6), choose("obstacles", "30")
+    choose("the sensors see", "6 m"), slide("speed", 0.9), choose("obstacles", "30")
 )
 def reflex_map(shown: Shown) -> None:
     world = random_worlds(1, int(shown.chosen("obstacles")), seed=41)
