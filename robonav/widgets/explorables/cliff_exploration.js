@@ -38,10 +38,18 @@ export function learnTogether(given, method, { epsilon, episodes, seed }) {
   return all[0].map((row, s) => row.map((_, a) => all.reduce((sum, q) => sum + q[s][a], 0) / ROBOTS));
 }
 
+/** The best action in each cell; of equal ones, the first that leads to another cell. */
+export function bestActions({ moves }, q) {
+  return q.map((values, s) => {
+    const ties = [...values.keys()].filter((a) => values[a] >= Math.max(...values) - 1e-9);
+    return ties.find((a) => moves[s][a] !== s) ?? ties[0];
+  });
+}
+
 /** Where the best actions lead from the start. */
 export function greedyWalk({ moves, ends, begin }, q) {
-  const walk = [begin];
-  while (!ends[walk.at(-1)] && walk.length < 30) walk.push(moves[walk.at(-1)][largest(q[walk.at(-1)])]);
+  const [walk, best] = [[begin], bestActions({ moves }, q)];
+  while (!ends[walk.at(-1)] && walk.length < 30) walk.push(moves[walk.at(-1)][best[walk.at(-1)]]);
   return walk;
 }
 
@@ -64,7 +72,7 @@ export default explorable({
       const walks = methods.map((method, k) => {
         const q = learnTogether(given, method, { epsilon, episodes, seed });
         const walk = greedyWalk(given, q);
-        grids[k].show({ values: q.map((row) => Math.max(...row)), policy: q.map(largest), said: "learned values", walk }, 20, -1);
+        grids[k].show({ values: q.map((row) => Math.max(...row)), policy: bestActions(given, q), said: "learned values", walk }, 20, -1);
         const arrived = given.layout.rows[given.layout.cells[walk.at(-1)][0]][given.layout.cells[walk.at(-1)][1]] === "G";
         captions[k].textContent = !arrived ? "Without exploring, this path does not reach G." : `Without exploring, this path takes ${walk.length - 1} steps.`;
         return arrived ? said(away(walk)) : null;

@@ -363,12 +363,19 @@ def learned_on_cliff(method: str, epsilon: float, episodes: int, seed: int) -> V
     return np.mean(learned, axis=0)
 
 
+def best_moves(q: Values) -> Actions:
+    """The best action in each cell of the cliff; of equal ones, the first that leads to another cell."""
+    ties = q >= q.max(axis=1, keepdims=True) - 1e-9
+    leaves = cliff().moves != np.arange(len(q))[:, None]
+    return (1.0 * ties + (ties & leaves)).argmax(axis=1)
+
+
 def greedy_walk(q: Values) -> list[int]:
     """Where the best actions lead from the start of the cliff."""
-    grid = cliff()
+    grid, best = cliff(), best_moves(q)
     walk = [int(grid.start.argmax())]
     while not grid.terminal[walk[-1]] and len(walk) < 30:
-        walk.append(int(grid.moves[walk[-1], q[walk[-1]].argmax()]))
+        walk.append(int(grid.moves[walk[-1], best[walk[-1]]]))
     return walk
 
 
@@ -415,7 +422,7 @@ def cliff_exploration(shown: Shown) -> None:
     for number, method in enumerate(("Q-learning", "SARSA")):
         q = learned_on_cliff(method, epsilon, episodes, seed)
         picture = grid_of(shown, number)
-        assert picture.arrows() == {s: q[s].argmax() for s in inside}
+        assert picture.arrows() == {s: best_moves(q)[s] for s in inside}
         picture.has_values(q.max(axis=1)[inside])
         walk = greedy_walk(q)
         assert picture.walk() == walk
