@@ -4,6 +4,9 @@ const HEAT_CELL = 2; // metres
 const HEAT_SHADES = 5; // on either side of 0
 const PYTHON_METHODS = { nirl: "NIRL", apprenticeship: "apprenticeship learning", relative_entropy: "relative entropy", scirl: "SCIRL" };
 const METHOD_NAMES = Object.values(PYTHON_METHODS);
+const LITTLE_LEAD = 5; // per cent of the maps: by so little a robot that has learned something is not better than straight on
+const ENOUGH = 60; // iterations after which the drives are to blame for a poor robot
+const MORE_ITERATIONS = "Few iterations were made: let it learn for more.";
 const NO_DECISION = "Your drives hold no decision to learn from: drive some maps with obstacles in the playground first.";
 const ACTION_NAMES = ROBOT.actions.slice(0, 5);
 
@@ -173,8 +176,9 @@ function render({ model, el }) {
     const rate = (k) => Math.round((100 * counted[k]) / maps);
     const straight = 1 + others.findIndex(({ policy }) => policy.rule === "straight");
     const verdict = () => `It arrives in ${rate(0)} % of ${maps} new maps, one that always goes straight on in ${rate(straight)} %.`;
+    const poor = () => rate(0) < rate(straight) + LITTLE_LEAD;
     const putBack = () => place.contains(inNewMaps) && place.replaceChildren(...before);
-    return { show, say: (sentence) => (caption.textContent = sentence), verdict, putBack };
+    return { show, say: (sentence) => (caption.textContent = sentence), verdict, poor, putBack };
   };
   const trialIn = (where) => ({ policies: others.map(({ policy }) => policy), seed, count: maps, conditions: where });
   /** Lets a policy that was learned elsewhere drive the new maps. */
@@ -226,7 +230,7 @@ function render({ model, el }) {
   let kept = ""; // what the browser says where it does not keep the robot
   const trained = () => ({ obstacles: settings.obstacles, moving: settings.moving, speed: settings.speed });
   /** A training in the page with the trial of its policy: `accept` is given the reward as soon as it is learned. */
-  const training = ({ title, action, lines: drawn, place, name, where, argument, paints, accept, ends, beside = null }) => {
+  const training = ({ title, action, lines: drawn, place, name, where, argument, paints, accept, ends, advise = () => "", beside = null }) => {
     let [there, tried] = [false, null];
     return trainingPanel({
       source, title, action, unit: "iteration", total: () => settings.iterations, lines: drawn, beside,
@@ -248,7 +252,7 @@ function render({ model, el }) {
         }
         if (paints && news.at(-1).theta) paint(news.at(-1).theta);
       },
-      done: () => `${ends()} ${tried.verdict()}`.trim(),
+      done: () => [ends(), tried.verdict(), tried.poor() ? advise() : ""].filter(Boolean).join(" "),
       cancelled: () => {
         if (there) return "It had learned already, and stays; not all new maps were driven.";
         tried.putBack();
@@ -263,6 +267,7 @@ function render({ model, el }) {
     where: trained, argument: () => ({ settings, seed: settings.seed, reward: null }),
     accept: (result) => learned({ ...result, method: "nirl" }, `NIRL, ${changesOf(settings)}seed ${settings.seed}`, "NIRL"),
     ends: () => `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept. ${kept}`.trim(), beside: seen,
+    advise: () => (settings.iterations < ENOUGH ? MORE_ITERATIONS : sets[chosen] ? "" : adviceOn(mine(), keptDrives())),
   });
   let [newRobot, next, keptToo] = [null, null, ""]; // the robot of the other worlds, what it will be, and what the browser says where it does not keep it
   const again = training({
