@@ -3,12 +3,12 @@
 # Check it with: robonav check 4.3
 r"""A network with sigmoid outputs has values between 0 and 1, and Q-values can be
 larger or smaller. The chapter clips them, or shifts and divides each row. There is a
-third method. If rewards lie between $r_{min}$ and $r_{max}$, every Q-value lies in
-$[r_{min}, r_{max}] / (1 - \gamma)$. Interpret the network's outputs as values on this
-scale, from 0 for the smallest to 1 for the largest. Make the Q-learning step of Eq.
-(4.9) on the scale of the Q-values, for the action taken alone, and return the targets
-on the network's scale. Clip targets that lie outside because a reward was out of its
-bounds.
+third method. If rewards lie between $r_{min} \le 0$ and $r_{max} \ge 0$, every Q-value
+lies in $[r_{min}, r_{max}] / (1 - \gamma)$. Interpret the network's outputs as values
+on this scale, from 0 for the smallest to 1 for the largest. Make the Q-learning step of
+Eq. (4.9) on the scale of the Q-values, for the action taken alone, and return the
+targets on the network's scale. Clip targets that lie outside because a reward was out
+of its bounds.
 """
 
 import numpy as np
