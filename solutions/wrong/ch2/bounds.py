@@ -55,3 +55,9 @@ def no_first_discount(previous, values, discount):
     """The next sweep changes the values by the discount times the last change already: its series is g + g^2 + ..."""
     change = (values - previous) * (1 / (1 - discount) - discount)
     return values + change.min(), values + change.max()
+
+
+def series_from_the_old_values(previous, values, discount):
+    """These bounds hold but are too wide: add the later changes to each value after the sweep, which is known."""
+    change = (values - previous) / (1 - discount)
+    return previous + change.min(), previous + change.max()

@@ -108,3 +108,14 @@ def never_moves(belief, transitions, observations, actions, readings):
         joint = belief * _likelihood(observations, action, reading)
         belief = joint / joint.sum() if joint.sum() > 0 else belief
     return belief
+
+
+def back_to_the_start(belief, transitions, observations, actions, readings):
+    """Ignore only the wrong reading: go on from the prediction, not from the belief before the first step."""
+    start = belief
+    for action, reading in zip(actions, readings):
+        joint = (belief @ transitions[action]) * _likelihood(
+            observations, action, reading
+        )
+        belief = joint / joint.sum() if joint.sum() > 0 else start
+    return belief
