@@ -135,7 +135,10 @@ def written_backup(model: mdp.FiniteMDP, values: Values, s: int) -> list[str]:
 
 
 @expects(
-    by_keyboard=[keys("ArrowUp Enter ArrowUp Enter ArrowRight Enter ArrowLeft")],
+    by_keyboard=[
+        keys("ArrowUp ArrowUp ArrowRight ArrowRight Enter ArrowLeft Enter"),
+        keys("ArrowLeft Enter ArrowDown"),
+    ],
     by_touch=[touch_part(".cell", cell) for cell in (2, 1, 0, 5, 9)],
 )
 def bellman_backup(shown: Shown) -> None:
