@@ -2,7 +2,8 @@
 
 ``{course-exercises} ch2`` shows all exercises of a chapter. ``{exercises}`` lists the exercises that belong to the page
 it stands on, or to the page that it names, with difficulty and time; each entry is a link. The manifest
-``tests/exercises/manifest.toml`` says which page an exercise belongs to.
+``tests/exercises/manifest.toml`` says which page an exercise belongs to. ``{open-tasks}`` is a table of what each part
+of the open tasks asks for, and of how often right answers pass.
 
 ``make book EXERCISES=DIR`` shows the variant of the exercises in that folder instead of the book's.
 
@@ -20,7 +21,8 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from robonav.grading.build import code, question
+from robonav.grading.build import code, how_fair, question
+from robonav.grading.cases import parts_of
 from robonav.grading.course import Course, Exercise
 from robonav.grading.reference import mistakes
 
@@ -57,7 +59,8 @@ class CourseExercises(SphinxDirective):
             f"belongs to the page {{doc}}`{exercise.page}`"
         )
         source = stub.read_text("utf-8")
-        asked = f"*{about[0].upper()}{about[1:]}.*\n\n{question(source)}"
+        fair = f"\n\n{how_fair(exercise)}" if exercise.draws else ""
+        asked = f"*{about[0].upper()}{about[1:]}.*\n\n{question(source)}{fair}"
         parts = [
             f"({key})=\n## {exercise.id} {exercise.title}",
             f"`````{{exercise}} {exercise.id}\n:label: {key}-question\n:nonumber:\n\n{asked}\n`````",
@@ -124,8 +127,41 @@ class PageExercises(SphinxDirective):
         return self.parse_text_to_nodes(listed)
 
 
+def open_tasks(course: Course) -> str:
+    """Return a table of the open tasks in MyST Markdown."""
+    lines = [
+        "| open task | the parts, and their points | right answers that passed all parts | all calls took at most |",
+        "|---|---|---|---|",
+    ]
+    for exercise in course.exercises.values():
+        if not exercise.draws:
+            continue
+        link = f"{{ref}}`{exercise.id} {exercise.title} <exercise-{exercise.id.replace('.', '-')}>`"
+        parts = "<br>".join(
+            f"{(test.__doc__ or '').strip().splitlines()[0]} ({points})"
+            for test, points in parts_of(course, exercise)
+        )
+        passed = ", ".join(f"{one} of {exercise.draws}" for one in exercise.passed)
+        lines.append(
+            f"| {link} | {parts} | {passed} | {max(0.1, exercise.seconds[1]):.1f} s |"
+        )
+    return "\n".join(lines) + "\n"
+
+
+class OpenTasks(SphinxDirective):
+    """The directive ``{open-tasks}``."""
+
+    def run(self) -> list[nodes.Node]:
+        course = Course.of_book()
+        self.env.note_dependency(str(course.tests / "manifest.toml"))
+        for chapter, _ in course.chapters():
+            self.env.note_dependency(str(course.tests / f"test_{chapter}.py"))
+        return self.parse_text_to_nodes(open_tasks(course))
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     app.add_config_value("course_solutions", os.environ.get("SOLUTIONS") == "1", "env")
     app.add_directive("course-exercises", CourseExercises)
     app.add_directive("exercises", PageExercises)
+    app.add_directive("open-tasks", OpenTasks)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 import json
 import re
+import textwrap
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -22,6 +23,7 @@ from .check import InProcessCalls, graded
 from .course import Course, Exercise
 from .notebook import STUB
 from .reference import Recorder, solution
+from .sandbox import Limits
 
 SOLUTION = re.compile(
     r"^( *)### BEGIN SOLUTION\n.*?^ *### END SOLUTION\n", re.MULTILINE | re.DOTALL
@@ -189,10 +191,31 @@ def _generated(course: Course) -> Iterator[Path]:
 
 
 def _heading(exercise: Exercise) -> str:
+    lines = [
+        f"# Exercise {exercise.id}: {exercise.title}.",
+        f"# {exercise.points} points, {exercise.difficulty}, about {exercise.minutes} minutes.",
+        *(f"# {line}" for line in textwrap.wrap(how_fair(exercise), 86)),
+        f"# Check it with: robonav check {exercise.id}",
+    ]
+    return "\n".join(lines)
+
+
+def how_fair(exercise: Exercise) -> str:
+    """Return what students should know about the checks of an open task, or an empty string.
+
+    Examples
+    --------
+    >>> how_fair(Exercise("2.2", "improve", "Ties", 4, "warm-up", 10, "dynamic-programming"))
+    ''
+    """
+    if not exercise.draws:
+        return ""
+    limits = Limits()
+    call, everything = (max(0.1, seconds) for seconds in exercise.seconds)
     return (
-        f"# Exercise {exercise.id}: {exercise.title}.\n"
-        f"# {exercise.points} points, {exercise.difficulty}, about {exercise.minutes} minutes.\n"
-        f"# Check it with: robonav check {exercise.id}"
+        "Your marks come from new random cases, which are drawn again whenever your submission changes. "
+        f"{exercise.fairness} A call may take {limits.call_seconds:g} s and all calls "
+        f"{limits.exercise_seconds:g} s; theirs took at most {call:.1f} s and {everything:.1f} s."
     )
 
 
@@ -241,7 +264,8 @@ def _notebook(chapter: str, sources: Mapping[Exercise, str]) -> str:
     for exercise, source in sources.items():
         key = exercise.id.replace(".", "-")
         about = f"{exercise.points} points, {exercise.difficulty}, about {exercise.minutes} minutes"
-        text = f"## Exercise {exercise.id}: {exercise.title}\n\n*{about}*\n\n{question(source)}"
+        fair = f"\n\n{how_fair(exercise)}" if exercise.draws else ""
+        text = f"## Exercise {exercise.id}: {exercise.title}\n\n*{about}*\n\n{question(source)}{fair}"
         check = f'from robonav.grading.check import check\n\ncheck("{exercise.id}", {exercise.name})'
         cells += [
             _markdown(f"question-{key}", text),

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
+from typing import Any
 
 from robonav.validation import check_integer, check_one_of
 
@@ -19,7 +20,19 @@ DIFFICULTIES = ("warm-up", "exercise", "project", "open task")
 
 @dataclass(frozen=True)
 class Exercise:
-    """One exercise. Exercise 2.1, for example, asks for the function ``name`` in ``ch2/name.py``."""
+    """One exercise. Exercise 2.1, for example, asks for the function ``name`` in ``ch2/name.py``.
+
+    An open task measures what an answer achieves, so chance may decide. It has numbers of ``benchmarks/open_tasks.py``:
+
+    Attributes
+    ----------
+    draws : int
+        How often right answers were graded, each time on other cases.
+    passed : tuple of int
+        How often each of them passed all parts.
+    seconds : tuple of float
+        The longest call, and the longest time of all calls together.
+    """
 
     id: str
     name: str
@@ -28,6 +41,9 @@ class Exercise:
     difficulty: str
     minutes: int
     page: str
+    draws: int = 0
+    passed: tuple[int, ...] = ()
+    seconds: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         check_integer(f"points of exercise {self.id}", self.points, at_least=1)
@@ -43,6 +59,20 @@ class Exercise:
     def file(self) -> str:
         """The file of a submission that contains the answer."""
         return f"{self.chapter}/{self.name}.py"
+
+    @property
+    def fairness(self) -> str:
+        """How often right answers pass an open task, in a sentence, or an empty string.
+
+        Examples
+        --------
+        >>> Exercise("2.9", "steer", "Drive", 8, "open task", 60, "robot", 50, (50, 49)).fairness
+        'Of 50 draws of the cases, two right answers passed all parts in 50 and 49.'
+        """
+        if not self.draws:
+            return ""
+        each = " and ".join(map(str, self.passed))
+        return f"Of {self.draws} draws of the cases, two right answers passed all parts in {each}."
 
 
 @dataclass(frozen=True)
@@ -92,7 +122,7 @@ class Course:
     def exercises(self) -> Mapping[str, Exercise]:
         """All exercises by id, in the manifest's order."""
         with (self.tests / "manifest.toml").open("rb") as file:
-            listed = [Exercise(**entry) for entry in tomllib.load(file)["exercise"]]
+            listed = [_exercise(entry) for entry in tomllib.load(file)["exercise"]]
         found = {exercise.id: exercise for exercise in listed}
         if len(found) < len(listed) or len(
             {exercise.name for exercise in listed}
@@ -140,6 +170,15 @@ class Course:
             if isinstance(node, ast.FunctionDef) and node.name == exercise.name:
                 return [argument.arg for argument in node.args.args]
         return []
+
+
+def _exercise(entry: Mapping[str, Any]) -> Exercise:
+    """Return the exercise of an entry in the manifest, with tuples instead of lists."""
+    values: dict[str, Any] = {
+        key: tuple(value) if isinstance(value, list) else value
+        for key, value in entry.items()
+    }
+    return Exercise(**values)
 
 
 @cache

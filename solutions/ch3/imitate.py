@@ -6,7 +6,7 @@ mini-batches. Nobody knows in which order the nine range sensors of a robot are 
 so that weights found for one robot are of no use to the next. The check measures how
 often your network agrees with the expert in new steps, and it drives robots with it
 through new worlds, where the action of the largest output is taken. The training may
-take three seconds.
+take five seconds.
 """
 
 import numpy as np

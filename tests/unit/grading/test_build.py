@@ -8,12 +8,14 @@ import sys
 import zipfile
 from pathlib import Path
 
+import course_exercises
 import nbformat
 import pytest
 
 from robonav.grading import build
 from robonav.grading.course import Course
 from robonav.grading.notebook import is_unwritten, parsed, sources
+from robonav.grading.sandbox import Limits
 
 COURSE = Course.around(Path(__file__).parent)
 ROBONAV = str(Path(sys.executable).with_name("robonav"))
@@ -83,6 +85,41 @@ def test_the_manifest_has_six_exercises_a_chapter_of_every_kind():
             "exercise",
             "project",
         }
+
+
+def test_open_tasks_tell_how_often_right_answers_pass():
+    """The manifest has what the benchmark measured, and stubs and notebooks say it."""
+    path = COURSE.root / "benchmarks/open_tasks.json"
+    measured = json.loads(path.read_text("utf-8"))
+    tasks = {e.id for e in COURSE.exercises.values() if e.difficulty == "open task"}
+    assert set(measured) == tasks
+    table = course_exercises.open_tasks(COURSE)
+    for exercise in COURSE.exercises.values():
+        if exercise.id not in tasks:
+            assert (exercise.draws, exercise.passed, exercise.seconds) == (0, (), ())
+            continue
+        found = measured[exercise.id]
+        passed = [
+            found[where]["all parts"] for where in ("solutions", "solutions/otherwise")
+        ]
+        assert (exercise.draws, list(exercise.passed)) == (found["draws"], passed)
+        assert list(exercise.seconds) == found["seconds"]
+        assert exercise.draws >= 30
+        assert min(passed) >= 0.95 * exercise.draws
+        call, everything = exercise.seconds
+        assert call < Limits().call_seconds / 2
+        assert everything < Limits().exercise_seconds / 2
+        each = ", ".join(f"{one} of {exercise.draws}" for one in passed)
+        (row,) = (line for line in table.splitlines() if exercise.title in line)
+        assert each in row
+        said = build.how_fair(exercise)
+        assert exercise.fairness in said
+        stub = (COURSE.stubs / exercise.file).read_text("utf-8")
+        assert said in " ".join(stub.replace("\n# ", " ").split())
+        notebook = nbformat.read(
+            COURSE.stubs / f"{exercise.chapter}.ipynb", as_version=4
+        )
+        assert any(said in cell.source for cell in notebook.cells)
 
 
 @pytest.mark.parametrize("chapter", [chapter for chapter, _ in COURSE.chapters()])
