@@ -188,7 +188,9 @@ def test_without_a_worker_the_page_answers_within_100_ms(node):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", MODULES)
+@pytest.mark.parametrize(
+    "method", ["nnql", pytest.param("online", marks=pytest.mark.exhaustive), "dqn"]
+)
 def test_whole_trainings_succeed_as_often_as_pythons(node, method):
     online = {"rescale": "clip", "passes": 1, "discount": 0.7}
     own = {"nnql": {}, "online": online, "dqn": DQN}[method]
