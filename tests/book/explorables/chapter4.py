@@ -81,7 +81,7 @@ def at_distance(nearest: float) -> Sensing:
     slide("nearest thing before the step", 0.4),
     slide("nearest thing after the step", 0.1),
     slide("nearest thing after the step", 0.5),
-    slide("nearest thing before the step", 0.8),
+    slide("nearest thing before the step", 0.9),
 )
 def row_of_the_reward(shown: Shown) -> None:
     before = shown.number("nearest thing before the step")

@@ -45,7 +45,10 @@ class Keyboard:
         button.press("Enter")
 
     def slide(self, slider: Locator, share: float) -> None:
-        for key in ("Home", *["PageUp"] * int(10 * share), "ArrowRight"):
+        tenths = int(10 * share)
+        from_start = ["Home", *["PageUp"] * tenths, "ArrowRight"]
+        from_end = ["End", *["PageDown"] * (10 - tenths)]
+        for key in from_end if share > 0.5 else from_start:
             slider.press(key)
 
     def choose(self, group: Locator, option: str) -> None:
