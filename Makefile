@@ -86,8 +86,8 @@ check: $(INSTALLED)
 
 # There is one process more than there are cores, because many tests wait for a browser or for a time limit, and each
 # process has one thread. It takes its share of the tests in order, and then part of another's, so that tests which share
-# a fixture mostly run in the same process. A test that takes longer than ten minutes hangs: its process ends, after it has
-# printed where it was, and the test counts as failed.
+# a fixture mostly run in the same process. Tests marked long begin before all others. A test that takes longer than ten
+# minutes hangs: its process ends, after it has printed where it was, and the test counts as failed.
 HANGS := -o faulthandler_timeout=600 -o faulthandler_exit_on_timeout=true
 test: WHICH := not exhaustive
 test-all: WHICH :=

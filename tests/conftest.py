@@ -19,6 +19,12 @@ settings.register_profile("quick", max_examples=20, deadline=None)
 settings.load_profile("thorough")
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the tests marked long. The others keep their order, so that tests of one fixture are together."""
+    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--no-skips",

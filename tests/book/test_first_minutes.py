@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import pytest
 from browser import PHONE, chromium, visiting
 from driving import KEYS, WAITS, good_drive, keys_of
 from playwright.sync_api import Locator, Page, expect
@@ -39,6 +40,7 @@ def go(page: Page, link: Locator, address: str) -> Locator:
     return lab
 
 
+@pytest.mark.long
 def test_three_maps_are_driven_and_a_robot_is_trained(site: Path) -> None:
     with (
         chromium(viewport=PHONE, has_touch=True, is_mobile=True) as phone,

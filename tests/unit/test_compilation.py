@@ -44,6 +44,7 @@ def test_kernel_of_its_own_file():
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_no_index_leaves_its_array(tmp_path):
     script = Path(__file__).with_name("compiled_on_random_inputs.py")
     checked = os.environ | {

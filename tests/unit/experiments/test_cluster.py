@@ -10,7 +10,7 @@ import pytest
 
 from robonav.experiments import experiment, read_results, reproduce
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]
 
 REAL = ("table-3.3", "figure-4.4", "figure-5.8")
 """One of each chapter: a network fitted by L-BFGS, networks trained step by step, and a reward learned."""

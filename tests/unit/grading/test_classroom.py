@@ -477,6 +477,7 @@ cli.app({["grade", *map(str, arguments), "--jobs", str(jobs)]!r})
 
 
 @pytest.mark.sandbox
+@pytest.mark.long
 def test_a_run_killed_twenty_times_ends_as_one_that_was_not(folder, course, tmp_path):
     """SIGKILL at random moments; no grade changes once it is there, and the end is byte for byte the same."""
     if fault := sandbox_check.fault("official"):

@@ -108,6 +108,7 @@ def test_without_a_worker_the_page_answers_within_100_ms(node):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_whole_trainings_succeed_as_often_as_pythons(node):
     """Robots of several seeds, trained on the same demonstrations, in the same new maps."""
     seeds, maps = 20, random_worlds(100, 20, seed=55_000)

@@ -188,6 +188,7 @@ def test_without_a_worker_the_page_answers_within_100_ms(node):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "method", ["nnql", pytest.param("online", marks=pytest.mark.exhaustive), "dqn"]
 )
@@ -304,6 +305,7 @@ return data.settings.map((settings) => {
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_faults_show_where_the_lab_says_and_are_cured(node):
     """Each fault with its seed, and its cure with the same seed in the same maps: 100 that no training has seen."""
     faults = [fault.settings for fault in FAULTS]
