@@ -185,7 +185,7 @@ Pages = Annotated[
 
 @drills.command("list")
 def drills_list(chapter: Chapters = None, page: Pages = None) -> None:
-    """List the drills: name, page, and what a student can do who masters it."""
+    """List the drills: name, page, and learning goal."""
     from robonav.drills.export import selected
 
     for one in selected(chapter or (), page or ()):
@@ -199,7 +199,7 @@ def drills_export(
         str,
         typer.Option(
             help="moodle (.xml, Moodle's question bank), qti (.zip, for Canvas and Blackboard), or pdf (an exam to "
-            "print, and a second file with its solutions). By default the ending of the file's name tells."
+            "print, and a second file with its solutions). By default the extension of the file tells."
         ),
     ] = "",
     chapter: Chapters = None,
@@ -218,7 +218,7 @@ def drills_export(
     seed: Annotated[
         int,
         typer.Option(
-            help="Makes the numbers: the same seed, the same questions. It is the number of the first paper."
+            help="Seed of the questions: the same seed gives the same questions. It is the number of the first paper."
         ),
     ] = 1,
     papers: Annotated[
@@ -229,7 +229,7 @@ def drills_export(
     platform: Annotated[
         str,
         typer.Option(
-            help="For qti: canvas (QTI 1.2), or blackboard (QTI 2.1), which others read, too."
+            help="For qti: canvas (QTI 1.2), or blackboard (QTI 2.1), which other platforms read as well."
         ),
     ] = "canvas",
     title: Annotated[
@@ -276,8 +276,8 @@ def check(
     keys: Annotated[
         list[str] | None,
         typer.Argument(
-            help="Exercises such as 3.2, or chapters such as 3; the default is all of them. And your folder, "
-            "notebook or zip file, if it is not exercises/."
+            help="Exercises such as 3.2, or chapters such as 3; the default is all of them. You may also name your "
+            "folder, notebook or zip file, if it is not exercises/."
         ),
     ] = None,
     submission: Annotated[
@@ -464,7 +464,7 @@ def leaderboard(
         str, typer.Option(help="quick, or thesis for all worlds of the leaderboard.")
     ] = "thesis",
 ) -> None:
-    """Compare methods on the frozen worlds of the leaderboard. A method of your own is a file."""
+    """Compare methods on the frozen worlds of the leaderboard. Give your own method as a file."""
     from robonav import experiments, progress
     from robonav.benchmark import method as known
     from robonav.benchmark import methods

@@ -50,7 +50,7 @@ class Drill:
         Parameters
         ----------
         seed : int
-            Makes the numbers.
+            Seed of the questions.
 
         Returns
         -------

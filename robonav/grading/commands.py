@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 gradebook = typer.Typer(
     no_args_is_help=True,
-    help="Marks that can be defended: roster, deadlines, changes by hand, objections, exports.",
+    help="Turn grades into marks: roster, deadlines, changes by hand, objections, exports.",
 )
 Graded = Annotated[
     Path, typer.Argument(help="The folder that robonav grade wrote its grades to.")

@@ -51,7 +51,7 @@ class Observation:
     verdict: Verdict
     at: Any = None  # the places that counted, or None for all
     free: bool = False  # whether several answers are right
-    advice: str | None = None  # a hint for an answer that is no known mistake's
+    advice: str | None = None  # a hint for an answer that matches no known mistake
 
     def counted(self, value: Any) -> Any:
         """Return a value with only those places that counted."""
@@ -91,7 +91,7 @@ class Evidence:
         self.observations[-1].free = True
 
     def advise(self, hint: str | None) -> None:
-        """Keep a hint for the last answer, for the case that it is no known mistake's."""
+        """Keep a hint for the last answer, in case it matches no known mistake."""
         self.observations[-1].advice = hint
 
     def explained(self, parts: Iterable[Part]) -> list[Part]:

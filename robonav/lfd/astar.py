@@ -59,6 +59,7 @@ from __future__ import annotations
 
 import heapq
 import math
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -252,7 +253,8 @@ def modified_astar(
     pose : (3,) array
         x, y and heading at the start.
     speed, margin, caution, cell : float
-        As in :func:`plan`.
+        As in :func:`plan`. ``cell`` should be at most ``speed``: a step that ends in the cell it began in leads to no
+        new node. (:func:`plan` joins short steps into moves that cover a cell.)
     limit : int
         The most nodes to expand.
 
@@ -264,6 +266,11 @@ def modified_astar(
         The path, from the start; the start alone if none was found.
     expanded : int
         Number of nodes expanded.
+
+    Warns
+    -----
+    UserWarning
+        If no path was found and ``cell`` is larger than a step.
 
     Examples
     --------
@@ -303,7 +310,24 @@ def modified_astar(
                 H = distance(point, target)
                 nodes[neighbour] = Node(neighbour, point, G, H, current, action)  # 21
                 heapq.heappush(open_list, nodes[neighbour].priority)  # 22 and 23
+    warn_if_cells_hide_paths("modified_astar", cell, speed)
     return False, [nodes[first]], len(closed_set)
+
+
+def warn_if_cells_hide_paths(name: str, cell: float, move: float) -> None:
+    """Warn that a move which ends in the cell it began in leads to no new node, if cells are larger than a move.
+
+    Examples
+    --------
+    >>> from robonav.lfd.astar import warn_if_cells_hide_paths
+    >>> warn_if_cells_hide_paths("plan", cell=1.0, move=2.0)
+    """
+    if cell > move:
+        warnings.warn(
+            f"{name} found no path with cells of {cell:g} m and moves of {move:g} m: a move that ends in the cell it "
+            f"began in leads to no new node, so cell should be at most {move:g}",
+            stacklevel=3,
+        )
 
 
 def five_steps(

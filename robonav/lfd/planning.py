@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +19,7 @@ from robonav.validation import (
 
 from . import _fast
 from ._fast import CLOSE_ENOUGH
-from .astar import Floats, grid_through
+from .astar import Floats, grid_through, warn_if_cells_hide_paths
 
 SMALLEST_CELL = 2e-3  # times the map's side; halving the cells makes four times as many
 LOWEST_SPEED = 1e-5  # times the map's side; slower robots take 100,000 steps and more
@@ -178,12 +177,8 @@ def plan(
     found, poses, actions, expanded = _fast.search_actions(
         *_map(world), start, world.targets[0], steps * speed, margin, caution, cell, limit, record, visited,
     )  # fmt: skip
-    if not found and cell > steps * speed:
-        warnings.warn(
-            f"plan found no path with cells of {cell:g} m and moves of {steps * speed:g} m: a move that ends in the "
-            f"cell it began in leads to no new node, so cell should be at most {steps * speed:g}",
-            stacklevel=2,
-        )
+    if not found:
+        warn_if_cells_hide_paths("plan", cell, steps * speed)
     poses, actions = as_single_steps(poses, actions, steps, world.targets[0])
     points, headings, length = poses[:, :2], poses[:, 2], speed * len(actions)
     seen = visited[:expanded] if record else None

@@ -80,7 +80,7 @@ def optimal_sweep(
     out: Floats,
     policy: Actions,
 ) -> tuple[float, float]:
-    """``out`` = the best action value of each state, ``policy`` its action; least and largest change."""
+    """Write the best action values to ``out`` and the actions to ``policy``; return the least and largest change."""
     least, most = np.inf, -np.inf
     for state in range(values.size):
         best, chosen = best_action(
@@ -105,7 +105,7 @@ def policy_sweep(
     out: Floats,
     policy: Actions,
 ) -> float:
-    """``out`` = the action value of each state under ``policy``; largest absolute change."""
+    """Write the action value of each state under ``policy`` to ``out``; return the largest absolute change."""
     actions = rewards.shape[1]
     most = 0.0
     for state in range(values.size):
@@ -134,7 +134,7 @@ def in_place_sweep(
     discount: float,
     values: Floats,
 ) -> float:
-    """Back up every state with the values as they are by then; largest absolute change."""
+    """Back up every state with the values as they are by then; return the largest absolute change."""
     most = 0.0
     for state in range(values.size):
         best, _ = best_action(
@@ -190,7 +190,7 @@ def prioritized_backups(
     limit: float,
     max_backups: int,
 ) -> tuple[int, float]:
-    """Back up the state of largest priority until none exceeds ``limit``; backups done, largest priority left.
+    """Back up the state of largest priority until none exceeds ``limit``; return the backups and the largest priority.
 
     ``values`` and ``priority`` change in place. ``heap`` is a binary heap of states, the largest priority on top (a
     sorted array is a heap); ``place`` holds the position of each state in it.

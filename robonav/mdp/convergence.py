@@ -1,4 +1,4 @@
-"""What an iterative method says when it gives up, so that the method itself holds nothing but its algorithm."""
+"""The warning of an iterative method that did not converge."""
 
 from __future__ import annotations
 

@@ -196,7 +196,7 @@ def policy_iteration(
         start = np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
     policy = np.asarray(start)
     for iteration in range(1, max_iterations + 1):  # 3 and 4: repeat
-        # 5 to 8, evaluate: solve V = r_pi + gamma T_pi V, one linear equation a state
+        # 5 to 8, evaluate: solve V = r_pi + gamma T_pi V  Eq. (2.5)
         # (mdp.rows has T(s, a, .) in its row s * n_actions + a)
         transitions = mdp.rows[states * mdp.n_actions + policy]  # T_pi (S, S)
         rewards = mdp.rewards[states, policy]  # r_pi (S,): r(s, pi(s))

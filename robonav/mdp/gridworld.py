@@ -133,7 +133,7 @@ class GridWorld:
                 check_real(f"slip of {symbol!r}", cell.slip, at_least=0, at_most=1)
         if self.terminal.all():
             raise ValueError(
-                "text must have a cell that is no wall and ends nothing, got none"
+                "text must have a cell that is neither a wall nor terminal, got none"
             )
 
     def __getstate__(self) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""What surrounds every learner, so that the learner itself holds nothing but its algorithm.
+"""Decorators of the learners: they check arguments and make the tables that a learner fills.
 
 The decorators of this file turn an algorithm into the function that users call. That function
 

@@ -56,7 +56,7 @@ def linear_sarsa(
     >>> result.q([0, 1, 2]).argmax(axis=1)
     array([1, 1, 1])
     """
-    for episode in range(episodes):
+    for episode in range(episodes):  # 1: the weights are those given
         alpha, eps = learning_rate(episode), epsilon(episode)
         state, _ = env.reset()  # 2
         f = features(state)

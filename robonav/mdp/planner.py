@@ -1,4 +1,4 @@
-"""What surrounds every planner, so that the planner itself holds nothing but its algorithm.
+"""Decorator of the planners: it checks arguments, runs the compiled twin, and warns.
 
 The decorator :func:`planner` turns an algorithm into the function that users call. It
 

@@ -33,7 +33,7 @@ def sum_tolerance(dtype: np.dtype, terms: int) -> float:
 def distributions(
     name: str, value: ArrayLike, shape: Sequence[int | str] | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Rows of probabilities (..., n) in float64, and for each row whether it is no distribution (...).
+    """Rows of probabilities (..., n) in float64, and for each row whether it is not a distribution (...).
 
     Rows of a narrower type, such as those of a network in float32, sum to 1 within the rounding of that type only.
     They are divided by their sums.
@@ -105,7 +105,7 @@ def as_policy(policy: ArrayLike, states: int, actions: int) -> NDArray:
     TypeError
         If the policy is not an array of numbers, or has one dimension but holds no whole numbers.
     ValueError
-        If its shape is neither (S,) nor (S, A), an action does not exist, or a row is no distribution.
+        If its shape is neither (S,) nor (S, A), an action does not exist, or a row is not a distribution.
 
     Examples
     --------

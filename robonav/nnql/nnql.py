@@ -76,13 +76,13 @@ def nnql(
         inputs, targets, done = [], [], False  # 6
         while not done:  # 8
             q = network.forward(state)  # 9
-            action = sample_actions(softmax_policy(q, t), rng.random())  # 10
+            action = sample_actions(softmax_policy(q, t), rng.random())  # 10  Eq. (4.7)
             next_state, reward, terminated, truncated, info = env.step(action)  # 11, 12
             if not reflex_acted(info):
                 next_value = 0.0 if terminated else network.forward(next_state).max()
                 q = q_targets(
                     q, action, float(reward), next_value, alpha, discount
-                )  # 13
+                )  # 13  Eq. (4.9)
                 targets.append(RESCALE[rescale](q))  # 14, 15
                 inputs.append(state)  # 15
                 network = stochastic_gradient_descent(

@@ -43,14 +43,14 @@ def softmax_policy(q: ArrayLike, temperature: ArrayLike) -> Array:
     """
     q = np.asarray(q, dtype=float)
     behind = q - q.max(axis=-1, keepdims=True)
-    with np.errstate(over="ignore"):  # cold: exp(-inf) is 0
+    with np.errstate(over="ignore"):  # near temperature 0: exp(-inf) is 0
         weights = np.exp(behind / np.asarray(temperature)[..., None])
     return weights / weights.sum(axis=-1, keepdims=True)  # Eq. (4.7)
 
 
 @checked
 def greedy_policy(q: ArrayLike) -> Array:
-    """The limit of the softmax policy at temperature 0, Eq. (4.8): the best action, or equally good ones, take all.
+    """The limit of the softmax policy at temperature 0, Eq. (4.8): the best actions share the probability equally.
 
     Parameters
     ----------

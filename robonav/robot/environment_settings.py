@@ -1,4 +1,4 @@
-"""What surrounds the environments: their arguments and options, checked, and their observations."""
+"""Check the arguments and options of the environments, and make their observations."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ Reward = Callable[[Sensing, Sensing, NDArray[np.int8]], ArrayLike]
 REWARD_OF_OUTCOME = np.array([0.0, 1.0, -1.0, 0.0])
 """For an episode that goes on, and for one that ended by arrival, by collision, or for lack of steps."""
 
-NO_LIMIT = -1  # Gymnasium's sign for an episode that may last for ever
+NO_LIMIT = -1  # Gymnasium's sign for an episode without a limit of steps
 
 
 def arrival_or_collision(

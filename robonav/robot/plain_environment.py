@@ -96,7 +96,7 @@ class PlainNavigationEnv(gymnasium.Env):
     1. Termination: the robot comes nearer than 1 m to an obstacle or a border, anywhere on its way.
     2. Termination: the robot arrives, within 3 m of the target.
 
-    There is no limit of steps; Gymnasium's wrapper ``TimeLimit`` adds one.
+    There is no limit of steps here; ``gymnasium.make`` adds one with its wrapper ``TimeLimit``, 500 steps by default.
 
     Examples
     --------

@@ -47,7 +47,7 @@ OUTCOMES = np.array([outcome.name.lower().replace("_", " ") for outcome in Outco
 
 
 class Action(IntEnum):
-    """Actions of a step, Eq. (4.4): F forward, L and R turn left and right by so many degrees, B steps back.
+    """Actions of a step, Eq. (4.4): F forward, L and R turn left and right by that many degrees, B steps back.
 
     A policy chooses among the first five, or all six. TO_TARGET and TO_SECTOR belong to the reflex alone.
 

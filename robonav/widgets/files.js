@@ -201,7 +201,7 @@ export async function drivesFromFile(buffer) {
   for (const [name, shape] of Object.entries(expected)) {
     const { shape: got, values } = arrays[name] ?? { shape: null };
     if (String(got) !== String(shape) || got.length !== shape.length) throw refuse(`its array ${name} is missing or of another shape`);
-    if (values.some((value) => !Number.isFinite(Number(value)))) throw refuse(`its array ${name} holds what is no number`);
+    if (values.some((value) => !Number.isFinite(Number(value)))) throw refuse(`its array ${name} holds values that are not numbers`);
   }
   const rows = (name) => (index) => {
     const [, ...rest] = arrays[name].shape;
@@ -252,7 +252,7 @@ export async function rewardFromFile(buffer, [rows, columns]) {
   if (!found) throw refuse("it has no such array");
   const { shape, values } = found;
   if (shape.length !== 2 || shape[0] !== rows || shape[1] !== columns) throw refuse(`it is of the shape (${shape.join(", ")})`);
-  if (!values.every(Number.isFinite)) throw refuse("it holds what is no number");
+  if (!values.every(Number.isFinite)) throw refuse("it holds values that are not numbers");
   return Float64Array.from(values);
 }
 

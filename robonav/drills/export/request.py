@@ -37,7 +37,7 @@ class Request:
     each : int
         Questions of each drill.
     seed : int
-        Makes the numbers. It is the number of the first paper.
+        Seed of the questions. It is the number of the first paper.
     papers : int
         How many papers an exam has.
     paper : str

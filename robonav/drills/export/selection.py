@@ -211,7 +211,7 @@ def drawn(drills: Sequence[Drill], seed: int = 0, each: int = 1) -> list[Drawn]:
     ----------
     drills : sequence of Drill
     seed : int, default 0
-        Makes the numbers.
+        Seed of the questions.
     each : int, default 1
         Questions of each drill. A drill that has fewer gives all that it has.
 

@@ -103,7 +103,7 @@ def step(
     start, stop, robots, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, actions, poses, centres,
     headings, steps, outcome,
 ):  # fmt: skip
-    """One second for ``robots[start]`` to ``robots[stop - 1]``: turn, go; did it collide, arrive, run out of steps?
+    """Move ``robots[start]`` to ``robots[stop - 1]`` for one second, and record how their episodes stand.
 
     A collision anywhere along the way counts. ``slip`` is (6, 6), or (0, 0) for none; where a robot slips, ``actions``
     (K,) gets what it did instead. Robots whose outcome is no longer RUNNING stand still.

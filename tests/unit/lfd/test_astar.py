@@ -380,6 +380,17 @@ def test_cells_larger_than_a_move_are_named_where_no_path_is_found():
         plan(random_worlds(1, 0, seed=1), speed=1e-9)
 
 
+def test_algorithm_4_names_cells_larger_than_a_step_where_it_finds_no_path():
+    world = random_worlds(1, 0, seed=1)
+    with pytest.warns(
+        UserWarning, match=r"modified_astar .* cell should be at most 0\.1"
+    ):
+        found, *_ = modified_astar(
+            world, world.start_poses[0], speed=0.1, margin=2.0, caution=0.0, cell=1.0, limit=1000
+        )  # fmt: skip
+    assert not found
+
+
 def test_smallest_cells():
     small = make_world(start=(5, 5), target=(15, 15), size=20)
     assert plan(small, speed=0.1, cell=0.1).found

@@ -36,6 +36,21 @@ def test_it_ends_where_both_lines_meet(mdp, sweeps):
     assert trace.improves.tolist() == [False, True] * (len(trace.improves) // 2)
 
 
+@pytest.mark.parametrize("tolerance", [1e-4, 1.0, 10.0])
+@pytest.mark.parametrize("sweeps", [1, 5, math.inf])
+def test_promised_loss_with_terminal_states(sweeps, tolerance):
+    for seed in range(8):
+        rng = np.random.default_rng(seed)
+        transitions = rng.dirichlet(np.full(10, 0.2), size=(3, 10))
+        rewards = rng.normal(rng.choice([-3, 0, 3]), 1, size=(10, 3))
+        transitions[:, :2], rewards[:2] = np.eye(10)[:2], 0
+        mdp = FiniteMDP(transitions, rewards, discount=0.9)
+        trace = generalized_policy_iteration(mdp, sweeps=sweeps, tolerance=tolerance)
+        best = policy_iteration(mdp).values
+        loss = best - policy_evaluation(mdp, trace.policies[-1])
+        assert loss.max() <= tolerance + 1e-9
+
+
 def test_each_half_step_moves_one_thing_only(mdp):
     trace = generalized_policy_iteration(mdp, sweeps=3)
     for i, improves in enumerate(trace.improves):

@@ -199,13 +199,13 @@ def test_what_is_no_map_is_refused(text, options, sentence):
     [
         ("..\n...", {}, r"rows of one length, got lengths \[2, 3\]"),
         ("..?\n..!", {}, r"symbols of the legend, .*, got !\?"),
-        ("##\n##", {}, "a cell that is no wall and"),
+        ("##\n##", {}, "a cell that is neither a wall"),
         ("", {}, "text must have rows"),
         ("..", {"slip": 1.5}, "slip must be"),
         ("..", {"step_reward": np.inf}, "step_reward must be finite"),
         ("..", {"legend": {"m": Cell(slip=2)}}, "slip of 'm' must be"),
         ("..", {"legend": {"m": Cell(reward=np.nan)}}, "reward of 'm' must be finite"),
-        ("GX", {}, "a cell that is no wall and ends nothing"),
+        ("GX", {}, "a cell that is neither a wall nor terminal"),
     ],
 )
 def test_maps_that_make_no_sense_are_refused(text, options, sentence):

@@ -227,7 +227,10 @@ return page.rewardFromFile(buffer(data), [5, 18]).catch((error) => error.message
         ({"theta": np.zeros((5, 18))}, "it has no such array."),
         ({"reward_weights": np.zeros((5, 10))}, "it is of the shape (5, 10)."),
         ({"reward_weights": np.zeros(90)}, "it is of the shape (90)."),
-        ({"reward_weights": np.full((5, 18), np.nan)}, "it holds what is no number."),
+        (
+            {"reward_weights": np.full((5, 18), np.nan)},
+            "it holds values that are not numbers.",
+        ),
     ],
 )
 def test_a_file_that_holds_no_reward_gets_one_sentence(node, tmp_path, arrays, why):

@@ -119,7 +119,7 @@ def broken(tmp_path, demonstrations, **changes):
             lambda path, demonstrations: broken(
                 path, demonstrations, ranges=lambda a: a * np.nan
             ),
-            "its array ranges holds what is no number",
+            "its array ranges holds values that are not numbers",
         ),
         (
             lambda path, demonstrations: broken(
