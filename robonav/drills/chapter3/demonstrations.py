@@ -56,28 +56,28 @@ def next_node(rng: Rng) -> Question:
     for k, name in enumerate(names):
         if k not in tied and name not in wrong:
             wrong[name] = (
-                f"The sum $g + h = {total[k]:.4g}$ of this node is not the smallest."
+                f"The sum $G + H = {total[k]:.4g}$ of this node is not the smallest."
             )
     parts = []
     for k, name in enumerate(names):
         x = 1 + 1.4 * CELL * k
         cell = box(x, 1, 1.3 * CELL, CELL, fill="transparent")
         cell += label(x + 0.65 * CELL, 14, name, size=13)
-        cell += label(x + 0.65 * CELL, 34, f"g = {cost[k]:g}", size=13)
-        cell += label(x + 0.65 * CELL, 52, f"h = {estimate[k]:g}", size=13)
+        cell += label(x + 0.65 * CELL, 34, f"G = {cost[k]:g}", size=13)
+        cell += label(x + 0.65 * CELL, 52, f"H = {estimate[k]:g}", size=13)
         parts.append(place(name, cell))
     shown = picture(
         1.4 * CELL * 5,
         CELL + 2,
         *parts,
-        title="Five open nodes, each with its cost g and its estimate h.",
+        title="Five open nodes, each with its cost G and its estimate H.",
     )
     sums = ", ".join(f"{name} {t:.4g}" for name, t in zip(names, total, strict=True))
     return Question(
-        "Five nodes are open. $g$ is the cost of the way from the start, $h$ the estimate of the way that is left. "
+        "Five nodes are open. $G$ is the cost of the way from the start, $H$ the estimate of the way that is left. "
         "Which node does A* expand next?",
         Place([*names], [names[k] for k in tied], wrong),
-        f"A* expands the node with the smallest $f = g + h$: {sums}.",
+        f"A* expands the node with the smallest $F = G + H$: {sums}.",
         shown,
     )
 

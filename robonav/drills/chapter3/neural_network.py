@@ -148,7 +148,7 @@ def _iteration(
             "Errors come back: that of a hidden unit is computed from those of the output units.",
         ),
         (
-            f"the derivatives by the two weights are ${slopes[0]:.3f}$ and ${slopes[1]:.3f}$.",
+            f"the derivatives with respect to the two weights are ${slopes[0]:.3f}$ and ${slopes[1]:.3f}$.",
             "A derivative is an error times an activation, so all errors come first.",
         ),
         (

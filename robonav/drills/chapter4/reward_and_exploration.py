@@ -120,9 +120,11 @@ def property_of_state(rng: Rng) -> Question:
 
 
 @drill("reward-and-exploration", "A reward from a potential")
-def potential(rng: Rng) -> Question:
+def potential(rng: Rng) -> Question | None:
     """Compute the shaping reward of a step."""
     before, after = (round(float(v), 1) for v in rng.uniform(-5, 5, size=2))
+    if before == after:  # two mistakes would give the same number
+        return None
     discount = float(rng.choice([0.5, 0.8, 0.9]))
     answer = discount * after - before
     return Question(

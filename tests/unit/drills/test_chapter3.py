@@ -51,7 +51,7 @@ def test_next_node_by_the_picture() -> None:
     for question in drawn("next-node"):
         costs, estimates = (
             [float(n) for n in re.findall(rf">{letter} = ([\d.]+)<", question.picture)]
-            for letter in "gh"
+            for letter in "GH"
         )
         sums = np.round(np.add(costs, estimates), 6)
         best = [name for name, f in zip("ABCDE", sums, strict=True) if f == sums.min()]
