@@ -104,8 +104,8 @@ def folded(drill: Drill, static: str) -> str:
         f'<details id="drill-{drill.name}" class="robonav drill" data-drill="{drill.name}" '
         f'data-source="{static}/{FOLDER}/{drill.name}.js">'
         f'<summary>{escape(drill.title)}<span class="drill-standing"></span></summary>'
-        f'<div class="drill-place"><p>{html(first.text)}</p>{first.picture}'
-        f"<details><summary>Solution</summary><p>{html(first.explanation)}</p></details></div></details>"
+        f'<div class="drill-place"><noscript><p>{html(first.text)}</p>{first.picture}'
+        f"<details><summary>Solution</summary><p>{html(first.explanation)}</p></details></noscript></div></details>"
     )
 
 

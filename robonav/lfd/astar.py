@@ -59,7 +59,6 @@ from __future__ import annotations
 
 import heapq
 import math
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -74,6 +73,7 @@ from ._fast import (
     CLOSE_ENOUGH,  # to the target: the distance of an arrival, 3 m
     HEADINGS,  # 12
 )
+from .cells import warns_if_cells_hide_paths
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float]
@@ -221,6 +221,7 @@ def grid_point(origin: Floats, index: Index, cell: float) -> Point:
     return origin[0] + index[0] * cell, origin[1] + index[1] * cell
 
 
+@warns_if_cells_hide_paths
 def modified_astar(
     world: Worlds,
     pose: Floats,
@@ -310,24 +311,7 @@ def modified_astar(
                 H = distance(point, target)
                 nodes[neighbour] = Node(neighbour, point, G, H, current, action)  # 21
                 heapq.heappush(open_list, nodes[neighbour].priority)  # 22 and 23
-    warn_if_cells_hide_paths("modified_astar", cell, speed)
     return False, [nodes[first]], len(closed_set)
-
-
-def warn_if_cells_hide_paths(name: str, cell: float, move: float) -> None:
-    """Warn that a move which ends in the cell it began in leads to no new node, if cells are larger than a move.
-
-    Examples
-    --------
-    >>> from robonav.lfd.astar import warn_if_cells_hide_paths
-    >>> warn_if_cells_hide_paths("plan", cell=1.0, move=2.0)
-    """
-    if cell > move:
-        warnings.warn(
-            f"{name} found no path with cells of {cell:g} m and moves of {move:g} m: a move that ends in the cell it "
-            f"began in leads to no new node, so cell should be at most {move:g}",
-            stacklevel=3,
-        )
 
 
 def five_steps(

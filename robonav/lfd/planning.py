@@ -19,7 +19,8 @@ from robonav.validation import (
 
 from . import _fast
 from ._fast import CLOSE_ENOUGH
-from .astar import Floats, grid_through, warn_if_cells_hide_paths
+from .astar import Floats, grid_through
+from .cells import warn_if_cells_hide_paths
 
 SMALLEST_CELL = 2e-3  # times the map's side; halving the cells makes four times as many
 LOWEST_SPEED = 1e-5  # times the map's side; slower robots take 100,000 steps and more

@@ -1,0 +1,42 @@
+"""The warning of a search whose cells are larger than a move, so that it may have missed a path."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, ParamSpec
+
+P = ParamSpec("P")
+Found = tuple[bool, list[Any], int]
+
+
+def warn_if_cells_hide_paths(name: str, cell: float, move: float) -> None:
+    """Warn that a move which ends in the cell it began in leads to no new node, if cells are larger than a move.
+
+    Examples
+    --------
+    >>> from robonav.lfd.cells import warn_if_cells_hide_paths
+    >>> warn_if_cells_hide_paths("plan", cell=1.0, move=2.0)
+    """
+    if cell > move:
+        warnings.warn(
+            f"{name} found no path with cells of {cell:g} m and moves of {move:g} m: a move that ends in the cell it "
+            f"began in leads to no new node, so cell should be at most {move:g}",
+            stacklevel=3,
+        )
+
+
+def warns_if_cells_hide_paths(search: Callable[P, Found]) -> Callable[P, Found]:
+    """Make a search, whose moves are steps of length ``speed``, warn where it finds no path."""
+
+    @wraps(search)
+    def warning(*args: P.args, **kwargs: P.kwargs) -> Found:
+        """Search, and warn."""
+        found, path, expanded = search(*args, **kwargs)
+        if not found:
+            cell, speed = kwargs["cell"], kwargs["speed"]
+            warn_if_cells_hide_paths(search.__name__, cell, speed)  # type: ignore[arg-type]
+        return found, path, expanded
+
+    return warning
