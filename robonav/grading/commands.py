@@ -457,5 +457,10 @@ def tell_similar(folder: Path, out: Path, course: Course) -> None:
         found = copies.compare_class(course, folder)
     copies.write_comparison(found, course, out)
     print(f"{len(found.pairs)} of {found.compared} pairs are too alike: {out}")
+    if found.few:
+        print(
+            f"{found.few} pairs share fewer than {copies.FEWEST} exercises, which are too few to tell. Put the "
+            "submissions of several weeks into one folder for each student."
+        )
     for problem in found.problems:
         print(f"Not compared: {problem}", file=sys.stderr)

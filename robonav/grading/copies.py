@@ -62,6 +62,8 @@ class Comparison:
         The pairs that are too alike, those that are most first.
     compared : int
         Number of pairs that were compared.
+    few : int
+        How many of them have too few exercises in common to tell anything.
     problems : list of str
         What could not be compared.
     """
@@ -69,12 +71,13 @@ class Comparison:
     answers: Mapping[str, Mapping[str, Answer]]
     pairs: list[Pair]
     compared: int
+    few: int
     problems: list[str]
 
     @property
     def by_chance(self) -> float:
         """How many pairs of honest students one would expect in the list."""
-        return self.compared / 10**THRESHOLD
+        return (self.compared - self.few) / 10**THRESHOLD
 
 
 def compare_class(course: Course, folder: Path) -> Comparison:
@@ -120,7 +123,9 @@ def compare_class(course: Course, folder: Path) -> Comparison:
         reader.close()
     prints = {n: {id: one.print for id, one in own.items()} for n, own in found.items()}
     every = pairs(prints, _known(course))
-    return Comparison(found, [p for p in every if p.reported], len(every), problems)
+    few = sum(len(pair.exercises) < FEWEST for pair in every)
+    alike = [pair for pair in every if pair.reported]
+    return Comparison(found, alike, len(every), few, problems)
 
 
 def _known(course: Course) -> dict[str, list[Fingerprint]]:
@@ -256,7 +261,7 @@ def write_comparison(comparison: Comparison, course: Course, path: Path) -> None
     --------
     >>> import tempfile
     >>> path = Path(tempfile.mkdtemp()) / "similarity.html"
-    >>> write_comparison(Comparison({}, [], 0, []), Course.around(Path()), path)
+    >>> write_comparison(Comparison({}, [], 0, 0, []), Course.around(Path()), path)
     >>> sorted(file.name for file in path.parent.iterdir())
     ['similarity.csv', 'similarity.html']
     """
