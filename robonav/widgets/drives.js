@@ -198,7 +198,7 @@ export function drivesList() {
     heading.textContent = `My drives (${drives.length})`;
     list.replaceChildren(...drives.map((drive, k) => {
       const title = drive.map ? `map ${drive.map}` : `drive ${k + 1}`;
-      return h("li", {}, drivePicture(drive), h("span", {}, h("b", {}, title), h("br"), `${ENDS[drive.outcome]} after ${drive.steps.length} s`, h("br"), `${effective(drive).length} steps to learn from`),
+      return h("li", {}, drivePicture(drive), h("span", {}, h("b", {}, title), h("br"), `${ENDS[drive.outcome]} after ${drive.steps.length} s`, h("br"), drive.outcome === "arrived" ? `${effective(drive).length} steps to learn from` : "left out of learning"),
         h("button", { type: "button", "aria-label": `Delete ${title}`, click: () => {
           deleteDrives([drive.id]);
           told.textContent = `${title} is deleted.`;

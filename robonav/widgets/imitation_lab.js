@@ -8,6 +8,13 @@ const OBSTACLES = [10, 20, 30];
 const FEW = 25; // of the expert's demonstrations, as on the page
 const NO_STEP = "These demonstrations have no step with something in range, so there is nothing to learn from.";
 const NO_DRIVE = "There is nothing to learn from: drive a few maps in the playground, or choose the expert's demonstrations.";
+/** What is said while the expert's demonstrations are learned from because the reader has none that arrived. */
+const withoutOwn = (kept) => {
+  if (kept) return `They are the expert's: none of your ${kept} ${kept === 1 ? "drive" : "drives"} has arrived yet.`;
+  const apart = location.protocol === "file:" ? " Some browsers, such as Firefox, keep the drives of each page on a disk apart: press Download all where you drive, and load the file here." : "";
+  return `They are the expert's: no drive of yours is kept here.${apart}`;
+};
+
 const ALWAYS_STRAIGHT = "Your robot always goes straight on. Drive more maps, turn earlier, or choose a smaller λ.";
 const PYTHON_BEGINS_ANEW = "The robots of Python begin with random weights: choose these under “begin with”.";
 const ROOM = 700; // pixels from which on the settings are open at first
@@ -59,7 +66,8 @@ function render({ model, el }) {
     const missing = settings.source === 0 ? FEW_DRIVES - own.length : 0;
     about.textContent = `${count} ${count === 1 ? "demonstration" : "demonstrations"} with ${steps} steps to learn from: steps with something in range. `
       + (missing > 0 ? `Three are enough for a first robot: bring it to its target in ${WORDS[missing]} more ${missing === 1 ? "map" : "maps"}. ` : "")
-      + (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out.` : "");
+      + (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out.` : "")
+      + (settings.source === 1 && own.length === 0 ? withoutOwn(kept.length) : "");
   };
   const refresh = () => {
     const all = total();
@@ -158,7 +166,7 @@ function render({ model, el }) {
       view.update();
       const [own, straight] = [robots[0], baselines[1]].map(({ outcomes }) => rateOf(outcomes).rate);
       const advice = sameOutcomes(robots[0], baselines[1]) ? ALWAYS_STRAIGHT : own < straight + LITTLE ? advise() : "";
-      return [`Your robot arrives in ${percent(own)} % of the maps, one that always goes straight on in ${percent(straight)} %.`, advice, warning].filter(Boolean).join(" ");
+      return [`${robots[0].made.source === SOURCES[1] ? "This robot" : "Your robot"} arrives in ${percent(own)} % of the maps, one that always goes straight on in ${percent(straight)} %.`, advice, warning].filter(Boolean).join(" ");
     },
     cancelled: () => {
       now = null;

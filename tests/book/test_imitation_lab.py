@@ -85,7 +85,9 @@ def said(lab: Locator) -> Locator:
 
 def train(lab: Locator) -> None:
     lab.get_by_role("button", name="Train").press("Enter")
-    expect(said(lab)).to_contain_text(re.compile("^Done .* Your robot arrives in"))
+    expect(said(lab)).to_contain_text(
+        re.compile("^Done .* (Your|This) robot arrives in")
+    )
 
 
 def rates(lab: Locator) -> dict[str, float]:

@@ -154,7 +154,7 @@ def test_robots_imitate_and_the_best_drives_in_the_page(view, http):
     best.press("Enter")
     row = lab.get_by_role("row", name=re.compile("trained in Python"))
     expect(row).to_be_visible()
-    expect(lab.locator(".training .status").first).to_contain_text("Your robot arrives")
+    expect(lab.locator(".training .status").first).to_contain_text("robot arrives")
     all_right(view)
 
 
