@@ -239,8 +239,11 @@ function render({ model, el }) {
     release,
     h("div", { class: "row tools" }, download, h("label", { class: "file" }, h("span", {}, "try weights from a file (safetensors)"), upload), note),
     kept.element, kept.said, kernel.element);
+  let had = mine().length > 0;
   const unwatch = watchDrives(() => {
-    if (settings.source === 1 && mine().length === 1 && robots.length === 0) source.move((settings.source = 0));
+    const has = mine().length > 0;
+    if (settings.source === 1 && has && !had && robots.length === 0) source.move((settings.source = 0));
+    had = has;
     refresh();
   });
   return () => {
