@@ -1,9 +1,10 @@
 """Settings of all tests.
 
-With the option ``--no-skips``, a test that would be skipped fails instead. The name of a test that fails is printed at
-once, so that a run which is cut off has told what it found. Hypothesis tries 100 examples of each property, and 20 with
-its profile ``quick``, which ``make check`` uses. Examples have no deadline, because a slow or busy machine would miss
-it.
+With the option ``--no-skips``, a test that would be skipped fails instead. With ``--rerun-browser``, a test in a
+browser that fails runs once more, and counts as failed only if it fails again; the option ``-r R`` lists these tests.
+The name of a test that fails is printed at once, so that a run which is cut off has told what it found. Hypothesis
+tries 100 examples of each property, and 20 with its profile ``quick``, which ``make check`` uses. Examples have no
+deadline, because a slow or busy machine would miss it.
 """
 
 from __future__ import annotations
@@ -20,9 +21,18 @@ settings.load_profile("thorough")
 
 
 @pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with the tests marked long. The others keep their order, so that tests of one fixture are together."""
+def pytest_collection_modifyitems(
+    config: pytest.Config, items: list[pytest.Item]
+) -> None:
+    """Begin with the tests marked long. The others keep their order, so that tests of one fixture are together.
+
+    With the option, each test in a browser may run twice.
+    """
     items.sort(key=lambda item: item.get_closest_marker("long") is None)
+    if config.getoption("--rerun-browser"):
+        for item in items:
+            if item.get_closest_marker("browser"):
+                item.add_marker(pytest.mark.flaky(reruns=1))
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -30,6 +40,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--no-skips",
         action="store_true",
         help="a test that would be skipped fails instead",
+    )
+    parser.addoption(
+        "--rerun-browser",
+        action="store_true",
+        help="a test in a browser that fails runs once more",
     )
 
 
