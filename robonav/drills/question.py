@@ -27,6 +27,12 @@ class Verdict:
         Whether the answer is right.
     hint : str
         What went wrong, in a sentence; empty if the answer is right or if the mistake is not a usual one.
+
+    Examples
+    --------
+    >>> from robonav.drills import Verdict
+    >>> Verdict(False, "The discount is missing.").hint
+    'The discount is missing.'
     """
 
     right: bool
@@ -72,7 +78,25 @@ class Number:
     unit: str = ""
 
     def judge(self, answer: float) -> Verdict:
-        """Compare a number with the right one, then with the usual wrong ones, then with what rounding makes of it."""
+        """Compare a number with the right one, then with the usual wrong ones, then with what rounding makes of it.
+
+        Parameters
+        ----------
+        answer : float
+            What the reader typed.
+
+        Returns
+        -------
+        Verdict
+            Its hint is that of the usual wrong number that the answer is near to, or says that the answer is rounded
+            too far.
+
+        Examples
+        --------
+        >>> from robonav.drills import Number
+        >>> Number(0.72, wrong={"The reward of the step is missing.": 0.648}).judge(0.65)
+        Verdict(right=False, hint='The reward of the step is missing.')
+        """
         if _near(self.answer, answer, self.tolerance):
             return RIGHT
         hints = (
@@ -124,7 +148,24 @@ class Choice:
         return tuple(self.order or sorted((self.right, *self.wrong)))
 
     def judge(self, answer: str) -> Verdict:
-        """Compare an option with the right one."""
+        """Compare an option with the right one.
+
+        Parameters
+        ----------
+        answer : str
+            The option that the reader chose.
+
+        Returns
+        -------
+        Verdict
+            Its hint is that of the option.
+
+        Examples
+        --------
+        >>> from robonav.drills import Choice
+        >>> Choice("SARSA", {"Q-learning": "It learns off-policy."}).judge("Q-learning").hint
+        'It learns off-policy.'
+        """
         return RIGHT if answer == self.right else Verdict(False, self.wrong[answer])
 
     @property
@@ -159,7 +200,24 @@ class Place:
     wrong: Mapping[str, str] = field(default_factory=dict)
 
     def judge(self, answer: str) -> Verdict:
-        """Look whether a place is one of the right ones."""
+        """Look whether a place is one of the right ones.
+
+        Parameters
+        ----------
+        answer : str
+            The name of the place that the reader touched.
+
+        Returns
+        -------
+        Verdict
+            Its hint is that of the place, if it has one.
+
+        Examples
+        --------
+        >>> from robonav.drills import Place
+        >>> Place(["cell-0", "cell-1"], right=["cell-1"], wrong={}).judge("cell-1").right
+        True
+        """
         if answer in self.right:
             return RIGHT
         return Verdict(False, self.wrong.get(answer, ""))
@@ -197,7 +255,24 @@ class Order:
     before: Mapping[tuple[int, int], str] = field(default_factory=dict)
 
     def judge(self, answer: Sequence[int]) -> Verdict:
-        """Compare an order, given by the steps' indices, with the right one."""
+        """Compare an order, given by the steps' indices, with the right one.
+
+        Parameters
+        ----------
+        answer : sequence of int
+            The indices of the steps, in the reader's order.
+
+        Returns
+        -------
+        Verdict
+            Its hint is that of the first pair of steps that stands the wrong way round, or the general one.
+
+        Examples
+        --------
+        >>> from robonav.drills import Order
+        >>> Order(["evaluate", "improve"], hint="Values come first.").judge([1, 0]).hint
+        'Values come first.'
+        """
         if list(answer) == list(range(len(self.steps))):
             return RIGHT
         place = {step: k for k, step in enumerate(answer)}
@@ -240,7 +315,25 @@ class Table:
     wrong: Mapping[str, Sequence[Sequence[float]]] = field(default_factory=dict)
 
     def judge(self, answer: Sequence[Sequence[float]]) -> Verdict:
-        """Compare a table with the right one, then with the usual wrong ones, then with what rounding makes of it."""
+        """Compare a table with the right one, then with the usual wrong ones, then with what rounding makes of it.
+
+        Parameters
+        ----------
+        answer : sequence of sequence of float
+            The rows that the reader filled in.
+
+        Returns
+        -------
+        Verdict
+            Its hint is that of a wrong table that the answer equals or shares its mistakes with, or says that the
+            answer is rounded too far.
+
+        Examples
+        --------
+        >>> from robonav.drills import Table
+        >>> Table(["V"], ["s1"], [[0.9]], wrong={"The discount is missing.": [[1.0]]}).judge([[1.0]]).hint
+        'The discount is missing.'
+        """
         given, right = _flat(answer), _flat(self.answer)
         if self._equals(given, right, right):
             return RIGHT
@@ -338,5 +431,21 @@ class Question:
         return "" if whole else words(decimals(asked.tolerance))
 
     def judge(self, answer: Any) -> Verdict:
-        """Judge an answer of the kind that is asked for."""
+        """Judge an answer of the kind that is asked for.
+
+        Parameters
+        ----------
+        answer : object
+            An answer as the kind of answer that is asked for takes it.
+
+        Returns
+        -------
+        Verdict
+
+        Examples
+        --------
+        >>> from robonav.drills import Number, Question
+        >>> Question("What is 1 / 4?", Number(0.25), explanation="A quarter.").judge(0.25).right
+        True
+        """
         return self.asked.judge(answer)

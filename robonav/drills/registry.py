@@ -30,6 +30,12 @@ class Drill:
         What it practises, in a few words.
     draw : callable
         ``draw(rng)`` returns a :class:`Question` with new numbers, or None if these numbers make no good question.
+
+    Examples
+    --------
+    >>> from robonav.drills import DRILLS
+    >>> DRILLS["td-error"].page
+    'model-free-learning'
     """
 
     name: str
@@ -103,6 +109,17 @@ def drill(page: str, title: str) -> Callable[[Draw], Draw]:
     -------
     callable
         A decorator that keeps the function as it is. The drill's name is the function's, with hyphens.
+
+    Examples
+    --------
+    >>> from robonav.drills import DRILLS, Number, Question, drill
+    >>> @drill("decision-processes", "A sum of two rewards")
+    ... def sum_of_rewards(rng):
+    ...     '''Add two rewards.'''
+    ...     first, second = rng.integers(1, 10, size=2)
+    ...     return Question(f"{first} + {second}", Number(first + second), "Add them.")
+    >>> DRILLS.pop("sum-of-rewards").title
+    'A sum of two rewards'
     """
 
     def register(draw: Draw) -> Draw:

@@ -34,8 +34,20 @@ def behaviour_cloning(
 
     Parameters
     ----------
-    demonstrations, hidden, regularisation, iterations, seed, encoder, progress
-        As in :func:`learn_policy`.
+    demonstrations : Demonstrations
+        By any expert.
+    hidden : int
+        Number of units in the hidden layer.
+    regularisation : float
+        lambda in the cost, Eq. (3.22).
+    iterations : int
+        The most iterations of L-BFGS.
+    seed : int or Generator
+        Of the initial weights.
+    encoder : Encoder, optional
+        Turns what the robot senses into the network's inputs, see :func:`learn_policy`.
+    progress : callable, optional
+        Called as ``progress(done, iterations)``.
 
     Returns
     -------

@@ -109,7 +109,28 @@ class ComputerExpert:
         )
 
     def next_action(self, simulator: Simulator, robot: int) -> int:
-        """Return the next action of the plan that a robot follows; plan again if that plan no longer holds."""
+        """Return the next action of the plan that a robot follows; plan again if that plan no longer holds.
+
+        Parameters
+        ----------
+        simulator : Simulator
+            Its worlds and poses are read.
+        robot : int
+            The robot's index.
+
+        Returns
+        -------
+        int
+            One of the six actions.
+
+        Examples
+        --------
+        >>> from robonav.lfd import ComputerExpert
+        >>> from robonav.robot import Action, Simulator, make_world
+        >>> simulator = Simulator(make_world(start=(10, 10), target=(10, 90)))
+        >>> Action(ComputerExpert().next_action(simulator, 0)).name
+        'F'
+        """
         followed = self._plans.get(robot)
         if followed is None or not followed.holds_for(simulator, robot):
             followed = self._plans[robot] = self.plan_from(simulator, robot)
@@ -117,7 +138,28 @@ class ComputerExpert:
         return int(followed.actions[followed.done - 1])
 
     def plan_from(self, simulator: Simulator, robot: int) -> FollowedPlan:
-        """Plan from where a robot is, with the largest margin that leaves a path; if none does, go straight on."""
+        """Plan from where a robot is, with the largest margin that leaves a path; if none does, go straight on.
+
+        Parameters
+        ----------
+        simulator : Simulator
+            Its worlds and poses are read.
+        robot : int
+            The robot's index.
+
+        Returns
+        -------
+        FollowedPlan
+            Its ``actions``, ``poses`` and ``target``.
+
+        Examples
+        --------
+        >>> from robonav.lfd import ComputerExpert
+        >>> from robonav.robot import Simulator, make_world
+        >>> simulator = Simulator(make_world(start=(10, 10), target=(10, 90)), speed=4.0)
+        >>> len(ComputerExpert().plan_from(simulator, 0).actions)
+        20
+        """
         world, pose = simulator.worlds, simulator.poses[robot].copy()
         target, centres = world.targets[robot].copy(), simulator.centres[robot].copy()
         obstacles = world.kinds[robot], world.shapes[robot], centres, world.size

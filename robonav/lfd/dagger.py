@@ -98,11 +98,17 @@ def dagger(
         Labels the states visited; by default the computer expert.
     beta_decay : float
         p in the schedule ``beta_i = p**i`` of :func:`beta_schedule`.
-    hidden, regularisation, iterations, encoder
-        As in :func:`learn_policy`.
+    hidden : int
+        Number of units in the hidden layer.
+    regularisation : float
+        lambda in the cost, Eq. (3.22).
+    iterations : int
+        The most iterations of L-BFGS in each round.
     seed : int or (rounds + 1, 2) array of int
         From a whole number, :func:`round_seeds` derives for each round a seed of the initial weights and a seed of the
         episodes. An array gives these seeds themselves: row i holds the two of round i.
+    encoder : Encoder, optional
+        Turns what the robot senses into the network's inputs, see :func:`learn_policy`.
     temperature : float
         Temperature of the policies, see :class:`NetworkPolicy`. At 0 a policy without memory can go round in circles;
         actions drawn at random lead out of them.

@@ -146,7 +146,26 @@ class Demonstrations:
         return np.bincount(self.trajectory, minlength=len(self.worlds))
 
     def select_trajectories(self, index: ArrayLike) -> Demonstrations:
-        """Select whole trajectories by an index, indices or a mask, and number them from 0."""
+        """Select whole trajectories by an index, indices or a mask, and number them from 0.
+
+        Parameters
+        ----------
+        index : int, slice, (K,) array of int or (N,) array of bool
+            Which of the N trajectories.
+
+        Returns
+        -------
+        Demonstrations
+            Theirs alone.
+
+        Examples
+        --------
+        >>> from robonav.lfd import demonstrate
+        >>> from robonav.robot import random_worlds
+        >>> three = demonstrate(random_worlds(3, obstacles=5, seed=1))
+        >>> len(three.select_trajectories([0, 2]).worlds)
+        2
+        """
         chosen = np.atleast_1d(np.arange(len(self.worlds))[np.asarray(index)])
         none = np.empty(0, np.int64)
         rows = np.concatenate(

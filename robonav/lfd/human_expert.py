@@ -179,6 +179,19 @@ class PathFollower:
     def lookahead_point(self, robot: int, pose: Floats, speed: float) -> Floats:
         """Return the point of a robot's path that lies a step and a half beyond the point nearest to the robot.
 
+        Parameters
+        ----------
+        robot : int
+            The robot's index.
+        pose : (3,) array
+            Its x, y and heading.
+        speed : float
+            In metres a step.
+
+        Returns
+        -------
+        (2,) array
+
         Examples
         --------
         >>> import numpy as np

@@ -54,7 +54,16 @@ class AlphaVectors:
     converged: bool = True
 
     def value(self, belief: ArrayLike) -> Floats:
-        """Value (...) of one belief (S,) or of many (..., S): the largest of the linear functions.
+        """Value of one belief or of many: the largest of the linear functions.
+
+        Parameters
+        ----------
+        belief : (..., S) array
+            One belief, or several in rows.
+
+        Returns
+        -------
+        (...) array
 
         Examples
         --------
@@ -66,7 +75,16 @@ class AlphaVectors:
         return (b @ self.vectors.T).max(axis=-1)
 
     def action(self, belief: ArrayLike) -> int:
-        """Action of the vector that is largest at a belief (S,).
+        """Action of the vector that is largest at a belief.
+
+        Parameters
+        ----------
+        belief : (S,) array
+            b.
+
+        Returns
+        -------
+        int
 
         Examples
         --------

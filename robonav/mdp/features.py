@@ -121,7 +121,16 @@ class Tiles:
         return np.outer(np.arange(self.tilings), odd) % self.tilings / self.tilings
 
     def active(self, state: ArrayLike) -> NDArray[np.int64]:
-        """Number of the tile that holds the state in each tiling: (tilings,).
+        """Number of the tile that holds the state, in each tiling.
+
+        Parameters
+        ----------
+        state : (d,) array
+            A state of d numbers; outside ``low`` and ``high`` it is moved to the nearest edge.
+
+        Returns
+        -------
+        (tilings,) array of int
 
         Examples
         --------

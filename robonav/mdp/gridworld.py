@@ -216,6 +216,15 @@ class GridWorld:
     def mdp(self, discount: float) -> FiniteMDP:
         """Sparse model of the grid; a step out of a terminal state leads back to it, with reward 0.
 
+        Parameters
+        ----------
+        discount : float
+            gamma, in [0, 1].
+
+        Returns
+        -------
+        FiniteMDP
+
         Examples
         --------
         >>> from robonav.mdp import GridWorld
@@ -241,11 +250,46 @@ class GridWorld:
         return FiniteMDP(transitions, rewards, discount)
 
     def environment(self, *, render_mode: str | None = None) -> GridEnvironment:
-        """The grid as a Gymnasium environment with the same transitions and rewards as its model."""
+        """The grid as a Gymnasium environment with the same transitions and rewards as its model.
+
+        Parameters
+        ----------
+        render_mode : {"ansi"}, optional
+            As in Gymnasium: "ansi" draws the map as text.
+
+        Returns
+        -------
+        GridEnvironment
+
+        Examples
+        --------
+        >>> from robonav.mdp import GridWorld
+        >>> env = GridWorld("S G").environment()
+        >>> env.reset(seed=0)
+        (0, {})
+        """
         return GridEnvironment(self, render_mode=render_mode)
 
     def on_map(self, numbers: ArrayLike, *, walls: float = np.nan) -> NDArray:
-        """One number a state, (..., S), laid out as the map, (..., rows, columns), with ``walls`` in the walls."""
+        """Lay out one number for each state as the map.
+
+        Parameters
+        ----------
+        numbers : (..., S) array
+            One number for each state, such as its value.
+        walls : float
+            What stands in the walls.
+
+        Returns
+        -------
+        (..., rows, columns) array
+
+        Examples
+        --------
+        >>> from robonav.mdp import GridWorld
+        >>> GridWorld("S # G").on_map([0.9, 0.0])
+        array([[0.9, nan, 0. ]])
+        """
         given = np.asarray(numbers)
         if given.shape[-1:] != (self.n_states,):
             raise ValueError(
@@ -323,7 +367,28 @@ class GridEnvironment(gym.Env[Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[int, dict[str, Any]]:
-        """Start a new episode in a cell drawn from the start cells."""
+        """Start a new episode in a cell drawn from the start cells.
+
+        Parameters
+        ----------
+        seed : int, optional
+            Seed of the random numbers, as in Gymnasium.
+        options : dict, optional
+            Not used.
+
+        Returns
+        -------
+        state : int
+            The first state.
+        info : dict
+            Empty.
+
+        Examples
+        --------
+        >>> from robonav.mdp import GridWorld
+        >>> GridWorld("S G").environment().reset(seed=0)
+        (0, {})
+        """
         super().reset(seed=seed)
         self.state = int(
             self.np_random.choice(self.grid.n_states, p=self.initial_state_distrib)
@@ -333,10 +398,23 @@ class GridEnvironment(gym.Env[Any, Any]):
     def step(self, action: int) -> tuple[int, float, bool, bool, dict[str, Any]]:
         """One step, Eq. (2.1): draw the next state and the reward from P(. | s, a).
 
+        Parameters
+        ----------
+        action : int
+            0 to 3: up, right, down, left.
+
         Returns
         -------
-        state, reward, terminated, truncated, info : int, float, bool, bool, dict
-            As in Gymnasium; ``truncated`` is always False, and ``info["probability"]`` is that of the outcome.
+        state : int
+            The next state.
+        reward : float
+            Its reward.
+        terminated : bool
+            Whether the state is terminal.
+        truncated : bool
+            Always False.
+        info : dict
+            ``info["probability"]`` is the probability of this outcome.
 
         Examples
         --------
@@ -352,7 +430,21 @@ class GridEnvironment(gym.Env[Any, Any]):
         return self.state, reward, ended, False, {"probability": probability}
 
     def render(self) -> str | None:
-        """The map as text, with an R where the robot is."""
+        """The map as text, with an R where the robot is.
+
+        Returns
+        -------
+        str or None
+            None without a ``render_mode``.
+
+        Examples
+        --------
+        >>> from robonav.mdp import GridWorld
+        >>> env = GridWorld("S # G").environment(render_mode="ansi")
+        >>> _ = env.reset(seed=0)
+        >>> print(env.render(), end="")
+        R # G
+        """
         if self.render_mode is None:
             return None
         here = self.grid.cells[self.state]

@@ -118,7 +118,16 @@ class LinearControlResult:
     history: NDArray[np.float64] | None = None
 
     def q(self, states: Iterable[Any]) -> NDArray[np.float64]:
-        """Action values (k, A) of k states, Eq. (4.3).
+        """Action values of several states, Eq. (4.3).
+
+        Parameters
+        ----------
+        states : iterable
+            k states, as the environment gives them.
+
+        Returns
+        -------
+        (k, A) array
 
         Examples
         --------

@@ -91,7 +91,11 @@ class PoseGrid:
         return np.repeat(self.free.ravel(), self.headings)
 
     def uniform(self) -> Floats:
-        """The belief (S,) of a robot that only knows the map.
+        """The belief of a robot that only knows the map.
+
+        Returns
+        -------
+        (S,) array
 
         Examples
         --------
@@ -102,10 +106,19 @@ class PoseGrid:
         return self.possible / self.possible.sum()
 
     def around(self, poses: ArrayLike) -> sp.csr_array:
-        """Poses (N, 3) as mixtures of grid poses: weights (N, S), linear in x, y and heading, so that the mean is kept.
+        """Poses as mixtures of grid poses: weights linear in x, y and heading, so that the mean is kept.
 
         Where one of the eight corners is not free, or off the map, its share goes to the others; a pose with no free
         corner gets an empty row.
+
+        Parameters
+        ----------
+        poses : (N, 3) array
+            x, y and heading of N poses.
+
+        Returns
+        -------
+        (N, S) sparse array
 
         Examples
         --------
@@ -237,10 +250,21 @@ class RangeSensor:
 
     @checked
     def log_likelihood(self, predicted: ArrayLike, measured: ArrayLike) -> Floats:
-        """Logarithm (...) of the density of the readings ``measured`` (n,) where ``predicted`` (..., n) is expected.
+        """Logarithm of the density of readings where other ranges are expected.
 
         A reading short of ``reach`` has a normal density about the prediction; ``reach`` itself, which stands for all
         that lies beyond, has the whole tail as its probability. The n sensors err independently.
+
+        Parameters
+        ----------
+        predicted : (..., n) array
+            What an exact sensor would read.
+        measured : (n,) array
+            The readings.
+
+        Returns
+        -------
+        (...) array
 
         Examples
         --------
@@ -322,7 +346,18 @@ class Localiser:
                 )
 
     def predict(self, belief: ArrayLike, action: int) -> Floats:
-        """The belief (S,) after a move: all that a robot with no sensing has.
+        """The belief after a move: all that a robot with no sensing has.
+
+        Parameters
+        ----------
+        belief : (S,) array
+            The belief before it.
+        action : int
+            The move.
+
+        Returns
+        -------
+        (S,) array
 
         Examples
         --------
@@ -338,7 +373,18 @@ class Localiser:
         "the ranges have probability zero in every pose that the belief holds possible"
     )
     def correct(self, belief: ArrayLike, ranges: ArrayLike) -> Floats:
-        """The belief (S,) after readings (n,).
+        """The belief after readings.
+
+        Parameters
+        ----------
+        belief : (S,) array
+            The belief before them.
+        ranges : (n,) array
+            One reading for each sensor, in metres.
+
+        Returns
+        -------
+        (S,) array
 
         Raises
         ------
@@ -364,7 +410,20 @@ class Localiser:
         return corrected / corrected.sum()
 
     def update(self, belief: ArrayLike, action: int, ranges: ArrayLike) -> Floats:
-        """The belief (S,) after a move and the readings (n,) that follow it.
+        """The belief after a move and the readings that follow it.
+
+        Parameters
+        ----------
+        belief : (S,) array
+            The belief before them.
+        action : int
+            The move.
+        ranges : (n,) array
+            One reading for each sensor, in metres.
+
+        Returns
+        -------
+        (S,) array
 
         Examples
         --------
@@ -377,15 +436,69 @@ class Localiser:
         return self.correct(self.predict(belief, action), ranges)
 
     def as_belief(self, belief: ArrayLike) -> Floats:
-        """The belief as an array (S,), checked."""
+        """The belief as an array, checked.
+
+        Parameters
+        ----------
+        belief : (S,) array
+            Probabilities of the poses.
+
+        Returns
+        -------
+        (S,) array
+
+        Examples
+        --------
+        >>> from robonav.mdp import Localiser, PoseGrid, pose_transitions
+        >>> grid = PoseGrid([[True, True]], headings=1)
+        >>> localiser = Localiser(pose_transitions(grid, [(0.0, 1.0)]), [[5.0], [2.0]])
+        >>> localiser.as_belief([0.25, 0.75])
+        array([0.25, 0.75])
+        """
         check_array("belief", belief, shape=(len(self.predicted),))
         return as_distributions("belief", belief, len(self.predicted))
 
     def as_action(self, action: int) -> int:
-        """The action as an index, checked."""
+        """The action as an index, checked.
+
+        Parameters
+        ----------
+        action : int
+            A move's index.
+
+        Returns
+        -------
+        int
+
+        Examples
+        --------
+        >>> from robonav.mdp import Localiser, PoseGrid, pose_transitions
+        >>> grid = PoseGrid([[True, True]], headings=1)
+        >>> localiser = Localiser(pose_transitions(grid, [(0.0, 1.0)]), [[5.0], [2.0]])
+        >>> localiser.as_action(0)
+        0
+        """
         last = len(self.transitions) - 1
         return check_integer("action", action, at_least=0, at_most=last)
 
     def as_ranges(self, ranges: ArrayLike) -> Floats:
-        """The readings as an array (n,), checked."""
+        """The readings as an array, checked.
+
+        Parameters
+        ----------
+        ranges : (n,) array
+            One reading for each sensor, in metres.
+
+        Returns
+        -------
+        (n,) array
+
+        Examples
+        --------
+        >>> from robonav.mdp import Localiser, PoseGrid, pose_transitions
+        >>> grid = PoseGrid([[True, True]], headings=1)
+        >>> localiser = Localiser(pose_transitions(grid, [(0.0, 1.0)]), [[5.0], [2.0]])
+        >>> localiser.as_ranges([2])
+        array([2.])
+        """
         return check_array("ranges", ranges, shape=self.predicted.shape[1:])

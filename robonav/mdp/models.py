@@ -110,6 +110,17 @@ class FiniteMDP:
         The table is ``P[s][a] = [(probability, s', reward, terminated), ...]``, as Gymnasium's FrozenLake, Taxi and
         CliffWalking have it. A state in which an episode ends becomes terminal.
 
+        Parameters
+        ----------
+        env : gymnasium.Env
+            The environment.
+        discount : float
+            gamma, in [0, 1].
+
+        Returns
+        -------
+        FiniteMDP
+
         Raises
         ------
         ValueError
@@ -164,7 +175,16 @@ class FiniteMDP:
         return with_small_indices(self.by_action[order])
 
     def transitions_from(self, state: int) -> sp.csr_array:
-        """Transitions T(s, a, s') from one state s, (A, S'): one row an action.
+        """Transitions T(s, a, s') from one state s, one row an action.
+
+        Parameters
+        ----------
+        state : int
+            s.
+
+        Returns
+        -------
+        (A, S') sparse array
 
         Examples
         --------
@@ -176,7 +196,20 @@ class FiniteMDP:
         return self.rows[state * self.n_actions : (state + 1) * self.n_actions]
 
     def likeliest_predecessors(self) -> sp.csr_array:
-        """Largest probability of reaching s' from s by any action, (S', S): row s', column s."""
+        """Largest probability of reaching s' from s by any action: row s', column s.
+
+        Returns
+        -------
+        (S', S) sparse array
+
+        Examples
+        --------
+        >>> from robonav.mdp import FiniteMDP
+        >>> mdp = FiniteMDP([[[0.5, 0.5], [0, 1]]], [[1], [0]], discount=0.9)
+        >>> mdp.likeliest_predecessors().toarray()
+        array([[0.5, 0. ],
+               [0.5, 1. ]])
+        """
         likeliest = self.rows[:: self.n_actions]
         for action in range(1, self.n_actions):
             likeliest = likeliest.maximum(self.rows[action :: self.n_actions])
@@ -244,7 +277,16 @@ class FiniteMDP:
         return self.rewards + self.discount * expected_next_values  # Eq. (2.15)
 
     def greedy(self, values: ArrayLike) -> NDArray[np.intp]:
-        """Greedy policy (S,) with respect to ``values`` (S,), Eq. (2.25); of equal actions the first.
+        """Greedy policy with respect to values, Eq. (2.25); of equal actions the first.
+
+        Parameters
+        ----------
+        values : (S,) array
+            Value of each state.
+
+        Returns
+        -------
+        (S,) array of int
 
         Examples
         --------
@@ -258,12 +300,19 @@ class FiniteMDP:
     def induced_chain(
         self, policy: ArrayLike
     ) -> tuple[sp.csr_array, NDArray[np.float64]]:
-        """Markov chain that a policy induces, Eq. (2.6): its transitions T_pi (S, S) and rewards r_pi (S,).
+        """Markov chain that a policy induces, Eq. (2.6).
 
         Parameters
         ----------
         policy : (S,) array of ints or (S, A) array of probabilities
             A stochastic policy averages over its actions.
+
+        Returns
+        -------
+        transitions : (S, S) sparse array
+            T_pi.
+        rewards : (S,) array
+            r_pi.
 
         Examples
         --------
@@ -288,6 +337,15 @@ class FiniteMDP:
 
         It is tolerance (1 - gamma) / (2 gamma) (Puterman 2005, Theorem 6.3.1), and infinite for discount 0. Without
         discount there is no such bound; ``tolerance`` itself is returned.
+
+        Parameters
+        ----------
+        tolerance : float
+            The loss of value that is accepted in each state, positive.
+
+        Returns
+        -------
+        float
 
         Examples
         --------

@@ -141,7 +141,11 @@ class POMDP:
         return f"POMDP({self.mdp!r}, {self.observations.shape[2]} observations)"
 
     def uniform(self) -> Floats:
-        """The belief (S,) in which all states are equally likely.
+        """The belief in which all states are equally likely.
+
+        Returns
+        -------
+        (S,) array
 
         Examples
         --------
@@ -152,7 +156,18 @@ class POMDP:
         return np.full(self.mdp.n_states, 1 / self.mdp.n_states)
 
     def predict(self, belief: ArrayLike, action: int) -> Floats:
-        """Belief (S,) after an action, before anything is observed: sum over s of b(s) T(s, a, .).
+        """Belief after an action, before anything is observed: sum over s of b(s) T(s, a, .).
+
+        Parameters
+        ----------
+        belief : (S,) array
+            b.
+        action : int
+            a.
+
+        Returns
+        -------
+        (S,) array
 
         Examples
         --------
@@ -200,7 +215,18 @@ class POMDP:
         return joint / joint.sum()  # Eq. (2.18)
 
     def likelihood(self, action: int, observation: int) -> Floats:
-        """Probability Z(o, s', a) of an observation in each state s', (S',).
+        """Probability Z(o, s', a) of an observation in each state s'.
+
+        Parameters
+        ----------
+        action : int
+            a.
+        observation : int
+            o.
+
+        Returns
+        -------
+        (S,) array
 
         Examples
         --------
@@ -213,7 +239,18 @@ class POMDP:
         return self.observations[self.as_action(action), :, seen]
 
     def observation_probabilities(self, belief: ArrayLike, action: int) -> Floats:
-        """Probability (O,) of each observation after an action, Eq. (2.20).
+        """Probability of each observation after an action, Eq. (2.20).
+
+        Parameters
+        ----------
+        belief : (S,) array
+            b.
+        action : int
+            a.
+
+        Returns
+        -------
+        (O,) array
 
         Examples
         --------
@@ -225,7 +262,16 @@ class POMDP:
         return predicted @ self.observations[self.as_action(action)]  # Eq. (2.20)
 
     def expected_rewards(self, belief: ArrayLike) -> Floats:
-        """Expected reward (A,) of each action, r(a | b), Eq. (2.21).
+        """Expected reward of each action, r(a | b), Eq. (2.21).
+
+        Parameters
+        ----------
+        belief : (S,) array
+            b.
+
+        Returns
+        -------
+        (A,) array
 
         Examples
         --------
@@ -236,16 +282,71 @@ class POMDP:
         return self.as_belief(belief) @ self.mdp.rewards  # Eq. (2.21)
 
     def as_belief(self, belief: ArrayLike) -> Floats:
-        """The belief as an array (S,), checked."""
+        """The belief as an array, checked.
+
+        Parameters
+        ----------
+        belief : (S,) array
+            Probabilities of the states.
+
+        Returns
+        -------
+        (S,) array
+
+        Raises
+        ------
+        ValueError
+            If it is not a distribution over the S states.
+
+        Examples
+        --------
+        >>> from robonav.mdp import tiger
+        >>> tiger().as_belief([0.5, 0.5])
+        array([0.5, 0.5])
+        """
         check_array("belief", belief, shape=(self.mdp.n_states,))
         return as_distributions("belief", belief, self.mdp.n_states)
 
     def as_vector(self, name: str, numbers: ArrayLike) -> Floats:
-        """Numbers as an array (S,), checked."""
+        """Numbers of the states as an array, checked.
+
+        Parameters
+        ----------
+        name : str
+            What an error calls them.
+        numbers : (S,) array
+            One for each state.
+
+        Returns
+        -------
+        (S,) array
+
+        Examples
+        --------
+        >>> from robonav.mdp import tiger
+        >>> tiger().as_vector("values", [1, 2])
+        array([1., 2.])
+        """
         return check_array(name, numbers, shape=(self.mdp.n_states,))
 
     def as_action(self, action: int) -> int:
-        """The action as an index, checked."""
+        """The action as an index, checked.
+
+        Parameters
+        ----------
+        action : int
+            An action's index.
+
+        Returns
+        -------
+        int
+
+        Examples
+        --------
+        >>> from robonav.mdp import tiger
+        >>> tiger().as_action(2)
+        2
+        """
         last = self.mdp.n_actions - 1
         return check_integer("action", action, at_least=0, at_most=last)
 
@@ -281,7 +382,21 @@ class BeliefMDP:
         return self.pomdp.mdp.discount
 
     def successors(self, belief: ArrayLike, action: int) -> tuple[Floats, Floats]:
-        """Beliefs (K, S) that can follow, and their probabilities (K,); two observations may lead to the same one.
+        """Beliefs that can follow, and their probabilities; two observations may lead to the same one.
+
+        Parameters
+        ----------
+        belief : (S,) array
+            b.
+        action : int
+            a.
+
+        Returns
+        -------
+        beliefs : (K, S) array
+            The K beliefs.
+        probabilities : (K,) array
+            Their probabilities, which sum to 1.
 
         Examples
         --------
@@ -307,6 +422,19 @@ class BeliefMDP:
     def transition(self, belief: ArrayLike, action: int, successor: ArrayLike) -> float:
         """Probability tau(b, a, b') that the belief ``successor`` follows, Eq. (2.22).
 
+        Parameters
+        ----------
+        belief : (S,) array
+            b.
+        action : int
+            a.
+        successor : (S,) array
+            b'.
+
+        Returns
+        -------
+        float
+
         Examples
         --------
         >>> from robonav.mdp import BeliefMDP, tiger
@@ -320,6 +448,17 @@ class BeliefMDP:
 
     def reward(self, belief: ArrayLike, action: int) -> float:
         """Expected reward r(b, a) of an action at a belief, Eq. (2.23).
+
+        Parameters
+        ----------
+        belief : (S,) array
+            b.
+        action : int
+            a.
+
+        Returns
+        -------
+        float
 
         Examples
         --------

@@ -7,6 +7,8 @@ them already, calls the functions in that file.
 
 from __future__ import annotations
 
+from operator import attrgetter
+
 from robonav.documentation import add_sections
 
 from . import multilayer_perceptron
@@ -304,8 +306,77 @@ Examples
 True
 """
 
+HELP["Network.forward"] = """
+Parameters
+----------
+x : (s[0],) or (..., m, s[0]) array
+    One input, or m in rows.
+
+Returns
+-------
+(s[-1],) or (..., m, s[-1]) array
+
+Examples
+--------
+>>> from robonav.networks import Network
+>>> Network(weights=[[[1.0, 1.0]]], biases=[[0.0]]).forward([2.0, -2.0])
+array([0.5])
+"""
+
+HELP["Network.activations"] = """
+Parameters
+----------
+x : (s[0],) or (..., m, s[0]) array
+    One input, or m in rows.
+
+Returns
+-------
+list of arrays
+    One for each layer.
+
+Examples
+--------
+>>> from robonav.networks import Network
+>>> Network(weights=[[[1.0, 1.0]]], biases=[[0.0]]).activations([2.0, -2.0])
+[array([ 2., -2.]), array([0.5])]
+"""
+
+HELP["Network.logits"] = """
+Parameters
+----------
+x : (s[0],) or (..., m, s[0]) array
+    One input, or m in rows.
+
+Returns
+-------
+(s[-1],) or (..., m, s[-1]) array
+
+Examples
+--------
+>>> from robonav.networks import Network
+>>> Network(weights=[[[1.0, 1.0]]], biases=[[0.5]]).logits([3.0, 4.0])
+array([7.5])
+"""
+
+HELP["Network.decide"] = """
+Parameters
+----------
+x : (s[0],) or (..., m, s[0]) array
+    One input, or m in rows.
+
+Returns
+-------
+int or (..., m) array of int
+
+Examples
+--------
+>>> from robonav.networks import Network
+>>> Network(weights=[[[1.0], [-1.0]]], biases=[[0.0, 0.0]]).decide([[2.0], [-2.0]])
+array([0, 1])
+"""
+
 for name, sections in HELP.items():
-    add_sections(getattr(multilayer_perceptron, name), sections)
+    add_sections(attrgetter(name)(multilayer_perceptron), sections)
 
 random_network = checked_random(multilayer_perceptron.random_network)
 squared_error_cost = checked(multilayer_perceptron.squared_error_cost)

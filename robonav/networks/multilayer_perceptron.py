@@ -119,24 +119,24 @@ class Network:
 
     @takes_inputs  # one row or many, as the next two
     def forward(self, x: Array) -> Array:
-        """Outputs h(x) of the network, Eq. (3.2): (..., m, s[-1]) numbers between 0 and 1."""
+        """Outputs h(x) of the network, Eq. (3.2): numbers between 0 and 1."""
         a, _ = propagate(self.weights, self.biases, x)
         return a[-1]  # Eq. (3.2)
 
     @takes_inputs
     def activations(self, x: Array) -> list[Array]:
-        """Return the activations of every layer, the input (s[0],) or (..., m, s[0]) first and the output last."""
+        """Return the activations of every layer, the input first and the output last."""
         a, _ = propagate(self.weights, self.biases, x)
         return a
 
     @takes_inputs
     def logits(self, x: Array) -> Array:
-        """Return the weighted sums z (..., m, s[-1]) of the output layer, before its sigmoid."""
+        """Return the weighted sums z of the output layer, before its sigmoid."""
         _, z = propagate(self.weights, self.biases, x)
         return z
 
     def decide(self, x: ArrayLike) -> NDArray[np.intp]:
-        """Return the largest output unit (..., m) for each input, compared before the sigmoid rounds to 1."""
+        """Return the largest output unit for each input, compared before the sigmoid rounds to 1."""
         return self.logits(x).argmax(axis=-1)
 
 

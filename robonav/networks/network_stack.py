@@ -59,17 +59,71 @@ class NetworkStack(Network):
 
     @takes_inputs
     def forward(self, x: Array) -> Array:
-        """Outputs (..., m, s[-1]) of each network."""
+        """Outputs of each network.
+
+        Parameters
+        ----------
+        x : (..., m, s[0]) array
+            Inputs.
+
+        Returns
+        -------
+        (..., m, s[-1]) array
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.networks import random_network, stacked
+        >>> two = stacked([random_network((3, 2, 1), seed=seed) for seed in (0, 1)])
+        >>> two.forward(np.ones((2, 4, 3))).shape
+        (2, 4, 1)
+        """
         return propagate_stack(self.weights, self.biases, x)[0][-1]
 
     @takes_inputs
     def activations(self, x: Array) -> list[Array]:
-        """Return the activations of every layer of each network, the input first and the output last."""
+        """Return the activations of every layer of each network, the input first and the output last.
+
+        Parameters
+        ----------
+        x : (..., m, s[0]) array
+            Inputs.
+
+        Returns
+        -------
+        list of (..., m, s[l]) arrays
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.networks import random_network, stacked
+        >>> two = stacked([random_network((3, 2, 1), seed=seed) for seed in (0, 1)])
+        >>> [layer.shape for layer in two.activations(np.ones((2, 4, 3)))]
+        [(2, 4, 3), (2, 4, 2), (2, 4, 1)]
+        """
         return propagate_stack(self.weights, self.biases, x)[0]
 
     @takes_inputs
     def logits(self, x: Array) -> Array:
-        """Return the weighted sums z (..., m, s[-1]) of each network's output layer, before its sigmoid."""
+        """Return the weighted sums z of each network's output layer, before its sigmoid.
+
+        Parameters
+        ----------
+        x : (..., m, s[0]) array
+            Inputs.
+
+        Returns
+        -------
+        (..., m, s[-1]) array
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.networks import random_network, stacked
+        >>> two = stacked([random_network((3, 2, 1), seed=seed) for seed in (0, 1)])
+        >>> two.logits(np.ones((2, 4, 3))).shape
+        (2, 4, 1)
+        """
         return propagate_stack(self.weights, self.biases, x)[1]
 
 

@@ -56,7 +56,26 @@ class NetworkPolicy:
             )
 
     def logits(self, sensing: Sensing) -> NDArray[np.float64]:
-        """Return the weighted sums (N, A) of the output units. Their sigmoids would round to 1 if they are large."""
+        """Return the weighted sums of the output units. Their sigmoids would round to 1 if they are large.
+
+        Parameters
+        ----------
+        sensing : Sensing
+            What N robots perceive.
+
+        Returns
+        -------
+        (N, A) array
+
+        Examples
+        --------
+        >>> from robonav.networks import NetworkPolicy, random_network
+        >>> from robonav.robot import Encoder, make_world, sense
+        >>> encoder = Encoder()
+        >>> policy = NetworkPolicy(random_network((encoder.size, 8, 5), seed=0), encoder)
+        >>> policy.logits(sense(make_world(), [(50, 50, 0)])).shape
+        (1, 5)
+        """
         return self.network.logits(self.encoder(sensing))
 
     def __call__(self, sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:

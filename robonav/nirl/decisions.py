@@ -93,7 +93,25 @@ class Decisions:
         return np.where(last, -1, following)
 
     def with_actions(self, actions: ArrayLike) -> Decisions:
-        """The same states with other actions (M,), for instance refined ones."""
+        """The same states with other actions, for instance refined ones.
+
+        Parameters
+        ----------
+        actions : (M,) array of int
+            The other actions.
+
+        Returns
+        -------
+        Decisions
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nirl import Decisions
+        >>> zero = np.zeros(1, dtype=int)
+        >>> Decisions(np.array([[2.0]]), zero, zero, zero, zero, zero).with_actions([3]).actions
+        array([3])
+        """
         return replace(
             self,
             actions=check_array("actions", actions, shape=(len(self),), dtype=np.int64),

@@ -253,7 +253,38 @@ class ReplaySGD:
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        """The network after ``n_samples`` steps of :func:`sarsa_descent`, by its compiled twin."""
+        """The network after ``n_samples`` steps of :func:`sarsa_descent`, by its compiled twin.
+
+        Parameters
+        ----------
+        network : Network
+            The network that is trained.
+        decisions : Decisions
+            The decisions of the replay memory.
+        rewards : (M,) array
+            The reward of each of the M decisions.
+        fraction : float
+            How much of the training is over, from 0 to 1; the step size falls with it.
+        rng : numpy.random.Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        Improved
+            The network, and the mean cost of the samples.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.networks import random_network
+        >>> from robonav.nirl import ReplaySGD, TabularTask, terrain
+        >>> task, rng = TabularTask(terrain()[1]), np.random.default_rng(0)
+        >>> decisions = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+        >>> network = random_network((task.n_inputs, 5, 4), seed=0)
+        >>> rewards = np.zeros(len(decisions))
+        >>> ReplaySGD().descend(network, decisions, rewards, 0.0, rng).network.sizes
+        (42, 5, 4)
+        """
         if len(decisions) == 0:
             return Improved(network, np.nan)
         collided = decisions.collided[decisions.trajectory]
@@ -340,7 +371,38 @@ class FullBatchDescent:
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        """The network after ``n_steps`` steps against the gradient, and its cost before them."""
+        """The network after ``n_steps`` steps against the gradient, and its cost before them.
+
+        Parameters
+        ----------
+        network : Network
+            The network that is trained.
+        decisions : Decisions
+            The decisions of the last iteration.
+        rewards : (M,) array
+            The reward of each of the M decisions.
+        fraction : float
+            How much of the training is over. Not used.
+        rng : numpy.random.Generator
+            Of random numbers. Not used.
+
+        Returns
+        -------
+        Improved
+            The network, and its cost before the steps.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.networks import random_network
+        >>> from robonav.nirl import FullBatchDescent, TabularTask, terrain
+        >>> task, rng = TabularTask(terrain()[1]), np.random.default_rng(0)
+        >>> decisions = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+        >>> network = random_network((task.n_inputs, 5, 4), seed=0)
+        >>> rewards = np.zeros(len(decisions))
+        >>> FullBatchDescent().descend(network, decisions, rewards, 0.0, rng).network.sizes
+        (42, 5, 4)
+        """
         if len(decisions) == 0:
             return Improved(network, np.nan)
         inputs, actions = decisions.inputs, decisions.actions

@@ -75,10 +75,31 @@ class RewardFreeMDP:
     def of_grid(
         cls, grid: GridWorld, cell_features: ArrayLike, discount: float
     ) -> RewardFreeMDP:
-        """A gridworld with features phi(s') (S, K) of the cell that a step ends in.
+        """A gridworld with features phi(s') of the cell that a step ends in.
 
         f(s, a) = sum_s' T(s, a, s') phi(s'): the expectation over the cells that a step may end in. A terminal cell
         counts when it is reached, and not afterwards.
+
+        Parameters
+        ----------
+        grid : GridWorld
+            The grid, whose rewards are not used.
+        cell_features : (S, K) array
+            phi.
+        discount : float
+            gamma, in [0, 1].
+
+        Returns
+        -------
+        RewardFreeMDP
+
+        Examples
+        --------
+        >>> from robonav.mdp import GridWorld
+        >>> from robonav.nirl import RewardFreeMDP
+        >>> mdp = RewardFreeMDP.of_grid(GridWorld("S G"), [[0.0], [1.0]], discount=0.9)
+        >>> mdp.features[0, :, 0]  # only the step to the right ends on the goal
+        array([0., 1., 0., 0.])
         """
         phi = check_array("cell_features", cell_features, shape=(grid.n_states, "K"))
         transitions = np.stack(
@@ -113,6 +134,18 @@ class RewardFreeMDP:
         ----------
         weights : (K,) array
             theta.
+
+        Returns
+        -------
+        FiniteMDP
+
+        Examples
+        --------
+        >>> from robonav.mdp import GridWorld
+        >>> from robonav.nirl import RewardFreeMDP
+        >>> mdp = RewardFreeMDP.of_grid(GridWorld("S G"), [[0.0], [1.0]], discount=0.9)
+        >>> mdp.with_reward([5.0]).rewards[0]
+        array([0., 5., 0., 0.])
         """
         theta = np.asarray(weights, dtype=float)
         rewards = self.features @ theta  # Eq. (5.2)
@@ -139,6 +172,18 @@ class RewardFreeMDP:
             Of the random numbers.
         first : (N,) array of int, optional
             The first states; by default they are drawn from ``starts``.
+
+        Returns
+        -------
+        Trajectories
+
+        Examples
+        --------
+        >>> from robonav.mdp import GridWorld
+        >>> from robonav.nirl import RewardFreeMDP
+        >>> mdp = RewardFreeMDP.of_grid(GridWorld("S G"), [[0.0], [1.0]], discount=0.9)
+        >>> mdp.rollout([1, 1], n_episodes=1, n_steps=3, seed=0).states  # always to the right
+        array([[0, 1, 1]])
         """
         rng = check_generator("seed", seed)
         n = check_integer("n_episodes", n_episodes, at_least=0)

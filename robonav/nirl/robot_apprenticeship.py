@@ -132,10 +132,21 @@ def apprenticeship(
     n_rewards : int
         Rewards to guess at most. The ``iterations`` are divided equally among them, and the network keeps its weights
         from one reward to the next.
-    iterations, hidden, inverse_temperature, score, seed, progress
-        As in :func:`nirl`.
+    iterations : int
+        Iterations at most.
+    hidden : int
+        Hidden units of the network.
+    inverse_temperature : float
+        eta of the Boltzmann policy, Eq. (5.10), over the network's outputs. These lie between 0 and 1.
     improver : ReplaySGD
         Improves the network; its discount is that of the feature expectations.
+    score : callable
+        Measures how well a policy predicts the demonstrations: :func:`balanced_accuracy`, or the thesis's
+        :func:`accuracy`.
+    seed : int or Generator
+        Seed of all random numbers.
+    progress : callable, optional
+        Called as ``progress(done, iterations)``.
 
     Returns
     -------

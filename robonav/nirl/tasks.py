@@ -50,7 +50,27 @@ class Task(Protocol):
     def rollout(
         self, policy: ActionProbabilities, rng: np.random.Generator
     ) -> Decisions:
-        """A few episodes with a policy, each from a new start."""
+        """A few episodes with a policy, each from a new start.
+
+        Parameters
+        ----------
+        policy : callable
+            ``policy(inputs)`` returns the probabilities (M, A) of the actions.
+        rng : numpy.random.Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        Decisions
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nirl import TabularTask, terrain
+        >>> task, rng = TabularTask(terrain()[1], n_episodes=2, max_steps=3), np.random.default_rng(0)
+        >>> len(task.rollout(lambda inputs: np.full((len(inputs), 4), 0.25), rng))
+        6
+        """
 
     def rollout_from(
         self,
@@ -60,10 +80,56 @@ class Task(Protocol):
         n_decisions: int,
         rng: np.random.Generator,
     ) -> Decisions:
-        """Segments of ``n_decisions`` decisions at most, each begun where a demonstrated decision was made."""
+        """Segments of ``n_decisions`` decisions at most, each begun where a demonstrated decision was made.
+
+        Parameters
+        ----------
+        demonstrations : Decisions
+            Decisions of an expert.
+        index : (K,) array of int
+            The decisions where the K segments begin.
+        policy : callable
+            ``policy(inputs)`` returns the probabilities (M, A) of the actions.
+        n_decisions : int
+            Decisions of a segment, at most.
+        rng : numpy.random.Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        Decisions
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nirl import TabularTask, terrain
+        >>> task, rng = TabularTask(terrain()[1]), np.random.default_rng(0)
+        >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+        >>> uniform = lambda inputs: np.full((len(inputs), 4), 0.25)
+        >>> len(task.rollout_from(expert, np.array([0, 2]), uniform, 3, rng))
+        6
+        """
 
     def greedy_policy(self, network: Network) -> Any:
-        """The policy that always takes the action with the largest output of a network."""
+        """The policy that always takes the action with the largest output of a network.
+
+        Parameters
+        ----------
+        network : Network
+            A trained network.
+
+        Returns
+        -------
+        object
+            A policy of the task's own kind.
+
+        Examples
+        --------
+        >>> from robonav.networks import random_network
+        >>> from robonav.nirl import TabularTask, terrain
+        >>> TabularTask(terrain()[1]).greedy_policy(random_network((42, 5, 4), seed=0)).shape
+        (42,)
+        """
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,13 +183,52 @@ class RobotTask:
         return LEARNED
 
     def greedy_policy(self, network: Network) -> NetworkPolicy:
-        """The network as a policy that :func:`robonav.robot.navigate` takes."""
+        """The network as a policy that :func:`robonav.robot.navigate` takes.
+
+        Parameters
+        ----------
+        network : Network
+            A trained network.
+
+        Returns
+        -------
+        NetworkPolicy
+
+        Examples
+        --------
+        >>> from robonav.networks import random_network
+        >>> from robonav.nirl import RobotTask
+        >>> task = RobotTask()
+        >>> task.greedy_policy(random_network((task.n_inputs, 5, task.n_actions), seed=0)).network.sizes
+        (17, 5, 5)
+        """
         return NetworkPolicy(network, self.encoder)
 
     def rollout(
         self, policy: ActionProbabilities, rng: np.random.Generator
     ) -> Decisions:
-        """``n_episodes`` episodes, each in a new map."""
+        """``n_episodes`` episodes, each in a new map.
+
+        Parameters
+        ----------
+        policy : callable
+            ``policy(inputs)`` returns the probabilities (M, A) of the actions.
+        rng : numpy.random.Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        Decisions
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nirl import RobotTask
+        >>> task, rng = RobotTask(obstacles=20, n_episodes=2), np.random.default_rng(0)
+        >>> uniform = lambda inputs: np.full((len(inputs), task.n_actions), 1 / task.n_actions)
+        >>> len(task.rollout(uniform, rng).collided)
+        2
+        """
         worlds = random_worlds(self.n_episodes, self.obstacles, self.moving, seed=rng)
         simulator = Simulator(worlds, self.speed, max_steps=self.max_steps)
         return collect(simulator, policy, self.encoder, rng, reflex=self.reflex)
@@ -136,7 +241,37 @@ class RobotTask:
         n_decisions: int,
         rng: np.random.Generator,
     ) -> Decisions:
-        """Segments begun at the poses of demonstrated decisions; obstacles stand where they start."""
+        """Segments begun at the poses of demonstrated decisions; obstacles stand where they start.
+
+        Parameters
+        ----------
+        demonstrations : Decisions
+            Decisions of an expert, with the robot's states.
+        index : (K,) array of int
+            The decisions where the K segments begin.
+        policy : callable
+            ``policy(inputs)`` returns the probabilities (M, A) of the actions.
+        n_decisions : int
+            Decisions of a segment, at most.
+        rng : numpy.random.Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        Decisions
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.lfd import demonstrate
+        >>> from robonav.nirl import RobotTask, expert_decisions
+        >>> from robonav.robot import random_worlds
+        >>> expert = expert_decisions(demonstrate(random_worlds(2, obstacles=20, seed=3)))
+        >>> task, rng = RobotTask(), np.random.default_rng(0)
+        >>> uniform = lambda inputs: np.full((len(inputs), task.n_actions), 1 / task.n_actions)
+        >>> len(task.rollout_from(expert, np.array([0, 1]), uniform, 1, rng))
+        2
+        """
         states = demonstrations.states
         if states is None:
             raise ValueError("demonstrations must hold the robot's states, got none")
@@ -229,13 +364,50 @@ class TabularTask:
         return self.mdp.n_actions
 
     def greedy_policy(self, network: Network) -> NDArray[np.intp]:
-        """The best action (S,) of each state."""
+        """The best action of each state.
+
+        Parameters
+        ----------
+        network : Network
+            A trained network.
+
+        Returns
+        -------
+        (S,) array of int
+
+        Examples
+        --------
+        >>> from robonav.networks import random_network
+        >>> from robonav.nirl import TabularTask, terrain
+        >>> TabularTask(terrain()[1]).greedy_policy(random_network((42, 5, 4), seed=0)).shape
+        (42,)
+        """
         return network.decide(np.eye(self.mdp.n_states))
 
     def rollout(
         self, policy: ActionProbabilities, rng: np.random.Generator
     ) -> Decisions:
-        """``n_episodes`` episodes from the initial state."""
+        """``n_episodes`` episodes from the initial state.
+
+        Parameters
+        ----------
+        policy : callable
+            ``policy(inputs)`` returns the probabilities (S, A) of the actions.
+        rng : numpy.random.Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        Decisions
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nirl import TabularTask, terrain
+        >>> task, rng = TabularTask(terrain()[1], n_episodes=2, max_steps=3), np.random.default_rng(0)
+        >>> len(task.rollout(lambda inputs: np.full((len(inputs), 4), 0.25), rng))
+        6
+        """
         probabilities = policy(np.eye(self.mdp.n_states))
         return self.demonstrate(probabilities, self.n_episodes, seed=rng)
 
@@ -247,7 +419,35 @@ class TabularTask:
         n_decisions: int,
         rng: np.random.Generator,
     ) -> Decisions:
-        """Segments begun in the states of demonstrated decisions."""
+        """Segments begun in the states of demonstrated decisions.
+
+        Parameters
+        ----------
+        demonstrations : Decisions
+            Decisions of an expert.
+        index : (K,) array of int
+            The decisions where the K segments begin.
+        policy : callable
+            ``policy(inputs)`` returns the probabilities (S, A) of the actions.
+        n_decisions : int
+            Decisions of a segment, at most.
+        rng : numpy.random.Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        Decisions
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nirl import TabularTask, terrain
+        >>> task, rng = TabularTask(terrain()[1]), np.random.default_rng(0)
+        >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+        >>> uniform = lambda inputs: np.full((len(inputs), 4), 0.25)
+        >>> len(task.rollout_from(expert, np.array([0, 2]), uniform, 3, rng))
+        6
+        """
         first = demonstrations.inputs[index].argmax(axis=1)
         probabilities = policy(np.eye(self.mdp.n_states))
         n = len(first)
@@ -258,7 +458,29 @@ class TabularTask:
     def demonstrate(
         self, policy: ArrayLike, n_episodes: int, *, seed: int | np.random.Generator
     ) -> Decisions:
-        """Episodes with a known policy, (S,) actions or (S, A) probabilities, for instance an expert's."""
+        """Episodes with a known policy, for instance an expert's.
+
+        Parameters
+        ----------
+        policy : (S,) array of int or (S, A) array
+            Actions or probabilities.
+        n_episodes : int
+            How many episodes.
+        seed : int or Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        Decisions
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nirl import TabularTask, terrain
+        >>> task = TabularTask(terrain()[1], max_steps=5)
+        >>> len(task.demonstrate(np.zeros(42, dtype=int), 2, seed=0))
+        10
+        """
         return self._decisions(
             self.mdp.rollout(policy, n_episodes, self.max_steps, seed=seed)
         )

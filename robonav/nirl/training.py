@@ -163,7 +163,35 @@ class IRLRecorder:
     def add(
         self, episodes: Decisions, theta: Floats, network: Network, cost: float
     ) -> None:
-        """Record an iteration: its episodes, its reward, the network after it, and the cost."""
+        """Record an iteration: its episodes, its reward, the network after it, and the cost.
+
+        Parameters
+        ----------
+        episodes : Decisions
+            The episodes of the iteration.
+        theta : (A, k + 1) array
+            Its reward weights.
+        network : Network
+            The network after it.
+        cost : float
+            The cost of the network.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.networks import random_network
+        >>> from robonav.nirl import TabularTask, terrain
+        >>> from robonav.nirl.training import IRLRecorder
+        >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
+        >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+        >>> counts = []
+        >>> def progress(done, all_of_them):
+        ...     counts.append((done, all_of_them))
+        >>> recorder = IRLRecorder(expert, task, network, 25.0, iterations=1, progress=progress)
+        >>> recorder.add(expert, np.zeros((4, 43)), network, cost=0.7)
+        >>> counts
+        [(1, 1)]
+        """
         policy = exploring_policy(self._networks[-1], self._inverse_temperature)
         probabilities = policy(self._demonstrations.inputs)
         self._margins.append(expert_margin(self._demonstrations, probabilities, theta))
@@ -175,7 +203,30 @@ class IRLRecorder:
             self._progress(len(self._costs), self._iterations)
 
     def result(self, score: Score) -> IRLResult:
-        """The network that predicts the demonstrations best, and the history."""
+        """The network that predicts the demonstrations best, and the history.
+
+        Parameters
+        ----------
+        score : callable
+            ``score(predicted, actions)``, such as :func:`accuracy`.
+
+        Returns
+        -------
+        IRLResult
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.networks import random_network
+        >>> from robonav.nirl import TabularTask, accuracy, terrain
+        >>> from robonav.nirl.training import IRLRecorder
+        >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
+        >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+        >>> recorder = IRLRecorder(expert, task, network, inverse_temperature=25.0, iterations=1)
+        >>> recorder.add(expert, np.zeros((4, 43)), network, cost=0.7)
+        >>> recorder.result(accuracy).history.costs
+        array([0.7])
+        """
         expert = self._demonstrations
         predictions = [greedy_actions(net, expert.inputs) for net in self._networks]
         scores = [score(predicted, expert.actions) for predicted in predictions]

@@ -320,7 +320,9 @@ class Batch:
 
 
 class ReplayBuffer:
-    """All transitions made so far. (A ``collections.deque(maxlen=...)`` in place of the list would drop the oldest.)
+    """All transitions made so far.
+
+    A ``collections.deque(maxlen=...)`` in place of the list would drop the oldest.
 
     Examples
     --------
@@ -349,16 +351,75 @@ class ReplayBuffer:
         next_state: NDArray[np.float64],
         terminal: bool,
     ) -> None:
-        """Keep one transition."""
+        """Keep one transition.
+
+        Parameters
+        ----------
+        state : (k,) array
+            s.
+        action : int
+            a.
+        reward : float
+            r.
+        next_state : (k,) array
+            s'.
+        terminal : bool
+            Whether the episode ended in s', so that nothing follows.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nnql import ReplayBuffer
+        >>> buffer = ReplayBuffer()
+        >>> for reward in (0.0, 1.0):
+        ...     buffer.append(np.zeros(2), 0, reward, np.ones(2), False)
+        >>> len(buffer)
+        2
+        """
         before, after = np.asarray(state, float), np.asarray(next_state, float)
         self._transitions.append((before, action, float(reward), after, terminal))
 
     def all(self) -> Batch:
-        """Every transition, in the order in which they were made."""
+        """Every transition, in the order in which they were made.
+
+        Returns
+        -------
+        Batch
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nnql import ReplayBuffer
+        >>> buffer = ReplayBuffer()
+        >>> buffer.append(np.zeros(2), 1, 0.5, np.ones(2), True)
+        >>> buffer.all().terminal
+        tensor([True])
+        """
         return self._at(range(len(self)))
 
     def sample(self, size: int, rng: np.random.Generator) -> Batch:
-        """Transitions drawn at random, with replacement."""
+        """Transitions drawn at random, with replacement.
+
+        Parameters
+        ----------
+        size : int
+            How many.
+        rng : numpy.random.Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        Batch
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nnql import ReplayBuffer
+        >>> buffer = ReplayBuffer()
+        >>> buffer.append(np.zeros(2), 1, 0.5, np.ones(2), True)
+        >>> buffer.sample(3, np.random.default_rng(0)).actions
+        tensor([1, 1, 1])
+        """
         return self._at(rng.integers(len(self), size=size))
 
     def _at(self, indices: range | NDArray[np.int64]) -> Batch:

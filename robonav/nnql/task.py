@@ -130,7 +130,25 @@ class NavigationTask:
             check_integer("maps", self.maps, at_least=1)
 
     def worlds(self, seeds: Sequence[int], first: int, last: int) -> Worlds:
-        """The worlds of episodes ``first`` to ``last - 1`` of each seed, one seed after the other."""
+        """The worlds of episodes ``first`` to ``last - 1`` of each seed, one seed after the other.
+
+        Parameters
+        ----------
+        seeds : sequence of int
+            Seeds of trainings.
+        first, last : int
+            The first episode, and the one after the last.
+
+        Returns
+        -------
+        Worlds
+
+        Examples
+        --------
+        >>> from robonav.nnql import NavigationTask
+        >>> len(NavigationTask().worlds([0, 1], first=0, last=3))
+        6
+        """
         episodes = np.arange(first, last) % (self.maps or last)
         keys = [
             world_keys(last, int(make_rng(seed, WORLDS).integers(2**63)))[episodes]
@@ -141,7 +159,18 @@ class NavigationTask:
         )
 
     def environment(self) -> TrainingEnv:
-        """The task as a Gymnasium environment with encoded observations and the five actions that are learned."""
+        """The task as a Gymnasium environment with encoded observations and the five actions that are learned.
+
+        Returns
+        -------
+        TrainingEnv
+
+        Examples
+        --------
+        >>> from robonav.nnql import NavigationTask
+        >>> NavigationTask().environment().observation_space.shape
+        (16,)
+        """
         return TrainingEnv(self)
 
 

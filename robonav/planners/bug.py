@@ -48,7 +48,23 @@ class BugMemory:
 
     @staticmethod
     def empty(n: int) -> BugMemory:
-        """Return the memory of N robots at the start of an episode."""
+        """Return the memory of N robots at the start of an episode.
+
+        Parameters
+        ----------
+        n : int
+            N.
+
+        Returns
+        -------
+        BugMemory
+
+        Examples
+        --------
+        >>> from robonav.planners import BugMemory
+        >>> BugMemory.empty(2).least
+        array([inf, inf])
+        """
         return BugMemory(np.zeros(n, dtype=np.int64), np.full(n, np.inf))
 
 
@@ -247,7 +263,29 @@ class Bug:
         check_positive("sight", self.sight)
 
     def begin(self, simulator: Simulator, rng: np.random.Generator) -> Chooser:
-        """Return what chooses the actions of the robots of a simulator, and remembers their episodes."""
+        """Return what chooses the actions of the robots of a simulator, and remembers their episodes.
+
+        Parameters
+        ----------
+        simulator : Simulator
+            Its N robots are driven.
+        rng : numpy.random.Generator
+            Of random numbers. Not used.
+
+        Returns
+        -------
+        callable
+            ``choose(simulator, sensing, robots)`` returns actions.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.planners import Bug
+        >>> from robonav.robot import Simulator, random_worlds
+        >>> simulator, rng = Simulator(random_worlds(2, seed=1)), np.random.default_rng(0)
+        >>> Bug().begin(simulator, rng)(simulator, simulator.sense(), np.arange(2))
+        array([0, 0])
+        """
         n = len(simulator)
         kept, asked = BugMemory.empty(n), np.full(n, -1)
 

@@ -45,7 +45,29 @@ class KnownMap:
         check_real("caution", self.caution, at_least=0)
 
     def begin(self, simulator: Simulator, rng: np.random.Generator) -> Chooser:
-        """Return what chooses the actions of the robots of a simulator."""
+        """Return what chooses the actions of the robots of a simulator.
+
+        Parameters
+        ----------
+        simulator : Simulator
+            Its N robots are driven.
+        rng : numpy.random.Generator
+            Of random numbers. Not used.
+
+        Returns
+        -------
+        callable
+            ``choose(simulator, sensing, robots)`` returns actions.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.planners import KnownMap
+        >>> from robonav.robot import Simulator, random_worlds
+        >>> simulator, rng = Simulator(random_worlds(2, seed=1)), np.random.default_rng(0)
+        >>> KnownMap().begin(simulator, rng)(simulator, simulator.sense(), np.arange(2))
+        array([1, 1])
+        """
         expert = ComputerExpert(self.margin, self.caution)
 
         def choose(

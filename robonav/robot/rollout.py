@@ -51,7 +51,32 @@ class PolicyWithMemory(Protocol):
     """
 
     def begin(self, simulator: Simulator, rng: np.random.Generator) -> Chooser:
-        """Return a chooser for the robots of a simulator, whose episodes begin."""
+        """Return a chooser for the robots of a simulator, whose episodes begin.
+
+        Parameters
+        ----------
+        simulator : Simulator
+            Its N robots are driven.
+        rng : numpy.random.Generator
+            Of the random numbers.
+
+        Returns
+        -------
+        callable
+            ``choose(simulator, sensing, robots)`` returns the actions (K,) of the robots ``robots`` (K,).
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.robot import Simulator, follow_policy, random_worlds, straight
+        >>> class Straight:
+        ...     def begin(self, simulator, rng):
+        ...         return follow_policy(straight, rng)
+        >>> simulator, rng = Simulator(random_worlds(3, seed=1)), np.random.default_rng(0)
+        >>> choose, robots = Straight().begin(simulator, rng), np.array([0, 2])
+        >>> choose(simulator, simulator.sense(robots), robots)
+        array([0, 0])
+        """
 
 
 ReflexRule = Callable[[Sensing, float], NDArray[np.int64]]

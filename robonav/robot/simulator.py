@@ -124,7 +124,23 @@ class Sensing:
 
     @staticmethod
     def empty(n: int) -> Sensing:
-        """Return N rows whose values are still to be filled in."""
+        """Return N rows whose values are still to be filled in.
+
+        Parameters
+        ----------
+        n : int
+            N.
+
+        Returns
+        -------
+        Sensing
+
+        Examples
+        --------
+        >>> from robonav.robot import Sensing
+        >>> Sensing.empty(3).ranges.shape
+        (3, 9)
+        """
         shape = (n, _fast.SENSORS)
         return Sensing(
             np.empty(shape),
@@ -320,7 +336,24 @@ class Simulator:
         return len(self.worlds)
 
     def sense(self, robots: NDArray[np.int64] | None = None) -> Sensing:
-        """What ``robots`` (K,) perceive now; by default all N."""
+        """What robots perceive now.
+
+        Parameters
+        ----------
+        robots : (K,) array of int, optional
+            Their indices; by default all N.
+
+        Returns
+        -------
+        Sensing
+
+        Examples
+        --------
+        >>> from robonav.robot import Simulator, make_world
+        >>> world = make_world(circles=[(50, 58, 2)], start=(50, 50), target=(50, 90))
+        >>> Simulator(world).sense().ranges[0, 0]  # ahead
+        np.float64(6.0)
+        """
         rows = self._rows(robots)
         w, read = self.worlds, Sensing.empty(len(rows))
         _fast.in_threads(
@@ -336,20 +369,30 @@ class Simulator:
 
         Parameters
         ----------
-        commands : (K,) int array
+        commands : (K,) array of int
             What each robot is to do, codes of :class:`Action`.
-        robots : (K,) int64 array, optional
+        robots : (K,) array of int, optional
             Indices of different robots. For all others, time stands still.
 
         Returns
         -------
-        (K,) int64 array
+        (K,) array of int
             What each robot did: ``commands``, or another action where it slipped.
 
         Raises
         ------
         ValueError
             If the commands are not K whole numbers 0 to 7.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.robot import Action, Simulator, make_world
+        >>> simulator = Simulator(make_world(start=(10, 10), target=(10, 90)), speed=2.0)
+        >>> simulator.step(np.array([Action.F]))
+        array([0])
+        >>> simulator.poses.round(3)
+        array([[10.   , 12.   ,  1.571]])
         """
         rows = self._rows(robots)
         fits = (
@@ -373,7 +416,22 @@ class Simulator:
     def second(self, commands: NDArray[np.int64]) -> Sensing:
         """One second for all N robots, as :meth:`step`, and what they perceive then.
 
-        ``commands`` are (N,) int64 numbers 0 to 7, which are not checked; those of robots that slip change.
+        Parameters
+        ----------
+        commands : (N,) array of int
+            64-bit numbers 0 to 7, which are not checked; those of robots that slip change.
+
+        Returns
+        -------
+        Sensing
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.robot import Simulator, make_world
+        >>> world = make_world(circles=[(50, 58, 2)], start=(50, 50), target=(50, 90))
+        >>> Simulator(world, speed=2.0).second(np.array([0])).ranges[0, 0]  # two metres nearer
+        np.float64(4.0)
         """
         w, read = self.worlds, Sensing.empty(len(self))
         _fast.in_threads(
@@ -384,7 +442,22 @@ class Simulator:
         return read
 
     def stop(self, robots: NDArray[np.int64]) -> None:
-        """End the episodes of ``robots`` (K,) that still run; their outcome is "out of steps"."""
+        """End the episodes of robots that still run; their outcome is "out of steps".
+
+        Parameters
+        ----------
+        robots : (K,) array of int
+            Their indices.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.robot import Outcome, Simulator, random_worlds
+        >>> simulator = Simulator(random_worlds(2, seed=1))
+        >>> simulator.stop(np.array([1]))
+        >>> [Outcome(code).name for code in simulator.outcome]
+        ['RUNNING', 'OUT_OF_STEPS']
+        """
         rows = self._rows(robots)
         self.outcome[rows[self.outcome[rows] == RUNNING]] = OUT_OF_STEPS
 
@@ -398,9 +471,31 @@ class Simulator:
         return rows
 
     def restart(self, index: NDArray[np.int64], worlds: Worlds) -> None:
-        """Put the robots ``index`` (K,) at the start of K new worlds.
+        """Put robots at the start of new worlds.
 
         The new worlds may have no more obstacle slots than the old ones, and the same map size.
+
+        Parameters
+        ----------
+        index : (K,) array of int
+            The robots' indices.
+        worlds : Worlds
+            K worlds.
+
+        Raises
+        ------
+        ValueError
+            If the map size is another one.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.robot import Simulator, random_worlds
+        >>> simulator = Simulator(random_worlds(2, seed=1))
+        >>> _ = simulator.step(np.zeros(2, dtype=int))
+        >>> simulator.restart(np.array([1]), random_worlds(1, seed=2))
+        >>> simulator.steps
+        array([1, 0])
         """
         if worlds.size != self.worlds.size:
             raise ValueError(

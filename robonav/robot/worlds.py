@@ -47,7 +47,7 @@ class Worlds:
         Of moving obstacles, in m/s and radians. An obstacle of speed 0 stands still.
     starts, targets : (N, 2) array
         Of the robot, in metres.
-    keys : (N, 2) array of 32-bit numbers
+    keys : (N, 2) array of uint32
         All that is random during an episode (moving obstacles, noise, slips) depends on these alone.
     size : float
         Side of the map in metres.
@@ -189,7 +189,24 @@ class Worlds:
         return self.kinds.shape[1]
 
     def with_slots(self, slots: int) -> Worlds:
-        """Return the same worlds with empty obstacle slots added, ``slots`` in all."""
+        """Return the same worlds with empty obstacle slots added.
+
+        Parameters
+        ----------
+        slots : int
+            How many slots there are then.
+
+        Returns
+        -------
+        Worlds
+
+        Examples
+        --------
+        >>> from robonav.robot import random_worlds
+        >>> random_worlds(2, obstacles=3, seed=1).with_slots(5).kinds
+        array([[1, 2, 1, 0, 0],
+               [1, 2, 1, 0, 0]], dtype=int8)
+        """
         more = slots - self.slots
         if more == 0:
             return self
@@ -204,7 +221,23 @@ class Worlds:
         return padded
 
     def put(self, index: NDArray[np.int64], worlds: Worlds) -> None:
-        """Replace the worlds ``index`` (K,) of this batch, in place, by K others with as many slots."""
+        """Replace some worlds of this batch, in place, by others with as many slots.
+
+        Parameters
+        ----------
+        index : (K,) array of int
+            Which worlds.
+        worlds : Worlds
+            K other worlds.
+
+        Examples
+        --------
+        >>> from robonav.robot import random_worlds
+        >>> worlds, others = random_worlds(3, seed=1), random_worlds(1, seed=2)
+        >>> worlds.put([2], others)
+        >>> worlds[2].digest() == others.digest()
+        True
+        """
         for field in fields(self):
             if field.name != "size":
                 getattr(self, field.name)[index] = getattr(worlds, field.name)
@@ -219,7 +252,18 @@ class Worlds:
         return np.column_stack([self.starts, bearing])
 
     def digest(self) -> str:
-        """Return the SHA-256 of the worlds, rounded to a micrometre; equal worlds give equal digests on any machine."""
+        """Return the SHA-256 of the worlds, rounded to a micrometre; equal worlds give equal digests on any machine.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> from robonav.robot import random_worlds
+        >>> random_worlds(2, seed=1).digest()[:8]
+        '48092f20'
+        """
         lengths = (
             self.shapes,
             self.centres,
@@ -294,7 +338,7 @@ def world_keys(n: int, seed: int) -> NDArray[np.uint32]:
 
     Returns
     -------
-    (n, 2) array of 32-bit numbers
+    (n, 2) array of uint32
 
     Examples
     --------
@@ -424,7 +468,7 @@ def draw_worlds(
 
     Parameters
     ----------
-    keys : (N, 2) array of 32-bit numbers
+    keys : (N, 2) array of uint32
         One a world, see :func:`world_keys`.
     obstacles : int
         Obstacles that stand still, 0 or more.

@@ -6,9 +6,13 @@ import ast
 import importlib
 import inspect
 import pkgutil
+import re
+from collections.abc import Iterator
 from dataclasses import fields
+from enum import Enum
+from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import gymnasium
 import pytest
@@ -18,8 +22,6 @@ from numpydoc.validate import validate
 
 import robonav
 from robonav.cli import app
-
-PUBLIC = ("mdp", "robot", "networks", "lfd", "nnql", "nirl", "planners")
 
 # Each call: its first parameters, in order, as they may be given by position. More may follow as keywords.
 CALLS = {
@@ -139,54 +141,108 @@ def test_version() -> None:
     )
 
 
-def public_callables(package: str) -> list[tuple[str, Any]]:
-    module = importlib.import_module(f"robonav.{package}")
-    named = [(name, getattr(module, name)) for name in module.__all__]
+def public_packages() -> list[str]:
+    """The packages, none of them private, that name what is public in ``__all__``."""
+    walked = pkgutil.walk_packages(robonav.__path__, "robonav.")
+    public = [m.name for m in walked if m.ispkg and "._" not in m.name]
     return [
-        (name, thing)
-        for name, thing in named
-        if getattr(thing, "__module__", "").startswith("robonav.")
-        and (inspect.isclass(thing) or inspect.isroutine(thing))
+        name for name in public if hasattr(importlib.import_module(name), "__all__")
     ]
 
 
-def without_example(package: str) -> list[str]:
-    """The public functions and classes of a package whose docstring has no example that runs."""
-    return [
-        name
-        for name, thing in public_callables(package)
-        if "Examples\n" not in (doc := inspect.getdoc(thing) or "") or ">>> " not in doc
-    ]
+def public_callables(package: str) -> dict[str, Any]:
+    """The functions, classes and methods that a package offers, by their whole names."""
+    here, found = importlib.import_module(package), {}
+    for name in here.__all__:
+        thing = getattr(here, name)
+        if getattr(thing, "__module__", "").startswith("robonav."):
+            if inspect.isroutine(thing) or inspect.isclass(thing):
+                found[f"{package}.{name}"] = thing
+            for part, method in vars(thing).items() if inspect.isclass(thing) else ():
+                bare = getattr(method, "__func__", method)
+                if inspect.isfunction(bare) and not part.startswith("_"):
+                    found[f"{package}.{name}.{part}"] = bare
+    return found
 
 
-@pytest.mark.parametrize("package", PUBLIC)
-def test_every_public_name_has_an_example(package: str) -> None:
-    assert without_example(package) == []
+# numpydoc's names for: a parameter that does not exist, the wrong order of parameters, one without a type, no section
+# on what is returned, more than the type on its first line, the wrong order of sections, a summary that does not end
+# with a period, no section of examples
+DOCSTRING_FAULTS = {"PR02", "PR03", "PR04", "RT01", "RT02", "GL07", "SS03", "EX01"}
 
 
-# numpydoc's names for: a parameter not documented, one that does not exist, the wrong order of parameters, one without
-# a type, no section on what is returned, the wrong order of sections
-DOCSTRING_FAULTS = {"PR01", "PR02", "PR03", "PR04", "RT01", "GL07"}
+def docstring_faults(name: str, thing: Any) -> Iterator[str]:
+    """Yield what numpydoc, or this project, has against a docstring."""
+    for code, text in validate(name)["errors"]:
+        if code in DOCSTRING_FAULTS:
+            yield f"{name}: {text}"
+    docstring = inspect.getdoc(thing) or ""
+    if ">>> " not in docstring:
+        yield f"{name}: no example that runs"
+    for parameter in undocumented(thing, NumpyDocString(docstring)):
+        yield f"{name}: {parameter} is not documented"
 
 
-def public_functions() -> list[str]:
-    """The functions in ``__all__`` of every package that is not private."""
-    names: dict[Any, str] = {}
-    for module in pkgutil.walk_packages(robonav.__path__, "robonav."):
-        private = any(part.startswith("_") for part in module.name.split("."))
-        if private or not module.ispkg:
-            continue
-        here = importlib.import_module(module.name)
-        for name in getattr(here, "__all__", ()):
-            if inspect.isfunction(getattr(here, name)):
-                names.setdefault(getattr(here, name), f"{module.name}.{name}")
-    return sorted(names.values())
+def undocumented(thing: Any, docstring: NumpyDocString) -> set[str]:
+    """The parameters that a docstring leaves out. A dataclass names its fields as attributes."""
+    if inspect.isclass(thing) and issubclass(thing, Enum | Protocol):
+        return set()  # nobody makes one
+    sections = ("Parameters", "Other Parameters", "Attributes")
+    entries = [entry.name for section in sections for entry in docstring[section]]
+    named = {name.strip("* ") for entry in entries for name in entry.split(",")}
+    return set(inspect.signature(thing).parameters) - {"self", "cls"} - named
 
 
-@pytest.mark.parametrize("name", public_functions())
-def test_numpydoc_finds_no_fault_in(name: str) -> None:
-    faults = validate(name)["errors"]
-    assert [text for code, text in faults if code in DOCSTRING_FAULTS] == []
+@pytest.mark.parametrize("package", public_packages())
+def test_numpydoc_finds_no_fault_in(package: str) -> None:
+    faults = [docstring_faults(*named) for named in public_callables(package).items()]
+    assert list(chain(*faults)) == []
+
+
+# The words of a type. A shape stands in parentheses, a choice of strings in braces, and classes have capital letters.
+TYPE_WORDS = re.compile(
+    "arrays?|bools?|bytes|callable|default|dict|floats?|function|ints?|iterable|list|mappings?|matri(x|ces)|module|"
+    "numbers|object|of|optional|or|and|pair|path|probabilities|sequences?|slice|sparse|str|tensor|to|tuple|two|uint32|"
+    r"\d+"
+)
+NOT_A_WORD = re.compile(
+    r"\((?:[^()]|\([^()]*\))*\)|\{[^}]*\}|\"[^\"]*\"|[A-Z]\w*|\w+(?:\.\w+)+"
+)
+
+
+def prose_in(kind: str) -> list[str]:
+    """The words of a type that belong into the description."""
+    words = re.findall(r"[^\s,]+", NOT_A_WORD.sub(" ", kind))
+    return [word for word in words if not TYPE_WORDS.fullmatch(word)]
+
+
+@pytest.mark.parametrize(
+    ("kind", "prose"),
+    [
+        ("float", []),
+        ("(S,) array of ints or (S, A) array of probabilities", []),
+        ('{"shift", "clip"}, optional', []),
+        ("int or numpy.random.Generator", []),
+        ("sequence of (s[l + 1], s[l]) arrays", []),
+        ("largest loss of value", ["largest", "loss", "value"]),
+        ("(S,) the policy", ["the", "policy"]),
+    ],
+)
+def test_prose_in_type(kind: str, prose: list[str]) -> None:
+    assert prose_in(kind) == prose
+
+
+@pytest.mark.parametrize("package", public_packages())
+def test_types_are_types(package: str) -> None:
+    wrong = []
+    for name, thing in public_callables(package).items():
+        sections = NumpyDocString(inspect.getdoc(thing) or "")
+        for section in ("Parameters", "Attributes", "Returns", "Yields"):
+            for entry in sections[section]:
+                typed = bool(entry.type) or entry.name.startswith("*")
+                if not typed or prose_in(entry.type):
+                    wrong.append(f"{name}: {entry.name} : {entry.type}")
+    assert wrong == []
 
 
 def test_errors_and_warnings_are_explained_below_their_names() -> None:
@@ -194,8 +250,10 @@ def test_errors_and_warnings_are_explained_below_their_names() -> None:
     wrong = []
     for path in sorted(Path(robonav.__file__).parent.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            if isinstance(node, ast.FunctionDef | ast.ClassDef):
-                sections = NumpyDocString(ast.get_docstring(node) or "")
+            described = isinstance(node, ast.FunctionDef | ast.ClassDef)
+            docstring = (described and ast.get_docstring(node)) or ""
+            if "Raises\n" in docstring or "Warns\n" in docstring:
+                sections = NumpyDocString(docstring)
                 entries = [*sections["Raises"], *sections["Warns"]]
                 wrong += [
                     f"{path.name}:{node.lineno} {entry.name} : {entry.type}"

@@ -37,6 +37,14 @@ class Paper:
         Printed on each page. It is the seed of its questions, so that the paper can be made again.
     questions : sequence of Drawn
         In the order in which they are printed.
+
+    Examples
+    --------
+    >>> from robonav.drills import DRILLS
+    >>> from robonav.drills.export import Drawn, Paper
+    >>> td_error = DRILLS["td-error"]
+    >>> len(Paper(7, [Drawn(td_error, 1, td_error.question(seed=7))]).questions)
+    1
     """
 
     number: int

@@ -46,6 +46,12 @@ class Request:
         "canvas" or "blackboard", for QTI.
     title : str
         The title of the bank or exam.
+
+    Examples
+    --------
+    >>> from robonav.drills.export import Request
+    >>> Request(format="pdf", chapters=[2], papers=30).seed
+    1
     """
 
     format: str = ""
@@ -77,6 +83,13 @@ class Exported:
         Drills that have too few different questions for so many papers.
     fewer : sequence of str
         Drills that gave fewer questions than were asked for, because they have no more.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from robonav.drills.export import Exported
+    >>> Exported([Path("bank.xml")], papers=1, questions=6, left_out=[], fewer=[]).questions
+    6
     """
 
     paths: Sequence[Path]

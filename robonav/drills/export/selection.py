@@ -32,6 +32,14 @@ class Drawn:
         The question's number among those of its drill, from 1 on.
     question : Question
         The question.
+
+    Examples
+    --------
+    >>> from robonav.drills import DRILLS
+    >>> from robonav.drills.export import Drawn
+    >>> td_error = DRILLS["td-error"]
+    >>> Drawn(td_error, 1, td_error.question(seed=1)).name
+    'td-error-1'
     """
 
     drill: Drill

@@ -165,7 +165,27 @@ class Results:
     def from_rows(
         cls, experiment: Experiment, scale: str, rows: Iterable[Row]
     ) -> Results:
-        """Make results from rows, which :func:`rows_of` returns."""
+        """Make results from rows, which :func:`rows_of` returns.
+
+        Parameters
+        ----------
+        experiment : Experiment
+            The experiment that gave the numbers.
+        scale : str
+            "quick" or "thesis".
+        rows : iterable of tuple
+            Case, seed, metric, step and value of each number.
+
+        Returns
+        -------
+        Results
+
+        Examples
+        --------
+        >>> dice = Experiment("dice", "Dice", [{"sides": 6}], dict, {"quick": 2, "thesis": 2})
+        >>> Results.from_rows(dice, "quick", [(0, 0, "mean", 0, 3.0)]).frame.value.tolist()
+        [3.0]
+        """
         import pandas as pd
 
         return cls(experiment, scale, pd.DataFrame(list(rows), columns=list(COLUMNS)))
@@ -179,21 +199,99 @@ class Results:
         }
 
     def metrics(self, case: int) -> list[str]:
-        """Return the metrics of a case, sorted by name."""
+        """Return the metrics of a case, sorted by name.
+
+        Parameters
+        ----------
+        case : int
+            The case's place among the experiment's cases.
+
+        Returns
+        -------
+        list of str
+
+        Examples
+        --------
+        >>> dice = Experiment("dice", "Dice", [{"sides": 6}], dict, {"quick": 2, "thesis": 2})
+        >>> rows = [(0, 0, "mean", 0, 3.0), (0, 0, "throws", 0, 2.0), (0, 0, "throws", 1, 4.0)]
+        >>> Results.from_rows(dice, "quick", rows).metrics(case=0)
+        ['mean', 'throws']
+        """
         return sorted(metric for place, metric in self._tables if place == case)
 
     def scalars(self, case: int) -> list[str]:
-        """Return the metrics of a case that have one number in each run."""
+        """Return the metrics of a case that have one number in each run.
+
+        Parameters
+        ----------
+        case : int
+            The case's place among the experiment's cases.
+
+        Returns
+        -------
+        list of str
+
+        Examples
+        --------
+        >>> dice = Experiment("dice", "Dice", [{"sides": 6}], dict, {"quick": 2, "thesis": 2})
+        >>> rows = [(0, 0, "mean", 0, 3.0), (0, 0, "throws", 0, 2.0), (0, 0, "throws", 1, 4.0)]
+        >>> Results.from_rows(dice, "quick", rows).scalars(case=0)
+        ['mean']
+        """
         return [m for m in self.metrics(case) if self._tables[case, m].shape[1] == 1]
 
     def values(self, metric: str, case: int) -> NDArray[np.float64]:
-        """Return one row for each seed: (S,) for a metric with one number, (S, T) for one with numbers of T steps."""
+        """Return the values of a metric in one case, one row for each seed.
+
+        Parameters
+        ----------
+        metric : str
+            One of :meth:`metrics`.
+        case : int
+            The case's place among the experiment's cases.
+
+        Returns
+        -------
+        (S,) or (S, T) array
+            One number for each of S seeds, or the numbers of T steps for each.
+
+        Raises
+        ------
+        ValueError
+            If the case has no such metric.
+
+        Examples
+        --------
+        >>> dice = Experiment("dice", "Dice", [{"sides": 6}], dict, {"quick": 2, "thesis": 2})
+        >>> rows = [(0, 0, "throws", 0, 2.0), (0, 0, "throws", 1, 4.0)]
+        >>> Results.from_rows(dice, "quick", rows).values("throws", case=0)
+        array([[2., 4.]])
+        """
         check_one_of("metric", metric, dict.fromkeys(self.metrics(case)))
         table = self._tables[case, metric]
         return table[:, 0] if table.shape[1] == 1 else table
 
     def summary(self, metric: str, case: int) -> Summary:
-        """Return the statistics over the seeds of a case."""
+        """Return the statistics over the seeds of a case.
+
+        Parameters
+        ----------
+        metric : str
+            One of :meth:`scalars`.
+        case : int
+            The case's place among the experiment's cases.
+
+        Returns
+        -------
+        Summary
+
+        Examples
+        --------
+        >>> dice = Experiment("dice", "Dice", [{"sides": 6}], dict, {"quick": 2, "thesis": 2})
+        >>> rows = [(0, 0, "mean", 0, 3.0), (0, 1, "mean", 0, 4.0)]
+        >>> Results.from_rows(dice, "quick", rows).summary("mean", case=0).best
+        4.0
+        """
         return summarise(self.values(metric, case))
 
 
