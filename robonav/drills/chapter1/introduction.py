@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from gymnasium.spaces import MultiDiscrete
 
 from robonav import robot
+from robonav.mdp.discrete_spaces import count
 from robonav.robot.encoding import DANGER_BORDERS, LFD_SENSORS, NNQL_SENSORS
 
 from ..pictures import label, picture, place
 from ..question import Choice, Number, Place, Question
 from ..registry import drill
-from ..runs import Line, some_in_order
+from ..runs import some_in_order
+from .processes import PROCESSES
 
 Rng = np.random.Generator
 
@@ -27,14 +30,14 @@ WAYS = {
         "It follows a line that was painted for it",
         "It goes from one magnet in the floor to the next",
         "It runs along a reflecting strip",
-        "It keeps to a rail, and turns where a switch of the rail was set",
+        "It runs on a rail, and turns where somebody has set a switch",
     ),
     MOBILE: (
         "It chooses its way from what a laser shows",
         "It decides at each moment where to go, by its sonar",
         "It finds its own way with two cameras",
         "It plans its way again when a door is closed",
-        "It was shown no way, and drives to any room that is named to it",
+        "Nobody has shown it a way, and it drives to any room that you name",
     ),
     ARM: (
         "It is bolted to the floor and repeats a programmed motion",
@@ -53,7 +56,7 @@ HABITS = {
         "It goes around an obstacle",
         "A bumper stops it, and then it takes another way",
         "It slows down and passes an obstacle",
-        "It turns round in a corridor that is blocked",
+        "It turns around in a blocked corridor",
     ),
     ARM: (
         "It stops if somebody opens the fence",
@@ -103,7 +106,7 @@ COMPETENCES = {
         "A robot searches an unknown building and decides which corridor to look into first",
         "A robot leaves a room that it knows by heart, to see what lies behind the next door",
         "A robot that learns takes the action with the second best value now and then",
-        "A robot drives first where it will learn most about a garden that nobody has described to it",
+        "A robot in an unknown garden drives first to the place where it will learn most about it",
     ),
     "mapping": (
         "What does this place look like as a whole?",
@@ -207,8 +210,8 @@ GIVEN = {
             "the robot may not move before it has a policy, and it will see only rooms like those that were shown",
             "trials are forbidden, and the robot's rooms look like the expert's",
         ),
-        "Imitation needs an expert and no trials of the robot's own. It holds in states like those "
-        "that the expert visited.",
+        "Imitation needs an expert and no trials of the robot's own. The copied policy holds in "
+        "states like those that the expert visited.",
     ),
     TRIALS: (
         (
@@ -216,16 +219,16 @@ GIVEN = {
             "No expert is at hand",
             "The robot has a shape that nobody has ever driven",
             "There is no record of anybody who did the task",
-            "The robot should become better than anybody who could show it the task, and nobody shows it anything",
+            "The robot should become better than any human driver, and nobody shows it how to drive",
         ),
         (
             "a simulator allows a million collisions, and everybody agrees on what each step is worth",
             "the robot may fail as often as it likes, and it is easy to score what it does",
             "trials cost nothing, and the reward has three lines",
             "the robot practises night after night, and a counter says how well it did",
-            "a step in the simulator takes a microsecond, and what counts can be written as a number",
+            "a step in the simulator takes a microsecond, and the success of a drive can be written as a number",
         ),
-        "Trial and error needs no expert, but a reward that describes the task, and many trials.",
+        "Trial and error needs no expert. It needs a reward that describes the task, and many trials.",
     ),
     INVERSE: (
         (
@@ -240,7 +243,7 @@ GIVEN = {
             "another speed",
             "every reward that was written by hand led to circles; the robot may practise, and should become better "
             "than what it was shown",
-            "the robot may practise; what is wanted is a statement of the aim that can train a robot of another size",
+            "the robot may practise, and its reward should state the aim so that it can train a robot of another size",
             "the robot may practise; the aim should outlive the robot, whose wheels will be replaced by legs",
             "the robot may practise, and nobody can say in numbers what the expert wants; the same aim is to be "
             "reached in a town with other streets",
@@ -251,14 +254,14 @@ GIVEN = {
 WEAKNESS = {
     IMITATION: {
         TRIALS: "There is no expert here whom the robot could imitate.",
-        INVERSE: "A copied policy holds for this robot in such places. It does not state the aim.",
+        INVERSE: "A copied policy holds only for this robot in such places, and it does not state the aim.",
     },
     TRIALS: {
-        IMITATION: "Trial and error needs many trials, and here there can be none.",
+        IMITATION: "Trial and error needs many trials, and none are possible here.",
         INVERSE: "It needs a reward that somebody has written down.",
     },
     INVERSE: {
-        IMITATION: "It needs a reward that is inferred, and then many trials. Here there can be none.",
+        IMITATION: "It infers a reward and then needs many trials. None are possible here.",
         TRIALS: "It infers the reward from demonstrations, and here there are none.",
     },
 }
@@ -292,125 +295,20 @@ def which_way_to_learn(rng: Rng) -> Question:
     )
 
 
-TURNS = {
-    "a robot's step": (
-        Line("The sensors report what is around the robot", ""),
-        Line(
-            "Each reading becomes a degree of danger",
-            "A degree of danger says how near a reading is, so the sensors come first.",
-        ),
-        Line(
-            "The degrees of danger and the target's sector are joined to a state",
-            "The state is put together from the degrees of danger of what was sensed.",
-        ),
-        Line(
-            "The network gives a number for each action",
-            "The network reads the whole state, which comes from the sensors.",
-        ),
-        Line(
-            "The policy chooses an action",
-            "The policy chooses by the network's numbers for the state that was sensed.",
-        ),
-        Line(
-            "The robot turns and goes one step",
-            "The robot moves as the policy has chosen for what it sensed.",
-        ),
-        Line(
-            "It is checked whether the robot has arrived or collided",
-            "Whether it has arrived or collided is known only after the move.",
-        ),
-    ),
-    "learning from demonstration": (
-        Line("Maps are drawn for the demonstrations", ""),
-        Line(
-            "An expert drives through the maps",
-            "There must be maps before somebody can drive in them.",
-        ),
-        Line(
-            "The recorded steps in which the reflex acted are left out",
-            "Steps can be left out only after an expert's drives were recorded.",
-        ),
-        Line(
-            "The pairs of state and action that are left become the rows of two matrices",
-            "The rows are those pairs of the expert's drives in which the expert decided.",
-        ),
-        Line(
-            "A network is trained to give the action of each row",
-            "A network is trained on the expert's pairs, so these come first.",
-        ),
-        Line(
-            "The network drives in maps that nobody has shown",
-            "Only a network that was trained on the expert's pairs can drive.",
-        ),
-        Line(
-            "The share of these maps in which it has arrived is given with its interval",
-            "How often it arrives is counted after it has driven.",
-        ),
-    ),
-    "reinforcement learning": (
-        Line("The robot senses its state", ""),
-        Line(
-            "The network gives the value of each action",
-            "The values are those of the state, so the robot senses it first.",
-        ),
-        Line(
-            "An action is drawn, more probably one with a high value",
-            "The action is drawn by the values of the state.",
-        ),
-        Line(
-            "The robot carries the action out",
-            "An action is carried out after it was drawn for the state.",
-        ),
-        Line(
-            "The robot gets a reward and senses what the action has led to",
-            "A reward follows an action, so the action comes first.",
-        ),
-        Line(
-            "The target is computed: the reward plus the discounted best value there",
-            "The target needs the reward of the action.",
-        ),
-        Line(
-            "The value of the action moves towards the target",
-            "An update needs the reward of the action, so the step comes first.",
-        ),
-    ),
-    "inverse reinforcement learning": (
-        Line("An expert gives demonstrations", ""),
-        Line(
-            "The expert's feature expectations are computed",
-            "They are computed from the expert's demonstrations.",
-        ),
-        Line(
-            "A reward is found under which the expert is better than the robot's policy",
-            "The reward is inferred from the expert's demonstrations, by their features.",
-        ),
-        Line(
-            "The policy is trained with this reward",
-            "The policy is trained with a reward that was inferred from the expert.",
-        ),
-        Line(
-            "The new policy drives",
-            "The policy is new only after it was trained with the inferred reward.",
-        ),
-        Line(
-            "The new policy's feature expectations are computed",
-            "They are computed from episodes that the new policy has driven.",
-        ),
-        Line(
-            "The new policy is compared with the expert, to see whether another reward is needed",
-            "Only a policy that was trained, and has driven, can be compared.",
-        ),
-    ),
-}
+PUT_IN_ORDER = (
+    "These are parts of {}. Put them in order.",
+    "The parts of {} are mixed up here. Put them in order.",
+    "In which order do these parts of {} follow each other?",
+)
 
 
 @drill("introduction", "One round, in order")
 def one_round_in_order(rng: Rng) -> Question:
     """Put the steps of a way to learn in order."""
-    name = str(rng.choice([*TURNS]))
-    asked = some_in_order(rng, TURNS[name], int(rng.integers(4, 6)))
+    name = str(rng.choice([*PROCESSES]))
+    asked = some_in_order(rng, PROCESSES[name], int(rng.integers(4, 6)))
     return Question(
-        f"What belongs to {name}? Put these parts in order.",
+        str(rng.choice(PUT_IN_ORDER)).format(name),
         asked,
         "; ".join(f"{k + 1}. {step}" for k, step in enumerate(asked.steps)) + ".",
     )
@@ -488,9 +386,8 @@ def which_sensor_reports(rng: Rng) -> Question:
             f"Seen from ahead, this sector reaches from ${low}°$ to ${low + 40}°$.",
         )
     return Question(
-        f"The robot's heading is ${heading}°$. A post stands ${dx:g}$ m from it in the direction of x "
-        f"and ${dy:g}$ m in "
-        "the direction of y. Click on the sector whose sensor reports it.",
+        f"The robot's heading is ${heading}°$. A post stands ${dx:g}$ m from it along the x axis "
+        f"and ${dy:g}$ m along the y axis. Click on the sector whose sensor reports it.",
         Place([f"sector {k}" for k in range(1, 10)], [f"sector {sector}"], wrong),
         f"The post lies in the direction ${(heading + bearing) % 360}°$ of the map, and that is "
         f"${bearing}°$ from ahead. "
@@ -505,12 +402,12 @@ def situations_to_list(rng: Rng) -> Question:
     sensors = int(rng.choice([3, 4, 6, 8, len(NNQL_SENSORS), len(LFD_SENSORS)]))
     degrees = int(rng.choice([2, 3, 4, 5, len(DANGER_BORDERS) + 1]))
     sectors = int(rng.choice([4, 6, 9, 12]))
-    answer = int(np.prod([degrees] * sensors, dtype=object)) * sectors
+    answer = count("situations", MultiDiscrete([*[degrees] * sensors, sectors]))
     listed = sensors * degrees * sectors
     return Question(
         f"A robot has {sensors} sensors, and each reports one of {degrees} degrees of danger. The "
         f"target lies in one of "
-        f"{sectors} sectors. In how many situations does a program that lists all of them have to say what to do?",
+        f"{sectors} sectors. A program lists all situations and says what to do in each. How many are there?",
         Number(
             float(answer),
             tolerance=0.5,

@@ -84,7 +84,7 @@ def value_of_a_loop(rng: Rng) -> Question:
     value = mdp.policy_evaluation(model, [0, 0])[0]
     return Question(
         f"In state A each step gives the reward ${reward:g}$. Then the robot stays in A with probability ${stay:g}$, "
-        f"and else the episode ends. What is $V(A)$ with $\\gamma = {discount:g}$?",
+        f"and otherwise the episode ends. What is $V(A)$ with $\\gamma = {discount:g}$?",
         Number(
             value,
             wrong={
@@ -94,7 +94,7 @@ def value_of_a_loop(rng: Rng) -> Question:
                 "This is one step only. After it the robot may be in A again.": reward,
                 "This is two steps. The value counts all later steps, so solve the equation for $V(A)$.": reward
                 * (1 + discount * stay),
-                "The probability of ending stands in the place of the probability of staying.": reward
+                "The probability of ending stands in place of the probability of staying.": reward
                 / (1 - discount * (1 - stay)),
             },
         ),
@@ -108,14 +108,18 @@ def advantages(rng: Rng) -> Question:
     """Compute values and advantages of a policy that chooses at random."""
     q = np.round(rng.uniform(-2, 6, size=2), 1)
     probability = float(rng.choice([0.2, 0.25, 0.4, 0.7]))
-    value = float(np.dot([probability, 1 - probability], q))
+    # state 0 is s, and both of its actions end the episode in state 1
+    model = mdp.FiniteMDP([[[0, 1], [0, 1]]] * 2, [q, [0, 0]], discount=0.9)
+    policy = np.array([[probability, 1 - probability], [1, 0]])
+    value = float(mdp.policy_evaluation(model, policy)[0])
+    of_a, of_b = (float(a) for a in mdp.advantage(model, policy)[0])
     return Question(
         f"A policy takes action a with probability ${probability:g}$ and action b otherwise. "
         f"$Q(s, a) = {q[0]:g}$ and $Q(s, b) = {q[1]:g}$. Fill in the state's value and both advantages.",
         Table(
             ["s"],
             ["V(s)", "A(s, a)", "A(s, b)"],
-            [[value, q[0] - value, q[1] - value]],
+            [[value, of_a, of_b]],
             wrong={
                 "The value of a policy weights the actions by its probabilities; this is the maximum.": [
                     [q.max(), q[0] - q.max(), q[1] - q.max()]
@@ -123,13 +127,11 @@ def advantages(rng: Rng) -> Question:
                 "The actions are not equally probable.": [
                     [q.mean(), q[0] - q.mean(), q[1] - q.mean()]
                 ],
-                "The advantage is $Q - V$, not $V - Q$.": [
-                    [value, value - q[0], value - q[1]]
-                ],
+                "The advantage is $Q - V$, not $V - Q$.": [[value, -of_a, -of_b]],
             },
         ),
         f"$V(s) = {probability:g} \\cdot {q[0]:g} + {1 - probability:g} \\cdot {q[1]:g} = {value:.4g}$. "
-        f"An advantage is $A(s, a) = Q(s, a) - V(s)$: {q[0] - value:.4g} and {q[1] - value:.4g}.",
+        f"An advantage is $A(s, a) = Q(s, a) - V(s)$: {of_a:.4g} and {of_b:.4g}.",
     )
 
 
@@ -177,7 +179,7 @@ def what_the_check_finds(rng: Rng) -> Question | None:
         "none": f"There is a fault: {FAULTS[found][0].lower()}{FAULTS[found][1:]}",
     }
     return Question(
-        f"Two states and one action. From A it leads to A with probability ${first[0]:g}$ and to B "
+        f"A model has two states and one action. From A the action leads to A with probability ${first[0]:g}$ and to B "
         f"with ${first[1]:g}$, "
         f"from B to A with ${second[0]:g}$ and to B with ${second[1]:g}$. The reward is 1 in A and 0 in B, and "
         f"$\\gamma = {discount:g}$. What does the package find when it checks this model?",

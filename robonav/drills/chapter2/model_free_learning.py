@@ -194,12 +194,14 @@ def along_the_edge(rng: Rng) -> Question:
     length, actions = int(rng.integers(3, 16)), int(rng.choice([4, 8]))
     policy = mdp.exploration.epsilon_greedy(np.eye(actions)[0], epsilon)
     down = float(policy[2])
-    answer = 1 - (1 - down) ** length
+    # state 0 is on the way and state 1 over the edge, where the episode ends; the reward counts falls
+    model = mdp.FiniteMDP([[[1 - down, down], [0, 1]]], [[down], [0]], discount=1)
+    answer = float(mdp.finite_horizon_evaluation(model, [0, 0], length)[0])
     return Question(
         f"A robot that learns goes {length} steps along a cliff. In each it takes the greedy action with probability "
         f"$1 - \\varepsilon$ and otherwise any of its {actions} actions with equal probability, and $\\varepsilon = "
-        f"{epsilon:g}$. One of the {actions} leads over the edge. Count no other detours. With which probability does "
-        "it fall on this way?",
+        f"{epsilon:g}$. One of the {actions} leads over the edge. Assume that it makes no other detours. "
+        "With which probability does it fall on the way?",
         Number(
             answer,
             wrong={

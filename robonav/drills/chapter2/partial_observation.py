@@ -29,7 +29,7 @@ def belief_after_observation(rng: Rng) -> Question:
     posterior, probability = mdp.bayes(belief, report)
     joint = belief * report
     return Question(
-        "A robot believes itself in A, B or C with the probabilities "
+        "A robot believes that it is in A, B or C with the probabilities "
         f"${', '.join(f'{b:g}' for b in belief)}$. Its sensor reports a door with probability "
         f"${', '.join(f'{d:g}' for d in door)}$ in A, B and C. It reports {'a' if seen else 'no'} door. What does the "
         "robot believe now?",
@@ -77,9 +77,9 @@ def belief_after_action(rng: Rng) -> Question:
     shown = predicted if to_right else predicted[::-1]
     return Question(
         f"Three places A, B and C lie in a row, from left to right. The action {way} goes one place on with "
-        f"probability ${moves:g}$, and otherwise the robot stays; in {ends} it always stays. It believes itself there "
-        f"with the probabilities ${', '.join(f'{b:g}' for b in belief)}$. What does it believe after the action, "
-        "before it observes anything?",
+        f"probability ${moves:g}$, and otherwise the robot stays; in {ends} it always stays. It believes that it "
+        f"is in A, B or C with the probabilities ${', '.join(f'{b:g}' for b in belief)}$. What does it believe after "
+        "the action, before it observes anything?",
         Table(
             ["belief"],
             ["A", "B", "C"],
@@ -115,8 +115,8 @@ def probability_of_observation(rng: Rng) -> Question:
     there = belief[side]
     return Question(
         f"The tiger is behind the left door with probability ${left:g}$, and otherwise behind the right one. Listening "
-        f"reports the side where it is with probability ${accuracy:g}$, and else the other side. How probable is it "
-        f"that the next report says {asked}?",
+        f"reports the side where it is with probability ${accuracy:g}$, and otherwise the other side. How probable "
+        f"is it that the next report says {asked}?",
         Number(
             heard,
             wrong={
@@ -177,13 +177,13 @@ def value_of_knowing(rng: Rng) -> Question:
         f"The state is L with probability ${belief:g}$, and otherwise R. The action a gives "
         f"${rewards[0, 0]:g}$ in L and "
         f"${rewards[0, 1]:g}$ in R; b gives ${rewards[1, 0]:g}$ in L and ${rewards[1, 1]:g}$ in R. Before it acts, the "
-        "robot could look which state it is. How much is that look worth?",
+        "robot could look and find out the state. How much is that look worth?",
         Number(
             known - now,
             wrong={
                 "This is what it earns if it knows the state. Subtract what it earns without the look.": known,
                 "This is what it earns without the look.": now,
-                "Without the look it takes the better action, not any.": known
+                "Without the look it takes the better of the two actions, not one of them at random.": known
                 - float(each.mean()),
             },
         ),
@@ -192,5 +192,5 @@ def value_of_knowing(rng: Rng) -> Question:
         f"the better action of each state: ${belief:g} \\cdot {rewards[:, 0].max():g} + {1 - belief:.2g} \\cdot "
         f"({rewards[:, 1].max():g}) = {known:.4g}$. The difference is ${known - now:.4g}$. A planner "
         f"that assumes that the "
-        "state will be known anyhow gives such a look no value.",
+        "state will be known anyway gives such a look no value.",
     )

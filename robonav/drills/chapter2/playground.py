@@ -172,8 +172,8 @@ def without_memory(rng: Rng) -> Question:
     last = ", ".join(name[state] for state in visited)
     line = start[0] if ALONG[ahead] == "row" else start[1]
     return Question(
-        f"A robot goes to the first free cell in the order {', '.join(order)}, and remembers nothing. A wall or the "
-        f"border blocks a cell. In which cell is it after {steps} steps?",
+        f"A robot goes to the first free cell in the order {', '.join(order)}, and remembers nothing. Walls and "
+        f"the border are not free. In which cell is it after {steps} steps?",
         Place([*name], [name[at]], wrong),
         f"It visits {last}. In the same place it senses the same and does the same again, so it goes to and fro and "
         "never leaves the pocket.",

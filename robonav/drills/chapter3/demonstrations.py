@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from robonav import robot
+from robonav.lfd.astar import Node
 
 from ..pictures import CELL, box, label, picture, place
 from ..question import Number, Place, Question, Table
 from ..registry import drill
 
 Rng = np.random.Generator
+FREE = 10.0  # metres that a sector reads with nothing in range
 
 
 @drill("demonstrations", "Degrees of danger")
@@ -20,8 +22,8 @@ def degrees_of_danger(rng: Rng) -> Question:
     degrees = robot.degree_of_danger(ranges)
     reversed_degrees = (7 - degrees).tolist()
     return Question(
-        f"Four sensors read ${', '.join(f'{r:g}' for r in ranges)}$ m. Which degrees of danger, 0 to 7, are these by "
-        "Table 3.1?",
+        f"Four sensors read ${', '.join(f'{r:g}' for r in ranges)}$ m. Which degrees of danger, 0 to 7, does "
+        "Table 3.1 give them?",
         Table(
             ["degree"],
             [f"{r:g} m" for r in ranges],
@@ -40,8 +42,10 @@ def next_node(rng: Rng) -> Question:
     """Choose the open node with the smallest sum of cost and heuristic."""
     names = "ABCDE"
     cost, estimate = (np.round(rng.uniform(1, 9, size=5), 1) for _ in range(2))
-    total = cost + estimate
-    best = int(total.argmin())
+    pairs = enumerate(zip(cost.tolist(), estimate.tolist(), strict=True))
+    nodes = [Node(index=(k,), point=(0.0, 0.0), G=g, H=h) for k, (g, h) in pairs]
+    total = np.array([node.F for node in nodes])
+    best = nodes.index(min(nodes, key=lambda node: node.priority))
     wrong = {}
     nearest, cheapest = int(estimate.argmin()), int(cost.argmin())
     if cheapest != best:
@@ -87,7 +91,13 @@ def effective_steps(rng: Rng) -> Question:
     """Count the steps in which the reflex left the decision to the expert."""
     total, safe = int(rng.integers(40, 70)), int(rng.integers(10, 25))
     blocked = int(rng.integers(1, 6))
-    effective = total - safe - blocked
+    ranges = np.full((total, 9), FREE)
+    ranges[safe:, 0] = 6.0  # something is in range
+    ranges[safe : safe + blocked, [0, 1, 2, 7, 8]] = 2.0
+    sensing = robot.Sensing(
+        ranges, np.zeros((total, 9), bool), np.ones(total, int), np.zeros(total, bool)
+    )
+    effective = int((robot.Reflex()(sensing, 2.0) < 0).sum())
     return Question(
         f"A demonstration has ${total}$ steps. In ${safe}$ of them nothing is in sensor range, and in "
         f"${blocked}$ all five "

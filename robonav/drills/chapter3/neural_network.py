@@ -48,8 +48,17 @@ def one_neuron(rng: Rng) -> Question:
 def output_errors(rng: Rng) -> Question:
     """Compute output errors under two costs."""
     output, label = float(rng.integers(10, 96)) / 100, int(rng.integers(2))
-    entropy = output - label
-    squared = entropy * float(networks.sigmoid_slope(np.array(output)))
+    # a unit without inputs, whose activation is that of its bias: its error is the gradient with respect to the bias
+    bias = np.array([np.log(output / (1 - output))])
+    unit = networks.Network((np.zeros((1, 1)),), (bias,))
+    example = np.zeros((1, 1)), np.array([[float(label)]])
+    squared, entropy = (
+        float(gradient(unit, *example).biases[0][0])
+        for gradient in (
+            networks.squared_error_gradient,
+            networks.cross_entropy_gradient,
+        )
+    )
     return Question(
         f"A sigmoid output unit has the activation ${output:g}$, and its label is ${label}$. "
         "What is its error $\\delta$ under each cost? Give three decimals.",

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from robonav import networks, robot
+from robonav import lfd, networks, robot
 from robonav.benchmark import success_interval
-from robonav.lfd.demonstrations import LEARNED
+from robonav.lfd.behaviour_cloning import stacked_pairs
 
 from ..pictures import CELL, box, label, picture, place
 from ..question import Choice, Number, Place, Question, Table
@@ -17,6 +17,7 @@ from ..registry import drill
 Rng = np.random.Generator
 NAMES = ("F", "L30", "R30")
 Z = 1.96  # of a 95 % interval
+FREE = 10.0  # metres that a sector reads with nothing in range
 
 
 def _confusion(rng: Rng) -> np.ndarray:
@@ -25,6 +26,15 @@ def _confusion(rng: Rng) -> np.ndarray:
     counts[0, 0] += rng.integers(20, 60)
     counts[[1, 2], [1, 2]] += rng.integers(0, 30, size=2)
     return counts
+
+
+SAYS_ITS_INPUT = networks.Network((np.eye(3),), (np.zeros(3),))
+
+
+def _labelled(counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The states of a confusion matrix: the network's actions and the expert's, each a 1 among zeros."""
+    expert, chosen = np.indices(counts.shape).reshape(2, -1).repeat(counts.ravel(), 1)
+    return np.eye(3)[chosen], np.eye(3)[expert]
 
 
 def _matrix_picture(counts: np.ndarray) -> str:
@@ -52,11 +62,12 @@ READING = "The picture counts the states of a validation set by the expert's act
 def agreement_of_two(rng: Rng) -> Question:
     """Read from a confusion matrix how often a network and a constant answer agree with the expert."""
     counts = _confusion(rng)
-    expert, chosen = np.indices(counts.shape).reshape(2, -1).repeat(counts.ravel(), 1)
-    labels = np.eye(3)[expert]
-    says_its_input = networks.Network((np.eye(3),), (np.zeros(3),))
-    agreement = networks.accuracy(says_its_input, np.eye(3)[chosen], labels)
-    always = networks.accuracy(says_its_input, np.eye(3)[np.zeros_like(chosen)], labels)
+    chosen, labels = _labelled(counts)
+    forward = np.tile(np.eye(3)[0], (len(labels), 1))
+    agreement, always = (
+        networks.accuracy(SAYS_ITS_INPUT, actions, labels)
+        for actions in (chosen, forward)
+    )
     total = int(counts.sum())
     by_row = float((counts.diagonal() / counts.sum(axis=1)).mean())
     column = float(counts[:, 0].sum() / total)
@@ -96,7 +107,13 @@ def least_recalled(rng: Rng) -> Question | None:
     """Find the action of the expert that a network repeats in the smallest part of its states."""
     counts = _confusion(rng)
     repeated = counts.diagonal()
-    recall = repeated / counts.sum(axis=1)
+    chosen, labels = _labelled(counts)
+    recall = np.array(
+        [
+            networks.accuracy(SAYS_ITS_INPUT, chosen[rows], labels[rows])
+            for rows in labels.T.astype(bool)
+        ]
+    )
     precision = repeated / counts.sum(axis=0)
     right = [NAMES[int(recall.argmin())]]
     if np.diff(np.sort(recall))[0] < 0.02:
@@ -166,8 +183,8 @@ def chosen_regularisation(rng: Rng) -> Question:
         for decay, a, b in zip(decays, training, validation, strict=True)
     )
     return Question(
-        "You train with three values of $\\lambda$. These are the costs at the end, without the penalty, first on the "
-        f"demonstrations learned from and then on 25 others. {shown}. Which $\\lambda$ do you choose?",
+        "You train with three values of $\\lambda$. The costs at the end, without the penalty, are given first for "
+        f"the demonstrations learned from and then for 25 others. {shown}. Which $\\lambda$ do you choose?",
         Choice(
             f"$\\lambda = {decays[best]:g}$",
             wrong,
@@ -273,7 +290,7 @@ def lucky_test(rng: Rng) -> Question:
             passed,
             wrong={
                 "This is the probability of at least one failure.": 1 - passed,
-                "Failures of different maps may come together: the rates of success are multiplied.": 1
+                "Failures do not add up, since several maps of a test may fail: multiply the rates of success.": 1
                 - maps / one_in,
                 "This is the probability that it arrives in one map.": 1 - 1 / one_in,
             },
@@ -282,18 +299,42 @@ def lucky_test(rng: Rng) -> Question:
     )
 
 
+def _shapes(
+    steps: np.ndarray, safe: np.ndarray, back: np.ndarray, encoder: robot.Encoder
+) -> tuple[int, int, int]:
+    """Rows of S and A of recorded trajectories, and the columns of each."""
+    total, trajectory = int(steps.sum()), np.repeat(np.arange(len(steps)), steps)
+    ranges = np.full((total, 9), 6.0)
+    actions = np.zeros(total, dtype=np.int64)
+    for first, n, m in zip(np.cumsum(steps) - steps, safe, back, strict=True):
+        ranges[first : first + n] = FREE
+        actions[first + n : first + n + m] = robot.Action.B
+    sensing = robot.Sensing(
+        ranges, np.zeros((total, 9), bool), np.ones(total, int), np.zeros(total, bool)
+    )
+    recorded = lfd.Demonstrations(
+        worlds=robot.random_worlds(len(steps), seed=0),
+        trajectory=trajectory,
+        sensing=sensing,
+        actions=actions,
+        poses=np.zeros((total, 3)),
+        speed=2.0,
+        outcome=np.repeat("arrived", len(steps)),
+    )
+    states, labels = stacked_pairs(recorded, encoder)
+    return len(states), states.shape[1], labels.shape[1]
+
+
 @drill("policy-learning", "The shapes of the training data")
 def stacked_shapes(rng: Rng) -> Question:
     """Say how many rows and columns the matrices S and A have."""
     steps = rng.integers(45, 65, size=3)
     safe = rng.integers(20, 35, size=3)
     back = rng.integers(0, 3, size=3)
-    rows = int((steps - safe - back).sum())
     thesis = bool(rng.integers(2))
-    encoder = robot.Encoder(target="number") if thesis else robot.Encoder()
-    size, other = encoder.size, robot.Encoder(target="number").size
-    if thesis:
-        other = robot.Encoder().size
+    encoders = robot.Encoder(), robot.Encoder(target="number")
+    rows, size, learned = _shapes(steps, safe, back, encoders[thesis])
+    other = encoders[not thesis].size
     whose = "the thesis's encoding" if thesis else "this book's default encoding"
     shown = "; ".join(
         f"${n}$ steps: ${s}$ safe, ${b}$ back"
@@ -301,20 +342,20 @@ def stacked_shapes(rng: Rng) -> Question:
     )
     return Question(
         f"Three demonstrations were recorded. {shown}. *Safe* are steps in safe states, *back* those in which the "
-        f"robot stepped back. With {whose}, how many rows and columns have $S$ and $A$ of Eq. (3.29)?",
+        f"robot stepped back. With {whose}, how many rows and columns do $S$ and $A$ of Eq. (3.29) have?",
         Table(
             ["$S$", "$A$"],
             ["rows", "columns"],
-            [[rows, size], [rows, LEARNED]],
+            [[rows, size], [rows, learned]],
             tolerance=0.1,
             wrong={
                 "Only effective pairs are kept. In safe states, and where the robot steps back, the reflex acts.": [
                     [int(steps.sum()), size],
-                    [int(steps.sum()), LEARNED],
+                    [int(steps.sum()), learned],
                 ],
-                "Steps back are the reflex's, too.": [
+                "The reflex also makes the steps back.": [
                     [int((steps - safe).sum()), size],
-                    [int((steps - safe).sum()), LEARNED],
+                    [int((steps - safe).sum()), learned],
                 ],
                 "An action is a row of $A$: a 1 among four zeros.": [
                     [rows, size],
@@ -322,12 +363,12 @@ def stacked_shapes(rng: Rng) -> Question:
                 ],
                 "The thesis has 11 components, and this book's encoder 12: sine and cosine in place of one number.": [
                     [rows, other],
-                    [rows, LEARNED],
+                    [rows, learned],
                 ],
             },
         ),
         f"Effective pairs are left: ${' + '.join(str(n - s - b) for n, s, b in zip(steps, safe, back, strict=True))} "
-        f"= {rows}$ rows. A state has ${size}$ components, and an action ${LEARNED}$.",
+        f"= {rows}$ rows. A state has ${size}$ components, and an action ${learned}$.",
     )
 
 

@@ -70,7 +70,7 @@ def circle_against_target(rng: Rng) -> Question:
     better = "the circle" if circle > target else "the target"
     return Question(
         f"A robot can stay where it earns ${reward:g}$ in each step, or arrive in ${steps}$ steps, where the last one "
-        f"earns 1 and the others nothing. Which returns have the two, with $\\gamma = {discount:g}$? Give three "
+        f"earns 1 and the others nothing. What are the two returns with $\\gamma = {discount:g}$? Give three "
         "decimals.",
         Table(
             ["circle", "target"],
@@ -107,7 +107,7 @@ def reward_that_pays(rng: Rng) -> Question:
     border = arrival / _forever(np.array([1.0]), discount)
     times = "" if prize == 1 else f"{prize:g} \\cdot "
     return Question(
-        f"The target is ${steps}$ steps ahead, and an arrival earns ${prize:g}$. From which reward per step on does a "
+        f"The target is ${steps}$ steps ahead, and an arrival earns ${prize:g}$. Above which reward per step does a "
         f"robot prefer to stay where it is, forever, with $\\gamma = {discount:g}$? Give three decimals.",
         Number(
             border,
@@ -140,8 +140,8 @@ def farthest_target(rng: Rng) -> Question | None:
     times = "" if prize == 1 else f"{prize:g} \\cdot "
     return Question(
         f"A robot that stays earns ${reward:g}$ in each step, forever, and an arrival earns ${prize:g}$. With "
-        f"$\\gamma = {discount:g}$, how many steps may the target be ahead at most, so that arriving has the larger "
-        "return?",
+        f"$\\gamma = {discount:g}$, at most how many steps ahead may the target be, so that arriving has the "
+        "larger return?",
         Number(
             steps,
             tolerance=0.1,
@@ -191,7 +191,7 @@ def cause_of_symptom(rng: Rng) -> Question:
             f"training. Their greedy policies collide in ${100 - bad}$ % of new maps."
         ),
         "a learning rate that does not fall": (
-            f"They arrive in ${good}$ % of new maps, but for one, which arrives in ${medium}$ %. At $T = 0.4$ this one "
+            f"All but one arrive in ${good}$ % of new maps. That one arrives in ${medium}$ %. At $T = 0.4$ it "
             f"arrives in ${medium + 1}$ %."
         ),
         "a high temperature to the end of the training": (
@@ -327,8 +327,8 @@ def rounds_until_it_leaves(rng: Rng) -> Question:
     return Question(
         f"In one state of a circle two actions matter. Their logits are ${circle:g}$ for the one that goes on round "
         f"and ${out:g}$ for the one that leads out. The robot draws from the softmax of the logits at $T = "
-        f"{temperature:g}$. In which round does it leave, on average? (What has the probability $p$ in each round "
-        "happens first in round $1 / p$ on average.) Give one decimal.",
+        f"{temperature:g}$. In which round does it leave, on average? (An event with the probability $p$ in each "
+        "round happens for the first time in round $1 / p$ on average.) Give one decimal.",
         Number(
             1 / leaves,
             tolerance=0.06,
@@ -337,7 +337,7 @@ def rounds_until_it_leaves(rng: Rng) -> Question:
                 "This is the ratio of the two probabilities. $1 / p$ is larger by 1.": odds,
                 "The logits are divided by the temperature.": 1
                 + math.exp(gap * temperature),
-                "This is the probability to leave in a round.": leaves,
+                "This is the probability of leaving in a round.": leaves,
             },
         ),
         f"$p = 1 / (1 + e^{{({circle:g} - {out:g}) / {temperature:g}}}) = {leaves:.3g}$, and "

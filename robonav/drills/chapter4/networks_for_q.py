@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from gymnasium.spaces import MultiDiscrete
 
 from robonav import nnql
+from robonav.mdp.discrete_spaces import count
 
 from ..question import Number, Question, Table
 from ..registry import drill
@@ -89,7 +91,7 @@ def count_states(rng: Rng) -> Question:
     """Count the states of a discretised robot."""
     sensors, degrees = int(rng.integers(3, 7)), int(rng.integers(2, 8))
     regions = int(rng.choice([3, 4, 5, 6, 8, 9, 12]))
-    answer = degrees**sensors * regions * 2
+    answer = count("states", MultiDiscrete([*[degrees] * sensors, regions, 2]))
     return Question(
         f"A robot has ${sensors}$ sensors with ${degrees}$ degrees of danger each, knows which of "
         f"${regions}$ sectors holds "
@@ -103,7 +105,7 @@ def count_states(rng: Rng) -> Question:
                 * regions
                 * 2,
                 "Whether the target is seen doubles the number.": answer / 2,
-                "The power has base and exponent exchanged.": sensors**degrees
+                "Base and exponent of the power are exchanged.": sensors**degrees
                 * regions
                 * 2,
                 "The sectors of the target are a factor, too.": degrees**sensors * 2,
@@ -130,6 +132,11 @@ def cost_of_outputs(rng: Rng) -> Question:
                 "The terms $(1 - q) \\log (1 - Q)$ are missing.": half,
                 "The cost is a sum over the actions, not a mean.": cost / 2,
                 "The sign is wrong: a logarithm of a number below 1 is negative.": -cost,
+                "The two logarithms are exchanged: $q$ belongs to $\\log Q$, and $1 - q$ to $\\log (1 - Q)$.": float(
+                    -(
+                        targets * np.log(1 - outputs) + (1 - targets) * np.log(outputs)
+                    ).sum()
+                ),
                 "This is the squared error.": float(((targets - outputs) ** 2).sum()),
                 "This has the misprint of the thesis: $1 - \\log Q$ in the place of $\\log (1 - Q)$.": float(
                     -(

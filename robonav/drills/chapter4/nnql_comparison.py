@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from robonav.experiments import probability_of_improvement
+
 from ..question import Choice, Number, Question, Table
 from ..registry import drill
 from ..text import sign
@@ -14,7 +16,7 @@ Rng = np.random.Generator
 
 
 @drill("nnql-comparison", "Targets of DQN and of double DQN")
-def two_targets(rng: Rng) -> Question:
+def two_targets(rng: Rng) -> Question | None:
     """Compute the targets of plain and of double DQN."""
     import torch
 
@@ -44,6 +46,11 @@ def two_targets(rng: Rng) -> Question:
     plain = float(dqn_targets(*networks, batch, discount)[0])
     double = float(double_dqn_targets(*networks, batch, discount)[0])
     largest = reward + discount * own.max()
+    other_way = reward + discount * own[other.argmax()]
+    if own.max() == other.max():
+        return (
+            None  # DQN's target would be the same with the value of the wrong network
+        )
     shown = [", ".join(f"{value:.2g}" for value in q) for q in (own, other)]
     best = int(own.argmax())
     return Question(
@@ -62,7 +69,11 @@ def two_targets(rng: Rng) -> Question:
                 ],
                 "The value comes from the target network in both methods.": [
                     [largest],
-                    [largest],
+                    [double],
+                ],
+                "In double DQN the trained network chooses the action, and the target network gives its value.": [
+                    [plain],
+                    [other_way],
                 ],
                 "Both take the largest value of the target network here. Double DQN chooses by the trained one.": [
                     [plain],
@@ -92,7 +103,7 @@ def lifted_maximum(rng: Rng) -> Question:
         Number(
             answer,
             wrong={
-                "Each estimate is right in the mean, but the largest of them is not.": value,
+                "Each estimate is right on average, but the largest of them is not.": value,
                 f"The largest one is too high in {cases - 1} of {cases} cases, not always.": high,
                 f"The largest one is too low only if all are: in one of {cases} cases.": (
                     high + (cases - 1) * low
@@ -113,18 +124,22 @@ def _in_brackets(number: float) -> str:
 
 
 @drill("nnql-comparison", "Targets of NFQ")
-def targets_of_nfq(rng: Rng) -> Question:
+def targets_of_nfq(rng: Rng) -> Question | None:
     """Compute the clipped targets of three transitions."""
     import torch
 
     from robonav.networks import Network
-    from robonav.nnql import nfq_targets
+    from robonav.nnql import clip, nfq_targets
     from robonav.nnql.dqn import Batch
 
     values = rng.choice([0.2, 0.4, 0.5, 0.6, 0.8, 0.9], size=3, replace=False)
     discount = float(rng.choice([0.6, 0.7, 0.9]))
     rewards = np.array(
-        [rng.choice([0.4, 0.5, 0.6]), rng.choice([-0.5, -0.2, 0.0]), 1.0]
+        [
+            rng.choice([0.4, 0.5, 0.6]),
+            rng.choice([-0.5, -0.2, 0.0]),
+            rng.choice([0.2, 0.4, 0.6]),
+        ]
     )
     terminal = np.array([False, False, True])
     logits = np.log(values / (1 - values))
@@ -139,18 +154,17 @@ def targets_of_nfq(rng: Rng) -> Question:
     answer = nfq_targets(network, transitions, discount).tolist()
     future = discount * values
     raw = rewards + np.where(terminal, 0, future)
+    if np.allclose(answer, raw):
+        return None  # nothing has to be clipped
     wrong = {
-        "The arrival ends the episode: no future value is added to its reward.": (
+        "The arrival ends the episode: no future value is added to its reward.": clip(
             rewards + future
         ).tolist(),
-        "The discount is missing.": np.clip(
-            rewards + np.where(terminal, 0, values), 0, 1
+        "The discount is missing.": clip(
+            rewards + np.where(terminal, 0, values)
         ).tolist(),
+        "Targets are clipped into the range of the outputs, 0 to 1.": raw.tolist(),
     }
-    if not np.allclose(answer, raw):
-        wrong["Targets are clipped into the range of the outputs, 0 to 1."] = (
-            raw.tolist()
-        )
     shown = "; ".join(
         f"${reward:g}$ and ${value:g}$"
         for reward, value in zip(rewards, values, strict=True)
@@ -169,7 +183,7 @@ def targets_of_nfq(rng: Rng) -> Question:
             [answer],
             wrong={hint: [table] for hint, table in wrong.items()},
         ),
-        f"Before clipping the first two are {sums}. The arrival has its reward, 1. Clipped: "
+        f"Before clipping the first two are {sums}. The arrival has its reward, ${rewards[2]:g}$. Clipped: "
         + ", ".join(f"{target:.3g}" for target in answer)
         + ".",
     )
@@ -232,7 +246,7 @@ def better_robot(rng: Rng) -> Question | None:
     theirs = np.sort(rng.integers(86, 99, size=3))
     wins = int((ours[:, None] > theirs).sum())
     ties = int((ours[:, None] == theirs).sum())
-    answer, pairs = (wins + ties / 2) / 12, 12
+    answer, pairs = probability_of_improvement(ours, theirs).probability, 12
     if wins == pairs:
         return None
     wrong = {

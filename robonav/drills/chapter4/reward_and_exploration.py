@@ -35,7 +35,7 @@ def softmax(rng: Rng) -> Question:
         ]
     gap = (q[0] - q[1]) / temperature
     return Question(
-        f"$Q(s, F) = {q[0]:g}$ and $Q(s, L30) = {q[1]:g}$. Which probabilities has the softmax policy "
+        f"$Q(s, F) = {q[0]:g}$ and $Q(s, L30) = {q[1]:g}$. What are the probabilities of the softmax policy "
         f"at the temperature "
         f"${temperature:g}$?",
         Table(["probability"], ["F", "L30"], [p.tolist()], wrong=wrong),
@@ -110,7 +110,8 @@ def property_of_state(rng: Rng) -> Question:
     wrong = {name_: hint for name_, hint in hints.items() if name_ != name}
     shown = ", ".join(f"{reading:g}" for reading in ranges)
     return Question(
-        f"The robot {outcomes[outcome]}. Its nine sensors read ${shown}$ m. Which property has its state by Eq. (4.6)?",
+        f"The robot {outcomes[outcome]}. Its nine sensors read ${shown}$ m. Which property does its state "
+        "have by Eq. (4.6)?",
         Choice(name, wrong),
         f"The robot {outcomes[outcome]}, so the state is {name}, whatever its sensors read."
         if outcome

@@ -56,7 +56,11 @@ def best_of_three(rng: Rng) -> Question | None:
     expert = rng.integers(2, 8, size=2).astype(float)
     others = rng.integers(0, 8, size=(2, 2)).astype(float)
     rewards = np.array([[1.0, 0.0], [0.0, 1.0], [0.6, 0.8]])
-    leads = np.round(rewards @ (expert - others).T, 6) + 0.0  # no -0
+    values = [
+        [nirl.value_of_expectations(reward, mu) for mu in (expert, *others)]
+        for reward in rewards
+    ]
+    leads = np.round([[own - v for v in found] for own, *found in values], 6) + 0.0
     margins, largest = leads.min(axis=1), leads.max(axis=1)
     names = [f"$({a:g}, {b:g})$" for a, b in rewards]
     best = int(margins.argmax())
@@ -74,7 +78,7 @@ def best_of_three(rng: Rng) -> Question | None:
     return Question(
         f"The expert has $\\mu_E = {_pair(expert)}$, and two policies have ${_pair(others[0])}$ and "
         f"${_pair(others[1])}$. "
-        "Which of these weights prefers the expert by the largest margin?",
+        "Under which of these weights does the expert lead by the largest margin?",
         Choice(names[best], wrong),
         "The margins, the smaller lead of each: "
         + ", ".join(f"{name} ${m:.4g}$" for name, m in zip(names, margins, strict=True))
@@ -224,5 +228,5 @@ def fitted_to_values(rng: Rng) -> Question | None:
         f"$\\sum \\mu Q / \\sum \\mu^2 = {mu @ values:.4g} / {mu @ mu:g} = {free:.4g}$"
         + (f", cut off to {answer:g}" if abs(free) > 1 else "")
         + ". Its sign is that of the learner's values. How good the expert is does not matter: this is why the "
-        "minimum is no good reward.",
+        "minimum is not a good reward.",
     )

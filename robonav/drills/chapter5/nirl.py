@@ -208,35 +208,43 @@ GIVEN = {
     "the distance from which on a state is dangerous": "5 m",
     "the number of demonstrations": "30",
 }
-OPEN = (
-    "the inverse temperature",
-    "the number of seconds of an episode",
-    "the number of gradient steps in an iteration",
-    "the number of obstacles in the maps of the demonstrations",
-)
+OPEN = {
+    "the inverse temperature": ("5", "10", "25", "50"),
+    "the number of seconds of an episode": ("100", "200", "300", "500"),
+    "the number of gradient steps in an iteration": ("500", "1000", "5000", "9600"),
+    "the number of obstacles in the maps of the demonstrations": ("5", "10", "20"),
+}
 
 
 @drill("nirl", "What does the thesis leave open?")
 def left_open(rng: Rng) -> Question:
     """Tell which settings of NIRL the thesis does not give."""
-    if rng.random() < 0.3:
-        right = str(rng.choice([*GIVEN]))
-        others = [str(name) for name in rng.permutation(OPEN)[:3]]
-        return Question(
-            "Which of these settings of NIRL does the thesis give?",
-            Choice(
-                right,
-                {name: f"The thesis does not give {name}." for name in others},
-            ),
+    is_open = rng.random() < 0.6
+    one_of, all_of = (OPEN, GIVEN) if is_open else (GIVEN, OPEN)
+    right = str(rng.choice([*one_of]))
+    others = [str(name) for name in rng.choice([*all_of], size=3, replace=False)]
+    used = GIVEN | {name: str(rng.choice(values)) for name, values in OPEN.items()}
+    listed = "; ".join(f"{name}: {used[name]}" for name in rng.permutation([right, *others]))  # fmt: skip
+    hints = {
+        name: f"The thesis gives it: {GIVEN[name]}."
+        if is_open
+        else f"The thesis does not give {name}."
+        for name in others
+    }
+    asks, why = (
+        (
+            "had to be chosen, because the thesis does not give it",
+            f"The thesis does not give {right}, so that a repetition has to try several values.",
+        )
+        if is_open
+        else (
+            "is taken from the thesis",
             f"The thesis gives {right}: {GIVEN[right]}. A repetition has to try several values of the others.",
         )
-    right = str(rng.choice(OPEN))
-    others = [str(name) for name in rng.choice([*GIVEN], size=3, replace=False)]
+    )
     return Question(
-        "Which of these settings of NIRL does the thesis not give?",
-        Choice(
-            right,
-            {name: f"The thesis gives it: {GIVEN[name]}." for name in others},
-        ),
-        f"The thesis does not give {right}, so that a repetition has to try several.",
+        f"A repetition of the thesis's NIRL uses these settings. {listed[0].upper()}{listed[1:]}. Which of "
+        f"them {asks}?",
+        Choice(right, hints),
+        why,
     )

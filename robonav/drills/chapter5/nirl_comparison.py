@@ -106,7 +106,7 @@ def large_margin_step(rng: Rng) -> Question:
         "Only the strongest rival counts, not all of them.": float(
             np.maximum(others + 1 - scores[own], 0).sum()
         ),
-        "This is the lead. The cost is what is missing to 1, at least 0.": lead,
+        "This is the lead. The cost is 1 minus the lead, and at least 0.": lead,
     }
     wrong = {
         hint: number for hint, number in wrong.items() if abs(number - cost) > 0.02

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robonav import mdp, nirl, robot
+from robonav.nirl.refinement import count_pairs
 
 from ..pictures import grid_picture
 from ..question import Choice, Number, Place, Question, Table
@@ -208,7 +209,8 @@ def rare_and_frequent(rng: Rng) -> Question:
     there = rng.choice([0, 5, 10, 20, 30, 50, 60], size=2, replace=False)
     states = np.repeat([0, 0, 1, 1], [*here, *there])
     actions = np.repeat([0, 1, 0, 1], [*here, *there])
-    likelihood = [float(here[a] / (here[a] + there[a])) for a in (0, 1)]
+    counts, _ = count_pairs(states, actions, 2)
+    likelihood = (counts[0] / counts.sum(axis=0)).tolist()
     counted, uniform = (
         int(refine(states, actions, 2).changed[states == 0].sum())
         for refine in (nirl.most_frequent, nirl.map_uniform_prior)
@@ -314,8 +316,8 @@ def slipping_expert(rng: Rng) -> Question:
         )
     named = " or ".join(BY_ANGLE[k] for k in beside)
     return Question(
-        f"An expert's turns slip with probability ${chance:g}$: they come out $30°$ too large or too small, each as "
-        "often as the other; where only one of these actions exists, it is always that one. The expert means "
+        f"An expert's turns slip with probability ${chance:g}$: they come out $30°$ too large or too small, "
+        "equally often; where only one of these actions exists, it is always that one. The expert means "
         f"{meant}. With which probability does the robot do each action?",
         Table(BY_ANGLE, ["probability"], answer[:, None].tolist(), wrong=wrong),
         f"With probability ${1 - chance:g}$ it does {meant}. The rest, ${chance:g}$, goes to {named}.",

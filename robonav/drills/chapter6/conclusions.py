@@ -55,9 +55,11 @@ def effects_of_two_changes(rng: Rng) -> Question:
         float((rates[:, 1] - rates[:, 0]).mean()),
     ]
     alone = [float(rates[1, 0] - rates[0, 0]), float(rates[0, 1] - rates[0, 0])]
-    larger = "the expert" if effects[0] > effects[1] else "the algorithm"
+    larger = "The expert's effect is the larger one."
+    if effects[0] < effects[1]:
+        larger = "The algorithm's effect is the larger one."
     if effects[0] == effects[1]:
-        larger = "neither"
+        larger = "Both effects are equally large."
     return Question(
         f"Success in per cent: old expert and old algorithm {rates[0, 0]}, old expert and new algorithm {rates[0, 1]}, "
         f"new expert and old algorithm {rates[1, 0]}, new expert and new algorithm {rates[1, 1]}. By how many points "
@@ -74,8 +76,7 @@ def effects_of_two_changes(rng: Rng) -> Question:
             },
         ),
         f"Expert: $({rates[1, 0] - rates[0, 0]} {sign(rates[1, 1] - rates[0, 1])}) / 2 = {effects[0]:g}$. Algorithm: "
-        f"$({rates[0, 1] - rates[0, 0]} {sign(rates[1, 1] - rates[1, 0])}) / 2 = {effects[1]:g}$. The larger effect is "
-        f"that of {larger}.",
+        f"$({rates[0, 1] - rates[0, 0]} {sign(rates[1, 1] - rates[1, 0])}) / 2 = {effects[1]:g}$. {larger}",
     )
 
 

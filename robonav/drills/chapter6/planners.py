@@ -78,8 +78,10 @@ def angle_of_the_clearance(rng: Rng) -> Question:
             tolerance=0.06,
             unit="°",
             wrong={
-                "The line that just passes touches the circle around the obstacle at a right angle: take the "
-                "arcsine.": math.degrees(math.atan(clearance / distance)),
+                "The line that just passes is a tangent of the circle around the obstacle, at a right angle to its "
+                "radius: take the arcsine.": math.degrees(
+                    math.atan(clearance / distance)
+                ),
                 "This is the angle on both sides together.": 2 * answer,
                 "This is clearance over distance as if it were an angle in radians.": (
                     math.degrees(clearance / distance)

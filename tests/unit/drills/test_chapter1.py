@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 from numbers_in_texts import drawn, numbers
 
-from robonav.drills.chapter1.introduction import COMPETENCES, TURNS
+from robonav.drills.chapter1.introduction import COMPETENCES
+from robonav.drills.chapter1.processes import PROCESSES
 
 PAGE = Path(__file__).parents[3] / "book" / "introduction.md"
 LAID_OUT = re.compile(r"\b(wire|line|magnet|strip|rail)\b")
@@ -83,7 +84,7 @@ def test_rounds_have_one_order() -> None:
         steps = list(question.asked.steps)
         assert any(
             steps == [line.text for line in lines if line.text in steps]
-            for lines in TURNS.values()
+            for lines in PROCESSES.values()
         )
         right = [
             order

@@ -146,7 +146,7 @@ def test_left_open_is_what_the_page_s_table_says() -> None:
     rows |= {"demonstrations": "30", "obstacles": "not said"}
     names |= {"of obstacles": "obstacles", "of demonstrations": "demonstrations"}
     for question in drawn("left-open"):
-        wanted = "does the thesis not give" in question.text
+        wanted = "the thesis does not give" in question.text
         for option in question.asked.options:
             row = next(rows[full] for word, full in names.items() if word in option)
             open_ = row == "not said"
