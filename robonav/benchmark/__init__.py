@@ -1,6 +1,6 @@
 """The registry of policies, and the leaderboard, which tests all methods in the same worlds."""
 
-from .evaluation import outcome_rates
+from .evaluation import EXACT_REFLEX, outcome_rates
 from .leaderboard import (
     DIGESTS,
     SETTINGS,
@@ -25,6 +25,7 @@ from .policies import (
 __all__ = [
     "BASELINES",
     "DIGESTS",
+    "EXACT_REFLEX",
     "SETTINGS",
     "VERSION",
     "Setting",

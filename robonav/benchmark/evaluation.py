@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from robonav.robot import Navigation
+from robonav.robot import Navigation, Reflex
 
 OUTCOMES = {
     "success": "arrived",
     "collision": "collided",
     "out of steps": "out of steps",
 }
+
+
+EXACT_REFLEX = Reflex("exact")
+"""The reflex with which the leaderboard and all committed results were made, whatever the package's default is."""
 
 
 def outcome_rates(navigation: Navigation) -> dict[str, float]:

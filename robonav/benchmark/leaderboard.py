@@ -24,7 +24,7 @@ from robonav.robot import (
     random_worlds,
 )
 
-from .evaluation import outcome_rates
+from .evaluation import EXACT_REFLEX, outcome_rates
 from .policies import method
 
 VERSION = 1
@@ -218,6 +218,8 @@ def evaluate_policy(
 ) -> dict[str, float]:
     """Outcome rates and SPL of any policy in one set of worlds.
 
+    The reflex knows the exact direction of the target, as in all rows of the leaderboard.
+
     Parameters
     ----------
     policy : callable or PolicyWithMemory
@@ -245,6 +247,7 @@ def evaluate_policy(
         policy,
         board_worlds(setting, number, worlds),
         chosen.speed,
+        reflex=EXACT_REFLEX,
         slip=neighbour_slip(chosen.slip) if chosen.slip else None,
         noise=chosen.noise,
         seed=number,

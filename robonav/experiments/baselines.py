@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robonav.benchmark import BASELINES, outcome_rates
+from robonav.benchmark import BASELINES, EXACT_REFLEX, outcome_rates
 from robonav.robot import navigate, random_worlds
 
 from .runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers
@@ -20,7 +20,8 @@ def evaluate_baseline(case: Case, seed: int, scale: str) -> Numbers:
         seed=FIRST_SEED + seed,
     )
     policy = BASELINES[str(case["rule"])]
-    return outcome_rates(navigate(policy, worlds, float(case["speed"])))
+    speed = float(case["speed"])
+    return outcome_rates(navigate(policy, worlds, speed, reflex=EXACT_REFLEX))
 
 
 EXPERIMENTS = (

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from robonav.lfd import labelled_states
 from robonav.networks import NetworkPolicy, fit
-from robonav.robot import Encoder, navigate
+from robonav.robot import Encoder
 
 from .chapter3 import setup as chapter3
 from .chapter4 import setup as chapter4
@@ -67,15 +67,16 @@ def from_demonstrations(case: Case, seed: int, scale: str) -> Numbers:
     )
     assert training.networks is not None
     at = np.minimum(EARLY, training.iterations)
-    worlds, networks = chapter3.SETUP.test_worlds(seed, scale), training.networks
+    setup, networks = chapter3.SETUP, training.networks
+    worlds = setup.test_worlds(seed, scale)
     success = {
-        k: navigate(NetworkPolicy(networks[k], Encoder()), worlds).success.mean()
+        k: setup.evaluate(NetworkPolicy(networks[k], Encoder()), worlds)["success"]
         for k in {*at.tolist()}
     }
     return {
         "cost": training.costs[at],
         "accuracy": 100 * training.accuracies[at],
-        "success": [100 * success[k] for k in at.tolist()],
+        "success": [success[k] for k in at.tolist()],
     }
 
 

@@ -66,14 +66,14 @@ def nnql_weights(
     settings = chapter4.tuned()[method]
     temperature = chapter4.EVALUATION_TEMPERATURE[method]
 
-    def train(seed: int) -> NetworkPolicy:
+    def train_seed(seed: int) -> NetworkPolicy:
         trained = chapter4.training(method, seed, "thesis", settings, length=length)
         return replace(trained.policies[0], temperature=temperature)
 
     worlds = chapter4.SETUP.tuning_worlds(
         len(SEEDS_4), chapter4.SETUP.navigations["thesis"]
     )
-    seed, policy, success = best_of(train, seeds, chapter4.SETUP, worlds)
+    seed, policy, success = best_of(train_seed, seeds, chapter4.SETUP, worlds)
     made = {
         "command": COMMAND,
         "seed": seed,
@@ -97,14 +97,14 @@ def nirl_weights(
     """Return the best network of some seeds of a method of chapter 5, with its learned reward."""
     settings = chapter5.tuned(method, discount)
 
-    def train(seed: int) -> NetworkPolicy:
+    def train_seed(seed: int) -> NetworkPolicy:
         learned = chapter5.trained(method, seed, settings, length=length)
         return replace(learned.policy, temperature=TEMPERATURE_5)
 
     worlds = chapter5.SETUP.tuning_worlds(
         len(SEEDS_5), chapter5.SETUP.navigations["thesis"]
     )
-    seed, policy, success = best_of(train, seeds, chapter5.SETUP, worlds)
+    seed, policy, success = best_of(train_seed, seeds, chapter5.SETUP, worlds)
     learned = chapter5.trained(method, seed, settings, length=length)
     made = {
         "command": COMMAND,
@@ -122,13 +122,13 @@ def nirl_weights(
 
 
 def best_of(
-    train: Callable[[int], NetworkPolicy],
+    train_seed: Callable[[int], NetworkPolicy],
     seeds: Sequence[int],
     setup: Setup,
     worlds: Worlds,
 ) -> tuple[int, NetworkPolicy, float]:
     """Train with each seed. Return seed, policy and success of the best policy; of equal ones the first."""
-    policies = {seed: train(seed) for seed in seeds}
+    policies = {seed: train_seed(seed) for seed in seeds}
     success = {
         seed: setup.evaluate(policy, worlds)["success"]
         for seed, policy in policies.items()

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robonav import mdp
-from robonav.benchmark import fingerprint, method
+from robonav.benchmark import EXACT_REFLEX, fingerprint, method
 from robonav.lfd import (
     ComputerExpert,
     demonstrate_by_hand,
@@ -32,6 +32,7 @@ SEED = 4_010  # the seed of the worlds
 EPISODES = 300
 TRAINING_SEED = 3  # the seed of the training that Fig. 4.2 shows
 MAX_STEPS = 500  # of an episode, unless a panel says otherwise
+TASK = NavigationTask(reflex=EXACT_REFLEX)  # of the training that Fig. 4.2 shows
 EVERY = 4  # every fourth visited node is kept
 FAR = {"starts": ((10.0, 50.0), (50.0, 10.0)), "targets": ((90.0, 85.0), (50.0, 90.0))}
 
@@ -39,9 +40,7 @@ FAR = {"starts": ((10.0, 50.0), (50.0, 10.0)), "targets": ((90.0, 85.0), (50.0, 
 def world_of(case: Case) -> Worlds:
     """Return the world (a batch of one) of a panel."""
     if "episode" in case:
-        return NavigationTask().worlds([TRAINING_SEED], 0, EPISODES)[
-            int(case["episode"]) - 1
-        ]
+        return TASK.worlds([TRAINING_SEED], 0, EPISODES)[int(case["episode"]) - 1]
     ends: dict[str, Any] = FAR if case.get("starts") == "new" else {}
     drawn = random_worlds(
         int(case["world"]) + 1,
@@ -67,6 +66,7 @@ def navigation(case: Case, seed: int, scale: str) -> Numbers:
         float(case["speed"]),
         int(case.get("steps", MAX_STEPS)),
         record_paths=True,
+        reflex=EXACT_REFLEX,
         seed=seed,
     )
     assert episode.paths is not None
@@ -91,7 +91,7 @@ def search(case: Case, seed: int, scale: str) -> Numbers:
 @lru_cache(maxsize=1)
 def training() -> TrainingResult:
     """Return the training that Fig. 4.2 shows."""
-    return train("nnql", seeds=[TRAINING_SEED], episodes=EPISODES, record=True)
+    return train("nnql", [TRAINING_SEED], EPISODES, task=TASK, record=True)
 
 
 def training_episode(case: Case, seed: int, scale: str) -> Numbers:
@@ -107,7 +107,8 @@ def training_episode(case: Case, seed: int, scale: str) -> Numbers:
 def demonstration_by_hand(case: Case, seed: int, scale: str) -> Numbers:
     """Return a demonstration through key points (Figs. 5.3 and 5.6)."""
     world = world_of(case)
-    trajectories = demonstrate_by_hand(world, sketch(world, seed=seed))
+    drawn = sketch(world, seed=seed)
+    trajectories = demonstrate_by_hand(world, drawn, reflex=EXACT_REFLEX)
     return path_of(trajectories.poses) | {
         "effective pairs": float(len(trajectories.effective))
     }
@@ -115,9 +116,13 @@ def demonstration_by_hand(case: Case, seed: int, scale: str) -> Numbers:
 
 def slipping_demonstration(case: Case, seed: int, scale: str) -> Numbers:
     """Return a demonstration of an expert whose turns sometimes miss by 30 degrees (Fig. 5.5)."""
-    slip = neighbour_slip(float(case["slip"]))
-    executed = record(ComputerExpert(), world_of(case), slip=slip)
-    intended = record(ComputerExpert(), world_of(case), slip=slip, intended=True)
+    world, slip = world_of(case), neighbour_slip(float(case["slip"]))
+    executed, intended = (
+        record(
+            ComputerExpert(), world, slip=slip, intended=as_chosen, reflex=EXACT_REFLEX
+        )
+        for as_chosen in (False, True)
+    )
     return path_of(executed.poses) | {
         "slipped": float((executed.actions != intended.actions).sum())
     }

@@ -21,7 +21,7 @@ from robonav.lfd import (
     learn_policy,
 )
 from robonav.networks import Network, NetworkPolicy, TrainingHistory, fit
-from robonav.robot import REFLEX, Encoder, Reflex, random_worlds
+from robonav.robot import Encoder, Reflex, random_worlds
 
 from ..runner.settings import read_settings
 from ..runner.setup import Setup
@@ -57,7 +57,7 @@ def demonstrations(
     *,
     number: int = DEMONSTRATIONS,
     expert: str = "keeps clear",
-    reflex: Reflex = REFLEX,
+    reflex: Reflex = SETUP.reflex,
 ) -> Demonstrations:
     """The computer expert's demonstrations of a run. A larger number begins with the same ones.
 
@@ -84,7 +84,8 @@ def demonstrations(
 @lru_cache(32)
 def expert_in_test_worlds(seed: int, scale: str, obstacles: int) -> Demonstrations:
     """Return the computer expert's episodes in the worlds in which a run is tested."""
-    return demonstrate(SETUP.test_worlds(seed, scale, obstacles))
+    worlds = SETUP.test_worlds(seed, scale, obstacles)
+    return demonstrate(worlds, reflex=SETUP.reflex)
 
 
 @lru_cache(64)
@@ -93,7 +94,7 @@ def cloned_policy(
     obstacles: int = 10,
     *,
     target: str = "sine-cosine",
-    reflex: Reflex = REFLEX,
+    reflex: Reflex = SETUP.reflex,
 ) -> NetworkPolicy:
     """Return the policy learned from a run's demonstrations (Algorithm 3)."""
     taught = demonstrations(seed, obstacles, reflex=reflex)
@@ -146,7 +147,7 @@ def dagger_result(
     *,
     target: str = "sine-cosine",
     rounds: int = ROUNDS,
-    reflex: Reflex = REFLEX,
+    reflex: Reflex = SETUP.reflex,
 ) -> DaggerResult:
     """Run DAgger from a run's demonstrations. Each round has as many new maps as there are demonstrations."""
     worlds = [

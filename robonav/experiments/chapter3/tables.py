@@ -126,8 +126,9 @@ def expert_demonstrations(expert: str, seed: int) -> Demonstrations:
     worlds = random_worlds(DEMONSTRATIONS, seed=DEMONSTRATION_SEED + seed)
     slip = neighbour_slip(PLANNING["slip"]) if expert.endswith("slipping") else None
     if expert.startswith("computer"):
-        return demonstrate(worlds, slip=slip)
-    return demonstrate_by_hand(worlds, sketch(worlds, seed=seed), slip=slip)
+        return demonstrate(worlds, slip=slip, reflex=SETUP.reflex)
+    drawn = sketch(worlds, seed=seed)
+    return demonstrate_by_hand(worlds, drawn, slip=slip, reflex=SETUP.reflex)
 
 
 def compare_experts(case: Case, seed: int, scale: str) -> Numbers:
@@ -176,7 +177,7 @@ def beside_the_expert(case: Case, seed: int, scale: str) -> Numbers:
     expert = expert_in_test_worlds(seed, scale, obstacles)
     worlds = expert.worlds
     policy = learned_policy(str(case["method"]), seed, obstacles)
-    learned = navigate(policy, worlds, record_paths=True)
+    learned = navigate(policy, worlds, record_paths=True, reflex=SETUP.reflex)
     assert learned.paths is not None
     both = np.flatnonzero(learned.success & (expert.outcome == "arrived"))
     distances = [
@@ -218,6 +219,7 @@ def expert_margin(case: Case, seed: int, scale: str) -> Numbers:
         random_worlds(DEMONSTRATIONS, obstacles, seed=DEMONSTRATION_SEED + seed),
         margin=float(case["margin"]),
         caution=float(case["caution"]),
+        reflex=SETUP.reflex,
     )
     policy = learn_policy(trajectories, seed=seed)
     return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale, obstacles))

@@ -66,7 +66,8 @@ def task(*, target: str = "number", **changes: Any) -> NavigationTask:
     ``changes`` are other attributes of :class:`robonav.nnql.NavigationTask`.
     """
     encoder = Encoder(NNQL_SENSORS, walls=True, target=target)
-    return NavigationTask(**({"encoder": encoder} | changes))
+    usual: dict[str, Any] = {"encoder": encoder, "reflex": SETUP.reflex}
+    return NavigationTask(**(usual | changes))
 
 
 def training(

@@ -95,7 +95,10 @@ def policy_at(learned: IRLResult, k: int) -> NetworkPolicy:
 def best_by_navigation(learned: IRLResult, worlds: Worlds) -> int:
     """Return the iteration, among every fifth one, whose policy has the greatest success in some worlds."""
     tried = range(0, len(learned.history.accuracies), EVERY)
-    success = [navigate(policy_at(learned, k), worlds).success.mean() for k in tried]
+    success = [
+        navigate(policy_at(learned, k), worlds, reflex=SETUP.reflex).success.mean()
+        for k in tried
+    ]
     return tried[int(np.argmax(success))]
 
 

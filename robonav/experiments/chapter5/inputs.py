@@ -58,7 +58,11 @@ class CountedTask(RobotTask):
 def by_updates(case: Case, seed: int, scale: str) -> Numbers:
     """NIRL with some number of updates: the states that it visits in training, and those of the tests."""
     settings = tuned("nirl", n_samples=int(case["updates an iteration"]))
-    there = CountedTask(EPISODES_PER_ITERATION, encoder=encoder(settings["target"]))
+    there = CountedTask(
+        EPISODES_PER_ITERATION,
+        encoder=encoder(settings["target"]),
+        reflex=SETUP.reflex,
+    )
     learned = train_irl("nirl", demonstrations(seed), seed, settings, task=there)
     visited = _as_bytes(np.concatenate(there.states))
     met: list[NDArray[np.bytes_]] = []

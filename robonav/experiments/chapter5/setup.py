@@ -40,7 +40,6 @@ from robonav.nirl import (
 )
 from robonav.robot import (
     NNQL_SENSORS,
-    REFLEX,
     Encoder,
     Policy,
     Reflex,
@@ -94,7 +93,7 @@ def demonstrations(
     number: int = DEMONSTRATIONS,
     expert: str = "computer",
     *,
-    reflex: Reflex = REFLEX,
+    reflex: Reflex = SETUP.reflex,
 ) -> Demonstrations:
     """Return the demonstrations of a run by an expert, "computer" or "human", each in a map of its own."""
     worlds = random_worlds(number, SETUP.obstacles, seed=DEMONSTRATION_SEED + seed)
@@ -111,7 +110,8 @@ def encoder(target: str, sensors: tuple[int, ...] = NNQL_SENSORS) -> Encoder:
 
 def task(target: str = "sine-cosine", **changes: Any) -> RobotTask:
     """Return the training task: 20 obstacles, 2 m/s, ten episodes in each iteration."""
-    return RobotTask(EPISODES_PER_ITERATION, **({"encoder": encoder(target)} | changes))
+    usual: dict[str, Any] = {"encoder": encoder(target), "reflex": SETUP.reflex}
+    return RobotTask(EPISODES_PER_ITERATION, **(usual | changes))
 
 
 def policy_improvement(settings: Settings) -> ReplaySGD:

@@ -103,7 +103,11 @@ def _reward_table(
     seeds: range, length: float, obstacles: int, speed: float
 ) -> Sequence[Policy]:
     there = NavigationTask(
-        obstacles, speed=speed, starts=[(10, 10)], targets=[(90, 90)]
+        obstacles,
+        speed=speed,
+        starts=[(10, 10)],
+        targets=[(90, 90)],
+        reflex=SETUP.reflex,
     )
     episodes = round(TRANSFER_CONDITIONS["episodes"] * length)
     return train("nnql", seeds, episodes, task=there, **NNQL).policies
@@ -150,7 +154,7 @@ def slipping_demonstrations(seed: int) -> Demonstrations:
         DEMONSTRATIONS, SETUP.obstacles, seed=DEMONSTRATION_SEED + seed
     )
     slip = neighbour_slip(TRANSFER_CONDITIONS["slip"])
-    return demonstrate(worlds, speed=SETUP.speed, slip=slip)
+    return demonstrate(worlds, speed=SETUP.speed, slip=slip, reflex=SETUP.reflex)
 
 
 def refine(case: Case, seed: int, scale: str) -> Numbers:

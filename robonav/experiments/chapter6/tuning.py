@@ -17,9 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from robonav.benchmark import outcome_rates
-from robonav.robot import navigate
-
 from ..runner.experiment import Case, Experiment, Numbers, Plot, Results
 from ..runner.results import RESULTS
 from ..runner.run import reproduce
@@ -73,7 +70,7 @@ def tune(case: Case, seed: int, scale: str) -> Numbers:
     settings = json.loads(str(case["settings"]))
     policy = planner(str(case["method"]), settings, SETUP.speed)
     worlds = SETUP.tuning_worlds(seed, SETUP.navigations[scale])
-    return outcome_rates(navigate(policy, worlds, SETUP.speed, SETUP.max_steps))
+    return SETUP.evaluate(policy, worlds)
 
 
 def tune_again(case: Case, seed: int, scale: str) -> Numbers:

@@ -7,7 +7,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from robonav.benchmark.evaluation import outcome_rates
-from robonav.robot import Policy, Worlds, navigate, random_worlds
+from robonav.robot import (
+    Policy,
+    PolicyWithMemory,
+    Reflex,
+    Worlds,
+    navigate,
+    random_worlds,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +35,8 @@ class Setup:
         Run k is tested in the worlds of the seed ``test_seed`` + k.
     tuning_seed : int
         Worlds for tuning have the seed ``tuning_seed`` + k. They differ from all worlds for tests.
+    direction : {"exact", "sector"}
+        What the robot's reflex knows of the direction of its target, in training and in tests.
     ends : mapping
         The starts and targets of the worlds; by default the usual ones.
     """
@@ -38,7 +47,13 @@ class Setup:
     navigations: Mapping[str, int]
     test_seed: int
     tuning_seed: int
+    direction: str
     ends: Mapping[str, Sequence[tuple[float, float]]] = field(default_factory=dict)
+
+    @property
+    def reflex(self) -> Reflex:
+        """The reflex of all robots of the chapter."""
+        return Reflex(self.direction)
 
     def worlds(
         self, n: int, seed: int, obstacles: int | None = None, moving: int = 0
@@ -60,8 +75,13 @@ class Setup:
         return self.worlds(n, self.tuning_seed + seed)
 
     def evaluate(
-        self, policy: Policy, worlds: Worlds, speed: float | None = None
+        self,
+        policy: Policy | PolicyWithMemory,
+        worlds: Worlds,
+        speed: float | None = None,
     ) -> dict[str, float]:
         """Return the outcome rates of a policy in per cent, from one episode in each world."""
         at = self.speed if speed is None else speed
-        return outcome_rates(navigate(policy, worlds, at, self.max_steps))
+        return outcome_rates(
+            navigate(policy, worlds, at, self.max_steps, reflex=self.reflex)
+        )

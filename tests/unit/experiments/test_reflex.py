@@ -1,7 +1,11 @@
 """What the exact direction of the target is worth: the experiment runs what it says."""
 
+import ast
+from pathlib import Path
+
 import pytest
 
+import robonav
 from robonav.experiments import reflex
 from robonav.experiments.chapter3.setup import demonstrations
 from robonav.robot import Action, Reflex
@@ -61,3 +65,35 @@ def test_every_learned_policy_trains_and_drives_with_either():
                 ("exact", "sector"),
                 ("sector", "sector"),
             }
+
+
+HAVE_REFLEX = {
+    "navigate", "run_episodes", "record", "demonstrate", "demonstrate_by_hand", "dagger", "collect",
+    "NavigationTask", "RobotTask", "CountedTask", "NavigationEnv", "NavigationVectorEnv",
+}  # fmt: skip
+HAVE_TASK = {"train", "learn", "learn_under_reward", "nirl", "apprenticeship", "scirl"}
+PACKAGE = Path(robonav.__file__).parent
+FILES = [*(PACKAGE / "experiments").rglob("*.py"), PACKAGE / "benchmark/leaderboard.py"]
+
+
+def calls_by_default(source):
+    """The calls that take the package's default reflex: without the argument, and without others by ``**``."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            given = {keyword.arg for keyword in node.keywords}
+            wanted = {"reflex"} if node.func.id in HAVE_REFLEX else {"task"}
+            if node.func.id in HAVE_REFLEX | HAVE_TASK and not given & (wanted | {None}):  # fmt: skip
+                yield node.lineno, node.func.id
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_committed_numbers_name_their_reflex(path):
+    """So that the package's default has no influence on them."""
+    source = path.read_text()
+    assert list(calls_by_default(source)) == []
+    assert "REFLEX," not in source.replace("EXACT_REFLEX", "")
+
+
+def test_calls_by_default_are_found():
+    source = "navigate(a, b)\nnavigate(a, reflex=c)\nlearn(d, seed=1)\nlearn(**d)\nlearn(task=e)"
+    assert list(calls_by_default(source)) == [(1, "navigate"), (3, "learn")]
