@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import anywidget
 import traitlets
 
-from robonav.benchmark import SETTINGS
+from robonav.benchmark import EXACT_REFLEX, SETTINGS
 from robonav.benchmark.leaderboard import SEED, SETS, WORLDS
 from robonav.robot import neighbour_slip
 
@@ -73,6 +73,7 @@ def leaderboard_row(
                 "obstacles": setting.obstacles,
                 "moving": setting.moving,
                 "speed": setting.speed,
+                "direction": EXACT_REFLEX.direction,
                 "noise": setting.noise,
                 "slip": neighbour_slip(setting.slip).tolist() if setting.slip else None,
             },

@@ -239,7 +239,7 @@ function render({ model, el }) {
     const r = rewardsOf(theta, encode(encoder, sensing));
     values.replaceChildren(...bars(r));
     const ended = { arrived: `arrives after ${now.poses.length - 1} s`, collided: `collides after ${now.poses.length - 1} s`, running: `is still on its way after ${STEPS} s` }[now.outcome];
-    const will = own === ROBOT.toTarget ? "nothing is near, the reflex decides" : own === ROBOT.backward ? "blocked, the reflex steps back" : `the reward's best action is ${ROBOT.actions[largest(r)]}`;
+    const will = turnsToTarget(own) ? "nothing is near, the reflex decides" : own === ROBOT.backward ? "blocked, the reflex steps back" : `the reward's best action is ${ROBOT.actions[largest(r)]}`;
     status.textContent = `With this reward the robot ${ended}. Second ${step}: ${will}.`;
     board.canvas.setAttribute("aria-label", `Map, ${then.obstacles.length} obstacles. ${status.textContent}`);
   }

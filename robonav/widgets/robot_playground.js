@@ -141,8 +141,8 @@ function render({ model, el }) {
       values.replaceChildren(...[...thought.z].map((z, k) => h("span", { class: k === thought.action ? "chosen" : "" }, `${ROBOT.actions[k]} ${sigmoid(z).toFixed(2)}`)));
       who.picture.show(who.network, thought.activations);
     } else values.replaceChildren(h("span", {}, mine() ? howToSteer() : "a rule, no network"));
-    const will = own === ROBOT.toTarget && coast.checked && mine() ? (step > 0 ? "nothing in range: it goes on by itself" : `press ${whatSteers()}, and it sets off`)
-      : own === ROBOT.toTarget ? "nothing in range: its reflex turns it to the target" : own === ROBOT.backward ? "blocked ahead: its reflex steps back"
+    const will = turnsToTarget(own) && coast.checked && mine() ? (step > 0 ? "nothing in range: it goes on by itself" : `press ${whatSteers()}, and it sets off`)
+      : turnsToTarget(own) ? "nothing in range: its reflex turns it to the target" : own === ROBOT.backward ? "blocked ahead: its reflex steps back"
       : thought ? `it takes ${ROBOT.actions[thought.action]}, ${actionName(thought.action)}` : "it waits for you";
     const ended = { arrived: `Arrived after ${step} s.`, collided: `Collided after ${step} s.` }[outcome];
     status.textContent = ended ?? `${step} s, target in sector ${sensing.region}${sensing.seen ? ", seen" : ""}; ${will}.`;

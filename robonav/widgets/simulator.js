@@ -20,6 +20,7 @@ export const ROBOT = {
   backward: 5,
   toTarget: 6,
   toSector: 7,
+  direction: "exact", // what the reflex knows of the direction of the target, unless something else is said
   dangerBorders: [3, 7, 11, 15, 20, 25, 30].map((border) => (border * 10) / 30),
 };
 const [DRIFTING, SENSING, SLIPPING, CHOOSING, ITEMS, TURN_PROBABILITY] = [2, 3, 4, 5, 1024, 0.1];
@@ -211,7 +212,7 @@ export const degreeOfDanger = (distance) => ROBOT.dangerBorders.filter((border) 
  * @param {number} speed
  * @param {"exact" | "sector"} direction what it knows of the direction of the target where nothing is in range
  */
-export function reflex({ ranges }, speed, direction = "exact") {
+export function reflex({ ranges }, speed, direction = ROBOT.direction) {
   if (ranges.every((distance) => distance >= ROBOT.range)) return direction === "exact" ? ROBOT.toTarget : ROBOT.toSector;
   return [0, 1, 2, 7, 8].every((k) => ranges[k] < speed + ROBOT.collision) ? ROBOT.backward : -1;
 }
@@ -259,6 +260,9 @@ function slipped(action, slip, key, step) {
   return action;
 }
 
+/** Whether a command of the reflex turns the robot to its target. */
+export const turnsToTarget = (command) => command === ROBOT.toTarget || command === ROBOT.toSector;
+
 /** The heading of a robot that turns to its target: to the target itself, or to the middle of the target's sector. */
 function turnedToTarget(command, { x, y, heading }, target) {
   const [dx, dy] = [target[0] - x, target[1] - y];
@@ -273,10 +277,9 @@ function turnedToTarget(command, { x, y, heading }, target) {
  */
 export function advance(world, pose, step, command, speed, slip = null) {
   let { heading } = pose;
-  const turnsToTarget = command === ROBOT.toTarget || command === ROBOT.toSector;
-  const straight = turnsToTarget ? 0 : command;
+  const straight = turnsToTarget(command) ? 0 : command;
   const action = slip ? slipped(straight, slip, world.key, step) : straight;
-  if (turnsToTarget) heading = turnedToTarget(command, pose, world.target);
+  if (turnsToTarget(command)) heading = turnedToTarget(command, pose, world.target);
   heading = wrap(heading + ROBOT.turns[action]);
   const length = action === ROBOT.backward ? -speed : speed;
   const next = { x: pose.x + length * Math.cos(heading), y: pose.y + length * Math.sin(heading), heading };

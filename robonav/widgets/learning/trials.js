@@ -2,7 +2,7 @@
 
 /**
  * @typedef {{rule?: string, network?: Network, encoder?: Encoder, temperature?: number}} Policy
- * @typedef {{obstacles: number, moving?: number, speed: number, noise?: number, slip?: number[][] | null, maxSteps?: number}} Conditions
+ * @typedef {{obstacles: number, moving?: number, speed: number, noise?: number, slip?: number[][] | null, maxSteps?: number, direction?: "exact" | "sector"}} Conditions
  */
 
 /** What a policy does with what it senses. @param {Policy} policy @returns {number} */
@@ -17,12 +17,12 @@ function actionOf(policy, sensing, world, step) {
  * @param {World} first
  * @param {Conditions} conditions
  */
-export function driveWith(policy, first, { speed, noise = 0, slip = null, maxSteps = 500 }) {
+export function driveWith(policy, first, { speed, noise = 0, slip = null, maxSteps = 500, direction = ROBOT.direction }) {
   let [world, pose, outcome] = [first, startPose(first), "running"];
   const poses = [pose];
   for (let step = 0; step < maxSteps && outcome === "running"; step += 1) {
     const sensing = sense(world, pose, noise, step);
-    const own = reflex(sensing, speed);
+    const own = reflex(sensing, speed, direction);
     const action = own < 0 ? actionOf(policy, sensing, world, step) : own;
     ({ world, pose, outcome } = advance(world, pose, step, action, speed, slip));
     poses.push(pose);

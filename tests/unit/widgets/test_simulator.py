@@ -99,6 +99,11 @@ def test_a_robot_that_knows_the_sector_drives_in_the_page_as_in_python(
     )  # fmt: skip
 
 
+def test_reflex_of_the_page_knows_by_default_what_pythons_knows(node):
+    directions = node("simulator", "return page.ROBOT.direction;", {})
+    assert directions == Reflex().direction
+
+
 @pytest.mark.parametrize(("target", "policy"), [*policies()])
 def test_networks_drive_in_the_page_as_in_python(node, target, policy):
     worlds = concatenate(

@@ -3,10 +3,17 @@
 import numpy as np
 import pytest
 
-from robonav.benchmark import SETTINGS
+from robonav.benchmark import EXACT_REFLEX, SETTINGS
 from robonav.benchmark.policies import method
 from robonav.networks import NetworkPolicy
-from robonav.robot import navigate, neighbour_slip, random_worlds, straight
+from robonav.robot import (
+    Reflex,
+    navigate,
+    neighbour_slip,
+    random_worlds,
+    straight,
+)
+from robonav.widgets.leaderboard_row import leaderboard_row
 from robonav.widgets.simulator import page_policy
 
 FILES = ("simulator", "learning/random", "learning/worlds", "learning/trials")
@@ -21,17 +28,25 @@ return policies.map((policy) => worlds.map((world) => {
 """
 
 
+def conditions_of_board(name):
+    """The conditions of a setting, as the page of the leaderboard has them."""
+    settings = leaderboard_row({}).data["settings"]
+    (conditions,) = (own["conditions"] for own in settings if own["name"] == name)
+    return conditions
+
+
 @pytest.mark.parametrize("name", SETTINGS)
-def test_policies_drive_in_the_page_as_in_python(node, name):
-    setting = SETTINGS[name]
+def test_policies_drive_in_the_page_as_on_the_leaderboard(node, name):
+    check_driven(node, SETTINGS[name], conditions_of_board(name), EXACT_REFLEX)
+
+
+def test_robots_that_know_the_sector_drive_in_the_page_as_in_python(node):
+    conditions = conditions_of_board("20 obstacles") | {"direction": "sector"}
+    check_driven(node, SETTINGS["20 obstacles"], conditions, Reflex("sector"))
+
+
+def check_driven(node, setting, conditions, reflex):
     slip = neighbour_slip(setting.slip) if setting.slip else None
-    conditions = {
-        "obstacles": setting.obstacles,
-        "moving": setting.moving,
-        "speed": setting.speed,
-        "noise": setting.noise,
-        "slip": None if slip is None else slip.tolist(),
-    }
     learned = method("lfd")
     assert isinstance(learned, NetworkPolicy)
     policies = [{"rule": "straight"}, page_policy(learned)]
@@ -39,7 +54,9 @@ def test_policies_drive_in_the_page_as_in_python(node, name):
     driven = node(FILES, DRIVE, data)
     worlds = random_worlds(40, setting.obstacles, setting.moving, seed=77)
     for policy, ours in zip((straight, learned), driven, strict=True):
-        theirs = navigate(policy, worlds, setting.speed, noise=setting.noise, slip=slip)
+        theirs = navigate(
+            policy, worlds, setting.speed, noise=setting.noise, slip=slip, reflex=reflex
+        )
         assert [end["outcome"] for end in ours] == list(theirs.outcome)
         assert [end["steps"] for end in ours] == theirs.steps.tolist()
 
