@@ -111,6 +111,23 @@ def check_again(known, chosen, seeds, folder):
 
 
 WHOLE = [name for name in names() if not experiment(name).shortened]
+ONE_CASE = {
+    "figure-4.6": -1,
+    "figure-5.10": -1,
+    "lab-nirl": -1,
+    "nfq-late": -1,
+    "nirl-choice": -1,
+    "nirl-controls": -1,
+    "nirl-refinement": -1,
+    "nirl-sensors": -1,
+    "nirl-steps": -1,
+    "nirl-updates": 0,
+    "nnql-20-obstacles": -1,
+    "nnql-maps": -1,
+    "nnql-steps": -1,
+    "table-5.1": -1,
+}
+"""The case that is run of an experiment whose other one is a long training: others here train by the same method."""
 
 
 @pytest.mark.parametrize("name", WHOLE)
@@ -118,7 +135,9 @@ def test_a_quick_run_of_the_first_and_last_case_falls_where_the_committed_result
     name, tmp_path
 ):
     known = experiment(name)
-    check_again(known, sorted({0, len(known.cases) - 1}), 1, tmp_path)
+    every = range(len(known.cases))
+    some = (ONE_CASE[name],) if name in ONE_CASE else (0, -1)
+    check_again(known, sorted({every[case] for case in some}), 1, tmp_path)
 
 
 @pytest.mark.exhaustive

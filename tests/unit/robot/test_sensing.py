@@ -64,8 +64,8 @@ def least_distances(pose, sectors, things):
 
 
 @pytest.mark.slow
-def test_ranges_and_walls_agree_with_shapely_in_thousands_of_worlds():
-    n = 2000
+def test_ranges_and_walls_agree_with_shapely_in_hundreds_of_worlds():
+    n = 500
     worlds = random_worlds(n, obstacles=12, seed=101)
     rng = np.random.default_rng(7)
     poses = np.column_stack(
@@ -110,7 +110,7 @@ def test_ranges_and_walls_agree_with_shapely_in_thousands_of_worlds():
 
 def test_rectangles_agree_with_shapely_exactly():
     rng = np.random.default_rng(8)
-    for _ in range(1000):
+    for _ in range(300):
         a, b = rng.uniform(1, 8, 2)
         world = make_world(rectangles=[(50, 50, a, b, rng.uniform(0, 360))])
         bearing, distance = rng.uniform(0, 2 * np.pi), rng.uniform(0, 16)
@@ -274,7 +274,7 @@ def test_circles_agree_with_shapely_to_the_micrometre():
     rng = np.random.default_rng(9)
     corner = np.linspace(0, 2 * np.pi, 131_072, endpoint=False)
     unit = np.stack([np.cos(corner), np.sin(corner)], axis=1)
-    for _ in range(60):
+    for _ in range(20):
         radius, bearing, distance = (
             rng.uniform(1.5, 4),
             rng.uniform(0, 2 * np.pi),

@@ -211,11 +211,11 @@ NETWORKS = [name for name in methods() if isinstance(method(name), NetworkPolicy
 
 @pytest.mark.parametrize("name", NETWORKS)
 @pytest.mark.slow
-def test_shipped_policies_drive_a_thousand_worlds_in_the_page_as_in_python(
+def test_shipped_policies_drive_hundreds_of_worlds_in_the_page_as_in_python(
     node, thousand, name
 ):
     policy = method(name)
-    worlds, shown = thousand
+    worlds, shown = (all_of_them[::4] for all_of_them in thousand)
     if policy.temperature > 0:
         paths, outcomes = Seeded(policy, worlds, 2.0, 100).drive()
     else:
