@@ -241,6 +241,7 @@ def test_methods_refuse_names_they_do_not_know():
         train_irl("magic", demonstrations(0), 0, tuned("nirl"))
 
 
+@pytest.mark.slow
 def test_a_shipped_network_is_the_best_of_its_seeds():
     weights = nirl_weights("nirl", (0, 1), length=SHORT)
     made = weights.made

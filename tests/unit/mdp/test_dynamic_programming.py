@@ -182,7 +182,13 @@ def fewest_steps(table, start):
     return math.inf
 
 
-@pytest.mark.parametrize("batch", range(20))
+@pytest.mark.parametrize(
+    "batch",
+    [
+        pytest.param(batch, marks=pytest.mark.slow if batch >= 4 else ())
+        for batch in range(20)
+    ],
+)
 def test_planners_and_a_linear_program_agree(batch):
     """On 20 x 15 random models, all planners, dense and sparse."""
     for seed in range(15 * batch, 15 * batch + 15):
@@ -618,15 +624,20 @@ def test_policy_iteration_as_written_ends_where_actions_tie():
     np.testing.assert_allclose(readable.values, recorded.values, atol=1e-11)
 
 
+@pytest.mark.parametrize(
+    "seeds",
+    [range(4), pytest.param(range(4, 20), marks=pytest.mark.slow)],
+    ids=["few", "more"],
+)
 @pytest.mark.parametrize("planner", COMPILED)
-def test_compiled_twins_on_dense_models(planner):
+def test_compiled_twins_on_dense_models(planner, seeds):
     """Dense products sum in BLAS's order: values agree to rounding, policies up to ties.
 
     Modified policy iteration may evaluate another of two equal actions, and then agrees to the tolerance only.
     """
     tolerance = 1e-3
     algorithm = inspect.unwrap(planner)
-    for seed in range(40):
+    for seed in seeds:
         rng = np.random.default_rng(seed)
         states, actions = rng.integers(2, 30), rng.integers(1, 5)
         full = FiniteMDP(

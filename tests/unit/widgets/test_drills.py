@@ -9,7 +9,7 @@ from drills import packed
 from robonav.drills import DRILLS, Choice, Number, Order, Place, Question, Table
 from robonav.drills.markup import as_json, html
 
-SEEDS = 20
+SEEDS = 6
 MASTERED, DAYS = 3, [1, 3, 7, 21, 60]
 
 

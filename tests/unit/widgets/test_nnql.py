@@ -179,6 +179,7 @@ return longest;
 """Milliseconds of computing between two places where the page may answer."""
 
 
+@pytest.mark.slow
 def test_without_a_worker_the_page_answers_within_100_ms(node):
     """The job gives the page a turn within an episode, too: with many passes an episode takes longer than a second."""
     slow = QLearningSettings(
