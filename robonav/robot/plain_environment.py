@@ -29,7 +29,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import ArrayLike, NDArray
 
-from ._fast.constants import CIRCLE, RECTANGLE  # the kinds of obstacles
+from ._fast.constants import CIRCLE, DIRECTION, RECTANGLE
 from .worlds import Worlds, draw_worlds, random_keys
 
 SENSOR_RANGE = 10.0  # metres, as all distances
@@ -68,7 +68,8 @@ class PlainNavigationEnv(gymnasium.Env):
     | 5      | B      | none             | -speed   |
 
     A reflex comes first: if nothing is in sensor range, the robot turns to its target and goes forward. If all five
-    sectors ahead are blocked, it steps back. In both cases it ignores the action given.
+    sectors ahead are blocked, it steps back. In both cases it ignores the action given. Of the direction of the target
+    the reflex knows the "exact" one, or only the "sector", to whose middle the robot then turns: see ``direction``.
 
     ## Observation space
 
@@ -114,8 +115,10 @@ class PlainNavigationEnv(gymnasium.Env):
     (-1.0, True)
     """
 
-    def __init__(self, obstacles: int = 10, speed: float = 2.0) -> None:
-        self.obstacles, self.speed = obstacles, speed
+    def __init__(
+        self, obstacles: int = 10, speed: float = 2.0, direction: str = DIRECTION
+    ) -> None:
+        self.obstacles, self.speed, self.direction = obstacles, speed, direction
         self.action_space = spaces.Discrete(6)
         self.observation_space = spaces.Dict(
             {
@@ -199,12 +202,19 @@ class PlainNavigationEnv(gymnasium.Env):
     def heading_and_distance(self, action: int) -> tuple[float, float]:
         """Return where the robot turns and how far it goes, by its reflex or the action."""
         if self.ranges.min() == SENSOR_RANGE:  # it has sensed nothing
-            return self.target_direction(), self.speed
+            return self.heading_to_target(), self.speed
         if (self.ranges[AHEAD] < self.speed + COLLISION_DISTANCE).all():  # blocked
             action = BACK
         turned = self.heading + TURNS[action]
         heading = math.remainder(turned, math.tau)  # within a half turn of 0
         return heading, -self.speed if action == BACK else self.speed
+
+    def heading_to_target(self) -> float:
+        """Return where the reflex turns the robot: to the target, or to the middle of the target's sector."""
+        if self.direction == "exact":
+            return self.target_direction()
+        middle = self.heading + SECTOR * self.target_sector()
+        return math.remainder(middle, math.tau)
 
     def target_distance(self) -> float:
         """Return how far the target is, to the micrometre."""
@@ -214,6 +224,10 @@ class PlainNavigationEnv(gymnasium.Env):
         """Return the direction in which the target lies."""
         dx, dy = self.target - self.position
         return math.atan2(dy, dx)
+
+    def target_sector(self) -> int:
+        """Return the number, 0 to 8, of the sector that holds the target."""
+        return sector(round(self.target_direction() - self.heading, 6))
 
     def sense(self) -> Observation:
         """Return the least distance in each sector, whether it is to a border, and where the target is.
@@ -237,7 +251,7 @@ class PlainNavigationEnv(gymnasium.Env):
         return {
             "ranges": self.ranges.copy(),
             "walls": (is_border & (self.ranges < SENSOR_RANGE)).astype(np.int8),
-            "target_region": sector(round(self.target_direction() - self.heading, 6)),
+            "target_region": self.target_sector(),
             "target_seen": np.int64(self.target_distance() <= SENSOR_RANGE),
         }
 

@@ -20,6 +20,7 @@ from robonav.validation import (
 
 from . import _fast
 from ._fast import OUT_OF_STEPS, RUNNING
+from ._fast.constants import DIRECTION
 from .worlds import Worlds
 
 NO_SLIP = np.zeros((0, 0))
@@ -175,13 +176,13 @@ class Reflex:
     --------
     >>> from robonav.robot import Reflex, make_world, sense
     >>> world = make_world(circles=[(58, 50, 2)])
-    >>> [int(Reflex()(sense(world, [pose]), speed=2.0)[0]) for pose in [(50, 50, 0), (20, 20, 0)]]
+    >>> [int(Reflex("exact")(sense(world, [pose]), speed=2.0)[0]) for pose in [(50, 50, 0), (20, 20, 0)]]
     [-1, 6]
     >>> int(Reflex("sector")(sense(world, [(20, 20, 0)]), speed=2.0)[0])
     7
     """
 
-    direction: str = "exact"
+    direction: str = DIRECTION
 
     def __post_init__(self) -> None:
         check_one_of("direction", self.direction, DIRECTIONS)

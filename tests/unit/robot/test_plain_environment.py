@@ -11,6 +11,7 @@ from gymnasium.utils.env_checker import check_env
 from robonav.robot import (
     Action,
     Outcome,
+    Reflex,
     make_world,
     plain_environment,
     random_worlds,
@@ -30,12 +31,21 @@ def equal(one, other):
 
 
 @pytest.mark.parametrize(
-    ("obstacles", "speed"), [(0, 2.0), (10, 1.3), (20, 2.0), (20, 4.0), (30, 2.5)]
+    ("obstacles", "speed", "direction"),
+    [
+        (0, 2.0, "exact"),
+        (10, 1.3, "exact"),
+        (20, 2.0, "exact"),
+        (20, 4.0, "exact"),
+        (30, 2.5, "exact"),
+        (0, 2.0, "sector"),
+        (10, 1.3, "sector"),
+    ],
 )
-def test_episodes_are_those_of_the_compiled_environment(obstacles, speed):
+def test_episodes_are_those_of_the_compiled_environment(obstacles, speed, direction):
     """Wherever the sensors round a distance alike, which is everywhere in these episodes."""
-    plain = PlainNavigationEnv(obstacles=obstacles, speed=speed)
-    fast = NavigationEnv(obstacles=obstacles, speed=speed)
+    plain = PlainNavigationEnv(obstacles, speed, direction)
+    fast = NavigationEnv(obstacles=obstacles, speed=speed, reflex=direction)
     assert plain.observation_space == fast.observation_space
     assert plain.action_space == fast.action_space
     rng, outcomes = np.random.default_rng(0), set()
@@ -104,6 +114,7 @@ def test_the_constants_are_those_of_the_twin():
         assert getattr(plain_environment, name) == getattr(constants, name)
     np.testing.assert_array_equal(plain_environment.TURNS, constants.TURNS)
     assert plain_environment.BACK == Action.B
+    assert PlainNavigationEnv().direction == Reflex().direction
 
 
 def test_a_map_by_hand_is_the_one_that_is_made():
