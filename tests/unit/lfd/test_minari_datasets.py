@@ -50,7 +50,7 @@ def test_there_and_back():
     assert episode.terminations.tolist() == [False] * (len(episode.actions) - 1) + [
         True
     ]
-    assert Action.TO_TARGET in episode.actions
+    assert {Action.TO_TARGET, Action.TO_SECTOR} & {*episode.actions}
 
 
 def test_episodes_of_other_endings():

@@ -212,7 +212,7 @@ def test_the_parameters_of_both_environments_are_listed():
 
 
 def test_reflexes_are_reported_and_can_be_turned_off():
-    env = NavigationEnv(obstacles=0)
+    env = NavigationEnv(obstacles=0, reflex=Reflex("exact"))
     env.reset(seed=0)
     *_, info = env.step(Action.R60)
     assert info["reflex"] == Action.TO_TARGET

@@ -279,7 +279,7 @@ def test_reflexes():
     blocked[[0, 1, 2, 7, 8]] = 2.9
     nearly = blocked.copy()
     nearly[8] = 3.0
-    commands = Reflex()(sensing([free, near, blocked, nearly]), 2.0)
+    commands = Reflex("exact")(sensing([free, near, blocked, nearly]), 2.0)
     np.testing.assert_array_equal(commands, [Action.TO_TARGET, -1, Action.B, -1])
     commands = Reflex("sector")(sensing([free, near, blocked, nearly]), 2.0)
     np.testing.assert_array_equal(commands, [Action.TO_SECTOR, -1, Action.B, -1])
