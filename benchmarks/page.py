@@ -67,6 +67,14 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         "Training of chapter 4, compared with stable-baselines3's DQN. The ratio "
         "is that of learning steps to updates in a second.",
     ),
+    "Proximal policy optimisation": (
+        "ppo.py",
+        (),
+        True,
+        "Sixteen seeds of PPO, trained until each crosses maps with 10 obstacles, "
+        "compared with stable-baselines3's PPO. The ratio is that of steps of actors "
+        "in a second, learning included.",
+    ),
     "Inverse reinforcement learning": (
         "nirl.py",
         (),

@@ -1,9 +1,9 @@
 """robonav: robot learning for autonomous navigation, the package of the book.
 
 Each chapter has its subpackage: ``mdp`` (chapter 2), ``robot`` (section 2.5), ``lfd`` (3, imitation learning),
-``nnql`` (4, reinforcement learning), ``nirl`` (5, inverse reinforcement learning) and ``planners`` (6, which learn
-nothing). Chapters 3 to 5 use ``networks``. Importing this package only registers the Gymnasium environments.
-Subpackages load when they are first used.
+``nnql`` (4, reinforcement learning), ``nirl`` (5, inverse reinforcement learning), ``planners`` (6, which learn
+nothing) and ``deep`` (6, deep reinforcement learning). Chapters 3 to 6 use ``networks``. Importing this package only
+registers the Gymnasium environments. Subpackages load when they are first used.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from ._version import __version__ as __version__
 
 _SUBPACKAGES = (
     "benchmark",
+    "deep",
     "experiments",
     "grading",
     "lfd",
@@ -32,6 +33,7 @@ _SUBPACKAGES = (
 
 if TYPE_CHECKING:
     from robonav import (  # noqa: F401
+        deep,
         experiments,
         grading,
         lfd,

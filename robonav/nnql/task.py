@@ -149,11 +149,42 @@ class NavigationTask:
         >>> len(NavigationTask().worlds([0, 1], first=0, last=3))
         6
         """
-        episodes = np.arange(first, last) % (self.maps or last)
-        keys = [
-            world_keys(last, int(make_rng(seed, WORLDS).integers(2**63)))[episodes]
-            for seed in seeds
-        ]
+        episodes = np.arange(first, last)
+        return self._drawn([self._keys(seed, episodes) for seed in seeds])
+
+    def worlds_at(self, seeds: Sequence[int], episodes: NDArray[np.int64]) -> Worlds:
+        """One world for each of K pairs of a seed and an episode.
+
+        Parameters
+        ----------
+        seeds : (K,) sequence of int
+            Seeds of trainings.
+        episodes : (K,) int array
+            One episode of each seed.
+
+        Returns
+        -------
+        Worlds
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.nnql import NavigationTask
+        >>> task = NavigationTask()
+        >>> pair = task.worlds_at([4, 4], np.array([0, 2]))
+        >>> bool((pair.centres[1] == task.worlds([4], 0, 3).centres[2]).all())
+        True
+        """
+        pairs = zip(seeds, episodes, strict=True)
+        return self._drawn([self._keys(seed, np.array([own])) for seed, own in pairs])
+
+    def _keys(self, seed: int, episodes: NDArray[np.int64]) -> NDArray[np.uint32]:
+        """The keys of the worlds of these episodes of a seed."""
+        chosen = episodes if self.maps is None else episodes % self.maps
+        own = int(make_rng(seed, WORLDS).integers(2**63))
+        return world_keys(int(chosen.max()) + 1, own)[chosen]
+
+    def _drawn(self, keys: Sequence[NDArray[np.uint32]]) -> Worlds:
         return draw_worlds(
             np.concatenate(keys), self.obstacles, self.moving, self.starts, self.targets
         )

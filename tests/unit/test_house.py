@@ -26,7 +26,7 @@ BASE = {
     "validation",
     "documentation",
 }
-CHAPTERS = {"mdp", "robot", "networks", "lfd", "nnql", "nirl", "planners"}
+CHAPTERS = {"mdp", "robot", "networks", "lfd", "nnql", "nirl", "planners", "deep"}
 ALLOWED = {
     "mdp": set(),
     "robot": set(),
@@ -35,6 +35,7 @@ ALLOWED = {
     "nnql": {"mdp", "robot", "networks"},
     "nirl": {"mdp", "robot", "networks", "lfd", "nnql"},
     "planners": {"robot", "lfd"},
+    "deep": {"mdp", "robot", "networks", "nnql"},
     "experiments": CHAPTERS | {"benchmark"},
     "benchmark": CHAPTERS,
     "plots": CHAPTERS | {"experiments", "benchmark"},

@@ -62,6 +62,7 @@ READABLE = [
     "nirl.apprenticeship",
     "nirl.relative_entropy",
     "nirl.scirl",
+    "deep.ppo",
 ]
 RESULTS = {
     "mdp.Solution": {"values", "policy", "iterations", "history"},

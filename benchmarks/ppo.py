@@ -1,0 +1,83 @@
+"""How fast PPO trains robots: seconds until sixteen seeds arrive in 95 % of new worlds, and steps a second.
+
+    python benchmarks/ppo.py                   # seconds
+    python benchmarks/ppo.py --peers DIR       # and stable-baselines3's PPO (see benchmarks/peers/README.md)
+
+Each seed is tested with 10 obstacles in 500 worlds in which nothing was trained or tuned; the seed with the least
+success counts. The peer has the same network, numbers of actors, steps, epochs and minibatches, on CartPole; a step is
+one of one actor, learning included. ``--cpu`` counts seconds of the processor, for a machine that others use too.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from robonav.deep import train_ppo
+from robonav.robot import navigate, random_worlds
+
+HERE = Path(__file__).parent
+SEEDS, WORLDS, WORLD_SEED = 16, 500, 95_000
+SECONDS, SUCCESS = 60, 95
+
+
+def peer(folder: Path, *options: str) -> float:
+    """Steps a second of stable-baselines3's PPO, in its own environment."""
+    command = [
+        str(folder / "v1" / "bin" / "python"),
+        str(HERE / "peers" / "sb3_ppo.py"),
+        *options,
+    ]
+    quiet = os.environ | {"PYTHONWARNINGS": "ignore"}
+    shown = subprocess.run(
+        command, capture_output=True, text=True, check=True, env=quiet
+    )
+    return float(shown.stdout.strip().splitlines()[-1])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--peers", type=Path, help="folder with the peers' virtual environments"
+    )
+    parser.add_argument(
+        "--cpu", action="store_true", help="count seconds of the processor"
+    )
+    options = parser.parse_args()
+    clock = time.process_time if options.cpu else time.perf_counter
+    train_ppo(1, 1, actors=2, steps=4)  # compiled
+    began = clock()
+    result = train_ppo(SEEDS)
+    spent = clock() - began
+    worlds = random_worlds(WORLDS, obstacles=10, seed=WORLD_SEED)
+    success = [
+        100 * navigate(policy, worlds, seed=0).success.mean()
+        for policy in result.policies
+    ]
+    settings = result.settings
+    steps = SEEDS * settings["updates"] * settings["actors"] * settings["steps"]
+    print(
+        f"{SEEDS} seeds: {spent:.1f} s (at most {SECONDS} s), {steps:,} steps, {steps / spent:,.0f} steps/s"
+    )
+    print(
+        f"success with 10 obstacles: {min(success):.1f} to {max(success):.1f} % (at least {SUCCESS} %), "
+        f"mean {np.mean(success):.1f} %"
+    )
+    if options.peers:
+        theirs = peer(options.peers, *(["--cpu"] if options.cpu else []))
+        print(
+            f"   stable-baselines3 PPO: {theirs:,.0f} steps/s; ratio {steps / spent / theirs:.1f}"
+        )
+    sys.exit(1 if spent > SECONDS or min(success) < SUCCESS else 0)
+
+
+if __name__ == "__main__":
+    main()

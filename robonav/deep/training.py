@@ -1,0 +1,229 @@
+"""Training of many seeds of PPO at once, on the navigation task."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from robonav.networks.network_stack import NetworkStack, stacked
+from robonav.networks.policy import NetworkPolicy
+from robonav.networks.torch_lbfgs import one_thread
+from robonav.nnql.task import ACTIONS, REPLAYING, NavigationTask, make_rng
+from robonav.nnql.training import check_seeds
+from robonav.progress import Progress
+from robonav.robot import Encoder
+from robonav.robot.environment_settings import arrival_or_collision
+from robonav.robot.worlds import START, TARGET
+from robonav.validation import check_argument, check_instance
+
+from ._arguments import RULES, check_batches
+from ._fast import Actors, StackedModule, batch_of
+from .networks import random_actor_critic
+from .ppo import Rollout, minibatches, objective, ppo
+
+
+def navigation_task(**changes: Any) -> NavigationTask:
+    """The task on which PPO trains: the worlds of the leaderboard, where an arrival gives 1 and a collision -1.
+
+    Parameters
+    ----------
+    **changes
+        Other attributes of :class:`robonav.nnql.NavigationTask`.
+
+    Returns
+    -------
+    NavigationTask
+
+    Examples
+    --------
+    >>> from robonav.deep import navigation_task
+    >>> navigation_task(obstacles=20).speed
+    2.0
+    """
+    usual: dict[str, Any] = {
+        "speed": 2.0,
+        "max_steps": 300,
+        "starts": (START,),
+        "targets": (TARGET,),
+        "encoder": Encoder(),
+        "reward": arrival_or_collision,
+    }
+    return NavigationTask(**(usual | changes))
+
+
+@dataclass(frozen=True, eq=False)
+class PPOResult:
+    """S trained policies and how their training went, over U updates.
+
+    Attributes
+    ----------
+    seeds : (S,) tuple of int
+        The seeds.
+    policy, value : NetworkStack
+        Stacks (S,) of the trained networks.
+    encoder : Encoder
+        Turns what is sensed into the networks' inputs.
+    ended, arrived : (S, U) int arrays
+        How many episodes ended while the actors acted for an update, and how many of them at the target.
+    settings : dict
+        The settings, by name.
+
+    Examples
+    --------
+    >>> from robonav.deep import train_ppo
+    >>> result = train_ppo(seeds=2, updates=3, actors=4, steps=16)
+    >>> result.ended.shape, len(result.policies)
+    ((2, 3), 2)
+    """
+
+    seeds: tuple[int, ...]
+    policy: NetworkStack
+    value: NetworkStack
+    encoder: Encoder
+    ended: NDArray[np.int64]
+    arrived: NDArray[np.int64]
+    settings: dict[str, Any]
+
+    @cached_property
+    def policies(self) -> tuple[NetworkPolicy, ...]:
+        """The policy of each seed, which draws its actions as it did in training."""
+        return tuple(
+            NetworkPolicy(self.policy[row], self.encoder, temperature=1.0)
+            for row in range(len(self.seeds))
+        )
+
+
+@one_thread()
+def train_ppo(
+    seeds: int | Sequence[int] = 16,
+    updates: int = 50,
+    *,
+    actors: int = 16,
+    task: NavigationTask | None = None,
+    hidden: Sequence[int] = (32,),
+    progress: Progress | None = None,
+    **settings: Any,
+) -> PPOResult:
+    """Train one policy for each seed by PPO.
+
+    The policies train at once, each as :func:`ppo` trains it in as many environments ``task.environment()`` as there
+    are actors. All robots step in one simulator.
+
+    Parameters
+    ----------
+    seeds : int or sequence of int
+        A number S for the seeds 0 to S - 1, or the seeds themselves.
+    updates : int
+        How often the actors act, and the networks learn from it.
+    actors : int
+        N, the robots of each seed.
+    task : NavigationTask, optional
+        What to train on; by default :func:`navigation_task`.
+    hidden : sequence of int
+        Units of each hidden layer.
+    progress : callable, optional
+        Called as ``progress(updates done, updates)``.
+    **settings
+        Keyword arguments of :func:`ppo`, which also has their defaults.
+
+    Returns
+    -------
+    PPOResult
+        With ``policies``, one for each seed.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.deep import train_ppo
+    >>> train_ppo(seeds=2, updates=1, actors=4, steps=16).policy.sizes
+    (12, 32, 5)
+    """
+    seeds = check_seeds(seeds)
+    task = navigation_task() if task is None else task
+    check_instance("task", task, NavigationTask)
+    checked = {"updates": updates, "actors": actors, "hidden": hidden}
+    updates, actors, hidden = (
+        check_argument(RULES, "train_ppo", name, value)
+        for name, value in checked.items()
+    )
+    options = ppo_settings(settings)
+    check_batches(options["batches"], actors * options["steps"])
+    started = [
+        random_actor_critic(task.encoder.size, hidden, ACTIONS, seed) for seed in seeds
+    ]
+    policy = StackedModule(stacked([one.policy for one in started]))
+    value = StackedModule(stacked([one.value for one in started]))
+    robots = Actors(task, seeds, actors)
+    optimiser = torch.optim.Adam(
+        [*policy.parameters(), *value.parameters()], lr=options["gradient_step"]
+    )
+    ended, arrived = np.zeros((2, len(seeds), updates), np.int64)
+    for update in range(updates):
+        rollout = robots.act(policy, options["steps"])
+        ended[:, update], arrived[:, update] = robots.ended, robots.arrived
+        learn(policy, value, optimiser, rollout, seeds, update, options)
+        if progress is not None:
+            progress(update + 1, updates)
+    about = options | {"updates": updates, "actors": actors, "hidden": hidden}
+    return PPOResult(
+        seeds, policy.stack(), value.stack(), task.encoder, ended, arrived, about
+    )
+
+
+def learn(
+    policy: StackedModule,
+    value: StackedModule,
+    optimiser: torch.optim.Optimizer,
+    rollout: Rollout,
+    seeds: Sequence[int],
+    update: int,
+    options: dict[str, Any],
+) -> None:
+    """One update of all seeds: some epochs of minibatches."""
+    batch = batch_of(
+        rollout, policy, value, options["discount"], options["trace_decay"]
+    )
+    orders = [
+        minibatches(
+            len(batch),
+            options["epochs"],
+            options["batches"],
+            make_rng(seed, REPLAYING, update),
+        )
+        for seed in seeds
+    ]
+    own = np.arange(len(seeds))[:, None]
+    for rows in zip(*orders, strict=True):
+        gains = objective(
+            policy, value, batch[own, np.stack(rows)], options["clip"],
+            options["value_weight"], options["entropy_weight"],
+        )  # fmt: skip
+        optimiser.zero_grad()
+        (-gains.sum()).backward()  # the seeds share no parameter
+        optimiser.step()
+
+
+def ppo_settings(given: dict[str, Any]) -> dict[str, Any]:
+    """The settings of :func:`ppo`: those given, checked, and its defaults."""
+    parameters = inspect.signature(ppo).parameters.values()
+    defaults = {p.name: p.default for p in parameters if p.default is not p.empty}
+    for name in given:
+        if name not in defaults:
+            raise TypeError(
+                f"train_ppo takes the settings {', '.join(defaults)}, got {name}"
+            )
+    return {
+        name: check_argument(RULES, "train_ppo", name, value)
+        for name, value in (defaults | given).items()
+    }
