@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from robonav._version import __version__
+from robonav.counting import counted
 from robonav.errors import WorkerLost
 from robonav.grading.commands import grade, gradebook, similarity
 
@@ -438,8 +439,9 @@ def navigate(
     rate, (low, high) = result["success"], result["interval"]
     _print_beside(
         json_file,
-        f"{method}: {100 * rate:.1f} % of {worlds} worlds arrive (95 % interval {100 * low:.1f} to {100 * high:.1f}), "
-        f"{result['outcomes']['collided']} collide, {result['outcomes']['out of steps']} run out of steps",
+        f"{method}: {100 * rate:.1f} % arrive in {counted(worlds, 'world')} (95 % interval {100 * low:.1f} to "
+        f"{100 * high:.1f}), {result['outcomes']['collided']} collide, "
+        f"{result['outcomes']['out of steps']} run out of steps",
     )
     if json_file is not None:
         _write_json(json_file, result)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from robonav.counting import counted
+
 if TYPE_CHECKING:
     from .classroom import GradingConfig
     from .course import Course
@@ -27,78 +29,90 @@ Who = Annotated[
 Which = Annotated[str, typer.Argument(help="The exercise, such as 2.3.")]
 
 
+# The arguments and options of robonav grade.
+Folder = Annotated[
+    Path,
+    typer.Argument(
+        help="A folder that holds one folder, zip file or notebook per student."
+    ),
+]
+Out = Annotated[
+    Path, typer.Option(help="The folder for grades, feedback and the overview.")
+]
+Secret = Annotated[
+    Path | None,
+    typer.Option(
+        help="A file whose content seeds the test cases. ROBONAV_SECRET does the same."
+    ),
+]
+Students = Annotated[
+    list[str] | None, typer.Option(help="Grade this student again. May be repeated.")
+]
+Exercises = Annotated[
+    list[str] | None,
+    typer.Option(help="Grade only this exercise again. May be repeated."),
+]
+Jobs = Annotated[
+    int, typer.Option(help="How many submissions at once; -1 for one per processor.")
+]
+Scheduler = Annotated[
+    str | None, typer.Option(help="Address of a Dask scheduler that does the work.")
+]
+Variant = Annotated[
+    str | None,
+    typer.Option(
+        help="The text that chose the variant of the exercises, as for robonav exercises build."
+    ),
+]
+OwnVariants = Annotated[
+    bool,
+    typer.Option(
+        "--each-student",
+        help="Each student has a variant of their own, as with robonav exercises build --student NAME. A name is "
+        "that of the submission.",
+    ),
+]
+Practice = Annotated[
+    bool,
+    typer.Option(
+        "--practice", help="Continue without a sandbox. The grades do not count."
+    ),
+]
+NewSecret = Annotated[
+    bool,
+    typer.Option(
+        "--new-secret", help="Grade everybody again with another secret than before."
+    ),
+]
+Roster = Annotated[
+    Path | None,
+    typer.Option(
+        help="The class as CSV, as for robonav gradebook start; it is kept beside the grades."
+    ),
+]
+Alike = Annotated[
+    bool,
+    typer.Option(
+        "--similarity",
+        help="Also write similarity.html: the pairs of submissions that are too alike.",
+    ),
+]
+
+
 def grade(
-    folder: Annotated[
-        Path,
-        typer.Argument(
-            help="A folder that holds one folder, zip file or notebook per student."
-        ),
-    ],
-    out: Annotated[
-        Path, typer.Option(help="The folder for grades, feedback and the overview.")
-    ],
-    secret: Annotated[
-        Path | None,
-        typer.Option(
-            help="A file whose content seeds the test cases. ROBONAV_SECRET does the same."
-        ),
-    ] = None,
-    student: Annotated[
-        list[str] | None,
-        typer.Option(help="Grade this student again. May be repeated."),
-    ] = None,
-    exercise: Annotated[
-        list[str] | None,
-        typer.Option(help="Grade only this exercise again. May be repeated."),
-    ] = None,
-    jobs: Annotated[
-        int,
-        typer.Option(help="How many submissions at once; -1 for one per processor."),
-    ] = -1,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(help="Address of a Dask scheduler that does the work."),
-    ] = None,
-    variant: Annotated[
-        str | None,
-        typer.Option(
-            help="The text that chose the variant of the exercises, as for robonav exercises build."
-        ),
-    ] = None,
-    each_student: Annotated[
-        bool,
-        typer.Option(
-            "--each-student",
-            help="Each student has a variant of their own, as with robonav exercises build --student NAME. A name is "
-            "that of the submission.",
-        ),
-    ] = False,
-    practice: Annotated[
-        bool,
-        typer.Option(
-            "--practice", help="Continue without a sandbox. The grades do not count."
-        ),
-    ] = False,
-    new_secret: Annotated[
-        bool,
-        typer.Option(
-            "--new-secret",
-            help="Grade everybody again with another secret than before.",
-        ),
-    ] = False,
-    roster: Annotated[
-        Path | None,
-        typer.Option(
-            help="The class as CSV, as for robonav gradebook start; it is kept beside the grades."
-        ),
-    ] = None,
-    alike: Annotated[
-        bool,
-        typer.Option(
-            "--similarity",
-            help="Also write similarity.html: the pairs of submissions that are too alike.",
-        ),
-    ] = False,
+    folder: Folder,
+    out: Out,
+    secret: Secret = None,
+    student: Students = None,
+    exercise: Exercises = None,
+    jobs: Jobs = -1,
+    scheduler: Scheduler = None,
+    variant: Variant = None,
+    each_student: OwnVariants = False,
+    practice: Practice = False,
+    new_secret: NewSecret = False,
+    roster: Roster = None,
+    alike: Alike = False,
 ) -> None:
     """Grade a class. Run the command again to resume: grades that exist are kept."""
     from robonav import progress
@@ -268,7 +282,7 @@ def keep_roster(graded: Path, roster: Path) -> None:
     content = roster.read_bytes()
     with atomic_write(graded / ROSTER) as file:
         file.write(content)
-    print(f"{len(students)} students: {graded / ROSTER}")
+    print(f"{counted(len(students), 'student')}: {graded / ROSTER}")
     if ignored_groups(students):
         print(
             "The column Groups makes no teams, so every submission counts for one student; "
@@ -456,10 +470,12 @@ def tell_similar(folder: Path, out: Path, course: Course) -> None:
     with paths.without_submissions(folder):
         found = copies.compare_class(course, folder)
     copies.write_comparison(found, course, out)
-    print(f"{len(found.pairs)} of {found.compared} pairs are too alike: {out}")
+    print(
+        f"Pairs that are too alike: {len(found.pairs)} of {found.compared}; see {out}"
+    )
     if found.few:
         print(
-            f"{found.few} pairs share fewer than {copies.FEWEST} exercises, which are too few to tell. Put the "
+            f"Pairs with fewer than {copies.FEWEST} exercises in common, too few to tell: {found.few}. Put the "
             "submissions of several weeks into one folder for each student."
         )
     for problem in found.problems:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from functools import wraps
+from inspect import signature
 from typing import Any, ParamSpec
 
 P = ParamSpec("P")
@@ -35,8 +36,10 @@ def warns_if_cells_hide_paths(search: Callable[P, Found]) -> Callable[P, Found]:
         """Search, and warn."""
         found, path, expanded = search(*args, **kwargs)
         if not found:
-            cell, speed = kwargs["cell"], kwargs["speed"]
-            warn_if_cells_hide_paths(search.__name__, cell, speed)  # type: ignore[arg-type]
+            given = signature(search).bind(*args, **kwargs)
+            given.apply_defaults()
+            cell, speed = given.arguments["cell"], given.arguments["speed"]
+            warn_if_cells_hide_paths(search.__name__, cell, speed)
         return found, path, expanded
 
     return warning

@@ -15,7 +15,7 @@ Two things differ from the paper. It starts with an empty D and lets the expert 
 here D_0 are the expert's demonstrations, which is the same. And it returns the policy of all rounds that does best in
 states kept for validation; here the result is the policy of the last round, and ``policies`` holds all of them.
 
-:func:`dagger` is this loop, and :func:`labelled_rollout` its first step.
+:func:`dagger` is this loop, :func:`labelled_rollout` its first step, and :class:`Mixture` chooses the actions there.
 """
 
 from __future__ import annotations
@@ -32,15 +32,14 @@ from robonav.progress import Progress
 from robonav.robot import (
     REFLEX,
     Encoder,
-    Outcome,
     Policy,
     ReflexRule,
     Sensing,
     Simulator,
     Transition,
     Worlds,
+    run_episodes,
 )
-from robonav.robot.rollout import undecided
 from robonav.robot.simulator import check_actions
 from robonav.validation import (
     check_array,
@@ -174,8 +173,7 @@ def labelled_rollout(
 ) -> Demonstrations:
     """Roll out the mixture of expert and learner, and label each state visited with the expert's action.
 
-    Where a reflex decides, neither of the two is asked, and the reflex's action is recorded. All robots act at once: an
-    array has one entry for each robot whose episode has not ended.
+    Where a reflex decides, neither of the two is asked, and the reflex's action is recorded.
 
     Parameters
     ----------
@@ -209,29 +207,70 @@ def labelled_rollout(
     >>> bool((visited.effective.actions != 0).any())  # straight always goes on, the expert does not
     True
     """
-    coin = rng.spawn(1)[0]  # a generator of its own leaves the learner's draws alone
-    reflex = reflex or undecided
+    mixture = Mixture(policy, expert, beta, rng, len(simulator))
     steps: list[Transition] = []
-    robots = np.flatnonzero(simulator.outcome == Outcome.RUNNING)
-    sensing = simulator.sense(robots)  # observe
-    while len(robots):
-        actions = reflex(sensing, simulator.speed)
-        asked = actions < 0  # the reflex leaves the choice
-        labels = actions.copy()
-        if asked.any():
-            labels[asked] = expert(simulator, robots[asked])  # what the expert would do
-            learner = policy(sensing[asked], rng)  # what the learner would do
-            expert_acts = coin.random(asked.sum()) < beta
-            actions[asked] = np.where(expert_acts, labels[asked], learner)
-        poses = simulator.poses[robots]
-        executed = simulator.step(actions, robots)  # one second
-        after, outcome = simulator.sense(robots), simulator.outcome[robots]
-        steps.append(  # what was sensed, with the expert's action
-            Transition(robots, sensing, labels, executed, asked, poses, after, outcome)
-        )
-        running = outcome == Outcome.RUNNING
-        robots, sensing = robots[running], after[running]
+    for step in run_episodes(simulator, mixture, reflex=reflex):  # one second
+        labels = mixture.labels[step.robots]  # what the expert would have done
+        labels = np.where(step.asked, labels, step.actions)  # elsewhere: the reflex
+        steps.append(replace(step, actions=labels))
     return by_trajectory(simulator, steps)
+
+
+class Mixture:
+    """Expert and learner in a mixture, as DAgger rolls it out, with the expert's action in every state as its label.
+
+    Parameters
+    ----------
+    policy : callable
+        The learner.
+    expert : callable
+        Chooses and labels.
+    beta : float
+        Probability that a robot takes the expert's action.
+    rng : Generator
+        For the learner's random numbers.
+    n : int
+        Number of robots.
+
+    Attributes
+    ----------
+    labels : (n,) array of int
+        What the expert would do in the latest state in which each robot was asked.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd import ComputerExpert
+    >>> from robonav.lfd.dagger import Mixture
+    >>> from robonav.robot import Simulator, random_worlds, straight
+    >>> simulator = Simulator(random_worlds(2, obstacles=10, seed=1))
+    >>> mixture = Mixture(straight, ComputerExpert(), 0.0, np.random.default_rng(0), n=2)
+    >>> mixture(simulator, simulator.sense(), np.array([0, 1]))  # the learner goes straight on
+    array([0, 0])
+    >>> mixture.labels  # the expert would turn left
+    array([1, 1])
+    """
+
+    def __init__(
+        self,
+        policy: Policy,
+        expert: Expert,
+        beta: float,
+        rng: np.random.Generator,
+        n: int,
+    ) -> None:
+        self.policy, self.expert, self.beta, self.rng = policy, expert, beta, rng
+        self.coin = rng.spawn(1)[0]  # its own, which leaves the learner's draws alone
+        self.labels = np.zeros(n, dtype=np.int64)
+
+    def __call__(
+        self, simulator: Simulator, sensing: Sensing, robots: Actions
+    ) -> Actions:
+        """Return the actions of the robots with these indices (K,); their labels are kept."""
+        self.labels[robots] = self.expert(simulator, robots)  # what the expert would do
+        learner = self.policy(sensing, self.rng)  # what the learner would do
+        expert_acts = self.coin.random(len(robots)) < self.beta
+        return np.where(expert_acts, self.labels[robots], learner)
 
 
 @checked

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from robonav.counting import counted
 from robonav.robot import SENSOR_RANGE, Action, lfd_state
 from robonav.validation import check_instance
 
@@ -52,8 +53,9 @@ class DatasetSummary:
             for action, count in enumerate(self.actions)
         )
         return (
-            f"{self.trajectories} trajectories, {self.arrived} arrived\n"
-            f"{self.steps} steps, {self.effective} effective pairs in {self.states} distinct states\n"
+            f"{counted(self.trajectories, 'trajectory', 'trajectories')}, {self.arrived} arrived\n"
+            f"{counted(self.steps, 'step')}, {counted(self.effective, 'effective pair')} in "
+            f"{counted(self.states, 'distinct state')}\n"
             f"{shares}\n"
             f"smallest range {self.closest:.1f} m"
         )

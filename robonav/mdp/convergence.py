@@ -8,6 +8,7 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any, ParamSpec, Protocol, TypeVar
 
+from robonav.counting import counted
 from robonav.errors import ConvergenceWarning
 
 
@@ -75,8 +76,8 @@ def warn_not_converged(
 ) -> None:
     """ConvergenceWarning at the line that called the method ``name``."""
     warnings.warn(
-        f"{name} gave up after {iterations} iterations: the last one still changed a value by {residual:.3g}, "
-        f"where {limit:.3g} was asked for",
+        f"{name} gave up after {counted(iterations, 'iteration')}: the last one still changed a value "
+        f"by {residual:.3g}, where {limit:.3g} was asked for",
         ConvergenceWarning,
         stacklevel=stacklevel,
     )

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from robonav.counting import counted
 from robonav.errors import ConvergenceWarning
 from robonav.validation import check_array
 
@@ -170,8 +171,8 @@ def _warn_not_converged(
 ) -> None:
     """ConvergenceWarning at the line that called."""
     warnings.warn(
-        f"generalized_policy_iteration gave up after {rounds} rounds: the last one left a value to move by "
-        f"{residual:.3g}, where {limit:.3g} was asked for, and changed {changed} actions",
+        f"generalized_policy_iteration gave up after {counted(rounds, 'round')}: the last one left a value to move by "
+        f"{residual:.3g}, where {limit:.3g} was asked for, and changed {counted(changed, 'action')}",
         ConvergenceWarning,
         stacklevel=4,
     )

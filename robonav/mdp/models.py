@@ -12,6 +12,7 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csgraph
 
+from robonav.counting import counted
 from robonav.validation import check_array, check_real
 
 from . import policies
@@ -101,7 +102,9 @@ class FiniteMDP:
 
     def __repr__(self) -> str:
         kind = "sparse" if self.is_sparse else "dense"
-        return f"FiniteMDP({self.n_states} states, {self.n_actions} actions, discount {self.discount:g}, {kind})"
+        states = counted(self.n_states, "state")
+        actions = counted(self.n_actions, "action")
+        return f"FiniteMDP({states}, {actions}, discount {self.discount:g}, {kind})"
 
     @classmethod
     def from_gymnasium(cls, env: Any, discount: float) -> FiniteMDP:

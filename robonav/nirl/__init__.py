@@ -12,6 +12,7 @@ from .benchmark_mdps import TERRAIN_KINDS, TRUE_WEIGHTS, terrain
 from .decisions import ENCODER, Decisions, expert_decisions
 from .feature_expectations import (
     action_values,
+    decision_feature_sums,
     discounted_feature_sums,
     empirical_expectations,
     feature_expectations,
@@ -132,6 +133,7 @@ __all__ = [
     "boltzmann_policy",
     "causal_entropy_ascent",
     "causal_entropy_dual",
+    "decision_feature_sums",
     "decision_rewards",
     "discounted_feature_sums",
     "dual",

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from robonav.counting import counted
 from robonav.lfd.demonstrations import LEARNED, Demonstrations
 from robonav.robot import NNQL_SENSORS, Encoder, Worlds
 from robonav.validation import check_array, check_instance
@@ -183,7 +184,7 @@ def expert_decisions(
     if len(pairs) == 0:
         raise ValueError(
             "demonstrations must hold an effective pair, a step with something in range and one of the five learned "
-            f"actions, got none in {len(demonstrations)} steps"
+            f"actions, got none in {counted(len(demonstrations), 'step')}"
         )
     return Decisions(
         encoder(pairs.sensing),

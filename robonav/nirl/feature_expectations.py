@@ -9,6 +9,8 @@ from robonav.mdp import policies
 from robonav.mdp.evaluation import policy_evaluation
 
 from ._arguments import checked
+from .decisions import Decisions
+from .features import state_action_features
 from .reward_free_mdp import RewardFreeMDP
 
 Floats = NDArray[np.float64]
@@ -165,6 +167,37 @@ def discounted_feature_sums(
         if trajectory[t] == trajectory[t + 1]:
             sums[t] += discount * sums[t + 1]
     return sums
+
+
+def decision_feature_sums(
+    decisions: Decisions, n_actions: int, discount: float
+) -> Floats:
+    """The discounted sum of features f(s, a) from each decision to the end of its episode.
+
+    Parameters
+    ----------
+    decisions : Decisions
+        M decisions, with k features of each state and a constant.
+    n_actions : int
+        A.
+    discount : float
+        gamma, from 0 to 1.
+
+    Returns
+    -------
+    (M, A (k + 1)) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import TabularTask, decision_feature_sums, terrain
+    >>> task = TabularTask(terrain()[1], max_steps=2)
+    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+    >>> decision_feature_sums(expert, 4, 0.5).sum(axis=1)  # a feature and the constant in each step
+    array([3., 2.])
+    """
+    taken = state_action_features(decisions.features, decisions.actions, n_actions)
+    return discounted_feature_sums(taken, decisions.trajectory, discount)
 
 
 @checked

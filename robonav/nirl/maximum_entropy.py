@@ -39,6 +39,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
 from scipy.special import logsumexp, softmax
 
+from robonav.counting import counted
 from robonav.errors import ConvergenceWarning
 from robonav.mdp import policies
 from robonav.mdp.convergence import warns_not_converged
@@ -342,7 +343,7 @@ def _has_converged(found: Any, tolerance: float) -> bool:
     largest = float(abs(found.jac).max(initial=0.0))
     if largest > tolerance:
         warnings.warn(
-            f"maximum_causal_entropy ended after {found.nit} iterations with a gradient of {largest:.3g}, "
+            f"maximum_causal_entropy ended after {counted(found.nit, 'iteration')} with a gradient of {largest:.3g}, "
             f"more than the tolerance {tolerance:g}: {found.message}",
             ConvergenceWarning,
             stacklevel=4,

@@ -17,12 +17,12 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
 from scipy.special import logsumexp, softmax
 
+from robonav.counting import counted
 from robonav.errors import ConvergenceWarning
 
 from ._arguments import checked
 from .decisions import Decisions
-from .feature_expectations import discounted_feature_sums
-from .features import state_action_features
+from .feature_expectations import decision_feature_sums
 from .policy_improvement import ReplaySGD
 from .tasks import Task
 from .training import IRLResult, train_under_reward
@@ -304,8 +304,8 @@ def _is_within_slack(excess: float, found: Any) -> bool:
     """Whether the gap is within the slack, to the precision asked for; a warning if it is not."""
     if excess > PRECISION:
         warnings.warn(
-            f"relative_entropy_weights ended after {found.nit} iterations, and the gap exceeds the slack by "
-            f"{excess:.3g} of a feature's scale, more than {PRECISION:g}: {found.message}",
+            f"relative_entropy_weights ended after {counted(found.nit, 'iteration')}, and the gap exceeds the slack "
+            f"by {excess:.3g} of a feature's scale, more than {PRECISION:g}: {found.message}",
             ConvergenceWarning,
             stacklevel=4,
         )
@@ -344,8 +344,7 @@ def segment_features(
     >>> segment_features(expert, 4, 0.5, 2).sum(axis=1)
     array([3., 3., 2.])
     """
-    taken = state_action_features(decisions.features, decisions.actions, n_actions)
-    all_sums = discounted_feature_sums(taken, decisions.trajectory, discount)
+    all_sums = decision_feature_sums(decisions, n_actions, discount)
     sums = all_sums.copy()
     after = np.arange(len(decisions)) + horizon  # the first decision left out
     same = after < len(decisions)  # whether it belongs to the same episode
@@ -451,9 +450,8 @@ def relative_entropy(
     n_actions, discount = task.n_actions, improver.discount
     expert = segment_features(demonstrations, n_actions, discount, horizon)
     random = random_segments(demonstrations, task, n_samples, horizon, rng)
-    taken = state_action_features(random.features, random.actions, n_actions)
-    sums = discounted_feature_sums(taken, random.trajectory, discount)
-    samples = sums[np.flatnonzero(np.diff(random.trajectory, prepend=-1))]
+    sums = decision_feature_sums(random, n_actions, discount)
+    samples = sums[np.diff(random.trajectory, prepend=-1) > 0]  # of whole segments
     log_ratios = np.zeros(len(samples))  # the sampling policy is the baseline
     eps = slack * samples.std(axis=0)
     found = relative_entropy_weights(

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from robonav.validation import check_integer, check_real
 
 from .decisions import Decisions, Floats
-from .feature_expectations import discounted_feature_sums
-from .features import state_action_features
+from .feature_expectations import decision_feature_sums
 from .max_margin import project_to_unit_ball
 
 
@@ -244,8 +243,7 @@ class LeastSquaresReward:
     ) -> Floats:
         """theta (A, k + 1) that minimises the thesis's objective in the unit ball, Eq. (5.14)."""
         actions, n_actions = demonstrations.actions, action_values.shape[1]
-        taken = state_action_features(demonstrations.features, actions, n_actions)
-        mu = discounted_feature_sums(taken, demonstrations.trajectory, self.discount)
+        mu = decision_feature_sums(demonstrations, n_actions, self.discount)
         q = action_values[np.arange(len(actions)), actions]
         theta = np.zeros(mu.shape[1])
         curvature = float(np.linalg.norm(mu.T @ mu / len(mu), 2))

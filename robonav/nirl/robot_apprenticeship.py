@@ -18,7 +18,7 @@ from robonav.progress import Progress
 from ._arguments import checked
 from .apprenticeship import RewardGuess, projection_guess
 from .decisions import Decisions, concatenate
-from .feature_expectations import discounted_feature_sums, empirical_expectations
+from .feature_expectations import decision_feature_sums, empirical_expectations
 from .features import state_action_features
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, balanced_accuracy
@@ -93,8 +93,7 @@ def from_all_states(decisions: Decisions, n_actions: int, discount: float) -> Fl
     >>> from_all_states(expert, 4, 0.5).sum()  # the mean of 3 and 2
     np.float64(2.5)
     """
-    taken = state_action_features(decisions.features, decisions.actions, n_actions)
-    sums = discounted_feature_sums(taken, decisions.trajectory, discount)
+    sums = decision_feature_sums(decisions, n_actions, discount)
     return sums.mean(axis=0) if len(sums) else np.zeros(sums.shape[1])
 
 

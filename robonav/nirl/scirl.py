@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._arguments import checked
 from .decisions import Decisions
-from .feature_expectations import discounted_feature_sums
+from .feature_expectations import decision_feature_sums
 from .features import all_action_features, state_action_features
 from .policy_improvement import ReplaySGD
 from .reward_update import inverse_frequency_weights
@@ -314,10 +314,8 @@ def heuristic_estimate(
     >>> heuristic_estimate(task.demonstrate(np.zeros(42, dtype=int), 1, seed=0), 4, 0.5).shape
     (3, 4, 172)
     """
-    actions = demonstrations.actions
-    own = state_action_features(demonstrations.features, actions, n_actions)
-    sums = discounted_feature_sums(own, demonstrations.trajectory, discount)
-    return heuristic_mu(sums, actions, n_actions, discount)
+    sums = decision_feature_sums(demonstrations, n_actions, discount)
+    return heuristic_mu(sums, demonstrations.actions, n_actions, discount)
 
 
 @checked

@@ -49,7 +49,7 @@ def test_json_goes_to_standard_output_alone(tmp_path, monkeypatch) -> None:
     arguments = ["navigate", "--method", "straight", "--worlds", "3", "--json", "-"]
     done = CliRunner().invoke(app, arguments)
     assert json.loads(done.stdout)["method"] == "straight"
-    assert "of 3 worlds arrive" in done.stderr
+    assert "% arrive in 3 worlds" in done.stderr
     assert list(tmp_path.iterdir()) == []
 
 

@@ -21,6 +21,7 @@ BASE = {
     "archive",
     "atomic",
     "compilation",
+    "counting",
     "progress",
     "style",
     "validation",

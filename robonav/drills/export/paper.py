@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from robonav.counting import counted
+
 from ..question import Asked, Choice, Number, Order, Place, Table
 from .answers import asked_text, options, points
 from .boxes import BOLD, ITALIC, UPRIGHT, Box, Run, registered, width
@@ -270,7 +272,8 @@ def _head(paper: Paper, title: str, measure: float) -> list[_Block]:
             TEXT,
         )
 
-    rules = f"This paper has {len(paper.questions)} questions and {total} points. Show your work."
+    questions = counted(len(paper.questions), "question")
+    rules = f"This paper has {questions} and {counted(total, 'point')}. Show your work."
     return [
         _Block(76, draw),
         _text(rules, measure, SMALL + 1, ITALIC),

@@ -88,7 +88,7 @@ def test_the_navigate_command(tmp_path):
         str(tmp_path / "out.json"),
     )
     assert done.exit_code == 0, done.output
-    assert "of 20 worlds arrive" in done.output
+    assert "% arrive in 20 worlds" in done.output
     got = json.loads((tmp_path / "out.json").read_text())
     assert got["method"] == "straight"
     assert got["outcomes"]["arrived"] == round(20 * got["success"])

@@ -351,8 +351,8 @@ def test_a_term_with_a_variant(tmp_path):
         grade.append("--practice")
     code, said = run(*grade, "--variant", "autumn", "--exercise", "2.2", "--similarity")
     assert code == 0, said
-    assert "0 of 1 pairs are too alike" in said
-    assert "1 pairs share fewer than 3 exercises, which are too few to tell" in said
+    assert "Pairs that are too alike: 0 of 1" in said
+    assert "fewer than 3 exercises in common, too few to tell: 1" in said
     assert (tmp_path / "graded/similarity.html").exists()
     points = {
         name: {

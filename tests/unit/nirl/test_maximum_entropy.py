@@ -195,7 +195,7 @@ def test_random_rewards(scattered):
 
 def test_an_optimisation_cut_short_warns(terrain):
     expert = initial_expectations(terrain.task, terrain.expert)
-    with pytest.warns(ConvergenceWarning, match="ended after 1 iterations"):
+    with pytest.warns(ConvergenceWarning, match="ended after 1 iteration with"):
         found = maximum_causal_entropy(terrain.task, expert, iterations=1)
     assert not found.converged
 

@@ -126,7 +126,7 @@ def test_the_maximum_has_no_gradient_left():
 
 def test_warning_when_l_bfgs_ended_before_the_maximum():
     with pytest.warns(
-        ConvergenceWarning, match="after 1 iterations, and the gap"
+        ConvergenceWarning, match="after 1 iteration, and the gap"
     ) as caught:
         stopped = relative_entropy_weights(EXPERT, SAMPLES, RATIOS, iterations=1)
     assert caught[0].filename == __file__
