@@ -269,7 +269,7 @@ def keep_roster(graded: Path, roster: Path) -> None:
     >>> graded = Path(tempfile.mkdtemp())
     >>> _ = (graded / "class.csv").write_text("name\\nAda\\n")
     >>> keep_roster(graded, graded / "class.csv")
-    1 students: .../roster.csv
+    1 student: .../roster.csv
     """
     from robonav.atomic import atomic_write
 
