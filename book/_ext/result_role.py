@@ -1,6 +1,6 @@
 """Numbers in the text that are read from results, so that no number is typed by hand.
 
-``{result}`table-4.3; robot=nnql; success``` becomes the mean of a metric of the committed results of an experiment,
+``{result}`table-4.3; method=nnql; success``` becomes the mean of a metric of the committed results of an experiment,
 such as 98.5. The parts are separated by semicolons, and their order after the first is free:
 
 - the name of the experiment comes first;

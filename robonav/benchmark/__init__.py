@@ -15,6 +15,8 @@ from .leaderboard import (
 )
 from .policies import (
     BASELINES,
+    DISPLAY_NAMES,
+    display_name,
     evaluate,
     fingerprint,
     method,
@@ -25,12 +27,14 @@ from .policies import (
 __all__ = [
     "BASELINES",
     "DIGESTS",
+    "DISPLAY_NAMES",
     "EXACT_REFLEX",
     "SETTINGS",
     "VERSION",
     "Setting",
     "board_worlds",
     "digest",
+    "display_name",
     "evaluate",
     "evaluate_on_board",
     "evaluate_policy",

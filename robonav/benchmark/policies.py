@@ -25,6 +25,33 @@ BASELINES: dict[str, Policy] = {
 }
 """Policies that have learned nothing. Every table compares the learned policies with them."""
 
+DISPLAY_NAMES: dict[str, str] = {
+    "freer-side": "freer side",
+    "1-neighbour": "1 neighbour",
+    "5-neighbours": "5 neighbours",
+    "15-neighbours": "15 neighbours",
+    "lfd": "cloning",
+    "dagger": "DAgger",
+    "q-learning": "Q-learning",
+    "sarsa": "SARSA",
+    "nnql": "NNQL",
+    "nnql-same-speed": "NNQL, trained at this speed",
+    "nnql-thesis": "NNQL, the thesis's rates",
+    "nnql-decaying": "NNQL, decaying rates",
+    "nfq": "NFQ",
+    "dqn": "DQN",
+    "nirl": "NIRL",
+    "relative-entropy": "relative entropy",
+    "scirl": "SCIRL",
+    "zero-reward": "zero reward",
+    "random-reward": "random reward",
+    "potential-field": "potential field",
+    "vfh": "VFH",
+    "dynamic-window": "dynamic window",
+    "known-map": "known map",
+}
+"""The names of methods on pages and in figures, where they differ from those in result files and commands."""
+
 CHAPTERS = ("lfd", "nnql", "nirl")
 
 
@@ -81,6 +108,27 @@ def method(name: str) -> Policy:
             f"method must be one of {known}, or a file that ends in .safetensors or .py, got {name!r}"
         )
     return _from_code(path) if path.suffix == ".py" else _from_weights(path)
+
+
+def display_name(name: str) -> str:
+    """Return the name of a method as pages and figures show it.
+
+    Parameters
+    ----------
+    name : str
+        The name of a method in the results of an experiment.
+
+    Returns
+    -------
+    str
+        The entry of :data:`DISPLAY_NAMES`, or the name itself if it has none.
+
+    Examples
+    --------
+    >>> display_name("dagger"), display_name("straight")
+    ('DAgger', 'straight')
+    """
+    return DISPLAY_NAMES.get(name, name)
 
 
 def fingerprint(name: str) -> str:

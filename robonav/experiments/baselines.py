@@ -15,11 +15,11 @@ def evaluate_baseline(case: Case, seed: int, scale: str) -> Numbers:
     """Outcome rates of a baseline in one batch of worlds."""
     worlds = random_worlds(
         WORLDS[scale],
-        int(case["standing"]),
+        int(case["obstacles"]),
         int(case["moving"]),
         seed=FIRST_SEED + seed,
     )
-    policy = BASELINES[str(case["rule"])]
+    policy = BASELINES[str(case["method"])]
     speed = float(case["speed"])
     return outcome_rates(navigate(policy, worlds, speed, reflex=EXACT_REFLEX))
 
@@ -29,9 +29,9 @@ EXPERIMENTS = (
         name="baselines",
         title="Outcomes of two baselines: straight ahead, and turning to the clearer side",
         cases=[
-            {"rule": rule, "standing": standing, "moving": moving, "speed": speed}
-            for rule in BASELINES
-            for standing, moving, speed in (
+            {"method": name, "obstacles": obstacles, "moving": moving, "speed": speed}
+            for name in BASELINES
+            for obstacles, moving, speed in (
                 (10, 0, 2.0),
                 (10, 0, 2.5),
                 (20, 0, 2.0),

@@ -21,7 +21,7 @@ from .runner.experiment import Case, Experiment, Numbers, Plot
 DISCOUNT, EPSILON, MAX_STEPS = 0.99, 0.1, 1000
 LEARNING_RATES = (0.1, 0.5)
 EPISODES = {"CliffWalking-v1": 500, "FrozenLake-v1": 2000, "Taxi-v4": 1000}
-LEARNERS = {"Q-learning": q_learning, "SARSA": sarsa}
+METHODS = {"q-learning": q_learning, "sarsa": sarsa}
 EARLY = 10  # the first tenth of the episodes, and the last
 
 
@@ -49,7 +49,7 @@ def early_and_late(case: Case, seed: int, scale: str) -> Numbers:
     world = str(case["world"])
     episodes = EPISODES[world]
     early = episodes // EARLY
-    learned = LEARNERS[str(case["learner"])](
+    learned = METHODS[str(case["method"])](
         gymnasium.make(world),
         episodes,
         discount=DISCOUNT,
@@ -77,10 +77,10 @@ EXPERIMENTS = (
         name="sarsa-q-learning",
         title="Q-learning and SARSA while they learn, and the value of their greedy policies",
         cases=[
-            {"world": world, "learning rate": rate, "learner": learner}
+            {"world": world, "learning rate": rate, "method": method}
             for world in EPISODES
             for rate in LEARNING_RATES
-            for learner in LEARNERS
+            for method in METHODS
         ],
         run=early_and_late,
         seeds={"quick": 2, "thesis": 30},

@@ -45,7 +45,8 @@ STEPS: dict[str, dict[str, Sequence[int]]] = {
         name: range(BIN, EPISODES + 1, BIN) for name in ("success", "collision")
     },
     "lab-nirl": {
-        name: range(5, 141, 5) for name in ("margin", "cost", "success", "agreement")
+        name: range(5, 141, 5)
+        for name in ("margin", "cost", "success", "balanced accuracy")
     },
 }
 """The iterations or episodes at which each number of a run is taken."""
@@ -110,7 +111,7 @@ def from_expert(case: Case, seed: int, scale: str) -> Numbers:
         "margin": history.margins[at],
         "cost": history.costs[at],
         "success": 100 * recent(history.arrived),
-        "agreement": 100 * history.balanced[at + 1],
+        "balanced accuracy": 100 * history.balanced[at + 1],
     }
 
 

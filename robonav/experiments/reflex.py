@@ -15,7 +15,7 @@ from .runner.setup import Setup
 
 WORLDS = 400  # in which a run is tested
 SETUPS: dict[int, Setup] = {3: setup3.SETUP, 4: setup4.SETUP, 5: setup5.SETUP}
-LEARNED = {3: ("cloning", "DAgger"), 4: ("nnql",), 5: ("nirl",)}
+LEARNED = {3: ("lfd", "dagger"), 4: ("nnql",), 5: ("nirl",)}
 """The learned policies by chapter: those of Fig. 3.8, Table 4.3 and Table 5.2, under the conditions of the chapter."""
 
 
@@ -23,9 +23,9 @@ def trained_policy(name: str, seed: int, scale: str, reflex: Reflex) -> Policy:
     """Return a baseline, or the policy of one training, whose robot has a reflex."""
     if name in BASELINES:
         return BASELINES[name]
-    if name == "cloning":
+    if name == "lfd":
         return setup3.cloned_policy(seed, reflex=reflex)
-    if name == "DAgger":
+    if name == "dagger":
         return setup3.dagger_result(seed, reflex=reflex).policy
     if name == "nnql":
         return setup4.trained_policy(name, seed, scale, reflex=reflex)
@@ -46,7 +46,7 @@ def _nirl_policy(seed: int, reflex: Reflex) -> Policy:
 
 def compare_directions(case: Case, seed: int, scale: str) -> Numbers:
     """One training of a policy with a reflex, tested with a reflex; and what it loses against exact directions."""
-    name, chapter = str(case["policy"]), int(case["chapter"])
+    name, chapter = str(case["method"]), int(case["chapter"])
     exact, driving = Reflex("exact"), Reflex(str(case["driving"]))
     training = exact if name in BASELINES else Reflex(str(case["training"]))
     reached = drive(name, chapter, seed, scale, training, driving)
@@ -71,7 +71,7 @@ def drive(
 def _cases() -> list[Case]:
     """A learned policy trains with either reflex; a baseline does not train."""
     return [
-        {"chapter": chapter, "policy": name, "training": training, "driving": driving}
+        {"chapter": chapter, "method": name, "training": training, "driving": driving}
         for chapter, learned in LEARNED.items()
         for name in (*BASELINES, *learned)
         for training, driving in (

@@ -149,7 +149,7 @@ def all_weights() -> Iterator[tuple[str, str, Weights]]:
     for method in METHODS:
         yield "nnql", method, nnql_weights(method)
     for method in chapter5.LEARNERS:
-        yield "nirl", method.replace("_", "-"), nirl_weights(method)
+        yield "nirl", method, nirl_weights(method)
 
 
 def ship() -> None:

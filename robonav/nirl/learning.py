@@ -22,7 +22,7 @@ from .training import IRLResult, train_under_reward
 METHODS: dict[str, Callable[..., IRLResult]] = {
     "nirl": nirl,
     "apprenticeship": apprenticeship,
-    "relative_entropy": relative_entropy,
+    "relative-entropy": relative_entropy,
     "scirl": scirl,
 }
 
@@ -46,7 +46,8 @@ def learn(
     demonstrations : Demonstrations
         Of any expert.
     method : str
-        "nirl", "apprenticeship", "relative_entropy" or "scirl": the function of this name.
+        "nirl", "apprenticeship", "relative-entropy" or "scirl", as on the leaderboard. The name of the function,
+        "relative_entropy", is accepted too.
     seed : int or Generator
         Seed of the network's initial weights and of all other random numbers.
     task : RobotTask, optional
@@ -75,7 +76,8 @@ def learn(
     >>> navigate(result.policy, random_worlds(1, seed=4)).outcome.shape
     (1,)
     """
-    learner = METHODS[check_one_of("method", method, METHODS)]
+    name = "relative-entropy" if method == "relative_entropy" else method
+    learner = METHODS[check_one_of("method", name, METHODS)]
     task = RobotTask() if task is None else check_instance("task", task, RobotTask)
     expert = robot_decisions(demonstrations, task, refine)
     return learner(expert, task, seed=seed, **settings)

@@ -13,6 +13,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 from robonav import atomic, style
+from robonav.benchmark import display_name
 from robonav.experiments import Results
 
 OURS, THESIS = style.BLUE, style.ORANGE
@@ -25,8 +26,16 @@ def case_labels(results: Results) -> list[str]:
     varied = [
         key for key in cases[0] if len({case[key] for case in cases}) > 1
     ] or list(cases[0])
-    return [", ".join(f"{case[key]}" if isinstance(case[key], str) else f"{key} {case[key]}" for key in varied)
-            for case in cases]  # fmt: skip
+    return [
+        ", ".join(setting_label(key, case[key]) for key in varied) for case in cases
+    ]
+
+
+def setting_label(key: str, value: str | float) -> str:
+    """Return the label of a setting: a text without its key, a number with it, and a method with its display name."""
+    if isinstance(value, str):
+        return display_name(value) if key == "method" else value
+    return f"{key} {value}"
 
 
 def draw_bars(results: Results, metric: str, label: str) -> Figure:
@@ -67,21 +76,24 @@ def draw_points_lost(results: Results) -> Figure:
     directions, or not at all, above those that were trained with sectors.
     """
     cases = results.experiment.cases
-    names = list(dict.fromkeys((case["chapter"], case["policy"]) for case in cases))
+    names = list(dict.fromkeys((case["chapter"], case["method"]) for case in cases))
     figure, axes = plt.subplots(figsize=(5.2, 0.42 * len(names) + 1.6))
     for place, case in enumerate(cases):
         if case["driving"] == "exact":
             continue
         summary = results.summary("points lost", place)
         too = case["training"] == "sector"
-        row = names.index((case["chapter"], case["policy"])) + (0.14 if too else -0.14)
+        row = names.index((case["chapter"], case["method"])) + (0.14 if too else -0.14)
         colour = THESIS if too else OURS
         axes.plot([summary.low, summary.high], [row, row], color=colour, linewidth=2.5)
         axes.plot(summary.mean, row, "s" if too else "o", color=colour, markersize=6)
     axes.axvline(0, color=style.INK, linewidth=1)
     axes.set(
         yticks=range(len(names)),
-        yticklabels=[f"{policy}, chapter {chapter}" for chapter, policy in names],
+        yticklabels=[
+            f"{display_name(str(method))}, chapter {chapter}"
+            for chapter, method in names
+        ],
         xlabel="points of success lost",
     )
     axes.plot([], [], "o", color=OURS, label="not trained with sectors")

@@ -18,15 +18,16 @@ from robonav.lfd import Demonstrations, GridPlan, Plan
 from robonav.robot import Worlds, obstacle_tracks
 from robonav.robot.drawing import draw_robot, draw_world
 
+from .experiments import setting_label
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COLOURS = style.METHODS | {
-    "cloning": style.BLUE,
-    "DAgger": style.GREEN,
-    "1 neighbour": style.YELLOW,
-    "5 neighbours": style.ORANGE,
-    "15 neighbours": style.VERMILION,
+    "dagger": style.GREEN,
+    "1-neighbour": style.YELLOW,
+    "5-neighbours": style.ORANGE,
+    "15-neighbours": style.VERMILION,
 }
 CYCLE = (
     style.BLUE,
@@ -204,16 +205,15 @@ def draw_against(
     thesis : bool
         Whether to mark the thesis's numbers too.
     """
-    lines: dict[str, list[int]] = {}
+    lines: dict[tuple[tuple[str, str | float], ...], list[int]] = {}
     for place, case in enumerate(results.experiment.cases):
         others = {name: value for name, value in case.items() if name != key}
-        words = (
-            f"{value}" if isinstance(value, str) else f"{name} {value}"
-            for name, value in others.items()
-        )
-        lines.setdefault(", ".join(words), []).append(place)
+        lines.setdefault(tuple(others.items()), []).append(place)
     numbers = results.experiment.thesis.get(metric, ())
-    for (name, places), colour in zip(lines.items(), cycle(CYCLE)):
+    labels = [
+        ", ".join(setting_label(*setting) for setting in settings) for settings in lines
+    ]
+    for (settings, places), label, colour in zip(lines.items(), labels, cycle(CYCLE)):
         x = [float(results.experiment.cases[place][key]) for place in places]
         summaries = [results.summary(metric, place) for place in places]
         mean = np.array([summary.mean for summary in summaries])
@@ -221,12 +221,12 @@ def draw_against(
             mean - [summary.low for summary in summaries],
             [summary.high for summary in summaries] - mean,
         ]
-        own = COLOURS.get(name, colour)
+        own = COLOURS.get(str(dict(settings).get("method")), colour)
         axes.errorbar(
             x,
             mean,
             yerr=np.nan_to_num(reach),
-            label=name,
+            label=label,
             color=own,
             marker="o",
             markersize=4,
@@ -246,7 +246,7 @@ def draw_against(
             label="thesis",
         )
     axes.set(xlabel=key)
-    columns = 1 if max(map(len, lines)) > LONG_NAME else 2
+    columns = 1 if max(map(len, labels)) > LONG_NAME else 2
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=columns)
 
 
@@ -279,18 +279,23 @@ def plot_planners(results: Results) -> Figure:
     straight = np.array(
         [np.hypot(80.0, float(case["target y"]) - 10) for case in cases]
     )
-    for shift, name in ((-0.2, "modified"), (0.2, "grid")):
-        colour = style.METHODS["A*" if name == "modified" else "grid A*"]
-        length = [results.summary(name, row).mean for row in range(len(cases))]
-        nodes = [
-            results.summary(f"{name} expands", row).mean for row in range(len(cases))
-        ]
+    for shift, name, colour in (
+        (-0.2, "modified A*", style.METHODS["A*"]),
+        (0.2, "grid A*", style.METHODS["grid A*"]),
+    ):
+        length, nodes = (
+            [
+                results.summary(f"{metric}, {name}", row).mean
+                for row in range(len(cases))
+            ]
+            for metric in ("length", "expanded")
+        )
         above.barh(
             rows + shift,
             np.array(length) - straight,
             height=0.38,
             color=colour,
-            label=f"{name} A*",
+            label=name,
         )
         below.barh(rows + shift, nodes, height=0.38, color=colour)
     labels = [
@@ -360,12 +365,12 @@ def draw_rounds(axes: Axes, results: Results) -> None:
     axes : Axes
         Where to draw.
     results : Results
-        Of an experiment with cases of the method "DAgger".
+        Of an experiment with cases of the method "dagger".
     """
     cases = [
         place
         for place, case in enumerate(results.experiment.cases)
-        if case["method"] == "DAgger"
+        if case["method"] == "dagger"
     ]
     for case, colour in zip(cases, CYCLE, strict=False):
         runs = results.values("success by round", case)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import ConvexHull
 
 from robonav import style
+from robonav.benchmark import display_name
 from robonav.experiments import Results
 from robonav.lfd import Demonstrations
 from robonav.nirl.decisions import add_constant
@@ -199,7 +200,12 @@ def draw_densities(
             linewidth=0,
         )
         axes.plot(
-            obstacles, runs.mean(axis=0), "o-", color=colour, label=name, markersize=4
+            obstacles,
+            runs.mean(axis=0),
+            "o-",
+            color=colour,
+            label=display_name(name),
+            markersize=4,
         )
     axes.set(xlabel="obstacles", xticks=list(obstacles), ylim=(50, 101), title=title)
 

@@ -12,6 +12,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from numpy.typing import ArrayLike
 
 from robonav import style
+from robonav.benchmark import display_name
 from robonav.experiments import Results
 from robonav.nnql import softmax_policy
 from robonav.nnql.reward import COZY_DISTANCE, REWARDS, reward_row
@@ -126,7 +127,7 @@ def draw_learning(
         axes.fill_between(
             ends, mean - spread, mean + spread, color=colour, alpha=0.18, linewidth=0
         )
-        axes.plot(ends, mean, color=colour, marker=".", label=name)
+        axes.plot(ends, mean, color=colour, marker=".", label=display_name(name))
     axes.set(
         xlabel="episode", ylabel=f"successes in {size} episodes", ylim=(0, size + 1)
     )
@@ -216,7 +217,7 @@ def draw_rates(
             )
     axes.set(
         yticks=range(len(rates)),
-        yticklabels=list(rates),
+        yticklabels=list(map(display_name, rates)),
         xlabel="episodes that arrive (%)",
     )
     axes.invert_yaxis()
@@ -235,7 +236,7 @@ def draw_trials(axes: Axes, means: Mapping[str, ArrayLike]) -> None:
         axes.plot(across[first], rates[0], "x", color=style.INK, markersize=9)
     axes.set(
         xticks=range(len(means)),
-        xticklabels=list(means),
+        xticklabels=list(map(display_name, means)),
         ylabel="success (%)",
         ylim=(0, 102),
     )
@@ -307,7 +308,8 @@ def plot_rates(results: Results) -> Figure:
     """Plot Table 4.3 from its results."""
     cases = results.experiment.cases
     rates = {
-        str(case["robot"]): results.values("success", k) for k, case in enumerate(cases)
+        str(case["method"]): results.values("success", k)
+        for k, case in enumerate(cases)
     }
     thesis = dict(zip(rates, results.experiment.thesis["success"], strict=True))
     figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 3.4))
@@ -323,8 +325,8 @@ def plot_speeds(results: Results) -> Figure:
     """Plot Table 4.2 from its results: the mean over seeds, and a band from the worst to the best."""
     figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 3.8))
     cases = results.experiment.cases
-    for name in dict.fromkeys(str(case["robot"]) for case in cases):
-        own = [k for k, case in enumerate(cases) if case["robot"] == name]
+    for name in dict.fromkeys(str(case["method"]) for case in cases):
+        own = [k for k, case in enumerate(cases) if case["method"] == name]
         speeds = [float(cases[k]["speed"]) for k in own]
         runs = np.array([results.values("success", k) for k in own])
         colour = style.METHODS.get(name, style.BLUE)
@@ -336,7 +338,13 @@ def plot_speeds(results: Results) -> Figure:
             alpha=0.15,
             linewidth=0,
         )
-        axes.plot(speeds, runs.mean(axis=1), color=colour, marker=".", label=name)
+        axes.plot(
+            speeds,
+            runs.mean(axis=1),
+            color=colour,
+            marker=".",
+            label=display_name(name),
+        )
     axes.set(xlabel="speed (m/s)", ylabel="episodes that arrive (%)", ylim=(0, 102))
     axes.legend()
     return figure
@@ -354,30 +362,30 @@ def plot_trials(results: Results) -> Figure:
     return figure
 
 
-def plot_endings(results: Results, what: str) -> Figure:
-    """Plot how episodes end for all choices of one setting, from the results of ``nnql-circles``."""
+def plot_endings(results: Results, factor: str) -> Figure:
+    """Plot how episodes end for all levels of one factor, from the results of ``nnql-circles``."""
     ends = {}
     for k, case in enumerate(results.experiment.cases):
-        if case["what"] == what:
+        if case["factor"] == factor:
             arrived, cut, collided = (
                 results.summary(how, k).mean
                 for how in ("success", "out of steps", "collision")
             )
-            ends[str(case["choice"])] = (arrived, cut, collided)
+            ends[str(case["level"])] = (arrived, cut, collided)
     figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 0.42 * len(ends) + 1.3))
     draw_endings(axes, ends)
     return figure
 
 
 def plot_variations(results: Results) -> Figure:
-    """Plot the mean success of every choice of ``nnql-circles``, with its interval."""
+    """Plot the mean success of every case of ``nnql-circles``, with its interval."""
     figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 7))
     cases = results.experiment.cases
     for k in range(len(cases)):
         summary = results.summary("success", k)
         axes.plot([summary.low, summary.high], [k, k], color=style.INK, linewidth=2)
         axes.plot(summary.mean, k, "o", color=style.METHODS["nnql"])
-    labels = [f"{case['what']}: {case['choice']}" for case in cases]
+    labels = [f"{case['factor']}: {case['level']}" for case in cases]
     axes.set(
         yticks=range(len(cases)),
         yticklabels=labels,

@@ -2,7 +2,7 @@
 
 const HEAT_CELL = 2; // metres
 const HEAT_SHADES = 5; // on either side of 0
-const PYTHON_METHODS = { nirl: "NIRL", apprenticeship: "apprenticeship learning", relative_entropy: "relative entropy", scirl: "SCIRL" };
+const PYTHON_METHODS = { nirl: "NIRL", apprenticeship: "apprenticeship learning", "relative-entropy": "relative entropy", scirl: "SCIRL" };
 const METHOD_NAMES = Object.values(PYTHON_METHODS);
 const LITTLE_LEAD = 5; // per cent of the maps: by so little a robot that has learned something is not better than straight on
 const ENOUGH = 60; // iterations after which the drives are to blame for a poor robot
@@ -354,7 +354,7 @@ function render({ model, el }) {
     done: ({ sentence, theta, policy, iteration, balanced }) => {
       const name = METHOD_NAMES[python.asked];
       const network = networks(policy.network)();
-      learned({ theta, network, iteration, balanced, method: Object.keys(PYTHON_METHODS)[python.asked].replace("_", "-") }, `${name} in Python, ${changesOf(settings)}seed ${settings.seed}`, `${name} in Python`);
+      learned({ theta, network, iteration, balanced, method: Object.keys(PYTHON_METHODS)[python.asked] }, `${name} in Python, ${changesOf(settings)}seed ${settings.seed}`, `${name} in Python`);
       tryPolicy(trained(), { network, encoder: settings.encoder }, `${name} in Python, the best of the robots`);
       return sentence;
     },

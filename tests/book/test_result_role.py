@@ -16,25 +16,25 @@ from robonav.experiments import load_results
 PAGES = sorted(ROOT.glob("book/**/*.md"))
 
 
-def successes(robot: str) -> np.ndarray:
+def successes(method: str) -> np.ndarray:
     table = load_results("table-4.3")
-    chosen = (table.robot == robot) & (table.metric == "success")
+    chosen = (table.method == method) & (table.metric == "success")
     return table[chosen].value.to_numpy()
 
 
 def test_a_number_is_that_of_the_committed_results() -> None:
     runs = successes("nfq")
-    assert result("table-4.3; robot=nfq") == f"{runs.mean():.1f}"
-    assert result("table-4.3; robot=nfq; success; worst; .2f") == f"{runs.min():.2f}"
-    assert result("table-4.3; best; .0f; robot=nfq") == f"{runs.max():.0f}"
-    assert result("table-4.3; robot=nfq; seeds") == str(len(runs))
-    assert result("table-4.3; robot=nfq; thesis") == "87"
+    assert result("table-4.3; method=nfq") == f"{runs.mean():.1f}"
+    assert result("table-4.3; method=nfq; success; worst; .2f") == f"{runs.min():.2f}"
+    assert result("table-4.3; best; .0f; method=nfq") == f"{runs.max():.0f}"
+    assert result("table-4.3; method=nfq; seeds") == str(len(runs))
+    assert result("table-4.3; method=nfq; thesis") == "87"
 
 
 def test_an_interval_stands_around_the_mean() -> None:
-    low, high = map(float, result("table-4.3; robot=dqn; interval").split(" to "))
+    low, high = map(float, result("table-4.3; method=dqn; interval").split(" to "))
     assert low <= successes("dqn").mean().round(1) <= high
-    written = result("table-4.3; robot=dqn; with interval")
+    written = result("table-4.3; method=dqn; with interval")
     assert written == f"{successes('dqn').mean():.1f} [{low}, {high}]"
 
 
@@ -52,10 +52,10 @@ def test_a_curve_has_one_number_a_step() -> None:
     ("text", "complaint"),
     [
         ("table-4.3", "must have one case with {}, got 6"),
-        ("table-4.3; robot=nql", "got 0 of: robot=nnql"),
-        ("table-4.3; robot=nnql; sucess", "metric must be one of"),
+        ("table-4.3; method=nql", "got 0 of: method=nnql"),
+        ("table-4.3; method=nnql; sucess", "metric must be one of"),
         ("table-9.9", "table-9.9"),
-        ("table-4.3; robot=straight; thesis", "the thesis has no number"),
+        ("table-4.3; method=straight; thesis", "the thesis has no number"),
     ],
 )
 def test_a_wrong_name_is_one_sentence(text: str, complaint: str) -> None:
@@ -73,7 +73,7 @@ def test_a_benchmark_is_read_from_its_line() -> None:
 
 
 def test_numbers_stand_in_the_text_and_in_notebooks() -> None:
-    text = "NNQL succeeds in {result}`table-4.3; robot=nnql; .0f` % of the maps."
+    text = "NNQL succeeds in {result}`table-4.3; method=nnql; .0f` % of the maps."
     expected = f"NNQL succeeds in {successes('nnql').mean():.0f} % of the maps."
     assert with_results(text) == plain(text) == expected
 

@@ -54,7 +54,7 @@ def train(rng):
     lfd.learn_policy(demonstrations, iterations=20)
     for method in ("nnql", "online", "nfq", "dqn"):
         nnql.train(method, seeds=2, episodes=6)
-    for method in ("nirl", "apprenticeship", "relative_entropy", "scirl"):
+    for method in ("nirl", "apprenticeship", "relative-entropy", "scirl"):
         nirl.learn(demonstrations, method=method, iterations=3)
 
 

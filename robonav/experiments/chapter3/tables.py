@@ -75,7 +75,7 @@ def with_iterations(case: Case, seed: int, scale: str) -> Numbers:
     rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
     return {
         "accuracy": 100 * trained.accuracies[done],
-        "accuracy on others": 100 * accuracy(policy.network, *others),
+        "accuracy, other demonstrations": 100 * accuracy(policy.network, *others),
         "cost": trained.costs[done],
         "success": rates["success"],
     }
@@ -106,11 +106,11 @@ def compare_planners(case: Case, seed: int, scale: str) -> Numbers:
     )
     modified, grid = lengths.T
     return {
-        "modified": modified.mean(),
-        "grid": grid.mean(),
-        "modified shorter": 100 * (modified < grid - 1e-6).mean(),
-        "modified expands": np.mean([found.expanded for found in ours]),
-        "grid expands": np.mean([found.expanded for found in grids]),
+        "length, modified A*": modified.mean(),
+        "length, grid A*": grid.mean(),
+        "modified A* shorter": 100 * (modified < grid - 1e-6).mean(),
+        "expanded, modified A*": np.mean([found.expanded for found in ours]),
+        "expanded, grid A*": np.mean([found.expanded for found in grids]),
         "found by both": 100 * len(lengths) / PLANNING["maps"],
     }
 
@@ -122,7 +122,7 @@ def planning_worlds(seed: int, obstacles: int, target: tuple[float, float]) -> W
 
 
 def expert_demonstrations(expert: str, seed: int) -> Demonstrations:
-    """Return 25 demonstrations by the computer or by hand, with or without slipping (section 5.5.5)."""
+    """Return 25 demonstrations by a computer or a human expert, with or without slipping (section 5.5.5)."""
     worlds = random_worlds(DEMONSTRATIONS, seed=DEMONSTRATION_SEED + seed)
     slip = neighbour_slip(PLANNING["slip"]) if expert.endswith("slipping") else None
     if expert.startswith("computer"):
@@ -152,11 +152,11 @@ def learned_policy(name: str, seed: int, obstacles: int = 10) -> Policy:
     """Return a baseline, or the policy of a method trained with a number of obstacles."""
     if name in BASELINES:
         return BASELINES[name]
-    if name == "DAgger":
+    if name == "dagger":
         return dagger_result(seed, obstacles, rounds=ROUNDS).policy
-    if name == "cloning":
+    if name == "lfd":
         return cloned_policy(seed, obstacles)
-    return learn_neighbours(demonstrations(seed, obstacles), int(name.split()[0]))
+    return learn_neighbours(demonstrations(seed, obstacles), int(name.split("-")[0]))
 
 
 def in_new_maps(case: Case, seed: int, scale: str) -> Numbers:
@@ -164,7 +164,7 @@ def in_new_maps(case: Case, seed: int, scale: str) -> Numbers:
     obstacles, name = int(case["obstacles"]), str(case["method"])
     worlds = SETUP.test_worlds(seed, scale, obstacles)
     rates = SETUP.evaluate(learned_policy(name, seed, obstacles), worlds)
-    if name != "DAgger":
+    if name != "dagger":
         return rates
     policies = dagger_result(seed, obstacles, rounds=ROUNDS).policies
     by_round = [SETUP.evaluate(policy, worlds)["success"] for policy in policies]
@@ -187,25 +187,25 @@ def beside_the_expert(case: Case, seed: int, scale: str) -> Numbers:
     planned = [plan(worlds[k], margin=MARGIN).length for k in both]
     other = [apart.max() > PLANNING["other_path"] for apart in distances]
     return {
-        "planned": np.median(planned),
-        "expert": SETUP.speed * np.median(expert.lengths[both]),
-        "learned": SETUP.speed * np.median(learned.steps[both]),
-        "learned, mean": SETUP.speed * learned.steps[both].mean(),
+        "length, planned": np.median(planned),
+        "length, expert": SETUP.speed * np.median(expert.lengths[both]),
+        "length, learned": SETUP.speed * np.median(learned.steps[both]),
+        "length, learned, mean": SETUP.speed * learned.steps[both].mean(),
         "distance": np.mean([apart.mean() for apart in distances]),
-        "another path": 100 * np.mean(other),
+        "different path": 100 * np.mean(other),
     }
 
 
 def among_moving_obstacles(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 3.10: standing and moving obstacles, for policies trained with standing ones."""
-    worlds = SETUP.test_worlds(seed, scale, int(case["standing"]), int(case["moving"]))
+    worlds = SETUP.test_worlds(seed, scale, int(case["obstacles"]), int(case["moving"]))
     return SETUP.evaluate(learned_policy(str(case["method"]), seed), worlds)
 
 
 def compare_encodings(case: Case, seed: int, scale: str) -> Numbers:
     """The target's sector, encoded in four ways."""
     obstacles, target = int(case["obstacles"]), str(case["target"])
-    if case["learner"] == "DAgger, 1 round":
+    if case["method"] == "dagger":
         policy = dagger_result(seed, obstacles, target=target, rounds=1).policy
     else:
         policy = cloned_policy(seed, obstacles, target=target)
@@ -228,7 +228,7 @@ def expert_margin(case: Case, seed: int, scale: str) -> Numbers:
 def with_equal_data(case: Case, seed: int, scale: str) -> Numbers:
     """One round of DAgger, and cloning from demonstrations in equally many maps, the control for it."""
     obstacles, maps = int(case["obstacles"]), int(case["maps"])
-    if case["method"] == "DAgger":
+    if case["method"] == "dagger":
         result = dagger_result(seed, obstacles, rounds=1)
         policy, learned_from = result.policy, result.demonstrations[-1]
     else:
@@ -287,7 +287,10 @@ FIGURE_3_5 = Experiment(
     ],
     run=compare_planners,
     seeds={"quick": 2, "thesis": 10},
-    thesis={"modified": [120.2053] + [None] * 7, "grid": [124.3638] + [None] * 7},
+    thesis={
+        "length, modified A*": [120.2053] + [None] * 7,
+        "length, grid A*": [124.3638] + [None] * 7,
+    },
     settings={
         "maps a run": PLANNING["maps"],
         "margin in m": MARGIN,
@@ -300,7 +303,7 @@ FIGURE_3_6 = Experiment(
     title="Content of 25 demonstrations by expert, and success of the policy learned from them",
     cases=[
         {"expert": expert}
-        for expert in ("computer", "computer, slipping", "hand", "hand, slipping")
+        for expert in ("computer", "computer, slipping", "human", "human, slipping")
     ],
     run=compare_experts,
     seeds=SEEDS,
@@ -333,11 +336,11 @@ FIGURE_3_8 = Experiment(
         for obstacles in (10, 20, 30)
         for name in (
             *BASELINES,
-            "1 neighbour",
-            "5 neighbours",
-            "15 neighbours",
-            "cloning",
-            "DAgger",
+            "1-neighbour",
+            "5-neighbours",
+            "15-neighbours",
+            "lfd",
+            "dagger",
         )
     ],
     run=in_new_maps,
@@ -352,14 +355,14 @@ FIGURE_3_9 = Experiment(
     cases=[
         {"obstacles": obstacles, "method": name}
         for obstacles in (10, 20)
-        for name in ("cloning", "DAgger")
+        for name in ("lfd", "dagger")
     ],
     run=beside_the_expert,
     seeds=SEEDS,
     settings=ABOUT,
     plot=Plot(
         "experiments.draw_bars",
-        metric="learned",
+        metric="length, learned",
         label="length of paths, median (m)",
     ),
 )
@@ -367,9 +370,9 @@ FIGURE_3_10 = Experiment(
     name="figure-3.10",
     title="Success with standing and moving obstacles: policies learned with standing ones, and baselines",
     cases=[
-        {"standing": standing, "moving": moving, "method": name}
-        for standing, moving in ((10, 5), (10, 10))
-        for name in (*BASELINES, "cloning", "DAgger")
+        {"obstacles": obstacles, "moving": moving, "method": name}
+        for obstacles, moving in ((10, 5), (10, 10))
+        for name in (*BASELINES, "lfd", "dagger")
     ],
     run=among_moving_obstacles,
     seeds=SEEDS,
@@ -380,14 +383,14 @@ ENCODINGS = Experiment(
     name="lfd-encodings",
     title="Success in new maps with four encodings of the target's sector",
     cases=[
-        {"learner": learner, "obstacles": obstacles, "target": target}
-        for learner in ("cloning", "DAgger, 1 round")
+        {"method": name, "obstacles": obstacles, "target": target}
+        for name in ("lfd", "dagger")
         for obstacles in (10, 20)
         for target in TARGET_ENCODINGS
     ],
     run=compare_encodings,
     seeds=SEEDS | {"thesis": 6},
-    settings=ABOUT,
+    settings=ABOUT | {"rounds of DAgger": 1},
     plot=SUCCESS_BARS,
 )
 MARGINS = Experiment(
@@ -416,10 +419,10 @@ EQUAL_DATA = Experiment(
         }
         for obstacles in (10, 20, 30)
         for name, maps, temperature in (
-            ("cloning", DEMONSTRATIONS, 0.0),
-            ("cloning", 2 * DEMONSTRATIONS, 0.0),
-            ("cloning", 2 * DEMONSTRATIONS, TEMPERATURE),
-            ("DAgger", 2 * DEMONSTRATIONS, TEMPERATURE),
+            ("lfd", DEMONSTRATIONS, 0.0),
+            ("lfd", 2 * DEMONSTRATIONS, 0.0),
+            ("lfd", 2 * DEMONSTRATIONS, TEMPERATURE),
+            ("dagger", 2 * DEMONSTRATIONS, TEMPERATURE),
         )
     ],
     run=with_equal_data,

@@ -113,12 +113,14 @@ VARIATIONS: dict[str, dict[str, dict[str, Any]]] = {
 
 def vary(case: Case, seed: int, scale: str) -> Numbers:
     """Return the outcome rates of one seed of one variation, and the success in the last 100 episodes of training."""
-    changes = VARIATIONS[str(case["what"])][str(case["choice"])]
+    changes = VARIATIONS[str(case["factor"])][str(case["level"])]
     of_task = {k: v for k, v in changes.items() if k in ("reward", "encoder")}
     settings = tuned()["nnql"] | {k: v for k, v in changes.items() if k not in of_task}
     trained = training("nnql", seed, scale, settings, **of_task)
     rates = evaluate(trained.policies[0], SETUP.test_worlds(seed, scale))
-    return rates | {"last episodes": 100 * trained.successes[0, -100:].mean()}
+    return rates | {
+        "success, last 100 episodes": 100 * trained.successes[0, -100:].mean()
+    }
 
 
 FIT_ONCE = "once, after all episodes"
@@ -135,7 +137,7 @@ def fit_later(case: Case, seed: int, scale: str) -> Numbers:
     changes = FITS[str(case["fits"])]
     trained = training("nfq", seed, scale, tuned()["nfq"] | changes)
     rates = evaluate(trained.policies[0], SETUP.test_worlds(seed, scale))
-    return rates | {"successful episodes of training": 100 * trained.successes.mean()}
+    return rates | {"success in training": 100 * trained.successes.mean()}
 
 
 def in_few_maps(case: Case, seed: int, scale: str) -> Numbers:
@@ -143,16 +145,18 @@ def in_few_maps(case: Case, seed: int, scale: str) -> Numbers:
     maps = None if case["maps"] == "new" else int(case["maps"])
     trained = training("nnql", seed, scale, tuned()["nnql"], maps=maps)
     rates = evaluate(trained.policies[0], SETUP.test_worlds(seed, scale))
-    return rates | {"last 100 episodes": 100 * trained.successes[0, -100:].mean()}
+    return rates | {
+        "success, last 100 episodes": 100 * trained.successes[0, -100:].mean()
+    }
 
 
 CIRCLES = Experiment(
     name="nnql-circles",
     title="Outcomes of NNQL with one choice changed at a time: reward, temperature, encoding, rescaling, discount",
     cases=[
-        {"what": what, "choice": choice}
-        for what, choices in VARIATIONS.items()
-        for choice in choices
+        {"factor": factor, "level": level}
+        for factor, levels in VARIATIONS.items()
+        for level in levels
     ],
     run=vary,
     seeds={"quick": 1, "thesis": 8},

@@ -26,16 +26,16 @@ from .setup import (
     tuned,
 )
 
-DENSE = {"thesis": THESIS["nnql"], "decaying rates": DECAYING}
+DENSE = {"nnql-thesis": THESIS["nnql"], "nnql-decaying": DECAYING}
 """Hyperparameters of NNQL among 20 obstacles."""
 
 SPEEDS = tuple(CONDITIONS["speeds"])
-SAME_SPEED = "nnql, trained at this speed"
+SAME_SPEED = "nnql-same-speed"
 
 
 def compare(case: Case, seed: int, scale: str) -> Numbers:
     """Table 4.3: one seed of a method, or a baseline."""
-    name = str(case["robot"])
+    name = str(case["method"])
     worlds = SETUP.test_worlds(seed, scale)
     temperature = EVALUATION_TEMPERATURE.get(name, 0.0)
     return evaluate(trained_policy(name, seed, scale), worlds, temperature=temperature)
@@ -46,7 +46,7 @@ def compare_with_equal_steps(case: Case, seed: int, scale: str) -> Numbers:
 
     A method stops after the last episode within that number. A method that takes fewer steps goes through all episodes.
     """
-    name = str(case["robot"])
+    name = str(case["method"])
     allowed = training("nnql", seed, scale, tuned()["nnql"]).decisions[0].sum()
     trained = training(name, seed, scale, tuned()[name], record=True)
     assert trained.history is not None
@@ -73,8 +73,8 @@ def learning_curve(case: Case, seed: int, scale: str) -> Numbers:
     arrived = training(method, seed, scale, tuned()[method]).successes[0]
     return {
         "successes": blocks(arrived[None])[0],
-        "of the first 100": arrived[:100].sum(),
-        "of the last 100": arrived[-100:].sum(),
+        "success, first 100 episodes": arrived[:100].sum(),
+        "success, last 100 episodes": arrived[-100:].sum(),
     }
 
 
@@ -88,7 +88,7 @@ def weights_over_time(case: Case, seed: int, scale: str) -> Numbers:
 
 def at_speed(case: Case, seed: int, scale: str) -> Numbers:
     """Table 4.2: a robot trained at 2.5 m/s or at the speed of its test, or a baseline."""
-    speed, name = float(case["speed"]), str(case["robot"])
+    speed, name = float(case["speed"]), str(case["method"])
     policy = (
         trained_policy("nnql", seed, scale, speed=speed)
         if name == SAME_SPEED
@@ -99,13 +99,13 @@ def at_speed(case: Case, seed: int, scale: str) -> Numbers:
 
 def among_moving_obstacles(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 4.7: standing and moving obstacles, for a robot trained with standing ones, or a baseline."""
-    worlds = SETUP.test_worlds(seed, scale, int(case["standing"]), int(case["moving"]))
-    return evaluate(trained_policy(str(case["robot"]), seed, scale), worlds)
+    worlds = SETUP.test_worlds(seed, scale, int(case["obstacles"]), int(case["moving"]))
+    return evaluate(trained_policy(str(case["method"]), seed, scale), worlds)
 
 
 def in_dense_maps(case: Case, seed: int, scale: str) -> Numbers:
     """Twenty obstacles: NNQL with the thesis's hyperparameters or ours, or a baseline."""
-    name, worlds = str(case["robot"]), SETUP.test_worlds(seed, scale, 20)
+    name, worlds = str(case["method"]), SETUP.test_worlds(seed, scale, 20)
     if name in BASELINES:
         return evaluate(BASELINES[name], worlds)
     length = float(case["episodes"]) / EPISODES
@@ -124,7 +124,7 @@ TABLE_4_2 = Experiment(
     name="table-4.2",
     title="Success at six speeds: NNQL trained at 2.5 m/s or at the same speed, and two baselines",
     cases=[
-        {"robot": name, "speed": speed}
+        {"method": name, "speed": speed}
         for name in ("nnql", SAME_SPEED, *BASELINES)
         for speed in SPEEDS
     ],
@@ -136,7 +136,7 @@ TABLE_4_2 = Experiment(
 TABLE_4_3 = Experiment(
     name="table-4.3",
     title="Success in new maps: NNQL, online Q-learning, NFQ, DQN, and two baselines",
-    cases=[{"robot": name} for name in (*METHODS, *BASELINES)],
+    cases=[{"method": name} for name in (*METHODS, *BASELINES)],
     run=compare,
     seeds=_SEEDS,
     thesis={"success": [98, 56, 87, None, None, None]},
@@ -146,7 +146,7 @@ TABLE_4_3 = Experiment(
 EQUAL_STEPS = Experiment(
     name="nnql-steps",
     title="Success in new maps: the methods of Table 4.3, each with as many learning steps as NNQL",
-    cases=[{"robot": name} for name in METHODS],
+    cases=[{"method": name} for name in METHODS],
     run=compare_with_equal_steps,
     seeds=_SEEDS,
     settings=_ABOUT,
@@ -183,9 +183,9 @@ FIGURE_4_7 = Experiment(
     name="figure-4.7",
     title="Success with standing and moving obstacles: NNQL trained with standing ones, and two baselines",
     cases=[
-        {"robot": name, "standing": standing, "moving": moving}
+        {"method": name, "obstacles": obstacles, "moving": moving}
         for name in ("nnql", *BASELINES)
-        for standing, moving in ((10, 0), (5, 5), (0, 10), (10, 10))
+        for obstacles, moving in ((10, 0), (5, 5), (0, 10), (10, 10))
     ],
     run=among_moving_obstacles,
     seeds=_SEEDS,
@@ -196,11 +196,11 @@ TWENTY_OBSTACLES = Experiment(
     name="nnql-20-obstacles",
     title="Success with 20 obstacles: NNQL with the thesis's and with decaying learning rates, and two baselines",
     cases=[
-        {"robot": name, "episodes": episodes}
+        {"method": name, "episodes": episodes}
         for name in DENSE
         for episodes in (300, 600)
     ]
-    + [{"robot": name, "episodes": 0} for name in BASELINES],
+    + [{"method": name, "episodes": 0} for name in BASELINES],
     run=in_dense_maps,
     seeds={"quick": 1, "thesis": 24},
     settings=_ABOUT | {"settings": {name: dict(s) for name, s in DENSE.items()}},

@@ -139,7 +139,7 @@ CHOICES: dict[str, Callable[[IRLResult, Worlds], int]] = {
 
 def choose_policy(case: Case, seed: int, scale: str) -> Numbers:
     """Test one run with a learned or a zero reward, and with its policy chosen in one of four ways."""
-    method = "nirl" if case["reward"] == "learned" else "zero reward"
+    method = "nirl" if case["reward"] == "learned" else "zero-reward"
     learned = trained(method, seed, tuned(method))
     worlds = SETUP.worlds(SETUP.navigations[scale] // 5, CHOOSING_SEED + seed)
     k = CHOICES[str(case["chosen by"])](learned, worlds)

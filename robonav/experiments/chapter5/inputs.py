@@ -34,7 +34,7 @@ def with_sensors(case: Case, seed: int, scale: str) -> Numbers:
     expert = demonstrations(seed)
     policy = (
         cloned_policy(seed, settings, inputs=inputs)
-        if method == "cloning"
+        if method == "lfd"
         else train_irl("nirl", expert, seed, settings, task=task(encoder=inputs)).policy
     )
     return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
@@ -91,7 +91,7 @@ SENSORS_AND_TARGET = Experiment(
     title="Success of NIRL and cloning with seven sensors or nine, and with two encodings of the target's sector",
     cases=[
         {"method": method, "target": target, "sensors": sensors}
-        for method in ("nirl", "cloning")
+        for method in ("nirl", "lfd")
         for target in ("signed", "sine-cosine")
         for sensors in SENSORS
     ],
@@ -99,7 +99,7 @@ SENSORS_AND_TARGET = Experiment(
     seeds={"quick": 1, "thesis": 10},
     settings={
         "navigations a run": SETUP.navigations,
-        "settings": {method: dict(tuned(method)) for method in ("nirl", "cloning")},
+        "settings": {method: dict(tuned(method)) for method in ("nirl", "lfd")},
     },
     plot=SUCCESS_BARS,
 )

@@ -63,7 +63,7 @@ DEFAULTS = Settings.of(CONDITIONS["defaults"])
 THESIS = {name: Settings.of(values) for name, values in CONDITIONS["thesis"].items()}
 METHODS = tuple(THESIS)
 LEARNERS = METHODS[:4]
-CONTROLS = ("zero reward", "random reward")
+CONTROLS = ("zero-reward", "random-reward")
 
 HYPERPARAMETERS = FOLDER / "hyperparameters.toml"
 """The hyperparameters of Table 5.2, as :mod:`robonav.experiments.chapter5.tuning` wrote them."""
@@ -84,7 +84,7 @@ def tuned(method: str, discount: float = DISCOUNT, **changes: Any) -> Settings:
     Cloning has no discount: its entry is the better of two sets of trials.
     """
     found = _hyperparameters()[method if method in METHODS else "nirl"]
-    return Settings.of(found if method == "cloning" else found[str(discount)]) | changes
+    return Settings.of(found if method == "lfd" else found[str(discount)]) | changes
 
 
 @lru_cache(maxsize=256)
@@ -134,7 +134,7 @@ def own_options(method: str, settings: Settings, iterations: int) -> dict[str, A
             "expectations": EXPECTATIONS[settings["expectations"]],
             "n_rewards": min(settings["n_rewards"], iterations),
         }
-    if method == "relative_entropy":
+    if method == "relative-entropy":
         return {"horizon": settings["horizon"], "slack": settings["slack"]}
     return {
         "estimate": ESTIMATES[settings["estimate"]],
@@ -187,7 +187,7 @@ def train_irl(
 def control_reward(name: str, seed: int, inputs: int) -> NDArray[np.float64]:
     """Return the reward weights (5, k + 1) of a control: zero, or random."""
     shape = (LEARNED, inputs + 1)
-    if name == "zero reward":
+    if name == "zero-reward":
         return np.zeros(shape)
     return np.random.default_rng([seed, 5]).normal(size=shape)
 
@@ -246,6 +246,6 @@ def trained_policy(
     if method in BASELINES:
         return BASELINES[method]
     settings = tuned(method) if settings is None else settings
-    if method == "cloning":
+    if method == "lfd":
         return cloned_policy(seed, settings, number, expert)
     return trained(method, seed, settings, number, expert, length=length).policy

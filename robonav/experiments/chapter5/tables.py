@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from robonav.benchmark import display_name
 from robonav.robot import nnql_state
 
 from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers, Plot
@@ -99,12 +100,12 @@ def at_density(case: Case, seed: int, scale: str) -> Numbers:
 
 def among_moving_obstacles(case: Case, seed: int, scale: str) -> Numbers:
     """Fig. 5.12: standing and moving obstacles, for a robot trained with standing ones, or a baseline."""
-    worlds = SETUP.test_worlds(seed, scale, int(case["standing"]), int(case["moving"]))
+    worlds = SETUP.test_worlds(seed, scale, int(case["obstacles"]), int(case["moving"]))
     return SETUP.evaluate(trained_policy(str(case["method"]), seed), worlds)
 
 
 def _tuned_by_discount(method: str) -> dict[str, Any]:
-    if method == "cloning":
+    if method == "lfd":
         return dict(tuned(method))
     return {str(discount): dict(tuned(method, discount)) for discount in DISCOUNTS}
 
@@ -135,7 +136,7 @@ def _inputs_of_methods() -> str:
     by_target: dict[str, list[str]] = {}
     for method in METHODS:
         target = str(tuned(method)["target"])
-        by_target.setdefault(target, []).append(method.replace("_", " "))
+        by_target.setdefault(target, []).append(display_name(method))
     groups = [f"{', '.join(names)}: {target}" for target, names in by_target.items()]
     return (
         "All networks read seven sensors, their wall flags, whether the target is seen, and its sector, in the "
@@ -150,7 +151,7 @@ COMPARED = [
     *_cases(LEARNERS, DISCOUNT),
     *_cases(LEARNERS, OTHER_DISCOUNT),
     *_cases(CONTROLS, DISCOUNT),
-    *_cases(("cloning", *_BASELINES), "none"),
+    *_cases(("lfd", *_BASELINES), "none"),
 ]
 
 TABLE_5_1 = Experiment(
@@ -158,7 +159,7 @@ TABLE_5_1 = Experiment(
     title="Success in new maps by number of demonstrations: NIRL and cloning, from computer and human experts",
     cases=[
         {"method": method, "expert": expert, "demonstrations": n}
-        for method in ("nirl", "cloning")
+        for method in ("nirl", "lfd")
         for expert in ("computer", "human")
         for n in (25, 30, 40, 50)
     ],
@@ -235,7 +236,7 @@ FIGURE_5_10 = Experiment(
     title="Success by number of obstacles at three speeds: NIRL and cloning, trained with 20 at 2 m/s, and a baseline",
     cases=[
         {"method": method, "speed": speed, "obstacles": obstacles}
-        for method in ("nirl", "cloning", "freer-side")
+        for method in ("nirl", "lfd", "freer-side")
         for speed in (1.0, 2.0, 3.0)
         for obstacles in DENSITIES
     ],
@@ -248,9 +249,9 @@ FIGURE_5_12 = Experiment(
     name="figure-5.12",
     title="Success with standing and moving obstacles: NIRL and cloning, trained with standing ones, and two baselines",
     cases=[
-        {"method": method, "standing": standing, "moving": moving}
-        for method in ("nirl", "cloning", *_BASELINES)
-        for standing, moving in ((20, 0), (10, 10), (0, 20))
+        {"method": method, "obstacles": obstacles, "moving": moving}
+        for method in ("nirl", "lfd", *_BASELINES)
+        for obstacles, moving in ((20, 0), (10, 10), (0, 20))
     ],
     run=among_moving_obstacles,
     seeds={"quick": 2, "thesis": 25},

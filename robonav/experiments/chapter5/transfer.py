@@ -120,12 +120,12 @@ def clearer_side(seed: int, length: float, obstacles: int, speed: float) -> Poli
 
 STRATEGIES: dict[str, Callable[[int, float, int, float], Policy]] = {
     "the policy itself": partial(same_policy, method="nirl"),
-    "a cloned policy": partial(same_policy, method="cloning"),
+    "a cloned policy": partial(same_policy, method="lfd"),
     "trained there under the learned reward": learned_reward,
     "trained there under Table 4.1": reward_table,
-    "trained there under no reward": partial(given_reward, control="zero reward"),
+    "trained there under no reward": partial(given_reward, control="zero-reward"),
     "trained there under a random reward": partial(
-        given_reward, control="random reward"
+        given_reward, control="random-reward"
     ),
     "freer-side": clearer_side,
 }
@@ -143,7 +143,7 @@ def elsewhere(case: Case, seed: int, scale: str) -> Numbers:
 REFINEMENTS: dict[str, Refinement | None] = {
     "as demonstrated": None,
     "most frequent": most_frequent,
-    "most telling": map_uniform_prior,
+    "maximum a posteriori": map_uniform_prior,
 }
 
 
@@ -161,7 +161,7 @@ def refine(case: Case, seed: int, scale: str) -> Numbers:
     """Test one run of NIRL from contradictory demonstrations, refined by Eq. (5.12) in one of two ways, or not."""
     trajectories = (
         slipping_demonstrations(seed)
-        if case["expert"] == "slipping"
+        if case["expert"] == "computer, slipping"
         else demonstrations(seed, expert=str(case["expert"]))
     )
     refinement = REFINEMENTS[str(case["actions"])]
@@ -203,7 +203,7 @@ REFINEMENT = Experiment(
     title="Success with experts that contradict themselves, with and without MAP refinement",
     cases=[
         {"expert": expert, "actions": refinement}
-        for expert in ("computer", "human", "slipping")
+        for expert in ("computer", "human", "computer, slipping")
         for refinement in REFINEMENTS
     ],
     run=refine,

@@ -46,7 +46,7 @@ _OWN: dict[str, dict[str, list[Any]]] = {
         "expectations": ["all states", "initial state"],
         "n_rewards": [7, 14, 28],
     },
-    "relative_entropy": {"horizon": [3, 5, 8], "slack": [0.02, 0.05, 0.1]},
+    "relative-entropy": {"horizon": [3, 5, 8], "slack": [0.02, 0.05, 0.1]},
     "scirl": {
         "estimate": ["lstd", "heuristic"],
         "power": [0.0, 0.5, 1.0],
@@ -56,7 +56,7 @@ _OWN: dict[str, dict[str, list[Any]]] = {
 SPACE: dict[str, dict[str, list[Any]]] = {
     method: _SHARED | own for method, own in _OWN.items()
 } | {
-    "cloning": {
+    "lfd": {
         "hidden": [8, 10, 16, 30],
         "regularisation": [0.1, 0.3, 1.0, 3.0, 10.0],
         "iterations": [100, 300],
@@ -72,7 +72,7 @@ def draws(method: str, discount: float) -> list[dict[str, Any]]:
     The methods of inverse reinforcement learning try the same combinations with both discounts. Cloning has no
     discount. Its trials for the second discount are further combinations.
     """
-    seed = [TUNING_SEEDS, DISCOUNTS.index(discount) if method == "cloning" else 0]
+    seed = [TUNING_SEEDS, DISCOUNTS.index(discount) if method == "lfd" else 0]
     rng = np.random.default_rng(seed)
     columns = {
         name: [
@@ -89,9 +89,9 @@ def draws(method: str, discount: float) -> list[dict[str, Any]]:
 
 def trial_settings(method: str, trial: int, discount: float) -> Settings:
     """The hyperparameters of a trial: trial 0 has the thesis's, the others have random ones."""
-    first = trial == 0 and (method != "cloning" or discount == DISCOUNTS[0])
+    first = trial == 0 and (method != "lfd" or discount == DISCOUNTS[0])
     drawn = dict(THESIS[method]) if first else draws(method, discount)[trial]
-    if method != "cloning":
+    if method != "lfd":
         drawn |= {"discount": discount, "n_samples": N_SAMPLES}
     return Settings.of(drawn)
 
@@ -133,7 +133,7 @@ def best_trials(results: Results) -> dict[str, dict[str, Settings]]:
     best: dict[tuple[str, str], tuple[float, Settings]] = {}
     for place, case in enumerate(results.experiment.cases):
         method = str(case["method"])
-        key = method, "" if method == "cloning" else str(case["discount"])
+        key = method, "" if method == "lfd" else str(case["discount"])
         success = results.summary("success", place).mean
         if key not in best or success > best[key][0]:
             best[key] = success, Settings.of(json.loads(str(case["settings"])))

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+from robonav.benchmark import display_name
+
 from .experiment import Results
 from .statistics import Summary
 
@@ -69,6 +71,8 @@ def as_markdown(results: Results, metrics: Sequence[str]) -> str:
     table = pd.DataFrame(list(experiment.cases)).astype(str)
     varied = [key for key in table if table[key].nunique() > 1]
     table = table[varied or list(table)]
+    if "method" in table:
+        table["method"] = table["method"].map(display_name)
     for metric in metrics:
         table[metric] = _cells(results, metric)
     for metric in metrics:

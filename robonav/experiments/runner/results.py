@@ -139,10 +139,10 @@ def load_results(name: str, folder: str | Path = RESULTS) -> pd.DataFrame:
     --------
     >>> table = load_results("baselines")
     >>> list(table.columns)
-    ['rule', 'standing', 'moving', 'speed', 'seed', 'metric', 'step', 'value']
+    ['method', 'obstacles', 'moving', 'speed', 'seed', 'metric', 'step', 'value']
     >>> success = table[(table.metric == "success") & (table.speed == 2.0) & (table.moving == 0)]
-    >>> print(success.pivot_table(index="rule", columns="standing", values="value").round().to_markdown())
-    | rule       |   10 |   20 |   30 |
+    >>> print(success.pivot_table(index="method", columns="obstacles", values="value").round().to_markdown())
+    | method     |   10 |   20 |   30 |
     |:-----------|-----:|-----:|-----:|
     | freer-side |   99 |   90 |   71 |
     | straight   |   36 |   13 |    5 |
@@ -196,7 +196,7 @@ def read_results(experiment: Experiment | str, folder: str | Path = RESULTS) -> 
     --------
     >>> results = read_results("table-4.3")
     >>> results.experiment.cases[0], results.values("success", 0).shape
-    ({'robot': 'nnql'}, (50,))
+    ({'method': 'nnql'}, (50,))
     """
     if isinstance(experiment, str):
         from ..registry import experiment as registered

@@ -258,7 +258,7 @@ def copied_and_learned(settings: dict[str, Any], report: Report) -> Trained:
 METHODS = {
     "NIRL": "nirl",
     "apprenticeship learning": "apprenticeship",
-    "relative entropy": "relative_entropy",
+    "relative entropy": "relative-entropy",
     "SCIRL": "scirl",
 }
 ENDS = {

@@ -96,14 +96,16 @@ def test_plans_are_counted_up_to_the_target():
         [p.length + np.linalg.norm(p.points[-1] - (90, 90)) for p in plans]
         for plans in zip(*made, strict=True)
     )
-    assert numbers["modified"] == pytest.approx(np.mean(ours))
-    assert numbers["grid"] == pytest.approx(np.mean(grid))
-    assert numbers["modified shorter"] == 100 * np.mean(np.subtract(grid, ours) > 1e-6)
+    assert numbers["length, modified A*"] == pytest.approx(np.mean(ours))
+    assert numbers["length, grid A*"] == pytest.approx(np.mean(grid))
+    assert numbers["modified A* shorter"] == 100 * np.mean(
+        np.subtract(grid, ours) > 1e-6
+    )
 
 
 def test_methods_by_name():
     names = {case["method"] for case in FIGURE_3_8.cases}
-    assert {"straight", "cloning", "DAgger"} <= names
+    assert {"straight", "lfd", "dagger"} <= names
     assert learned_policy("5 neighbours", 0).k == 5
 
 

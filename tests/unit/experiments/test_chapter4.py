@@ -119,7 +119,7 @@ def test_no_method_had_more_learning_steps_than_nnql():
 
 @pytest.mark.slow
 def test_a_method_is_stopped_where_nnqls_steps_end():
-    numbers = EQUAL_STEPS.run({"robot": "nfq"}, 1, "quick")
+    numbers = EQUAL_STEPS.run({"method": "nfq"}, 1, "quick")
     allowed = training("nnql", 1, "quick", tuned()["nnql"]).decisions[0].sum()
     trained = training("nfq", 1, "quick", tuned()["nfq"], record=True)
     last = int(numbers["episodes"])

@@ -72,8 +72,7 @@ def test_trials_differ_from_one_discount_to_the_other_in_that_alone(method):
 
 def test_cloning_draws_other_trials_instead():
     one, other = (
-        [trial_settings("cloning", trial, d) for trial in range(TRIALS)]
-        for d in DISCOUNTS
+        [trial_settings("lfd", trial, d) for trial in range(TRIALS)] for d in DISCOUNTS
     )
     assert one != other
 
@@ -109,7 +108,7 @@ def test_controls_practise_as_nirl_does_under_another_reward(control):
     found, ours = (
         trained(name, 0, tuned(name), length=SHORT) for name in (control, "nirl")
     )
-    assert (found.reward_weights == 0).all() == (control == "zero reward")
+    assert (found.reward_weights == 0).all() == (control == "zero-reward")
     assert tuned(control) == tuned("nirl")
     first, same = (run.history.networks.weights[0][0] for run in (found, ours))
     np.testing.assert_array_equal(first, same)
@@ -117,7 +116,7 @@ def test_controls_practise_as_nirl_does_under_another_reward(control):
 
 def test_two_runs_have_two_rewards_of_chance():
     one, other = (
-        trained("random reward", seed, tuned("nirl"), length=SHORT).reward_weights
+        trained("random-reward", seed, tuned("nirl"), length=SHORT).reward_weights
         for seed in (0, 1)
     )
     assert (one != other).all()
@@ -209,11 +208,10 @@ def test_a_comparison_has_its_controls_beside_it():
     methods = {
         e.name: {case.get("method") for case in e.cases} for e in tables.EXPERIMENTS
     }
-    assert {"zero reward", "random reward", "cloning"} <= methods["table-5.2"]
-    assert {"zero reward", "random reward"} <= methods["nirl-controls"]
+    assert {"zero-reward", "random-reward", "lfd"} <= methods["table-5.2"]
+    assert {"zero-reward", "random-reward"} <= methods["nirl-controls"]
     assert all(
-        "cloning" in methods[name]
-        for name in ("table-5.1", "figure-5.10", "figure-5.12")
+        "lfd" in methods[name] for name in ("table-5.1", "figure-5.10", "figure-5.12")
     )
     assert {
         "a cloned policy",
@@ -253,9 +251,7 @@ def test_a_shipped_network_is_the_best_of_its_seeds():
 
 @pytest.mark.parametrize("method", LEARNERS)
 def test_what_ships_says_what_made_it(method):
-    weights = load_weights(
-        folder_of("nirl") / f"{method.replace('_', '-')}.safetensors"
-    )
+    weights = load_weights(folder_of("nirl") / f"{method}.safetensors")
     assert weights.method == method
     assert weights.made["settings"] == json.loads(tuned(method, 0.9).as_json())
     assert weights.made["success in tuning worlds (%)"] > 90

@@ -18,17 +18,17 @@ def few_worlds(monkeypatch):
     monkeypatch.setattr(reflex, "WORLDS", 40)
 
 
-@pytest.mark.parametrize("policy", ["straight", "freer-side"])
+@pytest.mark.parametrize("method", ["straight", "freer-side"])
 @pytest.mark.parametrize("chapter", [3, 4, 5])
-def test_points_lost_are_the_difference_in_the_same_worlds(chapter, policy):
-    case = {"chapter": chapter, "policy": policy, "training": "none"}
+def test_points_lost_are_the_difference_in_the_same_worlds(chapter, method):
+    case = {"chapter": chapter, "method": method, "training": "none"}
     exact, sector = (
         reflex.compare_directions(case | {"driving": driving}, 1, "quick")
         for driving in ("exact", "sector")
     )
     assert "points lost" not in exact
     assert sector["points lost"] == exact["success"] - sector["success"]
-    if policy == "straight":
+    if method == "straight":
         # it leaves a safe state ahead of the target, which it has faced from the start
         assert sector["points lost"] == 0
     else:
@@ -43,7 +43,7 @@ def test_a_policy_trains_with_the_reflex_of_its_case():
         shown = demonstrations(0, number=2, reflex=Reflex(direction))
         assert set(shown.actions[shown.sensing.safe]) == {command}
     trained = [
-        reflex.trained_policy("cloning", 0, "quick", Reflex(direction))
+        reflex.trained_policy("lfd", 0, "quick", Reflex(direction))
         for direction in ("exact", "sector")
     ]
     assert any(
@@ -58,7 +58,7 @@ def test_every_learned_policy_trains_and_drives_with_either():
             pairs = {
                 (case["training"], case["driving"])
                 for case in EXPERIMENT.cases
-                if (case["chapter"], case["policy"]) == (chapter, policy)
+                if (case["chapter"], case["method"]) == (chapter, policy)
             }
             assert pairs == {
                 ("exact", "exact"),

@@ -38,7 +38,7 @@ def test_the_number_of_the_sector_costs_two_to_five_points():
             values(
                 tables.ENCODINGS,
                 "success",
-                learner="cloning",
+                method="lfd",
                 obstacles=obstacles,
                 target=target,
             ).mean()
@@ -59,7 +59,7 @@ def test_cloning_is_ahead_of_the_rule_with_many_obstacles():
     for obstacles in (20, 30):
         rule, cloned = (
             values(tables.FIGURE_3_8, "success", obstacles=obstacles, method=name)
-            for name in ("freer-side", "cloning")
+            for name in ("freer-side", "lfd")
         )
         assert (cloned - rule).mean() > 5
 
@@ -67,7 +67,7 @@ def test_cloning_is_ahead_of_the_rule_with_many_obstacles():
 def test_rounds_of_dagger():
     for obstacles in (10, 20, 30):
         rounds = values(
-            tables.FIGURE_3_8, "success by round", obstacles=obstacles, method="DAgger"
+            tables.FIGURE_3_8, "success by round", obstacles=obstacles, method="dagger"
         )
         gain = np.diff(rounds.mean(axis=0))
         worst = np.diff(rounds.min(axis=0))
@@ -82,10 +82,10 @@ def test_dagger_is_ahead_with_equally_much_data():
         few, many, warm, dagger = (
             values(tables.EQUAL_DATA, "success", obstacles=obstacles, **setting)
             for setting in (
-                {"method": "cloning", "maps": 25},
-                {"method": "cloning", "maps": 50, "temperature": 0.0},
-                {"method": "cloning", "maps": 50, "temperature": 0.4},
-                {"method": "DAgger"},
+                {"method": "lfd", "maps": 25},
+                {"method": "lfd", "maps": 50, "temperature": 0.0},
+                {"method": "lfd", "maps": 50, "temperature": 0.4},
+                {"method": "dagger"},
             )
         )
         ahead = dagger - warm
@@ -103,7 +103,7 @@ def test_lengths_of_the_two_planners():
                 name,
                 **{"target y": y, "obstacles": 10, "grid cell": 1},
             )
-            for name in ("modified", "grid")
+            for name in ("length, modified A*", "length, grid A*")
         )
         assert bounds[0] < (grid - modified).mean() < bounds[1]
 

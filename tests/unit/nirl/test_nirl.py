@@ -559,7 +559,7 @@ def test_settings_out_of_bounds_get_a_sentence(setting):
     # the expert never errs, so that no reward makes random segments like its own
     "ignore:relative_entropy_weights ended:robonav.errors.ConvergenceWarning"
 )
-@pytest.mark.parametrize("method", ["apprenticeship", "relative_entropy", "scirl"])
+@pytest.mark.parametrize("method", ["apprenticeship", "relative-entropy", "scirl"])
 def test_baselines_run_on_a_finite_mdp(terrain, method):
     task = TabularTask(terrain.task)
     expert = task.demonstrate(terrain.expert, 20, seed=1)

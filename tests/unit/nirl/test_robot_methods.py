@@ -234,7 +234,7 @@ def test_arguments_of_another_type(demonstrations):
 def test_another_method_gets_a_sentence(demonstrations):
     with pytest.raises(
         ValueError,
-        match="method must be one of nirl, apprenticeship, relative_entropy, scirl",
+        match="method must be one of nirl, apprenticeship, relative-entropy, scirl",
     ):
         learn(demonstrations, "magic")
 

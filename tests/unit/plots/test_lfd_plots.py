@@ -52,7 +52,11 @@ def test_iterations():
 
 
 def test_planners():
-    metrics = ["modified", "grid", "modified expands", "grid expands"]
+    metrics = [
+        f"{metric}, {name} A*"
+        for metric in ("length", "expanded")
+        for name in ("modified", "grid")
+    ]
     figure = draw.plot_planners(made_up(FIGURE_3_5, metrics))
     left, right = figure.axes
     assert left.patches[0].get_width() == pytest.approx(1 - np.hypot(80, 80))

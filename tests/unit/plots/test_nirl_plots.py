@@ -156,7 +156,7 @@ def test_results_find_their_panels():
     )
     comparison = draw.plot_comparison(made_up(TABLE_5_2, ("success",)), 0.9)
     labels = [label.get_text() for label in comparison.axes[0].get_yticklabels()]
-    assert labels[:4] == ["nirl", "apprenticeship", "relative_entropy", "scirl"]
+    assert labels[:4] == ["NIRL", "apprenticeship", "relative entropy", "SCIRL"]
     assert "zero reward" in labels
     for figure in (counts, course, densities, comparison):
         figure.canvas.draw()

@@ -107,7 +107,7 @@ def test_learning_from_results():
         results_of(cases, lambda case, seed: {"successes": [case, seed]})
     )
     lines = figure.axes[0].lines
-    assert [line.get_label() for line in lines] == ["nnql", "dqn"]
+    assert [line.get_label() for line in lines] == ["NNQL", "DQN"]
     np.testing.assert_array_equal(lines[1].get_ydata(), [1, 0.5])
 
 
@@ -128,7 +128,7 @@ def test_weight_changes_of_several_seeds_are_averaged():
 
 @pytest.mark.usefixtures("closing")
 def test_rates_from_results_have_the_thesiss_diamond():
-    cases = [{"robot": "nnql"}, {"robot": "straight"}]
+    cases = [{"method": "nnql"}, {"method": "straight"}]
     results = results_of(
         cases, lambda case, seed: {"success": 90 + seed}, thesis={"success": [98, None]}
     )
@@ -143,8 +143,8 @@ def test_rates_from_results_have_the_thesiss_diamond():
 @pytest.mark.usefixtures("closing")
 def test_speeds_have_a_curve_a_robot_and_a_band_from_worst_to_best():
     cases = [
-        {"robot": robot, "speed": speed}
-        for robot in ("nnql", "straight")
+        {"method": method, "speed": speed}
+        for method in ("nnql", "straight")
         for speed in (2.0, 4.0)
     ]
     results = results_of(cases, lambda case, seed: {"success": 10 * case + seed})
@@ -171,9 +171,9 @@ def test_trials_are_grouped_by_method():
 @pytest.mark.usefixtures("closing")
 def test_endings_and_variations_of_what_was_varied():
     cases = [
-        {"what": what, "choice": choice}
-        for what in ("reward", "inputs")
-        for choice in ("a", "b")
+        {"factor": factor, "level": level}
+        for factor in ("reward", "inputs")
+        for level in ("a", "b")
     ]
     ends = {"success": 70.0, "out of steps": 20.0, "collision": 10.0}
     results = results_of(
