@@ -76,7 +76,7 @@ check: $(INSTALLED)
 	$(BIN)/mypy > "$$report" 2>&1 & types=$$!; \
 	$(BIN)/ruff check || failed=1; \
 	$(BIN)/ruff format --check || failed=1; \
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto -q --hypothesis-profile quick \
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal -q --hypothesis-profile quick \
 	  -m "not slow and not browser and not sandbox and not exhaustive" \
 	  robonav tests/unit tests/book/test_tools.py $(PYTEST_OPTIONS) || failed=1; \
 	wait $$types || failed=1; \

@@ -103,6 +103,7 @@ def test_worlds_to_show_to_tune_on_and_to_test_on_never_meet():
     ).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("control", CONTROLS)
 def test_controls_practise_as_nirl_does_under_another_reward(control):
     found, ours = (

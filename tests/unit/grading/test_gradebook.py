@@ -809,6 +809,7 @@ def busy(out, folder, acknowledged):
             exports.write_feedback(book, out / "zips")
 
 
+@pytest.mark.slow
 def test_killed_twenty_times_nothing_confirmed_is_lost(tmp_path, quick):
     """SIGKILL at random moments."""
     book_of(tmp_path, ["ada", "bo"])

@@ -54,7 +54,9 @@ def test_copies_are_found_and_honest_pairs_are_not():
 
 
 @pytest.mark.parametrize("disguises", [BENCHMARK.DISGUISES[:3], ()])
-@pytest.mark.parametrize("size", [3, 4, 6, 11])
+@pytest.mark.parametrize(
+    "size", [3, *(pytest.param(n, marks=pytest.mark.slow) for n in (4, 6, 11))]
+)
 def test_a_ring_does_not_hide_itself(size, disguises):
     for found, ring in BENCHMARK.ringed(2, size, disguises):
         reported = [{pair.first, pair.second} for pair in found if pair.reported]
@@ -209,14 +211,22 @@ def test_notebooks_and_zips_are_read_and_nothing_is_run(tmp_path):
 @pytest.mark.parametrize(
     "text",
     [
-        "def improve(:",
-        "def improve(q, policy, tolerance):\n    return " + "(" * 50_000,
-        "def improve(q, policy, tolerance):\n    return " + "-" * 400_000 + "1",
-        "def improve(q, policy, tolerance):\n    return " + "1+" * 200_000 + "1",
-        "def improve(q, policy, tolerance):\n    return " + "q." * 100_000 + "x",
-        "\0" * 100,
+        pytest.param("def improve(:", id="syntax"),
+        *(
+            pytest.param(
+                f"def improve(q, policy, tolerance):\n    return {value}",
+                marks=pytest.mark.slow,
+                id=name,
+            )
+            for name, value in {
+                "brackets": "(" * 50_000,
+                "minus": "-" * 400_000 + "1",
+                "sum": "1+" * 200_000 + "1",
+                "attributes": "q." * 100_000 + "x",
+            }.items()
+        ),
+        pytest.param("\0" * 100, id="zeros"),
     ],
-    ids=["syntax", "brackets", "minus", "sum", "attributes", "zeros"],
 )
 def test_a_hostile_file_ends_nothing_but_itself(tmp_path, text):
     folder = tmp_path / "class"

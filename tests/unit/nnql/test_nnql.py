@@ -78,7 +78,7 @@ def balancing():
 
 
 @pytest.mark.parametrize(("method", "settings", "tolerance"), TWINS)
-@pytest.mark.parametrize("seed", [0, 7])
+@pytest.mark.parametrize("seed", [0, pytest.param(7, marks=pytest.mark.slow)])
 def test_twin_equal_to_readable_function(method, settings, tolerance, seed):
     task = NavigationTask(max_steps=80)
     env, settings = task.environment(), dict(settings)

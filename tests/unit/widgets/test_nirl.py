@@ -111,7 +111,7 @@ def test_without_a_worker_the_page_answers_within_100_ms(node):
 @pytest.mark.long
 def test_whole_trainings_succeed_as_often_as_pythons(node):
     """Robots of several seeds, trained on the same demonstrations, in the same new maps."""
-    seeds, maps = 20, random_worlds(100, 20, seed=55_000)
+    seeds, maps = 10, random_worlds(100, 20, seed=55_000)
     expert = expert_decisions(demonstrate(random_worlds(10, 20, seed=3)))
     rates = {"page": [], "Python": []}
     for seed, ours in enumerate(in_page(node, [expert] * seeds, iterations=40)):

@@ -63,7 +63,14 @@ def test_robots_are_trained_as_learn_trains_them(widget):
     assert last["ended"]["sentence"].startswith("2 robots cross ")
 
 
-@pytest.mark.parametrize("method", ["apprenticeship", "relative-entropy", "scirl"])
+@pytest.mark.parametrize(
+    "method",
+    [
+        pytest.param("apprenticeship", marks=pytest.mark.slow),
+        pytest.param("relative-entropy", marks=pytest.mark.slow),
+        "scirl",
+    ],
+)
 def test_other_methods_learn_from_the_drives_of_the_reader(widget, sent, method):
     message = REQUEST | {"method": method, "robots": 1, "drives": sent}
     *told, last = answers_of(widget, message)

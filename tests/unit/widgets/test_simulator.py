@@ -84,6 +84,7 @@ def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(
     same(node, shown, {"rule": rule}, speed, 100, episodes.paths, episodes.outcome)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("rule", "policy"), [("straight", straight), ("freer-side", turn_to_clearer_side)]
 )
