@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from robonav.experiments.runner.experiment import Experiment, Results
 
 STANDARD_OUTPUT = Path("-")
+# The parts of robonav --help, in order
+PARTS = ROBOTS, PRACTICE, TEACHING = "Robots and results", "Exercises", "Teaching"
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -32,14 +34,13 @@ app = typer.Typer(
 exercises = typer.Typer(
     no_args_is_help=True, help="Make the students' exercises from the solutions."
 )
-app.add_typer(exercises, name="exercises")
+app.add_typer(exercises, name="exercises", rich_help_panel=TEACHING)
 drills = typer.Typer(
     no_args_is_help=True,
     help="Make question banks and exams of drills, which draw new numbers for each question.",
 )
-app.add_typer(drills, name="drills")
-app.add_typer(gradebook, name="gradebook")
-app.command()(similarity)
+app.add_typer(drills, name="drills", rich_help_panel=TEACHING)
+app.add_typer(gradebook, name="gradebook", rich_help_panel=TEACHING)
 
 
 def _version(wanted: bool) -> None:
@@ -272,7 +273,7 @@ def drills_export(
         )
 
 
-@app.command()
+@app.command(rich_help_panel=PRACTICE)
 def check(
     keys: Annotated[
         list[str] | None,
@@ -322,10 +323,11 @@ def check(
         raise typer.Exit(1)
 
 
-app.command()(grade)
+app.command(rich_help_panel=TEACHING)(grade)
+app.command(rich_help_panel=TEACHING)(similarity)
 
 
-@app.command()
+@app.command(rich_help_panel=ROBOTS)
 def reproduce(
     name: Annotated[
         str,
@@ -392,7 +394,7 @@ def _reproduced(experiment: Experiment, out: Path, **how: Any) -> Results:
     return results
 
 
-@app.command()
+@app.command(rich_help_panel=ROBOTS)
 def navigate(
     method: Annotated[
         str,
@@ -447,7 +449,7 @@ def navigate(
         _write_json(json_file, result)
 
 
-@app.command()
+@app.command(rich_help_panel=ROBOTS)
 def leaderboard(
     method: Annotated[
         list[str] | None,
@@ -564,3 +566,6 @@ def _tell_case(path: Path | None, call: str) -> None:
 
 def _points(entry: dict[str, Any]) -> str:
     return "?" if entry["points"] is None else f"{entry['points']:g}"
+
+
+app.registered_commands.sort(key=lambda command: PARTS.index(command.rich_help_panel))

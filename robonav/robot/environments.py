@@ -36,12 +36,14 @@ __all__ = ["NavigationEnv", "as_sensing"]
 
 
 class NavigationEnv(gymnasium.Env):
-    """The compiled twin of :class:`PlainNavigationEnv`, with options: a :class:`Simulator` of one robot.
+    """## Options
 
-    ``reset(options={"worlds": world})`` puts the robot into a given world, a batch of one. A new world is drawn again
-    if no way leads to the target 2 m clear of what stands still. The time limit of ``gymnasium.make``, 500 steps by
-    default, is outside the environment, whose outcome then stays ``RUNNING``. ``target_region`` is counted from 0 here,
-    and from 1 in a :class:`Sensing`, which policies take: see :func:`as_sensing`.
+    The parameters below change maps, robot and reward. ``reset(options={"worlds": world})`` puts the robot into a given
+    world, a batch of one. A new world is drawn again if no way leads to the target 2 m clear of what stands still.
+
+    This is the compiled twin of :class:`PlainNavigationEnv`: a :class:`Simulator` of one robot. The time limit of
+    ``gymnasium.make`` is outside of it, so that the outcome is then still ``RUNNING``. ``target_region`` is counted
+    from 0 here, and from 1 in a :class:`Sensing`, which policies take: see :func:`as_sensing`.
 
     ## Information
 
@@ -127,7 +129,22 @@ class NavigationEnv(gymnasium.Env):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, Info]:
-        """Begin an episode, in a new world unless ``options["worlds"]`` gives one."""
+        """Begin an episode, in a new world unless ``options["worlds"]`` gives one.
+
+        Parameters
+        ----------
+        seed : int, optional
+            Seed of the worlds from now on.
+        options : dict, optional
+            ``{"worlds": world}`` with a batch of one.
+
+        Returns
+        -------
+        observation : dict
+            See the table of observations.
+        info : dict
+            See the table of information.
+        """
         super().reset(seed=seed)
         given, settings = worlds_in(options, 1), self.settings
         self.world = given or settings.next_worlds([self.np_random])
@@ -142,7 +159,26 @@ class NavigationEnv(gymnasium.Env):
 
     @while_running
     def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
-        """Simulate one second."""
+        """Simulate one second.
+
+        Parameters
+        ----------
+        action : int
+            0 to 5, see the table of actions.
+
+        Returns
+        -------
+        observation : dict
+            See the table of observations.
+        reward : float
+            By default 1 for an arrival, -1 for a collision, else 0.
+        terminated : bool
+            Whether the robot has arrived or collided.
+        truncated : bool
+            Whether ``max_episode_steps`` is over.
+        info : dict
+            See the table of information.
+        """
         simulator, settings, before = self.simulator, self.settings, self.sensing
         reflex = int(settings.reflexes(before)[0])
         self._command[0] = action if reflex == NO_REFLEX else reflex
