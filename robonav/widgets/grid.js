@@ -31,8 +31,11 @@ export function beside(cells, state, [across, down]) {
   return ahead.length ? ahead[0][0] : state;
 }
 
-/** A grid as Python's `page_grid` describes it: each cell with value and arrow, one of them marked; `mark` hears of a cell touched. */
-export function gridPicture({ layout, name, mark = () => {} }) {
+/**
+ * A grid as Python's `page_grid` describes it: each cell with value and arrow, one of them marked.
+ * `mark` hears of a cell touched; `write` makes a text of a value.
+ */
+export function gridPicture({ layout, name, mark = () => {}, write = short }) {
   const [rows, columns] = [layout.rows.length, layout.rows[0].length];
   const [width, height] = [columns * CELL, rows * CELL];
   const middle = ([row, column]) => [(column + 0.5) * CELL, (row + 0.5) * CELL];
@@ -58,11 +61,12 @@ export function gridPicture({ layout, name, mark = () => {} }) {
       const reward = layout.rewards[state];
       arrow.remove();
       marks.append(svg("rect", { x: x - 26, y: y - 26, width: 52, height: 52, fill: "none", stroke: DARK, "stroke-width": 2, class: "still" }));
-      set(text, { y: y + 6, "font-size": 18 });
+      const lettered = /[A-Z]/.test(letter);
+      set(text, { y: y + (lettered ? 17 : 6), "font-size": 18 });
       text.textContent = `${reward < 0 ? "−" : reward > 0 ? "+" : ""}${Math.abs(reward)}`;
-      if (/[A-Z]/.test(letter)) marks.append(svg("text", { x: x - 22, y: y - 12, "font-size": 14, style: `fill: ${DARK}` }, letter));
+      if (lettered) marks.append(svg("text", { x: x - 22, y: y - 6, "font-size": 14, style: `fill: ${DARK}` }, letter));
     } else if (letter !== ".") {
-      marks.append(svg("text", { x: x - 25, y: y - 16, "font-size": 14, style: `fill: ${DARK}` }, letter));
+      marks.append(svg("text", { x: x - 28, y: y - 14, "font-size": 14, style: `fill: ${DARK}` }, letter));
     }
     return { box, arrow, text, fixed: ends.has(state) };
   });
@@ -74,7 +78,7 @@ export function gridPicture({ layout, name, mark = () => {} }) {
       if (fixed) return;
       const [x, y] = middle(layout.cells[state]);
       arrow.setAttribute("transform", `translate(${x} ${y - 9}) rotate(${90 * policy[state]})`);
-      text.textContent = short(values[state]);
+      text.textContent = write(values[state]);
     });
     path.setAttribute("d", walk.map((state, i) => `${i ? "L" : "M"}${middle(layout.cells[state]).join(" ")}`).join(""));
     const [row, column] = layout.cells[marked] ?? [0, 0];

@@ -88,9 +88,10 @@ function render({ model, el }) {
     inputs: ["1", "2", "3", "4", "5", "6", "7", "8", "9", "V", "I"], outputs: ACTIONS,
     label: "The network: an input for each sensor, the target's sector V and whether it is seen I; hidden units; five actions",
   });
+  const [last, apart] = [frames.length - 1, Math.ceil(frames.length / 6)];
   const history = curve({
     values: [...costs], label: "Cost over the training", xLabel: "iteration", yLabel: "cost J",
-    ticks: frames.map((iteration, at) => [at, iteration]).filter(([at]) => at % Math.ceil(frames.length / 6) === 0 || at === frames.length - 1),
+    ticks: frames.map((iteration, at) => [at, iteration]).filter(([at]) => at === last || (at % apart === 0 && at <= last - apart / 2)),
   });
   const status = h("p", { class: "status", role: "status" });
   const changed = (j, value) => {

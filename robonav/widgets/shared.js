@@ -233,7 +233,7 @@ export function networkPicture(sizes, { inputs, outputs, width = 420, height = 4
   for (let l = 0; l < last; l += 1) {
     const [cx, cy] = place(l, 0);
     marks.append(svg("circle", { cx, cy, r: radius, fill: PALETTE.OBSTACLE }));
-    marks.append(svg("text", { x: cx, y: cy + 3.5, "text-anchor": "middle", "font-size": 11, style: "fill: #fff" }, "+1"));
+    marks.append(svg("text", { x: cx - radius - 5, y: cy + 4, "text-anchor": "end", "font-size": 12 }, "+1"));
   }
   inputs.forEach((name, j) => {
     const [x, y] = place(0, j + 1);
@@ -246,7 +246,7 @@ export function networkPicture(sizes, { inputs, outputs, width = 420, height = 4
     marks.append(bar, text);
     return { name, bar, text };
   });
-  const element = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label }, lines, marks);
+  const element = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label, class: "network" }, lines, marks);
 
   /** @param {Network} network @param {Float64Array[]} activations */
   const show = (network, activations) => {
@@ -282,23 +282,34 @@ export function networkPicture(sizes, { inputs, outputs, width = 420, height = 4
   return { element, show };
 }
 
+/**
+ * Axes with their names: the horizontal one's below its numbers, the vertical one's above it, where no height limits it.
+ * On slides, letters are larger than a picture expects, and their classes keep words apart.
+ */
+export function axes({ left, right, top, bottom, xLabel, yLabel, letters = 12 }) {
+  const name = (words, place, kind) => svg("text", { ...place, "font-size": letters, class: `quiet ${kind}` }, words);
+  return [
+    svg("path", { d: `M${left} ${top}V${bottom}H${right}`, fill: "none", stroke: PALETTE.INK }),
+    name(xLabel, { x: (left + right) / 2, y: bottom + 10 + 2 * letters, "text-anchor": "middle" }, "x-name"),
+    name(yLabel, { x: 2, y: top - letters - 1 }, "y-name"),
+  ];
+}
+
 /** A curve over frames with a mark at one of them; `ticks` are pairs of a frame and its text. */
 export function curve({ values, ticks, label, xLabel, yLabel, width = 420, height = 170 }) {
-  const [left, right, top, bottom] = [46, width - 12, 10, height - 36];
-  const element = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label });
+  const [left, right, top, bottom] = [46, width - 12, 25, height - 38];
+  const element = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label, class: "chart" });
   const line = svg("path", { fill: "none", stroke: PALETTE.BLUE, "stroke-width": 2 });
   const mark = svg("circle", { r: 5, fill: PALETTE.VERMILION });
-  const upper = svg("text", { x: left - 6, y: top + 8, "text-anchor": "end", "font-size": 11 });
-  const lower = svg("text", { x: left - 6, y: bottom, "text-anchor": "end", "font-size": 11 });
+  const upper = svg("text", { x: left - 6, y: top + 4, "text-anchor": "end", "font-size": 12, class: "y-tick" });
+  const lower = svg("text", { x: left - 6, y: bottom + 4, "text-anchor": "end", "font-size": 12, class: "y-tick" });
   let scale = (frame) => [left, bottom];
   let shown = values;
   const across = (frame) => left + ((right - left) * frame) / Math.max(1, shown.length - 1);
   element.append(
-    svg("path", { d: `M${left} ${top}V${bottom}H${right}`, fill: "none", stroke: PALETTE.INK }), line, mark, upper, lower,
-    svg("text", { x: (left + right) / 2, y: height - 4, "text-anchor": "middle", "font-size": 12, class: "quiet" }, xLabel),
-    svg("text", { transform: `translate(12 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle", "font-size": 12, class: "quiet" }, yLabel),
+    ...axes({ left, right, top, bottom, xLabel, yLabel }), line, mark, upper, lower,
     ...ticks.map(([frame, text]) =>
-      svg("text", { x: across(frame), y: bottom + 15, "text-anchor": "middle", "font-size": 11 }, text)),
+      svg("text", { x: across(frame), y: bottom + 16, "text-anchor": "middle", "font-size": 12, class: "x-tick" }, text)),
   );
   /** Another history in the same picture. */
   const draw = (series) => {

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from accessibility import COLOURS, violations
 from browser import DESKTOP, PHONE, ROOT, Visit, visiting
 from focus import focus_faults
+from labels import LABEL_FAULTS
 from playwright.sync_api import BrowserContext
 from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
@@ -40,6 +41,8 @@ ILLEGIBLE = """() => [...document.querySelectorAll(".robonav svg text")].filter(
     Math.max(outer[low] - inner[low], inner[high] - outer[high]));
   return text.textContent && inner.width > 0 && (size < 8 || Math.max(across, down) > 2);
 }).map((text) => text.textContent)"""
+CROWDED = f"""() => [...document.querySelectorAll(".robonav svg")]
+  .filter((picture) => picture.checkVisibility()).flatMap({LABEL_FAULTS})"""
 THEME_WAITS = 600
 """Milliseconds after which the theme has looked which code scrolls at a new width, and lets Tab reach it."""
 
@@ -79,11 +82,13 @@ def from_disk(context: BrowserContext, folder: str, page_name: str) -> Shown:
         visit.open(f"{folder}/{page_name}.html")
         shown.overhang = visit.page.evaluate(OVERHANG)
         shown.illegible["phone"] = visit.page.evaluate(ILLEGIBLE)
+        shown.illegible["phone"] += visit.page.evaluate(CROWDED)
         shown.formulas_cut = visit.page.evaluate(FORMULAS_CUT)
         visit.page.set_viewport_size(DESKTOP)
         visit.page.wait_for_timeout(THEME_WAITS)
         _photograph(visit, page_name, shown)
         shown.illegible["desktop"] = visit.page.evaluate(ILLEGIBLE)
+        shown.illegible["desktop"] += visit.page.evaluate(CROWDED)
         shown.focus = focus_faults(visit.page)
         _examine(visit, shown)
     return shown

@@ -11,6 +11,7 @@ import make_slides
 import pytest
 from browser import Visit, visiting
 from bs4 import BeautifulSoup, Tag
+from labels import LABEL_FAULTS
 from lecture import MINUTES, Mark, NoSuchPart, Page, Part, Slide
 from notebooks import plain
 from playwright.sync_api import BrowserContext, expect
@@ -76,6 +77,11 @@ HIDDEN = """() => Reveal.getSlides().flatMap((slide, number) => {
   return [...cut, ...scrolls]
     .map((part) => `slide ${number + 1}: ${part.tagName}.${part.className} ${part.textContent.slice(0, 30)}`);
 })"""
+CROWDED = f"""() => Reveal.getSlides().flatMap((slide, number) => {{
+  Reveal.slide(number);
+  return [...slide.querySelectorAll(".live svg")].filter((picture) => picture.checkVisibility())
+    .flatMap({LABEL_FAULTS}).map((fault) => `slide ${{number + 1}}: ${{fault}}`);
+}})"""
 CUT_IN_PRINT = """() => [...document.querySelectorAll(".pdf-page")].flatMap((page, number) => {
   const { left, right, bottom } = page.getBoundingClientRect();
   return [...page.querySelectorAll("h1, h2, .points, .hand, .eye, pre, table, img")]
@@ -184,6 +190,7 @@ def test_deck(context: BrowserContext, decks: Path, name: str) -> None:
         assert visit.page.evaluate(OVERFLOW) == []
         assert visit.page.evaluate(SMALL, [READABLE, READABLE_FIGURE]) == []
         assert visit.page.evaluate(HIDDEN) == []
+        assert visit.page.evaluate(CROWDED) == []
         assert short["minutes"] == MINUTES
         assert name in FEW_PARTS or 14 <= short["slides"] <= 26
         assert short["notes"] >= short["slides"] / 2
@@ -194,6 +201,7 @@ def test_deck(context: BrowserContext, decks: Path, name: str) -> None:
             assert a_control_reacts(visit)
             visit.page.evaluate(ANSWERED)
             assert visit.page.evaluate(HIDDEN) == []
+            assert visit.page.evaluate(CROWDED) == []
             assert visit.page.evaluate(FOLDS) == []
         assert visit.errors == visit.external == []
 
@@ -206,6 +214,7 @@ def test_long_deck(context: BrowserContext, decks: Path, name: str) -> None:
         assert visit.page.evaluate(OVERFLOW) == []
         assert visit.page.evaluate(SMALL, [READABLE, READABLE_FIGURE]) == []
         assert visit.page.evaluate(HIDDEN) == []
+        assert visit.page.evaluate(CROWDED) == []
         assert long["minutes"] == 2 * MINUTES
         assert long["broken"] == long["raw"] == long["pictures"] == []
         assert visit.errors == visit.external == []

@@ -62,7 +62,7 @@ export default explorable({
   start: () => ({ seed: 1 }),
   draw({ given, stage }) {
     const methods = ["Q-learning", "SARSA"];
-    const grids = methods.map((name) => gridPicture({ layout: given.layout, name }));
+    const grids = methods.map((name) => gridPicture({ layout: given.layout, name, write: (value) => number(value, Math.abs(value) < 9.95 ? 1 : 0) }));
     const captions = methods.map(() => h("p", { class: "told" }));
     stage.append(h("div", { class: "row" }, ...methods.map((name, k) => h("figure", { class: "half" }, h("figcaption", {}, name), grids[k].element, captions[k]))));
     const top = given.layout.rows.length - 2; // rows above the cliff's edge

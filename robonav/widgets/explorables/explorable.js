@@ -183,18 +183,16 @@ export function ticks(low, high, count = 5) {
 
 /** Axes with room for lines, bars and dots: `X` and `Y` turn numbers into places, `put` replaces what is drawn. */
 export function plot({ x: [x0, x1], y: [y0, y1], xLabel, yLabel, width = 400, height = 250, xTicks = ticks(x0, x1), yTicks = ticks(y0, y1) }) {
-  const [left, right, top, bottom] = [50, width - 16, 12, height - 42];
+  const [left, right, top, bottom] = [50, width - 16, 26, height - 42];
   const X = (value) => left + ((right - left) * (value - x0)) / (x1 - x0);
   const Y = (value) => bottom - ((bottom - top) * (value - y0)) / (y1 - y0);
-  const text = (attributes, words) => svg("text", { "font-size": 13, class: "quiet", ...attributes }, words);
+  const tick = (which, place, words) => svg("text", { "font-size": 13, class: `quiet ${which}-tick`, ...place }, words);
   const layer = svg("g", {});
   const element = svg(
-    "svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img" },
-    svg("path", { d: `M${left} ${top}V${bottom}H${right}`, fill: "none", stroke: PALETTE.INK }),
-    ...xTicks.map((at) => text({ x: X(at), y: bottom + 17, "text-anchor": "middle" }, number(at, places(xTicks)))),
-    ...yTicks.map((at) => text({ x: left - 6, y: Y(at) + 4, "text-anchor": "end" }, number(at, places(yTicks)))),
-    text({ x: (left + right) / 2, y: height - 6, "text-anchor": "middle" }, xLabel),
-    text({ transform: `translate(12 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, yLabel),
+    "svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", class: "chart" },
+    ...axes({ left, right, top, bottom, xLabel, yLabel, letters: 13 }),
+    ...xTicks.map((at) => tick("x", { x: X(at), y: bottom + 17, "text-anchor": "middle" }, number(at, places(xTicks)))),
+    ...yTicks.map((at) => tick("y", { x: left - 6, y: Y(at) + 4, "text-anchor": "end" }, number(at, places(yTicks)))),
     layer,
   );
   const put = (label, ...shapes) => {

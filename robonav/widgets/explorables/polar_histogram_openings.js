@@ -24,7 +24,7 @@ export default explorable({
   draw({ given: { world }, stage, act }) {
     let now = null;
     const board = mapForRobot(world, () => now, (place) => act((state) => Object.assign(state, place)));
-    const bars = plot({ x: [-180, 180], y: [0, 3], xLabel: "right (−)   direction in degrees   left (+)", yLabel: "obstacle", xTicks: [-180, -90, 0, 90, 180] });
+    const bars = plot({ x: [-180, 180], y: [0, 3], xLabel: "degrees (left is +)", yLabel: "obstacle", xTicks: [-180, -90, 0, 90, 180] });
     stage.append(h("figure", {}, board.canvas, h("p", { class: "told" }, "Drag the robot, touch where it should be, or use the arrow keys.")), h("figure", {}, bars.element));
     return ({ x, y, heading, clearance, threshold }) => {
       now = { x, y, heading: (heading * Math.PI) / 180 };

@@ -3,15 +3,13 @@
 /** A curve that grows to the right, with the run before it in grey. */
 function liveCurve({ name, label, note = "", colour = PALETTE.BLUE, low = 0, high = null, text = (value) => value.toPrecision(3) }, unit) {
   const [width, height] = [340, 150];
-  const [left, right, top, bottom] = [50, width - 10, 12, height - 34];
+  const [left, right, top, bottom] = [50, width - 10, 25, height - 38];
   const line = svg("path", { fill: "none", stroke: colour, "stroke-width": 2.2, "stroke-linejoin": "round" });
   const before = svg("path", { fill: "none", stroke: PALETTE.GREY, "stroke-width": 1.5, "stroke-opacity": 0.6 });
-  const [upper, lower, last] = [top + 8, bottom, bottom + 15].map((y, i) =>
-    svg("text", { x: i < 2 ? left - 6 : right, y, "text-anchor": "end", "font-size": 11 }));
-  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label },
-    svg("path", { d: `M${left} ${top}V${bottom}H${right}`, fill: "none", stroke: PALETTE.INK }), before, line, upper, lower, last,
-    svg("text", { x: (left + right) / 2, y: height - 4, "text-anchor": "middle", "font-size": 12, class: "quiet" }, unit),
-    svg("text", { transform: `translate(12 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle", "font-size": 11, class: "quiet" }, label));
+  const [upper, lower, last] = [top + 4, bottom + 4, bottom + 16].map((y, i) =>
+    svg("text", { x: i < 2 ? left - 6 : right, y, "text-anchor": "end", "font-size": 12, class: i < 2 ? "y-tick" : "x-tick" }));
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label, class: "chart" },
+    ...axes({ left, right, top, bottom, xLabel: unit, yLabel: label }), before, line, upper, lower, last);
   const element = h("figure", {}, picture, note && h("p", { class: "label" }, note));
   let [points, old, total] = [[], [], 1];
 

@@ -125,12 +125,12 @@ class Picture:
             f"no {sentence!r}: {self.texts()}"
         )
 
-    def axis(self, anchor: str, place: str, shift: float) -> tuple[float, float]:
+    def axis(self, place: str, shift: float) -> tuple[float, float]:
         """Pixels at zero and pixels a unit, from the first and the last text beside an axis."""
         ticks = [
             (float(tick[place]) - shift, number_in(tick["text"]))
-            for tick in self.of("text", text_anchor=anchor, **{"class": "quiet"})
-            if place in tick and re.fullmatch(NUMBER, plain(tick["text"]))
+            for tick in self.of("text", **{"class": f"quiet {place}-tick"})
+            if re.fullmatch(NUMBER, plain(tick["text"]))
         ]
         (first, low), (last, high) = ticks[0], ticks[-1]
         unit = (last - first) / (high - low)
@@ -138,12 +138,12 @@ class Picture:
 
     def x(self, values: ArrayLike) -> Points:
         """Where values stand on the horizontal axis, in pixels."""
-        zero, unit = self.axis("middle", "x", 0)
+        zero, unit = self.axis("x", 0)
         return zero + unit * np.asarray(values, dtype=float)
 
     def y(self, values: ArrayLike) -> Points:
         """Where values stand on the vertical axis, in pixels."""
-        zero, unit = self.axis("end", "y", 4)
+        zero, unit = self.axis("y", 4)
         return zero + unit * np.asarray(values, dtype=float)
 
     def has_bars(self, colour: str, values: ArrayLike, thinnest: float = 0.0) -> None:
