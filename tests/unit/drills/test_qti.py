@@ -226,6 +226,78 @@ def test_another_checker_finds_nothing(package, tmp_path) -> None:
     assert checker.check_package(str(path)) == []
 
 
+NAMED = {"ident", "title", "respident", "linkrefid", "identifier", "outcomeIdentifier"}
+NAMED |= {"responseIdentifier", "minvalue", "maxvalue", "tolerance"}
+
+
+def shape(item: ElementTree.Element, *, without: set[str]) -> set[str]:
+    """What an item is made of: elements in elements, and attributes with those values that are not its own."""
+    found = set()
+    places = [item]
+    while places:
+        place = places.pop()
+        tag = place.tag.split("}")[-1]
+        for name, value in place.attrib.items():
+            if "}" not in name:
+                found.add(f"{tag} {name}" + ("" if name in NAMED else f"={value}"))
+        for part in place:
+            inner = part.tag.split("}")[-1]
+            if inner not in without:
+                found.add(f"{tag} > {inner}")
+                places.append(part)
+    return found
+
+
+def by_another_writer(item: Item) -> ElementTree.Element:
+    """A question of this kind as qti-package-maker writes it for Canvas. It accepts ASCII only."""
+    types = pytest.importorskip("qti_package_maker.assessment_items.item_types")
+    writer = pytest.importorskip("qti_package_maker.engines.canvas_qti_v1_2.write_item")
+    if isinstance(item.asked, Number):
+        other = types.NUM(item.name, item.asked.answer, item.asked.tolerance)
+    elif isinstance(item.asked, Order):
+        numbers = [str(k + 1) for k in range(len(item.asked.steps))]
+        other = types.MATCH(item.name, numbers, [f"step {k}" for k in numbers])
+    else:
+        options = [f"option {k}" for k in range(len(item.asked))]
+        other = types.MC(item.name, options, options[0])
+    other.item_number = 1
+    return getattr(writer, other.item_type)(other)
+
+
+def test_another_writer_makes_canvas_s_items_of_the_same_parts(made, canvas) -> None:
+    """Apart from feedback, which it does not write. What it adds to ours has no meaning for the answer."""
+    feedback = {"itemfeedback", "displayfeedback", "other"}
+    kinds = set()
+    for name, item in made.items():
+        other = by_another_writer(item)
+        ours = shape(canvas[name], without=feedback)
+        theirs = shape(other, without=set())
+        assert ours - theirs <= {
+            "mattext texttype=text/html",
+            "respcondition continue=Yes",  # of feedback
+            "respcondition continue=No",
+            "response_lid rcardinality=Single",
+        }
+        assert {part for part in theirs - ours if ">" in part} == set()
+        entries = [
+            [entry.text for entry in root.iter() if entry.tag.endswith("fieldentry")]
+            for root in (canvas[name], other)
+        ]
+        assert entries[0][0] == entries[1][0]  # the type of the question
+        kinds.add(entries[0][0])
+        if isinstance(item.asked, Number):
+            limits = [
+                [
+                    float(limit.text or "nan")
+                    for limit in root.iter()
+                    if limit.tag.endswith(("varequal", "vargte", "varlte"))
+                ]
+                for root in (canvas[name], other)
+            ]
+            assert limits[0] == pytest.approx(limits[1], rel=1e-6, abs=1e-6)
+    assert len(kinds) == 3
+
+
 def test_same_seed_same_file() -> None:
     chosen = selected(pages=["dynamic-programming"])
     assert qti_zip(drawn(chosen, 5)) == qti_zip(drawn(chosen, 5))
