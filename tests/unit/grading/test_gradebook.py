@@ -4,9 +4,11 @@ import csv
 import io
 import json
 import multiprocessing
+import os
 import random
 import re
 import shutil
+import signal
 import time
 import zipfile
 from datetime import UTC, datetime, timedelta
@@ -796,6 +798,35 @@ def test_an_objection_is_answered_with_what_was_run(tmp_path, secret):
         objection.repeat(book, account, exercise, folder)
 
 
+def assert_whole(text, book, platform):
+    """An export has every line to its end; the marks in it may be older than the gradebook's."""
+    read, now = rows(text), rows(exports.marks_for(book, platform, "Chapter 2"))
+    assert text.endswith("\n")
+    assert [len(line) for line in read] == [len(line) for line in now]
+    assert [line[:2] for line in read] == [line[:2] for line in now]
+
+
+def exported_until_the_file_takes_its_place(out, file, platform):
+    """Export, and end by SIGKILL when all is written but the file has not got its name."""
+    os.replace = lambda *_: os.kill(os.getpid(), signal.SIGKILL)
+    commands.export(out, file, platform, "Chapter 2")
+
+
+@pytest.mark.parametrize("platform", exports.FORMATS)
+def test_a_killed_export_leaves_the_file_as_it_was(tmp_path, quick, platform):
+    book_of(tmp_path, ["ada", "bo"])
+    out, file = tmp_path / "out", tmp_path / "marks.csv"
+    process = multiprocessing.get_context("fork").Process(
+        target=exported_until_the_file_takes_its_place, args=(out, file, platform)
+    )
+    process.start()
+    process.join()
+    assert process.exitcode == -signal.SIGKILL
+    assert not file.exists()
+    commands.export(out, file, platform, "Chapter 2")
+    assert_whole(file.read_text(), read_gradebook(out, COURSE), platform)
+
+
 def busy(out, folder, acknowledged):
     """Grade, change marks by hand and write pages for ever, and say which changes were confirmed."""
     with acknowledged.open("a") as file:
@@ -807,6 +838,8 @@ def busy(out, folder, acknowledged):
             write_all(out)
             grade_class(HERE, folder, out, jobs=1, again=["bo"])
             exports.write_feedback(book, out / "zips")
+            for platform in exports.FORMATS:
+                commands.export(out, out / f"{platform}.csv", platform, "Chapter 2")
 
 
 @pytest.mark.slow
@@ -841,6 +874,9 @@ def test_killed_twenty_times_nothing_confirmed_is_lost(tmp_path, quick):
         for path in (out / "zips").glob("*.zip") if (out / "zips").exists() else ():
             assert zipfile.ZipFile(path).testzip() is None
         book = read_gradebook(out, COURSE)
+        for platform in exports.FORMATS:
+            if (exported := out / f"{platform}.csv").exists():
+                assert_whole(exported.read_text(), book, platform)
         last = log.of_kind("mark")[-1]
         assert book.account("ada").marks["2.1"].points == last["points"]
     assert shutil.disk_usage(out)
