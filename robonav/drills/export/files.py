@@ -116,6 +116,11 @@ def write(contents: Mapping[Path, bytes]) -> None:
     ----------
     contents : mapping of Path to bytes
 
+    Raises
+    ------
+    ValueError
+        If a folder cannot be made, or a file cannot be written in it.
+
     Examples
     --------
     >>> import tempfile
@@ -125,5 +130,8 @@ def write(contents: Mapping[Path, bytes]) -> None:
     b'<quiz/>'
     """
     for path, content in contents.items():
-        with atomic.atomic_write(path) as file:
-            file.write(content)
+        try:
+            with atomic.atomic_write(path) as file:
+                file.write(content)
+        except OSError as error:
+            raise ValueError(f"{path} cannot be written: {error.strerror}") from error

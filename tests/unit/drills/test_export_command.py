@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import zipfile
 from pathlib import Path
 from xml.etree import ElementTree
@@ -99,6 +100,13 @@ def test_wrong_input_is_said_in_a_sentence(
     monkeypatch.chdir(tmp_path)
     assert said in run("export", *arguments)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_made_is_named(tmp_path: Path) -> None:
+    (tmp_path / "notes").write_text("mine")
+    path = tmp_path / "notes" / "bank.xml"
+    said = run("export", path, "--drill", "td-error")
+    assert re.fullmatch(rf"{re.escape(str(path))} cannot be written: [\w ]+", said)
 
 
 @pytest.fixture
