@@ -22,7 +22,7 @@ from robonav.benchmark.policies import methods
 from robonav.cli import app, main
 from robonav.experiments.leaderboard import board
 from robonav.lfd import plan_on_grid
-from robonav.robot import navigate, turn_to_clearer_side
+from robonav.robot import Reflex, navigate, turn_to_clearer_side
 
 OWN = """from robonav.robot import turn_to_clearer_side as rule
 
@@ -65,15 +65,17 @@ def test_shortest_ways_end_where_the_robot_arrives():
     np.testing.assert_allclose(shortest_paths(10, 1, 4), expected)
 
 
-def test_an_entry_is_navigate():
-    episodes = navigate(
-        turn_to_clearer_side, board_worlds("20 obstacles", 2, 20), seed=2
-    )
+def test_an_entry_is_navigate_with_the_reflex_of_the_board():
+    worlds = board_worlds("20 obstacles", 2, 20)
+    episodes = navigate(turn_to_clearer_side, worlds, seed=2, reflex=Reflex("exact"))
     numbers = evaluate_on_board("freer-side", "20 obstacles", 2, 20)
     assert numbers["success"] == 100 * episodes.success.mean()
     assert sum(
         numbers[key] for key in ("success", "collision", "out of steps")
     ) == pytest.approx(100)
+    lengths, shortest = 2.0 * episodes.steps, shortest_paths(20, 2, 20)
+    expected = 100 * spl(episodes.success, lengths, shortest)
+    assert numbers["SPL"] == pytest.approx(expected)
     assert 0 < numbers["SPL"] < numbers["success"]
 
 

@@ -730,7 +730,8 @@ def test_agreement_counts_as_in_python(compute):
       page.agreement(first, given, "pairs", 1), page.agreement(first, given, "balanced", 0),
     ];"""
     near, every, balanced = compute("agreement_and_success", body)
-    demonstrations = demonstrate(random_worlds(25, obstacles=10, seed=7))
+    worlds = random_worlds(25, obstacles=10, seed=7)
+    demonstrations = demonstrate(worlds, reflex=Reflex("exact"))
     pairs = demonstrations.effective
     same = [
         policy(pairs.sensing, np.random.default_rng(0)) == pairs.actions
