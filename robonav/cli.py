@@ -425,10 +425,10 @@ def navigate(
     from robonav.benchmark import policies
     from robonav.validation import check_integer
 
+    check_integer("worlds", worlds, at_least=1)
     if show or not method:
         print("\n".join(policies.methods()))
         return
-    check_integer("worlds", worlds, at_least=1)
     _check_json(json_file)
     result = policies.evaluate(
         method,

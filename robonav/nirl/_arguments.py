@@ -88,6 +88,7 @@ RULES: dict[str, Rule] = {
     "power": not_negative,
     "regularisation": not_negative,
     "reward_update": function,
+    "sarsa_targets.learning_rate": unit_interval,
     "score": function,
     "slack": slack_of_features,
     "task": learning_task,
@@ -121,6 +122,7 @@ SHAPES: dict[str, dict[str, str]] = {
     },
     "hoeffding_slack": {"samples": "N K"},
     "relative_entropy_weights": {"expert": "K", "samples": "N K", "log_ratios": "N"},
+    "sarsa_targets": {"q": "", "rewards": "", "next_q": ""},
     "lstd_mu": {"basis": "M n", "next_basis": "M n", "features": "M K"},
     "heuristic_mu": {"expectations": "M K", "actions": "M:int"},
     "structured_classification": {"expectations": "M A K", "actions": "M:int"},
@@ -175,6 +177,10 @@ def check_together(function: str, arguments: dict[str, Any]) -> None:
         name, what = NOT_EMPTY[function]
         if len(arguments[name]) == 0:
             raise ValueError(f"{name} must hold {what}, got none")
+    if function == "sarsa_targets":
+        check_same_shape(
+            "q", arguments["q"], **{k: arguments[k] for k in ("rewards", "next_q")}
+        )
     actions = arguments.get("actions")
     limit = arguments.get("n_actions", sizes.get("A"))
     if limit is not None and isinstance(actions, np.ndarray):
@@ -183,6 +189,15 @@ def check_together(function: str, arguments: dict[str, Any]) -> None:
         check_trajectory(arguments["trajectory"])
     if "task" in arguments and "demonstrations" in arguments:
         check_demonstrations(arguments["demonstrations"], arguments["task"].n_actions)
+
+
+def check_same_shape(name: str, array: np.ndarray, **others: np.ndarray) -> None:
+    """Arrays of one shape, such as one number for each decision."""
+    for other, given in others.items():
+        if given.shape != array.shape:
+            raise ValueError(
+                f"{other} must have the shape {array.shape} of {name}, got {given.shape}"
+            )
 
 
 def check_actions(actions: np.ndarray, n_actions: int) -> None:

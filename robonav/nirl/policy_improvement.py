@@ -15,6 +15,7 @@ from robonav.networks.multilayer_perceptron import (
 )
 from robonav.validation import check_integer, check_positive, check_real
 
+from ._arguments import checked
 from .decisions import Decisions, Floats, Ints
 from .policy import neural_action_values
 
@@ -122,6 +123,7 @@ def scale_to_unit_interval(rewards: ArrayLike, *, percentile: float = 95.0) -> F
     return (np.clip(r / scale, -1, 1) + 1) / 2 if scale > 0 else np.full(r.shape, 0.5)
 
 
+@checked
 def sarsa_targets(
     q: ArrayLike,
     rewards: ArrayLike,
@@ -149,13 +151,18 @@ def sarsa_targets(
     -------
     (M,) array
 
+    Raises
+    ------
+    ValueError, TypeError
+        If the arrays differ in shape, or the learning rate or the discount is not between 0 and 1.
+
     Examples
     --------
     >>> from robonav.nirl import sarsa_targets
     >>> sarsa_targets([0.5], [1.0], [0.4], learning_rate=0.8, discount=0.65).round(3)
     array([1.108])
     """
-    q, rewards, next_q = (np.asarray(values) for values in (q, rewards, next_q))
+    q, rewards, next_q = map(np.asarray, (q, rewards, next_q))
     return q + learning_rate * (rewards + discount * next_q - q)  # Eq. (5.16)
 
 

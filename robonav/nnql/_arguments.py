@@ -54,6 +54,28 @@ def _temperatures(name: str, value: Any) -> Any:
     return temperatures
 
 
+def _q_values(name: str, value: Any) -> Any:
+    q = check_array(name, value)
+    if q.ndim == 0 or q.shape[-1] == 0:
+        raise ValueError(
+            f"{name} must have one value for each action along its last axis, got shape {q.shape}"
+        )
+    return q
+
+
+def _fractions(name: str, value: Any) -> Any:
+    fractions = check_array(name, value)
+    if fractions.size and not 0 <= fractions.min() <= fractions.max() <= 1:
+        raise ValueError(
+            f"{name} must lie between 0 and 1, got {fractions.min():g} to {fractions.max():g}"
+        )
+    return fractions
+
+
+def _actions(name: str, value: Any) -> Any:
+    return check_array(name, value, dtype=np.int64)
+
+
 def _count(name: str, value: Any) -> int:
     return check_integer(name, value, at_least=1)
 
@@ -65,7 +87,7 @@ def _fraction(name: str, value: Any) -> float:
 RULES: dict[str, Rule] = {
     "env": lambda _, value: network_environment(value),
     "network": lambda name, value: check_instance(name, value, Network),
-    "q": check_array,
+    "q": _q_values,
     "episodes": _count,
     "hidden": _count,
     "seed": lambda name, value: check_integer(name, value, at_least=0),
@@ -86,6 +108,12 @@ RULES: dict[str, Rule] = {
     ),
     "dqn.gradient_step": check_positive,
     "softmax_policy.temperature": _temperatures,
+    "geometric_schedule.schedule": check_schedule,
+    "geometric_schedule.fraction": _fractions,
+    "q_targets.action": _actions,
+    "q_targets.reward": check_array,
+    "q_targets.next_value": check_array,
+    "q_targets.learning_rate": _fractions,
 }
 """The rule of each argument: by the name of the argument, or by "function.argument"."""
 
@@ -112,7 +140,26 @@ DOCUMENTATION = {
     Seed of the environment and of the exploration.""",
 }
 
-checked_arguments = checks(RULES)
+
+def check_update(function: str, arguments: dict[str, Any]) -> None:
+    """Check that an update has one action, reward and next value for each state, and that the actions exist."""
+    if function != "q_targets":
+        return
+    *states, n_actions = arguments["q"].shape
+    for name in ("action", "reward", "next_value", "learning_rate"):
+        given = arguments[name].shape
+        if given not in ((), tuple(states)):
+            raise ValueError(
+                f"{name} must be one number, or have shape {tuple(states)} as q without its last axis, got {given}"
+            )
+    action = arguments["action"]
+    if action.size and not 0 <= action.min() <= action.max() < n_actions:
+        raise ValueError(
+            f"action must lie between 0 and {n_actions - 1}, got {action.min()} to {action.max()}"
+        )
+
+
+checked_arguments = checks(RULES, check_update)
 """Decorate a function so that its arguments are checked by these rules before it runs."""
 
 documented = documents(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import Schedule, checked
+from ._arguments import Schedule, checked, checked_arguments
 
 Array = NDArray[np.float64]
 
@@ -73,6 +73,7 @@ def greedy_policy(q: ArrayLike) -> Array:
     return best / best.sum(axis=-1, keepdims=True)
 
 
+@checked_arguments
 def geometric_schedule(schedule: Schedule, fraction: ArrayLike) -> Array:
     """A quantity that is multiplied by the same factor each episode: ``start (end / start)^fraction``.
 
@@ -87,6 +88,11 @@ def geometric_schedule(schedule: Schedule, fraction: ArrayLike) -> Array:
     -------
     (...) array
         The quantity.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If the start or the end is not positive, or a fraction is not between 0 and 1.
 
     Examples
     --------

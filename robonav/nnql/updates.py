@@ -9,9 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav.networks.multilayer_perceptron import Network, backpropagate, descend
 
+from ._arguments import checked_arguments
+
 Array = NDArray[np.float64]
 
 
+@checked_arguments
 def q_targets(
     q: Array,
     action: ArrayLike,
@@ -45,6 +48,11 @@ def q_targets(
     (..., A) array
         The updated values.
 
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is out of bounds, an action does not exist, or the shapes do not belong together.
+
     Examples
     --------
     >>> import numpy as np
@@ -58,6 +66,7 @@ def q_targets(
     return np.where(taken, q + alpha * (target[..., None] - q), q)  # Eq. (4.9)
 
 
+@checked_arguments
 def clip(q: Array) -> Array:
     """Move Q-values outside [0, 1] to the nearer end.
 
@@ -79,6 +88,7 @@ def clip(q: Array) -> Array:
     return q.clip(0.0, 1.0)
 
 
+@checked_arguments
 def shift(q: Array) -> Array:
     """Shift and divide the Q-values of a state (..., A) until all lie in [0, 1]; the order of the actions stays.
 

@@ -37,7 +37,7 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
     leading dimension N. ``gymnasium.make_vec("robonav/Navigation-v0", num_envs=N,
     vectorization_mode="vector_entry_point")`` makes one.
 
-    ## What follows the end of an episode
+    ## Autoreset
 
     ``autoreset_mode`` chooses among Gymnasium's three ways.
 

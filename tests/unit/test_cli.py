@@ -57,3 +57,10 @@ def test_json_goes_to_standard_output_alone(tmp_path, monkeypatch) -> None:
 def test_a_missing_file_of_a_method_is_said_to_be_missing(name) -> None:
     done = CliRunner().invoke(app, ["navigate", "--method", name])
     assert str(done.exception) == f"method must name a file that exists, got {name!r}"
+
+
+@pytest.mark.parametrize("arguments", [[], ["--list"], ["--method", "straight"]])
+def test_a_number_of_worlds_below_1_is_one_sentence(arguments) -> None:
+    done = CliRunner().invoke(app, ["navigate", *arguments, "--worlds", "0"])
+    assert str(done.exception) == "worlds must be at least 1, got 0"
+    assert done.output == ""

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 from copy import deepcopy
 from dataclasses import dataclass
+from inspect import unwrap
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit
 
+from .. import schedules, updates
 from ..dqn import TargetRule, double_dqn_targets, dqn_targets
-from ..schedules import Schedule, geometric_schedule
+from ..schedules import Schedule
 from ..task import REPLAYING, make_rng
-from ..updates import RESCALE, clip, q_targets
 from .networks import Array, BatchedNetworks, Rows
 from .replay_buffers import ReplayBuffers
+
+# Called in every step with arrays of this module, and so without the checks of their arguments.
+geometric_schedule = unwrap(schedules.geometric_schedule)
+q_targets, clip = unwrap(updates.q_targets), unwrap(updates.clip)
+RESCALE = {name: unwrap(rescale) for name, rescale in updates.RESCALE.items()}
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ seeds train beside it.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from inspect import unwrap
 
 import numpy as np
 
@@ -19,10 +20,14 @@ from robonav.progress import Progress
 from robonav.robot import Sensing, Simulator, Transition, Worlds, run_episodes
 from robonav.robot._fast import ARRIVED, COLLIDED, RUNNING
 
-from ..schedules import Schedule, geometric_schedule, softmax_policy
+from .. import schedules
+from ..schedules import Schedule, softmax_policy
 from ..task import EXPLORING, NavigationTask, make_rng
 from .agents import Agent, Experience
 from .networks import Array, Rows
+
+# Called in every step with arrays of this module, and so without the checks of its arguments.
+geometric_schedule = unwrap(schedules.geometric_schedule)
 
 
 class EpisodeStatistics:

@@ -74,6 +74,20 @@ def test_sarsa_by_hand():
     )
 
 
+@pytest.mark.parametrize(
+    ("arguments", "learning_rate", "sentence"),
+    [
+        (([0.5], [1.0, 2.0], [0.4]), 0.8, r"rewards must have the shape \(1,\) of q, got \(2,\)"),
+        (([0.5], [np.nan], [0.4]), 0.8, "rewards must hold finite numbers only"),
+        (([0.5], ["high"], [0.4]), 0.8, "rewards must be an array of numbers, got list"),
+        (([0.5], [1.0], [0.4]), 2, "learning_rate must be at least 0 and at most 1, got 2"),
+    ],
+)  # fmt: skip
+def test_wrong_arguments_of_sarsa_get_a_sentence(arguments, learning_rate, sentence):
+    with pytest.raises((ValueError, TypeError), match=sentence):
+        sarsa_targets(*arguments, learning_rate=learning_rate, discount=0.65)
+
+
 @settings(deadline=None)
 @given(
     arrays(float, 20, elements=st.floats(-9, 9).map(lambda x: round(x, 3))),

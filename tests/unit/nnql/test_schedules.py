@@ -91,3 +91,12 @@ def test_falling_goes_from_start_to_end_by_equal_factors():
 def test_a_span_is_positive(span):
     with pytest.raises((ValueError, TypeError), match="temperature must"):
         check_schedule("temperature", span)
+
+
+def test_a_wrong_schedule_is_one_sentence():
+    with pytest.raises(ValueError, match="schedule must be a number, or its start and"):
+        geometric_schedule((0.9, 0.5, 0.1), 0.5)
+    with pytest.raises(ValueError, match="schedule must be greater than 0, got 0"):
+        geometric_schedule((0.9, 0), 0.5)
+    with pytest.raises(ValueError, match="fraction must lie between 0 and 1, got 2 to"):
+        geometric_schedule((0.9, 0.1), 2)

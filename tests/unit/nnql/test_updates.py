@@ -153,3 +153,37 @@ def test_the_targets_that_the_quiz_asks_for():
     for targets, wanted in ((dqn_targets, 0.64), (double_dqn_targets, 0.34)):
         found = targets(learns, older, buffer.all(), 0.6).item()
         assert found == pytest.approx(wanted)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"q": 0.5}, "q must have one value for each action"),
+        ({"q": np.empty((2, 0))}, "q must have one value for each action"),
+        ({"q": [[0.1, np.nan], [0, 0]]}, "q must hold finite numbers only"),
+        ({"action": [0, 2]}, "action must lie between 0 and 1, got 0 to 2"),
+        ({"action": 0.5}, "action must hold whole numbers"),
+        ({"reward": [1.0, 0.0, 0.0]}, r"reward must be one number, or have shape \(2,\)"),
+        ({"next_value": "high"}, "next_value must be an array of numbers, got str"),
+        ({"learning_rate": [0.5, 1.5]}, "learning_rate must lie between 0 and 1"),
+        ({"discount": 2.0}, "discount must be at least 0 and at most 1"),
+    ],
+)  # fmt: skip
+def test_a_wrong_update_is_one_sentence(changes, sentence):
+    given = {
+        "q": np.zeros((2, 2)),
+        "action": [0, 1],
+        "reward": 0.0,
+        "next_value": 0.0,
+        "learning_rate": 0.5,
+        "discount": 0.6,
+    }
+    with pytest.raises((ValueError, TypeError), match=sentence):
+        q_targets(**(given | changes))
+
+
+@pytest.mark.parametrize("rescale", [clip, shift])
+def test_values_to_rescale_are_numbers_of_actions(rescale):
+    for q in (0.5, [], [np.inf, 0.0]):
+        with pytest.raises(ValueError, match="q must h"):
+            rescale(q)

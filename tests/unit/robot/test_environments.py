@@ -209,6 +209,9 @@ def test_the_parameters_of_both_environments_are_listed():
     for name in set(single) - {"max_episode_steps"}:
         assert single[name].default == vector[name].default
         assert name in NavigationEnv.__doc__
+    for heading in ("Action space", "Observation space", "Rewards", "Starting state",
+                    "Episode end", "Options", "Information"):  # fmt: skip
+        assert f"## {heading}\n" in NavigationEnv.__doc__
 
 
 def test_reflexes_are_reported_and_can_be_turned_off():
