@@ -49,16 +49,16 @@ def compare_directions(case: Case, seed: int, scale: str) -> Numbers:
     name, chapter = str(case["method"]), int(case["chapter"])
     exact, driving = Reflex("exact"), Reflex(str(case["driving"]))
     training = exact if name in BASELINES else Reflex(str(case["training"]))
-    reached = drive(name, chapter, seed, scale, training, driving)
+    reached = test_episodes(name, chapter, seed, scale, training, driving)
     rates = outcome_rates(reached)
     numbers = rates | {"seconds to the target": reached.steps[reached.success].mean()}
     if (training, driving) == (exact, exact):
         return numbers
-    usual = outcome_rates(drive(name, chapter, seed, scale, exact, exact))
+    usual = outcome_rates(test_episodes(name, chapter, seed, scale, exact, exact))
     return numbers | {"points lost": usual["success"] - rates["success"]}
 
 
-def drive(
+def test_episodes(
     name: str, chapter: int, seed: int, scale: str, training: Reflex, driving: Reflex
 ) -> Navigation:
     """Return the episodes of a policy in the test worlds of a chapter, the same for all reflexes."""

@@ -183,7 +183,7 @@ def shipped_policy(
 
 
 EXPERIMENTS = (
-    panels("figure-2.4", "Gaps of evaluation and of improvement in generalised policy iteration",
+    panels("figure-2.4", "Gaps of evaluation and of improvement in generalized policy iteration",
            iteration_gaps,
            [{"sweeps": sweeps} for sweeps in (1, 5, 1000)],
            plot=Plot("single_runs.plot_gaps")),

@@ -239,11 +239,13 @@ def record(
     check_integer("max_steps", max_steps, at_least=1)
     simulator = Simulator(worlds, speed, slip=slip, max_steps=max_steps)
 
-    def choose(simulator: Simulator, sensing: Sensing, robots: Actions) -> Actions:
+    def select_actions(
+        simulator: Simulator, sensing: Sensing, robots: Actions
+    ) -> Actions:
         return expert(simulator, robots)
 
     steps: list[Transition] = []
-    for step in run_episodes(simulator, choose, reflex=reflex):
+    for step in run_episodes(simulator, select_actions, reflex=reflex):
         executed = np.where(step.asked, step.executed, step.actions)  # reflexes stay
         steps.append(step if intended else replace(step, actions=executed))
         if progress is not None:

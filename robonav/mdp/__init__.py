@@ -34,7 +34,7 @@ from .finite_horizon import (
     backward_induction,
     finite_horizon_evaluation,
 )
-from .generalised_policy_iteration import GPIHistory, generalized_policy_iteration
+from .generalized_policy_iteration import GPIHistory, generalized_policy_iteration
 from .gridworld import Cell, GridEnvironment, GridWorld, four_by_three
 from .learning_results import ControlResult, LinearControlResult, PredictionResult
 from .linear import linear_q_learning, linear_sarsa

@@ -48,7 +48,7 @@ class BeliefTrajectory:
 @checked
 def belief_rollout(
     pomdp: POMDP,
-    choose: Callable[[Floats], int],
+    policy: Callable[[Floats], int],
     steps: int,
     *,
     belief: ArrayLike | None = None,
@@ -60,8 +60,8 @@ def belief_rollout(
     Parameters
     ----------
     pomdp : POMDP
-    choose : callable
-        ``choose(belief)`` is an action, such as :meth:`AlphaVectors.action`.
+    policy : callable
+        ``policy(belief)`` is an action, such as :meth:`AlphaVectors.action`.
     steps : int
         Number of steps T.
     belief : (S,) array, optional
@@ -91,7 +91,7 @@ def belief_rollout(
     observations: list[int] = []
     rewards: list[float] = []
     for _ in range(steps):
-        action = pomdp.as_action(choose(beliefs[-1]))
+        action = pomdp.as_action(policy(beliefs[-1]))
         rewards.append(pomdp.mdp.rewards[states[-1], action])
         following = successor_probabilities(pomdp.mdp, states[-1], action)
         states.append(int(rng.choice(pomdp.mdp.n_states, p=following)))

@@ -266,7 +266,7 @@ def maximum_causal_entropy(
     regularisation: float = 1e-6,
     tolerance: float = 1e-6,
     iterations: int = 200,
-    watch: Callable[[Floats], None] = lambda _weights: None,
+    callback: Callable[[Floats], None] = lambda _weights: None,
 ) -> MaximumCausalEntropy:
     """Maximum causal entropy IRL (Ziebart et al. 2010): the reward under which the demonstrations are most likely.
 
@@ -285,7 +285,7 @@ def maximum_causal_entropy(
         Largest entry of the gradient at which to stop, positive.
     iterations : int
         Iterations of L-BFGS at most.
-    watch : callable, optional
+    callback : callable, optional
         Called with the weights after each iteration.
 
     Returns
@@ -317,7 +317,7 @@ def maximum_causal_entropy(
 
     def keep(theta: Floats) -> None:
         path.append(theta)
-        watch(theta)
+        callback(theta)
 
     found: Any = minimize(
         negative_dual,

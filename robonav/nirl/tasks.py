@@ -296,14 +296,14 @@ def collect(
     made = np.zeros(len(simulator), dtype=np.int64)
     rows: list[tuple[Ints, Floats, Ints, Ints]] = []
 
-    def choose(simulator: Simulator, sensing: Sensing, robots: Ints) -> Ints:
+    def select_actions(simulator: Simulator, sensing: Sensing, robots: Ints) -> Ints:
         inputs = encoder(sensing)
         actions = sample_actions(policy(inputs), rng.random(len(inputs)))
         rows.append((robots, inputs, actions, simulator.steps[robots]))
         made[robots] += 1
         return actions
 
-    for _ in run_episodes(simulator, choose, reflex=reflex):
+    for _ in run_episodes(simulator, select_actions, reflex=reflex):
         if n_decisions is not None:
             simulator.stop(np.flatnonzero(made >= n_decisions))
     return _by_episode(rows, encoder.size, simulator.outcome)

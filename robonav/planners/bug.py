@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.robot import SENSOR_RANGE, Action, Chooser, Sensing, Simulator
+from robonav.robot import SENSOR_RANGE, Action, ActionSelector, Sensing, Simulator
 from robonav.validation import check_positive, check_real
 
 from .sectors import CENTRES, WAYS, Floats, free_way, turned
@@ -262,8 +262,8 @@ class Bug:
         check_real("half_width", self.half_width, at_least=0)
         check_positive("sight", self.sight)
 
-    def begin(self, simulator: Simulator, rng: np.random.Generator) -> Chooser:
-        """Return what chooses the actions of the robots of a simulator, and remembers their episodes.
+    def begin(self, simulator: Simulator, rng: np.random.Generator) -> ActionSelector:
+        """Return the selector of actions for the robots of a simulator, which remembers their episodes.
 
         Parameters
         ----------
@@ -275,7 +275,7 @@ class Bug:
         Returns
         -------
         callable
-            ``choose(simulator, sensing, robots)`` returns actions.
+            ``select_actions(simulator, sensing, robots)`` returns actions.
 
         Examples
         --------
@@ -289,7 +289,7 @@ class Bug:
         n = len(simulator)
         kept, asked = BugMemory.empty(n), np.full(n, -1)
 
-        def choose(
+        def select_actions(
             simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
         ) -> NDArray[np.int64]:
             """Return the actions (K,) of K robots; a new episode has no memories."""
@@ -311,4 +311,4 @@ class Bug:
             kept.side[robots], kept.least[robots] = after.side, after.least
             return actions
 
-        return choose
+        return select_actions

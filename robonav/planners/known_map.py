@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robonav.lfd import ComputerExpert
-from robonav.robot import Chooser, Sensing, Simulator
+from robonav.robot import ActionSelector, Sensing, Simulator
 from robonav.validation import check_real
 
 
@@ -44,8 +44,8 @@ class KnownMap:
         check_real("margin", self.margin, at_least=1)
         check_real("caution", self.caution, at_least=0)
 
-    def begin(self, simulator: Simulator, rng: np.random.Generator) -> Chooser:
-        """Return what chooses the actions of the robots of a simulator.
+    def begin(self, simulator: Simulator, rng: np.random.Generator) -> ActionSelector:
+        """Return the selector of actions for the robots of a simulator.
 
         Parameters
         ----------
@@ -57,7 +57,7 @@ class KnownMap:
         Returns
         -------
         callable
-            ``choose(simulator, sensing, robots)`` returns actions.
+            ``select_actions(simulator, sensing, robots)`` returns actions.
 
         Examples
         --------
@@ -70,10 +70,10 @@ class KnownMap:
         """
         expert = ComputerExpert(self.margin, self.caution)
 
-        def choose(
+        def select_actions(
             simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
         ) -> NDArray[np.int64]:
             """Return the next actions (K,) of the plans of K robots."""
             return expert(simulator, robots)
 
-        return choose
+        return select_actions

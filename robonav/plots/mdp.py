@@ -266,7 +266,7 @@ def _node(axes: Axes, middle: tuple[float, float], text: str, colour: str) -> No
 
 
 def draw_evaluation_and_improvement(axes: Axes) -> None:
-    """Draw the two processes of generalised policy iteration and what each passes to the other (Fig. 2.4(a))."""
+    """Draw the two processes of generalized policy iteration and what each passes to the other (Fig. 2.4(a))."""
     _box(axes, (0, 0), r"policy $\pi$", width=1.3)
     _box(axes, (4, 0), "values $V$", width=1.3)
     _arrow(axes, (0.2, 0.38), (3.8, 0.38), bend=-0.35)
@@ -299,7 +299,7 @@ def draw_two_lines(axes: Axes) -> None:
 
 
 def plot_trace(axes: Axes, trace: GPIHistory, *, least: float = 1e-8) -> None:
-    """Plot how far generalised policy iteration is from both lines of Fig. 2.4(b) after each half step.
+    """Plot how far generalized policy iteration is from both lines of Fig. 2.4(b) after each half step.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ from .encoding import (
 from .policies import straight, turn_to_clearer_side
 from .rollout import (
     REFLEX,
-    Chooser,
+    ActionSelector,
     Navigation,
     Policy,
     PolicyWithMemory,
@@ -55,7 +55,7 @@ __all__ = [
     "SENSOR_RANGE",
     "TARGET_ENCODINGS",
     "Action",
-    "Chooser",
+    "ActionSelector",
     "Encoder",
     "Navigation",
     "Outcome",

@@ -26,8 +26,8 @@ from .worlds import Worlds
 Policy = Callable[[Sensing, np.random.Generator], ArrayLike]
 """``policy(sensing, rng) -> (N,)`` indices of actions, for any number N of robots."""
 
-Chooser = Callable[[Simulator, Sensing, NDArray[np.int64]], ArrayLike]
-"""``choose(simulator, sensing, robots) -> (K,)`` actions of the robots with these indices (K,) in the simulator.
+ActionSelector = Callable[[Simulator, Sensing, NDArray[np.int64]], ArrayLike]
+"""``select_actions(simulator, sensing, robots) -> (K,)`` the actions of the robots with these indices (K,).
 
 ``sensing`` has K rows: what these robots sense."""
 
@@ -36,7 +36,7 @@ Chooser = Callable[[Simulator, Sensing, NDArray[np.int64]], ArrayLike]
 class PolicyWithMemory(Protocol):
     """A policy that remembers something of its episode, or knows more than what the robot senses now.
 
-    ``begin`` makes a new chooser at the start of the episodes, which holds what is remembered.
+    ``begin`` makes a new selector at the start of the episodes, which holds what is remembered.
 
     Examples
     --------
@@ -50,8 +50,8 @@ class PolicyWithMemory(Protocol):
     array([ True,  True,  True])
     """
 
-    def begin(self, simulator: Simulator, rng: np.random.Generator) -> Chooser:
-        """Return a chooser for the robots of a simulator, whose episodes begin.
+    def begin(self, simulator: Simulator, rng: np.random.Generator) -> ActionSelector:
+        """Return a selector for the robots of a simulator, whose episodes begin.
 
         Parameters
         ----------
@@ -63,7 +63,7 @@ class PolicyWithMemory(Protocol):
         Returns
         -------
         callable
-            ``choose(simulator, sensing, robots)`` returns the actions (K,) of the robots ``robots`` (K,).
+            ``select_actions(simulator, sensing, robots)`` returns the actions (K,) of the robots ``robots`` (K,).
 
         Examples
         --------
@@ -73,8 +73,8 @@ class PolicyWithMemory(Protocol):
         ...     def begin(self, simulator, rng):
         ...         return follow_policy(straight, rng)
         >>> simulator, rng = Simulator(random_worlds(3, seed=1)), np.random.default_rng(0)
-        >>> choose, robots = Straight().begin(simulator, rng), np.array([0, 2])
-        >>> choose(simulator, simulator.sense(robots), robots)
+        >>> select_actions, robots = Straight().begin(simulator, rng), np.array([0, 2])
+        >>> select_actions(simulator, simulator.sense(robots), robots)
         array([0, 0])
         """
 
@@ -128,7 +128,10 @@ class Transition:
 
 
 def run_episodes(
-    simulator: Simulator, choose: Chooser, *, reflex: ReflexRule | None = REFLEX
+    simulator: Simulator,
+    select_actions: ActionSelector,
+    *,
+    reflex: ReflexRule | None = REFLEX,
 ) -> Iterator[Transition]:
     """Let the robots of a simulator act until none is running; one transition a simulated second.
 
@@ -140,11 +143,11 @@ def run_episodes(
     ----------
     simulator : Simulator
         N robots, one in each world.
-    choose : callable
-        ``choose(simulator, sensing, robots)`` returns the actions of those K ``robots`` whose reflex does not decide;
+    select_actions : callable
+        ``select_actions(simulator, sensing, robots)`` returns the actions of K ``robots`` whose reflex does not decide;
         :func:`follow_policy` makes one of a policy.
     reflex : callable, optional
-        What a robot does before ``choose`` is asked. None leaves every step to ``choose``.
+        What a robot does before ``select_actions`` is asked. None leaves every step to ``select_actions``.
 
     Yields
     ------
@@ -164,14 +167,14 @@ def run_episodes(
     >>> seconds[0].robots.tolist(), seconds[-1].robots.tolist()
     ([0, 1, 2], [0])
     """
-    reflex, choose = reflex or undecided, valid_actions(choose)
+    reflex, select_actions = reflex or undecided, valid_actions(select_actions)
     robots = np.flatnonzero(simulator.outcome == RUNNING)
     sensing = simulator.sense(robots)
     while len(robots):
         actions = reflex(sensing, simulator.speed)
         asked = actions == NO_REFLEX
         if asked.any():
-            actions[asked] = choose(simulator, sensing[asked], robots[asked])
+            actions[asked] = select_actions(simulator, sensing[asked], robots[asked])
         poses = simulator.poses[robots]
         executed = simulator.step(actions, robots)
         outcome, after = simulator.outcome[robots], simulator.sense(robots)
@@ -186,14 +189,14 @@ def run_episodes(
             sensing = after[~left] if left.any() else after
 
 
-def valid_actions(choose: Chooser) -> Chooser:
-    """Return a chooser that also checks the actions: whole numbers 0 to 5, one for each robot."""
+def valid_actions(select_actions: ActionSelector) -> ActionSelector:
+    """Return a selector that also checks the actions: whole numbers 0 to 5, one for each robot."""
 
     def checked(
         simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
     ) -> NDArray[np.int64]:
-        """Ask the chooser, and check its actions."""
-        return check_actions(choose(simulator, sensing, robots), (len(robots),))
+        """Ask the selector, and check its actions."""
+        return check_actions(select_actions(simulator, sensing, robots), (len(robots),))
 
     return checked
 
@@ -203,8 +206,8 @@ def undecided(sensing: Sensing, speed: float) -> NDArray[np.int64]:
     return np.full(len(sensing), NO_REFLEX)
 
 
-def follow_policy(policy: Policy, rng: np.random.Generator | int) -> Chooser:
-    """Return the chooser for :func:`run_episodes` that asks a policy, which gets only what the robots sense.
+def follow_policy(policy: Policy, rng: np.random.Generator | int) -> ActionSelector:
+    """Return the selector for :func:`run_episodes` that asks a policy, which gets only what the robots sense.
 
     Parameters
     ----------
@@ -216,7 +219,7 @@ def follow_policy(policy: Policy, rng: np.random.Generator | int) -> Chooser:
     Returns
     -------
     callable
-        ``choose(simulator, sensing, robots)`` returns the policy's actions.
+        ``select_actions(simulator, sensing, robots)`` returns the policy's actions.
 
     Examples
     --------
@@ -328,10 +331,10 @@ def navigate(
         )
     rng = check_generator("seed", seed)
     simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
-    choose = _chooser(policy, simulator, rng)
+    select_actions = _selector(policy, simulator, rng)
     n, ended = len(worlds), 0
     track: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
-    for second in run_episodes(simulator, choose, reflex=reflex):
+    for second in run_episodes(simulator, select_actions, reflex=reflex):
         if record_paths:
             track.append((second.robots, second.poses))
         ended += int((second.outcome != RUNNING).sum())
@@ -345,10 +348,10 @@ def navigate(
     )
 
 
-def _chooser(
+def _selector(
     policy: Policy | PolicyWithMemory, simulator: Simulator, rng: np.random.Generator
-) -> Chooser:
-    """Return the chooser of a policy with or without a memory."""
+) -> ActionSelector:
+    """Return the selector of a policy with or without a memory."""
     if isinstance(policy, PolicyWithMemory):
         return policy.begin(simulator, rng)
     return follow_policy(policy, rng)

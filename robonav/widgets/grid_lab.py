@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.mdp import Cell, FiniteMDP, GridWorld, rollouts
-from robonav.mdp.generalised_policy_iteration import suboptimality
+from robonav.mdp.generalized_policy_iteration import suboptimality
 from robonav.mdp.learner import ControlMethod
 from robonav.mdp.learning_results import ControlResult
 from robonav.validation import check_array, check_integer, check_one_of

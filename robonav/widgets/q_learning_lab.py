@@ -29,8 +29,8 @@ SHOWS = ("maps", "training", "targets", "nothing")
 """Where a fault shows."""
 GROUPS = ("reward", "exploration", "learning", "robot")
 MAPS = (100, 200)
-TOGETHER = 4
-"""Robots that the kernel trains at once; the page hears of them together."""
+ROBOTS_PER_BATCH = 4
+"""Robots that the kernel trains at once; the page gets their results together."""
 
 MAPS_SEED = 44_000
 """Seed of the maps that robots are tried in; no training and no experiment uses them."""
@@ -111,20 +111,20 @@ class QLearningLab(KernelTraining):
         trainings: list[TrainingResult] = []
         rates: list[float] = []
         total = robots * settings.episodes
-        for first in range(0, robots, TOGETHER):
+        for first in range(0, robots, ROBOTS_PER_BATCH):
             before = first * settings.episodes
-            together = min(TOGETHER, robots - first)
+            batch = min(ROBOTS_PER_BATCH, robots - first)
 
             training = train(
                 settings.method,
-                range(settings.seed + first, settings.seed + first + together),
+                range(settings.seed + first, settings.seed + first + batch),
                 settings.episodes,
                 task=settings.task(),
                 hidden=settings.hidden,
                 progress=report.part(before, total),
                 **settings.hyperparameters(),
             )
-            trainings += [training[k] for k in range(together)]
+            trainings += [training[k] for k in range(batch)]
             for policy, arrived in zip(
                 training.policies, training.successes, strict=True
             ):
@@ -135,7 +135,7 @@ class QLearningLab(KernelTraining):
                     max_steps=settings.max_steps,
                 )
                 report(
-                    before + together * settings.episodes,
+                    before + batch * settings.episodes,
                     total,
                     at=len(rates),
                     last=100 * float(arrived[-100:].mean()),

@@ -54,29 +54,31 @@ FILES = (
 )
 
 
-Watch = Callable[[Network, Decisions, Floats], None]
-"""``watch(network, decisions, rewards)``: the network after an improvement, its decisions and their rewards (M,)."""
+Callback = Callable[[Network, Decisions, Floats], None]
+"""``callback(network, decisions, rewards)``: the network after an improvement, its decisions and their rewards (M,)."""
 
 
 @dataclass(frozen=True)
-class WatchedSGD(ReplaySGD):
-    """The improvement of the policy, watched: ``watch(network, decisions, rewards)`` is called after each.
+class ReplaySGDWithCallback(ReplaySGD):
+    """The improvement of the policy with a callback: ``callback(network, decisions, rewards)`` is called after each.
 
     Examples
     --------
     >>> from robonav.lfd import demonstrate
     >>> from robonav.nirl import learn
     >>> from robonav.robot import random_worlds
-    >>> from robonav.widgets.reward_learning import WatchedSGD
+    >>> from robonav.widgets.reward_learning import ReplaySGDWithCallback
     >>> arrived = []
-    >>> improver = WatchedSGD(watch=lambda network, episodes, rewards: arrived.append(episodes.arrived.mean()))
+    >>> improver = ReplaySGDWithCallback(
+    ...     callback=lambda network, episodes, rewards: arrived.append(episodes.arrived.mean())
+    ... )
     >>> demonstrations = demonstrate(random_worlds(2, 20, seed=3))
     >>> result = learn(demonstrations, iterations=3, improver=improver)
     >>> len(arrived)
     3
     """
 
-    watch: Watch = lambda _network, _decisions, _rewards: None
+    callback: Callback = lambda _network, _decisions, _rewards: None
 
     def descend(
         self,
@@ -87,7 +89,7 @@ class WatchedSGD(ReplaySGD):
         rng: np.random.Generator,
     ) -> Improved:
         improved = super().descend(network, decisions, rewards, fraction, rng)
-        self.watch(improved.network, decisions, rewards)
+        self.callback(improved.network, decisions, rewards)
         return improved
 
 
@@ -125,7 +127,7 @@ class RewardLearning(KernelTraining):
         results: list[IRLResult] = []
         rates: list[float] = []
         for robot in range(robots):
-            watch = iteration_watcher(
+            callback = iteration_callback(
                 expert, task, report, robot * iterations, robots * iterations
             )
             results.append(
@@ -134,7 +136,7 @@ class RewardLearning(KernelTraining):
                     method,
                     seed + robot,
                     task=task,
-                    improver=WatchedSGD(watch=watch),
+                    improver=ReplaySGDWithCallback(callback=callback),
                     iterations=iterations,
                     hidden=check_integer("hidden", settings["hidden"], at_least=1),
                     inverse_temperature=settings["inverseTemperature"],
@@ -153,13 +155,13 @@ class RewardLearning(KernelTraining):
         }
 
 
-def iteration_watcher(
+def iteration_callback(
     expert: Decisions, task: RobotTask, report: Report, before: int, total: int
-) -> Watch:
+) -> Callback:
     """A function that reports the latest policy of a robot, after the ``before`` iterations of earlier robots."""
     done = 0
 
-    def watch(network: Network, decisions: Decisions, _rewards: Floats) -> None:
+    def callback(network: Network, decisions: Decisions, _rewards: Floats) -> None:
         """Tell the page about an iteration."""
         nonlocal done
         done += 1
@@ -172,7 +174,7 @@ def iteration_watcher(
             arrived=100 * float(decisions.arrived[-task.n_episodes :].mean()),
         )
 
-    return watch
+    return callback
 
 
 def reward_learning(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from robonav import mdp
-from robonav.mdp.generalised_policy_iteration import suboptimality
+from robonav.mdp.generalized_policy_iteration import suboptimality
 from robonav.mdp.gridworld import STEPS
 
 ROOMS = """

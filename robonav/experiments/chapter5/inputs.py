@@ -65,14 +65,14 @@ def by_updates(case: Case, seed: int, scale: str) -> Numbers:
     )
     learned = train_irl("nirl", demonstrations(seed), seed, settings, task=there)
     visited = _as_bytes(np.concatenate(there.states))
-    met: list[NDArray[np.bytes_]] = []
+    tested: list[NDArray[np.bytes_]] = []
 
     def policy(sensing: Sensing, rng: np.random.Generator) -> ArrayLike:
-        met.append(_as_bytes(there.encoder(sensing)))
+        tested.append(_as_bytes(there.encoder(sensing)))
         return learned.policy(sensing, rng)
 
     rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
-    known = np.isin(np.concatenate(met), visited)
+    known = np.isin(np.concatenate(tested), visited)
     return rates | {
         "decisions in training": len(visited),
         "states in training": len(np.unique(visited)),

@@ -52,7 +52,7 @@ def logits(parameters, rows, x, z):
 
 @compiled
 def _pass(w1, b1, w2, b2, inputs, targets, gradient_step, hidden, z, d1):
-    """One pass of gradient descent through the pairs, with a step after each; the mean cost met on the way.
+    """One pass of gradient descent through the pairs, with a step after each; return the mean cost.
 
     Uses Eqs. (4.11) and (4.12).
     """

@@ -16,7 +16,7 @@ from robonav.nirl.decisions import Decisions
 from robonav.robot import navigate, random_worlds
 
 from ..kernel_training import TRIED, Report, sentence_on_rates
-from ..reward_learning import WatchedSGD, iteration_watcher
+from ..reward_learning import ReplaySGDWithCallback, iteration_callback
 from .chapter5 import TARGETS, ground_with, transferred
 from .training import Curve, Dial, Menu, Trained, trains
 
@@ -162,7 +162,7 @@ def causal_entropy(settings: dict[str, Any], report: Report) -> Trained:
     truth = task.with_reward(nirl.TRUE_WEIGHTS)
     expert = mdp.policy_iteration(truth).policy
     goal = _expert_expectations(task, expert, settings["demonstrations"])
-    found, agreement = _watched_causal_entropy(task, goal, expert, settings, report)
+    found, agreement = _causal_entropy(task, goal, expert, settings, report)
     names = ", ".join(
         f"{weight:.2f} for {kind}"
         for kind, weight in zip(nirl.TERRAIN_KINDS, found.weights, strict=True)
@@ -179,7 +179,7 @@ def causal_entropy(settings: dict[str, Any], report: Report) -> Trained:
     )
 
 
-def _watched_causal_entropy(
+def _causal_entropy(
     task: nirl.RewardFreeMDP,
     goal: Floats,
     best: Any,
@@ -189,7 +189,7 @@ def _watched_causal_entropy(
     """Learn a reward, report every iteration, and return it with the learner's agreement at the end."""
     total, done, agreement = settings["iterations"], 0, 0.0
 
-    def watch(weights: Floats) -> None:
+    def callback(weights: Floats) -> None:
         nonlocal done, agreement
         model = task.with_reward(weights)
         policy = nirl.soft_value_iteration(model, tolerance=1e-3).policy
@@ -201,7 +201,7 @@ def _watched_causal_entropy(
         )
         done += 1
 
-    watch(np.zeros(len(goal)))
+    callback(np.zeros(len(goal)))
     with warnings.catch_warnings():
         # The reader has set the number of iterations, and sees the gap.
         warnings.simplefilter("ignore", ConvergenceWarning)
@@ -211,7 +211,7 @@ def _watched_causal_entropy(
             regularisation=settings["regularisation"],
             tolerance=1e-3,
             iterations=total,
-            watch=watch,
+            callback=callback,
         )
     report(total, total)
     return found, agreement
@@ -242,7 +242,7 @@ def copied_and_learned(settings: dict[str, Any], report: Report) -> Trained:
     copied[states] = likeliest
     visited = len(np.unique(states[~task.terminal[states]]))
     goal = _expert_expectations(task, expert, settings["demonstrations"])
-    found, _ = _watched_causal_entropy(task, goal, best, settings, report)
+    found, _ = _causal_entropy(task, goal, best, settings, report)
     grounds = transferred(copied, found.weights)
     (far,) = [ground for ground in grounds if ground["name"] == "top left"]
     moved = [far[who]["values"][far["start"]] for who in ("copied", "reward")]
@@ -306,10 +306,10 @@ def reward_and_ends(settings: dict[str, Any], report: Report) -> Trained:
     task = nirl.RobotTask(obstacles=OBSTACLES)
     expert = nirl.expert_decisions(demonstrations, task.encoder)
     total = settings["iterations"]
-    tell = iteration_watcher(expert, task, report, 0, total)
+    tell = iteration_callback(expert, task, report, 0, total)
     means: list[float] = []
 
-    def watch(network: Network, decisions: Decisions, rewards: Floats) -> None:
+    def callback(network: Network, decisions: Decisions, rewards: Floats) -> None:
         means.append(float(nirl.scale_to_unit_interval(rewards).mean()))
         tell(network, decisions, rewards)
 
@@ -317,8 +317,10 @@ def reward_and_ends(settings: dict[str, Any], report: Report) -> Trained:
         demonstrations,
         METHODS[settings["method"]],
         task=task,
-        improver=WatchedSGD(
-            discount=settings["discount"], terminal_values=terminal_values, watch=watch
+        improver=ReplaySGDWithCallback(
+            discount=settings["discount"],
+            terminal_values=terminal_values,
+            callback=callback,
         ),
         iterations=total,
     )

@@ -256,9 +256,9 @@ def test_only_a_belief_has_an_entropy(belief):
     [
         ({"state": -1}, ValueError, "state must be at least 0, got -1"),
         ({"state": 99}, ValueError, "state must be at most 1, got 99"),
-        ({"choose": lambda belief: 99}, ValueError, "action must be at most 2, got 99"),
+        ({"policy": lambda belief: 99}, ValueError, "action must be at most 2, got 99"),
         (
-            {"choose": lambda belief: 0.5},
+            {"policy": lambda belief: 0.5},
             TypeError,
             "action must be a whole number, got 0.5",
         ),
@@ -270,7 +270,7 @@ def test_walks_check_what_they_are_given(options, error, sentence):
         belief_rollout(
             **{
                 "pomdp": tiger(),
-                "choose": lambda belief: 0,
+                "policy": lambda belief: 0,
                 "steps": 2,
                 "seed": 0,
                 **options,

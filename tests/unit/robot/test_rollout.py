@@ -81,7 +81,7 @@ def test_robots_leave_when_their_episodes_end():
     np.testing.assert_array_equal(result.steps, simulator.steps)
 
 
-def test_choosers_are_asked_about_robots_without_a_reflex():
+def test_selectors_are_asked_about_robots_without_a_reflex():
     simulator = Simulator(random_worlds(30, 20, seed=2), max_steps=60)
     asked = []
 

@@ -1,4 +1,4 @@
-"""Generalised policy iteration, step by step (Fig. 2.4): evaluation and improvement take turns."""
+"""Generalized policy iteration, step by step (Fig. 2.4): evaluation and improvement take turns."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Actions = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class GPIHistory:
-    """Every half step of generalised policy iteration, n of them, from the start (row 0).
+    """Every half step of generalized policy iteration, n of them, from the start (row 0).
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ def generalized_policy_iteration(
     start_policy: ArrayLike | None = None,
     max_rounds: int = 10_000,
 ) -> GPIHistory:
-    """Generalised policy iteration: evaluate by some sweeps, improve, repeat until both agree; all recorded.
+    """Generalized policy iteration: evaluate by some sweeps, improve, repeat until both agree; all recorded.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def action_values(mdp: FiniteMDP, values: Floats) -> Floats:
     --------
     >>> import numpy as np
     >>> from robonav.mdp import FiniteMDP
-    >>> from robonav.mdp.generalised_policy_iteration import action_values
+    >>> from robonav.mdp.generalized_policy_iteration import action_values
     >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
     >>> action_values(mdp, np.array([2.0]))
     array([[1., 2.]])
@@ -220,7 +220,7 @@ def suboptimality(
     Examples
     --------
     >>> from robonav.mdp import FiniteMDP
-    >>> from robonav.mdp.generalised_policy_iteration import suboptimality
+    >>> from robonav.mdp.generalized_policy_iteration import suboptimality
     >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
     >>> suboptimality(mdp, [[0.0], [2.0]], [[0], [1]], best=[2.0])
     (array([2., 0.]), array([2., 0.]))
