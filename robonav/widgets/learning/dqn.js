@@ -40,13 +40,14 @@ function dqnLearner({ seed, discount, gradientStep }, network) {
     begin: (episode) => (rng = defaultRng([seed, REPLAYING, episode])),
     learn: (decision) => {
       buffer.push(decision);
-      if (buffer.length < BATCH) return;
-      const drawn = Array.from({ length: BATCH }, () => rng.integers(0, buffer.length));
       gradient.parameters.fill(0);
+      if (buffer.length < BATCH) return { gradient: gradient.parameters };
+      const drawn = Array.from({ length: BATCH }, () => rng.integers(0, buffer.length));
       for (const k of drawn) learnFrom(buffer[k]);
       descend(gradient.parameters);
       updates += 1;
       if (updates % COPY_EVERY === 0) target.parameters.set(network.parameters);
+      return { gradient: gradient.parameters };
     },
   };
 }

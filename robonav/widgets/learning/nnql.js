@@ -129,8 +129,10 @@ export function weightChanges(before, after) {
 /**
  * What learns in {@link neuralQLearning}: Q-values of a state, what to do at the start of an episode, and learning from a step.
  * @typedef {{state: Float64Array, q: Float64Array, action: number, reward: number, next: Float64Array, terminal: boolean}} Decision
+ * What the latest update learned from: pairs of input and target, or the gradient itself.
+ * @typedef {{inputs?: Float64Array[], targets?: Float64Array[], gradient?: Float64Array}} Learned
  * `outside` is the share of the episode's targets that were not in [0, 1] before they were rescaled, or null where none are.
- * @typedef {{values: (state: Float64Array) => Float64Array, begin: (episode: number, fraction: number) => void, learn: (decision: Decision) => void, outside?: () => number | null}} Learner
+ * @typedef {{values: (state: Float64Array) => Float64Array, begin: (episode: number, fraction: number) => void, learn: (decision: Decision) => Learned, outside?: () => number | null}} Learner
  */
 
 /** NNQL, or with the latest pair alone its online form. @param {LearningSettings} settings @returns {Learner} */
@@ -153,6 +155,7 @@ function nnqlLearner(settings, network) {
       inputs.push(state); // 15
       targets.push(rescale(target)); // 14, 15
       descend(inputs, targets, sigma, passes, tolerance); // 16
+      return { inputs, targets };
     },
     outside: () => (updates > 0 ? beyond / updates : null),
   };
@@ -168,7 +171,7 @@ const LEARNERS = { nnql: nnqlLearner, online: nnqlLearner };
  * `watch`, that function is called after each update of the network. With `start`, the training begins with the weights of a
  * robot, and the network reads what that robot reads.
  * @param {LearningSettings} settings
- * @param {{watch?: (update: {q: Float64Array, network: Network}) => void, start?: {network: Network, encoder: Encoder} | null}} options
+ * @param {{watch?: (update: {q: Float64Array, network: Network} & Learned) => void, start?: {network: Network, encoder: Encoder} | null}} options
  */
 export function* neuralQLearning(settings, { watch = () => {}, start = null } = {}) {
   const { episodes, speed, maxSteps, seed } = settings;
@@ -194,8 +197,8 @@ export function* neuralQLearning(settings, { watch = () => {}, start = null } = 
       const next = inputsFor(encoder, reached);
       if (own < 0) { // in a safe state the reflex acts
         const reward = rewardOf(settings, sensing, reached, outcome); // 12
-        learner.learn({ state, q, action, reward, next, terminal: outcome !== "running" });
-        watch({ q, network });
+        const learned = learner.learn({ state, q, action, reward, next, terminal: outcome !== "running" });
+        watch({ q, network, ...learned });
         yield;
       }
       [sensing, state, step] = [reached, next, step + 1];

@@ -12,6 +12,7 @@ import torch
 from scipy.stats import binomtest
 
 from robonav.experiments import bootstrap_interval
+from robonav.networks import CROSS_ENTROPY
 from robonav.nnql import (
     STARTS,
     TARGETS,
@@ -46,22 +47,43 @@ DQN = {
 }
 
 FIRST_UPDATES = """
-const flat = ({ weights, biases }) => [...weights, ...biases].flatMap((part) => [...part]);
+const slopes = ({ sizes, parameters }, { inputs, targets, gradient }) => {
+  if (gradient) return { gradient: [...gradient], cost: null };
+  const examples = page.examplesOf(inputs.map((row) => [...row]), targets.map((row) => [...row]));
+  const own = new Float64Array(parameters.length);
+  const cost = page.costFunction("cross-entropy", sizes, examples).evaluate(parameters, own);
+  return { gradient: [...own], cost };
+};
 return data.map((settings) => {
-  const [seen, first] = [[], settings.method === "dqn" ? 32 : 1]; // DQN waits for a batch
-  const watch = ({ q, network }) => seen.length < first + 99 && seen.push({ q: [...q], weights: flat(network) });
-  for (const _ of page.neuralQLearning(settings, { watch })) if (seen.length >= first + 99) break;
-  return [1, 10, 100].map((update) => seen[first - 2 + update]);
+  const first = settings.method === "dqn" ? 32 : 1; // DQN waits for a batch
+  const [seen, looked] = [[], [1, 10, 100].map((update) => first - 1 + update)];
+  let updates = 0;
+  const watch = ({ q, network, ...learned }) => {
+    updates += 1;
+    if (!looked.includes(updates)) return;
+    seen.push({ q: [...q], weights: [...network.parameters], ...slopes(network, learned) });
+  };
+  for (const _ of page.neuralQLearning(settings, { watch })) if (seen.length === 3) break;
+  return seen;
 });
 """
+"""Of updates 1, 10 and 100: the Q-values before, the weights after, and the cost and its gradient in these weights, of
+the pairs that were learned. DQN gives the gradient that it descends."""
 
 
 class Enough(Exception):
     """The updates that a test looks at have been made."""
 
 
+def flat(network):
+    """Weights and then biases as one array."""
+    return np.concatenate(
+        [part.ravel() for part in (*network.weights, *network.biases)]
+    )
+
+
 def first_updates(monkeypatch, settings):
-    """Q-values before and weights after updates 1, 10 and 100 of a readable function."""
+    """What FIRST_UPDATES gives, of a readable function."""
     module = import_module(f"robonav.nnql.{MODULES[settings.method]}")
     values, updates = [], []
     softmax_policy = module.softmax_policy
@@ -70,21 +92,28 @@ def first_updates(monkeypatch, settings):
         values.append(q)
         return softmax_policy(q, temperature)
 
-    def watch(parts):
-        updates.append((values[-1], np.concatenate([part.ravel() for part in parts])))
+    def watch(**update):
+        updates.append({"q": values[-1], **update})
         if len(updates) == 100:
             raise Enough
 
     class WatchedAdam(torch.optim.Adam):
         def step(self, closure=None):
             super().step(closure)
-            parts = self.param_groups[0]["params"]
-            copies = [part.detach().numpy().copy() for part in parts]
-            watch([*copies[::2], *copies[1::2]])  # weights and biases take turns
+            parts = self.param_groups[0]["params"]  # weights and biases take turns
+            parts = [*parts[::2], *parts[1::2]]
+            weights = torch.cat([part.detach().ravel() for part in parts])
+            gradient = torch.cat([part.grad.ravel() for part in parts])
+            watch(weights=weights.numpy(), gradient=gradient.numpy(), cost=None)
 
-    def watched_descent(*arguments):
-        network = stochastic_gradient_descent(*arguments)
-        watch([*network.weights, *network.biases])
+    def watched_descent(network, inputs, targets, *more):
+        network = stochastic_gradient_descent(network, inputs, targets, *more)
+        x, y = np.array(inputs), np.array(targets)
+        watch(
+            weights=flat(network),
+            gradient=flat(CROSS_ENTROPY.gradient(network, x, y)),
+            cost=CROSS_ENTROPY.cost(network, x, y),
+        )
         return network
 
     env, method = settings.task().environment(), getattr(module, settings.method)
@@ -111,9 +140,10 @@ def same_updates(node, monkeypatch, cases):
     shown = node(FILES, FIRST_UPDATES, [settings.for_page() for settings in cases])
     for settings, updates in zip(cases, shown, strict=True):
         expected = first_updates(monkeypatch, settings)
-        for (q, weights), update in zip(expected, updates, strict=True):
-            np.testing.assert_allclose(update["q"], q, rtol=0, atol=1e-9)
-            np.testing.assert_allclose(update["weights"], weights, rtol=0, atol=1e-9)
+        for theirs, ours in zip(expected, updates, strict=True):
+            for what in ("q", "weights", "gradient"):
+                np.testing.assert_allclose(ours[what], theirs[what], rtol=0, atol=1e-9)
+            assert ours["cost"] == pytest.approx(theirs["cost"], abs=1e-9)
 
 
 def test_updates_are_pythons(node, monkeypatch):
