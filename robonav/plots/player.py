@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 _ICON_FONT = re.compile(r"<link\b[^>]*font-awesome[^>]*>\s*", re.IGNORECASE)
 _PRELOADED = "new Image();"
 """With which the player would decode all pictures as the page opens; a picture is decoded when it is first shown."""
+_NAMED_FORM = re.compile(r'<form title="([^"]+)" aria-label="[^"]+"([^>]*)>')
+"""A form with a name is a landmark of the page, and each player would add one of the same name."""
 _BUTTON_TITLE = re.compile(r'<button title="([^"]+)"')
 
 
@@ -63,6 +65,8 @@ def player(
         'type="range" class="anim-slider"',
         'type="range" aria-label="Frame" class="anim-slider"',
     )
+    page = _NAMED_FORM.sub(r'<form\2><div role="group" aria-label="\1">', page)
+    page = page.replace("</form>", "</div></form>")
     return HTML(_BUTTON_TITLE.sub(r'<button title="\1" aria-label="\1"', page))
 
 

@@ -18,6 +18,7 @@ from typing import Any
 from playwright.sync_api import (
     BrowserContext,
     ConsoleMessage,
+    Locator,
     Page,
     Playwright,
     Request,
@@ -172,6 +173,14 @@ def tap(page: Page, x: float, y: float) -> None:
     page.evaluate("new Promise(requestAnimationFrame)")
     session.send("Emulation.setTouchEmulationEnabled", {"enabled": False})
     session.detach()
+
+
+def touch(control: Locator) -> None:
+    """A finger on the middle of a control."""
+    control.scroll_into_view_if_needed()
+    box = control.bounding_box()
+    assert box
+    tap(control.page, box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
 
 
 def empty_storage(page: Page) -> None:

@@ -9,9 +9,9 @@ from copy import deepcopy
 import numpy as np
 import pytest
 from accessibility import violations
-from browser import Visit
+from browser import PHONE, Visit, swipe
 from mounting import mounted, mounted_alone
-from playwright.sync_api import Locator, expect
+from playwright.sync_api import Locator, Page, expect
 
 from robonav.benchmark.policies import method
 from robonav.networks import NetworkPolicy
@@ -77,20 +77,34 @@ def test_reader_steers_by_button_and_by_key(screen):
     expect(screen.locator(".status")).to_have_text(ABOUT)
 
 
+def on_map(screen: Locator, x: float, y: float) -> tuple[float, float]:
+    """Where a place of the map is in the window."""
+    canvas = screen.locator("canvas")
+    canvas.scroll_into_view_if_needed()
+    box = canvas.bounding_box()
+    margin = 14 * box["width"] / 520
+    scale = (box["width"] - 2 * margin) / 100
+    return (
+        box["x"] + margin + x * scale,
+        box["y"] + box["height"] - margin - y * scale,
+    )
+
+
+def drag_by_mouse(
+    page: Page, start: tuple[float, float], end: tuple[float, float]
+) -> None:
+    """Press the mouse's button at one position of the window, and let it go at another."""
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(*end, steps=4)
+    page.mouse.up()
+
+
 def test_target_is_dragged(screen):
     screen.get_by_role("button", name="Stop").click()
     screen.page.wait_for_timeout(300)
     before = pixels(screen)
-    box = screen.locator("canvas").bounding_box()
-    scale = (box["width"] - 28 * box["width"] / 520) / 100
-    target = (
-        box["x"] + 14 * box["width"] / 520 + 90 * scale,
-        box["y"] + box["height"] - 14 * box["height"] / 520 - 90 * scale,
-    )
-    screen.page.mouse.move(*target)
-    screen.page.mouse.down()
-    screen.page.mouse.move(target[0] - 60, target[1] + 20, steps=4)
-    screen.page.mouse.up()
+    drag_by_mouse(screen.page, on_map(screen, 90, 90), on_map(screen, 70, 80))
     assert pixels(screen) != before
 
 
@@ -101,7 +115,7 @@ def still(visit: Visit, place: str) -> Locator:
     return mounted(visit, place, first_screen(method("dagger"), ABOUT, {}, seed=2015))
 
 
-def test_obstacles_and_target_are_moved_by_keyboard(still):
+def test_obstacles_and_target_are_moved_by_keyboard_and_dragged(still):
     status, keyboard = still.locator(".status"), still.page.keyboard
     hold = still.get_by_role("button", name="Move an obstacle")
     expect(hold).to_have_attribute("aria-pressed", "false")
@@ -130,6 +144,11 @@ def test_obstacles_and_target_are_moved_by_keyboard(still):
     keyboard.press("Escape")
     expect(hold).to_have_attribute("aria-pressed", "false")
     expect(status).to_have_text("Stopped.")
+    drag = swipe if still.page.viewport_size == PHONE else drag_by_mouse
+    drag(still.page, on_map(still, x + 2, y + 10), on_map(still, 17, 17))
+    hold.press("Enter")
+    is_at(17, 17)  # it is the nearest: it stands before the robot now
+    keyboard.press("Escape")
     keyboard.press("ArrowUp")  # steers the robot again
     expect(status).to_contain_text("You steer")
 

@@ -22,6 +22,7 @@ from driving import (
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 from test_controls import choose_everything, slide_everything
+from test_drives import BLOCKED, FULL
 
 from robonav.benchmark.policies import method
 from robonav.lfd import (
@@ -169,6 +170,10 @@ def test_without_drives_the_page_says_so_and_offers_the_experts(view, site, widg
     expect(lab.get_by_label("learn from", exact=True)).to_have_value(
         "the expert's demonstrations"
     )
+    expect(lab.locator(".about").first).to_contain_text(
+        "no drive of yours is kept here. Some browsers, such as Firefox, keep the drives of each page on a disk apart: "
+        "press Download all where you drive, and load the file here."
+    )
     lab.get_by_label("learn from", exact=True).select_option("my drives")
     expect(lab.locator(".about").first).to_contain_text(
         "None of your drives has arrived yet."
@@ -247,13 +252,15 @@ def test_without_a_worker_the_page_trains_itself(visit, site, widget):
 
 
 def test_a_robot_that_the_browser_does_not_keep_is_said_to_be_lost(visit, site, widget):
-    visit.page.add_init_script(
-        """Object.defineProperty(window, "localStorage", {
-          get: () => { throw new DOMException("no", "SecurityError"); },
-        });"""
-    )
     lab = opened(visit, site, widget)
     setting(lab, "iterations of L-BFGS").select_option("3")
+    visit.page.evaluate(f"() => {{ {FULL} }}")
+    train(lab)
+    expect(said(lab)).to_contain_text(
+        "The browser's storage is full: your robots made from now on last until you close the page. "
+        "Delete some robots, or download them."
+    )
+    visit.page.evaluate(f"() => {{ {BLOCKED} }}")
     train(lab)
     expect(said(lab)).to_contain_text("your robots last until you close it")
 

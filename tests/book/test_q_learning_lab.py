@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from accessibility import AXE, RUN
-from browser import DESKTOP, PHONE, Visit, empty_storage, tap
+from browser import DESKTOP, PHONE, Visit, empty_storage, touch
 from mounting import mounted, mounted_alone
 from playwright.sync_api import Locator, expect
 from scipy.stats import binomtest
@@ -55,14 +55,6 @@ def train(lab: Locator) -> tuple[int, int]:
     found = CROSSES.match(said(lab).inner_text())
     assert found
     return int(found[1]), int(found[2])
-
-
-def touch(control: Locator) -> None:
-    """A finger on the middle of a control."""
-    control.scroll_into_view_if_needed()
-    box = control.bounding_box()
-    assert box
-    tap(control.page, box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
 
 
 def group(lab: Locator, title: str) -> None:

@@ -193,13 +193,6 @@ def test_map_shows_the_reward_of_the_chosen_action(lab):
     assert canvas.evaluate("(canvas) => canvas.toDataURL()") != ahead
 
 
-def test_training_is_cancelled(lab):
-    lab.get_by_role("button", name="Learn the reward").click()
-    lab.get_by_role("button", name="Cancel").click()
-    expect(lab.locator(".status").nth(1)).to_contain_text("Cancelled. ")
-    expect(lab.get_by_role("button", name="Learn the reward")).to_be_enabled()
-
-
 def test_cancelled_training_leaves_the_tables_of_the_one_before(lab):
     set_number(lab, "iterations", 2)
     learn = lab.get_by_role("button", name="Learn the reward")

@@ -29,6 +29,10 @@ def test_picture_slider_and_buttons_have_names():
     assert re.search(r'<img alt="A &quot;dot&quot; moves." id="_anim_img', page)
     assert re.search(r'<input[^>]*type="range"[^>]*aria-label="Frame"', page)
     assert all("aria-label" in tag for tag in re.findall(r"<button[^>]*>", page))
+    (form,) = re.findall(r"<form.*?</form>", page, re.DOTALL)
+    group = r'<form [^>]*><div role="group" aria-label="[^"]+">.*</div></form>'
+    assert re.fullmatch(group, form, re.DOTALL)
+    assert "label=" not in re.match(r"<form[^>]*>", form)[0]
 
 
 def test_frames_let_the_page_through():
