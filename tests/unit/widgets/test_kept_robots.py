@@ -137,7 +137,9 @@ def test_the_file_of_a_kept_robot_says_how_it_was_made(node, tmp_path):
 
 
 @pytest.mark.parametrize("allowed", [True, False])
-def test_a_full_or_blocked_storage_keeps_the_new_name_in_memory(node, allowed):
+def test_a_full_or_blocked_storage_is_one_sentence_and_robots_stay_in_memory(
+    node, allowed
+):
     body = f"""
       const kept = new Map();
       let room = Infinity;
@@ -158,11 +160,17 @@ def test_a_full_or_blocked_storage_keeps_the_new_name_in_memory(node, allowed):
       {ROBOT}
       keep("one");
       room = 10;
-      const said = page.renameRobot(page.keptRobots()[0], "other");
+      const said = [page.renameRobot(page.keptRobots()[0], "other"), keep("new")];
       return [said, names()];"""
     said, names = node(FILES, body, allowed)
-    assert names == ["other"]
-    begins = (
-        "The browser's storage is full" if allowed else "This browser keeps nothing"
+    assert names == ["new", "other"]
+    assert (
+        said
+        == [
+            "The browser's storage is full: your robots made from now on last until you close the page. "
+            "Delete some robots, or download them."
+            if allowed
+            else "This browser keeps nothing for this page: your robots last until you close it."
+        ]
+        * 2
     )
-    assert said.startswith(begins)
