@@ -98,6 +98,7 @@ def rates(lab: Locator) -> dict[str, float]:
     return {name.split(":")[0]: float(rate) for name, rate, *_ in rows}
 
 
+@pytest.mark.parametrize("view", ["phone"], indirect=True)
 def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
     view, site, widget, tmp_path
 ):

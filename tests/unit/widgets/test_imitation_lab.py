@@ -75,11 +75,14 @@ def test_rivals_end_in_every_new_map_as_in_python(node, lab):
 
 
 @pytest.mark.slow
-def test_robots_of_ten_seeds_arrive_as_often_as_pythons(node, lab, demonstrations):
+@pytest.mark.parametrize("seeds", [10, pytest.param(20, marks=pytest.mark.exhaustive)])
+def test_robots_of_many_seeds_arrive_as_often_as_pythons(
+    node, lab, demonstrations, seeds
+):
     """With the page's settings. Rounding makes two networks of one; they drive similarly, but not identically."""
     given = {
         **lab.data, "trial": {"seed": 2024, "maps": 100, "obstacles": 20},
-        "seeds": list(range(10)), "iterations": 300, "regularisation": 0.1, "count": 25,
+        "seeds": list(range(seeds)), "iterations": 300, "regularisation": 0.1, "count": 25,
     }  # fmt: skip
     got = node(FILES, IMITATE, given)
     ours = np.array([np.mean([ends[0] == "arrived" for ends in run]) for run in got])
@@ -89,7 +92,7 @@ def test_robots_of_ten_seeds_arrive_as_often_as_pythons(node, lab, demonstration
             navigate(
                 learn_policy(demonstrations, regularisation=0.1, seed=s), unseen
             ).success.mean()
-            for s in range(10)
+            for s in range(seeds)
         ]
     )
     (low, high), (least, most) = map(bootstrap_interval, (ours, theirs))

@@ -203,24 +203,27 @@ def test_each_leg_of_300_iterations_is_pythons(node, demonstrated):
             np.testing.assert_allclose(leg["costs"], history.costs, rtol=0, atol=1e-6)
 
 
+def tasks_of(seeds, x, y):
+    """Learning these examples with a network of the page's sizes, from the first weights of each seed."""
+    examples = {"sizes": (12, 8, 5), "x": x.tolist(), "y": y.tolist()}
+    return [{"seed": seed, **examples} for seed in seeds]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("regularisation", "iterations", "apart"),
-    [(1.0, 1500, 1e-4), pytest.param(0.1, 3000, 2e-3, id="the page's")],
+    ("seeds", "regularisation", "iterations", "apart"),
+    [((0, 1), 1.0, 1500, 1e-4), pytest.param((0,), 0.1, 3000, 2e-3, id="the page's")],
 )
 def test_demonstrations_are_learned_as_in_python(
-    node, demonstrated, regularisation, iterations, apart
+    node, demonstrated, seeds, regularisation, iterations, apart
 ):
     """Rounding grows with the iterations: the two go one way at first, and end at one minimum."""
     x, y = demonstrated
-    tasks = [
-        {"seed": seed, "sizes": (12, 8, 5), "x": x.tolist(), "y": y.tolist()}
-        for seed in range(2)
-    ]
     given = {
-        "tasks": tasks, "regularisation": regularisation, "iterations": iterations
+        "tasks": tasks_of(seeds, x, y), "regularisation": regularisation,
+        "iterations": iterations,
     }  # fmt: skip
-    for seed, iterates in enumerate(node(FILES, LBFGS, given)):
+    for seed, iterates in zip(seeds, node(FILES, LBFGS, given), strict=True):
         history = fit(
             x, y, seed=seed, iterations=iterations, regularisation=regularisation
         )
@@ -229,3 +232,24 @@ def test_demonstrations_are_learned_as_in_python(
         np.testing.assert_allclose(got[:50], costs[:50], rtol=0, atol=1e-8)
         assert got[300] == pytest.approx(costs[300], abs=apart)
         assert got[-1] == pytest.approx(costs[-1], abs=1e-6)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.slow
+@pytest.mark.parametrize("seeds", [range(10), range(10, 20)], ids=["0-9", "10-19"])
+def test_twenty_seeds_converge_where_pythons_do(node, demonstrated, seeds):
+    """With the page's settings and ten times its iterations, the final costs of nearly all seeds agree to 1e-6.
+
+    The cost has several minima. Where rounding has led the two 1e-3 apart on the way, a few seeds end in different
+    ones, or one of the two still descends: on the machine where this was written, seeds 19 and 14.
+    """
+    x, y = demonstrated
+    given = {
+        "tasks": tasks_of(seeds, x, y), "regularisation": 0.1, "iterations": 3000
+    }  # fmt: skip
+    elsewhere = []
+    for seed, iterates in zip(seeds, node(FILES, LBFGS, given), strict=True):
+        costs = fit(x, y, seed=seed, iterations=3000, regularisation=0.1).costs
+        if abs(iterates[-1][0] - costs[-1]) > 1e-6:
+            elsewhere.append(seed)
+    assert len(elsewhere) <= 2

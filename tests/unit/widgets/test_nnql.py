@@ -221,13 +221,21 @@ def test_without_a_worker_the_page_answers_within_100_ms(node):
 @pytest.mark.slow
 @pytest.mark.long
 @pytest.mark.parametrize(
-    "method", ["nnql", pytest.param("online", marks=pytest.mark.exhaustive), "dqn"]
+    ("method", "seeds"),
+    [
+        ("nnql", 10),
+        ("dqn", 10),
+        *(
+            pytest.param(method, 20, marks=pytest.mark.exhaustive)
+            for method in ("nnql", "online", "dqn")
+        ),
+    ],
 )
-def test_whole_trainings_succeed_as_often_as_pythons(node, method):
+def test_whole_trainings_succeed_as_often_as_pythons(node, method, seeds):
     online = {"rescale": "clip", "passes": 1, "discount": 0.7}
     own = {"nnql": {}, "online": online, "dqn": DQN}[method]
     first = QLearningSettings(**own | {"method": method})
-    settings = [replace(first, seed=seed) for seed in range(10)]  # each takes seconds
+    settings = [replace(first, seed=seed) for seed in range(seeds)]
     worlds = random_worlds(200, 10, seed=44_000, starts=STARTS, targets=TARGETS)
     data = {
         "settings": [own.for_page() for own in settings],
