@@ -1,8 +1,9 @@
-"""The drills of a page: the directives ``{drills}`` and ``{progress}``.
+"""The drills of a page: the directives ``{drills}``, ``{progress}`` and ``{due}``.
 
 ``{drills}`` shows the drills of the page that it stands on, each folded. ``{progress}`` lists all drills of the book by
-page. The questions are drawn while the book is built, :data:`QUESTIONS` different ones of each drill, into a script of
-their own, ``_static/drills/NAME.js``, which a page loads when a reader opens the drill.
+page, and ``{due}`` those of them that the reader should answer again today. The questions are drawn while the book is
+built, :data:`QUESTIONS` different ones of each drill, into a script of their own, ``_static/drills/NAME.js``, which a
+page loads when a reader opens the drill.
 
 Without scripts, and on paper, a drill shows its first question with its solution.
 """
@@ -115,7 +116,7 @@ def as_node(text: str) -> nodes.Node:
 
 
 class _Drills(SphinxDirective):
-    """What both directives share."""
+    """What the directives with drills share."""
 
     def static(self) -> str:
         """Return the path of the folder of static files from the page."""
@@ -141,6 +142,15 @@ class PageDrills(_Drills):
         if not drills:
             raise self.error(f"no drill belongs to the page {page}")
         return [as_node("".join(folded(drill, self.static()) for drill in drills))]
+
+
+class DueDrills(SphinxDirective):
+    """The directive ``{due}``: a list that the page's script fills with the drills of the page that are due."""
+
+    def run(self) -> list[nodes.Node]:
+        """Show an empty place, in which readers without scripts are told why it is empty."""
+        told = "<noscript><p>What is due is shown by a script.</p></noscript>"
+        return [as_node(f'<div class="drills-due">{told}</div>')]
 
 
 class Progress(_Drills):
@@ -186,6 +196,7 @@ def write_files(app: Sphinx, error: Exception | None) -> None:
 def setup(app: Sphinx) -> dict[str, bool]:
     app.add_directive("drills", PageDrills)
     app.add_directive("progress", Progress)
+    app.add_directive("due", DueDrills)
     app.add_js_file("drills.js")
     app.add_css_file("drills.css")
     app.connect("doctree-read", load_mathjax)

@@ -110,6 +110,20 @@ export function answered(record, right, today = new Date()) {
 /** Whether a drill was begun and should be answered again by this day. */
 export const isDue = (record, today = new Date()) => Boolean(record) && record.due <= day(today);
 
+/** The drills of a list that are due: those that have waited longest first, and of equally late ones the first of the list. */
+export function dueDrills(names, records, today = new Date()) {
+  const due = names.filter((name) => isDue(records[name], today));
+  return due.sort((a, b) => records[a].due.localeCompare(records[b].due));
+}
+
+/** In words, that no drill of a list is due. */
+export function nothingDue(names, records) {
+  const [next] = names.flatMap((name) => records[name]?.due ?? []).sort();
+  return next
+    ? `Nothing is due today. The next drill comes back on ${next}.`
+    : "Nothing is due today, because you have not tried any drill yet.";
+}
+
 /** What is known of all drills by name; nothing if the browser keeps nothing. */
 export function remembered() {
   try {

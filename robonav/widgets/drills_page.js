@@ -30,6 +30,16 @@ function summary(names) {
   return `${mastered} of ${names.length} mastered, ${due} due today.`;
 }
 
+/** Lists the drills that are due, each with a link that opens it on this page. */
+function listDue(place, drills) {
+  const records = remembered();
+  const titles = new Map(drills.map((element) => [element.dataset.drill, element.querySelector("summary").firstChild.textContent]));
+  const names = [...titles.keys()];
+  const items = dueDrills(names, records).map((name) =>
+    h("li", {}, h("a", { href: `#drill-${name}` }, titles.get(name)), ` (${standing(records[name])})`));
+  place.replaceChildren(items.length > 0 ? h("ul", {}, ...items) : h("p", {}, nothingDue(names, records)));
+}
+
 document.addEventListener("DOMContentLoaded", () => {
   const drills = [...document.querySelectorAll("details.drill")];
   const tell = () => {
@@ -42,6 +52,7 @@ document.addEventListener("DOMContentLoaded", () => {
     for (const list of document.querySelectorAll(".drills-summary")) {
       list.textContent = summary(list.dataset.drills.split(" "));
     }
+    for (const place of document.querySelectorAll(".drills-due")) listDue(place, drills);
   };
   for (const element of drills) {
     const unfolded = () => {

@@ -1,115 +1,113 @@
-"""Drills in the page: from disk, with the network cut, by keyboard, at both widths; what is mastered is kept."""
+"""Drills in the page: from disk, with the network cut, by keyboard and by touch; what is mastered is kept."""
 
 from __future__ import annotations
 
 import re
+from html import unescape
 from pathlib import Path
 
 import pytest
-from browser import DESKTOP, PHONE, Visit, visiting
+from answering import (
+    Hand,
+    Keyboard,
+    asked_by,
+    drill_of,
+    finger_on,
+    give,
+    open_drill,
+    questions_of,
+    right_answer,
+    shown_by,
+    wrong_answer,
+)
+from browser import DESKTOP, PHONE, Visit, empty_storage, visiting
 from playwright.sync_api import Locator, expect
 
 from robonav.drills import DRILLS
 
 PAGES_WITH_DRILLS = list(dict.fromkeys(drill.page for drill in DRILLS.values()))
-# What the shown question asks; the script of the drill is loaded once more for it.
-ASKED = """async (place) => {
-  const { drill, source } = place.dataset;
-  const questions = await new Promise((resolve) => {
-    const before = globalThis.robonavDrill;
-    globalThis.robonavDrill = (name, loaded) => { globalThis.robonavDrill = before; resolve(loaded); };
-    document.head.append(Object.assign(document.createElement("script"), { src: source }));
-  });
-  return questions[place.querySelector("form").dataset.question].asked;
-}"""
+FORMULA_OR_TAG = re.compile(r"\\\(.*?\\\)|<[^>]+>", re.DOTALL)
 
 
-def open_drill(visit: Visit, name: str) -> Locator:
-    """Unfold a drill by the keyboard."""
-    place = visit.page.locator(f'details.drill[data-drill="{name}"]')
-    place.locator("> summary").focus()
-    visit.page.keyboard.press("Enter")
-    expect(place.locator("form")).to_be_visible()
-    return place
+def words(text: str) -> list[str]:
+    """The words of a text of a page, without its formulas."""
+    return unescape(FORMULA_OR_TAG.sub("", text)).split()
 
 
-def give_right_answer(visit: Visit, place: Locator) -> None:
-    """Answer a drill's question rightly, by the keyboard alone."""
-    asked, keyboard = place.evaluate(ASKED), visit.page.keyboard
-    if asked["kind"] == "number":
-        place.get_by_label("Your answer").focus()
-        keyboard.type(str(asked["answer"]))
-    elif asked["kind"] == "choice":
-        place.locator("input[type=radio]").nth(asked["right"]).focus()
-        keyboard.press("Space")
-    elif asked["kind"] == "place":
-        place.locator(f'.place[data-place="{asked["right"][0]}"]').focus()
-        keyboard.press("Enter")
-    elif asked["kind"] == "order":
-        for step in range(len(asked["steps"])):
-            at = place.locator(".steps li").nth(step).locator("[data-step]")
-            row = place.locator(f'.steps li:has([data-step="{step}"])')
-            while at.get_attribute("data-step") != str(step):
-                row.get_by_role("button", name="up").focus()
-                keyboard.press("Enter")
-    else:
-        cells = [number for row in asked["answer"] for number in row]
-        for field, number in zip(place.locator("td input").all(), cells, strict=True):
-            field.focus()
-            keyboard.type(str(number))
-    place.get_by_role("button", name="Check").focus()
-    keyboard.press("Enter")
-
-
-def too_wide(visit: Visit) -> list[str]:
-    """The open drills that are wider than their place."""
-    found: list[str] = visit.page.evaluate(
-        """() => [...document.querySelectorAll("details.drill[open]")]
-          .filter((place) => place.scrollWidth > place.clientWidth + 1).map((place) => place.dataset.drill)"""
-    )
-    return found
+def answer_wrongly_and_rightly(hand: Hand, drill: Locator, name: str) -> None:
+    """Make a usual mistake, read its hint, and then answer the same question rightly."""
+    shown = shown_by(drill)
+    asked = questions_of(name)[shown["question"]]
+    mistake, hint = wrong_answer(asked, shown["steps"])
+    give(hand, drill, asked, mistake)
+    shown = shown_by(drill)
+    assert words(shown["verdict"]) == ["No.", *words(hint)]
+    assert not shown["solved"]
+    give(hand, drill, asked, right_answer(asked))
+    shown = shown_by(drill)
+    assert (shown["verdict"], shown["solved"]) == ("Right.", True)
+    assert shown["standing"] == "not mastered yet"  # the first answer counts
+    assert shown["overhang"] <= 1
 
 
 @pytest.mark.parametrize("page_of_drills", PAGES_WITH_DRILLS)
-def test_each_drill_is_answered_by_keyboard(
+def test_each_drill_is_answered_by_keyboard_and_by_touch(
     visit: Visit, site: Path, page_of_drills: str
 ) -> None:
-    """On a phone, and then each answered drill is as wide as its place on a desktop, too."""
-    visit.page.set_viewport_size(PHONE)
-    visit.open(f"{site.as_uri()}/book/{page_of_drills}.html")
-    visit.page.evaluate("localStorage.removeItem('robonav-drills')")
-    names = [drill.name for drill in DRILLS.values() if drill.page == page_of_drills]
-    for name in names:
-        place = open_drill(visit, name)
-        give_right_answer(visit, place)
-        expect(place.locator(".verdict")).to_have_text("Right.")
-        expect(place.locator(".solution")).to_be_visible()
-        expect(place.locator(".drill-standing")).to_contain_text("1 right in a row")
-    assert too_wide(visit) == []
     visit.page.set_viewport_size(DESKTOP)
-    assert too_wide(visit) == []
+    visit.open(f"{site.as_uri()}/book/{page_of_drills}.html")
+    empty_storage(visit.page)
+    names = [drill.name for drill in DRILLS.values() if drill.page == page_of_drills]
+    drills = {name: drill_of(visit, name) for name in names}
+    keyboard = Keyboard(visit.page)
+    for name, drill in drills.items():
+        open_drill(keyboard, drill)
+        answer_wrongly_and_rightly(keyboard, drill, name)
+    visit.page.set_viewport_size(PHONE)
+    finger = finger_on(visit.page)
+    for name, drill in drills.items():
+        finger.press(drill.get_by_role("button", name="Next question"))
+        answer_wrongly_and_rightly(finger, drill, name)
     assert visit.errors == []
     assert visit.external == []
-    visit.page.reload()
-    standings = visit.page.locator("details.drill .drill-standing")
-    expect(standings).to_have_text([re.compile("1 right in a row")] * len(names))
+    kept = visit.page.evaluate("JSON.parse(localStorage.getItem('robonav-drills'))")
+    assert {name: record["wrong"] for name, record in kept.items()} == dict.fromkeys(names, 2)  # fmt: skip
+
+
+def open_unset(visit: Visit, address: str) -> None:
+    """Open a page without setting its formulas and drawing its widgets, and forget all drills."""
+    visit.leave_formulas()
+    visit.open(address, settled=False)
+    empty_storage(visit.page)
+
+
+def begun(visit: Visit, name: str) -> Locator:
+    """A drill that was unfolded by the keyboard."""
+    drill = drill_of(visit, name)
+    open_drill(Keyboard(visit.page), drill)
+    return drill
+
+
+def give_right_answer(visit: Visit, drill: Locator) -> None:
+    """Answer a drill's question rightly, by the keyboard alone."""
+    asked = asked_by(drill)
+    give(Keyboard(visit.page), drill, asked, right_answer(asked))
 
 
 def test_an_answer_in_another_tab_is_told_here(visit: Visit, site: Path) -> None:
     address = f"{site.as_uri()}/book/dynamic-programming.html"
-    visit.open(address)
-    visit.page.evaluate("localStorage.removeItem('robonav-drills')")
+    open_unset(visit, address)
     with visiting(visit.page.context) as other:
         other.open(address, settled=False)
         drill = other.page.locator('details.drill[data-drill="bellman-backup"]')
         expect(drill.locator(".drill-standing")).to_have_text("not tried yet")
-        give_right_answer(visit, open_drill(visit, "bellman-backup"))
+        give_right_answer(visit, begun(visit, "bellman-backup"))
         expect(drill.locator(".drill-standing")).to_contain_text("1 right in a row")
 
 
 def test_a_link_unfolds_its_drill(visit: Visit, site: Path) -> None:
     address = f"{site.as_uri()}/book/dynamic-programming.html"
-    visit.open(f"{address}#drill-stopping-bound")
+    open_unset(visit, f"{address}#drill-stopping-bound")
     linked = visit.page.locator("#drill-stopping-bound")
     expect(linked.locator("form")).to_be_visible()
     expect(linked.locator("summary").first).to_be_in_viewport()
@@ -119,33 +117,73 @@ def test_a_link_unfolds_its_drill(visit: Visit, site: Path) -> None:
     expect(other.locator("form")).to_be_visible()
 
 
-def test_three_in_a_row_are_mastered_and_a_mistake_begins_anew(
+def tab_to(visit: Visit, element: Locator) -> None:
+    """Press Tab until an element has the focus."""
+    for _ in range(12):
+        visit.page.keyboard.press("Tab")
+        if element.evaluate("(element) => element === document.activeElement"):
+            return
+    raise AssertionError(f"Tab does not reach {element}")
+
+
+def test_three_in_a_row_are_mastered_with_the_keys_alone(
     visit: Visit, site: Path
 ) -> None:
-    visit.open(f"{site.as_uri()}/book/dynamic-programming.html")
-    visit.page.evaluate("localStorage.removeItem('robonav-drills')")
-    place = open_drill(visit, "bellman-backup")
-    for _ in range(3):
-        give_right_answer(visit, place)
-        expect(place.locator(".verdict")).to_have_text("Right.")
-        place.get_by_role("button", name="Next question").click()
-    expect(place.locator(".drill-standing")).to_contain_text("mastered; comes back")
-    visit.page.goto(f"{site.as_uri()}/book/my-progress.html")
-    summary = visit.page.locator(".drills-summary").first
-    expect(summary).to_contain_text(f"1 of {len(DRILLS)} mastered")
-    place = open_drill(visit, "bellman-backup")
-    place.get_by_label("Your answer").fill("99")
+    open_unset(visit, f"{site.as_uri()}/book/dynamic-programming.html")
+    visit.page.get_by_text("Each drill asks with new numbers").click()  # above them
+    drill = drill_of(visit, "bellman-backup")
+    tab_to(visit, drill.locator("> summary"))
     visit.page.keyboard.press("Enter")
-    expect(place.locator(".verdict")).to_contain_text("No.")
-    expect(place.locator(".drill-standing")).to_have_text("not mastered yet")
+    for _ in range(3):
+        asked = asked_by(drill)
+        tab_to(visit, drill.get_by_label("Your answer"))
+        visit.page.keyboard.type(str(right_answer(asked)))
+        visit.page.keyboard.press("Enter")
+        assert shown_by(drill)["verdict"] == "Right."
+        tab_to(visit, drill.get_by_role("button", name="Next question"))
+        visit.page.keyboard.press("Enter")
+        expect(drill.get_by_label("Your answer")).to_be_focused()
+        visit.page.keyboard.press("Shift+Tab")
+    expect(drill.locator(".drill-standing")).to_contain_text("mastered; comes back")
+
+
+KEPT = """localStorage.setItem("robonav-drills", JSON.stringify({
+  "bellman-backup": { streak: 3, right: 3, wrong: 0, due: "2999-01-01" },
+  "stopping-bound": { streak: 3, right: 4, wrong: 1, due: "2020-02-02" },
+  "softmax": { streak: 0, right: 0, wrong: 1, due: "2020-01-01" },
+}))"""
+
+
+def test_the_page_of_progress_lists_what_is_due(visit: Visit, site: Path) -> None:
+    open_unset(visit, f"{site.as_uri()}/book/my-progress.html")
+    due = visit.page.locator(".drills-due")
+    expect(due).to_contain_text("because you have not tried any drill yet")
+    visit.page.evaluate(KEPT)
+    visit.page.reload()
+    summary = visit.page.locator(".drills-summary").first
+    expect(summary).to_contain_text(f"2 of {len(DRILLS)} mastered, 2 due today")
+    titles = [DRILLS[name].title for name in ("softmax", "stopping-bound")]
+    expect(due.get_by_role("link")).to_have_text(titles)
+    expect(due.get_by_role("listitem").first).to_contain_text("(not mastered yet)")
+    due.get_by_role("link").last.press("Enter")
+    drill = drill_of(visit, "stopping-bound")
+    expect(drill.locator("form")).to_be_visible()
+    expect(drill.locator("> summary")).to_be_in_viewport()
+    give_right_answer(visit, drill)
+    expect(due.get_by_role("link")).to_have_text(titles[:1])
+    drill = begun(visit, "bellman-backup")
+    drill.get_by_label("Your answer").fill("99")
+    visit.page.keyboard.press("Enter")
+    expect(drill.locator(".verdict")).to_contain_text("No.")
+    expect(drill.locator(".drill-standing")).to_have_text("not mastered yet")
+    expect(due.get_by_role("link").last).to_have_text(DRILLS["bellman-backup"].title)
 
 
 def test_what_is_no_number_gets_a_sentence_and_costs_nothing(
     visit: Visit, site: Path
 ) -> None:
-    visit.open(f"{site.as_uri()}/book/dynamic-programming.html")
-    visit.page.evaluate("localStorage.removeItem('robonav-drills')")
-    place = open_drill(visit, "stopping-bound")
+    open_unset(visit, f"{site.as_uri()}/book/dynamic-programming.html")
+    place = begun(visit, "stopping-bound")
     place.get_by_label("Your answer").fill("a third")
     visit.page.keyboard.press("Enter")
     expect(place.locator(".verdict")).to_have_text("Type a number, such as 0.25.")
@@ -155,9 +193,9 @@ def test_what_is_no_number_gets_a_sentence_and_costs_nothing(
 def test_a_drill_that_is_folded_again_at_once_still_opens_later(
     visit: Visit, site: Path
 ) -> None:
-    visit.open(f"{site.as_uri()}/book/dynamic-programming.html")
+    open_unset(visit, f"{site.as_uri()}/book/dynamic-programming.html")
     place = visit.page.locator('details.drill[data-drill="bellman-backup"]')
     place.evaluate("(place) => { place.open = true; place.open = false; }")
     visit.page.wait_for_timeout(100)
     expect(place.locator("form")).to_have_count(0)
-    open_drill(visit, "bellman-backup")
+    begun(visit, "bellman-backup")

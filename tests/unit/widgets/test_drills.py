@@ -132,3 +132,32 @@ def test_pages_say_of_every_question_what_python_says(node) -> None:
     found = node("drills", body, [as_json(question) for question in drawn])
     assert found == [f"({one.decimals})" if one.decimals else "" for one in drawn]
     assert set(found) == {"", "(one decimal)", "(two decimals)"}
+
+
+def test_what_has_waited_longest_is_due_first(node) -> None:
+    records = {
+        "late": {"streak": 3, "due": "2026-03-01"},
+        "tomorrow": {"streak": 4, "due": "2026-03-06"},
+        "today": {"streak": 0, "due": "2026-03-05"},
+        "also-late": {"streak": 5, "due": "2026-03-01"},
+        "latest": {"streak": 3, "due": "2025-12-31"},
+        "gone": {"streak": 0, "due": "2025-01-01"},  # no drill of the book any more
+    }
+    names = ["today", "new", "late", "tomorrow", "latest", "also-late"]
+    body = (
+        """return page.dueDrills(data[0], data[1], new Date("2026-03-05T08:00:00Z"))"""
+    )
+    found = node("drills", body, [names, records])
+    assert found == ["latest", "late", "also-late", "today"]
+
+
+def test_says_when_the_next_drill_comes_back(node) -> None:
+    records = {
+        "a": {"streak": 4, "due": "2026-03-06"},
+        "b": {"streak": 3, "due": "2026-02-07"},
+    }
+    body = "return page.nothingDue(data[0], data[1]);"
+    told = node("drills", body, [["a", "b", "c"], records])
+    assert told.endswith("The next drill comes back on 2026-02-07.")
+    untried = node("drills", body, [["c"], records])
+    assert untried.endswith("because you have not tried any drill yet.")
