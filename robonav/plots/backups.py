@@ -67,6 +67,14 @@ def draw_backup(axes: Axes, name: str) -> None:
     ------
     ValueError
         If there is no such update.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_backup(axes, "SARSA")  # three nodes, and two branches between them
+    >>> len(axes.lines)
+    5
     """
     backup = BACKUPS[check_one_of("name", name, BACKUPS)]
     levels = _places(backup)

@@ -35,6 +35,14 @@ def draw_belief(
         One letter for each cell; ``D`` is a door.
     state : int, optional
         The true cell of the robot; by default it is not drawn.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_belief(axes, [0.1, 0.2, 0.7], "  D", state=2)
+    >>> len(axes.patches) >= 3
+    True
     """
     b = np.asarray(belief, dtype=float)
     axes.bar(np.arange(len(b)), b, width=0.9, color=style.BLUE)
@@ -73,6 +81,15 @@ def draw_values_of_beliefs(
         Vectors (K, 2). The horizontal axis is the belief in the first state.
     names : sequence of str
         The names of the actions.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.mdp import qmdp, tiger
+    >>> axes = Figure().add_subplot()
+    >>> draw_values_of_beliefs(axes, qmdp(tiger()), ["listen", "left", "right"])
+    >>> len(axes.lines) > 2  # a line for each vector, and their maximum
+    True
     """
     colours = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.SKY)
     belief = np.linspace(0, 1, 501)
@@ -113,6 +130,16 @@ def draw_pose_belief(
         The true x, y and heading; by default they are not drawn.
     arrows : int
         The number of poses with an arrow.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.mdp import PoseGrid
+    >>> grid = PoseGrid([[True, True]], headings=4)
+    >>> axes = Figure().add_subplot()
+    >>> draw_pose_belief(axes, grid, grid.uniform(), pose=[0.5, 0.5, 0.0])
+    >>> len(axes.images) + len(axes.collections) > 0
+    True
     """
     b = np.asarray(belief, dtype=float)
     rows, columns = grid.free.shape
@@ -160,7 +187,25 @@ def draw_pose_belief(
 
 
 def draw_robot(axes: Axes, pose: ArrayLike, *, size: float = 1.5) -> None:
-    """Draw the robot at its pose as a triangle that points ahead."""
+    """Draw the robot at its pose as a triangle that points ahead.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    pose : (3,) array
+        x, y and heading.
+    size : float
+        The length of the triangle, in the axes' units.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_robot(axes, [2.0, 3.0, 0.0])
+    >>> len(axes.patches)
+    1
+    """
     x, y, heading = np.asarray(pose, dtype=float)
     corners = heading + np.array([0, 2.4, -2.4])
     axes.fill(
@@ -172,7 +217,23 @@ def draw_robot(axes: Axes, pose: ArrayLike, *, size: float = 1.5) -> None:
 
 
 def plot_uncertainty(axes: Axes, entropies: Mapping[str, ArrayLike]) -> None:
-    """Plot the entropy of a belief in bits after each step, with one line for each name."""
+    """Plot the entropy of a belief in bits after each step, with one line for each name.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    entropies : mapping of str to (T,) array
+        The entropy after each of T steps, by the name of the line.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> plot_uncertainty(axes, {"with sensing": [3.0, 1.0, 0.2], "without": [3.0, 3.1, 3.2]})
+    >>> len(axes.lines)
+    2
+    """
     for colour, (name, bits) in zip(
         (style.BLUE, style.ORANGE, style.GREEN, style.GREY),
         entropies.items(),
@@ -215,7 +276,21 @@ TO_THE_NEXT_STEP = (
 
 
 def draw_pomdp(axes: Axes) -> None:
-    """Draw the states, observations, beliefs, actions and rewards of some steps, with their dependences (Fig. 2.3)."""
+    """Draw the states, observations, beliefs, actions and rewards of some steps, with their dependences (Fig. 2.3).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on. Their frame and ticks are removed.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_pomdp(axes)
+    >>> len(axes.patches) > 10
+    True
+    """
     for time in range(3):
         for start, end in WITHIN_A_STEP:
             _draw_dependence(axes, (start, time), (end, time))

@@ -32,7 +32,24 @@ def case_labels(results: Results) -> list[str]:
 
 
 def setting_label(key: str, value: str | float) -> str:
-    """Return the label of a setting: a text without its key, a number with it, and a method with its display name."""
+    """Return the label of a setting: a text without its key, a number with it, and a method with its display name.
+
+    Parameters
+    ----------
+    key : str
+        The setting's name.
+    value : str or float
+        Its value.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> setting_label("obstacles", 20), setting_label("expert", "human")
+    ('obstacles 20', 'human')
+    """
     if isinstance(value, str):
         return display_name(value) if key == "method" else value
     return f"{key} {value}"

@@ -23,7 +23,24 @@ COLOURS: dict[str, str] = {
 
 
 def colour_of(name: str, place: int) -> str:
-    """Return the colour of a method, or for another name the palette's colour of this place."""
+    """Return the colour of a method, or for another name the palette's colour of this place.
+
+    Parameters
+    ----------
+    name : str
+        A method's name, or another.
+    place : int
+        The place in the palette.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> colour_of("", 0) == colour_of("", 1)
+    False
+    """
     others = (
         style.BLUE,
         style.VERMILION,
@@ -57,6 +74,15 @@ def plot_runs(
         The number of neighbours along T to average over.
     band : float
         The percentage of seeds in the band.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> plot_runs(axes, {"SARSA": np.arange(12.0).reshape(3, 4)})  # three seeds, four episodes
+    >>> axes.lines[0].get_ydata()
+    array([4., 5., 6., 7.])
     """
     for place, (name, given) in enumerate(curves.items()):
         runs = np.atleast_2d(np.asarray(given, dtype=float))
@@ -96,6 +122,14 @@ def draw_walks(
         Cells to mark, such as those of the cliff.
     start, goal : int, optional
         Cells to name.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_walks(axes, (2, 3), {"SARSA": [3, 0, 1, 2, 5]}, forbidden=[4], start=3, goal=5)
+    >>> [text.get_text() for text in axes.texts]
+    ['S', 'G']
     """
     rows, columns = shape
     for cell in range(rows * columns):
@@ -163,6 +197,14 @@ def plot_estimates(
         The true values.
     estimates : mapping of str to (S,) array
         The estimates, by name.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> plot_estimates(axes, ["a", "b"], [0.5, 1.0], {"TD(0)": [0.4, 0.9]})
+    >>> len(axes.lines)
+    2
     """
     places = np.arange(len(names))
     axes.plot(
@@ -197,6 +239,16 @@ def draw_tiles(axes: Axes, tiles: Tiles, states: ArrayLike) -> None:
         Tilings of a state of two coordinates.
     states : (N, 2) array
         The states to mark.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.mdp import Tiles
+    >>> tiles = Tiles(low=[0.0, 0.0], high=[1.0, 1.0], tiles=[2, 2], tilings=2, n_actions=1)
+    >>> axes = Figure().add_subplot()
+    >>> draw_tiles(axes, tiles, [[0.3, 0.6]])
+    >>> axes.get_xlim() != (0.0, 1.0)
+    True
     """
     points = np.asarray(states, dtype=float)
     low, high = np.asarray(tiles.low), np.asarray(tiles.high)

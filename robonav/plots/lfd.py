@@ -63,6 +63,17 @@ def draw_search(
         What the search found in this map. Without recorded nodes, only the path is drawn.
     colour : str
         Of the path.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.lfd import plan
+    >>> from robonav.robot import make_world
+    >>> world = make_world(circles=[(50, 50, 5)])
+    >>> axes = Figure().add_subplot()
+    >>> draw_search(axes, world, plan(world))
+    >>> len(axes.lines[-1].get_xdata()) > 30  # the points of the path
+    True
     """
     draw_world(axes, world)
     if made.visited is not None:
@@ -98,6 +109,15 @@ def draw_named_paths(
         x, y (and heading) along each path, by name.
     colours : mapping of str to str
         Colours by name, by default those of the methods.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.robot import make_world
+    >>> axes = Figure().add_subplot()
+    >>> draw_named_paths(axes, make_world(), {"A*": [(10, 10), (90, 90)]})
+    >>> axes.lines[-1].get_label()
+    'A*'
     """
     draw_world(axes, world)
     for name, path in paths.items():
@@ -124,6 +144,16 @@ def draw_demonstrations(
         Which of them to draw.
     columns : int
         Panels a row.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.lfd import demonstrate
+    >>> from robonav.robot import random_worlds
+    >>> figure = Figure()
+    >>> draw_demonstrations(figure, demonstrate(random_worlds(2, obstacles=5, seed=1)), [0, 1])
+    >>> len(figure.axes)
+    2
     """
     rows = -(-len(trajectories) // columns)
     for place, number in enumerate(trajectories, start=1):
@@ -174,6 +204,17 @@ def draw_moments(
         Panels in a row.
     colour : str
         Of the robot and its path.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.robot import navigate, random_worlds, straight
+    >>> world = random_worlds(1, obstacles=0, moving=3, seed=1)
+    >>> path = navigate(straight, world, record_paths=True).paths[0]
+    >>> figure = Figure()
+    >>> draw_moments(figure, world, path, [0, 5])
+    >>> [axes.get_title() for axes in figure.axes]
+    ['0 s', '5 s']
     """
     rows = -(-len(moments) // columns)
     tracks = obstacle_tracks(world, len(path) - 1)[0]

@@ -51,6 +51,15 @@ def draw_grid(
         The number of digits after the point; no numbers are drawn if it is negative.
     scale : float, optional
         The value with the strongest colour; by default the largest absolute value.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.mdp import GridWorld
+    >>> axes = Figure().add_subplot()
+    >>> draw_grid(axes, GridWorld("S # G"), [0.9, 0.0])
+    >>> [text.get_text() for text in axes.texts]
+    ['S', '0.90', '+1']
     """
     for row, column in np.argwhere(grid.numbers < 0):
         axes.add_patch(Rectangle((column, row), 1, 1, color=style.OBSTACLE))
@@ -97,7 +106,24 @@ def draw_grid(
 
 
 def colour_of_value(share: float) -> tuple[float, float, float]:
-    """Return the colour of a value in [-1, 1], relative to the strongest colour: blue above 0, red below 0."""
+    """Return the colour of a value in [-1, 1], relative to the strongest colour: blue above 0, red below 0.
+
+    Parameters
+    ----------
+    share : float
+        The value, as a share of the strongest one.
+
+    Returns
+    -------
+    tuple of float
+        Red, green and blue, each in [0, 1].
+
+    Examples
+    --------
+    >>> red, green, blue = colour_of_value(1.0)
+    >>> red < blue
+    True
+    """
     pale, full = (
         np.array(to_rgb(ZERO)),
         np.array(to_rgb(style.BLUE if share > 0 else style.VERMILION)),
@@ -216,7 +242,21 @@ def _bare(axes: Axes, width: tuple[float, float], height: tuple[float, float]) -
 
 
 def draw_interaction(axes: Axes) -> None:
-    """Draw the agent and its environment, which exchange actions, states and rewards (Fig. 2.1)."""
+    """Draw the agent and its environment, which exchange actions, states and rewards (Fig. 2.1).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on. Their frame and ticks are removed.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_interaction(axes)
+    >>> axes.texts[0].get_text()
+    'agent'
+    """
     _box(axes, (0, 1.6), "agent")
     _box(axes, (0, 0), "environment")
     for out, word, side in (
@@ -242,7 +282,23 @@ def draw_interaction(axes: Axes) -> None:
 
 
 def draw_decision_network(axes: Axes, *, steps: int = 3) -> None:
-    """Draw the states, actions and rewards of some steps, with their dependences (Fig. 2.2)."""
+    """Draw the states, actions and rewards of some steps, with their dependences (Fig. 2.2).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on. Their frame and ticks are removed.
+    steps : int
+        How many steps.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_decision_network(axes, steps=2)
+    >>> axes.texts[0].get_text()
+    '$S_0$'
+    """
     for t in range(steps + 1):
         _node(axes, (2.0 * t, 0), f"$S_{t}$", style.SKY)
         if t == steps:
@@ -266,7 +322,21 @@ def _node(axes: Axes, middle: tuple[float, float], text: str, colour: str) -> No
 
 
 def draw_evaluation_and_improvement(axes: Axes) -> None:
-    """Draw the two processes of generalized policy iteration and what each passes to the other (Fig. 2.4(a))."""
+    """Draw the two processes of generalized policy iteration and what each passes to the other (Fig. 2.4(a)).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on. Their frame and ticks are removed.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_evaluation_and_improvement(axes)
+    >>> axes.texts[1].get_text()
+    'values $V$'
+    """
     _box(axes, (0, 0), r"policy $\pi$", width=1.3)
     _box(axes, (4, 0), "values $V$", width=1.3)
     _arrow(axes, (0.2, 0.38), (3.8, 0.38), bend=-0.35)
@@ -279,7 +349,21 @@ def draw_evaluation_and_improvement(axes: Axes) -> None:
 
 
 def draw_two_lines(axes: Axes) -> None:
-    """Draw two lines that meet at the optimal values and policy, and the iteration between them (Fig. 2.4(b))."""
+    """Draw two lines that meet at the optimal values and policy, and the iteration between them (Fig. 2.4(b)).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on. Their frame and ticks are removed.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_two_lines(axes)
+    >>> len(axes.lines)  # the two lines, and the point where they meet
+    3
+    """
     axes.plot([0, 6], [2.2, 0], color=style.BLUE)
     axes.plot([0, 6], [-2.2, 0], color=style.VERMILION)
     way = [(0.0, -0.6)]
@@ -309,6 +393,15 @@ def plot_trace(axes: Axes, trace: GPIHistory, *, least: float = 1e-8) -> None:
         The half steps.
     least : float
         Smaller gaps are drawn at this height, because a logarithmic axis has no 0.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.mdp import four_by_three, generalized_policy_iteration
+    >>> axes = Figure().add_subplot()
+    >>> plot_trace(axes, generalized_policy_iteration(four_by_three().mdp(discount=0.9)))
+    >>> axes.get_yscale()
+    'log'
     """
     steps = np.arange(len(trace.values))
     gaps = {
@@ -353,6 +446,15 @@ def draw_value_plane(
         The values of the deterministic policies.
     best : (2,) array
         The optimal values.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_value_plane(
+    ...     axes, [[0.5, 0.5]], {"value iteration": [[0, 0], [1, 1]]}, corners=[[0, 0], [1, 1]], best=[1, 1])
+    >>> len(axes.lines) >= 3
+    True
     """
     points = np.asarray(cloud)
     axes.plot(

@@ -32,7 +32,22 @@ ANSWERS = LinearSegmentedColormap.from_list(
 
 
 def unit_positions(sizes: Sequence[int]) -> list[NDArray[np.float64]]:
-    """Return the positions of each layer's units, (s[l] + 1, 2): the bias unit on top; the output layer has none."""
+    """Return the positions of each layer's units, (s[l] + 1, 2): the bias unit on top; the output layer has none.
+
+    Parameters
+    ----------
+    sizes : sequence of int
+        Units of each layer.
+
+    Returns
+    -------
+    list of (s[l] + 1, 2) arrays
+
+    Examples
+    --------
+    >>> [len(layer) for layer in unit_positions((2, 3, 1))]
+    [3, 4, 1]
+    """
     last = len(sizes) - 1
     layers = []
     for layer, size in enumerate(sizes):
@@ -66,6 +81,14 @@ def draw_network(
         red for negative ones.
     inputs, outputs : sequence of str, optional
         Names of the units in the first and the last layer; by default x and h with an index.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_network(axes, (2, 3, 1), inputs=["$x_1$", "$x_2$"], outputs=["$h$"])
+    >>> axes.texts[0].get_text() != ""
+    True
     """
     layers = unit_positions(sizes)
     for layer, (here, there) in enumerate(pairwise(layers)):
@@ -154,6 +177,18 @@ def plot_costs(
         Trainings by name.
     colours : mapping of str to str, optional
         Colours by name.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.networks import lbfgs, random_network
+    >>> from robonav.networks.toy_datasets import disc
+    >>> x, y = disc(30, seed=0)
+    >>> training = lbfgs(random_network((2, 3, 1), seed=0), x, y, iterations=5)
+    >>> axes = Figure().add_subplot()
+    >>> plot_costs(axes, {"L-BFGS": training})
+    >>> len(axes.lines[0].get_ydata()) == len(training.costs)
+    True
     """
     for name, training in trainings.items():
         axes.plot(training.costs, label=name, color=(colours or {}).get(name))
@@ -178,6 +213,18 @@ def plot_accuracies(
         Trainings by name.
     colours : mapping of str to str, optional
         Colours by name.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.networks import lbfgs, random_network
+    >>> from robonav.networks.toy_datasets import disc
+    >>> x, y = disc(30, seed=0)
+    >>> training = lbfgs(random_network((2, 3, 1), seed=0), x, y, iterations=5)
+    >>> axes = Figure().add_subplot()
+    >>> plot_accuracies(axes, {"L-BFGS": training})
+    >>> len(axes.lines)
+    1
     """
     for name, training in trainings.items():
         axes.plot(
@@ -201,6 +248,15 @@ def draw_answers(axes: Axes, field: ArrayLike, x: ArrayLike, y: ArrayLike) -> No
         Inputs of the examples.
     y : (m, 1) array
         Their labels, 0 or 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_answers(axes, np.linspace(0, 1, 16).reshape(4, 4), [[0.2, 0.3], [0.8, 0.9]], [[0], [1]])
+    >>> len(axes.images) + len(axes.collections) > 0
+    True
     """
     square = (-EXTENT, EXTENT, -EXTENT, EXTENT)
     values, points, yes = np.asarray(field), np.asarray(x), np.asarray(y)[:, 0] > 0.5

@@ -40,7 +40,32 @@ def draw_key_points(
     path: ArrayLike,
     driven: ArrayLike | None = None,
 ) -> None:
-    """Draw a person's key points (K, 2), the smooth path (P, 2) through them, and the robot's path (Fig. 5.3)."""
+    """Draw a person's key points, the smooth path through them, and the robot's path (Fig. 5.3).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    world : Worlds
+        Batch of one: the map.
+    key_points : (K, 2) array
+        The points that the person set.
+    path : (P, 2) array
+        The smooth path through them.
+    driven : (steps + 1, 3) array, optional
+        The robot's poses.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.lfd import smooth_path
+    >>> from robonav.robot import make_world
+    >>> points = [(10, 10), (40, 60), (90, 90)]
+    >>> axes = Figure().add_subplot()
+    >>> draw_key_points(axes, make_world(), points, smooth_path(points))
+    >>> len(axes.lines) >= 2
+    True
+    """
     draw_world(axes, world)
     axes.plot(
         *np.asarray(path)[:, :2].T, color=style.SKY, linewidth=1.6, label="smooth path"
@@ -61,7 +86,28 @@ def draw_key_points(
 
 
 def draw_slips(axes: Axes, demonstrations: Demonstrations, meant: ArrayLike) -> None:
-    """Draw the first episode of a slipping expert and mark the steps that differ from the action meant (Fig. 5.5)."""
+    """Draw the first episode of a slipping expert and mark the steps that differ from the action meant (Fig. 5.5).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    demonstrations : Demonstrations
+        The first of them is drawn.
+    meant : (steps,) array of int
+        The action that the expert meant in each step.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.lfd import demonstrate
+    >>> from robonav.robot import random_worlds
+    >>> demonstrations = demonstrate(random_worlds(1, obstacles=20, seed=3))
+    >>> axes = Figure().add_subplot()
+    >>> draw_slips(axes, demonstrations, demonstrations.actions)  # no step slipped
+    >>> axes.get_title()
+    '0 of 63 actions slipped'
+    """
     own = demonstrations.trajectory == 0
     slipped = (np.asarray(meant) != demonstrations.actions)[own]
     draw_world(axes, demonstrations.worlds[0])
@@ -84,7 +130,27 @@ def draw_slips(axes: Axes, demonstrations: Demonstrations, meant: ArrayLike) -> 
 def draw_margin(
     axes: Axes, expert: ArrayLike, others: ArrayLike, weights: ArrayLike
 ) -> None:
-    """Draw the feature expectations of an expert (2,) and of other policies (n, 2), and the margin of a reward (2,)."""
+    """Draw the feature expectations of an expert and of other policies, and the margin of a reward.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    expert : (2,) array
+        The expert's feature expectations.
+    others : (n, 2) array
+        Those of the other policies.
+    weights : (2,) array
+        theta of the reward.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_margin(axes, [2.0, 0.0], [[0.5, 1.0], [-1.0, 0.0]], [1.0, 0.0])
+    >>> len(axes.lines) >= 2
+    True
+    """
     mu, rivals, theta = (
         np.asarray(part, dtype=float) for part in (expert, others, weights)
     )
@@ -121,6 +187,20 @@ def animate_projection(
         The feature expectations of the expert.
     found, means : (n, 2) array
         The feature expectations of each policy, and the projected point after it.
+
+    Returns
+    -------
+    FuncAnimation
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from robonav.plots.player import player
+    >>> corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+    >>> animation = animate_projection(corners, [0.2, 0.2], corners[:1], corners[:1])
+    >>> "It comes near" in player(animation, description="It comes near").data
+    True
+    >>> plt.close()
     """
     from matplotlib.animation import FuncAnimation
 
@@ -156,7 +236,27 @@ def draw_counts(
     counts: Mapping[str, ArrayLike],
     thesis: tuple[float, float],
 ) -> None:
-    """Draw counts for each trajectory by expert (R, n): mean and range over runs, the thesis's in grey (Fig. 5.4)."""
+    """Draw counts for each trajectory by expert: mean and range over runs, the thesis's in grey (Fig. 5.4).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    numbers : (n,) array
+        Numbers of trajectories.
+    counts : mapping of str to (R, n) array
+        Counts of R runs, by expert.
+    thesis : (float, float)
+        The thesis's counts for the least and the largest number.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_counts(axes, [10, 20], {"human": [[4.0, 8.0], [6.0, 10.0]]}, thesis=(5.0, 9.0))
+    >>> len(axes.lines) > 0
+    True
+    """
     x = np.asarray(numbers, dtype=float)
     axes.axhspan(*thesis, color=style.GREY, alpha=0.25, linewidth=0, label="thesis")
     colours = (style.METHODS["A*"], style.PURPLE, style.SKY, style.VERMILION)
@@ -170,7 +270,25 @@ def draw_counts(
 
 
 def draw_iterations(axes: Axes, series: Mapping[str, ArrayLike], label: str) -> None:
-    """Draw series (runs, n) by name over the iterations: mean and range over runs."""
+    """Draw series by name over the iterations: mean and range over runs.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    series : mapping of str to (runs, n) array
+        One number for each of n iterations, by name.
+    label : str
+        What the numbers are.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_iterations(axes, {"nirl": [[1.0, 2.0], [3.0, 4.0]]}, "margin")
+    >>> axes.lines[0].get_ydata()
+    array([2., 3.])
+    """
     colours = (style.VERMILION, style.BLUE, style.GREEN, style.ORANGE)
     for (name, given), colour in zip(series.items(), colours, strict=False):
         runs = np.atleast_2d(np.asarray(given, dtype=float))
@@ -187,7 +305,27 @@ def draw_iterations(axes: Axes, series: Mapping[str, ArrayLike], label: str) -> 
 def draw_densities(
     axes: Axes, obstacles: Sequence[int], rates: Mapping[str, ArrayLike], title: str
 ) -> None:
-    """Draw success (S, n) by method over the number of obstacles: mean and range over runs (Fig. 5.10)."""
+    """Draw success by method over the number of obstacles: mean and range over runs (Fig. 5.10).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    obstacles : sequence of int
+        n numbers of obstacles.
+    rates : mapping of str to (S, n) array
+        Success in per cent of S runs, by method.
+    title : str
+        The title of the panel.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_densities(axes, [10, 20], {"nirl": [[90.0, 80.0], [98.0, 84.0]]}, "2 m/s")
+    >>> axes.get_title()
+    '2 m/s'
+    """
     for name, given in rates.items():
         runs = np.asarray(given, dtype=float)
         colour = style.METHODS.get(name, style.BLUE)
@@ -211,7 +349,23 @@ def draw_densities(
 
 
 def draw_steps(axes: Axes, rates: Mapping[str, ArrayLike]) -> None:
-    """Draw the success of every run (S,) as a dot, and their mean, with one row for each change from the top down."""
+    """Draw the success of every run as a dot, and their mean, with one row for each change from the top down.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    rates : mapping of str to (S,) array
+        Success in per cent of S runs, by the change.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_steps(axes, {"as printed": [1.0, 3.0], "changed": [90.0, 98.0]})
+    >>> len(axes.lines) >= 2
+    True
+    """
     for row, (name, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
         axes.plot(
@@ -240,7 +394,25 @@ def draw_steps(axes: Axes, rates: Mapping[str, ArrayLike]) -> None:
 def draw_gradient_steps(
     axes: Axes, steps: Sequence[int], rates: Mapping[str, ArrayLike]
 ) -> None:
-    """Draw success (S, n) by reward over the number of gradient steps: every run a dot, means joined by lines."""
+    """Draw success by reward over the number of gradient steps: every run a dot, means joined by lines.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    steps : sequence of int
+        n numbers of gradient steps.
+    rates : mapping of str to (S, n) array
+        Success in per cent of S runs, by reward.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_gradient_steps(axes, [1, 10], {"reward: learned": [[5.0, 50.0], [9.0, 60.0]]})
+    >>> len(axes.lines) > 0
+    True
+    """
     marks = (("o", style.VERMILION), ("s", style.BLUE))
     for (name, given), (mark, colour) in zip(rates.items(), marks, strict=False):
         runs = np.asarray(given, dtype=float)
@@ -269,6 +441,14 @@ def draw_choice(axes: Axes, scores: Mapping[str, ArrayLike], driven: ArrayLike) 
         Scores in [0, 1] by name. A ring marks the policy with the highest score, which this score would choose.
     driven : (n,) array
         Success in per cent.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_choice(axes, {"accuracy": [0.2, 0.7], "balanced": [0.9, 0.1]}, [10, 20])
+    >>> len(axes.get_legend().get_texts()) > 1
+    True
     """
     success = np.asarray(driven, dtype=float)
     for (name, given), colour in zip(
@@ -294,7 +474,21 @@ def draw_choice(axes: Axes, scores: Mapping[str, ArrayLike], driven: ArrayLike) 
 
 
 def draw_black_boxes(axes: Axes) -> None:
-    """Draw two networks as black boxes: one returns five values, the other also chooses the action (Fig. 5.2)."""
+    """Draw two networks as black boxes: one returns five values, the other also chooses the action (Fig. 5.2).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on. Their frame and ticks are removed.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_black_boxes(axes)
+    >>> len(axes.texts) > 2
+    True
+    """
     for row, (inside, out) in enumerate(
         (
             ("network", [f"$Q(s, {a})$" for a in ACTIONS]),
@@ -328,7 +522,23 @@ def draw_black_boxes(axes: Axes) -> None:
 
 
 def names_of(encoder: Encoder) -> list[str]:
-    """Return the names of a reward's inputs. The last one is the constant."""
+    """Return the names of a reward's inputs. The last one is the constant.
+
+    Parameters
+    ----------
+    encoder : Encoder
+        Turns what the robot senses into inputs.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> from robonav.robot import Encoder
+    >>> names_of(Encoder())[-1]
+    'constant'
+    """
     sensors = [f"S{sensor}" for sensor in encoder.sensors]
     sector = {
         "number": ["sector"],
@@ -342,7 +552,28 @@ def names_of(encoder: Encoder) -> list[str]:
 
 
 def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
-    """Draw a reward's weights (5, k + 1), inputs as rows and actions as columns; blue is positive, orange negative."""
+    """Draw a reward's weights, inputs as rows and actions as columns; blue is positive, orange negative.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    weights : (5, k + 1) array
+        theta, a row for each action.
+    encoder : Encoder
+        Names the inputs.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.robot import Encoder
+    >>> encoder = Encoder()
+    >>> axes = Figure().add_subplot()
+    >>> draw_weights(axes, np.eye(5, encoder.size + 1), encoder)
+    >>> axes.images[0].get_array().shape
+    (13, 5)
+    """
     theta = np.asarray(weights, dtype=float)
     most = abs(theta).max() or 1.0
     image = axes.imshow(
@@ -360,7 +591,27 @@ def draw_weights(axes: Axes, weights: ArrayLike, encoder: Encoder) -> None:
 
 
 def draw_likes(figure: Figure, weights: ArrayLike, encoder: Encoder) -> None:
-    """Draw one robot for each action; a sector shows its weight of danger (blue positive, orange negative)."""
+    """Draw one robot for each action; a sector shows its weight of danger (blue positive, orange negative).
+
+    Parameters
+    ----------
+    figure : Figure
+        Gets a panel for each action.
+    weights : (5, k + 1) array
+        theta, a row for each action.
+    encoder : Encoder
+        Says which inputs are sectors.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.nirl import ENCODER
+    >>> figure = Figure()
+    >>> draw_likes(figure, np.eye(5, ENCODER.size + 1), ENCODER)
+    >>> len(figure.axes) >= 5
+    True
+    """
     theta = np.asarray(weights, dtype=float)[:, : len(encoder.sensors)]
     most = abs(theta).max() or 1.0
     half = np.degrees(SECTOR) / 2
@@ -412,6 +663,31 @@ def draw_reward_map(
     """Draw the reward of going straight on over a world, if the robot faces the target: blue is high, orange low.
 
     The map is blank within a metre of an obstacle, and where nothing is in range: there the policy decides nothing.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    world : Worlds
+        Batch of one: the map.
+    weights : (5, k + 1) array
+        theta, a row for each action.
+    encoder : Encoder
+        Turns what the robot senses into inputs.
+    spacing : float
+        Metres between two points of the map.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.nirl import ENCODER
+    >>> from robonav.robot import make_world
+    >>> world, weights = make_world(circles=[(50, 50, 3)]), np.eye(5, ENCODER.size + 1)
+    >>> axes = Figure().add_subplot()
+    >>> draw_reward_map(axes, world, weights, ENCODER, spacing=5.0)
+    >>> len(axes.images) + len(axes.collections) > 0
+    True
     """
     ticks = np.arange(spacing / 2, world.size, spacing)
     x, y = (part.ravel() for part in np.meshgrid(ticks, ticks))

@@ -33,7 +33,21 @@ ACTION_COLOURS = (style.BLUE, style.GREEN, style.SKY, style.ORANGE, style.VERMIL
 
 
 def draw_rewards(axes: Axes) -> None:
-    """Draw the reward of a step that does not end the episode, over the least range before and after (Table 4.1)."""
+    """Draw the reward of a step that does not end the episode, over the least range before and after (Table 4.1).
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_rewards(axes)
+    >>> len(axes.images)
+    1
+    """
     distance = (np.arange(400) + 0.5) / 400 * (SENSOR_RANGE + 1)
     before, after = np.meshgrid(distance, distance)
     row = reward_row(
@@ -75,7 +89,25 @@ def _seen(nearest: ArrayLike) -> Sensing:
 def draw_softmax_policy(
     axes: Axes, q: ArrayLike, *, coldest: float = 0.01, hottest: float = 10.0
 ) -> None:
-    """Draw the probability of each action from low to high temperatures, for Q-values (5,)."""
+    """Draw the probability of each action from low to high temperatures.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    q : (5,) array
+        Q-values of the five actions.
+    coldest, hottest : float
+        The lowest and the highest temperature.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_softmax_policy(axes, [0.9, 0.8, 0.5, 0.3, 0.1])
+    >>> len(axes.lines)
+    5
+    """
     temperatures = np.geomspace(coldest, hottest, 200)
     shares = softmax_policy(np.tile(np.asarray(q, dtype=float), (200, 1)), temperatures)
     for name, value, share, colour in zip(
@@ -89,7 +121,28 @@ def draw_softmax_policy(
 def animate_softmax_policy(
     q: ArrayLike, temperatures: Sequence[float]
 ) -> FuncAnimation:
-    """Animate bars of the actions' probabilities while the temperature falls."""
+    """Animate bars of the actions' probabilities while the temperature falls.
+
+    Parameters
+    ----------
+    q : (5,) array
+        Q-values of the five actions.
+    temperatures : sequence of float
+        One for each frame.
+
+    Returns
+    -------
+    FuncAnimation
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from robonav.plots.player import player
+    >>> animation = animate_softmax_policy([0.9, 0.8, 0.5, 0.3, 0.1], [1.0, 0.1])
+    >>> "It cools" in player(animation, description="It cools").data
+    True
+    >>> plt.close()
+    """
     from matplotlib.animation import FuncAnimation
 
     figure, axes = plt.subplots(figsize=(5, 2.6))
@@ -118,6 +171,14 @@ def draw_learning(
         Counts by method.
     size : int
         Episodes in a block.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_learning(axes, {"nnql": [[10, 20], [20, 30]]})  # two seeds
+    >>> axes.lines[0].get_ydata()
+    array([15., 25.])
     """
     for name, given in counts.items():
         runs = np.atleast_2d(np.asarray(given, dtype=float))
@@ -141,9 +202,21 @@ def draw_weight_changes(
 
     Parameters
     ----------
+    axes : Axes
+        The axes to draw on.
     changes : mapping of str to (E,) or (S, E) array
         Sums of one seed, or of several seeds, by kind of sum. Of several seeds the function draws the mean and a
         standard deviation.
+    colour : str
+        The colour of the lines.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_weight_changes(axes, {"signed": [1.0, -2.0], "absolute": [1.0, 2.0]})
+    >>> axes.lines[0].get_ydata()
+    array([ 1., -2.])
     """
     for (name, values), shade in zip(changes.items(), (1.0, 0.45), strict=False):
         runs = np.atleast_2d(np.asarray(values, dtype=float))
@@ -173,7 +246,34 @@ def animate_learning(
     *,
     colour: str = style.ROBOT,
 ) -> FuncAnimation:
-    """Animate several episodes in one world: each frame shows a path (steps + 1, 3) and a title."""
+    """Animate several episodes in one world: each frame shows a path (steps + 1, 3) and a title.
+
+    Parameters
+    ----------
+    world : Worlds
+        The map.
+    paths : sequence of (steps + 1, 3) arrays
+        One for each frame.
+    titles : sequence of str
+        One for each frame.
+    colour : str
+        The colour of the paths.
+
+    Returns
+    -------
+    FuncAnimation
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> import numpy as np
+    >>> from robonav.plots.player import player
+    >>> from robonav.robot import make_world
+    >>> animation = animate_learning(make_world(), [np.zeros((2, 3))], ["episode 1"])
+    >>> "It learns" in player(animation, description="It learns").data
+    True
+    >>> plt.close()
+    """
     from matplotlib.animation import FuncAnimation
 
     figure, axes = plt.subplots(figsize=(4.4, 4.6))
@@ -197,10 +297,20 @@ def draw_rates(
 
     Parameters
     ----------
+    axes : Axes
+        The axes to draw on.
     rates : mapping of str to (S,) array
         Success rates by name, such as that of a method.
     thesis : mapping of str to float, optional
         The thesis's means by the same names, where it has them.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_rates(axes, {"nnql": [90, 100]}, thesis={"nnql": 98})
+    >>> len(axes.lines)  # the dots, their mean, and the thesis's
+    3
     """
     for row, (name, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
@@ -225,7 +335,23 @@ def draw_rates(
 
 
 def draw_trials(axes: Axes, means: Mapping[str, ArrayLike]) -> None:
-    """Draw the mean success of every trial (trials,) by method, sorted; a cross marks the thesis's settings."""
+    """Draw the mean success of every trial by method, sorted; a cross marks the thesis's settings.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    means : mapping of str to (trials,) array
+        Success in per cent by method; the first trial has the thesis's settings.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_trials(axes, {"nnql": [50.0, 90.0, 20.0]})
+    >>> axes.lines[0].get_ydata()
+    array([20., 50., 90.])
+    """
     for place, (name, values) in enumerate(means.items()):
         rates = np.asarray(values, dtype=float)
         order = np.argsort(rates)
@@ -244,7 +370,23 @@ def draw_trials(axes: Axes, means: Mapping[str, ArrayLike]) -> None:
 
 
 def draw_endings(axes: Axes, endings: Mapping[str, tuple[float, float, float]]) -> None:
-    """Draw how episodes end in per cent, with one bar for each label: arrived, out of steps and collided."""
+    """Draw how episodes end in per cent, with one bar for each label: arrived, out of steps and collided.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    endings : mapping of str to tuple of float
+        Per cent of the episodes that arrived, were out of steps and collided, by label.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_endings(axes, {"a": (90.0, 7.0, 3.0)})
+    >>> axes.texts[0].get_text()
+    '90.0 %'
+    """
     left = np.zeros(len(endings))
     rates = np.array(list(endings.values())).reshape(-1, 3)
     kinds = (

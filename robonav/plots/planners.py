@@ -50,6 +50,17 @@ def draw_forces(axes: Axes, sensing: Sensing, policy: PotentialField) -> None:
         What robots sense.
     policy : PotentialField
         Its settings.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.planners import PotentialField
+    >>> from robonav.robot import make_world, sense
+    >>> sensing = sense(make_world(circles=[(56, 50, 2)]), [(50, 50, 0)])
+    >>> axes = Figure().add_subplot()
+    >>> draw_forces(axes, sensing, PotentialField())
+    >>> len(axes.get_legend().get_texts()) > 1
+    True
     """
     attraction, repulsions = potential_field(
         sensing, repulsion=policy.repulsion, influence=policy.influence
@@ -86,6 +97,17 @@ def draw_histogram(axes: Axes, sensing: Sensing, policy: VectorFieldHistogram) -
         What robots sense.
     policy : VectorFieldHistogram
         Its settings.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.planners import VectorFieldHistogram
+    >>> from robonav.robot import make_world, sense
+    >>> sensing = sense(make_world(circles=[(56, 50, 2)]), [(50, 50, 0)])
+    >>> axes = Figure().add_subplot()
+    >>> draw_histogram(axes, sensing, VectorFieldHistogram())
+    >>> len(axes.lines) > 0
+    True
     """
     histogram = polar_histogram(
         sensing.ranges, clearance=policy.clearance, half_width=policy.half_width
@@ -131,6 +153,17 @@ def draw_ways(axes: Axes, sensing: Sensing, policy: DynamicWindow) -> None:
         What robots sense.
     policy : DynamicWindow
         Its settings.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.planners import DynamicWindow
+    >>> from robonav.robot import make_world, sense
+    >>> sensing = sense(make_world(circles=[(56, 50, 2)]), [(50, 50, 0)])
+    >>> axes = Figure().add_subplot()
+    >>> draw_ways(axes, sensing, DynamicWindow())
+    >>> len(axes.texts) > 0  # the scores
+    True
     """
     room = {"clearance": policy.clearance, "half_width": policy.half_width}
     ways = free_way(sensing.ranges, WAYS, **room)[0]

@@ -42,10 +42,24 @@ def player(
     loop : bool
         Whether the animation starts again at the end.
 
+    Returns
+    -------
+    HTML
+
     Raises
     ------
     ValueError
         If ``description`` is empty or ``frames_per_second`` is less than 1.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from matplotlib.animation import FuncAnimation
+    >>> figure, axes = plt.subplots(figsize=(1, 1))
+    >>> animation = FuncAnimation(figure, lambda frame: axes.plot([0, frame]), frames=2)
+    >>> "A line rises" in player(animation, description="A line rises").data
+    True
+    >>> plt.close(figure)
     """
     from IPython.display import HTML
     from matplotlib import pyplot as plt

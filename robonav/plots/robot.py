@@ -19,7 +19,21 @@ if TYPE_CHECKING:
 
 
 def draw_sectors(axes: Axes) -> None:
-    """Draw the robot from above with its nine sectors, numbered (Fig. 2.6); it heads to the right."""
+    """Draw the robot from above with its nine sectors, numbered (Fig. 2.6); it heads to the right.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on. Their frame and ticks are removed.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_sectors(axes)
+    >>> len(axes.texts) >= 9
+    True
+    """
     draw_sensors(axes, (0.0, 0.0, 0.0), [SENSOR_RANGE] * 9, numbered=True)
     draw_robot(axes, (0.0, 0.0, 0.0))
     axes.set(
@@ -47,6 +61,15 @@ def draw_sensing(
         x and y in metres and heading in radians.
     around : float, optional
         Show this many metres around the robot instead of the whole map.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.robot import make_world
+    >>> axes = Figure().add_subplot()
+    >>> draw_sensing(axes, make_world(circles=[(58, 50, 2)]), (50, 50, 0))
+    >>> len(axes.patches) > 0
+    True
     """
     x, y, _ = placed = np.asarray(pose, dtype=float)
     ranges = sense(worlds[0], [placed]).ranges[0]
@@ -76,7 +99,31 @@ def draw_paths(
     colour: str = style.ROBOT,
     labels: Sequence[str] = (),
 ) -> None:
-    """Draw paths (steps + 1, 3) over the first world's map, each from its start, with a dot for each step."""
+    """Draw paths over the first world's map, each from its start, with a dot for each step.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    worlds : Worlds
+        The map of the first one is drawn.
+    paths : sequence of (steps + 1, 3) arrays
+        The poses of each path.
+    colour : str
+        The colour of the paths.
+    labels : sequence of str
+        Their names in the legend.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.robot import navigate, random_worlds, straight
+    >>> worlds = random_worlds(1, obstacles=0, seed=1)
+    >>> axes = Figure().add_subplot()
+    >>> draw_paths(axes, worlds, navigate(straight, worlds, record_paths=True).paths)
+    >>> len(axes.lines) > 0
+    True
+    """
     draw_world(axes, worlds)
     for k, path in enumerate(paths):
         x, y = np.asarray(path)[:, :2].T
@@ -95,7 +142,32 @@ def draw_maps(
     figure: Figure, worlds: Worlds, paths: Sequence[ArrayLike] = (), titles: Sequence[str] = (), *, columns: int = 4,
     colour: str = style.ROBOT,
 ) -> None:  # fmt: skip
-    """Draw a grid of maps, one for each world, with the robot's path in each."""
+    """Draw a grid of maps, one for each world, with the robot's path in each.
+
+    Parameters
+    ----------
+    figure : Figure
+        Gets a panel for each world.
+    worlds : Worlds
+        The maps.
+    paths : sequence of (steps + 1, 3) arrays
+        A path for each map, if any.
+    titles : sequence of str
+        A title for each map, if any.
+    columns : int
+        Panels in a row.
+    colour : str
+        The colour of the paths.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.robot import random_worlds
+    >>> figure = Figure()
+    >>> draw_maps(figure, random_worlds(2, seed=1), titles=["one", "two"])
+    >>> [axes.get_title() for axes in figure.axes]
+    ['one', 'two']
+    """
     rows = -(-len(worlds) // columns)
     for i, world in enumerate(worlds):
         axes = figure.add_subplot(rows, columns, i + 1)
@@ -135,6 +207,17 @@ def animate_episode(
     Returns
     -------
     FuncAnimation
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from robonav.plots.player import player
+    >>> from robonav.robot import make_world, navigate, straight
+    >>> world = make_world(start=(86, 90), target=(90, 90))
+    >>> path = navigate(straight, world, record_paths=True).paths[0]
+    >>> "It arrives" in player(animate_episode(world, path), description="It arrives").data
+    True
+    >>> plt.close()
     """
     from matplotlib import pyplot as plt
     from matplotlib.animation import FuncAnimation
@@ -158,7 +241,23 @@ def animate_episode(
 
 
 def draw_outcomes(axes: Axes, rates: dict[str, tuple[float, float, float]]) -> None:
-    """Draw success rates with their intervals: the value of each label is (rate, low, high), all in [0, 1]."""
+    """Draw success rates with their intervals: the value of each label is (rate, low, high), all in [0, 1].
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    rates : dict
+        Rate, low and high of each label, all in [0, 1].
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_outcomes(axes, {"straight": (0.5, 0.4, 0.6)})
+    >>> [label.get_text() for label in axes.get_yticklabels()]
+    ['straight']
+    """
     for row, (label, (rate, low, high)) in enumerate(rates.items()):
         colour = style.METHODS.get(label, style.BLUE)
         axes.barh(row, 100 * rate, color=colour, height=0.6)

@@ -209,6 +209,14 @@ def draw_scheme(axes: Axes, name: str, *, language: str = "en") -> None:
     ------
     ValueError
         If there is no such scheme or language.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_scheme(axes, sorted(SCHEMES)[0])
+    >>> len(axes.texts) > 0
+    True
     """
     drawn = SCHEMES[check_one_of("name", name, SCHEMES)]
     check_one_of("language", language, ("en", "fr"))

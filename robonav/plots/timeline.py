@@ -67,6 +67,14 @@ def draw_timeline(axes: Axes, events: Sequence[Event] = HISTORY) -> None:
     ------
     ValueError
         If the events are not in the order of their years.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_timeline(axes)
+    >>> len(axes.texts) > 10
+    True
     """
     years = [event.year for event in events]
     if years != sorted(years):
