@@ -10,13 +10,13 @@ export function withPocket(world, { depth, width }) {
   return { ...world, obstacles: [wall(60, 50, 2, width + 4), ...arms] };
 }
 
-/** An episode of the rule that turns to the side with more room. */
+/** An episode of the rule that turns to the side with more room, on a robot that knows the direction of its target. */
 export function episodeInPocket(world, speed = 2) {
   let [pose, outcome] = [startPose(world), "running"];
   const path = [[pose.x, pose.y]];
   for (let step = 0; step < STEPS && outcome === "running"; step += 1) {
     const seen = sense(world, pose);
-    const own = reflex(seen, speed);
+    const own = reflex(seen, speed, "exact"); // with the other reflex the robot gets out of some deeper pockets
     ({ pose, outcome } = advance(world, pose, step, own < 0 ? RULES["freer-side"](seen) : own, speed));
     path.push([pose.x, pose.y]);
   }

@@ -38,6 +38,7 @@ from robonav.nirl import (
     ZERO_TERMINAL_VALUES,
     FullBatchDescent,
     LeastSquaresReward,
+    RobotTask,
     accuracy,
     balanced_accuracy,
     learn,
@@ -149,10 +150,11 @@ def test_steps_begin_with_one_gradient_step_and_add_up():
 
 
 def test_the_defaults_are_those_of_the_method():
-    """Figs. 5.7, 5.8 and 5.11 are made with what the page on NIRL runs: ``nirl.learn`` without options."""
+    """Figs. 5.7, 5.8 and 5.11: what the page on NIRL runs, ``nirl.learn`` without options but for the reflex."""
     settings = DEFAULTS | {"discount": DISCOUNT}
     ours = train_irl("nirl", demonstrations(0), 3, settings, length=SHORT)
-    plain = learn(demonstrations(0), seed=3, iterations=len(ours.history.costs))
+    iterations, task = len(ours.history.costs), RobotTask(reflex=SETUP.reflex)
+    plain = learn(demonstrations(0), seed=3, task=task, iterations=iterations)
     np.testing.assert_array_equal(ours.history.costs, plain.history.costs)
 
 
@@ -196,7 +198,9 @@ def test_a_reward_taken_elsewhere_needs_no_more_than_its_weights():
 def test_robots_trained_together_are_those_trained_alone():
     """Under Table 4.1 seeds share their training, to be quicker."""
     settings_ = dict(transfer.NNQL)
-    ground = NavigationTask(10, speed=1.0, starts=[(10, 10)], targets=[(90, 90)])
+    ground = NavigationTask(
+        10, speed=1.0, starts=[(10, 10)], targets=[(90, 90)], reflex=SETUP.reflex
+    )
     alone = train(
         "nnql", [transfer.SEEDS_PER_BATCH + 1], 14, task=ground, **settings_
     ).policies[0]
