@@ -286,7 +286,7 @@ def test_cartpole():
 
 @pytest.mark.slow
 def test_robot_learns_to_cross_the_map():
-    result = train_ppo(seeds=2, updates=30)
+    result = train_ppo(seeds=1, updates=30)
     worlds = random_worlds(100, obstacles=10, seed=5)
     found = [navigate(policy, worlds).success.mean() for policy in result.policies]
     assert min(found) > 0.9
