@@ -14,13 +14,16 @@ def _slopes(
     per_example=True,
     sign=1,
     output=False,
+    over_states=False,
+    bias_slope=True,
 ):
     activations = [inputs]
     for layer in weights[:-1]:
         activations.append(np.tanh(layer[:, 0] + activations[-1] @ layer[:, 1:].T))
     z = weights[-1][:, 0] + activations[-1] @ weights[-1][:, 1:].T
-    e = np.exp(z - z.max(axis=1, keepdims=True))
-    p = e / e.sum(axis=1, keepdims=True)
+    axis = 0 if over_states else 1
+    e = np.exp(z - z.max(axis=axis, keepdims=True))
+    p = e / e.sum(axis=axis, keepdims=True)
     delta = p.copy()
     delta[np.arange(len(labels)), labels] -= 1
     delta *= sign * (p * (1 - p) if output else 1)
@@ -30,6 +33,7 @@ def _slopes(
         slope[:, 0 if bias else 1 :] += (
             decay / (m if per_example else 1) * layer[:, 0 if bias else 1 :]
         )
+        slope[:, 0] *= 1.0 if bias_slope else 0.0
         slopes.insert(0, slope)
         delta = delta @ layer[:, 1:] * slope_of(a)
     return slopes
@@ -90,3 +94,13 @@ def slope_of_the_slope(weights, inputs, labels, decay):
     return _slopes(
         weights, inputs, labels, decay, slope_of=lambda a: 1 - np.tanh(a) ** 2
     )
+
+
+def softmax_over_states(weights, inputs, labels, decay):
+    """The softmax is over the outputs of one state, whose probabilities sum to 1, not over the states."""
+    return _slopes(weights, inputs, labels, decay, over_states=True)
+
+
+def no_slope_of_the_bias(weights, inputs, labels, decay):
+    """The bias has a derivative, too: its input is always 1, so it is the mean of the unit's errors."""
+    return _slopes(weights, inputs, labels, decay, bias_slope=False)

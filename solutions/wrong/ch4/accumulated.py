@@ -4,17 +4,19 @@ import numpy as np
 
 
 def _weights(features, actions, rewards, ended, number, discount, gradient_step, *, all_so_far=True, fresh=False,
-             oldest=True, end=True, after=False, at_once=False, sarsa=False, discounted=True):  # fmt: skip
+             oldest=True, end=True, after=False, at_once=False, sarsa=False, discounted=True,
+             always_ends=False, ahead=1, early=False, taken_alone=True, slope=True, sign=1):  # fmt: skip
     weights, targets, steps = np.zeros((number, features.shape[1])), [], len(rewards)
 
     def target(t):
-        last = end and ended and t == steps - 1
-        q = weights @ features[t + 1]
+        last = end and (ended or always_ends) and t == steps - 1
+        q = weights @ features[t + ahead]
         value = q[actions[t + 1]] if sarsa and t + 1 < steps else q.max()
         return rewards[t] + (0.0 if last else (discount if discounted else 1.0) * value)
 
+    first = [target(t) for t in range(steps)]
     for t in range(steps):
-        targets.append(target(t))
+        targets.append(first[t] if early else target(t))
         if after and t < steps - 1:
             continue
         seen = list(range(t + 1)) if all_so_far else [t]
@@ -22,11 +24,9 @@ def _weights(features, actions, rewards, ended, number, discount, gradient_step,
             targets = [target(k) for k in range(t + 1)]
         old = weights.copy() if at_once else weights
         for k in seen if oldest else seen[::-1]:
-            weights[actions[k]] += (
-                gradient_step
-                * (targets[k] - old[actions[k]] @ features[k])
-                * features[k]
-            )
+            error = sign * (targets[k] - old[actions[k]] @ features[k])
+            changed = actions[k] if taken_alone else slice(None)
+            weights[changed] += gradient_step * error * (features[k] if slope else 1.0)
     return weights
 
 
@@ -68,3 +68,33 @@ def of_the_next_action(*arguments):
 def no_discount(*arguments):
     """Multiply the value of the next state by the discount factor."""
     return _weights(*arguments, discounted=False)
+
+
+def cut_off_as_an_end(*arguments):
+    """If the episode did not end but was only cut off, the value of the state after its last step counts."""
+    return _weights(*arguments, always_ends=True)
+
+
+def of_the_same_state(*arguments):
+    """The target needs the largest value of the state after the step, not of the one before it."""
+    return _weights(*arguments, ahead=0)
+
+
+def all_targets_first(*arguments):
+    """Compute a target when its step is made, with the weights trained so far, not all of them before the training."""
+    return _weights(*arguments, early=True)
+
+
+def of_all_actions(*arguments):
+    """Change the weights of the action that was taken, and leave those of the other actions."""
+    return _weights(*arguments, taken_alone=False)
+
+
+def without_the_features(*arguments):
+    """Multiply the error by the features: they are the derivatives of the value with respect to the weights."""
+    return _weights(*arguments, slope=False)
+
+
+def away_from_the_target(*arguments):
+    """The sign is wrong: the change is in proportion to the target minus the value."""
+    return _weights(*arguments, sign=-1)

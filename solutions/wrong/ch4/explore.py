@@ -3,13 +3,13 @@
 import numpy as np
 
 
-def _heats(below, share, count):
+def _heats(below, share, count, *, halvings=200, highest=np.inf):
     """Temperatures at which the best actions have their share; ``count`` gives the number of best actions."""
     finite = np.where(np.isfinite(below), below, 0.0)
     size = np.abs(finite).max(axis=1)
     size[size == 0] = 1.0
-    low, high = np.log(size) - 60, np.log(size) + 60
-    for _ in range(200):
+    low, high = np.log(size) - 60, np.minimum(np.log(size) + 60, np.log(highest))
+    for _ in range(halvings):
         middle = (low + high) / 2
         with np.errstate(all="ignore"):
             shares = np.exp(below / np.exp(middle)[:, None])
@@ -23,9 +23,9 @@ def _below(q, allowed):
     return values - values.max(axis=1, keepdims=True)
 
 
-def _right(q, share, allowed):
+def _right(q, share, allowed, **search):
     below = _below(q, allowed)
-    shares = np.exp(below / _heats(below, share, (below == 0).sum(axis=1)))
+    shares = np.exp(below / _heats(below, share, (below == 0).sum(axis=1), **search))
     shares[share == 1] = below[share == 1] == 0
     return shares / shares.sum(axis=1, keepdims=True)
 
@@ -113,3 +113,13 @@ def divides_by_zero(q, share, allowed):
     """A share of 1 belongs to temperature 0, by which you cannot divide: treat the greedy policy separately."""
     shares = _right(q, share, allowed)
     return np.where((share == 1)[:, None], np.nan, shares)
+
+
+def range_too_low(q, share, allowed):
+    """Search up to very high temperatures: the larger the values are, or the smaller the share, the higher it is."""
+    return _right(q, share, allowed, highest=1.0)
+
+
+def too_few_halvings(q, share, allowed):
+    """The temperature is not exact enough: halve the interval more often, until the probabilities change no more."""
+    return _right(q, share, allowed, halvings=20)
