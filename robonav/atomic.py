@@ -25,8 +25,8 @@ def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
     """Open ``path`` for binary writing. The file appears, complete, when the block ends without an error.
 
     The bytes go to a temporary file in the same folder, which is renamed at the end. A reader therefore never sees half
-    a file, even if the writer is killed. A link stays a link, and a file that exists keeps its permissions. What is no
-    regular file, such as a device or a pipe, is written to as it is.
+    a file, even if the writer is killed. A link stays a link, and a file that exists keeps its permissions. A path that
+    is not a regular file, such as a device or a pipe, is written to directly.
     """
     target = Path(path).resolve()  # a link's target, so that the link stays
     if target.exists() and not target.is_file():

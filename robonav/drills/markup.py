@@ -8,7 +8,7 @@ from typing import Any
 from .question import Asked, Choice, Number, Order, Place, Question
 
 LONG = 20  # letters of one side of an equation
-# A text of a drill is made of sentences. One that begins with "1." or with a minus is no list.
+# A text of a drill is made of sentences. One that begins with "1." or with a minus is not a list.
 NOT_READ = (
     *("list", "heading", "lheading", "blockquote", "hr"),
     *("code", "fence", "html_block", "reference"),

@@ -1,4 +1,4 @@
-"""Small pictures of drills as SVG text, which a page, a learning platform and a printed paper show alike.
+"""Small pictures of drills as SVG text, which a page, a learning platform and a printed paper show in the same way.
 
 Lines and letters have the colour of the text around them. A place that a reader may click on is a group with the class
 "place" and its name in ``data-place``.

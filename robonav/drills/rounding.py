@@ -75,7 +75,7 @@ def rounded_too_far(given: float, answer: float, tolerance: float) -> bool:
     >>> rounded_too_far(0.7, 0.72, 0.0051), rounded_too_far(0.6, 0.72, 0.0051)
     (True, False)
     """
-    first = 0 if abs(answer) >= 1 else 1  # 1 is no rounded probability
+    first = 0 if abs(answer) >= 1 else 1  # a probability is never rounded to 1
     return given != 0 and any(
         _has_decimals(given, k) and abs(given - answer) <= 0.5 * 10**-k + 1e-9
         for k in range(first, decimals(tolerance))

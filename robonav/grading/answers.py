@@ -1,7 +1,7 @@
 """Find the file of a submission that answers an exercise, and run it as a module. This file runs in the sandbox.
 
 The function ``improve`` of chapter 2 is taken from the first of these that defines it: ``ch2/improve.py``, another
-``improve.py``, a notebook, any other Python file. A function that was handed out and not changed is no answer.
+``improve.py``, a notebook, any other Python file. A function that was handed out and not changed is not an answer.
 """
 
 from __future__ import annotations

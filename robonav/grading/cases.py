@@ -56,7 +56,7 @@ def stretched(secret: bytes) -> bytes:
 def seed_of(secret: bytes, digest: str) -> bytes:
     """Return the seed of the cases for a submission with this digest.
 
-    Under a secret, every change of a submission draws all its cases anew. What is learnt about the cases of one
+    Under a secret, every change of a submission draws all its cases again. What is learnt about the cases of one
     submission is of no use for the next.
     """
     if not secret:

@@ -368,7 +368,7 @@ def _logged(record: dict[str, Any]) -> dict[str, Any]:
 def _tell(out: Path, submissions: dict[str, Handin]) -> None:
     """Write down whose submissions these are and when they were handed in, for the gradebook."""
     told = {name: handin.told() for name, handin in submissions.items()}
-    # JSON's escapes also hold names that are no text.
+    # JSON's escapes also hold names that are not valid text.
     atomic.write_text(out / HANDED_IN, json.dumps(told, indent=1))
 
 

@@ -340,7 +340,7 @@ class _Flow:
                     yield from self._tops(argument)
 
     def _operations(self, node: ast.AST) -> Iterator[tuple[str, list[ast.AST]]]:
-        """Yield the operations of a node, with loops and arrays named alike."""
+        """Yield the operations of a node, with the same names for loops and arrays."""
         if isinstance(node, ast.BinOp):
             if isinstance(node.op, ast.MatMult):
                 yield from _product([node.left, node.right])

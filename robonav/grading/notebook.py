@@ -51,7 +51,7 @@ def definitions(cells: Sequence[str], name: str) -> ast.Module:
     """Return the statements of these cells that define ``name`` and everything that it uses, as one module.
 
     Other statements, which try something out or plot, are left out. A function that only raises ``NotImplementedError``
-    is no definition. An import that fails is ignored, because only a part of the function may need it.
+    is not a definition. An import that fails is ignored, because only a part of the function may need it.
     """
     statements = [node for cell in cells for node in parsed(cell)]
     statements = [node for node in statements if not is_unwritten(node, name)]

@@ -91,7 +91,7 @@ def read_roster(path: Path, teams: bool = False) -> list[Student]:
     Raises
     ------
     ValueError
-        If the file cannot be read, has no column that tells who a student is, or names two students alike.
+        If the file cannot be read, has no column that tells who a student is, or gives two students the same name.
 
     Examples
     --------
@@ -169,7 +169,7 @@ def _student(row: Mapping[str, str], teams: bool) -> Student | None:
         number = match[1]
     elif "sis login id" in headings or "sis user id" in headings:
         number = identifier or number
-    else:  # GitHub Classroom's and one's own identifier is no number of a platform
+    else:  # GitHub Classroom's and one's own identifier is not a number of a platform
         told.setdefault("id", identifier or number)
         number = ""
     if name == "Points Possible":  # Canvas's second line

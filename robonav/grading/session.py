@@ -323,7 +323,7 @@ class Answer:
         """Require a property of the last answer.
 
         ``otherwise`` tells the student what is wrong if it does not hold, and ``hint`` what may be the reason if the
-        answer is no known mistake's.
+        answer is not that of a known mistake.
         """
         if not holds:
             self._evidence.advise(hint)

@@ -1,10 +1,10 @@
 """Which submissions of a class are too alike, over all exercises together.
 
-A short function tells nothing: two honest answers to a small exercise may be equal to the letter. Ten exercises tell
-much, because honest students are not alike in all of them. For each exercise all pairs of the class are compared. What
-many answers share, because the stub or the exercise forces it, weighs little; what few share weighs much. A pair's
-rank among all pairs of the class says how likely so much likeness is by chance, and Fisher's method combines these
-probabilities over the exercises that both answered.
+A short function tells nothing: two honest answers to a small exercise may be equal to the letter. Ten exercises are
+enough, because honest students do not write alike in all of them. For each exercise all pairs of the class are
+compared. What many answers share, because the stub or the exercise forces it, weighs little; what few share weighs
+much. A pair's rank among all pairs of the class says how likely so much likeness is by chance, and Fisher's method
+combines these probabilities over the exercises that both answered.
 
 A group of three or more who copied from one another would make its own likeness common. Such a ring therefore counts as
 one student: in how many of the class have something, and in the pairs that a pair is ranked among.

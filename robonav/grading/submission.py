@@ -156,7 +156,7 @@ class _Reader:
         self.files: dict[str, bytes] = {}
         self.notes: list[str] = [*notes]
         self.problems: list[str] = []
-        self.others: list[str] = []  # files that are no code
+        self.others: list[str] = []  # files that are not code
         self._bytes = self._read = self._entries = 0
 
     def read(self, name: str, path: Path, *, alone: bool) -> None:

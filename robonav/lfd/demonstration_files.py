@@ -132,7 +132,7 @@ def load_demonstrations(path: str | Path) -> Demonstrations:
             f"{name} holds a pickled object, which could run code and is never loaded"
         ) from None
     except archive.Damaged:
-        raise ValueError(f"{name} is damaged, or no npz archive") from None
+        raise ValueError(f"{name} is damaged, or is not an npz archive") from None
     written = _text(arrays.pop("format", np.array("")))
     if written != FORMAT:
         raise ValueError(f"{name} has the format {written!r}, expected {FORMAT!r}")

@@ -57,7 +57,7 @@ def distributions(
 def normalised(
     rows: NDArray[np.float64], dtype: np.dtype
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Rows that came in this type, divided by their sums if it is a narrow one, and which are no distributions."""
+    """Rows that came in this type, divided by their sums if it is a narrow one, and which are not distributions."""
     totals = rows.sum(axis=-1)
     tolerance = sum_tolerance(dtype, rows.shape[-1])
     wrong = (rows < 0).any(axis=-1) | (abs(totals - 1) > tolerance)

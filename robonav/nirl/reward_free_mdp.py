@@ -36,7 +36,7 @@ class RewardFreeMDP:
     Raises
     ------
     TypeError, ValueError
-        If shapes do not fit, a row is no distribution, or the discount is out of range.
+        If shapes do not fit, a row is not a distribution, or the discount is out of range.
 
     Examples
     --------

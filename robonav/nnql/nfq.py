@@ -24,7 +24,7 @@ These things differ from Riedmiller's paper:
   follow from the action that the policy chose.
 
 Each sweep copies the network into torch, fits it, and copies it back. The weights go on from sweep to sweep; the step
-sizes of Rprop start anew with each.
+sizes of Rprop start again with each.
 """
 
 from __future__ import annotations

@@ -99,7 +99,7 @@ def free_way(
     Parameters
     ----------
     ranges : (N, 9) array
-        What the sectors read, in metres. A reading of 10 m is no obstacle.
+        What the sectors read, in metres. A reading of 10 m means that no obstacle is in range.
     bearings : (N, D) or (D,) array
         D directions, in radians, 0 ahead.
     clearance : float

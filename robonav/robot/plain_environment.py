@@ -14,8 +14,8 @@ pattern for an environment of your own. An episode with a rule of one line, whic
 >>> reward, steps  # it arrived
 (1.0, 56)
 
-Distances are rounded to a micrometre before anything is decided on them. So this code and its compiled twin decide
-alike, although their numbers differ in the last digits. ``gymnasium.make("robonav/Navigation-v0")`` makes this twin,
+Distances are rounded to a micrometre before anything is decided on them. So this code and its compiled twin decide the
+same, although their numbers differ in the last digits. ``gymnasium.make("robonav/Navigation-v0")`` makes this twin,
 which has options: see ``environments.py``. Tests hold the two equal.
 """
 

@@ -211,7 +211,7 @@ def varied(drills: Sequence[Drill], papers: int, each: int = 1) -> list[Drill]:
 
 
 def drawn(drills: Sequence[Drill], seed: int = 0, each: int = 1) -> list[Drawn]:
-    """Draw questions of drills, no two of them alike.
+    """Draw questions of drills, all of them different.
 
     A drill's questions depend on its name and on the seed alone, so they stay the same if other drills are added.
 

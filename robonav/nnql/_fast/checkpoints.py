@@ -59,7 +59,7 @@ def load_checkpoint(
     Raises
     ------
     ValueError
-        If the file is no checkpoint, or one of another version, or of another training.
+        If the file is not a checkpoint, or belongs to another version or to another training.
     """
     name = Path(path).name
     if not Path(path).exists():

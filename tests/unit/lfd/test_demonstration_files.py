@@ -81,7 +81,9 @@ def test_a_foreign_file(tmp_path, written):
     for name, content in [("text.npz", b"robonav"), ("empty.npz", b"")]:
         (tmp_path / name).write_bytes(content)
     for name in ("text.npz", "empty.npz", "one.npy"):
-        with pytest.raises(ValueError, match=f"{name} is damaged, or no npz archive"):
+        with pytest.raises(
+            ValueError, match=f"{name} is damaged, or is not an npz archive"
+        ):
             load_demonstrations(tmp_path / name)
 
 
