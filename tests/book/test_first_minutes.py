@@ -55,8 +55,12 @@ def test_three_maps_are_driven_and_a_robot_is_trained(site: Path) -> None:
         link = lab.get_by_role("link", name="Train a robot on your drives")
         lab = go(page, link, "policy-learning.html")
         expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
-        lab.get_by_role("button", name="Train", exact=True).tap()
+        train = lab.get_by_role("button", name="Train", exact=True)
         said = lab.locator(".training > .status").first
+        train.tap()
+        lab.get_by_role("button", name="Cancel", exact=True).tap()
+        expect(said).to_contain_text("Cancelled. ")
+        train.tap()
         expect(said).to_contain_text("always goes straight on")
         expect(said).to_be_in_viewport(ratio=1)  # and so is much of the map
         expect(lab.locator(".viewer canvas")).to_be_in_viewport(ratio=0.9)
