@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from robonav.benchmark.policies import method
-from robonav.robot import navigate, random_worlds, straight
+from robonav.lfd import demonstrate, labelled_states
+from robonav.networks import lbfgs, one_hot, random_network
+from robonav.robot import Encoder, navigate, random_worlds, sense, straight
 from robonav.widgets.dagger_lab import dagger_lab
 from robonav.widgets.simulator import page_world
 
@@ -85,6 +87,60 @@ def test_three_corrected_maps_raise_the_rate(node):
     assert 0.4 < got["before"] < 0.6
     assert got["after"] > 0.85
     assert got["corrections"] < 60
+
+
+RETRAIN = """
+const base = page.replayed(data.expert).slice(0, 1);
+const { world } = page.nextFailure({ rule: "straight" }, 0);
+const episode = page.sharedEpisode(world);
+while (episode.now().outcome === "running") episode.go(0, "robot");
+episode.back(5);
+const expert = page.computerExpert();
+while (episode.now().outcome === "running" && episode.steps.length < 300) {
+  const { world: now, pose } = episode.now();
+  episode.go(episode.asks() ? expert(now, pose, 2) : 0, "reader");
+}
+const corrected = episode.corrections();
+const encoder = { sensors: [1, 2, 3, 4, 5, 6, 7, 8, 9], walls: false, target: "sine-cosine" };
+const learning = { sizes: [12, 8, 5], seed: 0, regularisation: 0.1, iterations: 10 };
+const trial = { seed: 2024, maps: 1, obstacles: 10 };
+const examples = page.examplesFrom([...base, corrected]);
+const job = page.imitate({ ...learning, examples, network: null, encoder, rivals: [], trial });
+const costs = [];
+let step = job.next();
+for (; !step.done; step = job.next()) if ("cost" in step.value.live) costs.push(step.value.live.cost);
+const { weights, biases } = step.value;
+return {
+  costs, parameters: [...weights, ...biases].flatMap((part) => [...part]),
+  steps: corrected.steps.map(({ pose: { x, y, heading }, action }) => [x, y, heading, action]),
+};
+"""
+
+
+@pytest.mark.slow
+def test_the_robot_learns_from_corrections_as_in_python(node):
+    """The corrected states, sensed by Python, with the expert's: the same costs and the same network."""
+    got = node(FILES, RETRAIN, dagger_lab(method("dagger")).data)
+    steps = np.array(got["steps"])
+    number = next(
+        k
+        for k in range(40)
+        if not navigate(straight, random_worlds(1, 10, seed=600_000 + k)).success[0]
+    )
+    worlds = random_worlds(1, 10, seed=600_000 + number)[np.zeros(len(steps), int)]
+    first = demonstrate(random_worlds(1, 10, seed=7))
+    x, y = labelled_states(first)
+    x = np.vstack([x, Encoder()(sense(worlds, steps[:, :3]))])
+    y = np.vstack([y, one_hot(steps[:, 3].astype(int), 5)])
+    expected = lbfgs(
+        random_network((12, 8, 5), seed=0), x, y, regularisation=0.1, iterations=10
+    )
+    np.testing.assert_allclose(got["costs"], expected.costs, rtol=0, atol=1e-9)
+    network = expected.network
+    parts = [part.ravel() for part in (*network.weights, *network.biases)]
+    np.testing.assert_allclose(
+        got["parameters"], np.concatenate(parts), rtol=0, atol=1e-8
+    )
 
 
 def test_a_wrong_argument_gets_one_sentence():
