@@ -35,7 +35,22 @@ COMMAND = "python -m robonav.experiments.ship"
 
 
 def folder_of(chapter: str) -> Path:
-    """Return the folder of a chapter's networks: that of "lfd", "nnql" or "nirl"."""
+    """Return the folder of a chapter's networks: that of "lfd", "nnql" or "nirl".
+
+    Parameters
+    ----------
+    chapter : str
+        The chapter's package.
+
+    Returns
+    -------
+    Path
+
+    Examples
+    --------
+    >>> folder_of("lfd").name
+    'shipped'
+    """
     return Path(str(files(f"robonav.{chapter}"))) / "shipped"
 
 

@@ -20,6 +20,13 @@ from .submission import Refused, Submission, load_submission
 def check(key: str, function: Callable[..., Any]) -> float:
     """Check ``function`` as the answer to the exercise with this id or name, and print how each part went.
 
+    Parameters
+    ----------
+    key : str
+        The exercise's id or name, such as "2.2".
+    function : callable
+        The answer.
+
     Returns
     -------
     float

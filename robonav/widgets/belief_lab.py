@@ -63,6 +63,13 @@ def belief_lab(
     ------
     ValueError
         If there is no corridor, sensor or wheel to choose from.
+
+    Examples
+    --------
+    >>> from robonav.widgets.belief_lab import belief_lab
+    >>> lab = belief_lab({"two doors": ".D.D"}, sensors={"good": 0.9}, wheels={"good": 0.0})
+    >>> len(lab.data) > 0
+    True
     """
     for name, choices in (
         ("corridors", corridors),

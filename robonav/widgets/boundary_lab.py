@@ -139,6 +139,18 @@ def boundary_lab(
     ------
     ValueError
         If a combination or the examples of a problem are missing, or a training has no record of its networks.
+
+    Examples
+    --------
+    >>> from robonav.networks import lbfgs, random_network
+    >>> from robonav.networks.toy_datasets import disc
+    >>> from robonav.widgets.boundary_lab import boundary_lab
+    >>> x, y = disc(20, seed=0)
+    >>> training = lbfgs(random_network((2, 3, 1), seed=0), x, y, iterations=5, record=True)
+    >>> lab = boundary_lab(
+    ...     {"problem": ["disc"]}, {("disc",): training}, {"disc": (x, y)}, frames=[0, 5])
+    >>> len(lab.data) > 0
+    True
     """
     combinations = list(product(*controls.values()))
     first = tuple(start) or combinations[0]

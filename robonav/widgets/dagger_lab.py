@@ -97,10 +97,12 @@ def dagger_lab(
     ----------
     policy : NetworkPolicy
         The book's own, to compare with.
-    expert_seed, test_seed : int
-        Of the expert's world and of the worlds to test in. They must differ.
+    expert_seed : int
+        The seed of the expert's world.
     maps : int
         Number of worlds to test in.
+    test_seed : int
+        Their seed, another than that of the expert's world.
 
     Returns
     -------

@@ -70,6 +70,8 @@ def replay(
 
     Parameters
     ----------
+    mdp : FiniteMDP
+        The model of S states.
     values, policies : (F, S) array
         The history of a recorded solution, such as its ``history`` and ``policies``.
     best : (S,) array
@@ -87,6 +89,17 @@ def replay(
     ------
     ValueError
         If the numbers of values, policies, walks and steps differ.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, value_iteration
+    >>> from robonav.widgets.grid_lab import replay
+    >>> mdp = GridWorld("S . G").mdp(discount=0.9)
+    >>> found = value_iteration(mdp, record=True)
+    >>> names = [f"sweep {k}" for k in range(len(found.history))]
+    >>> made = replay(mdp, found.history, found.policies, best=found.values, steps=names)
+    >>> len(made.values) == len(names)
+    True
     """
     held = check_array("values", values, shape=(len(steps), mdp.n_states))
     chosen = check_array("policies", policies, shape=held.shape, dtype=np.intp)
@@ -275,6 +288,19 @@ def grid_lab(
     ------
     ValueError
         If a combination is missing, or a replay belongs to another grid.
+
+    Examples
+    --------
+    >>> from robonav.mdp import GridWorld, value_iteration
+    >>> from robonav.widgets.grid_lab import grid_lab, replay
+    >>> grid = GridWorld("S . G")
+    >>> mdp = grid.mdp(discount=0.9)
+    >>> found = value_iteration(mdp, record=True)
+    >>> names = [f"sweep {k}" for k in range(len(found.history))]
+    >>> made = replay(mdp, found.history, found.policies, best=found.values, steps=names)
+    >>> lab = grid_lab({"corridor": grid}, {}, {("corridor",): {"value iteration": made}})
+    >>> len(lab.data) > 0
+    True
     """
     offered = {
         "map": list(grids),

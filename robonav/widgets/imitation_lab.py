@@ -70,10 +70,12 @@ def imitation_lab(
         The book's policy, with which the reader's is compared.
     demonstrations : int
         The number of demonstrations of the computer expert.
-    expert_seed, test_seed : int
-        The seeds of the expert's worlds and of the test worlds. They must differ.
+    expert_seed : int
+        The seed of the expert's worlds.
     maps : int
         The number of test worlds.
+    test_seed : int
+        Their seed, another than that of the expert's worlds.
     playground : str
         The address of the page on which the reader steers the robot.
     progress : callable, optional

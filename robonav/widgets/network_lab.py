@@ -49,6 +49,18 @@ def network_lab(
     ------
     ValueError
         If the training has no record of its networks, or their inputs or outputs are others.
+
+    Examples
+    --------
+    >>> from robonav.lfd import demonstrate, labelled_states
+    >>> from robonav.networks import lbfgs, random_network
+    >>> from robonav.robot import Encoder, random_worlds
+    >>> from robonav.widgets.network_lab import network_lab
+    >>> x, y = labelled_states(demonstrate(random_worlds(1, 20, seed=3)), Encoder(target="number"))
+    >>> training = lbfgs(random_network((11, 8, 5), seed=0), x, y, iterations=5, record=True)
+    >>> lab = network_lab(training, {"first": (x[0], int(y[0].argmax()))})
+    >>> len(lab.data) > 0
+    True
     """
     if training.networks is None:
         raise ValueError(

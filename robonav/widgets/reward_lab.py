@@ -71,6 +71,19 @@ def reward_lab(
     ------
     ValueError
         If the weights do not fit the encoder, or there is no world or decision.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd import demonstrate
+    >>> from robonav.nirl import ENCODER, expert_decisions
+    >>> from robonav.robot import random_worlds
+    >>> from robonav.widgets.reward_lab import reward_lab
+    >>> worlds = random_worlds(2, obstacles=20, seed=3)
+    >>> weights, decisions = np.zeros((5, ENCODER.size + 1)), expert_decisions(demonstrate(worlds))
+    >>> lab = reward_lab(weights, ENCODER, decisions, {"a map": worlds[0]}, worlds)
+    >>> len(lab.data) > 0
+    True
     """
     theta = check_array(
         "reward_weights", reward_weights, shape=(LEARNED, encoder.size + 1)

@@ -56,6 +56,15 @@ def robot_playground(
     ------
     ValueError
         If there is no world, or 2 m/s is not among the speeds.
+
+    Examples
+    --------
+    >>> from robonav.benchmark.policies import method
+    >>> from robonav.robot import random_worlds
+    >>> from robonav.widgets.robot_playground import robot_playground
+    >>> worlds = {"10 obstacles": random_worlds(1, obstacles=10, seed=1)}
+    >>> len(robot_playground(worlds, {"NNQL": method("nnql")}).data) > 0
+    True
     """
     if not worlds:
         raise ValueError("worlds must hold at least one, got none")

@@ -84,9 +84,7 @@ def search_lab(
     cells: Sequence[float] = (1.0, 2.0, 4.0),
     speed: float = 2.0,
 ) -> SearchLab:
-    """Make the lab for some maps: ``search_lab({"10 obstacles": random_worlds(1, 10, seed=41)})``.
-
-    Both searches run here for every map, margin and cell, and the page replays them.
+    """Make the lab for some maps. Both searches run here for every map, margin and cell, and the page replays them.
 
     Parameters
     ----------
@@ -108,6 +106,14 @@ def search_lab(
     ------
     ValueError
         If there is nothing to choose from, or a number is out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.robot import random_worlds
+    >>> from robonav.widgets.search_lab import search_lab
+    >>> maps = {"5 obstacles": random_worlds(1, obstacles=5, seed=41)}
+    >>> len(search_lab(maps, margins=[2.0], cells=[4.0]).data) > 0
+    True
     """
     for name, choices in (("worlds", worlds), ("margins", margins), ("cells", cells)):
         if not choices:

@@ -94,6 +94,17 @@ def training_lab(
     ------
     ValueError
         If a combination or a measure is missing, or a curve has another number of values than steps.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.widgets.training_lab import Curve, training_lab
+    >>> curve = Curve(np.arange(3), np.array([50.0, 70.0, 80.0]))
+    >>> runs = {("8",): {"accuracy": curve}}
+    >>> lab = training_lab(
+    ...     {"hidden units": ["8"]}, runs, step="iteration", measures={"accuracy": "right answers (%)"})
+    >>> len(lab.data) > 0
+    True
     """
     combinations = list(product(*controls.values()))
     first = tuple(start) or combinations[0]

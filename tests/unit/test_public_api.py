@@ -44,6 +44,7 @@ CALLS = {
     "nnql.train": "method='nnql', seeds=16, episodes=300",
     "nirl.learn": "demonstrations, method='nirl', seed=0",
 }
+BOOK = Path(__file__).resolve().parents[2] / "book"
 KEYWORDS = {
     "mdp.value_iteration": {"record"},
     "mdp.policy_iteration": {"record"},
@@ -166,22 +167,58 @@ def public_callables(package: str) -> dict[str, Any]:
     return found
 
 
-def drawings(package: str) -> dict[str, Any]:
-    """The functions of ``plots`` that draw what they are given. Others draw one experiment, from its ``results``."""
+def own_functions(package: str) -> dict[str, Any]:
+    """The functions of a package's files, by their whole names."""
     found = {}
     for module in pkgutil.iter_modules(importlib.import_module(package).__path__):
         here = importlib.import_module(f"{package}.{module.name}")
         for name, thing in vars(here).items():
             own = getattr(thing, "__module__", "") == here.__name__
-            drawing = own and inspect.isfunction(thing) and not name.startswith("_")
-            if drawing and "results" not in inspect.signature(thing).parameters:
+            if own and inspect.isfunction(thing) and not name.startswith("_"):
                 found[f"{here.__name__}.{name}"] = thing
     return found
 
 
-# What is public, by package: what is in ``__all__``, and the functions that draw
+def drawings(package: str) -> dict[str, Any]:
+    """The functions of ``plots`` that draw what they are given. Others draw one experiment, from its ``results``."""
+    return {
+        name: function
+        for name, function in own_functions(package).items()
+        if "results" not in inspect.signature(function).parameters
+    }
+
+
+def widgets_of_pages(package: str) -> dict[str, Any]:
+    """The functions that make a page's widget: each has the name of its file."""
+    return {
+        name: function
+        for name, function in own_functions(package).items()
+        if name.split(".")[-1] == name.split(".")[-2]
+    }
+
+
+def parts_of_pages(package: str) -> dict[str, Any]:
+    """The functions of a package that the code cells of the book's pages import from its files."""
+    named = rf"^from ({package}[\w.]*) import ([\w, ]+)$"
+    pages = [page.read_text("utf-8") for page in sorted(BOOK.glob("*.md"))]
+    imports = [each for page in pages for each in re.findall(named, page, re.MULTILINE)]
+    found = {}
+    for module, names in imports:
+        for name in names.split(", "):
+            thing = getattr(
+                importlib.import_module(module), name.split(" as ")[0], None
+            )
+            if inspect.isfunction(thing):
+                found[f"{module}.{thing.__name__}"] = inspect.unwrap(thing)
+    return found
+
+
+# What is public, by package: what is in ``__all__``, what draws, and what pages use
 DOCUMENTED = dict.fromkeys(public_packages(), public_callables)
 DOCUMENTED["robonav.plots"] = drawings
+DOCUMENTED["robonav.widgets"] = widgets_of_pages
+DOCUMENTED["robonav.experiments.chapter"] = parts_of_pages
+DOCUMENTED["robonav.experiments.runner"] = parts_of_pages
 
 
 # numpydoc's names for: a parameter that does not exist, the wrong order of parameters, one without a type, no section

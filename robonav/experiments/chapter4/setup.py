@@ -55,7 +55,19 @@ ABOUT: Mapping[str, Any] = {
 
 @lru_cache(maxsize=1)
 def tuned() -> dict[str, Settings]:
-    """Return the tuned hyperparameters of each method."""
+    """Return the tuned hyperparameters of each method.
+
+    Returns
+    -------
+    dict
+        Hyperparameters by method.
+
+    Examples
+    --------
+    >>> from robonav.experiments.chapter4.setup import tuned
+    >>> sorted(tuned())
+    ['dqn', 'nfq', 'nnql', 'online']
+    """
     found = read_settings(HYPERPARAMETERS)
     return {method: Settings.of(values) for method, values in found.items()}
 
@@ -63,7 +75,22 @@ def tuned() -> dict[str, Settings]:
 def task(*, target: str = "number", **changes: Any) -> NavigationTask:
     """Return the training task of section 4.5, with one of the encodings of the target's sector.
 
-    ``changes`` are other attributes of :class:`robonav.nnql.NavigationTask`.
+    Parameters
+    ----------
+    target : str
+        The encoding, as :class:`robonav.robot.Encoder` names it.
+    **changes
+        Other attributes of :class:`robonav.nnql.NavigationTask`.
+
+    Returns
+    -------
+    NavigationTask
+
+    Examples
+    --------
+    >>> from robonav.experiments.chapter4.setup import task
+    >>> task(obstacles=20).obstacles
+    20
     """
     encoder = Encoder(NNQL_SENSORS, walls=True, target=target)
     usual: dict[str, Any] = {"encoder": encoder, "reflex": SETUP.reflex}
@@ -150,7 +177,25 @@ def evaluate(
 
 
 def blocks(successes: ArrayLike, size: int = BLOCK) -> np.ndarray:
-    """Count successes (S, E) in blocks of ``size`` episodes: (S, E / size). An incomplete last block is dropped."""
+    """Count successes in blocks of episodes. An incomplete last block is dropped.
+
+    Parameters
+    ----------
+    successes : (S, E) array of bool
+        Of S seeds and E episodes.
+    size : int
+        Episodes in a block.
+
+    Returns
+    -------
+    (S, E / size) array
+
+    Examples
+    --------
+    >>> from robonav.experiments.chapter4.setup import blocks
+    >>> blocks([[True, False, True, True, False]], size=2)
+    array([[1, 2]])
+    """
     arrived = np.asarray(successes)
     seeds, episodes = arrived.shape
     counts: np.ndarray = (

@@ -70,7 +70,25 @@ SPACE: dict[str, dict[str, list[Any]]] = {
 
 
 def trial_settings(method: str, trial: int) -> Settings:
-    """Return the hyperparameters of a trial. NNQL and online learning have the same space and get the same ones."""
+    """Return the hyperparameters of a trial. NNQL and online learning have the same space and get the same ones.
+
+    Parameters
+    ----------
+    method : str
+        The method.
+    trial : int
+        Its number; 0 has the thesis's hyperparameters.
+
+    Returns
+    -------
+    Settings
+
+    Examples
+    --------
+    >>> from robonav.experiments.chapter4.tuning import trial_settings
+    >>> trial_settings("nnql", 1) == trial_settings("online", 1)
+    True
+    """
     if trial == 0:
         return THESIS[method]
     rng = np.random.default_rng([TUNING_SEEDS, trial])
@@ -102,7 +120,27 @@ def tune_again(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def ranking(results: Results) -> dict[str, list[Case]]:
-    """Return the trials of each method by mean success over seeds, the best first; of equal ones the earlier first."""
+    """Return the trials of each method by mean success over seeds, the best first; of equal ones the earlier first.
+
+    Parameters
+    ----------
+    results : Results
+        Of the tuning.
+
+    Returns
+    -------
+    dict
+        The cases of each method, best first.
+
+    Examples
+    --------
+    >>> from robonav.experiments import Experiment, Results
+    >>> trials = [{"method": "nnql", "trial": trial} for trial in (0, 1)]
+    >>> tuning = Experiment("tuning", "Tuning", trials, dict, {"quick": 1, "thesis": 1})
+    >>> rows = [(0, 0, "success", 0, 80.0), (1, 0, "success", 0, 90.0)]
+    >>> [case["trial"] for case in ranking(Results.from_rows(tuning, "quick", rows))["nnql"]]
+    [1, 0]
+    """
     success = {
         place: round(results.summary("success", place).mean, 6)
         for place in range(len(results.experiment.cases))

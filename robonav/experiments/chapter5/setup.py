@@ -82,6 +82,25 @@ def tuned(method: str, discount: float = DISCOUNT, **changes: Any) -> Settings:
     """Return the tuned hyperparameters of a method for one of two discounts. A control has those of NIRL.
 
     Cloning has no discount: its entry is the better of two sets of trials.
+
+    Parameters
+    ----------
+    method : str
+        The method, or a control.
+    discount : float
+        0.65 or 0.9.
+    **changes
+        Hyperparameters that replace the tuned ones.
+
+    Returns
+    -------
+    Settings
+
+    Examples
+    --------
+    >>> from robonav.experiments.chapter5.setup import tuned
+    >>> tuned("nirl", hidden=3)["hidden"]
+    3
     """
     found = _hyperparameters()[method if method in METHODS else "nirl"]
     return Settings.of(found if method == "lfd" else found[str(discount)]) | changes

@@ -88,7 +88,27 @@ def draws(method: str, discount: float) -> list[dict[str, Any]]:
 
 
 def trial_settings(method: str, trial: int, discount: float) -> Settings:
-    """The hyperparameters of a trial: trial 0 has the thesis's, the others have random ones."""
+    """The hyperparameters of a trial: trial 0 has the thesis's, the others have random ones.
+
+    Parameters
+    ----------
+    method : str
+        The method.
+    trial : int
+        Its number.
+    discount : float
+        0.65 or 0.9.
+
+    Returns
+    -------
+    Settings
+
+    Examples
+    --------
+    >>> from robonav.experiments.chapter5.tuning import trial_settings
+    >>> trial_settings("nirl", 1, 0.65)["discount"]
+    0.65
+    """
     first = trial == 0 and (method != "lfd" or discount == DISCOUNTS[0])
     drawn = dict(THESIS[method]) if first else draws(method, discount)[trial]
     if method != "lfd":

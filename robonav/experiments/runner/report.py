@@ -39,9 +39,36 @@ def as_table(
     columns: str,
     among: Sequence[str] | None = None,
 ) -> str:
-    """Return a Markdown table of mean and interval of a metric, with one line for each value of ``rows``.
+    """Return a Markdown table of mean and interval of a metric, with one line for each value of a setting.
 
-    It has a column for each value of ``columns``, or only for those in ``among``.
+    Parameters
+    ----------
+    results : Results
+        Of one experiment.
+    metric : str
+        The metric.
+    rows : str
+        The setting with a line for each of its values.
+    columns : str
+        The setting with a column for each of its values.
+    among : sequence of str, optional
+        Only these columns.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from robonav.experiments import Experiment, Results
+    >>> cases = [{"dice": n, "sides": sides} for n in (1, 2) for sides in (4, 6)]
+    >>> dice = Experiment("dice", "Dice", cases, dict, {"quick": 1, "thesis": 1})
+    >>> results = Results.from_rows(dice, "quick", [(k, 0, "mean", 0, k + 1.0) for k in range(4)])
+    >>> print(as_table(results, "mean", rows="dice", columns="sides"))
+    | dice   | 4    | 6    |
+    |:-------|:-----|:-----|
+    | 1      | 1.00 | 2.00 |
+    | 2      | 3.00 | 4.00 |
     """
     import pandas as pd
 
@@ -63,6 +90,27 @@ def as_markdown(results: Results, metrics: Sequence[str]) -> str:
     """Return a Markdown table with one line for each case.
 
     A line has the settings of the case, mean and interval of each metric, and the thesis's numbers.
+
+    Parameters
+    ----------
+    results : Results
+        Of one experiment.
+    metrics : sequence of str
+        The metrics.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from robonav.experiments import Experiment, Results
+    >>> dice = Experiment("dice", "Dice", [{"sides": 6}], dict, {"quick": 1, "thesis": 1})
+    >>> results = Results.from_rows(dice, "quick", [(0, 0, "mean", 0, 3.5)])
+    >>> print(as_markdown(results, ["mean"]))
+    | sides   | mean   |
+    |:--------|:-------|
+    | 6       | 3.50   |
     """
     import pandas as pd
 
@@ -89,7 +137,24 @@ def thesis_number(results: Results, metric: str, case: int) -> float | None:
 
 
 def number_of_runs(results: Results) -> str:
-    """Return a sentence with the number of runs of each case, and the experiment's note."""
+    """Return a sentence with the number of runs of each case, and the experiment's note.
+
+    Parameters
+    ----------
+    results : Results
+        Of one experiment.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from robonav.experiments import Experiment, Results
+    >>> dice = Experiment("dice", "Dice", [{"sides": 6}], dict, {"quick": 1, "thesis": 1})
+    >>> number_of_runs(Results.from_rows(dice, "quick", [(0, 0, "mean", 0, 3.5)]))
+    'One run a case.'
+    """
     runs = results.experiment.seeds[results.scale]
     number = (
         "One run a case."
