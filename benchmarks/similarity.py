@@ -7,8 +7,8 @@ translations of six of them between loops and arrays. A class has twelve student
 to every exercise, drawn so that no two students share one: six who like arrays and six who like loops, in all
 exercises, which makes honest students more alike than chance would. Then two of them throw their answers away, copy
 those of another and disguise them, all of them or half. Each class is drawn independently. Every pair but that of a
-copy and its original is honest. The answers to the exercises in HELD_OUT were written after the method was fixed. In
-other classes a ring of three to nine students hand in the same answers to all ten exercises.
+copy and its original is honest. The method is developed without the exercises in HELD_OUT, which tell how well it does
+on others. In other classes a ring of three to nine students hand in the same answers to all ten exercises.
 """
 
 from __future__ import annotations

@@ -3,8 +3,9 @@
 A short function tells nothing: two honest answers to a small exercise may be equal to the letter. Ten exercises are
 enough, because honest students do not write alike in all of them. For each exercise all pairs of the class are
 compared. What many answers share, because the stub or the exercise forces it, weighs little; what few share weighs
-much. A pair's rank among all pairs of the class says how likely so much likeness is by chance, and Fisher's method
-combines these probabilities over the exercises that both answered.
+much. An answer that is written as many write is like many others, so that a pair's likeness is measured against how
+alike each of the two answers is to the others. The pair's rank among all pairs of the class says how likely so much of
+it is by chance, and Fisher's method combines these probabilities over the exercises that both answered.
 
 A group of three or more who copied from one another would make its own likeness common. Such a ring therefore counts as
 one student: in how many of the class have something, and in the pairs that a pair is ranked among.
@@ -22,6 +23,7 @@ import numpy as np
 from .fingerprints import MOST_TIMES, Feature, Fingerprint
 
 VIEWS = ("structure", "flow")
+SPREAD = 0.02  # of likeness, that any answer is expected to have
 THRESHOLD = 2.0  # of a pair's score, from which it is reported
 FEWEST = 3  # exercises that both answered, below which a pair is not reported
 NEARLY_EQUAL = 0.8  # from which structure or flow of two answers are nearly equal
@@ -38,7 +40,7 @@ class Likeness:
     structure, flow : float
         The share of what they have in common, from 0 to 1, weighted by how rare it is in the class.
     chances : tuple of float
-        The share of the class's pairs that are as alike, in each of the two. A ring counts as one student.
+        The share of the class's pairs that stand out as much, in each of the two. A ring counts as one student.
     """
 
     structure: float
@@ -143,12 +145,19 @@ def _rings(
 
 
 def _score(likenesses: Sequence[Likeness]) -> float:
-    """Return minus the logarithm of the chance of so much likeness, in the view in which it is less likely."""
-    chances = []
-    for view in range(len(VIEWS)):
-        evidence = -math.fsum(math.log(one.chances[view]) for one in likenesses)
-        chances.append(_fisher(evidence, len(likenesses)))
-    return -math.log10(min(1.0, len(VIEWS) * min(chances)))
+    """Return minus the logarithm of the chance of so much likeness, in structure, in flow, or in both together.
+
+    The least of the three chances counts three times, because there are three.
+    """
+    by_view = [*zip(*(one.chances for one in likenesses), strict=True)]
+    both = [
+        _fisher(-math.log(a) - math.log(b), 2) for a, b in zip(*by_view, strict=True)
+    ]
+    chances = [
+        _fisher(-math.fsum(map(math.log, found)), len(found))
+        for found in (*by_view, both)
+    ]
+    return -math.log10(min(1.0, len(chances) * min(chances)))
 
 
 def _fisher(evidence: float, number: int) -> float:
@@ -178,14 +187,29 @@ def _likenesses(
     alike, chances = [], []
     for view in VIEWS:
         table = _shared([getattr(one, view) for one in everything], groups)
-        shared = table[first, second]
-        below = np.searchsorted(np.sort(shared[ranked]), shared - 1e-9)
-        alike.append(shared.tolist())
+        outstanding = _outstanding(table, groups, leads)[first, second]
+        below = np.searchsorted(np.sort(outstanding[ranked]), outstanding - 1e-9)
+        alike.append(table[first, second].tolist())
         chances.append((1 - below / number).tolist())
     for k, (a, b) in enumerate(zip(first.tolist(), second.tolist(), strict=True)):
         if b < len(names):
             both = (chances[0][k], chances[1][k])
             yield (names[a], names[b]), Likeness(alike[0][k], alike[1][k], both)
+
+
+def _outstanding(
+    table: np.ndarray, groups: Sequence[int], leads: np.ndarray
+) -> np.ndarray:
+    """Return, for each two, how much more alike they are than each of them is to the others.
+
+    It is the mean of two numbers of standard deviations. The others are the first members of the other groups.
+    """
+    others = leads & np.not_equal.outer(groups, groups)
+    number = np.maximum(others.sum(axis=1, keepdims=True), 1)
+    above = table - (table * others).sum(axis=1, keepdims=True) / number
+    spread = np.sqrt((above**2 * others).sum(axis=1, keepdims=True) / number)
+    apart = above / (spread + SPREAD)
+    return (apart + apart.T) / 2
 
 
 def _shared(counts: Sequence[Counter[Feature]], groups: Sequence[int]) -> np.ndarray:
