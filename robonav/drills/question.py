@@ -390,7 +390,7 @@ class Question:
     ----------
     text : str
         The question, in Markdown.
-    asked : Number, Choice, Place, Order or Table
+    asked : Number or Choice or Place or Order or Table
         The kind of answer, with the right one and the usual wrong ones.
     explanation : str
         The way to the answer with the numbers of this question, in Markdown.

@@ -150,7 +150,7 @@ class Demonstrations:
 
         Parameters
         ----------
-        index : int, slice, (K,) array of int or (N,) array of bool
+        index : int or slice or (K,) array of int or (N,) array of bool
             Which of the N trajectories.
 
         Returns

@@ -214,8 +214,10 @@ def structured_classification(
         Weight of each step, with sum 1; by default all are equal.
     regularisation : float
         lambda, for expectations scaled so that their largest difference between actions has length 1.
-    gradient_step, iterations : float, int
-        Step of Adagrad, and its number of iterations.
+    gradient_step : float
+        Step of Adagrad.
+    iterations : int
+        Its number of iterations.
 
     Returns
     -------

@@ -200,7 +200,9 @@ def rprop_fit(
         M transitions.
     targets : (M,) tensor
         Q-values to fit, see :func:`nfq_targets`.
-    epochs, tolerance : int, float
+    epochs : int
+        See :func:`nfq`.
+    tolerance : float
         See :func:`nfq`.
 
     Returns

@@ -50,9 +50,10 @@ def nnql(
 
     Parameters
     ----------
-    passes, tolerance : int, float
-        Gradient descent goes through the pairs at most ``passes`` times. It stops earlier when the mean cost changes by
-        less than ``tolerance`` from one pass to the next.
+    passes : int
+        Gradient descent goes through the pairs at most this many times.
+    tolerance : float
+        It stops earlier when the mean cost changes by less than this from one pass to the next.
 
     Notes
     -----
@@ -111,9 +112,10 @@ def online(
 
     Parameters
     ----------
-    passes, tolerance : int, float
-        Gradient descent repeats the pair at most ``passes`` times. It stops earlier when the cost changes by less than
-        ``tolerance`` from one step to the next.
+    passes : int
+        Gradient descent repeats the pair at most this many times.
+    tolerance : float
+        It stops earlier when the cost changes by less than this from one step to the next.
 
     Examples
     --------

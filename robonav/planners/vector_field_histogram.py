@@ -128,7 +128,11 @@ class VectorFieldHistogram:
     ----------
     clearance, half_width : float
         As in :func:`polar_histogram`.
-    threshold, wide, keep : float, int, float
+    threshold : float
+        As in :func:`vector_field_histogram`.
+    wide : int
+        As in :func:`vector_field_histogram`.
+    keep : float
         As in :func:`vector_field_histogram`.
 
     Raises

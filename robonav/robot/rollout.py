@@ -299,8 +299,10 @@ def navigate(
         Whether to keep the poses.
     reflex : callable, optional
         What a robot does before the policy is asked; None leaves every step to the policy.
-    slip, noise : (6, 6) array, float
-        Uncertainty of motion and of sensing, see :class:`Simulator`.
+    slip : (6, 6) array, optional
+        Uncertainty of motion, see :class:`Simulator`.
+    noise : float
+        Uncertainty of sensing, in metres, see :class:`Simulator`.
     seed : int or numpy.random.Generator
         Seed of the generator that the policy is handed.
     progress : callable, optional

@@ -268,8 +268,9 @@ NOT_A_WORD = re.compile(
 
 
 def prose_in(kind: str) -> list[str]:
-    """The words of a type that belong into the description."""
-    words = re.findall(r"[^\s,]+", NOT_A_WORD.sub(" ", kind))
+    """The words of a type that belong into the description, and commas, which stand in lists of types."""
+    alone = re.sub(r", (optional|default .*)$", r" \1", NOT_A_WORD.sub(" ", kind))
+    words = re.findall(r"[^\s,]+|,", alone)
     return [word for word in words if not TYPE_WORDS.fullmatch(word)]
 
 
@@ -283,6 +284,7 @@ def prose_in(kind: str) -> list[str]:
         ("sequence of (s[l + 1], s[l]) arrays", []),
         ("largest loss of value", ["largest", "loss", "value"]),
         ("(S,) the policy", ["the", "policy"]),
+        ("int, float", [","]),  # of two parameters in one entry
     ],
 )
 def test_prose_in_type(kind: str, prose: list[str]) -> None:
