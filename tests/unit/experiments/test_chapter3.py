@@ -110,7 +110,7 @@ def test_plans_are_counted_up_to_the_target():
 def test_methods_by_name():
     names = {case["method"] for case in FIGURE_3_8.cases}
     assert {"straight", "lfd", "dagger"} <= names
-    assert learned_policy("5 neighbours", 0).k == 5
+    assert learned_policy("5-neighbours", 0).k == 5
 
 
 @pytest.mark.slow

@@ -227,6 +227,7 @@ def test_the_tuning_writes_the_hyperparameters(tmp_path):
     ).read_bytes() == HYPERPARAMETERS.read_bytes()
 
 
+@pytest.mark.slow
 def test_the_best_of_several_seeds_ships():
     best = nnql_weights("nnql", (0, 1, 2), length=0.1)
     alone = [

@@ -116,6 +116,7 @@ def test_controls_practise_as_nirl_does_under_another_reward(control):
     np.testing.assert_array_equal(first, same)
 
 
+@pytest.mark.slow
 def test_two_runs_have_two_rewards_of_chance():
     one, other = (
         trained("random-reward", seed, tuned("nirl"), length=SHORT).reward_weights
@@ -186,6 +187,7 @@ def test_choices_choose_what_they_say():
     )
 
 
+@pytest.mark.slow
 def test_a_reward_taken_elsewhere_needs_no_more_than_its_weights():
     found = trained("nirl", 0, tuned("nirl"), length=SHORT)
     robot = transfer.train_under_reward(found.reward_weights, 0, SHORT, 10, 1.0)
@@ -195,6 +197,7 @@ def test_a_reward_taken_elsewhere_needs_no_more_than_its_weights():
     np.testing.assert_array_equal(robot.network.weights[0], same.network.weights[0])
 
 
+@pytest.mark.slow
 def test_robots_trained_together_are_those_trained_alone():
     """Under Table 4.1 seeds share their training, to be quicker."""
     settings_ = dict(transfer.NNQL)

@@ -41,6 +41,7 @@ def test_each_trial_makes_a_planner():
             assert made.speed == 3.0
 
 
+@pytest.mark.slow
 def test_both_stages_and_the_table_by_one_call(tmp_path, monkeypatch):
     """At the quick scale, with two trials of each planner, into other files."""
     from dataclasses import replace

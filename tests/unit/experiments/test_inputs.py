@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from robonav.benchmark import display_name
 from robonav.experiments import experiment
 from robonav.experiments.chapter5.inputs import CountedTask, _as_bytes
 from robonav.experiments.chapter5.setup import METHODS, tuned
@@ -12,9 +13,7 @@ def test_the_note_of_table_5_2_says_which_encoding_each_method_reads():
     note = experiment("table-5.2").note
     for method in METHODS:
         target = tuned(method)["target"]
-        (group,) = [
-            part for part in note.split(";") if method.replace("_", " ") in part
-        ]
+        (group,) = [part for part in note.split(";") if display_name(method) in part]
         assert f": {target}" in group
 
 

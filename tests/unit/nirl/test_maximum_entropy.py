@@ -170,7 +170,9 @@ def test_it_matches_the_features_of_a_soft_expert(terrain):
     assert (np.diff(learned.dual_values) > -1e-6).all()
 
 
-@pytest.mark.parametrize("demonstrations", [None, 100])
+@pytest.mark.parametrize(
+    "demonstrations", [None, pytest.param(100, marks=pytest.mark.slow)]
+)
 def test_its_reward_makes_the_expert_again(terrain, demonstrations):
     task = terrain.task
     if demonstrations is None:

@@ -168,6 +168,7 @@ def test_the_book_policy_reaches_the_page(lab):
     assert lab.data["book"] == page_policy(method("lfd"))
 
 
+@pytest.mark.slow
 def test_the_answers_on_the_page_are_true(demonstrations):
     unseen = random_worlds(200, 10, seed=2024)
 

@@ -19,7 +19,10 @@ PLAN = """return data.worlds.map((world) => {
     [
         {"speed": 2.0, "margin": 2.0},
         {"speed": 2.0, "margin": 3.0, "caution": 2.0, "cell": 2.0},
-        {"speed": 1.5, "margin": 1.0, "cell": 1.0, "limit": 500},
+        pytest.param(
+            {"speed": 1.5, "margin": 1.0, "cell": 1.0, "limit": 500},
+            marks=pytest.mark.slow,
+        ),
         pytest.param({"speed": 0.5, "margin": 2.0}, marks=pytest.mark.slow),
         pytest.param(
             {"speed": 0.3, "margin": 2.0, "caution": 2.0, "cell": 1.0},
@@ -50,7 +53,14 @@ def test_plans_are_pythons_node_for_node(node, settings):
     assert others <= (1 if settings["speed"] >= 1 else 3)
 
 
-@pytest.mark.parametrize(("obstacles", "speed"), [(10, 2.0), (20, 2.0), (10, 0.5)])
+@pytest.mark.parametrize(
+    ("obstacles", "speed"),
+    [
+        (10, 2.0),
+        pytest.param(20, 2.0, marks=pytest.mark.slow),
+        pytest.param(10, 0.5, marks=pytest.mark.slow),
+    ],
+)
 def test_the_expert_demonstrates_as_in_python(node, obstacles, speed):
     worlds = random_worlds(25 if speed > 1 else 5, obstacles, seed=7)
     demonstrations = demonstrate(worlds, speed=speed)
