@@ -144,6 +144,7 @@ def test_a_method_learns_on_a_map_of_ones_own(view, http):
 def test_robots_imitate_and_the_best_drives_in_the_page(view, http):
     widget = imitation()
     lab = mounted(view, http, widget, kernel=True)
+    expect(lab.get_by_text("Firefox")).to_have_count(0)  # pages over http share drives
     lab.get_by_label("learn from", exact=True).select_option(
         "the expert's demonstrations"
     )
