@@ -16,14 +16,15 @@ from robonav.networks import NetworkPolicy, Weights, save_weights
 from robonav.robot import navigate, neighbour_slip
 from robonav.widgets.leaderboard_row import leaderboard_row
 
-FEW = 20
+FEW, MANY = 20, 1000  # a trial in few worlds may end before Cancel is pressed
 
 
 @pytest.fixture
-def row(visit: Visit, place: str) -> Iterator[Locator]:
-    """The widget alone on a page, with few worlds a setting."""
+def row(request: pytest.FixtureRequest, visit: Visit, place: str) -> Iterator[Locator]:
+    """The widget alone on a page, with few worlds a setting, or as many as a test asks for."""
     rates = {"straight": [30.0] * len(SETTINGS)}
-    found = mounted(visit, place, leaderboard_row(rates, worlds=FEW))
+    worlds = getattr(request, "param", FEW)
+    found = mounted(visit, place, leaderboard_row(rates, worlds=worlds))
     empty_storage(visit.page)
     cut = found.page.locator(".scroll").get_attribute("data-cut")
     assert (cut is None) == (visit.page.viewport_size == DESKTOP)
@@ -65,6 +66,7 @@ def test_row_is_pythons(row, learned, tmp_path):
     assert cells.all_inner_texts() == expected(learned)
 
 
+@pytest.mark.parametrize("row", [pytest.param(MANY, id="many")], indirect=True)
 def test_kept_robot_is_offered_tried_cancelled_and_deleted(row):
     robot = {
         "name": "walker",
