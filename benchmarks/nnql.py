@@ -11,17 +11,16 @@ machine that others use too.
 from __future__ import annotations
 
 import argparse
-import os
 import statistics
-import subprocess
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
+from peer_process import printed_by_peer
+
 from robonav.nnql import train
 
-HERE = Path(__file__).parent
 EPISODES, ROUNDS = 300, 3
 LIMITS = {
     1: (5, 3),
@@ -39,16 +38,7 @@ def training(seeds: int, clock: Callable[[], float]) -> tuple[float, float]:
 
 def peer(folder: Path, *options: str) -> float:
     """Updates a second of stable-baselines3's DQN, in its own environment."""
-    command = [
-        str(folder / "v1" / "bin" / "python"),
-        str(HERE / "peers" / "sb3_dqn.py"),
-        *options,
-    ]
-    quiet = os.environ | {"PYTHONWARNINGS": "ignore"}
-    shown = subprocess.run(
-        command, capture_output=True, text=True, check=True, env=quiet
-    )
-    return float(shown.stdout.strip().splitlines()[-1])
+    return printed_by_peer(folder, "v1", "sb3_dqn.py", *options)
 
 
 def main() -> None:

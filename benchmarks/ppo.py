@@ -11,34 +11,23 @@ one of one actor, learning included. ``--cpu`` counts seconds of the processor, 
 from __future__ import annotations
 
 import argparse
-import os
-import subprocess
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
+from peer_process import printed_by_peer
 
 from robonav.deep import train_ppo
 from robonav.robot import navigate, random_worlds
 
-HERE = Path(__file__).parent
 SEEDS, WORLDS, WORLD_SEED = 16, 500, 95_000
 SECONDS, SUCCESS = 60, 95
 
 
 def peer(folder: Path, *options: str) -> float:
     """Steps a second of stable-baselines3's PPO, in its own environment."""
-    command = [
-        str(folder / "v1" / "bin" / "python"),
-        str(HERE / "peers" / "sb3_ppo.py"),
-        *options,
-    ]
-    quiet = os.environ | {"PYTHONWARNINGS": "ignore"}
-    shown = subprocess.run(
-        command, capture_output=True, text=True, check=True, env=quiet
-    )
-    return float(shown.stdout.strip().splitlines()[-1])
+    return printed_by_peer(folder, "v1", "sb3_ppo.py", *options)
 
 
 def main() -> None:

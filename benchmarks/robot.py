@@ -17,13 +17,14 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import gymnasium
+from peer_process import printed_by_peer
 
 import robonav  # noqa: F401  (registers the environments)
 
-HERE = Path(__file__).parent
 NAME = "robonav/Navigation-v0"
 SECONDS, ROUNDS = 1.5, 5
 
@@ -81,26 +82,6 @@ def in_turn(
     )
 
 
-def peer_process(folder: Path, environment: str, script: str) -> Callable[[], float]:
-    """A peer in its own virtual environment; its script prints steps a second on its last line."""
-
-    def measure() -> float:
-        command = [
-            str(folder / environment / "bin" / "python"),
-            str(HERE / "peers" / script),
-        ]
-        shown = subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            check=True,
-            env=os.environ | {"PYTHONWARNINGS": "ignore"},
-        )
-        return float(shown.stdout.strip().splitlines()[-1])
-
-    return measure
-
-
 def import_and_compile() -> None:
     """Seconds to import the package, and to the first step on a fresh clone (empty cache) and after it."""
     imports = [seconds("import robonav") - seconds("pass") for _ in range(5)]
@@ -155,7 +136,8 @@ def main() -> None:
         ("JaxNav", "v3", "jaxnav.py"),
     ):
         ours, peer, ratio = in_turn(
-            batched(NAME, 4096, obstacles=20), peer_process(folder, environment, script)
+            batched(NAME, 4096, obstacles=20),
+            partial(printed_by_peer, folder, environment, script),
         )
         print(
             f"4096 at once, 20 obstacles: {ours:,.0f} steps/s; {what} {peer:,.0f}; ratio {ratio:.1f}"
