@@ -108,6 +108,41 @@ def html(text: str) -> str:
     return str(parser.render(text))
 
 
+def plain(text: str) -> str:
+    """Return Markdown as plain text, for places where a platform shows tags as they are written.
+
+    Parameters
+    ----------
+    text : str
+        Markdown in one line. Its formulas consist of numbers and signs.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    ValueError
+        If a formula has a command, an index or an exponent, which plain text cannot show.
+
+    Examples
+    --------
+    >>> plain("`step` gives the reward $-0.5$ *at once*.")
+    'step gives the reward −0.5 at once.'
+    """
+    shown = ""
+    for token in _parser().parseInline(text)[0].children:
+        if token.type == "math_inline":
+            if set(token.content) & set("\\_^{}"):
+                raise ValueError(f"plain text cannot show the formula {token.content}")
+            shown += token.content.replace("-", "−")
+        elif token.type in ("text", "code_inline", "text_special"):
+            shown += token.content
+        elif token.type in ("softbreak", "hardbreak"):
+            shown += " "
+    return shown
+
+
 def block(text: str) -> str:
     r"""Return Markdown as HTML paragraphs.
 

@@ -1,7 +1,8 @@
 """Items in QTI 1.2, as Canvas reads it.
 
 The vocabulary is that of Canvas's own exports. Canvas takes each condition of a numerical item for a right answer, so
-hints of wrong numbers stand in the feedback for all wrong answers.
+hints of wrong numbers stand in the feedback for all wrong answers. In a matching item Canvas shows what is matched as
+it is written, tags included, so it is plain text there.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from xml.etree import ElementTree
 
-from ..markup import html
+from ..markup import html, plain
 from ..question import Number, Order
 from .answers import Option, number_text
 from .elements import Element, child
@@ -49,7 +50,11 @@ def assessment(items: Sequence[Item], title: str) -> Element:
 
 
 def _html(node: Element, text: str) -> None:
-    child(child(node, "material"), "mattext", text, texttype="text/html")
+    _material(node, text, "text/html")
+
+
+def _material(node: Element, text: str, kind: str) -> None:
+    child(child(node, "material"), "mattext", text, texttype=kind)
 
 
 def _item(item: Item) -> Element:
@@ -143,10 +148,11 @@ def _number(item: Item, presentation: Element, processing: Element) -> dict[str,
     return {}
 
 
-def _labels(response: Element, texts: Sequence[str]) -> None:
+def _labels(response: Element, texts: Sequence[str], kind: str) -> None:
     choices = child(response, "render_choice")
     for number, text in enumerate(texts, start=1):
-        _html(child(choices, "response_label", ident=_ident(number)), html(text))
+        label = child(choices, "response_label", ident=_ident(number))
+        _material(label, text, kind)
 
 
 def _ident(number: int) -> str:
@@ -159,7 +165,7 @@ def _choice(item: Item, presentation: Element, processing: Element) -> dict[str,
     response = child(
         presentation, "response_lid", ident=RESPONSE, rcardinality="Single"
     )
-    _labels(response, [option.text for option in asked])
+    _labels(response, [html(option.text) for option in asked], "text/html")
     feedback = {}
     numbered: list[tuple[str, Option]] = [
         (_ident(k), option) for k, option in enumerate(asked, start=1)
@@ -183,7 +189,7 @@ def _order(item: Item, presentation: Element, processing: Element) -> dict[str, 
         ident = f"response_{place}"
         response = child(presentation, "response_lid", ident=ident)
         _html(response, f"Step {place}")
-        _labels(response, shown)
+        _labels(response, [plain(one) for one in shown], "text/plain")
         right = _ident(shown.index(step) + 1)
         part = f"{100 / len(shown):.2f}"
         _condition(processing, ident, right, score=part, adds=True)

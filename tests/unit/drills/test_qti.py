@@ -14,6 +14,7 @@ from robonav.drills import Choice, Number, Order, Place, Table
 from robonav.drills.export import Drawn, drawn, qti_zip, selected
 from robonav.drills.export.items import Item, items
 from robonav.drills.markup import html
+from robonav.drills.markup import plain as plain_text
 from robonav.drills.rounding import roundings
 
 QTI = "{http://www.imsglobal.org/xsd/imsqti_v2p1}"
@@ -110,7 +111,7 @@ def test_canvas_accepts_what_the_question_accepts(made, canvas) -> None:
             for condition in right
         ]
         if isinstance(item.asked, Order):
-            assert chosen == [html(step) for step in item.asked.steps]
+            assert chosen == [plain_text(step) for step in item.asked.steps]
         else:
             assert chosen == [html(one.text) for one in item.asked if one.right]
 
@@ -142,13 +143,33 @@ def test_blackboard_accepts_what_the_question_accepts(made, blackboard) -> None:
 def test_an_order_is_not_given_away(made, canvas, blackboard) -> None:
     for name, item in made.items():
         if isinstance(item.asked, Order):
-            alphabetical = [html(step) for step in sorted(item.asked.steps)]
+            alphabetical = sorted(item.asked.steps)
             first = canvas[name].find(f".//{CANVAS}render_choice")
             assert first is not None
-            assert texts(first, f".//{CANVAS}mattext") == alphabetical
-            assert texts(blackboard[name], f".//{QTI}simpleChoice") == [
-                plain(step) for step in alphabetical
+            assert texts(first, f".//{CANVAS}mattext") == [
+                plain_text(step) for step in alphabetical
             ]
+            assert texts(blackboard[name], f".//{QTI}simpleChoice") == [
+                plain(html(step)) for step in alphabetical
+            ]
+
+
+def test_a_matching_item_of_canvas_shows_no_tags_and_no_signs_of_formulas(
+    made, canvas
+) -> None:
+    orders = [name for name, item in made.items() if isinstance(item.asked, Order)]
+    shown = [
+        text
+        for name in orders
+        for text in texts(canvas[name], f".//{CANVAS}response_label//{CANVAS}mattext")
+    ]
+    assert any("−" in text for text in shown)
+    assert not [text for text in shown if re.search(r"[<>$\\`*]", text)]
+
+
+def test_plain_text_refuses_a_formula_with_commands() -> None:
+    with pytest.raises(ValueError, match=r"cannot show the formula \\gamma"):
+        plain_text(r"The value is $\gamma$.")
 
 
 def test_every_item_has_its_explanation_and_hints(made, canvas, blackboard) -> None:
