@@ -295,6 +295,7 @@ def test_another_writer_makes_canvas_s_items_of_the_same_parts(made, canvas) -> 
         theirs = shape(other, without=set())
         assert ours - theirs <= {
             "mattext texttype=text/html",
+            "mattext texttype=text/plain",  # in matching items
             "respcondition continue=Yes",  # of feedback
             "respcondition continue=No",
             "response_lid rcardinality=Single",
