@@ -21,6 +21,16 @@ BIN := .venv/bin
 INSTALLED := .venv/.installed
 TORCH := $(shell grep '^torch==' requirements.lock)
 PROCESSES = $(shell $(BIN)/python -c 'import os; print(os.cpu_count() + 1)')
+export define FIRST_STEPS
+import gymnasium
+import robonav
+robot = gymnasium.make("robonav/Navigation-v0")
+robot.reset(seed=0)
+robot.step(0)
+robots = gymnasium.make_vec("robonav/Navigation-v0", 2, vectorization_mode="vector_entry_point")
+robots.reset(seed=0)
+robots.step([0, 0])
+endef
 EXTRAS := book,lab,grading,exams,cluster,tests,benchmarks,formats,clients
 
 .PHONY: help open install book pdf slides check test test-all lab lock clean
@@ -38,6 +48,7 @@ help:
 	@echo "make clean  remove everything that was built, except .venv"
 
 # PyTorch comes first, because the resolver may choose another build, which is gigabytes larger.
+# The last command compiles the simulator and keeps the result beside its sources, so that nobody waits for it later.
 # The editable installation is a path, not an import hook: Python would otherwise take a clone's folder named robonav,
 # seen from the folder above it, for the package.
 $(INSTALLED): requirements.lock pyproject.toml
@@ -46,6 +57,7 @@ $(INSTALLED): requirements.lock pyproject.toml
 	$(BIN)/python -m pip install --quiet $(PIP_OPTIONS) '$(TORCH)'
 	$(BIN)/python -m pip install --quiet $(PIP_OPTIONS) -r requirements.lock
 	$(BIN)/python -m pip install --quiet --no-deps --editable . --config-settings editable_mode=compat
+	$(BIN)/python -c "$$FIRST_STEPS"
 	touch $@
 
 install: $(INSTALLED)

