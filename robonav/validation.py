@@ -19,6 +19,10 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 P = ParamSpec("P")
 R = TypeVar("R")
 
+ArrayArgument = Any
+"""The type of an argument of which :func:`checks` makes an array: callers may pass a list, and the body has the array.
+The types of NumPy say one or the other, not both."""
+
 Rule = Callable[[str, Any], Any]
 """The check of one argument: takes its name and its value, and returns the value to use."""
 

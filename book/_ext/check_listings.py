@@ -1,16 +1,19 @@
 """Check the code on the built pages: ``python book/_ext/check_listings.py [PAGE ...]``.
 
 A listing of the package's code has at most 40 lines of at most 88 columns. It shows no imports, no input checks and no
-warnings. Each numbered equation of a page is followed, on that page, by a listing whose comments carry its number.
+warnings; its syntax tree is searched for them. A decorator may check the arguments, since it stands outside the code.
+Each numbered equation of a page is followed, on that page, by a listing whose comments carry its number.
 Equations that only introduce a symbol (``symbols.toml``) need no listing. A code cell of the page that is not folded
 has at most 88 columns, and so has an exercise's file.
 """
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 import sys
+import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -22,10 +25,38 @@ from thesis_numbers import thesis_number
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = Path(os.environ.get("BOOK_SITE", ROOT / "_build" / "html"))
-IMPORT = re.compile(r"^\s*(?:from\s+\S+\s+import|import)\s", re.MULTILINE)
-INPUT_CHECK = re.compile(
-    r"\bcheck_\w+\(|^\s*raise\s|\bisinstance\(|(?<![@\w])\w*warn\w*\(", re.MULTILINE
-)
+NODES: dict[type[ast.AST], str] = {
+    ast.Import: "an import",
+    ast.ImportFrom: "an import",
+    ast.Raise: "an input check",
+    ast.Assert: "an input check",
+}
+NAMES = {
+    "an input check": re.compile(
+        r"_?(?:check|validat|requir|ensur|verif)\w*|isinstance|issubclass|callable|hasattr|as(?:_\w+|\w*array)"
+    ),
+    "a warning": re.compile(r"\w*warn\w*"),
+}
+CONVERSIONS = {"as_module", "as_network", "as_single_steps", "as_tensor"}
+"""Names as of a check, of functions that make another kind of object and refuse nothing."""
+
+
+def named(node: ast.AST) -> str:
+    """Return the name or the attribute that a node of a syntax tree refers to, or nothing."""
+    return getattr(node, "id", None) or getattr(node, "attr", None) or ""
+
+
+def plumbing(code: str) -> list[str]:
+    """Return the kinds of things in a listing that are not its algorithm: imports, input checks, warnings."""
+    tree = ast.parse(textwrap.dedent(code))
+    for node in ast.walk(tree):
+        if isinstance(node, citations.Definition):
+            node.decorator_list.clear()
+    nodes = list(ast.walk(tree))
+    names = {named(node) for node in nodes} - CONVERSIONS
+    found = {NODES[type(node)] for node in nodes if type(node) in NODES}
+    found |= {kind for kind in NAMES if any(map(NAMES[kind].fullmatch, names))}
+    return sorted(found)
 
 
 def wide_cells(html: str) -> Iterator[str]:
@@ -69,10 +100,8 @@ def faults(html: str) -> Iterator[str]:
             yield f"{name} has {len(lines)} lines"
         if widest > citations.MOST_COLUMNS:
             yield f"{name} has {widest} columns"
-        if IMPORT.search(text):
-            yield f"{name} shows an import"
-        if INPUT_CHECK.search(text):
-            yield f"{name} shows an input check or a warning"
+        for kind in plumbing(text):
+            yield f"{name} shows {kind}"
         shown = citations.cited("equations", text)
         waiting = [number for number in waiting if citations.key(number) not in shown]
     for number in waiting:

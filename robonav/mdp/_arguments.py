@@ -74,14 +74,32 @@ MODEL_ARRAYS = {
 }
 """Arrays of numbers whose shape follows from the argument ``mdp``."""
 
+METHODS = {
+    "action": "as_action",
+    "belief": "as_belief",
+    "ranges": "as_ranges",
+    "successor": "as_belief",
+}
+"""Arguments of methods, and the method of the same object that checks them and returns them ready to use."""
+
 
 def require_type(name: str, kind: type) -> None:
     """Add the rule that every argument of this name has this type."""
     RULES[name] = partial(check_instance, kind=kind)
 
 
-def check_shapes(function: str, arguments: dict[str, Any]) -> None:
-    """Check the arrays whose shape follows from the model."""
+def check_by_model(function: str, arguments: dict[str, Any]) -> None:
+    """Check what the model decides: shapes of arrays, beliefs over its states, and which actions there are."""
+    if "self" in arguments:
+        model = getattr(arguments["self"], "pomdp", arguments["self"])
+        for name in METHODS.keys() & arguments.keys():
+            arguments[name] = getattr(model, METHODS[name])(arguments[name])
+    if function == "expected_return":
+        states = arguments["mdp"].n_states
+        arguments["start"] = as_distributions("start", arguments["start"], states)
+    if function == "point_based_value_iteration":
+        model, beliefs = arguments["pomdp"].mdp, arguments["beliefs"]
+        arguments["beliefs"] = beliefs_to_back_up(model, beliefs)
     if "mdp" in arguments:
         for name in MODEL_ARRAYS.keys() & arguments.keys():
             shape = [getattr(arguments["mdp"], size) for size in MODEL_ARRAYS[name]]
@@ -89,7 +107,18 @@ def check_shapes(function: str, arguments: dict[str, Any]) -> None:
                 arguments[name] = check_array(name, arguments[name], shape=shape)
 
 
-checked = checks(RULES, check_shapes)
+def beliefs_to_back_up(mdp: Any, beliefs: Any) -> NDArray[Any]:
+    """The beliefs (N, S), checked; a ValueError without discount, when there are no values to start from."""
+    if mdp.discount == 1:
+        raise ValueError("point_based_value_iteration needs a discount below 1, got 1")
+    check_array("beliefs", beliefs, shape=("N", mdp.n_states))
+    points = as_distributions("beliefs", beliefs, mdp.n_states)
+    if len(points) == 0:
+        raise ValueError("beliefs must hold at least one belief, got none")
+    return points
+
+
+checked = checks(RULES, check_by_model)
 """Decorate a function so that its arguments are checked by these rules before it runs."""
 
 

@@ -7,12 +7,11 @@ Sondik 1973). Each linear function is an alpha vector: one value a state, and th
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array
+from robonav.validation import ArrayArgument, check_array
 
 from ._arguments import checked
 from .convergence import warns_not_converged
@@ -188,7 +187,7 @@ def largest_rise(pomdp: POMDP, tolerance: float) -> float:
 @warns_not_converged(largest_rise)
 def point_based_value_iteration(
     pomdp: POMDP,
-    beliefs: ArrayLike,
+    beliefs: ArrayArgument,
     *,
     tolerance: float = 1e-6,
     max_iterations: int = 10_000,
@@ -236,12 +235,11 @@ def point_based_value_iteration(
     >>> round(float(plan.value([0.5, 0.5])), 2)
     19.37
     """
-    points = as_points(pomdp, beliefs)
     epsilon = largest_rise(pomdp, tolerance)
     found = worst_vectors(pomdp)  # one vector, below every value
     for iteration in range(1, max_iterations + 1):
-        backed_up = backup(pomdp, points, found)
-        found, rise = keep_best(points, found, backed_up, iteration)
+        backed_up = backup(pomdp, beliefs, found)
+        found, rise = keep_best(beliefs, found, backed_up, iteration)
         if rise <= epsilon:
             break
     return replace(found, residual=rise, converged=rise <= epsilon)
@@ -280,17 +278,6 @@ def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
     values = np.einsum("ans,ns->na", alphas, points)  # (N, A): b . alpha_ab
     best = values.argmax(axis=1)  # (N,)
     return AlphaVectors(alphas[best, np.arange(len(points))], best)
-
-
-def as_points(pomdp: POMDP, beliefs: Any) -> Floats:
-    """The beliefs (N, S) to back up, checked; a ValueError without discount."""
-    if pomdp.mdp.discount == 1:
-        raise ValueError("point_based_value_iteration needs a discount below 1, got 1")
-    check_array("beliefs", beliefs, shape=("N", pomdp.mdp.n_states))
-    points = as_distributions("beliefs", beliefs, pomdp.mdp.n_states)
-    if len(points) == 0:
-        raise ValueError("beliefs must hold at least one belief, got none")
-    return points
 
 
 def worst_vectors(pomdp: POMDP) -> AlphaVectors:

@@ -53,8 +53,10 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.sparse.linalg import spsolve
+
+from robonav.validation import ArrayArgument
 
 from .evaluation import evaluation_residual, least_gain
 from .models import FiniteMDP
@@ -77,7 +79,7 @@ def value_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,
     *,
-    start: ArrayLike | None = None,
+    start: ArrayArgument | None = None,
     max_iterations: int = 100_000,
     record: bool = False,
 ) -> Solution:
@@ -118,7 +120,7 @@ def value_iteration(
     (29, array([0.69, 0.8 , 0.9 , 0.  ]))
     """
     gamma = mdp.discount
-    values = np.zeros(mdp.n_states) if start is None else np.asarray(start)  # 1 and 2
+    values = np.zeros(mdp.n_states) if start is None else start  # 1 and 2
     for iteration in range(1, max_iterations + 1):  # 3: repeat
         previous = values
         # (S, A): the sum over s' of T(s, a, s') V(s'); one matrix (S, S) an action
@@ -139,7 +141,7 @@ def policy_iteration(
     mdp: FiniteMDP,
     tolerance: float = 1e-9,
     *,
-    start: ArrayLike | None = None,
+    start: ArrayArgument | None = None,
     max_iterations: int = 1000,
     record: bool = False,
 ) -> Solution:
@@ -191,10 +193,10 @@ def policy_iteration(
     """
     gamma, states = mdp.discount, np.arange(mdp.n_states)
     identity = sp.eye_array(mdp.n_states, format="csc")
-    if start is None:  # 1 and 2: towards a terminal state, else the largest reward
+    policy = start
+    if policy is None:  # 1 and 2: towards a terminal state, else the largest reward
         steps, shortest = shortest_path_policy(mdp, mdp.terminal)
-        start = np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
-    policy = np.asarray(start)
+        policy = np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
     for iteration in range(1, max_iterations + 1):  # 3 and 4: repeat
         # 5 to 8, evaluate: solve V = r_pi + gamma T_pi V  Eq. (2.5)
         # (mdp.rows has T(s, a, .) in its row s * n_actions + a)
@@ -222,7 +224,7 @@ def modified_policy_iteration(
     tolerance: float = 1e-6,
     *,
     sweeps: int = 8,
-    start: ArrayLike | None = None,
+    start: ArrayArgument | None = None,
     max_iterations: int = 100_000,
     record: bool = False,
 ) -> Solution:
@@ -272,9 +274,9 @@ def modified_policy_iteration(
     array([0.69, 0.8 , 0.9 , 0.  ])
     """
     gamma = mdp.discount
-    if start is None:  # the least reward forever: no sweep lowers these values
-        start = np.where(mdp.terminal, 0, min(mdp.rewards.min(), 0) / (1 - gamma))
-    values = np.asarray(start)
+    values = start
+    if values is None:  # the least reward forever: no sweep lowers these values
+        values = np.where(mdp.terminal, 0, min(mdp.rewards.min(), 0) / (1 - gamma))
     for iteration in range(1, max_iterations + 1):
         q = mdp.rewards + gamma * mdp.expected_next_values(values)
         change = q.max(axis=1) - values

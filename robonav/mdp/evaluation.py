@@ -9,14 +9,13 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array
+from robonav.validation import ArrayArgument, check_array
 
 from . import undiscounted
 from ._arguments import checked
 from .convergence import warns_not_converged
 from .linear_solver import solve
 from .models import FiniteMDP
-from .policies import as_distributions
 
 Floats = NDArray[np.float64]
 
@@ -196,7 +195,7 @@ def iterative_policy_evaluation(
 
 
 @checked
-def expected_return(mdp: FiniteMDP, policy: ArrayLike, start: ArrayLike) -> float:
+def expected_return(mdp: FiniteMDP, policy: ArrayLike, start: ArrayArgument) -> float:
     """Expected discounted return of a policy from random start states, Eq. (2.28).
 
     Parameters
@@ -219,8 +218,7 @@ def expected_return(mdp: FiniteMDP, policy: ArrayLike, start: ArrayLike) -> floa
     >>> round(expected_return(mdp, value_iteration(mdp).policy, grid.start), 3)
     0.501
     """
-    probabilities = as_distributions("start", start, mdp.n_states)
-    return float(probabilities @ policy_evaluation(mdp, policy))  # Eq. (2.28)
+    return float(start @ policy_evaluation(mdp, policy))  # Eq. (2.28)
 
 
 class ValueHistory:

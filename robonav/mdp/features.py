@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
+from functools import cached_property, wraps
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import check_array, check_integer
+
+R = TypeVar("R")
 
 Features = Callable[[Any], NDArray[np.float64]]
 
@@ -56,11 +58,15 @@ class OneHot:
         return for_each_action(np.eye(1, self.n_states, place)[0], self.n_actions)
 
 
-def same_shape(
-    name: str, value: ArrayLike, shape: tuple[int, ...]
-) -> NDArray[np.float64]:
-    """The value as an array of this shape, checked."""
-    return check_array(name, value, shape=shape)
+def takes_state(method: Callable[[Any, Any], R]) -> Callable[[Any, ArrayLike], R]:
+    """Let a method of a tile coding take ``state`` as any array-like of shape (d,), and check it."""
+
+    @wraps(method)
+    def checked(self: Tiles, state: ArrayLike) -> R:
+        """Check the state, then call the method."""
+        return method(self, check_array("state", state, shape=(len(self.low),)))
+
+    return checked
 
 
 @dataclass(frozen=True)
@@ -120,7 +126,8 @@ class Tiles:
         odd = 2 * np.arange(len(self.tiles)) + 1
         return np.outer(np.arange(self.tilings), odd) % self.tilings / self.tilings
 
-    def active(self, state: ArrayLike) -> NDArray[np.int64]:
+    @takes_state
+    def active(self, state: NDArray[np.float64]) -> NDArray[np.int64]:
         """Number of the tile that holds the state, in each tiling.
 
         Parameters
@@ -138,9 +145,9 @@ class Tiles:
         >>> Tiles(low=[0.0], high=[1.0], tiles=[4], tilings=2, n_actions=1).active([0.3])
         array([1, 6])
         """
-        low, high = np.asarray(self.low), np.asarray(self.high)
-        inside = np.clip(same_shape("state", state, low.shape), low, high)
-        place = (inside - low) / (high - low) * self.tiles  # in tiles
+        inside = np.clip(state, self.low, self.high)
+        size = np.subtract(self.high, self.low)
+        place = (inside - self.low) / size * self.tiles  # in tiles
         cells = np.minimum((place + self.shifts).astype(int), self.tiles)
         return np.ravel_multi_index((np.arange(self.tilings), *cells.T), self.shape)
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
-from functools import cached_property
+from functools import cached_property, wraps
 from types import MappingProxyType
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import gymnasium as gym
 import numpy as np
@@ -22,6 +22,8 @@ from robonav.validation import (
 )
 
 from .models import FiniteMDP
+
+R = TypeVar("R")
 
 UP, RIGHT, DOWN, LEFT = range(4)
 # rows and columns, in the order of the actions
@@ -315,12 +317,17 @@ class GridWorld:
         return self._of_symbols(what, dtype)[tuple(self.cells.T)]
 
 
-def as_action(action: int) -> int:
-    """The action as a whole number from 0 to 3, checked; policies of other libraries give it as an array ()."""
-    taken = (
-        action.item() if np.ndim(action) == 0 and hasattr(action, "item") else action
-    )
-    return check_integer("action", taken, at_least=0, at_most=3)
+def takes_action(step: Callable[[Any, int], R]) -> Callable[[Any, int], R]:
+    """Decorate ``step``: its action is from 0 to 3; policies of other libraries give it as an array ()."""
+
+    @wraps(step)
+    def checked(env: GridEnvironment, action: Any) -> R:
+        """Check the action, then make the step."""
+        single = np.ndim(action) == 0 and hasattr(action, "item")
+        taken = action.item() if single else action
+        return step(env, check_integer("action", taken, at_least=0, at_most=3))
+
+    return checked
 
 
 class GridEnvironment(gym.Env[Any, Any]):
@@ -395,6 +402,7 @@ class GridEnvironment(gym.Env[Any, Any]):
         )
         return self.state, {}
 
+    @takes_action
     def step(self, action: int) -> tuple[int, float, bool, bool, dict[str, Any]]:
         """One step, Eq. (2.1): draw the next state and the reward from P(. | s, a).
 
@@ -424,8 +432,7 @@ class GridEnvironment(gym.Env[Any, Any]):
         >>> env.step(1)[:4]  # to the right, onto the goal
         (1, 1.0, True, False)
         """
-        taken = as_action(action)
-        outcome = self._draw(self.P[self.state][taken])  # Eq. (2.1)
+        outcome = self._draw(self.P[self.state][action])  # Eq. (2.1)
         probability, self.state, reward, ended = outcome
         return self.state, reward, ended, False, {"probability": probability}
 

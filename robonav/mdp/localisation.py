@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import logsumexp, ndtr
 
 from robonav.validation import (
+    ArrayArgument,
     check_array,
     check_instance,
     check_integer,
@@ -249,7 +250,9 @@ class RangeSensor:
         check_real("outliers", self.outliers, at_least=0, at_most=1)
 
     @checked
-    def log_likelihood(self, predicted: ArrayLike, measured: ArrayLike) -> Floats:
+    def log_likelihood(
+        self, predicted: ArrayArgument, measured: ArrayArgument
+    ) -> Floats:
         """Logarithm of the density of readings where other ranges are expected.
 
         A reading short of ``reach`` has a normal density about the prediction; ``reach`` itself, which stands for all
@@ -274,9 +277,8 @@ class RangeSensor:
         >>> densities.round(3)
         array([0.513, 0.018])
         """
-        seen = np.asarray(measured)
-        error = (seen - np.asarray(predicted)) / self.deviation
-        beyond = seen >= self.reach
+        error = (measured - predicted) / self.deviation
+        beyond = measured >= self.reach
         hit = np.where(
             beyond,
             ndtr(-error),
@@ -345,7 +347,8 @@ class Localiser:
                     f"transitions must hold one distribution a row, not so at action {action}"
                 )
 
-    def predict(self, belief: ArrayLike, action: int) -> Floats:
+    @checked
+    def predict(self, belief: ArrayArgument, action: int) -> Floats:
         """The belief after a move: all that a robot with no sensing has.
 
         Parameters
@@ -367,12 +370,13 @@ class Localiser:
         >>> localiser.predict([0.5, 0.5], action=0)
         array([0., 1.])
         """
-        return self.as_belief(belief) @ self.transitions[self.as_action(action)]
+        return belief @ self.transitions[action]
 
     @refuses_impossible(
         "the ranges have probability zero in every pose that the belief holds possible"
     )
-    def correct(self, belief: ArrayLike, ranges: ArrayLike) -> Floats:
+    @checked
+    def correct(self, belief: ArrayArgument, ranges: ArrayArgument) -> Floats:
         """The belief after readings.
 
         Parameters
@@ -400,12 +404,10 @@ class Localiser:
         >>> localiser.correct([0.5, 0.5], [2.0]).round(2)
         array([0.01, 0.99])
         """
-        before = self.as_belief(belief)
-        possible = np.flatnonzero(before)
-        predicted = self.predicted[possible]
-        evidence = self.sensor.log_likelihood(predicted, self.as_ranges(ranges))
-        log = np.log(before[possible]) + evidence
-        corrected = np.zeros_like(before)
+        possible = np.flatnonzero(belief)
+        evidence = self.sensor.log_likelihood(self.predicted[possible], ranges)
+        log = np.log(belief[possible]) + evidence
+        corrected = np.zeros_like(belief)
         corrected[possible] = np.exp(log - logsumexp(log))
         return corrected / corrected.sum()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, wraps
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import scipy.sparse as sp
@@ -17,6 +17,8 @@ from robonav.validation import check_array, check_real
 
 from . import policies
 from ._arguments import checked, require_type
+
+R = TypeVar("R")
 
 Arrays = tuple[
     NDArray[Any], NDArray[Any], NDArray[np.float64], NDArray[np.float64], float
@@ -30,6 +32,17 @@ def takes_values(method: Callable[..., Any]) -> Callable[..., Any]:
     def checked(self: FiniteMDP, values: ArrayLike) -> Any:
         """Check the values, then call the method."""
         return method(self, check_array("values", values, shape=(self.n_states,)))
+
+    return checked
+
+
+def takes_policy(method: Callable[..., R]) -> Callable[[Any, ArrayLike], R]:
+    """Let a method of a model take ``policy`` as any array-like of shape (S,) or (S, A), and check it."""
+
+    @wraps(method)
+    def checked(self: FiniteMDP, policy: ArrayLike) -> R:
+        """Check the policy, then call the method."""
+        return method(self, policies.as_policy(policy, self.n_states, self.n_actions))
 
     return checked
 
@@ -300,8 +313,9 @@ class FiniteMDP:
         """
         return self.action_values(values).argmax(axis=1)  # Eq. (2.25)
 
+    @takes_policy
     def induced_chain(
-        self, policy: ArrayLike
+        self, policy: NDArray[Any]
     ) -> tuple[sp.csr_array, NDArray[np.float64]]:
         """Markov chain that a policy induces, Eq. (2.6).
 
@@ -326,13 +340,12 @@ class FiniteMDP:
         (array([[0.5, 0.5],
                [0. , 1. ]]), array([1., 0.]))
         """
-        pi = policies.as_policy(policy, self.n_states, self.n_actions)
-        if pi.ndim == 1:
-            state = np.arange(self.n_states)
-            return self.rows[state * self.n_actions + pi], self.rewards[state, pi]
-        starts = np.arange(0, pi.size + 1, self.n_actions)
-        average = sp.csr_array((pi.ravel(), np.arange(pi.size), starts))
-        return average @ self.rows, (pi * self.rewards).sum(axis=1)  # Eq. (2.6)
+        if policy.ndim == 1:
+            pair = np.arange(self.n_states), policy
+            return self.rows[pair[0] * self.n_actions + policy], self.rewards[pair]
+        starts = np.arange(0, policy.size + 1, self.n_actions)
+        average = sp.csr_array((policy.ravel(), np.arange(policy.size), starts))
+        return average @ self.rows, (policy * self.rewards).sum(axis=1)  # Eq. (2.6)
 
     @checked
     def residual_for(self, tolerance: float) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array, check_instance, check_integer
+from robonav.validation import ArrayArgument, check_array, check_instance, check_integer
 
 from ._arguments import checked, refuses_impossible, require_type
 from .models import FiniteMDP
@@ -69,7 +69,7 @@ def bayes(prior: ArrayLike, likelihood: ArrayLike) -> tuple[Floats, float]:
 
 
 @checked
-def entropy(belief: ArrayLike) -> float:
+def entropy(belief: ArrayArgument) -> float:
     """Entropy of a belief in bits: 0 if one state is certain, log2 S if all are equally likely.
 
     Parameters
@@ -86,8 +86,7 @@ def entropy(belief: ArrayLike) -> float:
     >>> entropy([0.5, 0.5]), entropy([1.0, 0.0])
     (1.0, 0.0)
     """
-    b = np.asarray(belief)
-    possible = b[b > 0]
+    possible = belief[belief > 0]
     return float(-(possible * np.log2(possible)).sum()) + 0.0  # not -0
 
 
@@ -155,7 +154,8 @@ class POMDP:
         """
         return np.full(self.mdp.n_states, 1 / self.mdp.n_states)
 
-    def predict(self, belief: ArrayLike, action: int) -> Floats:
+    @checked
+    def predict(self, belief: ArrayArgument, action: int) -> Floats:
         """Belief after an action, before anything is observed: sum over s of b(s) T(s, a, .).
 
         Parameters
@@ -175,8 +175,7 @@ class POMDP:
         >>> tiger().predict([0.8, 0.2], action=1)  # a door was opened: a new round begins
         array([0.5, 0.5])
         """
-        b, a = self.as_belief(belief), self.as_action(action)
-        return np.asarray(b @ self.mdp.transitions[a])
+        return belief @ self.mdp.transitions[action]
 
     @refuses_impossible(
         "observation must be possible: {observation} has probability zero "
@@ -259,9 +258,10 @@ class POMDP:
         array([0.85, 0.15])
         """
         predicted = self.predict(belief, action)  # sum over s of b(s) T(s, a, s')
-        return predicted @ self.observations[self.as_action(action)]  # Eq. (2.20)
+        return predicted @ self.observations[action]  # Eq. (2.20)
 
-    def expected_rewards(self, belief: ArrayLike) -> Floats:
+    @checked
+    def expected_rewards(self, belief: ArrayArgument) -> Floats:
         """Expected reward of each action, r(a | b), Eq. (2.21).
 
         Parameters
@@ -279,7 +279,7 @@ class POMDP:
         >>> tiger().expected_rewards([0.5, 0.5])
         array([ -1., -45., -45.])
         """
-        return self.as_belief(belief) @ self.mdp.rewards  # Eq. (2.21)
+        return belief @ self.mdp.rewards  # Eq. (2.21)
 
     def as_belief(self, belief: ArrayLike) -> Floats:
         """The belief as an array, checked.
@@ -306,28 +306,6 @@ class POMDP:
         """
         check_array("belief", belief, shape=(self.mdp.n_states,))
         return as_distributions("belief", belief, self.mdp.n_states)
-
-    def as_vector(self, name: str, numbers: ArrayLike) -> Floats:
-        """Numbers of the states as an array, checked.
-
-        Parameters
-        ----------
-        name : str
-            What an error calls them.
-        numbers : (S,) array
-            One for each state.
-
-        Returns
-        -------
-        (S,) array
-
-        Examples
-        --------
-        >>> from robonav.mdp import tiger
-        >>> tiger().as_vector("values", [1, 2])
-        array([1., 2.])
-        """
-        return check_array(name, numbers, shape=(self.mdp.n_states,))
 
     def as_action(self, action: int) -> int:
         """The action as an index, checked.
@@ -407,7 +385,7 @@ class BeliefMDP:
                [0.15, 0.85]]), array([0.5, 0.5]))
         """
         predicted = self.pomdp.predict(belief, action)
-        likelihoods = self.pomdp.observations[self.pomdp.as_action(action)].T  # (O, S')
+        likelihoods = self.pomdp.observations[action].T  # (O, S')
         found: list[tuple[Floats, float]] = []
         for likelihood in likelihoods[likelihoods @ predicted > 0]:
             posterior, probability = bayes(predicted, likelihood)
@@ -419,7 +397,10 @@ class BeliefMDP:
                 found.append((posterior, probability))
         return np.stack([b for b, _ in found]), np.array([p for _, p in found])
 
-    def transition(self, belief: ArrayLike, action: int, successor: ArrayLike) -> float:
+    @checked
+    def transition(
+        self, belief: ArrayArgument, action: int, successor: ArrayArgument
+    ) -> float:
         """Probability tau(b, a, b') that the belief ``successor`` follows, Eq. (2.22).
 
         Parameters
@@ -442,11 +423,11 @@ class BeliefMDP:
         0.5
         """
         beliefs, probabilities = self.successors(belief, action)
-        wanted = self.pomdp.as_vector("successor", successor)
-        same = (abs(beliefs - wanted) <= SAME).all(axis=1)
+        same = (abs(beliefs - successor) <= SAME).all(axis=1)
         return float(probabilities[same].sum())  # Eq. (2.22)
 
-    def reward(self, belief: ArrayLike, action: int) -> float:
+    @checked
+    def reward(self, belief: ArrayArgument, action: int) -> float:
         """Expected reward r(b, a) of an action at a belief, Eq. (2.23).
 
         Parameters
@@ -466,5 +447,4 @@ class BeliefMDP:
         >>> BeliefMDP(tiger()).reward([0.5, 0.5], action=0)
         -1.0
         """
-        b, a = self.pomdp.as_belief(belief), self.pomdp.as_action(action)
-        return float((b @ self.pomdp.mdp.rewards)[a])  # Eq. (2.23)
+        return float((belief @ self.pomdp.mdp.rewards)[action])  # Eq. (2.23)

@@ -9,12 +9,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from .multilayer_perceptron import Array, Gradient, Network, sigmoid, sigmoid_slope
 
 
-def forward_by_units(network: Network, x: ArrayLike) -> list[float]:
+def forward_by_units(network: Network, x: Array) -> list[float]:
     """Forward propagation of one input, unit by unit, Eq. (3.1).
 
     Slow, and written to be read: :func:`propagate` computes the same with matrices.
@@ -37,7 +36,7 @@ def forward_by_units(network: Network, x: ArrayLike) -> list[float]:
     >>> forward_by_units(random_network((3, 3, 1), seed=0, spread=0), [1, 2, 3])
     [0.5]
     """
-    a = [float(number) for number in np.asarray(x)]
+    a = list(map(float, x))
     for W, b in zip(network.weights, network.biases, strict=True):
         z = [
             sum(W[i, j] * a[j] for j in range(len(a))) + b[i]  # Eq. (3.1)
@@ -47,7 +46,7 @@ def forward_by_units(network: Network, x: ArrayLike) -> list[float]:
     return a
 
 
-def backpropagate_by_units(network: Network, x: ArrayLike, y: ArrayLike) -> Gradient:
+def backpropagate_by_units(network: Network, x: Array, y: Array) -> Gradient:
     """Backpropagation for one example, unit by unit, Eqs. (3.10), (3.11) and (3.12).
 
     Slow, and written to be read: :func:`backpropagate` computes the same with matrices for all examples at once.
@@ -78,7 +77,7 @@ def backpropagate_by_units(network: Network, x: ArrayLike, y: ArrayLike) -> Grad
     slope = [sigmoid_slope(layer) for layer in a]
     delta = [np.zeros(units) for units in s]
     for i in range(s[last]):  # 2
-        delta[last][i] = -(np.asarray(y)[i] - a[last][i]) * slope[last][i]  # Eq. (3.10)
+        delta[last][i] = -(y[i] - a[last][i]) * slope[last][i]  # Eq. (3.10)
     for n in range(last - 1, 0, -1):  # 3
         for i in range(s[n]):
             back = sum(W[n][j, i] * delta[n + 1][j] for j in range(s[n + 1]))
@@ -91,7 +90,7 @@ def backpropagate_by_units(network: Network, x: ArrayLike, y: ArrayLike) -> Grad
     return Gradient(dW, db)
 
 
-def action_probabilities(network: Network, x: ArrayLike) -> Array:
+def action_probabilities(network: Network, x: Array) -> Array:
     """Outputs of a network with one hidden layer, Eqs. (3.19), (3.20) and (3.21).
 
     These are the three steps of :meth:`Network.forward` for the network of section 3.4.2.
@@ -115,6 +114,6 @@ def action_probabilities(network: Network, x: ArrayLike) -> Array:
     [0.5, 0.5, 0.5, 0.5, 0.5]
     """
     (w1, w2), (b1, b2) = network.weights, network.biases
-    h = sigmoid(np.asarray(x) @ w1.T + b1)  # Eq. (3.19)
+    h = sigmoid(x @ w1.T + b1)  # Eq. (3.19)
     z = h @ w2.T + b2  # Eq. (3.20)
     return sigmoid(z)  # Eq. (3.21)

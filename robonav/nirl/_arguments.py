@@ -125,13 +125,19 @@ SHAPES: dict[str, dict[str, str]] = {
     "sarsa_targets": {"q": "", "rewards": "", "next_q": ""},
     "lstd_mu": {"basis": "M n", "next_basis": "M n", "features": "M K"},
     "heuristic_mu": {"expectations": "M K", "actions": "M:int"},
-    "structured_classification": {"expectations": "M A K", "actions": "M:int"},
+    "structured_classification": {
+        "expectations": "M A K",
+        "actions": "M:int",
+        "step_weights": "M",
+    },
     "accuracy": {"predicted": "M:int", "actions": "M:int"},
     "balanced_accuracy": {"predicted": "M:int", "actions": "M:int"},
     "most_frequent": {"actions": "M:int"},
     "map_uniform_prior": {"actions": "M:int"},
     "maximum_causal_entropy": {"expert": "K"},
     "causal_entropy_ascent": {"expert": "K"},
+    "soft_maximum": {"q": ""},
+    "with_reward": {"weights": "K"},
 }
 """Dimensions of arrays, by function and argument: equal letters are equal lengths, ``:int`` means whole numbers."""
 
@@ -163,6 +169,8 @@ def check_together(function: str, arguments: dict[str, Any]) -> None:
     """Check the shapes of the arrays, and the actions against their number."""
     sizes: dict[str, int] = {}
     for name, spec in SHAPES.get(function, {}).items():
+        if arguments[name] is None:
+            continue
         letters, _, kind = spec.partition(":")
         shape = [sizes.get(letter, letter) for letter in letters.split()]
         array = check_array(
@@ -173,6 +181,10 @@ def check_together(function: str, arguments: dict[str, Any]) -> None:
         )
         sizes.update(zip(letters.split(), array.shape, strict=bool(shape)))
         arguments[name] = array
+    if function == "apprenticeship_learning":
+        policy, mu = arguments["first"]
+        shape = arguments["expert"].shape
+        arguments["first"] = policy, check_array("first[1]", mu, shape=shape)
     if function in NOT_EMPTY:
         name, what = NOT_EMPTY[function]
         if len(arguments[name]) == 0:

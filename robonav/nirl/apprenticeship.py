@@ -31,15 +31,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import nnls
+
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked
 from .max_margin import maximum_margin
 
 Floats = NDArray[np.float64]
 
-Solver = Callable[[Floats], tuple[Any, ArrayLike]]
+Solver = Callable[[Floats], tuple[Any, Floats]]
 """``solve(weights) -> (policy, mu)``: the best policy for the reward theta . f, and its feature expectations (K,)."""
 
 RewardGuess = Callable[[Floats, Sequence[Floats]], tuple[Floats, float]]
@@ -140,9 +142,9 @@ def max_margin_guess(expert: Floats, found: Sequence[Floats]) -> tuple[Floats, f
 
 @checked
 def apprenticeship_learning(
-    expert: ArrayLike,
+    expert: ArrayArgument,
     solve: Solver,
-    first: tuple[Any, ArrayLike],
+    first: tuple[Any, ArrayArgument],
     *,
     guess: RewardGuess = projection_guess,
     tolerance: float = 1e-3,
@@ -186,30 +188,29 @@ def apprenticeship_learning(
     >>> found.distances[-1] < 0.1 * found.distances[0]
     np.True_
     """
-    mu_expert = np.asarray(expert)
-    policies, found = [first[0]], [np.asarray(first[1], dtype=float)]  # 1
+    policies, found = [first[0]], [first[1]]  # 1
     rewards: list[Floats] = []
     distances: list[float] = []
     for iteration in range(iterations + 1):
-        theta, distance = guess(mu_expert, found)  # 2: from mu_E and all mu_j
+        theta, distance = guess(expert, found)  # 2: from mu_E and all mu_j
         distances.append(distance)
         if distance <= tolerance or iteration == iterations:  # 3
             break
         policy, mu = solve(theta)  # 4: the best policy for theta . f, and 5: its mu
         rewards.append(theta)
         policies.append(policy)
-        found.append(np.asarray(mu, dtype=float))  # 6
+        found.append(mu)  # 6
     return Apprenticeship(
         policies=tuple(policies),
         expectations=np.stack(found),
-        weights=np.array(rewards).reshape(len(rewards), len(mu_expert)),
+        weights=np.array(rewards).reshape(len(rewards), len(expert)),
         distances=np.array(distances),
-        expert=mu_expert,
+        expert=expert,
     )
 
 
 @checked
-def nearest_mixture(expert: ArrayLike, found: ArrayLike) -> Floats:
+def nearest_mixture(expert: ArrayArgument, found: ArrayArgument) -> Floats:
     """The mixture of policies whose feature expectations are nearest to the expert's.
 
     The probabilities solve a least-squares problem with non-negative unknowns. That they sum to 1 is one more equation
@@ -233,7 +234,7 @@ def nearest_mixture(expert: ArrayLike, found: ArrayLike) -> Floats:
     >>> nearest_mixture([0.25], [[0.0], [1.0]]).round(2)
     array([0.75, 0.25])
     """
-    gaps = np.asarray(found) - np.asarray(expert)
+    gaps = found - expert
     scale = max(abs(gaps).max(), np.finfo(float).tiny)
     large = 1e5
     matrix = np.vstack([gaps.T / scale, np.full(len(gaps), large)])

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robonav.mdp import policies
 from robonav.mdp.evaluation import policy_evaluation
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked
 from .decisions import Decisions
@@ -126,12 +127,12 @@ def value_of_expectations(weights: ArrayLike, expectations: ArrayLike) -> Floats
     >>> value_of_expectations([1.0, -2.0], [[3.0, 1.0], [5.0, 2.0]])
     array([1., 1.])
     """
-    return np.asarray(expectations) @ np.asarray(weights)  # Eq. (5.4)
+    return np.dot(expectations, weights)  # Eq. (5.4)
 
 
 @checked
 def discounted_feature_sums(
-    features: ArrayLike, trajectory: ArrayLike, discount: float
+    features: ArrayArgument, trajectory: ArrayArgument, discount: float
 ) -> Floats:
     """The discounted sum of features from each step to the end of its trajectory.
 
@@ -161,8 +162,7 @@ def discounted_feature_sums(
     >>> discounted_feature_sums([[1.0], [1.0], [1.0]], [0, 0, 1], 0.5).ravel()
     array([1.5, 1. , 1. ])
     """
-    sums = np.array(features, dtype=float)
-    trajectory = np.asarray(trajectory)
+    sums = features.copy()
     for t in reversed(range(len(sums) - 1)):
         if trajectory[t] == trajectory[t + 1]:
             sums[t] += discount * sums[t + 1]
@@ -202,7 +202,7 @@ def decision_feature_sums(
 
 @checked
 def empirical_expectations(
-    features: ArrayLike, trajectory: ArrayLike, discount: float
+    features: ArrayArgument, trajectory: ArrayArgument, discount: float
 ) -> Floats:
     """Estimate of mu_E: the mean over trajectories of their discounted features, Eq. (5.13).
 
@@ -231,13 +231,14 @@ def empirical_expectations(
     array([1.25])
     """
     sums = discounted_feature_sums(features, trajectory, discount)
-    trajectory = np.asarray(trajectory)
     first = np.flatnonzero(np.diff(trajectory, prepend=trajectory[0] - 1))
     return sums[first].mean(axis=0)  # Eq. (5.13)
 
 
 @checked
-def mean_by_pair(pair: ArrayLike, feature_sums: ArrayLike, n_pairs: int) -> Floats:
+def mean_by_pair(
+    pair: ArrayArgument, feature_sums: ArrayArgument, n_pairs: int
+) -> Floats:
     """Monte Carlo estimate of mu for each of P pairs of state and action; NaN for a pair that never occurs.
 
     Parameters
@@ -259,8 +260,7 @@ def mean_by_pair(pair: ArrayLike, feature_sums: ArrayLike, n_pairs: int) -> Floa
     >>> mean_by_pair([0, 0, 2], [[1.0], [3.0], [5.0]], 3).ravel()
     array([ 2., nan,  5.])
     """
-    sums = np.asarray(feature_sums, dtype=float)
-    count = np.bincount(np.asarray(pair), minlength=n_pairs)[:, None]
-    total = np.zeros((n_pairs, sums.shape[1]))
-    np.add.at(total, np.asarray(pair), sums)
+    count = np.bincount(pair, minlength=n_pairs)[:, None]
+    total = np.zeros((n_pairs, feature_sums.shape[1]))
+    np.add.at(total, pair, feature_sums)
     return np.divide(total, count, out=np.full_like(total, np.nan), where=count > 0)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked
 
@@ -11,7 +13,9 @@ Floats = NDArray[np.float64]
 
 
 @checked
-def action_block(state_features: ArrayLike, actions: ArrayLike, action: int) -> Floats:
+def action_block(
+    state_features: ArrayArgument, actions: ArrayArgument, action: int
+) -> Floats:
     """Block of one action: phi(s) where this action was taken, 0 elsewhere, Eq. (5.6).
 
     Parameters
@@ -40,7 +44,7 @@ def action_block(state_features: ArrayLike, actions: ArrayLike, action: int) -> 
 
 @checked
 def state_action_features(
-    state_features: ArrayLike, actions: ArrayLike, n_actions: int
+    state_features: ArrayArgument, actions: ArrayArgument, n_actions: int
 ) -> Floats:
     """Features f(s, a) of the actions taken: the blocks of all actions side by side, Eq. (5.5).
 
@@ -75,7 +79,7 @@ def state_action_features(
 
 
 @checked
-def all_action_features(state_features: ArrayLike, n_actions: int) -> Floats:
+def all_action_features(state_features: ArrayArgument, n_actions: int) -> Floats:
     """Features f(s, a) of every action in every state.
 
     Parameters
@@ -97,9 +101,9 @@ def all_action_features(state_features: ArrayLike, n_actions: int) -> Floats:
     array([[[0.7, 1. , 0. , 0. ],
             [0. , 0. , 0.7, 1. ]]])
     """
-    phi = np.asarray(state_features, dtype=float)
+    n = len(state_features)
     every = [
-        state_action_features(phi, np.full(len(phi), u), n_actions)
+        state_action_features(state_features, np.full(n, u), n_actions)
         for u in range(n_actions)
     ]
     return np.stack(every, axis=1)

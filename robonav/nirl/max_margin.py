@@ -10,8 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import minimize
+
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked
 from .max_margin_dual import NO_MARGIN, largest_margin
@@ -42,14 +44,14 @@ class Margin:
     margin: float
 
 
-def by_dual(expert: ArrayLike, others: ArrayLike) -> Margin:
+def by_dual(expert: ArrayArgument, others: ArrayArgument) -> Margin:
     """The twin of :func:`maximum_margin`: the same result from the dual problem, faster and to more digits."""
-    return Margin(*largest_margin(np.asarray(expert) - np.asarray(others)))
+    return Margin(*largest_margin(expert - others))
 
 
 @checked
 @runs(by_dual)
-def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
+def maximum_margin(expert: ArrayArgument, others: ArrayArgument) -> Margin:
     """The weights theta, ||theta|| <= 1, with the largest margin min_j theta . (mu_E - mu_j) (Abbeel and Ng 2004).
 
     This is a quadratic program in theta and the margin t:
@@ -77,7 +79,7 @@ def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
     >>> maximum_margin([3.0, 4.0], [[0.0, 0.0]])
     Margin(weights=array([0.6, 0.8]), margin=5.0)
     """
-    gaps = np.asarray(expert) - np.asarray(others)  # (n, K): row j is mu_E - mu_j
+    gaps = expert - others  # (n, K): row j is mu_E - mu_j
 
     def leads(x: Floats) -> Floats:  # x holds theta (K,), and the margin t at its end
         return gaps @ x[:-1] - x[-1]  # theta . (mu_E - mu_j) - t
@@ -100,7 +102,7 @@ def maximum_margin(expert: ArrayLike, others: ArrayLike) -> Margin:
 
 @checked
 def maximum_margin_subgradient(
-    expert: ArrayLike, others: ArrayLike, *, iterations: int = 10_000
+    expert: ArrayArgument, others: ArrayArgument, *, iterations: int = 10_000
 ) -> Margin:
     """The weights with the largest margin, by projected subgradient ascent (Ratliff et al. 2006).
 
@@ -128,7 +130,7 @@ def maximum_margin_subgradient(
     >>> maximum_margin_subgradient([3.0, 4.0], [[0.0, 0.0]], iterations=10)
     Margin(weights=array([0.6, 0.8]), margin=5.0)
     """
-    gaps = np.asarray(expert) - np.asarray(others)
+    gaps = expert - others
     scale = np.linalg.norm(gaps, axis=1).max()
     weights = np.zeros(gaps.shape[1])
     best = Margin(weights, 0.0)

@@ -45,6 +45,7 @@ from robonav.mdp import policies
 from robonav.mdp.convergence import warns_not_converged
 from robonav.mdp.evaluation import evaluation_residual
 from robonav.mdp.models import FiniteMDP
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked
 from .reward_free_mdp import RewardFreeMDP
@@ -53,7 +54,7 @@ Floats = NDArray[np.float64]
 
 
 @checked
-def soft_maximum(q: ArrayLike, temperature: float) -> Floats:
+def soft_maximum(q: ArrayArgument, temperature: float) -> Floats:
     """The soft maximum T log sum_a exp(q / T) over the last axis; it tends to the maximum as T falls to 0.
 
     Parameters
@@ -73,8 +74,7 @@ def soft_maximum(q: ArrayLike, temperature: float) -> Floats:
     >>> soft_maximum([0.0, 1.0], 0.1).round(4)
     np.float64(1.0)
     """
-    q = np.asarray(q, dtype=float)
-    return np.asarray(temperature * logsumexp(q / temperature, axis=-1))
+    return temperature * logsumexp(q / temperature, axis=-1)
 
 
 @checked
@@ -214,7 +214,7 @@ def causal_entropy_dual(
 @checked
 def causal_entropy_ascent(
     mdp: RewardFreeMDP,
-    expert: ArrayLike,
+    expert: ArrayArgument,
     *,
     regularisation: float = 1e-6,
     gradient_step: float = 0.1,
@@ -249,7 +249,7 @@ def causal_entropy_ascent(
     >>> bool(abs(causal_entropy_ascent(mdp, initial_expectations(mdp, uniform), iterations=5)).max() < 1e-9)
     True
     """
-    theta = np.zeros(len(np.asarray(expert)))
+    theta = np.zeros(len(expert))
     for _ in range(iterations):
         soft = soft_value_iteration(mdp.with_reward(theta))  # backward: r = theta . f
         occupancy = occupancy_measure(mdp, soft.policy)  # forward: d(s) pi(a | s)
@@ -261,7 +261,7 @@ def causal_entropy_ascent(
 @checked
 def maximum_causal_entropy(
     mdp: RewardFreeMDP,
-    expert: ArrayLike,
+    expert: ArrayArgument,
     *,
     regularisation: float = 1e-6,
     tolerance: float = 1e-6,
@@ -307,10 +307,9 @@ def maximum_causal_entropy(
     >>> int(found.weights.argmax())  # the target
     3
     """
-    mu = np.asarray(expert)
 
     def negative_dual(theta: Floats) -> tuple[float, Floats]:
-        value, gradient = causal_entropy_dual(theta, mdp, mu, regularisation)
+        value, gradient = causal_entropy_dual(theta, mdp, expert, regularisation)
         return -value, -gradient
 
     path: list[Floats] = []  # the weights after each iteration
@@ -321,13 +320,13 @@ def maximum_causal_entropy(
 
     found: Any = minimize(
         negative_dual,
-        np.zeros(len(mu)),
+        np.zeros(len(expert)),
         jac=True,
         method="L-BFGS-B",
         callback=keep,
         options={"maxiter": iterations, "gtol": tolerance, "ftol": 0.0},
     )
-    trace = [causal_entropy_dual(theta, mdp, mu) for theta in path]
+    trace = [causal_entropy_dual(theta, mdp, expert) for theta in path]
     penalties = [regularisation / 2 * theta @ theta for theta in path]
     return MaximumCausalEntropy(
         weights=found.x,

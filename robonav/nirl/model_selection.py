@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked
 from .reward_update import inverse_frequency_weights
@@ -15,7 +17,7 @@ Score = Callable[[NDArray[np.int64], NDArray[np.int64]], float]
 
 
 @checked
-def accuracy(predicted: ArrayLike, actions: ArrayLike) -> float:
+def accuracy(predicted: ArrayArgument, actions: ArrayArgument) -> float:
     """The share of demonstrated decisions that are predicted: the thesis's measure.
 
     Most decisions are to go forward, so a policy that always goes forward scores well and collides.
@@ -35,11 +37,11 @@ def accuracy(predicted: ArrayLike, actions: ArrayLike) -> float:
     >>> accuracy([0, 0, 0, 0], [0, 0, 0, 1])
     0.75
     """
-    return float((np.asarray(predicted) == np.asarray(actions)).mean())
+    return float((predicted == actions).mean())
 
 
 @checked
-def balanced_accuracy(predicted: ArrayLike, actions: ArrayLike) -> float:
+def balanced_accuracy(predicted: ArrayArgument, actions: ArrayArgument) -> float:
     """The mean over demonstrated actions of the share of their decisions that are predicted.
 
     A policy that always takes the same action scores 1 / (number of actions demonstrated).
@@ -59,6 +61,5 @@ def balanced_accuracy(predicted: ArrayLike, actions: ArrayLike) -> float:
     >>> balanced_accuracy([0, 0, 0, 0], [0, 0, 0, 1])
     0.5
     """
-    own = np.asarray(actions)
-    weights = inverse_frequency_weights(own, int(own.max()) + 1)
-    return float(weights @ (np.asarray(predicted) == own))
+    weights = inverse_frequency_weights(actions, int(actions.max()) + 1)
+    return float(weights @ (predicted == actions))

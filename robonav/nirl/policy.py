@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from robonav.networks.multilayer_perceptron import Network, sigmoid
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked
 
@@ -50,7 +51,9 @@ def neural_action_values(network: Network, inputs: Floats) -> Floats:
 
 
 @checked
-def boltzmann_policy(action_values: ArrayLike, inverse_temperature: float) -> Floats:
+def boltzmann_policy(
+    action_values: ArrayArgument, inverse_temperature: float
+) -> Floats:
     """Probability of each action, in proportion to exp(eta Q(s, a)), Eq. (5.10).
 
     At eta = 0 all actions are equally likely. The larger eta is, the more probable is the best action. It is the
@@ -76,7 +79,7 @@ def boltzmann_policy(action_values: ArrayLike, inverse_temperature: float) -> Fl
     >>> boltzmann_policy([0.2, 0.2, 0.9], 5.0).round(3)
     array([0.028, 0.028, 0.943])
     """
-    scaled = inverse_temperature * np.asarray(action_values)
+    scaled = inverse_temperature * action_values
     largest = scaled.max(axis=-1, keepdims=True)  # it cancels; no exponential overflows
     weights = np.exp(scaled - largest)
     return weights / weights.sum(axis=-1, keepdims=True)  # Eq. (5.10)

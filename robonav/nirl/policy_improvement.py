@@ -13,7 +13,7 @@ from robonav.networks.multilayer_perceptron import (
     cross_entropy_gradient,
     descend,
 )
-from robonav.validation import check_integer, check_positive, check_real
+from robonav.validation import ArrayArgument, check_integer, check_positive, check_real
 
 from ._arguments import checked
 from .decisions import Decisions, Floats, Ints
@@ -92,8 +92,8 @@ def decision_rewards(weights: ArrayLike, decisions: Decisions) -> Floats:
     >>> decision_rewards([[3.0, 1.0]], one)
     array([7.])
     """
-    theta = np.asarray(weights, dtype=float)
-    return np.einsum("mk,mk->m", decisions.features, theta[decisions.actions])
+    theta = np.take(weights, decisions.actions, axis=0)  # (M, k + 1)
+    return np.einsum("mk,mk->m", decisions.features, theta)
 
 
 def scale_to_unit_interval(rewards: ArrayLike, *, percentile: float = 95.0) -> Floats:
@@ -118,16 +118,17 @@ def scale_to_unit_interval(rewards: ArrayLike, *, percentile: float = 95.0) -> F
     >>> scale_to_unit_interval([-2.0, 0.0, 1.0], percentile=100)
     array([0.  , 0.5 , 0.75])
     """
-    r = np.asarray(rewards, dtype=float)
-    scale = np.percentile(abs(r), percentile) if r.size else 0.0
-    return (np.clip(r / scale, -1, 1) + 1) / 2 if scale > 0 else np.full(r.shape, 0.5)
+    scale = np.percentile(np.abs(rewards), percentile) if np.size(rewards) else 0.0
+    if scale == 0:
+        return np.full(np.shape(rewards), 0.5)
+    return (np.clip(np.divide(rewards, scale), -1, 1) + 1) / 2
 
 
 @checked
 def sarsa_targets(
-    q: ArrayLike,
-    rewards: ArrayLike,
-    next_q: ArrayLike,
+    q: ArrayArgument,
+    rewards: ArrayArgument,
+    next_q: ArrayArgument,
     *,
     learning_rate: float,
     discount: float,
@@ -162,7 +163,6 @@ def sarsa_targets(
     >>> sarsa_targets([0.5], [1.0], [0.4], learning_rate=0.8, discount=0.65).round(3)
     array([1.108])
     """
-    q, rewards, next_q = map(np.asarray, (q, rewards, next_q))
     return q + learning_rate * (rewards + discount * next_q - q)  # Eq. (5.16)
 
 

@@ -13,12 +13,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import minimize
 from scipy.special import logsumexp, softmax
 
 from robonav.counting import counted
 from robonav.errors import ConvergenceWarning
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked
 from .decisions import Decisions
@@ -70,7 +71,7 @@ class RelativeEntropy:
 
 @checked
 def importance_weights(
-    weights: ArrayLike, samples: ArrayLike, log_ratios: ArrayLike
+    weights: ArrayArgument, samples: ArrayArgument, log_ratios: ArrayArgument
 ) -> Floats:
     """Weights of the sampled trajectories under theta, which sum to 1.
 
@@ -97,17 +98,16 @@ def importance_weights(
     >>> importance_weights([1.0], [[0.0], [1.0]], [0.0, 0.0]).round(3)
     array([0.269, 0.731])
     """
-    exponents = np.asarray(samples) @ weights + np.asarray(log_ratios)
-    return np.asarray(softmax(exponents))
+    return softmax(samples @ weights + log_ratios)
 
 
 @checked
 def dual(
-    weights: ArrayLike,
-    expert: ArrayLike,
-    samples: ArrayLike,
-    log_ratios: ArrayLike,
-    slack: ArrayLike,
+    weights: ArrayArgument,
+    expert: ArrayArgument,
+    samples: ArrayArgument,
+    log_ratios: ArrayArgument,
+    slack: ArrayArgument,
 ) -> float:
     """The dual function, which is concave: theta . mu_E - log Z(theta) - sum_i eps_i |theta_i|.
 
@@ -136,19 +136,17 @@ def dual(
     >>> dual([0.0], [0.5], [[0.0], [1.0]], [0.0, 0.0], [0.0])
     0.0
     """
-    theta, mu, log_ratios = (np.asarray(x) for x in (weights, expert, log_ratios))
-    exponents = np.asarray(samples) @ theta + log_ratios
-    log_z = logsumexp(exponents) - logsumexp(log_ratios)
-    return float(theta @ mu - log_z - np.asarray(slack) @ abs(theta))
+    log_z = logsumexp(samples @ weights + log_ratios) - logsumexp(log_ratios)
+    return float(weights @ expert - log_z - slack @ abs(weights))
 
 
 @checked
 def dual_gradient(
-    weights: ArrayLike,
-    expert: ArrayLike,
-    samples: ArrayLike,
-    log_ratios: ArrayLike,
-    slack: ArrayLike,
+    weights: ArrayArgument,
+    expert: ArrayArgument,
+    samples: ArrayArgument,
+    log_ratios: ArrayArgument,
+    slack: ArrayArgument,
 ) -> Floats:
     """The subgradient of :func:`dual`: mu_E - sum_tau w(tau) f(tau) - eps sign(theta).
 
@@ -179,13 +177,12 @@ def dual_gradient(
     array([0.25])
     """
     w = importance_weights(weights, samples, log_ratios)
-    gap = np.asarray(expert) - w @ np.asarray(samples)
-    return gap - np.asarray(slack) * np.sign(np.asarray(weights))
+    return expert - w @ samples - slack * np.sign(weights)
 
 
 @checked
 def hoeffding_slack(
-    samples: ArrayLike, n_demonstrations: int, *, confidence: float = 0.95
+    samples: ArrayArgument, n_demonstrations: int, *, confidence: float = 0.95
 ) -> Floats:
     """The slack eps of the paper: a bound on the error of the mean features of the demonstrations.
 
@@ -211,18 +208,18 @@ def hoeffding_slack(
     >>> hoeffding_slack([[0.0], [1.0]], 50).round(3)
     array([0.192])
     """
-    ranges = np.ptp(np.asarray(samples), axis=0)
+    ranges = np.ptp(samples, axis=0)
     failure = 1 - confidence
-    return np.asarray(np.sqrt(-np.log(failure / 2) / (2 * n_demonstrations)) * ranges)
+    return np.sqrt(-np.log(failure / 2) / (2 * n_demonstrations)) * ranges
 
 
 @checked
 def relative_entropy_weights(
-    expert: ArrayLike,
-    samples: ArrayLike,
-    log_ratios: ArrayLike,
+    expert: ArrayArgument,
+    samples: ArrayArgument,
+    log_ratios: ArrayArgument,
     *,
-    slack: ArrayLike = 0.0,
+    slack: ArrayArgument = 0.0,
     bound: float = 1e3,
     iterations: int = 1000,
 ) -> RelativeEntropy:
@@ -268,16 +265,15 @@ def relative_entropy_weights(
     >>> relative_entropy_weights([0.731], [[0.0], [1.0]], [0.0, 0.0]).weights.round(2)
     array([1.])
     """
-    mu, features = np.asarray(expert), np.asarray(samples)
-    n_features = len(mu)
+    n_features = len(expert)
     eps, smooth = np.broadcast_to(slack, (n_features,)), np.zeros(n_features)
-    scale = np.maximum(abs(features - mu).max(axis=0), np.finfo(float).tiny)
+    scale = np.maximum(abs(samples - expert).max(axis=0), np.finfo(float).tiny)
 
     def negative_dual(parts: Floats) -> tuple[float, Floats]:
         up, down = parts.reshape(2, n_features) / scale
         theta = up - down
-        slope = dual_gradient(theta, mu, features, log_ratios, smooth)
-        value = dual(theta, mu, features, log_ratios, smooth) - eps @ (up + down)
+        slope = dual_gradient(theta, expert, samples, log_ratios, smooth)
+        value = dual(theta, expert, samples, log_ratios, smooth) - eps @ (up + down)
         gradient = np.concatenate([(slope - eps) / scale, (-slope - eps) / scale])
         return -value, -gradient
 
@@ -291,9 +287,9 @@ def relative_entropy_weights(
     )
     up, down = found.x.reshape(2, n_features) / scale
     theta = up - down
-    w = importance_weights(theta, features, log_ratios)
-    value = dual(theta, mu, features, log_ratios, eps)
-    gap, effective_samples = mu - w @ features, float(1 / (w**2).sum())
+    w = importance_weights(theta, samples, log_ratios)
+    value = dual(theta, expert, samples, log_ratios, eps)
+    gap, effective_samples = expert - w @ samples, float(1 / (w**2).sum())
     free = abs(theta) * scale < bound
     excess = (abs(gap) - eps) / scale
     converged = _is_within_slack(excess[free].max(initial=0.0), found)

@@ -12,7 +12,15 @@ from robonav.mdp import policies
 from robonav.mdp.gridworld import GridWorld
 from robonav.mdp.models import FiniteMDP
 from robonav.networks.policy import sample_actions
-from robonav.validation import check_array, check_generator, check_integer, check_real
+from robonav.validation import (
+    ArrayArgument,
+    check_array,
+    check_generator,
+    check_integer,
+    check_real,
+)
+
+from ._arguments import checked
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -127,7 +135,8 @@ class RewardFreeMDP:
             self.features == 0
         ).all(axis=(1, 2))
 
-    def with_reward(self, weights: ArrayLike) -> FiniteMDP:
+    @checked
+    def with_reward(self, weights: ArrayArgument) -> FiniteMDP:
         """The finite MDP whose reward is linear in the features, r(s, a) = theta . f(s, a), Eq. (5.2).
 
         Parameters
@@ -147,8 +156,7 @@ class RewardFreeMDP:
         >>> mdp.with_reward([5.0]).rewards[0]
         array([0., 5., 0., 0.])
         """
-        theta = np.asarray(weights, dtype=float)
-        rewards = self.features @ theta  # Eq. (5.2)
+        rewards = self.features @ weights  # Eq. (5.2)
         return FiniteMDP(self.transitions, rewards, self.discount)
 
     def rollout(

@@ -13,7 +13,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked
 from .decisions import Decisions
@@ -54,9 +56,9 @@ class Classification:
 
 @checked
 def lstd_mu(
-    basis: ArrayLike,
-    next_basis: ArrayLike,
-    features: ArrayLike,
+    basis: ArrayArgument,
+    next_basis: ArrayArgument,
+    features: ArrayArgument,
     discount: float,
     *,
     regularisation: float = 1e-6,
@@ -94,7 +96,7 @@ def lstd_mu(
     >>> lstd_mu([[1.0]], [[1.0]], [[1.0]], 0.5).round(3)  # 1 + 0.5 + 0.25 + ...
     array([[2.]])
     """
-    psi, next_psi, f = (np.asarray(part) for part in (basis, next_basis, features))
+    psi, next_psi, f = basis, next_basis, features
     decay = regularisation * len(psi) * np.eye(psi.shape[1])
     matrix = psi.T @ (psi - discount * next_psi) + decay
     return np.linalg.solve(matrix, psi.T @ f)
@@ -102,7 +104,7 @@ def lstd_mu(
 
 @checked
 def heuristic_mu(
-    expectations: ArrayLike, actions: ArrayLike, n_actions: int, discount: float
+    expectations: ArrayArgument, actions: ArrayArgument, n_actions: int, discount: float
 ) -> Floats:
     """mu_E(s, a) of every action, if only that of the expert's action is known (Klein et al. 2012, section 5).
 
@@ -130,9 +132,8 @@ def heuristic_mu(
     >>> heuristic_mu([[2.0]], [1], 2, 0.5).ravel()
     array([1., 2.])
     """
-    mu = np.asarray(expectations)
-    every = np.repeat((discount * mu)[:, None], n_actions, axis=1)
-    every[np.arange(len(mu)), np.asarray(actions)] = mu
+    every = np.repeat((discount * expectations)[:, None], n_actions, axis=1)
+    every[np.arange(len(expectations)), actions] = expectations
     return every
 
 
@@ -189,10 +190,10 @@ def large_margin_cost(
 
 @checked
 def structured_classification(
-    expectations: ArrayLike,
-    actions: ArrayLike,
+    expectations: ArrayArgument,
+    actions: ArrayArgument,
     *,
-    step_weights: ArrayLike | None = None,
+    step_weights: ArrayArgument | None = None,
     regularisation: float = 1e-6,
     gradient_step: float = 1.0,
     iterations: int = 1000,
@@ -234,20 +235,16 @@ def structured_classification(
     >>> bool(structured_classification([[[1.0], [0.0]]], [0]).weights[0] > 0)
     True
     """
-    mu, own = np.asarray(expectations), np.asarray(actions)
-    shares = (
-        np.full(len(mu), 1 / len(mu))
-        if step_weights is None
-        else np.asarray(step_weights)
-    )
-    differences = np.linalg.norm(mu - mu[np.arange(len(mu)), own][:, None], axis=2)
+    mu, n = expectations, len(expectations)
+    shares = np.full(n, 1 / n) if step_weights is None else step_weights
+    differences = np.linalg.norm(mu - mu[np.arange(n), actions][:, None], axis=2)
     scale = max(differences.max(), np.finfo(float).tiny)
     mu = mu / scale  # the same classifier, with weights in units of 1 / scale
     theta, total = np.zeros(mu.shape[2]), np.zeros(mu.shape[2])
     squares, costs = np.full(mu.shape[2], 1e-12), np.empty(iterations)
     for k in range(iterations):
         costs[k], gradient = large_margin_cost(
-            theta, mu, own, shares, regularisation=regularisation
+            theta, mu, actions, shares, regularisation=regularisation
         )
         squares += gradient**2
         theta = theta - gradient_step * gradient / np.sqrt(squares)

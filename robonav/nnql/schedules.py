@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+
+from robonav.validation import ArrayArgument
 
 from ._arguments import Schedule, checked, checked_arguments
 
@@ -11,7 +13,7 @@ Array = NDArray[np.float64]
 
 
 @checked
-def softmax_policy(q: ArrayLike, temperature: ArrayLike) -> Array:
+def softmax_policy(q: ArrayArgument, temperature: ArrayArgument) -> Array:
     """The probabilities of the actions in a state, Eq. (4.7): a softmax, or Boltzmann, policy.
 
     The largest Q-value is subtracted first. This leaves the quotient as it is and keeps every exponential at 1 or
@@ -41,15 +43,14 @@ def softmax_policy(q: ArrayLike, temperature: ArrayLike) -> Array:
     >>> softmax_policy([0.9, 0.8, 0.1], 0.1).round(3)
     array([0.731, 0.269, 0.   ])
     """
-    q = np.asarray(q, dtype=float)
     behind = q - q.max(axis=-1, keepdims=True)
     with np.errstate(over="ignore"):  # near temperature 0: exp(-inf) is 0
-        weights = np.exp(behind / np.asarray(temperature)[..., None])
+        weights = np.exp(behind / temperature[..., None])
     return weights / weights.sum(axis=-1, keepdims=True)  # Eq. (4.7)
 
 
 @checked
-def greedy_policy(q: ArrayLike) -> Array:
+def greedy_policy(q: ArrayArgument) -> Array:
     """The limit of the softmax policy at temperature 0, Eq. (4.8): the best actions share the probability equally.
 
     Parameters
@@ -68,13 +69,12 @@ def greedy_policy(q: ArrayLike) -> Array:
     >>> greedy_policy([0.9, 0.9, 0.1])
     array([0.5, 0.5, 0. ])
     """
-    q = np.asarray(q, dtype=float)
     best = q == q.max(axis=-1, keepdims=True)  # Eq. (4.8)
     return best / best.sum(axis=-1, keepdims=True)
 
 
 @checked_arguments
-def geometric_schedule(schedule: Schedule, fraction: ArrayLike) -> Array:
+def geometric_schedule(schedule: Schedule, fraction: ArrayArgument) -> Array:
     """A quantity that is multiplied by the same factor each episode: ``start (end / start)^fraction``.
 
     Parameters
@@ -101,4 +101,4 @@ def geometric_schedule(schedule: Schedule, fraction: ArrayLike) -> Array:
     array([0.8, 0.4, 0.2])
     """
     start, end = np.broadcast_to(schedule, 2)  # one number stays
-    return start * (end / start) ** np.asarray(fraction, dtype=float)
+    return start * (end / start) ** fraction

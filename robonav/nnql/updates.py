@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robonav.networks.multilayer_perceptron import Network, backpropagate, descend
+from robonav.validation import ArrayArgument
 
 from ._arguments import checked_arguments
 
@@ -17,10 +18,10 @@ Array = NDArray[np.float64]
 @checked_arguments
 def q_targets(
     q: Array,
-    action: ArrayLike,
-    reward: ArrayLike,
-    next_value: ArrayLike,
-    learning_rate: ArrayLike,
+    action: ArrayArgument,
+    reward: ArrayArgument,
+    next_value: ArrayArgument,
+    learning_rate: ArrayArgument,
     discount: float,
 ) -> Array:
     """Q-values after one update of the action taken, Eq. (4.9).
@@ -60,10 +61,10 @@ def q_targets(
     >>> q_targets(np.array([0.4, 0.6]), 1, 0.5, 1.0, learning_rate=0.5, discount=0.6)
     array([0.4 , 0.85])
     """
-    taken = np.arange(q.shape[-1]) == np.asarray(action)[..., None]
-    target = np.asarray(reward) + discount * np.asarray(next_value)
-    alpha = np.asarray(learning_rate)[..., None]
-    return np.where(taken, q + alpha * (target[..., None] - q), q)  # Eq. (4.9)
+    taken = np.arange(q.shape[-1]) == action[..., None]
+    target = (reward + discount * next_value)[..., None]
+    alpha = learning_rate[..., None]
+    return np.where(taken, q + alpha * (target - q), q)  # Eq. (4.9)
 
 
 @checked_arguments
@@ -164,8 +165,8 @@ def cross_entropy(targets: ArrayLike, logits: ArrayLike) -> Array:
     >>> cross_entropy([1.0, 0.0], [0.0, 0.0]).round(4)  # 2 log 2: both outputs are 1/2
     np.float64(1.3863)
     """
-    z = np.asarray(logits, dtype=float)
-    return (np.logaddexp(0.0, z) - np.asarray(targets) * z).sum(axis=-1)  # Eq. (4.11)
+    costs = np.logaddexp(0.0, logits) - np.multiply(targets, logits)  # Eq. (4.11)
+    return costs.sum(axis=-1)
 
 
 def stochastic_gradient_descent(

@@ -121,7 +121,7 @@ def free_way(
     >>> free_way(ranges, np.radians([0.0, 60.0]), clearance=1.0, half_width=0.3).round(2)
     array([[ 4., 10.]])
     """
-    distance = np.repeat(np.asarray(ranges, dtype=float), len(POINTS), axis=1)[:, None]
+    distance = np.repeat(ranges, len(POINTS), axis=1)[:, None]
     points = (CENTRES[:, None] + half_width * POINTS).ravel()
     angle = points - np.atleast_2d(bearings)[..., None]  # of a point to a direction
     along, across = distance * np.cos(angle), distance * np.sin(angle)

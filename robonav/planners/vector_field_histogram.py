@@ -54,7 +54,7 @@ def polar_histogram(
     >>> polar_histogram(ranges, clearance=1.0, half_width=0.0)[0, :4]
     array([0.75, 0.75, 0.75, 0.  ])
     """
-    distance = np.maximum(np.asarray(ranges, dtype=float), 1e-9)
+    distance = np.maximum(ranges, 1e-9)
     magnitude = 1 - (distance / SENSOR_RANGE) ** 2
     reach = half_width + np.arcsin(np.minimum(clearance / distance, 1.0))
     covered = reach[:, :, None] + 1e-9 >= OFF
@@ -102,7 +102,7 @@ def vector_field_histogram(
     >>> np.degrees(best).round()
     array([-25.])
     """
-    free = (np.asarray(histogram) < threshold) & (np.abs(DIRECTIONS) <= FARTHEST)
+    free = np.less(histogram, threshold) & (np.abs(DIRECTIONS) <= FARTHEST)
     beside = range(1, wide + 1)
     left, right = (
         np.logical_and.accumulate([np.roll(free, b, axis=1) for b in bins]).sum(axis=0)
@@ -112,7 +112,7 @@ def vector_field_histogram(
     inside = free & (np.minimum(left, right) >= half)
     narrow = free & (left + right < wide) & (np.abs(left - right) <= 1)
     candidate = inside | narrow
-    to_target = np.abs(turned(DIRECTIONS - np.asarray(target)[:, None]))
+    to_target = np.abs(turned(DIRECTIONS - np.reshape(target, (-1, 1))))
     cost = np.where(candidate, to_target + keep * np.abs(DIRECTIONS), np.inf)
     best = DIRECTIONS[cost.round(9).argmin(axis=1)]
     return np.where(candidate.any(axis=1), best, np.pi)

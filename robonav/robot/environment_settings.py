@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from gymnasium.envs.registration import load_env_creator
@@ -41,6 +41,8 @@ from .worlds import (
     draw_worlds,
     random_keys,
 )
+
+R = TypeVar("R")
 
 WorldsOrFile = Worlds | str | Path
 
@@ -107,6 +109,17 @@ def as_sensing(observation: dict[str, Any]) -> Sensing:
         np.atleast_1d(observation["target_region"]) + 1,
         np.atleast_1d(observation["target_seen"]).astype(bool),
     )
+
+
+def takes_action(step: Callable[[Any, int], R]) -> Callable[[Any, int], R]:
+    """Decorate ``step``: TypeError or ValueError for an action that does not exist."""
+
+    @wraps(step)
+    def checked(env: Any, action: int) -> R:
+        """Check the action, then make the step."""
+        return step(env, check_action(action))
+
+    return checked
 
 
 def while_running(step: Callable[[Any, int], Any]) -> Callable[[Any, int], Any]:

@@ -1,8 +1,8 @@
 """A robot on its way to a target among obstacles: the environment to read (section 2.5).
 
 One class in plain NumPy: what the robot can do and sense, how it moves, what it earns, when an episode ends. Below the
-class stands the geometry that it uses. Only the random maps come from another file, ``worlds.py``. The class is a
-pattern for an environment of your own. An episode with a rule of one line, which turns to the freer side:
+class stands the geometry that it uses. Only the random maps and the check of an action come from other files. The class
+is a pattern for an environment of your own. An episode with a rule of one line, which turns to the freer side:
 
 >>> env, steps, done = PlainNavigationEnv(obstacles=10), 0, False
 >>> observation, _ = env.reset(seed=0)
@@ -30,6 +30,7 @@ from gymnasium import spaces
 from numpy.typing import ArrayLike, NDArray
 
 from ._fast.constants import CIRCLE, DIRECTION, RECTANGLE
+from .environment_settings import takes_action
 from .worlds import Worlds, draw_worlds, random_keys
 
 SENSOR_RANGE = 10.0  # metres, as all distances
@@ -179,12 +180,12 @@ class PlainNavigationEnv(gymnasium.Env):
         self.rectangles = np.concatenate([border(size), boxes])
         return self.sense()
 
+    @takes_action
     def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
         """Simulate one second: the robot moves, its episode may end, it senses again.
 
         Nothing here looks whether the episode has ended before.
         """
-        assert self.action_space.contains(action), f"no action: {action!r}"
         start = self.position
         self.heading, distance = self.heading_and_distance(action)
         direction = np.array([math.cos(self.heading), math.sin(self.heading)])

@@ -31,7 +31,8 @@ def listing(code: str) -> str:
     )
 
 
-CHECK = "shows an input check or a warning"
+CHECK = "shows an input check"
+WARNING = "shows a warning"
 RIGHT = listing("def f(q):\n    return q.max()  # Eq. (2.9)")
 
 
@@ -65,8 +66,13 @@ def test_equation_of_the_page_itself_needs_no_listing() -> None:
         ("x = check_real('x', x)", CHECK),
         ("def f(x):\n    if x < 0:\n        raise ValueError(x)", CHECK),
         ("a = x if isinstance(x, tuple) else (x, x)", CHECK),
-        ("    _warn_not_settled(3)", CHECK),
-        ("warnings.warn('slow')", CHECK),
+        ("def f(x):\n    assert x > 0, x", CHECK),
+        ("v = validation.check_real('x', x)", CHECK),
+        ("b = self.as_belief(belief)", CHECK),
+        ("v = np.asarray(start)", CHECK),
+        ("v, w = map(np.asarray, (v, w))", CHECK),
+        ("    _warn_not_settled(3)", WARNING),
+        ("warnings.warn('slow')", WARNING),
     ],
 )
 def test_listing_fault(code: str, fault: str) -> None:
@@ -74,7 +80,17 @@ def test_listing_fault(code: str, fault: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "code", ["x = 1\n" * 40, "x" * 88, "important = 1", "# import it", "# raise x"]
+    "code",
+    [
+        "x = 1\n" * 40,
+        "x" * 88,
+        "important = 1",
+        "# import it",
+        "# raise x",
+        "@checked\n@warns_not_converged(3)\ndef f(x):\n    return x",
+        "if x is None:\n    x = 0",
+        "q_net = as_module(network)",
+    ],
 )
 def test_listing_without_fault(code: str) -> None:
     assert list(faults(listing(code))) == []
