@@ -33,6 +33,14 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         "Gymnasium's simplest environment, the others simulate navigation. The "
         "more robots step at once, the less a step costs.",
     ),
+    "Several robots": (
+        "team.py",
+        (),
+        False,
+        "Robots that cross a map together. A robot step is one robot's second: it moves "
+        "and senses obstacles and the other robots. The whole loop also asks the reflex "
+        "and a rule, and begins with drawn maps.",
+    ),
     "Planning": (
         "dp.py",
         ("--million",),

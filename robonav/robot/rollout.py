@@ -333,7 +333,7 @@ def navigate(
         )
     rng = check_generator("seed", seed)
     simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
-    select_actions = _selector(policy, simulator, rng)
+    select_actions = selector_of(policy, simulator, rng)
     n, ended = len(worlds), 0
     track: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
     for second in run_episodes(simulator, select_actions, reflex=reflex):
@@ -346,11 +346,11 @@ def navigate(
     return Navigation(
         OUTCOMES[simulator.outcome],
         simulator.steps,
-        _by_robot(track, n) if record_paths else None,
+        by_robot(track, n) if record_paths else None,
     )
 
 
-def _selector(
+def selector_of(
     policy: Policy | PolicyWithMemory, simulator: Simulator, rng: np.random.Generator
 ) -> ActionSelector:
     """Return the selector of a policy with or without a memory."""
@@ -359,7 +359,7 @@ def _selector(
     return follow_policy(policy, rng)
 
 
-def _by_robot(
+def by_robot(
     track: list[tuple[NDArray[np.int64], NDArray[np.float64]]], n: int
 ) -> tuple[NDArray[np.float64], ...]:
     """Return the path of each of N robots, from the robots and poses of each second."""

@@ -225,6 +225,21 @@ def check_action(action: Any) -> int:
     return int(check_actions(action, ()))
 
 
+def check_commands(commands: Any, number: int) -> NDArray[np.int64]:
+    """Return the commands of so many robots, whole numbers 0 to 7; raise ValueError for anything else."""
+    fits = (
+        isinstance(commands, np.ndarray)
+        and commands.dtype.kind in "iu"
+        and commands.shape == (number,)
+    )
+    if not fits or (commands.astype(np.uint64) > Action.TO_SECTOR).any():
+        raise ValueError(
+            f"commands must be an array of {number} whole numbers 0 to 7, got {commands!r}"
+        )
+    checked: NDArray[np.int64] = commands.astype(np.int64, copy=False)
+    return checked
+
+
 def check_slip(slip: ArrayLike | None) -> NDArray[np.float64]:
     """Check a slip matrix (6, 6), whose row a says how likely action a turns into each action; None never slips."""
     if slip is None:
@@ -396,16 +411,7 @@ class Simulator:
         array([[10.   , 12.   ,  1.571]])
         """
         rows = self._rows(robots)
-        fits = (
-            isinstance(commands, np.ndarray)
-            and commands.dtype.kind in "iu"
-            and commands.shape == rows.shape
-        )
-        if not fits or (commands.astype(np.uint64) > Action.TO_SECTOR).any():
-            raise ValueError(
-                f"commands must be an array of {len(rows)} whole numbers 0 to 7, got {commands!r}"
-            )
-        commands = commands.astype(np.int64, copy=False)
+        commands = check_commands(commands, len(rows))
         w = self.worlds
         executed = commands.copy() if len(self.slip) else commands
         _fast.in_threads(

@@ -8,6 +8,7 @@ import gymnasium
 import numpy as np
 
 from robonav import lfd, mdp, nirl, nnql, robot
+from robonav.robot import team
 
 
 def search_with_the_astars(rng):
@@ -28,6 +29,8 @@ def drive(rng):
         robot.navigate(
             robot.turn_to_clearer_side, worlds, max_steps=60, record_paths=True
         )
+        teams = team.random_teams(5, 6, 10, moving=moving, seed=2)
+        team.navigate_team(robot.turn_to_clearer_side, teams, noise=0.1, max_steps=60)
     vector = gymnasium.make_vec("robonav/Navigation-v0", 5, obstacles=20)
     vector.reset(seed=3)
     for _ in range(60):

@@ -137,6 +137,29 @@ def _draw_obstacle(key, number, m, circle, size, starts, targets, shapes, centre
 
 
 @compiled
+def draw_obstacles(
+    i, number, keys, still, moving, slowest, fastest, size, starts, targets, kinds, shapes, centres, speeds, headings,
+):  # fmt: skip
+    """Draw the obstacles of world i, attempt ``number``; False if one found no place clear of starts and targets."""
+    placed = True
+    for m in range(still + moving):
+        circle = (m if m < still else m - still) % 2 == 0
+        placed = placed and _draw_obstacle(
+            keys[i], number, m, circle, size, starts, targets, shapes[i], centres[i]
+        )
+        kinds[i, m] = CIRCLE if circle else RECTANGLE
+        speeds[i, m], headings[i, m] = 0.0, 0.0
+        if m >= still:
+            speeds[i, m] = slowest + (fastest - slowest) * uniform(
+                keys[i], DRAWING, number, m, 5
+            )
+            headings[i, m] = math.pi * (
+                2.0 * uniform(keys[i], DRAWING, number, m, 6) - 1.0
+            )
+    return placed
+
+
+@compiled
 def draw_worlds(
     start, stop, keys, still, moving, slowest, fastest, size, starts, targets, attempts, kinds, shapes, centres, speeds,
     headings, chosen, found,
@@ -154,29 +177,10 @@ def draw_worlds(
             t = int(uniform(keys[i], DRAWING, number, ENDPOINTS, 1) * len(targets))
             chosen[i, 0], chosen[i, 1] = starts[s, 0], starts[s, 1]
             chosen[i, 2], chosen[i, 3] = targets[t, 0], targets[t, 1]
-            placed = True
-            for m in range(still + moving):
-                circle = (m if m < still else m - still) % 2 == 0
-                placed = placed and _draw_obstacle(
-                    keys[i],
-                    number,
-                    m,
-                    circle,
-                    size,
-                    starts[s : s + 1],
-                    targets[t : t + 1],
-                    shapes[i],
-                    centres[i],
-                )
-                kinds[i, m] = CIRCLE if circle else RECTANGLE
-                speeds[i, m], headings[i, m] = 0.0, 0.0
-                if m >= still:
-                    speeds[i, m] = slowest + (fastest - slowest) * uniform(
-                        keys[i], DRAWING, number, m, 5
-                    )
-                    headings[i, m] = math.pi * (
-                        2.0 * uniform(keys[i], DRAWING, number, m, 6) - 1.0
-                    )
+            placed = draw_obstacles(
+                i, number, keys, still, moving, slowest, fastest, size, starts[s : s + 1], targets[t : t + 1], kinds,
+                shapes, centres, speeds, headings,
+            )  # fmt: skip
             if placed and reachable(
                 kinds[i, :still], shapes[i, :still], centres[i, :still], size,
                 chosen[i, 0], chosen[i, 1], chosen[i, 2], chosen[i, 3], SPARE,

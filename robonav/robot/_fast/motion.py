@@ -33,6 +33,7 @@ from .random_numbers import DRIFTING, SLIPPING, uniform
 from .sensing import sense, target_region
 
 compiled = compiler(constants, geometry, random_numbers, sensing)
+inlined = compiler(constants, geometry, random_numbers, sensing, inline=True)
 
 
 @compiled
@@ -98,6 +99,37 @@ def drift(start, stop, kinds, shapes, speeds, keys, steps, size, centres, headin
                 )  # fmt: skip
 
 
+@inlined
+def destination(j, i, keys, targets, slip, speed, actions, poses, steps):
+    """Where robot i goes in this second by action j, and its heading then; ``actions`` gets what a slip made of it."""
+    x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
+    action = actions[j]
+    if action in (TO_TARGET, TO_SECTOR):
+        heading = turned_to_target(
+            action, heading, targets[i, 0] - x, targets[i, 1] - y
+        )
+        action = 0
+    if slip.shape[0] > 0:
+        other = slipped(action, slip, keys[i], steps[i])
+        if other != action:
+            action = actions[j] = other
+    heading = wrap(heading + TURNS[action])
+    length = -speed if action == BACKWARD else speed
+    return x + length * math.cos(heading), y + length * math.sin(heading), heading
+
+
+@inlined
+def outcome_of(clearance, dx, dy, steps, max_steps):
+    """How the episode of a robot stands after a second, by its clearance on the way and its target (dx, dy) away."""
+    if micrometres(clearance) < COLLISION_DISTANCE:
+        return COLLIDED
+    if micrometres(math.hypot(dx, dy)) <= ARRIVAL_DISTANCE:
+        return ARRIVED
+    if steps >= max_steps:
+        return OUT_OF_STEPS
+    return RUNNING
+
+
 @compiled
 def step(
     start, stop, robots, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, actions, poses, centres,
@@ -112,20 +144,10 @@ def step(
         i = robots[j]
         if outcome[i] != RUNNING:
             continue
-        x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
-        action = actions[j]
-        if action in (TO_TARGET, TO_SECTOR):
-            heading = turned_to_target(
-                action, heading, targets[i, 0] - x, targets[i, 1] - y
-            )
-            action = 0
-        if slip.shape[0] > 0:
-            other = slipped(action, slip, keys[i], steps[i])
-            if other != action:
-                action = actions[j] = other
-        heading = wrap(heading + TURNS[action])
-        length = -speed if action == BACKWARD else speed
-        x1, y1 = x + length * math.cos(heading), y + length * math.sin(heading)
+        x, y = poses[i, 0], poses[i, 1]
+        x1, y1, heading = destination(
+            j, i, keys, targets, slip, speed, actions, poses, steps
+        )
         clearance = border_clearance(size, x, y, x1, y1)
         clearance = min(clearance, COLLISION_DISTANCE + 1e-3)  # more does not matter
         for m in range(kinds.shape[1]):
@@ -145,15 +167,9 @@ def step(
         clearance = max(clearance, 0.0)
         poses[i, 0], poses[i, 1], poses[i, 2] = x1, y1, heading
         steps[i] += 1
-        if micrometres(clearance) < COLLISION_DISTANCE:
-            outcome[i] = COLLIDED
-        elif (
-            micrometres(math.hypot(targets[i, 0] - x1, targets[i, 1] - y1))
-            <= ARRIVAL_DISTANCE
-        ):
-            outcome[i] = ARRIVED
-        elif steps[i] >= max_steps:
-            outcome[i] = OUT_OF_STEPS
+        outcome[i] = outcome_of(
+            clearance, targets[i, 0] - x1, targets[i, 1] - y1, steps[i], max_steps
+        )
 
 
 @compiled

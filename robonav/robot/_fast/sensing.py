@@ -27,6 +27,7 @@ COSINES = np.array([math.cos((k + 0.5) * SECTOR) for k in range(SENSORS)])
 SINES = np.array([math.sin((k + 0.5) * SECTOR) for k in range(SENSORS)])
 
 compiled = compiler(constants, geometry, random_numbers)
+inlined = compiler(constants, geometry, random_numbers, inline=True)
 
 
 @compiled
@@ -54,7 +55,7 @@ def _see_on_rays(ranges, along):
 
 
 @compiled
-def _see_circle(ranges, cosines, sines, along, x, y, radius):
+def see_circle(ranges, cosines, sines, along, x, y, radius):
     """A circle centred at (x, y) in the robot's frame."""
     distance = math.hypot(x, y)
     if distance <= radius:
@@ -108,7 +109,7 @@ def _slab(position, direction, half):
 
 
 @compiled
-def _sense_obstacles(
+def sense_obstacles(
     i, kinds, shapes, centres, x, y, heading, cosines, sines, along, ranges
 ):
     """Least distance in each sector to the obstacles of world i.
@@ -126,7 +127,7 @@ def _sense_obstacles(
             continue
         forward, left = c * dx + s * dy, c * dy - s * dx
         if kind == CIRCLE:
-            _see_circle(ranges, cosines, sines, along, forward, left, half_length)
+            see_circle(ranges, cosines, sines, along, forward, left, half_length)
         else:
             turned = shapes[i, m, 2] - heading
             _see_rectangle(
@@ -135,7 +136,7 @@ def _sense_obstacles(
 
 
 @compiled
-def _sense_borders(size, x, y, heading, cosines, sines, ranges, walls):
+def sense_borders(size, x, y, heading, cosines, sines, ranges, walls):
     """Let the map's borders shorten the ranges; where one is the nearest thing, the wall flag is set.
 
     In a sector the nearest border point is a wall's nearest point or lies on one of the sector's rays.
@@ -182,6 +183,22 @@ def target_region(dx, dy, heading):
     return 1 + math.floor(micrometres(bearing) / SECTOR + 0.5) % SENSORS
 
 
+@inlined
+def report(
+    j, i, near, border, poses, targets, keys, steps, noise, ranges, walls, region, seen
+):  # fmt: skip
+    """Put what robot i reads, of the distances ``near`` (9,), into row j: ranges and walls, target region and seen."""
+    for k in range(SENSORS):
+        distance = near[k]
+        if distance < SENSOR_RANGE:  # otherwise rounding and noise change nothing
+            distance = _with_error(distance, keys, i, steps[i], k, noise)
+        ranges[j, k] = distance
+        walls[j, k] = border[k] and distance < SENSOR_RANGE
+    dx, dy = targets[i, 0] - poses[i, 0], targets[i, 1] - poses[i, 1]
+    seen[j] = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
+    region[j] = target_region(dx, dy, poses[i, 2])
+
+
 @compiled
 def sense(
     start, stop, robots, kinds, shapes, centres, size, poses, targets, keys, steps, noise, ranges, walls, region,
@@ -200,19 +217,13 @@ def sense(
         x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
         for k in range(SENSORS):
             near[k], border[k] = SENSOR_RANGE, False
-        _sense_obstacles(
+        sense_obstacles(
             i, kinds, shapes, centres, x, y, heading, COSINES, SINES, along, near
         )
-        _sense_borders(size, x, y, heading, COSINES, SINES, near, border)
-        for k in range(SENSORS):
-            distance = near[k]
-            if distance < SENSOR_RANGE:  # otherwise rounding and noise change nothing
-                distance = _with_error(distance, keys, i, steps[i], k, noise)
-            ranges[j, k] = distance
-            walls[j, k] = border[k] and distance < SENSOR_RANGE
-        dx, dy = targets[i, 0] - x, targets[i, 1] - y
-        seen[j] = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
-        region[j] = target_region(dx, dy, heading)
+        sense_borders(size, x, y, heading, COSINES, SINES, near, border)
+        report(
+            j, i, near, border, poses, targets, keys, steps, noise, ranges, walls, region, seen
+        )  # fmt: skip
 
 
 @compiled
