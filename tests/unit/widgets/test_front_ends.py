@@ -5,8 +5,6 @@ from __future__ import annotations
 import importlib
 import pkgutil
 import re
-import shutil
-import subprocess
 
 import anywidget
 import pytest
@@ -29,19 +27,11 @@ def front_ends() -> dict[str, str]:
     return {name: str(text) for name, text in found.items() if text}
 
 
-def test_every_widget_is_one_module_without_names_that_clash(tmp_path):
-    node = shutil.which("node")
-    if node is None:
-        pytest.skip("Node is not installed")
+def test_every_widget_is_one_module_without_names_that_clash(ask):
     found = front_ends()
     assert {"RobotPlayground", "ImitationLab", "QLearningLab"} <= set(found)
     for name, text in found.items():
-        path = tmp_path / f"{name}.mjs"
-        path.write_text(text, "utf-8")
-        checked = subprocess.run(
-            [node, "--check", path], capture_output=True, text=True, check=False
-        )
-        assert checked.returncode == 0, f"{name}: {checked.stderr}"
+        assert "default" in ask(text, "return Object.keys(page);", None), name
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,6 @@
 """The labs' data, and their JavaScript under Node: the page's numbers are Python's."""
 
 import json
-import shutil
-import subprocess
 from itertools import product
 
 import numpy as np
@@ -23,31 +21,6 @@ from robonav.widgets.shared import (
     spread_out,
     style_sheet,
 )
-
-
-@pytest.fixture
-def node(tmp_path):
-    """Run a few lines of JavaScript with a widget's exports and some data at hand; gives back what they return."""
-    program = shutil.which("node")
-    if program is None:
-        pytest.skip("Node is not installed")
-
-    def run(widget, body, data):
-        (tmp_path / "widget.mjs").write_text(front_end(widget), "utf-8")
-        (tmp_path / "data.json").write_text(json.dumps(data), "utf-8")
-        (tmp_path / "run.mjs").write_text(
-            'import * as page from "./widget.mjs"; import { readFileSync } from "node:fs";\n'
-            'const data = JSON.parse(readFileSync(new URL("data.json", import.meta.url)));\n'
-            f"const result = (() => {{ {body} }})();\nconsole.log(JSON.stringify(result));",
-            "utf-8",
-        )
-        done = subprocess.run(
-            [program, tmp_path / "run.mjs"], capture_output=True, text=True, timeout=60
-        )
-        assert done.returncode == 0, done.stderr
-        return json.loads(done.stdout)
-
-    return run
 
 
 @pytest.mark.parametrize("dtype", ["float64", "float32", "int32", "uint8"])
