@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -183,11 +183,24 @@ def picture(
     >>> picture(world, world.centres[0], pose, sense(world, [pose]).ranges[0]).shape
     (480, 480, 3)
     """
+    return image(
+        lambda axes: draw_moment(axes, worlds, centres, pose, ranges), pixels=pixels
+    )
+
+
+def image(draw: Callable[[Axes], None], *, pixels: int = 480) -> NDArray[np.uint8]:
+    """Return what a function draws on axes as an image (pixels, pixels, 3).
+
+    Examples
+    --------
+    >>> image(lambda axes: prepare(axes, 100.0)).shape
+    (480, 480, 3)
+    """
     figure = Figure(
         figsize=(4.8, 4.8), dpi=pixels / 4.8, facecolor="white", layout="constrained"
     )
     canvas = FigureCanvasAgg(figure)
-    draw_moment(figure.add_subplot(), worlds, centres, pose, ranges)
+    draw(figure.add_subplot())
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
