@@ -324,7 +324,7 @@ class TeamEnv(ParallelEnv):
 
         Returns
         -------
-        (H, W, 3) array of uint8 or None
+        (H, W, 3) array or None
 
         Examples
         --------
