@@ -10,6 +10,7 @@ from .encoding import (
     lfd_state,
     nnql_state,
 )
+from .pockets import crossing_worlds, pocket_worlds
 from .policies import straight, turn_to_clearer_side
 from .rollout import (
     REFLEX,
@@ -69,6 +70,7 @@ __all__ = [
     "Worlds",
     "clearance",
     "concatenate",
+    "crossing_worlds",
     "degree_of_danger",
     "draw_worlds",
     "follow_policy",
@@ -81,6 +83,7 @@ __all__ = [
     "nnql_state",
     "obstacle_tracks",
     "parse_world",
+    "pocket_worlds",
     "random_worlds",
     "run_episodes",
     "save_worlds",
