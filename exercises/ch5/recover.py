@@ -8,7 +8,7 @@ r"""An open task: recover a reward. An expert drove a robot through a grid of ce
 acted optimally for a reward $r(s) = \theta \cdot f(s)$ that you do not know. You are
 given the cells that it visited. Find weights $\theta$ for which an optimal robot drives
 like the expert; several are as good. The check plans with your weights, drives the
-robot in this grid and in another one with the same kinds of ground, and compares the
+robot in this grid and in another one with the same kinds of terrain, and compares the
 true reward of both drives. Any method of the chapter is fine: projection, the widest
 margin, or maximum entropy.
 """
@@ -28,7 +28,7 @@ def recover(
     Parameters
     ----------
     transitions : (A, S, S), probability of each next cell after an action in a cell.
-    features : (S, k), features of each cell: 1 for its kind of ground, else 0.
+    features : (S, k), features of each cell: 1 for its kind of terrain, else 0.
     paths : (N, T), the cells that the expert visited in N drives, in order.
     discount : discount factor in [0, 1).
 

@@ -49,6 +49,14 @@ DISPLAY_NAMES: dict[str, str] = {
     "vfh": "VFH",
     "dynamic-window": "dynamic window",
     "known-map": "known map",
+    "modified-a-star": "modified A*",
+    "grid-a-star": "grid A*",
+    "kept-policy": "the policy itself",
+    "kept-clone": "a cloned policy",
+    "learned-reward-there": "trained there under the learned reward",
+    "table-reward-there": "trained there under Table 4.1",
+    "zero-reward-there": "trained there under no reward",
+    "random-reward-there": "trained there under a random reward",
 }
 """The names of methods on pages and in figures, where they differ from those in result files and commands."""
 

@@ -47,34 +47,39 @@ def _nirl_policy(seed: int, reflex: Reflex) -> Policy:
 def compare_directions(case: Case, seed: int, scale: str) -> Numbers:
     """One training of a policy with a reflex, tested with a reflex; and what it loses against exact directions."""
     name, chapter = str(case["method"]), int(case["chapter"])
-    exact, driving = Reflex("exact"), Reflex(str(case["driving"]))
-    training = exact if name in BASELINES else Reflex(str(case["training"]))
-    reached = test_episodes(name, chapter, seed, scale, training, driving)
+    exact, test = Reflex("exact"), Reflex(str(case["reflex in test"]))
+    training = exact if name in BASELINES else Reflex(str(case["reflex in training"]))
+    reached = test_episodes(name, chapter, seed, scale, training, test)
     rates = outcome_rates(reached)
     numbers = rates | {"seconds to the target": reached.steps[reached.success].mean()}
-    if (training, driving) == (exact, exact):
+    if (training, test) == (exact, exact):
         return numbers
     usual = outcome_rates(test_episodes(name, chapter, seed, scale, exact, exact))
     return numbers | {"points lost": usual["success"] - rates["success"]}
 
 
 def test_episodes(
-    name: str, chapter: int, seed: int, scale: str, training: Reflex, driving: Reflex
+    name: str, chapter: int, seed: int, scale: str, training: Reflex, test: Reflex
 ) -> Navigation:
     """Return the episodes of a policy in the test worlds of a chapter, the same for all reflexes."""
     setup = SETUPS[chapter]
     policy = trained_policy(name, seed, scale, training)
     worlds = setup.worlds(WORLDS, setup.test_seed + seed)
-    return navigate(policy, worlds, setup.speed, setup.max_steps, reflex=driving)
+    return navigate(policy, worlds, setup.speed, setup.max_steps, reflex=test)
 
 
 def _cases() -> list[Case]:
     """A learned policy trains with either reflex; a baseline does not train."""
     return [
-        {"chapter": chapter, "method": name, "training": training, "driving": driving}
+        {
+            "chapter": chapter,
+            "method": name,
+            "reflex in training": training,
+            "reflex in test": test,
+        }
         for chapter, learned in LEARNED.items()
         for name in (*BASELINES, *learned)
-        for training, driving in (
+        for training, test in (
             (("none", "exact"), ("none", "sector"))
             if name in BASELINES
             else (("exact", "exact"), ("exact", "sector"), ("sector", "sector"))

@@ -75,11 +75,11 @@ def navigation(case: Case, seed: int, scale: str) -> Numbers:
 
 def search(case: Case, seed: int, scale: str) -> Numbers:
     """Return the path of a planner and every fourth of the nodes that it expands (Fig. 3.4)."""
-    planners: dict[str, Callable[..., Any]] = {
-        "modified A*": plan,
-        "grid A*": plan_on_grid,
+    methods: dict[str, Callable[..., Any]] = {
+        "modified-a-star": plan,
+        "grid-a-star": plan_on_grid,
     }
-    found = planners[str(case["planner"])](world_of(case), margin=2.0, record=True)
+    found = methods[str(case["method"])](world_of(case), margin=2.0, record=True)
     visited = path_of(found.visited[::EVERY])
     return (
         path_of(found.points)
@@ -191,7 +191,7 @@ EXPERIMENTS = (
         "figure-3.4",
         "Nodes that modified A* and grid A* expand",
         search,
-        [{"planner": planner, "world": 0, "obstacles": 10} for planner in ("modified A*", "grid A*")],
+        [{"method": method, "world": 0, "obstacles": 10} for method in ("modified-a-star", "grid-a-star")],
     ),
     panels(
         "figure-4.2",

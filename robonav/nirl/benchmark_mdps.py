@@ -28,7 +28,7 @@ TRUE_WEIGHTS: NDArray[np.float64] = np.array([-0.3, -1.0, -0.05, 3.0])
 def terrain(
     *, slip: float = 0.2, discount: float = 0.9
 ) -> tuple[GridWorld, RewardFreeMDP]:
-    """A gridworld of four kinds of ground; the features of a step are the probabilities of each kind it may end on.
+    """A gridworld of four kinds of terrain; the features of a step are the probabilities of each kind it may end on.
 
     Parameters
     ----------

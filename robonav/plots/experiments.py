@@ -96,10 +96,10 @@ def draw_points_lost(results: Results) -> Figure:
     names = list(dict.fromkeys((case["chapter"], case["method"]) for case in cases))
     figure, axes = plt.subplots(figsize=(5.2, 0.42 * len(names) + 1.6))
     for place, case in enumerate(cases):
-        if case["driving"] == "exact":
+        if case["reflex in test"] == "exact":
             continue
         summary = results.summary("points lost", place)
-        too = case["training"] == "sector"
+        too = case["reflex in training"] == "sector"
         row = names.index((case["chapter"], case["method"])) + (0.14 if too else -0.14)
         colour = THESIS if too else OURS
         axes.plot([summary.low, summary.high], [row, row], color=colour, linewidth=2.5)

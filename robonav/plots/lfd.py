@@ -300,7 +300,7 @@ def plot_demonstrations(results: Results) -> Figure:
 
 
 def plot_iterations(results: Results) -> Figure:
-    """Plot agreement with the demonstrations, and success, against training iterations (Table 3.3)."""
+    """Plot accuracy on the demonstrations, and success, against training iterations (Table 3.3)."""
     figure, (above, below) = plt.subplots(
         2, figsize=(style.FIGURE_WIDTH, 6), sharex=True
     )
@@ -308,7 +308,7 @@ def plot_iterations(results: Results) -> Figure:
     above.set(ylabel=SUCCESS, xlabel="")
     above.get_legend().remove()
     draw_against(below, results, "iterations", "accuracy", thesis=True)
-    below.set(ylabel="agreement (%)")
+    below.set(ylabel="accuracy (%)")
     return figure
 
 

@@ -171,7 +171,7 @@ function render({ model, el }) {
   const showTable = () => table.show([...(now ? [now] : []), ...robots, ...baselines.filter(({ outcomes }) => outcomes.length)], { ...trial, obstacles: 10 });
   const panel = trainingPanel({
     source: model.get("_esm"), title: "Learn from the demonstrations and your corrections, and test the robot in new maps", action: "Train", unit: "iterations", total: () => LEARNING.iterations,
-    lines: [{ name: "cost", label: "cost J", note: COST_NOTE }, { name: "agreement", label: "agreement (%)", note: AGREEMENT_NOTE, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) }],
+    lines: [{ name: "cost", label: "cost J", note: COST_NOTE }, { name: "accuracy", label: "accuracy (%)", note: ACCURACY_NOTE, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) }],
     beside: stage,
     begin: () => {
       finish();

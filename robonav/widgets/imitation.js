@@ -44,7 +44,7 @@ export function* imitate({ examples, network, start = null, sizes, seed, regular
     const cost = costFunction("cross-entropy", learned.sizes, examples, regularisation);
     let at = 0;
     for (const iterate of lbfgs(cost, learned.parameters, iterations)) { // 7
-      yield { done: at, total, live: { at, cost: iterate.cost, agreement: 100 * iterate.agreement } };
+      yield { done: at, total, live: { at, cost: iterate.cost, accuracy: 100 * iterate.accuracy } };
       at += 1;
     }
   }
@@ -62,7 +62,7 @@ export function* imitate({ examples, network, start = null, sizes, seed, regular
 
 /** What the two curves of a training by demonstrations show. */
 export const COST_NOTE = "How far the outputs of the network are from the demonstrated actions, with the penalty on large weights.";
-export const AGREEMENT_NOTE = "How many of the demonstrated steps the network decides as the demonstrator did.";
+export const ACCURACY_NOTE = "How many of the demonstrated steps the network decides as the demonstrator did.";
 
 const percent = (share) => (100 * share).toFixed(1);
 

@@ -140,7 +140,7 @@ function render({ model, el }) {
     source: model.get("_esm"), title: "Learn a policy from the demonstrations, and test it in new maps", action: "Train", unit: "iterations", total: () => settings.iterations,
     beside: view.element, lines: [
       { name: "cost", label: "cost J", note: COST_NOTE },
-      { name: "agreement", label: "agreement (%)", note: AGREEMENT_NOTE, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
+      { name: "accuracy", label: "accuracy (%)", note: ACCURACY_NOTE, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
     ],
     begin: () => {
       if (brought) {
@@ -182,7 +182,7 @@ function render({ model, el }) {
     model, title: "The same settings in Python: several robots", unit: "iterations", total: () => settings.iterations, controls: [several.element, tryBest],
     lines: [
       { name: "cost", label: "mean cost J", note: `${COST_NOTE} The mean over the robots.` },
-      { name: "agreement", label: "mean agreement (%)", note: `${AGREEMENT_NOTE} The mean over the robots.`, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
+      { name: "accuracy", label: "mean accuracy (%)", note: `${ACCURACY_NOTE} The mean over the robots.`, colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
     ],
     request: () => {
       const learnedFrom = chosen();

@@ -40,7 +40,7 @@ def train_imitators(
     worlds : Worlds
         The new worlds.
     report : Report
-        Gets the mean cost and agreement of every iteration.
+        Gets the mean cost and accuracy of every iteration.
     robots : int
         The number of robots, each with a seed of its own.
     done : int
@@ -93,7 +93,7 @@ def train_imitators(
             total,
             at=at,
             cost=float(np.mean([iterate.cost for iterate in iterates])),
-            agreement=100 * float(np.mean([iterate.accuracy for iterate in iterates])),
+            accuracy=100 * float(np.mean([iterate.accuracy for iterate in iterates])),
         )
     policies = [NetworkPolicy(iterate.network, Encoder()) for iterate in iterates]
     rates: list[float] = []

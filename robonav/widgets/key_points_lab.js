@@ -288,7 +288,7 @@ function expertsPanel(model) {
     ],
     lines: [
       { name: "cost", label: "mean cost J", note: "How far the outputs are from the demonstrated actions, with the penalty on large weights." },
-      { name: "agreement", label: "mean agreement (%)", note: "How many of the demonstrated steps the robots decide as the expert did.", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
+      { name: "accuracy", label: "mean accuracy (%)", note: "How many of the demonstrated steps the robots decide as the expert did.", colour: PALETTE.GREEN, low: 0, high: 100, text: (value) => value.toFixed(0) },
     ],
     request: () => {
       if (expert === 1 && own().flatMap(effective).length === 0) return NO_DEMONSTRATION;

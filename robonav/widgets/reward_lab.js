@@ -35,7 +35,7 @@ export function judged(theta, { inputs, actions, width }) {
     agreed += largest(r) === action ? 1 : 0;
     return Math.abs(r[action]);
   });
-  return { scale: percentile(sizes, 0.95), agreement: agreed / actions.length };
+  return { scale: percentile(sizes, 0.95), accuracy: agreed / actions.length };
 }
 
 /** A reward in [0, 1], with 1/2 where it was 0. */
@@ -176,7 +176,7 @@ function render({ model, el }) {
 
   /** Another reward, map or depth: run the episode again, and count in the other maps. */
   function changed() {
-    const { scale, agreement } = judged(theta, expert);
+    const { scale, accuracy } = judged(theta, expert);
     plan = { theta, encoder, discount, speed, depth, scale };
     now = episodeOf(plan, world);
     before = episodeOf({ ...plan, theta: learned, scale: judged(learned, expert).scale }, world);
@@ -189,14 +189,14 @@ function render({ model, el }) {
     place.replaceChildren(time.element);
     backdrop = null;
     show();
-    count(agreement);
+    count(accuracy);
   }
 
   /** How many of the other maps are driven, one at a time, so that the page stays awake. */
-  function count(agreement) {
+  function count(accuracy) {
     clearTimeout(timer);
     const tally = { arrived: 0, collided: 0, running: 0 };
-    const agreed = `The reward's best action is the expert's in ${(100 * agreement).toFixed(1)} % of ${expert.actions.length} decisions.`;
+    const agreed = `The reward's best action is the expert's in ${(100 * accuracy).toFixed(1)} % of ${expert.actions.length} decisions.`;
     let done = 0;
     const some = () => {
       tally[episodeOf(plan, others[done]).outcome] += 1;

@@ -279,8 +279,8 @@ def test_accuracies_of_always_forward(answer, rng):
 MOVES = ((0, 1), (1, 0), (0, -1), (-1, 0))
 
 
-def ground(rng, side=7, *, order):
-    """A grid whose cells have kinds of ground, one of them rare and the goal, with moves that slip.
+def terrain(rng, side=7, *, order):
+    """A grid whose cells have kinds of terrain, one of them rare and the goal, with moves that slip.
 
     The features of the kinds stand in this order.
     """
@@ -325,12 +325,12 @@ def drives(rng, flow, n=60, length=40):
 def recovered(answer, rng, elsewhere, least):
     """Require a share of the way from a reward of 0 to the expert's in true reward.
 
-    Each grid has another number of kinds of ground, in another order, so that no weights are right by heart.
+    Each grid has another number of kinds of terrain, in another order, so that no weights are right by heart.
     """
     discount, gains = 0.9, []
     for _ in range(4):
         order = rng.permutation(rng.integers(4, 6))
-        transitions, features = ground(rng, order=order)
+        transitions, features = terrain(rng, order=order)
         theta = np.append(rng.uniform(-1.0, 0.0, size=len(order) - 1), 1.0)[order]
         flow = optimal(transitions, features @ theta, discount)
         got = answer.ask(transitions, features, drives(rng, flow), discount)
@@ -344,7 +344,7 @@ def recovered(answer, rng, elsewhere, least):
         # The scale of a reward changes no policy, and a huge one would overflow.
         weights = weights / max(1.0, np.abs(weights).max())
         if elsewhere:
-            transitions, features = ground(rng, order=order)
+            transitions, features = terrain(rng, order=order)
         reward = features @ theta
         worths = [
             worth(optimal(transitions, features @ w, discount), reward, discount)

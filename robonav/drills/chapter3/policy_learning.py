@@ -58,13 +58,13 @@ def _matrix_picture(counts: np.ndarray) -> str:
 READING = "The picture counts the states of a validation set by the expert's action (row) and the network's (column). "
 
 
-@drill("policy-learning", "Agreement, and that of a constant answer")
-def agreement_of_two(rng: Rng) -> Question:
+@drill("policy-learning", "Accuracy, and that of a constant answer")
+def accuracy_of_two(rng: Rng) -> Question:
     """Read from a confusion matrix how often a network and a constant answer agree with the expert."""
     counts = _confusion(rng)
     chosen, labels = _labelled(counts)
     forward = np.tile(np.eye(3)[0], (len(labels), 1))
-    agreement, always = (
+    accuracy, always = (
         networks.accuracy(SAYS_ITS_INPUT, actions, labels)
         for actions in (chosen, forward)
     )
@@ -78,25 +78,25 @@ def agreement_of_two(rng: Rng) -> Question:
         "(F)? Give fractions between 0 and 1.",
         Table(
             ["network", "always F"],
-            ["agreement"],
-            [[agreement], [always]],
+            ["accuracy"],
+            [[accuracy], [always]],
             wrong={
                 "All states count the same: divide the sum of the diagonal by the number of all states.": [
                     [by_row],
                     [always],
                 ],
                 "The rows are the expert's actions, so the constant answer is right in the states of row F.": [
-                    [agreement],
+                    [accuracy],
                     [column],
                 ],
                 "The constant answer is right in all states of row F, not only where the network is right, too.": [
-                    [agreement],
+                    [accuracy],
                     [float(counts[0, 0] / total)],
                 ],
             },
         ),
         f"There are ${total}$ states. The network is right in those of the diagonal: "
-        f"$({diagonal}) / {total} = {agreement:.3g}$. Always F is right in the states of row F: "
+        f"$({diagonal}) / {total} = {accuracy:.3g}$. Always F is right in the states of row F: "
         f"$({' + '.join(map(str, counts[0]))}) / {total} = {always:.3g}$.",
         _matrix_picture(counts),
     )

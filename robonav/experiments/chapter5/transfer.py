@@ -118,25 +118,23 @@ def clearer_side(seed: int, length: float, obstacles: int, speed: float) -> Poli
     return turn_to_clearer_side
 
 
-STRATEGIES: dict[str, Callable[[int, float, int, float], Policy]] = {
-    "the policy itself": partial(same_policy, method="nirl"),
-    "a cloned policy": partial(same_policy, method="lfd"),
-    "trained there under the learned reward": learned_reward,
-    "trained there under Table 4.1": reward_table,
-    "trained there under no reward": partial(given_reward, control="zero-reward"),
-    "trained there under a random reward": partial(
-        given_reward, control="random-reward"
-    ),
+METHODS: dict[str, Callable[[int, float, int, float], Policy]] = {
+    "kept-policy": partial(same_policy, method="nirl"),
+    "kept-clone": partial(same_policy, method="lfd"),
+    "learned-reward-there": learned_reward,
+    "table-reward-there": reward_table,
+    "zero-reward-there": partial(given_reward, control="zero-reward"),
+    "random-reward-there": partial(given_reward, control="random-reward"),
     "freer-side": clearer_side,
 }
-"""The strategies for other worlds: an old policy, or a new one that is trained there."""
+"""The methods for other worlds: an old policy, or a new one that is trained there."""
 
 
 def elsewhere(case: Case, seed: int, scale: str) -> Numbers:
-    """Test one run of one strategy in maps of another density, or at another speed."""
+    """Test one run of one method in maps of another density, or at another speed."""
     obstacles, speed = int(case["obstacles"]), float(case["speed"])
-    strategy = STRATEGIES[str(case["strategy"])]
-    policy = strategy(seed, SHORTENED[scale], obstacles, speed)
+    method = METHODS[str(case["method"])]
+    policy = method(seed, SHORTENED[scale], obstacles, speed)
     return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale, obstacles), speed)
 
 
@@ -179,9 +177,9 @@ TRANSFER = Experiment(
     name="nirl-transfer",
     title="Success elsewhere: the old policy, training under the learned and other rewards, cloning, and a baseline",
     cases=[
-        {"obstacles": obstacles, "speed": speed, "strategy": strategy}
+        {"obstacles": obstacles, "speed": speed, "method": method}
         for obstacles, speed in PLACES
-        for strategy in STRATEGIES
+        for method in METHODS
     ],
     run=elsewhere,
     seeds={"quick": 1, "thesis": 10},

@@ -166,17 +166,17 @@ def margin_and_caution(seed: int = 21) -> dict[str, Any]:
 
 
 @asks(
-    "What does agreement say?",
+    "What does accuracy say?",
     "Two policies have learned nothing: one always goes straight on, the other turns to the "
     "freer side. "
     "Near obstacles, each takes the expert's action in 47.5 % of the steps. "
     "How far apart are their success rates in new maps?",
     guesses=["they are equal", "up to 10 points", "more than 50 points"],
     right="more than 50 points",
-    because="Agreement is counted in the states that the expert visits; in their own episodes the two "
+    because="Accuracy is counted in the states that the expert visits; in their own episodes the two "
     "policies meet other states.",
 )
-def agreement_and_success(maps: int = 500) -> dict[str, Any]:
+def accuracy_and_success(maps: int = 500) -> dict[str, Any]:
     """How often three policies take the expert's action, by action, and how often they arrive."""
     reflex = Reflex(
         "exact"

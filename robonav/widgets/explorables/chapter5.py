@@ -14,8 +14,8 @@ from ..grid import page_grid
 from .registry import asks
 
 
-def ground_with(target: tuple[int, int]) -> tuple[mdp.GridWorld, nirl.RewardFreeMDP]:
-    """The ground of mud, road and grass with its target in another cell."""
+def terrain_with(target: tuple[int, int]) -> tuple[mdp.GridWorld, nirl.RewardFreeMDP]:
+    """The terrain of mud, road and grass with its target in another cell."""
     rows = [row.split() for row in TERRAIN.split("\n") if row.strip()]
     rows = [["." if symbol == "T" else symbol for symbol in row] for row in rows]
     rows[target[0]][target[1]] = "T"
@@ -52,23 +52,23 @@ TARGETS = {
 def reward_transfer() -> dict[str, Any]:
     """For each place of the target: the copied policy and the best one for the expert's reward, with their values."""
     copied = mdp.policy_iteration(
-        ground_with(TARGETS["where it was"])[1].with_reward(nirl.TRUE_WEIGHTS)
+        terrain_with(TARGETS["where it was"])[1].with_reward(nirl.TRUE_WEIGHTS)
     ).policy
-    return {"grounds": transferred(copied, nirl.TRUE_WEIGHTS), "learned": False}
+    return {"terrains": transferred(copied, nirl.TRUE_WEIGHTS), "learned": False}
 
 
 def transferred(
     copied: NDArray[np.intp], weights: NDArray[np.float64]
 ) -> list[dict[str, Any]]:
     """For each place of the target: copied actions, the best ones for a reward, and their values for the expert's."""
-    grounds = []
+    terrains = []
     for name, target in TARGETS.items():
-        grid, task = ground_with(target)
+        grid, task = terrain_with(target)
         model = task.with_reward(nirl.TRUE_WEIGHTS)
         q = model.action_values(mdp.policy_iteration(model).values)
         still = q[np.arange(len(copied)), copied] >= q.max(axis=1) - 1e-9
         best = mdp.policy_iteration(task.with_reward(weights)).policy
-        grounds.append(
+        terrains.append(
             {
                 "name": name,
                 "layout": page_grid(grid),
@@ -85,7 +85,7 @@ def transferred(
                 },
             }
         )
-    return grounds
+    return terrains
 
 
 @asks(
@@ -116,7 +116,7 @@ def inconsistent_expert() -> dict[str, Any]:
     files=("grid",),
 )
 def walk_features() -> dict[str, Any]:
-    """Two walks from the start to the target of the ground, as kinds of the cells stepped onto."""
+    """Two walks from the start to the target of the terrain, as kinds of the cells stepped onto."""
     grid, _ = nirl.terrain()
     place = {tuple(cell): state for state, cell in enumerate(grid.cells.tolist())}
     road = [

@@ -1,4 +1,4 @@
-"""What the kernel trains for the explorables of chapter 5: rewards, on the ground of mud and road and on the robot."""
+"""What the kernel trains for the explorables of chapter 5: rewards, on the terrain of mud and road and on the robot."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from robonav.robot import navigate, random_worlds
 
 from ..kernel_training import TRIED, Report, sentence_on_rates
 from ..reward_learning import ReplaySGDWithCallback, iteration_callback
-from .chapter5 import TARGETS, ground_with, transferred
+from .chapter5 import TARGETS, terrain_with, transferred
 from .training import Curve, Dial, Menu, Trained, trains
 
 Floats = NDArray[np.float64]
 
 STEPS = 60
-"""Steps of a demonstration on the ground; with a discount of 0.95, later steps have a twentieth of the weight."""
+"""Steps of a demonstration on the terrain; with a discount of 0.95, later steps have a twentieth of the weight."""
 
 PAIRS = {
     "road and target": (2, 3),
@@ -39,14 +39,14 @@ DEMONSTRATIONS = Dial("demonstrations (0: exact expectations)", 0, 200, 5, 0)
 SLIP = Dial("a step slips with probability", 0.0, 0.5, 0.05, 0.2)
 DISCOUNT = Dial("discount γ", 0.5, 0.95, 0.05, 0.9)
 REGULARISATION = Dial("regularisation λ", 0.0, 1.0, 0.01, 0.05)
-GAP_AND_AGREEMENT = {  # of maximum causal entropy, after each iteration
+GAP_AND_ACCURACY = {  # of maximum causal entropy, after each iteration
     "gap": Curve(
         "gap",
         "How far the learner's feature expectations are from the expert's.",
         digits=3,
     ),
-    "agreement": Curve(
-        "agreement (%)",
+    "accuracy": Curve(
+        "accuracy (%)",
         "In how many cells the learner's likeliest action is the best one.",
         high=100.0,
         digits=0,
@@ -69,7 +69,7 @@ def _expert_expectations(
 
 @trains(
     "projection_steps",
-    "Apprenticeship learning on the ground of mud and road",
+    "Apprenticeship learning on the terrain of mud and road",
     unit="policies found after the first",
     length="iterations",
     settings={
@@ -94,20 +94,23 @@ def _expert_expectations(
 )
 def apprentice(settings: dict[str, Any], report: Report) -> Trained:
     """Apprenticeship learning with two features; the page gets the policies found as points."""
-    _, ground = nirl.terrain(slip=settings["slip"], discount=settings["discount"])
-    truth = ground.with_reward(nirl.TRUE_WEIGHTS)
+    _, terrain = nirl.terrain(slip=settings["slip"], discount=settings["discount"])
+    truth = terrain.with_reward(nirl.TRUE_WEIGHTS)
     expert = mdp.policy_iteration(truth).policy
     pair = PAIRS[settings["features"]]
     task = nirl.RewardFreeMDP(
-        ground.transitions, ground.features[:, :, pair], ground.discount, ground.starts
+        terrain.transitions,
+        terrain.features[:, :, pair],
+        terrain.discount,
+        terrain.starts,
     )
     total = settings["iterations"]
     values: list[float] = []
-    value = float(ground.starts @ mdp.policy_evaluation(truth, expert))
+    value = float(terrain.starts @ mdp.policy_evaluation(truth, expert))
 
     def solve(weights: Floats) -> tuple[Any, Floats]:
         policy = mdp.policy_iteration(task.with_reward(weights)).policy
-        values.append(float(ground.starts @ mdp.policy_evaluation(truth, policy)))
+        values.append(float(terrain.starts @ mdp.policy_evaluation(truth, policy)))
         return policy, nirl.initial_expectations(task, policy)
 
     def guess(goal: Floats, found: Any) -> tuple[Floats, float]:
@@ -154,15 +157,15 @@ def apprentice(settings: dict[str, Any], report: Report) -> Trained:
         "regularisation": REGULARISATION,
         "iterations": Dial("iterations of L-BFGS at most", 1, 100, 1, 40),
     },
-    curves=GAP_AND_AGREEMENT,
+    curves=GAP_AND_ACCURACY,
 )
 def causal_entropy(settings: dict[str, Any], report: Report) -> Trained:
-    """Maximum causal entropy; the page gets the weights of the four kinds of ground."""
+    """Maximum causal entropy; the page gets the weights of the four kinds of terrain."""
     _, task = nirl.terrain(slip=settings["slip"], discount=settings["discount"])
     truth = task.with_reward(nirl.TRUE_WEIGHTS)
     expert = mdp.policy_iteration(truth).policy
     goal = _expert_expectations(task, expert, settings["demonstrations"])
-    found, agreement = _causal_entropy(task, goal, expert, settings, report)
+    found, accuracy = _causal_entropy(task, goal, expert, settings, report)
     names = ", ".join(
         f"{weight:.2f} for {kind}"
         for kind, weight in zip(nirl.TERRAIN_KINDS, found.weights, strict=True)
@@ -170,7 +173,7 @@ def causal_entropy(settings: dict[str, Any], report: Report) -> Trained:
     return Trained(
         [found],
         f"The weights of the reward are {names}. The learner's likeliest action is the best one in "
-        f"{agreement:.0f} % of the cells.",
+        f"{accuracy:.0f} % of the cells.",
         {
             # in the steps of the page's sliders; the notebook has all digits
             "weights": (np.round(found.weights / 0.05) * 0.05).round(2).tolist(),
@@ -186,19 +189,17 @@ def _causal_entropy(
     settings: dict[str, Any],
     report: Report,
 ) -> tuple[nirl.MaximumCausalEntropy, float]:
-    """Learn a reward, report every iteration, and return it with the learner's agreement at the end."""
-    total, done, agreement = settings["iterations"], 0, 0.0
+    """Learn a reward, report every iteration, and return it with the learner's accuracy at the end."""
+    total, done, accuracy = settings["iterations"], 0, 0.0
 
     def callback(weights: Floats) -> None:
-        nonlocal done, agreement
+        nonlocal done, accuracy
         model = task.with_reward(weights)
         policy = nirl.soft_value_iteration(model, tolerance=1e-3).policy
         gap = goal - nirl.initial_expectations(task, policy)
         same = policy.argmax(axis=1) == best
-        agreement = 100 * float(same[~task.terminal].mean())
-        report(
-            done, total, at=done, gap=float(np.linalg.norm(gap)), agreement=agreement
-        )
+        accuracy = 100 * float(same[~task.terminal].mean())
+        report(done, total, at=done, gap=float(np.linalg.norm(gap)), accuracy=accuracy)
         done += 1
 
     callback(np.zeros(len(goal)))
@@ -214,7 +215,7 @@ def _causal_entropy(
             callback=callback,
         )
     report(total, total)
-    return found, agreement
+    return found, accuracy
 
 
 @trains(
@@ -228,11 +229,11 @@ def _causal_entropy(
         "regularisation": REGULARISATION,
         "iterations": Dial("iterations of L-BFGS at most", 1, 100, 1, 40),
     },
-    curves=GAP_AND_AGREEMENT,
+    curves=GAP_AND_ACCURACY,
 )
 def copied_and_learned(settings: dict[str, Any], report: Report) -> Trained:
     """Both learners; the page gets their policies and values for each place of the target."""
-    _, task = ground_with(TARGETS["where it was"])
+    _, task = terrain_with(TARGETS["where it was"])
     best = mdp.policy_iteration(task.with_reward(nirl.TRUE_WEIGHTS)).policy
     expert = mdp.epsilon_greedy(np.eye(task.n_actions)[best], settings["errors"] / 100)
     seen = task.rollout(expert, settings["demonstrations"], STEPS, seed=0)
@@ -243,15 +244,15 @@ def copied_and_learned(settings: dict[str, Any], report: Report) -> Trained:
     visited = len(np.unique(states[~task.terminal[states]]))
     goal = _expert_expectations(task, expert, settings["demonstrations"])
     found, _ = _causal_entropy(task, goal, best, settings, report)
-    grounds = transferred(copied, found.weights)
-    (far,) = [ground for ground in grounds if ground["name"] == "top left"]
+    terrains = transferred(copied, found.weights)
+    (far,) = [terrain for terrain in terrains if terrain["name"] == "top left"]
     moved = [far[who]["values"][far["start"]] for who in ("copied", "reward")]
     return Trained(
         [found],
-        f"The demonstrations visit {visited} of {grounds[0]['cells']} cells. With the target at the top left, the "
+        f"The demonstrations visit {visited} of {terrains[0]['cells']} cells. With the target at the top left, the "
         f"copied actions have the value {moved[0]:.2f} from the start, and the best ones for the learned reward "
         f"{moved[1]:.2f}.",
-        {"grounds": grounds, "learned": True},
+        {"terrains": terrains, "learned": True},
     )
 
 

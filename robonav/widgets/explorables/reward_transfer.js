@@ -11,26 +11,26 @@ function bare(element) {
 }
 
 export default explorable({
-  controls: ({ grounds }) => ({
-    target: segments({ label: "the target stands", options: grounds.map(({ name }, k) => [k, name]), value: 0 }),
+  controls: ({ terrains }) => ({
+    target: segments({ label: "the target stands", options: terrains.map(({ name }, k) => [k, name]), value: 0 }),
     learner: segments({ label: "the learner has", options: [["copied", "the actions"], ["reward", "the reward"]], value: "copied" }),
   }),
-  draw({ given: { grounds, learned }, stage }) {
-    const pictures = grounds.map(({ layout }) => gridPicture({ layout, name: "the learner's policy" }));
+  draw({ given: { terrains, learned }, stage }) {
+    const pictures = terrains.map(({ layout }) => gridPicture({ layout, name: "the learner's policy" }));
     const clear = pictures.map(({ element }) => bare(element));
     const holder = h("figure", {});
     stage.append(holder);
     return ({ target, learner }) => {
-      const ground = grounds[target];
-      const { policy, values } = ground[learner];
-      pictures[target].show({ values, policy, said: learner, walk: [] }, 2.5, ground.start);
+      const terrain = terrains[target];
+      const { policy, values } = terrain[learner];
+      pictures[target].show({ values, policy, said: learner, walk: [] }, 2.5, terrain.start);
       clear[target]();
       holder.replaceChildren(pictures[target].element);
       return [
-        `The copied action is still the best one in ${ground.still} of ${ground.cells} cells.`,
-        `Value of the start with the copied actions: ${number(ground.copied.values[ground.start])}.`,
-        `With the best actions for ${learned ? "the learned" : "the same"} reward: ${number(ground.reward.values[ground.start])}.`, "",
-        "The reward gives a number to each kind of ground, and the target is one of the kinds. So the reward stays correct when the target moves.",
+        `The copied action is still the best one in ${terrain.still} of ${terrain.cells} cells.`,
+        `Value of the start with the copied actions: ${number(terrain.copied.values[terrain.start])}.`,
+        `With the best actions for ${learned ? "the learned" : "the same"} reward: ${number(terrain.reward.values[terrain.start])}.`, "",
+        "The reward gives a number to each kind of terrain, and the target is one of the kinds. So the reward stays correct when the target moves.",
       ].join("\n");
     };
   },

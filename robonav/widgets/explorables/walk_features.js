@@ -1,4 +1,4 @@
-// Two walks over four kinds of ground: what they collect, and which one a reward prefers.
+// Two walks over four kinds of terrain: what they collect, and which one a reward prefers.
 
 /** Discounted counts of the kinds stepped onto: mu of one walk. */
 export const collected = (kinds, count, discount) =>
@@ -38,7 +38,7 @@ export default explorable({
         x: chart.X(2 * k + 0.3 + 0.7 * w), y: chart.Y(mus[w][k]), width: chart.X(0.6) - chart.X(0), height: chart.Y(0) - chart.Y(mus[w][k]), fill: [PALETTE.BLUE, PALETTE.ORANGE][w],
       });
       chart.put(
-        "Discounted steps onto each kind of ground",
+        "Discounted steps onto each kind of terrain",
         ...kinds.flatMap((name, k) => [bar(k, 0), bar(k, 1), svg("text", { x: chart.X(2 * k + 1), y: chart.Y(0) + 17, "font-size": 13, "text-anchor": "middle" }, name)]),
       );
       const better = Math.abs(values[0] - values[1]) < 1e-9 ? "Both are equally good." : `Better: ${walks[values[0] > values[1] ? 0 : 1].name}.`;

@@ -75,7 +75,7 @@ function strongWolfe(at, origin, first) {
 }
 
 /**
- * Minimises a cost by L-BFGS (Liu and Nocedal 1989); yields the cost and the agreement before the first iteration and after each.
+ * Minimises a cost by L-BFGS (Liu and Nocedal 1989); yields the cost and the accuracy before the first iteration and after each.
  * Ends early where no step lowers the cost.
  * @param {Cost} cost
  * @param {Float64Array} parameters changed in place
@@ -84,7 +84,7 @@ export function* lbfgs(cost, parameters, iterations) {
   const here = new Float64Array(parameters.length);
   let gradient = new Float64Array(parameters.length);
   let value = cost.evaluate(parameters, gradient);
-  yield { cost: value, agreement: cost.agreement() };
+  yield { cost: value, accuracy: cost.accuracy() };
   let direction = gradient.map((slope) => -slope);
   const memory = [];
   let scale = 1;
@@ -97,7 +97,7 @@ export function* lbfgs(cost, parameters, iterations) {
       for (let k = 0; k < here.length; k += 1) parameters[k] = here[k] + t * direction[k];
       const there = new Float64Array(here.length);
       const reached = cost.evaluate(parameters, there);
-      return { t, cost: reached, agreement: cost.agreement(), gradient: there, slope: dot(there, direction) };
+      return { t, cost: reached, accuracy: cost.accuracy(), gradient: there, slope: dot(there, direction) };
     };
     const first = iteration === 0 ? Math.min(1, 1 / gradient.reduce((sum, entry) => sum + Math.abs(entry), 0)) : 1;
     const point = strongWolfe(at, { t: 0, cost: value, gradient, slope }, first);
@@ -120,6 +120,6 @@ export function* lbfgs(cost, parameters, iterations) {
     }
     for (let k = 0; k < direction.length; k += 1) direction[k] *= scale;
     memory.forEach((pair, i) => addScaled(direction, shares[i] - dot(pair.change, direction) * pair.rho, pair.step));
-    yield { cost: value, agreement: point.agreement };
+    yield { cost: value, accuracy: point.accuracy };
   }
 }

@@ -3,7 +3,7 @@
 /**
  * @typedef {{m: number, x: Float64Array, y: Float64Array}} Examples m rows of inputs and of labels, one after the other
  * @typedef {Network & {parameters: Float64Array}} FlatNetwork all weights, then all biases, in one array
- * @typedef {{evaluate: (parameters: Float64Array, gradient: Float64Array) => number, agreement: () => number}} Cost
+ * @typedef {{evaluate: (parameters: Float64Array, gradient: Float64Array) => number, accuracy: () => number}} Cost
  */
 
 /** How many weights and biases a network has. */
@@ -131,7 +131,7 @@ const ERRORS = {
  * @param {string} kind
  * @param {number[]} sizes
  * @param {Examples} examples
- * @returns {Cost} `agreement` is the fraction of examples that the network evaluated last answers as they are labelled
+ * @returns {Cost} `accuracy` is the fraction of examples that the network evaluated last answers as they are labelled
  */
 export function costFunction(kind, sizes, { m, x, y }, regularisation = 0) {
   const [n, outputs, place, error] = [sizes[0], sizes.at(-1), scratch(sizes), ERRORS[kind]];
@@ -164,18 +164,18 @@ export function costFunction(kind, sizes, { m, x, y }, regularisation = 0) {
     });
     return cost / m + (decay / 2) * squares;
   };
-  return { evaluate, agreement: () => right / m };
+  return { evaluate, accuracy: () => right / m };
 }
 
 /**
- * Batch gradient descent, Eq. (3.16): yields the cost and the agreement before the first step and after each.
+ * Batch gradient descent, Eq. (3.16): yields the cost and the accuracy before the first step and after each.
  * @param {Cost} cost
  * @param {Float64Array} parameters changed in place
  */
 export function* gradientDescent(cost, parameters, { gradientStep, iterations }) {
   const gradient = new Float64Array(parameters.length);
   for (let iteration = 0; ; iteration += 1) {
-    yield { cost: cost.evaluate(parameters, gradient), agreement: cost.agreement() };
+    yield { cost: cost.evaluate(parameters, gradient), accuracy: cost.accuracy() };
     if (iteration === iterations) return;
     for (let k = 0; k < parameters.length; k += 1) parameters[k] -= gradientStep * gradient[k]; // Eq. (3.8)
   }

@@ -293,8 +293,8 @@ def margin_and_caution(shown: Shown) -> None:
     drawn.has_line(BLUE, mine.points.round(2))
 
 
-@expects(choose("what is counted", "balanced agreement"))
-def agreement_and_success(shown: Shown) -> None:
+@expects(choose("what is counted", "balanced accuracy"))
+def accuracy_and_success(shown: Shown) -> None:
     given, measure = shown.given, shown.chosen("what is counted")
     counts, safe = np.array(given["counts"]), given["safe"]
     counted = shown.share("safe steps that count") * safe
@@ -312,8 +312,8 @@ def agreement_and_success(shown: Shown) -> None:
         agreed = nirl.accuracy(predicted, actions) * len(actions)
         shares.append(
             {
-                "agreement": (agreed + counted) / (len(actions) + counted),
-                "balanced agreement": nirl.balanced_accuracy(predicted, actions),
+                "accuracy": (agreed + counted) / (len(actions) + counted),
+                "balanced accuracy": nirl.balanced_accuracy(predicted, actions),
                 "success in new maps": policy["success"],
             }[measure]
         )
@@ -324,10 +324,10 @@ def agreement_and_success(shown: Shown) -> None:
     near = f"Counted: {len(actions)} steps near obstacles"
     shown.says(
         {
-            "agreement": f"{near}, and {counted} of {safe} safe steps"
+            "accuracy": f"{near}, and {counted} of {safe} safe steps"
             if counted
             else f"{near}. In {counts[0]} of them the expert goes straight on.",
-            "balanced agreement": "the mean of the agreement for each of the five actions.",
+            "balanced accuracy": "the mean of the accuracies for the five actions.",
             "success in new maps": f"how many of {given['maps']} new maps are reached.",
         }[measure]
     )

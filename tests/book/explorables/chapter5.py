@@ -7,7 +7,7 @@ from scipy.special import logsumexp
 
 from robonav import mdp, nirl
 from robonav.style import BLUE, GREEN, GREY, ORANGE, VERMILION
-from robonav.widgets.explorables.chapter5 import TARGETS, ground_with
+from robonav.widgets.explorables.chapter5 import TARGETS, terrain_with
 
 from .chapter4 import listed
 from .grids import Grid, grid_of
@@ -20,9 +20,9 @@ from .table import expects
     choose("the target stands", "top left"), choose("the learner has", "the reward")
 )
 def reward_transfer(shown: Shown) -> None:
-    grid, task = ground_with(TARGETS[shown.chosen("the target stands")])
+    grid, task = terrain_with(TARGETS[shown.chosen("the target stands")])
     model = task.with_reward(nirl.TRUE_WEIGHTS)
-    before = ground_with(TARGETS["where it was"])[1].with_reward(nirl.TRUE_WEIGHTS)
+    before = terrain_with(TARGETS["where it was"])[1].with_reward(nirl.TRUE_WEIGHTS)
     copied = mdp.policy_iteration(before).policy
     best = mdp.policy_iteration(model)
     inside = np.flatnonzero(~grid.terminal)

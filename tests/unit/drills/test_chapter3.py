@@ -92,8 +92,8 @@ def confusion(picture: str) -> np.ndarray:
     )
 
 
-def test_agreement_by_counting_states() -> None:
-    for question in drawn("agreement-of-two"):
+def test_accuracy_by_counting_states() -> None:
+    for question in drawn("accuracy-of-two"):
         counts = confusion(question.picture)
         drawn_counts = re.findall(r">(\d+)<", question.picture)
         assert [int(n) for n in drawn_counts] == counts.ravel().tolist()

@@ -222,10 +222,10 @@ def test_a_comparison_has_its_controls_beside_it():
         "lfd" in methods[name] for name in ("table-5.1", "figure-5.10", "figure-5.12")
     )
     assert {
-        "a cloned policy",
-        "trained there under no reward",
-        "trained there under a random reward",
-    } <= set(transfer.STRATEGIES)
+        "kept-clone",
+        "zero-reward-there",
+        "random-reward-there",
+    } <= set(transfer.METHODS)
 
 
 def test_ends_without_a_bonus_are_held_against_the_same_runs_with_one():

@@ -9,7 +9,17 @@ from robonav.experiments import experiment, names
 from robonav.nirl import METHODS
 
 OTHER_WORDS = {
-    "method": {"rule", "robot", "learner", "policy", "algorithm"},
+    "method": {
+        "rule",
+        "robot",
+        "learner",
+        "policy",
+        "algorithm",
+        "planner",
+        "strategy",
+    },
+    "reflex in training": {"training"},
+    "reflex in test": {"driving"},
     "obstacles": {"standing"},
 }
 NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")

@@ -173,7 +173,7 @@ def test_what_slipping_actions_cost_on_the_board():
     )
 
 
-def test_how_far_the_agreement_is_from_the_thesis():
+def test_how_far_the_accuracy_is_from_the_thesis():
     """Two pages: with the shortest-path expert it is two points higher, and 83.62 % lies outside the interval."""
     results = read_results("table-3.3")
     (case,) = [

@@ -21,10 +21,10 @@ def few_worlds(monkeypatch):
 @pytest.mark.parametrize("method", ["straight", "freer-side"])
 @pytest.mark.parametrize("chapter", [3, 4, 5])
 def test_points_lost_are_the_difference_in_the_same_worlds(chapter, method):
-    case = {"chapter": chapter, "method": method, "training": "none"}
+    case = {"chapter": chapter, "method": method, "reflex in training": "none"}
     exact, sector = (
-        reflex.compare_directions(case | {"driving": driving}, 1, "quick")
-        for driving in ("exact", "sector")
+        reflex.compare_directions(case | {"reflex in test": test}, 1, "quick")
+        for test in ("exact", "sector")
     )
     assert "points lost" not in exact
     assert sector["points lost"] == exact["success"] - sector["success"]
@@ -56,7 +56,7 @@ def test_every_learned_policy_trains_and_drives_with_either():
     for chapter, learned in reflex.LEARNED.items():
         for policy in learned:
             pairs = {
-                (case["training"], case["driving"])
+                (case["reflex in training"], case["reflex in test"])
                 for case in EXPERIMENT.cases
                 if (case["chapter"], case["method"]) == (chapter, policy)
             }

@@ -47,7 +47,7 @@ def test_the_number_of_the_sector_costs_two_to_five_points():
         assert 2 < sine_cosine - number < 5.2
 
 
-def test_the_agreement_is_two_points_above_the_thesis_and_its_value_outside():
+def test_the_accuracy_is_two_points_above_the_thesis_and_its_value_outside():
     results = read_results(tables.TABLE_3_3)
     summary = results.summary("accuracy", 3)
     assert results.experiment.cases[3]["iterations"] == 300

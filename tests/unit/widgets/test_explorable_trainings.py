@@ -120,10 +120,10 @@ def test_apprenticeship_on_the_ground(guess):
     page = Page("projection_steps")
     page.train(guess=guess, features="mud and road", iterations=10, demonstrations=0)
     (found,) = page.lab.trainings
-    _, ground = nirl.terrain()
-    features = ground.features[:, :, [1, 2]]
-    expert = mdp.policy_iteration(ground.with_reward(nirl.TRUE_WEIGHTS)).policy
-    task = nirl.RewardFreeMDP(ground.transitions, features, 0.9, ground.starts)
+    _, terrain = nirl.terrain()
+    features = terrain.features[:, :, [1, 2]]
+    expert = mdp.policy_iteration(terrain.with_reward(nirl.TRUE_WEIGHTS)).policy
+    task = nirl.RewardFreeMDP(terrain.transitions, features, 0.9, terrain.starts)
     np.testing.assert_allclose(found.expert, nirl.initial_expectations(task, expert))
     np.testing.assert_allclose(page.points("distance"), found.distances)
     assert found.distances[-1] < 0.1 * found.distances[0]
@@ -147,10 +147,10 @@ def test_the_reward_of_maximum_entropy():
 
 def test_a_reward_moves_with_the_target_and_copied_actions_do_not():
     page = Page("reward_transfer")
-    grounds = page.train(demonstrations=50)["given"]["grounds"]
+    terrains = page.train(demonstrations=50)["given"]["terrains"]
     values = [
-        [ground[who]["values"][ground["start"]] for who in ("copied", "reward")]
-        for ground in grounds
+        [terrain[who]["values"][terrain["start"]] for who in ("copied", "reward")]
+        for terrain in terrains
     ]
     assert values[0][0] == pytest.approx(values[0][1], abs=0.5)
     assert all(copied < learned for copied, learned in values[1:])

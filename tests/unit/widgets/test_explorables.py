@@ -591,14 +591,16 @@ def test_paths_with_a_margin_are_the_planners(compute, margin, caution):
 
 
 def test_copied_actions_where_the_target_stays_are_the_best_ones():
-    first, *moved = explorable("reward_transfer").data["given"]["grounds"]
+    first, *moved = explorable("reward_transfer").data["given"]["terrains"]
     assert first["still"] == first["cells"]
     assert first["copied"]["values"] == pytest.approx(
         first["reward"]["values"], abs=1e-9
     )
-    for ground in moved:
-        start = ground["start"]
-        assert ground["copied"]["values"][start] < ground["reward"]["values"][start] - 1
+    for terrain in moved:
+        start = terrain["start"]
+        assert (
+            terrain["copied"]["values"][start] < terrain["reward"]["values"][start] - 1
+        )
     assert {g["name"]: g["still"] for g in moved}["top left"] == 13  # as the page says
 
 
@@ -722,14 +724,14 @@ def test_value_of_an_end(compute):
 
 
 @pytest.mark.slow
-def test_agreement_counts_as_in_python(compute):
+def test_accuracy_counts_as_in_python(compute):
     body = """
     const [first, second] = given.policies;
     return [
-      [first, second].map((policy) => page.agreement(policy, given, "pairs", 0)),
-      page.agreement(first, given, "pairs", 1), page.agreement(first, given, "balanced", 0),
+      [first, second].map((policy) => page.accuracy(policy, given, "pairs", 0)),
+      page.accuracy(first, given, "pairs", 1), page.accuracy(first, given, "balanced", 0),
     ];"""
-    near, every, balanced = compute("agreement_and_success", body)
+    near, every, balanced = compute("accuracy_and_success", body)
     worlds = random_worlds(25, obstacles=10, seed=7)
     demonstrations = demonstrate(worlds, reflex=Reflex("exact"))
     pairs = demonstrations.effective
@@ -742,7 +744,7 @@ def test_agreement_counts_as_in_python(compute):
     assert every == pytest.approx((same[0].sum() + safe) / len(demonstrations))
     assert balanced == pytest.approx(0.2)  # it is right for one action of five
     assert [round(100 * share, 1) for share in near] == [47.5, 47.5]  # as asked
-    first, second, _ = explorable("agreement_and_success").data["given"]["policies"]
+    first, second, _ = explorable("accuracy_and_success").data["given"]["policies"]
     assert second["success"] - first["success"] > 0.5
 
 

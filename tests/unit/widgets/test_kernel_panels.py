@@ -152,7 +152,7 @@ def test_experts_are_compared_by_the_robots_that_learn_from_them(told):
     assert ended["sentence"].startswith(begun)
     assert len(lab.trainings) == 2
     assert messages[-1]["done"] == messages[-1]["total"] == 3 + 5 + 2
-    assert len(points(messages, "agreement")) == 6
+    assert len(points(messages, "accuracy")) == 6
 
 
 def test_dagger_is_tried_round_after_round(told):

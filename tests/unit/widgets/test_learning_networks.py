@@ -58,10 +58,10 @@ def test_costs_and_gradients_are_pythons(node, examples, kind):
       const network = page.randomNetwork(sizes, page.defaultRng(seed));
       const cost = page.costFunction(data.kind, sizes, page.examplesOf(x, y), 0.3);
       const gradient = new Float64Array(network.parameters.length);
-      return [cost.evaluate(network.parameters, gradient), [...gradient], cost.agreement()];
+      return [cost.evaluate(network.parameters, gradient), [...gradient], cost.accuracy()];
     });"""
     got = node(FILES, body, {"tasks": examples, "kind": kind})
-    for task, (cost, gradient, agreement) in zip(examples, got, strict=True):
+    for task, (cost, gradient, accuracy) in zip(examples, got, strict=True):
         network = random_network(task["sizes"], seed=task["seed"])
         objective, x, y = OBJECTIVES[kind], task["x"], np.array(task["y"])
         assert cost == pytest.approx(
@@ -71,7 +71,7 @@ def test_costs_and_gradients_are_pythons(node, examples, kind):
         np.testing.assert_allclose(gradient, expected, rtol=0, atol=1e-9)
         z = network.logits(x)
         right = (z > 0) == (y > 0.5) if y.shape[1] == 1 else z.argmax(1) == y.argmax(1)
-        assert agreement == pytest.approx(right.mean())
+        assert accuracy == pytest.approx(right.mean())
 
 
 @pytest.mark.parametrize("kind", OBJECTIVES)
@@ -128,7 +128,7 @@ def test_stochastic_gradient_descent_gives_pythons_weights(
 LBFGS = """return data.tasks.map(({ seed, sizes, x, y }) => {
   const { parameters } = page.randomNetwork(sizes, page.defaultRng(seed));
   const cost = page.costFunction("cross-entropy", sizes, page.examplesOf(x, y), data.regularisation);
-  return [...page.lbfgs(cost, parameters, data.iterations)].map((iterate) => [iterate.cost, iterate.agreement]);
+  return [...page.lbfgs(cost, parameters, data.iterations)].map((iterate) => [iterate.cost, iterate.accuracy]);
 });"""
 
 

@@ -64,7 +64,7 @@ def test_rewards_and_judgements_are_pythons(page, decisions, theta):
     assert seen["scale"] == pytest.approx(
         np.percentile(abs(decision_rewards(theta, decisions)), 95), abs=1e-12
     )
-    assert seen["agreement"] == np.mean(
+    assert seen["accuracy"] == np.mean(
         (decisions.features @ theta.T).argmax(axis=1) == decisions.actions
     )
 
