@@ -16,6 +16,8 @@ PYTEST_OPTIONS ?=
 LAB_OPTIONS ?=
 export BOOK_ADDRESS := $(ADDRESS)
 export REPOSITORY
+# Without the compiled files of the last run, each process of the tests begins some seconds later.
+unexport PYTHONDONTWRITEBYTECODE
 
 BIN := .venv/bin
 INSTALLED := .venv/.installed

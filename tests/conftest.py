@@ -9,6 +9,7 @@ deadline, because a slow or busy machine would miss it.
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Generator
 from typing import Any
 
@@ -94,6 +95,17 @@ class FailuresAtOnce:
         if report.failed:
             self.reporter.ensure_newline()
             self.reporter.write_line(f"FAILED {report.nodeid}")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Let the garbage collector pass over what the tests are made of: it would look at it again and again in vain."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.hookimpl(trylast=True)

@@ -17,10 +17,8 @@ import textwrap
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import jupytext
-import nbformat
 import yaml
 from check_site import pages
 from course_exercises import exercises_of
@@ -33,6 +31,9 @@ from thesis_numbers import thesis_number
 
 from robonav.drills import of_page
 from robonav.grading.course import Course
+
+if TYPE_CHECKING:  # it takes seconds, so the functions import it that need it
+    import nbformat
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -207,6 +208,9 @@ def _drills(page: str) -> str:
 
 def notebook_of(source: Path) -> nbformat.NotebookNode:
     """Return the notebook of one page, without outputs. Its first cell installs the package if it is missing."""
+    import jupytext
+    import nbformat
+
     notebook = jupytext.read(source)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(first_cell()))
     for index, cell in enumerate(notebook.cells):
@@ -232,6 +236,8 @@ def offer(
     The page contains the notebook too: a page opened from disk would show the file as text, so ``book.js`` offers this
     copy.
     """
+    import nbformat
+
     if doctree is None or "kernelspec" not in app.env.metadata.get(page, {}):
         return
     target = Path(app.outdir) / "_sources" / f"{page}.ipynb"
@@ -260,6 +266,8 @@ def notebook_pages() -> list[Path]:
 
 def write_all(folder: Path) -> None:
     """Write the notebooks of the book into a folder."""
+    import nbformat
+
     folder.mkdir(parents=True, exist_ok=True)
     for number, source in enumerate(notebook_pages(), start=1):
         target = folder / f"{number:02d}-{source.stem}.ipynb"

@@ -13,7 +13,6 @@ from types import SimpleNamespace
 import check_site
 import citations
 import drills
-import nbformat
 import notebooks
 import package_code
 import package_digest
@@ -295,6 +294,8 @@ kernelspec: {display_name: Python 3, language: python, name: python3}
 
 
 def test_notebooks_are_valid_reproducible_and_without_outputs(tmp_path: Path) -> None:
+    import nbformat  # takes seconds, so other tests do without
+
     page = tmp_path / "page.md"
     page.write_text(PAGE)
     (tmp_path / "dot.png").write_bytes(b"dot")
@@ -320,6 +321,8 @@ def test_a_notebook_lists_its_exercises_and_names_its_own_equations() -> None:
 def test_a_notebook_that_was_changed_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    from nbformat.v4 import new_notebook
+
     (tmp_path / "_toc.yml").write_text("root: page\n")
     (tmp_path / "page.md").write_text(PAGE.replace("![A dot.](dot.png)", ""))
     monkeypatch.setattr(notebooks, "ROOT", tmp_path)
@@ -329,9 +332,7 @@ def test_a_notebook_that_was_changed_is_kept(
     notebooks.write_all(target.parent)
     assert target.read_text() == "mine"
     newer = target.stat().st_mtime + 10
-    monkeypatch.setattr(
-        notebooks, "notebook_of", lambda source: nbformat.v4.new_notebook()
-    )
+    monkeypatch.setattr(notebooks, "notebook_of", lambda source: new_notebook())
     os.utime(tmp_path / "page.md", (newer, newer))
     notebooks.write_all(target.parent)
     assert target.read_text() != "mine"

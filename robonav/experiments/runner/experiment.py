@@ -191,12 +191,22 @@ class Results:
         return cls(experiment, scale, pd.DataFrame(list(rows), columns=list(COLUMNS)))
 
     @cached_property
+    def _rows(self) -> dict[tuple[int, str], pd.DataFrame]:
+        """Return the rows of each case and metric."""
+        return dict(iter(self.frame.groupby(["case", "metric"], sort=False)))
+
+    @cached_property
     def _tables(self) -> dict[tuple[int, str], NDArray[np.float64]]:
-        """Return one table for each case and metric: one row for each seed, one column for each step."""
-        return {
-            key: group.pivot(index="seed", columns="step", values="value").to_numpy()
-            for key, group in self.frame.groupby(["case", "metric"], sort=False)
-        }
+        """Return the tables that were asked for, because making one takes longer than reading it."""
+        return {}
+
+    def _table(self, case: int, metric: str) -> NDArray[np.float64]:
+        """Return the table of a case and a metric: one row for each seed, one column for each step."""
+        key = case, metric
+        if key not in self._tables:
+            table = self._rows[key].pivot(index="seed", columns="step", values="value")
+            self._tables[key] = table.to_numpy()
+        return self._tables[key]
 
     def metrics(self, case: int) -> list[str]:
         """Return the metrics of a case, sorted by name.
@@ -217,7 +227,7 @@ class Results:
         >>> Results.from_rows(dice, "quick", rows).metrics(case=0)
         ['mean', 'throws']
         """
-        return sorted(metric for place, metric in self._tables if place == case)
+        return sorted(metric for place, metric in self._rows if place == case)
 
     def scalars(self, case: int) -> list[str]:
         """Return the metrics of a case that have one number in each run.
@@ -238,7 +248,7 @@ class Results:
         >>> Results.from_rows(dice, "quick", rows).scalars(case=0)
         ['mean']
         """
-        return [m for m in self.metrics(case) if self._tables[case, m].shape[1] == 1]
+        return [m for m in self.metrics(case) if self._table(case, m).shape[1] == 1]
 
     def values(self, metric: str, case: int) -> NDArray[np.float64]:
         """Return the values of a metric in one case, one row for each seed.
@@ -268,7 +278,7 @@ class Results:
         array([[2., 4.]])
         """
         check_one_of("metric", metric, dict.fromkeys(self.metrics(case)))
-        table = self._tables[case, metric]
+        table = self._table(case, metric)
         return table[:, 0] if table.shape[1] == 1 else table
 
     def summary(self, metric: str, case: int) -> Summary:

@@ -11,9 +11,6 @@ from robonav.experiments import names, read_results
 from robonav.experiments.runner.report import short
 
 BOOK = Path(__file__).parents[3] / "book"
-PAGE = (
-    with_results((BOOK / "reproduction.md").read_text("utf-8")) if BOOK.is_dir() else ""
-)
 NIRL = {"method": "nirl", "discount": 0.65}
 SLIPPING = {"expert": "computer, slipping"}
 QUOTED = [  # start of the row, experiment, metric, case, which of the fitting cases, quoted number
@@ -42,10 +39,17 @@ QUOTED = [  # start of the row, experiment, metric, case, which of the fitting c
 ]  # fmt: skip
 
 
-@pytest.mark.skipif(not PAGE, reason="the book is not here")
+@pytest.fixture(scope="module")
+def page():
+    """The page of reproduction with its numbers."""
+    return with_results((BOOK / "reproduction.md").read_text("utf-8"))
+
+
 @pytest.mark.parametrize(("row", "name", "metric", "wanted", "which", "form"), QUOTED)
-def test_what_a_row_quotes_is_what_was_measured(row, name, metric, wanted, which, form):
-    (line,) = [line for line in PAGE.splitlines() if line.startswith(f"| {row}")]
+def test_what_a_row_quotes_is_what_was_measured(
+    page, row, name, metric, wanted, which, form
+):
+    (line,) = [line for line in page.splitlines() if line.startswith(f"| {row}")]
     results = read_results(name)
     fitting = [
         place
@@ -57,10 +61,9 @@ def test_what_a_row_quotes_is_what_was_measured(row, name, metric, wanted, which
     assert shown in line
 
 
-@pytest.mark.skipif(not PAGE, reason="the book is not here")
-def test_page_counts_its_verdicts():
+def test_page_counts_its_verdicts(page):
     """The opening sentence says how many claims hold; the tables have a verdict for each claim."""
-    given = re.findall(r"^\| [^|]+ \| \*\*([a-z ]+)\*\*", PAGE, re.M)
+    given = re.findall(r"^\| [^|]+ \| \*\*([a-z ]+)\*\*", page, re.M)
     kinds = (
         "holds",
         "holds in part",
@@ -75,21 +78,23 @@ def test_page_counts_its_verdicts():
     assert (
         f"Of the {all_of_them} claims below, {hold} hold, {part} hold in part, {no} do not hold "
         f"and {open_ones} cannot be decided."
-    ) in " ".join(PAGE.split())
+    ) in " ".join(page.split())
 
 
-@pytest.mark.skipif(not PAGE, reason="the book is not here")
-def test_every_experiment_has_its_place():
+def test_every_experiment_has_its_place(page):
     """Each experiment but the labs' and the leaderboard's has one section on the pages of reproduction."""
     places = re.findall(
         r"^\(result-(.+)\)=$",
-        "".join(page.read_text() for page in sorted(BOOK.glob("reproduction*.md"))),
+        "".join(
+            source.read_text("utf-8")
+            for source in sorted(BOOK.glob("reproduction*.md"))
+        ),
         re.M,
     )
     assert len(places) == len(set(places))
     elsewhere = {"leaderboard", "lab-lfd", "lab-nnql", "lab-nirl"}
     assert set(places) == set(names()) - elsewhere
-    assert set(re.findall(r"<result-([\w.-]+)>", PAGE)) <= set(places)
+    assert set(re.findall(r"<result-([\w.-]+)>", page)) <= set(places)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,6 @@ import zipfile
 from pathlib import Path
 
 import course_exercises
-import nbformat
 import pytest
 
 from robonav.grading import build
@@ -89,6 +88,8 @@ def test_the_manifest_has_six_exercises_a_chapter_of_every_kind():
 
 def test_open_tasks_tell_how_often_right_answers_pass():
     """The manifest has what the benchmark measured, and stubs and notebooks say it."""
+    import nbformat  # takes seconds, so other tests do without
+
     path = COURSE.root / "benchmarks/open_tasks.json"
     measured = json.loads(path.read_text("utf-8"))
     tasks = {e.id for e in COURSE.exercises.values() if e.difficulty == "open task"}
@@ -124,6 +125,8 @@ def test_open_tasks_tell_how_often_right_answers_pass():
 
 @pytest.mark.parametrize("chapter", [chapter for chapter, _ in COURSE.chapters()])
 def test_notebooks_are_valid_and_carry_what_nbgrader_reads(chapter):
+    import nbformat
+
     handed_out = nbformat.read(COURSE.stubs / f"{chapter}.ipynb", as_version=4)
     source = nbformat.read(
         COURSE.solutions / f"nbgrader/source/{chapter}/{chapter}.ipynb", as_version=4
