@@ -1,0 +1,258 @@
+"""Chapter 6: the parts of each exercise. A docstring's first line is what the student reads."""
+
+import numpy as np
+import pytest
+
+from robonav.grading.compare import as_numbers
+
+
+def field(rng, n, *, rho=(0.3, 2.5), d=(0.5, 20.0)):
+    """A robot with its target and n circles, whose edges lie at distances rho from it; inside a circle rho < 0."""
+    place, fading = rng.uniform(-10, 10, size=2), rng.uniform(3.0, 6.0)
+    radii = rng.uniform(0.8, 2.0, size=n)
+    around = rng.uniform(0, 2 * np.pi, size=n + 1)
+    ways = np.column_stack([np.cos(around), np.sin(around)])
+    far = rng.uniform(*rho, size=n) + radii
+    middles = place + far[:, None] * ways[1:]
+    target = place + rng.uniform(*d) * ways[0]
+    circles = np.column_stack([middles, radii])
+    strengths = rng.uniform(0.5, 2.0), fading, rng.uniform(1.0, 5.0)
+    return place, target, circles, *strengths, rng.uniform(2.6, 3.5)
+
+
+@pytest.mark.part("6.1", points=1)
+def test_force_of_a_far_target(answer, rng):
+    """Finds the attraction of a target that is farther away than d*."""
+    for n in (1, 2, 3):
+        answer.agrees(*field(rng, n, d=(7.0, 20.0)), at=0)
+
+
+@pytest.mark.part("6.1", points=1)
+def test_force_of_a_near_target(answer, rng):
+    """Finds the attraction of a target that is nearer than d*, and none at the target."""
+    for n in (1, 2, 3):
+        answer.agrees(*field(rng, n, d=(0.3, 2.5)), at=0)
+    place, _, *others = field(rng, 2)
+    answer.agrees(place, place.copy(), *others, at=0)
+
+
+@pytest.mark.part("6.1", points=1)
+def test_force_of_one_circle(answer, rng):
+    """Finds the repulsion of one circle, in reach and beyond it."""
+    for _ in range(3):
+        answer.agrees(*field(rng, 1), at=1)
+        answer.agrees(*field(rng, 1, rho=(4.0, 9.0)), at=1)
+
+
+@pytest.mark.part("6.1", points=1)
+def test_force_of_several_circles(answer, rng):
+    """Adds up the forces of several circles."""
+    for n in (2, 3, 5):
+        answer.agrees(*field(rng, n), at=1)
+        answer.agrees(*field(rng, n, rho=(0.3, 6.0)), at=1)
+
+
+@pytest.mark.part("6.1", points=1)
+def test_force_at_an_edge(answer, rng):
+    """Counts a distance of 0.1 m where the robot is nearer to an edge, or inside a circle."""
+    for rho in ((0.01, 0.09), (-0.5, -0.1), (0.01, 0.09)):
+        answer.agrees(*field(rng, 1, rho=rho), at=1)
+
+
+def binned(rng, bins=24, *, opening=0.5):
+    """A histogram and what was before, with whole numbers of which some are the thresholds themselves."""
+    histogram = rng.integers(1, 10, size=bins) / 2
+    histogram[rng.random(bins) < opening] = 0.5
+    blocked = rng.random(bins) < 0.5
+    target, last = rng.integers(1, bins // 2, size=2)
+    weights = rng.uniform(1.0, 5.0, size=3).round(3)
+    return histogram, blocked, 1.75, 3.25, int(target), int(last), weights
+
+
+@pytest.mark.part("6.2", points=1)
+def test_direction_and_two_thresholds(answer, rng):
+    """Finds which bins are blocked where some lie between the thresholds."""
+    for _ in range(3):
+        answer.agrees(*binned(rng), at=0)
+
+
+@pytest.mark.part("6.2", points=1)
+def test_direction_at_the_thresholds(answer, rng):
+    """Finds which bins are blocked where some have exactly the magnitude of a threshold."""
+    for _ in range(3):
+        histogram, blocked, _, _, *others = binned(rng, 40, opening=0.1)
+        answer.agrees(histogram, blocked, 2.0, 3.5, *others, at=0)
+
+
+@pytest.mark.part("6.2", points=2)
+def test_direction_and_its_cost(answer, rng):
+    """Finds the cost of every bin, on both sides of the heading."""
+    for _ in range(3):
+        *others, target, last, weights = binned(rng)
+        answer.agrees(*others, target, last, weights, at=1)
+        answer.agrees(*others, 24 - target, 24 - last, weights, at=1)
+
+
+@pytest.mark.part("6.2", points=1)
+def test_direction_where_costs_are_equal(answer, rng):
+    """Of several free bins with the least cost, chooses the one with the lowest number."""
+    for _ in range(12):
+        histogram, blocked, low, high, *_ = binned(rng, opening=0.2)
+        histogram[1:] = np.minimum(histogram[1:], histogram[:0:-1])
+        blocked[1:] = blocked[:0:-1]
+        histogram[0], weights = 9.0, rng.integers(1, 5, size=3).astype(float)
+        answer.agrees(histogram, blocked, low, high, 0, 0, weights, at=2)
+
+
+@pytest.mark.part("6.2", points=1)
+def test_direction_where_none_is_free(answer, rng):
+    """Chooses the only bin that is free, and says so where there is none."""
+    for _ in range(4):
+        histogram, *others = binned(rng, opening=0.0)
+        alone = np.where(np.arange(24) == rng.integers(1, 24), 0.0, histogram + 4.0)
+        answer.agrees(alone, *others, at=2)
+        answer.agrees(histogram + 4.0, *others, at=2)
+
+
+def followed(rng, steps=12, *, nearest=0, on_the_line=True, blocked=0.0):
+    """Places beside the line from a start to a target: how far along, and how far aside, all in whole numbers."""
+    along = np.array([0, 0])
+    while not along.any():
+        along = rng.integers(-3, 4, size=2)
+    aside = np.array([-along[1], along[0]])
+    p = rng.integers(nearest, 9, size=steps + 1)
+    q = rng.choice([-3, -2, -1, 1, 2, 3] + [0, 0] * on_the_line, size=steps + 1)
+    p[0], q[0] = 3, 0
+    if nearest > p[0]:
+        p[1] = 1  # else the first step ends nearer
+    start = rng.integers(3, 9, size=2)
+    path = start + p[:, None] * along + q[:, None] * aside
+    free = rng.random(steps + 1) >= blocked
+    return path, free, start, start + 9 * along
+
+
+@pytest.mark.part("6.3", points=1)
+def test_leave_across_the_line(answer, rng):
+    """Finds the first step across the line that ends nearer to the target, where all places are free."""
+    for _ in range(12):
+        answer.agrees(*followed(rng, nearest=5, on_the_line=False))
+
+
+@pytest.mark.part("6.3", points=1)
+def test_leave_on_the_line(answer, rng):
+    """Finds the first step that meets the line where some end on it."""
+    for _ in range(16):
+        answer.agrees(*followed(rng, nearest=5))
+
+
+@pytest.mark.part("6.3", points=1)
+def test_leave_nearer(answer, rng):
+    """Does not leave where the robot is not nearer to the target than where it met the obstacle."""
+    for _ in range(24):
+        answer.agrees(*followed(rng))
+
+
+@pytest.mark.part("6.3", points=1)
+def test_leave_where_the_way_is_free(answer, rng):
+    """Does not leave where the way is not free. Returns -1 where the robot goes on to the end."""
+    for _ in range(24):
+        answer.agrees(*followed(rng, 30, blocked=0.85))
+        answer.agrees(*followed(rng, 4, blocked=0.8))
+
+
+def pockets(rng, n, depths):
+    """Worlds with a pocket across the way, three walls that open towards the robot, in any direction."""
+    from robonav.robot import concatenate, make_world
+
+    worlds = []
+    for _ in range(n):
+        depth, half = rng.uniform(*depths), rng.uniform(7.0, 11.0)
+        turn, middle = rng.uniform(0, 2 * np.pi), np.array([50.0, 50.0])
+        along = np.array([np.cos(turn), np.sin(turn)])
+        aside = np.array([-along[1], along[0]])
+        back = middle + rng.uniform(0, 6) * along + rng.uniform(-3, 3) * aside
+        walls = [(*back, 2.0, 2 * half + 2, np.degrees(turn))]
+        for side in (-1, 1):
+            arm = back - depth / 2 * along + side * half * aside
+            walls.append((*arm, depth, 2.0, np.degrees(turn)))
+        ends = {"start": middle - 34 * along, "target": middle + 34 * along}
+        worlds.append(make_world(rectangles=walls, **ends))
+    return concatenate(worlds)
+
+
+class Remembering:
+    """A policy that asks the student's function, and keeps what each robot remembers."""
+
+    def __init__(self, answer):
+        self.answer = answer
+
+    def begin(self, simulator, rng):
+        memory = np.zeros((len(simulator), 4))
+
+        def select_actions(simulator, sensing, robots):
+            x, y, heading = simulator.poses[robots].T
+            dx, dy = simulator.worlds.targets[robots].T - (x, y)
+            bearing = (np.arctan2(dy, dx) - heading + np.pi) % (2 * np.pi) - np.pi
+            got = self.answer.ask(
+                sensing.ranges, bearing, np.hypot(dx, dy), memory[robots]
+            )
+            actions, kept = self.parts(got, len(robots))
+            memory[robots] = kept
+            return actions
+
+        return select_actions
+
+    def parts(self, got, n):
+        """The actions and the memories of an answer."""
+        two = isinstance(got, list | tuple) and len(got) == 2
+        self.answer.check(two, "the answer must be the actions and what is remembered")
+        actions, kept = map(as_numbers, got)
+        fits = (
+            actions is not None
+            and actions.dtype.kind in "iu"
+            and actions.shape == (n,)
+            and bool(np.isin(actions, range(5)).all())
+        )
+        self.answer.check(
+            fits, "the actions must be a whole number from 0 to 4 for each robot"
+        )
+        fits = (
+            kept is not None
+            and kept.shape == (n, 4)
+            and bool(np.isfinite(kept.astype(float)).all())
+        )
+        self.answer.check(
+            fits, "what is remembered must be four finite numbers for each robot"
+        )
+        return actions, kept
+
+
+def escapes(answer, worlds, least):
+    """Require that many of the robots arrive."""
+    from robonav.robot import navigate
+
+    driven = navigate(Remembering(answer), worlds, max_steps=250, reflex=None)
+    arrived = int(driven.success.sum())
+    answer.check(
+        arrived >= least, f"expected {least} arrivals in 100 worlds, got {arrived}"
+    )
+
+
+@pytest.mark.part("6.6", points=3)
+def test_escape_from_shallow_pockets(answer, rng):
+    """Arrives in 85 of 100 worlds with a pocket of 5 to 9 m; VFH+ arrives in about 20."""
+    escapes(answer, pockets(rng, 100, (5.0, 9.0)), 85)
+
+
+@pytest.mark.part("6.6", points=4)
+def test_escape_from_deep_pockets(answer, rng):
+    """Arrives in 75 of 100 worlds with a pocket of 10 to 16 m; VFH+ arrives in none."""
+    escapes(answer, pockets(rng, 100, (10.0, 16.0)), 75)
+
+
+@pytest.mark.part("6.6", points=3)
+def test_escape_among_obstacles(answer, rng):
+    """Arrives in 85 of 100 worlds of ten obstacles; a robot that goes straight arrives in 40."""
+    from robonav.robot import random_worlds
+
+    escapes(answer, random_worlds(100, 10, seed=rng), 85)
