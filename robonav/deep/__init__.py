@@ -1,5 +1,15 @@
-"""Chapter 6, deep reinforcement learning: proximal policy optimisation (PPO)."""
+"""Chapter 6, deep reinforcement learning and imitation: PPO and GAIL."""
 
+from .adversarial_training import GAILResult, train_gail
+from .gail import (
+    constant_reward,
+    deceiving_reward,
+    discriminator_loss,
+    gail,
+    hurrying_reward,
+    log_odds,
+    random_discriminator,
+)
 from .networks import ActorCritic
 from .ppo import (
     Batch,
@@ -14,12 +24,21 @@ from .training import PPOResult, navigation_task, train_ppo
 __all__ = [
     "ActorCritic",
     "Batch",
+    "GAILResult",
     "PPOResult",
     "actor_critic",
     "advantages",
     "clipped_surrogate",
+    "constant_reward",
+    "deceiving_reward",
+    "discriminator_loss",
+    "gail",
+    "hurrying_reward",
+    "log_odds",
     "navigation_task",
     "objective",
     "ppo",
+    "random_discriminator",
+    "train_gail",
     "train_ppo",
 ]

@@ -6,12 +6,16 @@ from collections.abc import Callable, Sequence
 from typing import Any, ParamSpec, TypeVar
 
 import gymnasium
+import numpy as np
 from gymnasium.spaces import flatdim
 
 from robonav.documentation import documents
+from robonav.networks.multilayer_perceptron import Network
 from robonav.nnql.network_environment import network_environment
 from robonav.validation import (
     Rule,
+    check_array,
+    check_callable,
     check_instance,
     check_integer,
     check_positive,
@@ -59,8 +63,8 @@ def check_batches(batches: int, steps: int) -> None:
 
 
 def check_together(function: str, arguments: dict[str, Any]) -> None:
-    """The networks fit the environments, and there are enough steps for the minibatches."""
-    if function != "ppo":
+    """The networks fit the environments and the pairs, and there are enough steps for the minibatches."""
+    if function not in ("ppo", "gail"):
         return
     envs, networks = arguments["envs"], arguments["networks"]
     for env in envs:
@@ -72,12 +76,39 @@ def check_together(function: str, arguments: dict[str, Any]) -> None:
                 f"got sizes {policy} and {value}"
             )
     check_batches(arguments["batches"], len(envs) * arguments["steps"])
+    if function == "gail":
+        check_pairs(arguments, networks.policy.sizes[0], networks.policy.sizes[-1])
+
+
+def check_pairs(arguments: dict[str, Any], states: int, actions: int) -> None:
+    """The expert's pairs, and the discriminator that reads them, fit the environments."""
+    seen, taken = arguments["states"], arguments["actions"]
+    if seen.shape != (len(taken), states) or not len(taken):
+        raise ValueError(
+            f"states must have a row of {states} numbers for each of the {len(taken)} actions, got shape {seen.shape}"
+        )
+    if taken.min() < 0 or taken.max() >= actions:
+        raise ValueError(
+            f"actions must be from 0 to {actions - 1}, got {taken.min()} to {taken.max()}"
+        )
+    sizes = arguments["discriminator"].sizes
+    if (sizes[0], sizes[-1]) != (states + actions, 1):
+        raise ValueError(
+            f"discriminator must take the {states} numbers of a state and one for each of {actions} actions, "
+            f"and give one number, got sizes {sizes}"
+        )
 
 
 RULES: dict[str, Rule] = {
     "env": lambda _, value: network_environment(value),
     "envs": check_environments,
     "networks": lambda name, value: check_instance(name, value, ActorCritic),
+    "discriminator": lambda name, value: check_instance(name, value, Network),
+    "states": lambda name, value: check_array(name, value, shape=("m", "n")),
+    "actions": lambda name, value: check_array(
+        name, value, shape=("m",), dtype=np.int64
+    ),
+    "reward": lambda name, value: check_callable(name, value, "reward(logits)"),
     "hidden": check_hidden,
     "actors": _count,
     "updates": _count,
@@ -100,6 +131,14 @@ DOCUMENTATION = {
     :func:`robonav.nnql.network_environment` makes them, are the networks' inputs.""",
     "networks": """ActorCritic
     The networks to start from, see :func:`actor_critic`.""",
+    "discriminator": """Network
+    The discriminator to start from, see :func:`random_discriminator`.""",
+    "states": """(m, n) array
+    What the expert saw, in the numbers that the networks read.""",
+    "actions": """(m,) array of int
+    What the expert did there.""",
+    "reward": """callable
+    Turns the discriminator's logits into the rewards of PPO.""",
     "updates": """int
     How often the actors act, and the networks learn from it.""",
     "steps": """int

@@ -172,7 +172,8 @@ def train_ppo(
     for update in range(updates):
         rollout = robots.act(policy, options["steps"])
         ended[:, update], arrived[:, update] = robots.ended, robots.arrived
-        learn(policy, value, optimiser, rollout, seeds, update, options)
+        rngs = [make_rng(seed, REPLAYING, update) for seed in seeds]
+        learn(policy, value, optimiser, rollout, rngs, options)
         if progress is not None:
             progress(update + 1, updates)
     about = options | {"updates": updates, "actors": actors, "hidden": hidden}
@@ -186,8 +187,7 @@ def learn(
     value: StackedModule,
     optimiser: torch.optim.Optimizer,
     rollout: Rollout,
-    seeds: Sequence[int],
-    update: int,
+    rngs: Sequence[np.random.Generator],
     options: dict[str, Any],
 ) -> None:
     """One update of all seeds: some epochs of minibatches."""
@@ -195,15 +195,10 @@ def learn(
         rollout, policy, value, options["discount"], options["trace_decay"]
     )
     orders = [
-        minibatches(
-            len(batch),
-            options["epochs"],
-            options["batches"],
-            make_rng(seed, REPLAYING, update),
-        )
-        for seed in seeds
+        minibatches(len(batch), options["epochs"], options["batches"], rng)
+        for rng in rngs
     ]
-    own = np.arange(len(seeds))[:, None]
+    own = np.arange(len(rngs))[:, None]
     for rows in zip(*orders, strict=True):
         gains = objective(
             policy, value, batch[own, np.stack(rows)], options["clip"],
@@ -220,9 +215,7 @@ def ppo_settings(given: dict[str, Any]) -> dict[str, Any]:
     defaults = {p.name: p.default for p in parameters if p.default is not p.empty}
     for name in given:
         if name not in defaults:
-            raise TypeError(
-                f"train_ppo takes the settings {', '.join(defaults)}, got {name}"
-            )
+            raise TypeError(f"the settings are {', '.join(defaults)}, got {name}")
     return {
         name: check_argument(RULES, "train_ppo", name, value)
         for name, value in (defaults | given).items()

@@ -36,7 +36,7 @@ ALLOWED = {
     "nnql": {"mdp", "robot", "networks"},
     "nirl": {"mdp", "robot", "networks", "lfd", "nnql"},
     "planners": {"robot", "lfd"},
-    "deep": {"mdp", "robot", "networks", "nnql"},
+    "deep": {"mdp", "robot", "networks", "lfd", "nnql"},
     "experiments": CHAPTERS | {"benchmark"},
     "benchmark": CHAPTERS,
     "plots": CHAPTERS | {"experiments", "benchmark"},

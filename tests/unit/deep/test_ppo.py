@@ -312,7 +312,7 @@ def test_progress_is_reported():
         (lambda: train_ppo(updates=0), ValueError, "updates must be at least 1, got 0"),
         (lambda: train_ppo(clip=1.0), ValueError, "clip must be greater than 0 and less than 1"),
         (lambda: train_ppo(batches=5000), ValueError, "batches must be at most 2048"),
-        (lambda: train_ppo(step=3), TypeError, "train_ppo takes the settings steps, .*, got step"),
+        (lambda: train_ppo(step=3), TypeError, "the settings are steps, .*, got step"),
         (lambda: train_ppo(hidden=32), TypeError, "hidden must be a sequence of whole numbers, got 32"),
         (lambda: train_ppo(task=3), TypeError, "task must be NavigationTask, got int"),
         (lambda: actor_critic(gymnasium.make("Pendulum-v1"), seed=0), TypeError, "must be discrete"),
