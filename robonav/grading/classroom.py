@@ -13,7 +13,7 @@ import importlib.util
 import json
 import platform
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -194,20 +194,9 @@ def grade_class(
     with paths.without_submissions(folder), _locked(out):
         atomic.remove_partial_files(out)
         _remember(out, config, new_secret)
-        key, tasks = config.key(), []
-        for name, handin in submissions.items():
-            entry = {
-                "student": name,
-                "submission": _digest(handin.load()),
-                "config": key,
-            }
-            old = _written(out, entry)
-            chosen = name in again if again else bool(ids)
-            if old is None or chosen:
-                tasks.append((entry, handin, old, ids if chosen and old else ()))
-        for done, record in enumerate(
-            _marked(config, folder, tasks, jobs, scheduler), start=1
-        ):
+        tasks = _to_grade(config, submissions, out, again, ids)
+        records = _marked(config, folder, tasks, jobs, scheduler)
+        for done, record in enumerate(records, start=1):
             # First the log, so that there is no grade of which it knows nothing.
             ledger.append(out, "graded", _logged(record))
             report.write_student(
@@ -219,6 +208,24 @@ def grade_class(
         return report.write_class(
             out, list(submissions), passed_over(folder), config.course
         )
+
+
+def _to_grade(
+    config: GradingConfig,
+    submissions: Mapping[str, Handin],
+    out: Path,
+    again: Collection[str],
+    ids: Collection[str],
+) -> list[Task]:
+    """Return the submissions that have no grade yet, and those that are to be graded again."""
+    key, tasks = config.key(), []
+    for name, handin in submissions.items():
+        entry = {"student": name, "submission": _digest(handin.load()), "config": key}
+        old = _written(out, entry)
+        chosen = name in again if again else bool(ids)
+        if old is None or chosen:
+            tasks.append((entry, handin, old, ids if chosen and old else ()))
+    return tasks
 
 
 HANDED_IN = "handed-in.json"

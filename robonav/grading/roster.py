@@ -308,25 +308,27 @@ def match(
         for id in members:
             theirs[id].append(submission)
     counted = dict[str, str]()
-    told = set[tuple[str, ...]]()
+    several = dict[tuple[str, ...], str]()  # the submissions, and the first they fit
     for id, found in theirs.items():
         if len({same.get(name, name) for name in found}) == 1:
             counted[id] = found[0]
         elif found:
             unsettled.add(id)
-            if tuple(found) not in told:
-                told.add(tuple(found))
-                group = by_id[id].group
-                advice = "Say under [matches] which one counts."
-                if group:
-                    advice = (
-                        f"If {group} is a team, say under [matches] which one counts for all its members. "
-                        "If it is not, take the group out of the roster or the rules."
-                    )
-                problems.append(
-                    f"Several submissions fit {group or id}: {', '.join(found)}. {advice}"
-                )
+            several.setdefault(tuple(found), id)
+    problems += [_several_fit(by_id[id], fitting) for fitting, id in several.items()]
     return Matching(counted, problems, unsettled - set(counted))
+
+
+def _several_fit(student: Student, submissions: Sequence[str]) -> str:
+    """Say that several submissions fit a student or a team, and what the instructor can do."""
+    advice = "Say under [matches] which one counts."
+    if student.group:
+        advice = (
+            f"If {student.group} is a team, say under [matches] which one counts for all its members. "
+            "If it is not, take the group out of the roster or the rules."
+        )
+    fit = f"Several submissions fit {student.group or student.id}"
+    return f"{fit}: {', '.join(submissions)}. {advice}"
 
 
 def _owners(

@@ -6,10 +6,10 @@ import inspect
 import math
 from collections.abc import Callable
 from functools import partial, wraps
-from typing import Any, ParamSpec
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from robonav.validation import (
     Rule,
@@ -23,9 +23,10 @@ from robonav.validation import (
     checks,
 )
 
-from .policies import as_distributions
+from .policies import as_distributions, as_policy
 
 P = ParamSpec("P")
+R = TypeVar("R")
 
 count = partial(check_integer, at_least=1)
 not_negative = partial(check_integer, at_least=0)
@@ -120,6 +121,28 @@ def beliefs_to_back_up(mdp: Any, beliefs: Any) -> NDArray[Any]:
 
 checked = checks(RULES, check_by_model)
 """Decorate a function so that its arguments are checked by these rules before it runs."""
+
+
+def takes_values(method: Callable[..., Any]) -> Callable[..., Any]:
+    """Let a method of a model take ``values`` as any array-like of shape (S,), and check them."""
+
+    @wraps(method)
+    def checked(self: Any, values: ArrayLike) -> Any:
+        """Check the values, then call the method."""
+        return method(self, check_array("values", values, shape=(self.n_states,)))
+
+    return checked
+
+
+def takes_policy(method: Callable[..., R]) -> Callable[[Any, ArrayLike], R]:
+    """Let a method of a model take ``policy`` as any array-like of shape (S,) or (S, A), and check it."""
+
+    @wraps(method)
+    def checked(self: Any, policy: ArrayLike) -> R:
+        """Check the policy, then call the method."""
+        return method(self, as_policy(policy, self.n_states, self.n_actions))
+
+    return checked
 
 
 def refuses_impossible(

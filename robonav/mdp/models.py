@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, wraps
-from typing import Any, TypeVar
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -16,35 +15,16 @@ from robonav.counting import counted
 from robonav.validation import check_array, check_real
 
 from . import policies
-from ._arguments import checked, require_type
-
-R = TypeVar("R")
+from ._arguments import checked, require_type, takes_policy, takes_values
+from ._model_arrays import (
+    checked_rewards,
+    checked_transitions,
+    with_small_indices,
+)
 
 Arrays = tuple[
     NDArray[Any], NDArray[Any], NDArray[np.float64], NDArray[np.float64], float
 ]
-
-
-def takes_values(method: Callable[..., Any]) -> Callable[..., Any]:
-    """Let a method of a model take ``values`` as any array-like of shape (S,), and check them."""
-
-    @wraps(method)
-    def checked(self: FiniteMDP, values: ArrayLike) -> Any:
-        """Check the values, then call the method."""
-        return method(self, check_array("values", values, shape=(self.n_states,)))
-
-    return checked
-
-
-def takes_policy(method: Callable[..., R]) -> Callable[[Any, ArrayLike], R]:
-    """Let a method of a model take ``policy`` as any array-like of shape (S,) or (S, A), and check it."""
-
-    @wraps(method)
-    def checked(self: FiniteMDP, policy: ArrayLike) -> R:
-        """Check the policy, then call the method."""
-        return method(self, policies.as_policy(policy, self.n_states, self.n_actions))
-
-    return checked
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -93,9 +73,9 @@ class FiniteMDP:
     discount: float
 
     def __post_init__(self) -> None:
-        transitions = _checked_transitions(self.transitions)
+        transitions = checked_transitions(self.transitions)
         shape = (transitions[0].shape[0], len(transitions))
-        rewards = _checked_rewards(self.rewards, shape).copy(order="F")
+        rewards = checked_rewards(self.rewards, shape).copy(order="F")
         rewards.flags.writeable = False
         discount = check_real("discount", self.discount, at_least=0, at_most=1)
         object.__setattr__(self, "transitions", transitions)
@@ -422,7 +402,7 @@ def expected_rewards(transitions: Any, rewards: ArrayLike) -> NDArray[np.float64
     array([[2.],
            [0.]])
     """
-    checked = _checked_transitions(transitions)
+    checked = checked_transitions(transitions)
     states = checked[0].shape[0]
     reached = check_array("rewards", rewards, shape=(len(checked), states, states))
     return np.stack(
@@ -432,115 +412,6 @@ def expected_rewards(transitions: Any, rewards: ArrayLike) -> NDArray[np.float64
         ],
         axis=1,
     )
-
-
-def _checked_rewards(rewards: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
-    """Rewards (S, A) as finite numbers. The error says what to do with actions that are not allowed."""
-    given = np.asarray(rewards)
-    if given.dtype.kind == "f" and np.isneginf(given).any():
-        raise ValueError(
-            "rewards must hold finite numbers only, got minus infinity: every action must be allowed in every state. "
-            "Give a forbidden action the transitions and the reward of an allowed one in that state"
-        )
-    return check_array("rewards", rewards, shape=shape)
-
-
-def _checked_transitions(
-    transitions: Any,
-) -> NDArray[np.float64] | tuple[sp.csr_array, ...]:
-    """A read-only copy: an array (A, S, S), or a tuple of A sparse arrays (S, S)."""
-    checked: NDArray[np.float64] | tuple[sp.csr_array, ...]
-    if sp.issparse(transitions):
-        raise TypeError(
-            "transitions must be a sequence of A sparse matrices (S, S), got one sparse matrix"
-        )
-    if isinstance(transitions, np.ndarray) and transitions.dtype.kind == "O":
-        transitions = list(transitions)  # of matrices, as pymdptoolbox has them
-    if isinstance(transitions, Sequence) and any(
-        sp.issparse(matrix) for matrix in transitions
-    ):
-        checked = tuple(
-            _checked_sparse(action, matrix, transitions)
-            for action, matrix in enumerate(transitions)
-        )
-        parts = [
-            part
-            for matrix in checked
-            for part in (matrix.data, matrix.indices, matrix.indptr)
-        ]
-    else:
-        checked = check_array("transitions", transitions, shape=("A", "S", "S")).copy()
-        if (dtype := np.asarray(transitions).dtype) != checked.dtype:
-            checked, _ = policies.normalised(checked, dtype)
-        if checked.shape[1] != checked.shape[2]:
-            raise ValueError(
-                f"transitions must have shape (A, S, S), got {checked.shape}"
-            )
-        parts = [checked]
-    if len(checked) == 0 or checked[0].shape[0] == 0:
-        raise ValueError("transitions must hold at least one action and one state")
-    for part in parts:
-        part.flags.writeable = False
-    for action, matrix in enumerate(checked):
-        _check_rows(action, matrix)
-    return checked
-
-
-def _checked_sparse(
-    action: int, matrix: Any, transitions: Sequence[Any]
-) -> sp.csr_array:
-    """A canonical copy of one action's sparse matrix."""
-    if not sp.issparse(matrix):
-        raise TypeError(
-            f"transitions must be all sparse or all dense, got {type(matrix).__name__} at action {action}"
-        )
-    states = transitions[0].shape[0]
-    if matrix.shape != (states, states):
-        raise ValueError(
-            f"transitions must hold matrices ({states}, {states}), got {matrix.shape} at action {action}"
-        )
-    copy = sp.csr_array(matrix, dtype=float, copy=True)
-    copy.sum_duplicates()
-    copy.eliminate_zeros()
-    check_array("transitions", copy.data)
-    if matrix.dtype != copy.dtype:
-        copy = scaled_rows(copy, matrix.dtype)
-    return with_small_indices(copy)
-
-
-def scaled_rows(matrix: sp.csr_array, dtype: np.dtype) -> sp.csr_array:
-    """The matrix whose rows, rounded to a narrower type, are divided by their sums; unchanged if one is too far off."""
-    totals = np.asarray(matrix.sum(axis=1))
-    tolerance = policies.sum_tolerance(
-        dtype, int(np.diff(matrix.indptr).max(initial=1))
-    )
-    if (abs(totals - 1) > tolerance).any():
-        return matrix
-    return sp.csr_array(sp.diags_array(1 / totals) @ matrix)
-
-
-def with_small_indices(matrix: sp.csr_array) -> sp.csr_array:
-    """The matrix with 32-bit indices where they suffice: products with a vector are then faster."""
-    if matrix.nnz < 2**31 and max(matrix.shape) < 2**31:
-        matrix.indices = matrix.indices.astype(np.int32, copy=False)
-        matrix.indptr = matrix.indptr.astype(np.int32, copy=False)
-    return matrix
-
-
-def _check_rows(action: int, matrix: NDArray[np.float64] | sp.csr_array) -> None:
-    """ValueError unless every row is a distribution."""
-    probabilities = matrix if isinstance(matrix, np.ndarray) else matrix.data
-    if probabilities.min(initial=0) < 0:
-        raise ValueError(
-            f"transitions must not hold negative probabilities, got one at action {action}"
-        )
-    totals = np.asarray(matrix.sum(axis=1))
-    state = int(abs(totals - 1).argmax())
-    if abs(totals[state] - 1) > policies.SUM_TOLERANCE:
-        raise ValueError(
-            "transitions must sum to 1 over the states reached, "
-            f"got {totals[state]:.10g} at action {action}, state {state}"
-        )
 
 
 def tabulate(env: Any) -> tuple[list[sp.csr_array], NDArray[np.float64]]:

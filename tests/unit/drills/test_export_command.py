@@ -138,7 +138,7 @@ def test_an_exam_of_many_papers_leaves_out_drills_that_ask_everybody_the_same(
     said = run("export", tmp_path / "exam.pdf", *both)
     assert said.strip().endswith(f"too few different questions: {constant}")
     named = ["--drill", constant, "--papers", 30]
-    assert "30 papers of 1 questions" in run("export", tmp_path / "named.pdf", *named)
+    assert "30 papers of 1 question\n" in run("export", tmp_path / "named.pdf", *named)
     one = run("export", tmp_path / "one.pdf", "--page", "sums")
     assert "too few" not in one
 
