@@ -18,8 +18,7 @@ from robonav.progress import Progress
 from ._arguments import checked
 from .apprenticeship import RewardGuess, projection_guess
 from .decisions import Decisions, concatenate
-from .feature_expectations import decision_feature_sums, empirical_expectations
-from .features import state_action_features
+from .feature_expectations import decision_feature_sums
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, balanced_accuracy
 from .policy import exploring_policy
@@ -60,10 +59,9 @@ def from_initial_state(decisions: Decisions, n_actions: int, discount: float) ->
     >>> from_initial_state(expert, 4, 0.5).sum()  # a feature and the constant, at two steps
     np.float64(3.0)
     """
-    taken = state_action_features(decisions.features, decisions.actions, n_actions)
-    if not len(taken):
-        return np.zeros(taken.shape[1])
-    return empirical_expectations(taken, decisions.trajectory, discount)
+    sums = decision_feature_sums(decisions, n_actions, discount)
+    begins = np.diff(decisions.trajectory, prepend=-1) != 0
+    return mean_or_zeros(sums[begins])
 
 
 def from_all_states(decisions: Decisions, n_actions: int, discount: float) -> Floats:
@@ -93,7 +91,11 @@ def from_all_states(decisions: Decisions, n_actions: int, discount: float) -> Fl
     >>> from_all_states(expert, 4, 0.5).sum()  # the mean of 3 and 2
     np.float64(2.5)
     """
-    sums = decision_feature_sums(decisions, n_actions, discount)
+    return mean_or_zeros(decision_feature_sums(decisions, n_actions, discount))
+
+
+def mean_or_zeros(sums: Floats) -> Floats:
+    """The mean of the rows (M, K), or zeros (K,) if there is none."""
     return sums.mean(axis=0) if len(sums) else np.zeros(sums.shape[1])
 
 

@@ -3,8 +3,8 @@
 It is the batched twin of :func:`robonav.nnql.navigate_greedily`, Algorithm 9, and takes any policy.
 
 :func:`run_episodes` is that loop. :func:`navigate`, demonstrations, Q-learning and the episodes of inverse
-reinforcement learning stand on it. DAgger alone writes the loop out (:mod:`robonav.lfd.dagger`), since there the expert
-labels each state while another policy acts, and that is what its reader wants to see. A test holds the two equal.
+reinforcement learning stand on it. So does DAgger (:mod:`robonav.lfd.dagger`), where the expert labels each state while
+another policy acts.
 """
 
 from __future__ import annotations
