@@ -2,8 +2,9 @@
 
 Each chapter has its subpackage: ``mdp`` (chapter 2), ``robot`` (section 2.5), ``lfd`` (3, imitation learning),
 ``nnql`` (4, reinforcement learning), ``nirl`` (5, inverse reinforcement learning), ``planners`` (6, which learn
-nothing) and ``deep`` (6, deep reinforcement learning). Chapters 3 to 6 use ``networks``. Importing this package only
-registers the Gymnasium environments. Subpackages load when they are first used.
+nothing), ``deep`` (6, deep reinforcement learning) and ``memory`` (6, policies that remember). Chapters 3 to 6 use
+``networks``. Importing this package only registers the Gymnasium environments. Subpackages load when they are first
+used.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ _SUBPACKAGES = (
     "grading",
     "lfd",
     "mdp",
+    "memory",
     "networks",
     "nirl",
     "nnql",
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
         grading,
         lfd,
         mdp,
+        memory,
         nirl,
         nnql,
         planners,

@@ -27,7 +27,17 @@ BASE = {
     "validation",
     "documentation",
 }
-CHAPTERS = {"mdp", "robot", "networks", "lfd", "nnql", "nirl", "planners", "deep"}
+CHAPTERS = {
+    "mdp",
+    "robot",
+    "networks",
+    "lfd",
+    "nnql",
+    "nirl",
+    "planners",
+    "deep",
+    "memory",
+}
 ALLOWED = {
     "mdp": set(),
     "robot": set(),
@@ -37,6 +47,7 @@ ALLOWED = {
     "nirl": {"mdp", "robot", "networks", "lfd", "nnql"},
     "planners": {"robot", "lfd"},
     "deep": {"mdp", "robot", "networks", "lfd", "nnql"},
+    "memory": {"robot", "networks", "lfd"},
     "experiments": CHAPTERS | {"benchmark"},
     "benchmark": CHAPTERS,
     "plots": CHAPTERS | {"experiments", "benchmark"},

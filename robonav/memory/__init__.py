@@ -1,0 +1,16 @@
+"""Chapter 6, memory: policies that see the last k steps, and a recurrent one."""
+
+from .dagger import Episodes, dagger_with_memory, labelled_episodes
+from .gru import GRU
+from .networks import RecurrentNetwork, WindowNetwork
+from .policies import MemoryPolicy
+
+__all__ = [
+    "GRU",
+    "Episodes",
+    "MemoryPolicy",
+    "RecurrentNetwork",
+    "WindowNetwork",
+    "dagger_with_memory",
+    "labelled_episodes",
+]
