@@ -35,7 +35,7 @@ class Drill:
     --------
     >>> from robonav.drills import DRILLS
     >>> DRILLS["td-error"].page
-    'model-free-learning'
+    'prediction'
     """
 
     name: str

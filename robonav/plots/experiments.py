@@ -5,18 +5,22 @@ from __future__ import annotations
 import importlib
 import math
 import textwrap
+from collections.abc import Mapping
 from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from robonav import atomic, style
 from robonav.benchmark import display_name
 from robonav.experiments import Results
 
 OURS, THESIS = style.BLUE, style.ORANGE
+GROUPS = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE)
 LABEL_WIDTH = 26  # characters of a line of a label
 
 
@@ -84,6 +88,53 @@ def draw_bars(results: Results, metric: str, label: str) -> Figure:
         axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     axes.grid(axis="y", visible=False)
     return figure
+
+
+def draw_grouped_runs(
+    axes: Axes, rows: Mapping[str, Mapping[str, ArrayLike]], label: str
+) -> None:
+    """Draw each run as a dot and the mean of a group as a line, with a row for each name and a colour for each group.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    rows : mapping of str to mapping of str to (S,) array
+        The runs of each group, by row and by the group's name. A group with a single number has a dot alone.
+    label : str
+        What the numbers are.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> rows = {"NIRL": {"with": [97, 98], "without": [90]}}
+    >>> draw_grouped_runs(axes, rows, "success (%)")
+    >>> [text.get_text() for text in axes.get_legend().get_texts()]
+    ['with', 'without']
+    """
+    groups = list(dict.fromkeys(group for runs in rows.values() for group in runs))
+    colours = dict(zip(groups, GROUPS, strict=False))
+    apart = 0.72 / len(groups)
+    for row, runs in enumerate(rows.values()):
+        for group, values in runs.items():
+            dots = np.sort(np.asarray(values, dtype=float))
+            place = row + apart * (groups.index(group) - (len(groups) - 1) / 2)
+            # a fixed spread, so that dots do not overlap
+            heights = place + 0.2 * apart * np.sin(2.4 * np.arange(len(dots)))
+            axes.plot(
+                dots, heights, ".", color=colours[group], alpha=0.65, markersize=6
+            )
+            if len(dots) > 1:
+                ends = [place - 0.42 * apart, place + 0.42 * apart]
+                axes.plot([dots.mean()] * 2, ends, color=colours[group], linewidth=2.5)
+    for group in groups:
+        axes.plot([], [], ".", color=colours[group], markersize=9, label=group)
+    names = [textwrap.fill(name, LABEL_WIDTH) for name in rows]
+    axes.set(yticks=range(len(rows)), yticklabels=names, xlabel=label)
+    axes.set_ylim(len(rows) - 0.5, -0.5)  # the first row on top
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+    axes.grid(axis="y", visible=False)
 
 
 def draw_points_lost(results: Results) -> Figure:

@@ -239,4 +239,8 @@ def chapter_pages() -> list[str]:
 
 @pytest.mark.parametrize("page", chapter_pages())
 def test_every_page_of_a_chapter_asks_twice_or_more(page: str) -> None:
-    assert len(asked_on(ROOT / f"{page}.md")) >= 2
+    """Twice with an answer that is folded, and at least once with an explorable."""
+    source = (ROOT / f"{page}.md").read_text("utf-8")
+    answers = re.findall(r"^```\{dropdown\} (?:Answers?|The answer)$", source, re.M)
+    assert len(answers) >= 2
+    assert asked_on(ROOT / f"{page}.md")

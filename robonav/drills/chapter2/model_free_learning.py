@@ -1,4 +1,4 @@
-"""Drills of the page on learning without a model."""
+"""Drills of the page on learning to act without a model."""
 
 from __future__ import annotations
 
@@ -11,48 +11,9 @@ from robonav import mdp
 from ..question import Number, Question, Table
 from ..registry import drill
 from ..scripted import Episode, Numbers
-from ..text import sign, terms
+from ..text import sign
 
 Rng = np.random.Generator
-
-
-@drill("model-free-learning", "One step of TD(0)")
-def td_error(rng: Rng) -> Question:
-    """Update the value of a state by its TD error."""
-    value, following = np.round(rng.uniform(-2, 8, size=2), 1)
-    reward, discount = float(rng.integers(-2, 4)), float(rng.choice([0.5, 0.8, 0.9]))
-    rate = float(rng.choice([0.1, 0.2, 0.5]))
-    values = [float(value), float(following)]
-    inspect.unwrap(mdp.td_prediction)(
-        Episode([0, 1], [reward], terminated=False),
-        lambda state: 0,
-        values,
-        [0, 0],
-        1,
-        discount=discount,
-        learning_rate=lambda visits: rate,
-    )
-    target = reward + discount * following
-    error = target - value
-    return Question(
-        f"$V(s) = {value:g}$ and $V(s') = {following:g}$. A step from $s$ to $s'$ gives the reward ${reward:g}$. "
-        f"Which value does TD(0) give $s$, with $\\gamma = {discount:g}$ and $\\alpha = {rate:g}$?",
-        Number(
-            values[0],
-            wrong={
-                "This is the target. The value moves towards it by the part $\\alpha$ only.": target,
-                "This is the TD error alone. It is multiplied by $\\alpha$ and added to $V(s)$.": error,
-                "The discount of $V(s')$ is missing.": value
-                + rate * (reward + following - value),
-                "$V(s)$ is missing in the TD error.": value + rate * target,
-                "The sign of the step is wrong: the value moves towards the target.": value
-                - rate * error,
-            },
-        ),
-        f"The target is ${reward:g} {sign(discount * following)} = {target:.4g}$, so the TD error is "
-        f"${target:.4g} {sign(-value)} = {error:.4g}$, and $V(s) = {value:g} {sign(rate * error)} = "
-        f"{values[0]:.4g}$.",
-    )
 
 
 def _updated(learner: str, q: list[list[float]], number: float, **step: float) -> float:
@@ -110,50 +71,6 @@ def sarsa_and_q_learning(rng: Rng) -> Question:
         ),
         f"SARSA: ${old:g} + {rate:g} \\, ({reward:g} {sign(discount * q[1][worse])} {sign(-old)}) = {sarsa:.4g}$. "
         f"Q-learning: ${old:g} + {rate:g} \\, ({reward:g} {sign(discount * largest)} {sign(-old)}) = {best:.4g}$.",
-    )
-
-
-@drill("model-free-learning", "What Monte Carlo averages")
-def monte_carlo_return(rng: Rng) -> Question:
-    """Find the return that first-visit Monte Carlo counts for a state."""
-    path = ["A", "B", *rng.permutation(["A", "B"]).tolist()]
-    rewards = rng.integers(-2, 5, size=4).astype(float)
-    discount = float(rng.choice([0.5, 0.8]))
-    asked = str(rng.choice(["A", "B"]))
-    values = [0.0, 0.0, 0.0]
-    inspect.unwrap(mdp.monte_carlo_prediction)(
-        Episode([*("AB".index(state) for state in path), 2], rewards.tolist()),
-        lambda state: 0,
-        values,
-        [0, 0, 0],
-        1,
-        discount=discount,
-    )
-    answer = values["AB".index(asked)]
-    returns = mdp.discounted_return(rewards, discount)
-    visits = [k for k, state in enumerate(path) if state == asked]
-    first = visits[0]
-    steps = ", ".join(
-        f"{state} ({reward:g})" for state, reward in zip(path, rewards, strict=True)
-    )
-    return Question(
-        f"An episode visits these states, with the reward of each step in brackets: {steps}; then it ends. Which "
-        f"return does first-visit Monte Carlo count for {asked}, with $\\gamma = {discount:g}$?",
-        Number(
-            answer,
-            wrong={
-                "This is the return of the second visit. First-visit Monte Carlo counts the first.": returns[
-                    visits[1]
-                ],
-                "This is the mean over both visits, which every-visit Monte Carlo takes.": returns[
-                    visits
-                ].mean(),
-                "The discount is missing.": rewards[first:].sum(),
-                "Only the reward of the first step is counted here.": rewards[first],
-            },
-        ),
-        f"{asked} is first visited in step {first}. From there on "
-        f"${terms(rewards[first:], discount ** np.arange(4 - first))} = {answer:.4g}$.",
     )
 
 
@@ -220,55 +137,33 @@ def along_the_edge(rng: Rng) -> Question:
     )
 
 
-@drill("model-free-learning", "Weights of features in place of a table")
-def weights_of_features(rng: Rng) -> Question:
-    """Compute one step of Q-learning with a linear function."""
-    f, after = (rng.integers(0, 4, size=2).astype(float) for _ in range(2))
-    weights = np.round(rng.uniform(-1, 1, size=2), 1)
-    reward, alpha = float(rng.integers(-1, 4)), float(rng.choice([0.1, 0.5]))
-    discount = float(rng.choice([0.5, 0.9]))
-    table = {0: np.array([f, f]), 1: np.array([after, after])}
-    updated = weights.copy()
-    inspect.unwrap(mdp.linear_q_learning)(
-        Episode([0, 1], [reward], terminated=False),
-        table.__getitem__,
-        updated,
-        1,
-        discount=discount,
-        learning_rate=lambda episode: alpha,
-        epsilon=lambda episode: 0.0,
-        rng=Numbers([0.5, 0.5]),
-    )
-    now, then = float(weights @ f), float(weights @ after)
-    delta = reward + discount * then - now
-    shown, next_shown, old = (
-        f"({a:g}, {b:g})" for a, b in (f, after, np.round(weights, 1))
-    )
+@drill("model-free-learning", "The target of expected SARSA")
+def target_of_expected_sarsa(rng: Rng) -> Question:
+    """Compute a target that takes the mean over the next action."""
+    values = rng.choice(np.arange(-2, 10), size=3, replace=False).astype(float)
+    reward, discount = float(rng.integers(-3, 4)), float(rng.choice([0.5, 0.8, 0.9]))
+    epsilon = float(rng.choice([0.1, 0.2, 0.3, 0.4]))
+    expected = float(mdp.epsilon_greedy(values[None], epsilon)[0] @ values)
+    best, mean = float(values.max()), float(values.mean())
+    answer = reward + discount * expected
+    rest = float(values.sum() - best)
     return Question(
-        f"$Q(s, a) = w \\cdot f(s, a)$ with the weights $w = {old}$. A step with the features "
-        f"${shown}$ gives the reward "
-        f"${reward:g}$. The best action of the next state has the features ${next_shown}$. What are the weights after "
-        f"one step of Q-learning with $\\alpha = {alpha:g}$ and $\\gamma = {discount:g}$?",
-        Table(
-            ["weights"],
-            ["$w_1$", "$w_2$"],
-            [updated.tolist()],
+        f"A step has the reward ${reward:g}$, and in the next state the three actions have the values ${values[0]:g}$, "
+        f"${values[1]:g}$ and ${values[2]:g}$. What is the target of expected SARSA, with $\\varepsilon = {epsilon:g}$ "
+        f"and $\\gamma = {discount:g}$?",
+        Number(
+            answer,
             wrong={
-                "Each weight changes in proportion to its feature.": [
-                    (weights + alpha * delta).tolist()
-                ],
-                "The discount is missing.": [
-                    (weights + alpha * (reward + then - now) * f).tolist()
-                ],
-                "The old value is missing in the TD error.": [
-                    (weights + alpha * (reward + discount * then) * f).tolist()
-                ],
-                "The features are those of the step, not of the next state.": [
-                    (weights + alpha * delta * after).tolist()
-                ],
+                "This is the target of Q-learning, which takes the best value.": reward
+                + discount * best,
+                "Here all actions have the same probability. The best one has more.": reward
+                + discount * mean,
+                "An action drawn at random may be the best one, too.": reward
+                + discount * ((1 - epsilon) * best + epsilon * rest / 2),
+                "The discount is missing.": reward + expected,
             },
         ),
-        f"$Q(s, a) = {now:.4g}$, and the next state has ${then:.4g}$. The TD error is $\\delta = {reward:g} "
-        f"{sign(discount * then)} {sign(-now)} = {delta:.4g}$. Each weight changes by $\\alpha \\delta f_i$: "
-        f"$w = ({updated[0]:.4g}, {updated[1]:.4g})$.",
+        f"The best value has the weight ${1 - epsilon:g}$, and the mean of all three, ${mean:.4g}$, the weight "
+        f"${epsilon:g}$: together ${expected:.4g}$. So the target is ${reward:g} {sign(discount * expected)} = "
+        f"{answer:.4g}$.",
     )

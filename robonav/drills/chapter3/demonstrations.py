@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from robonav import robot
-from robonav.lfd.astar import Node
 
-from ..pictures import CELL, box, label, picture, place
-from ..question import Number, Place, Question, Table
+from ..question import Number, Question, Table
 from ..registry import drill
 
 Rng = np.random.Generator
-FREE = 10.0  # metres that a sector reads with nothing in range
+FREE = SENSED = (
+    10.0  # metres that a sector reads with nothing in range, and that caution reaches
+)
 
 
 @drill("demonstrations", "Degrees of danger")
@@ -34,55 +34,6 @@ def degrees_of_danger(rng: Rng) -> Question:
         "The degree falls from 7, a collision, by one with each interval of Table 3.1: "
         + ", ".join(f"{r:g} m gives {d}" for r, d in zip(ranges, degrees, strict=True))
         + ".",
-    )
-
-
-@drill("demonstrations", "Which node does A* expand next?")
-def next_node(rng: Rng) -> Question:
-    """Choose the open node with the smallest sum of cost and heuristic."""
-    names = "ABCDE"
-    cost, estimate = (np.round(rng.uniform(1, 9, size=5), 1) for _ in range(2))
-    pairs = enumerate(zip(cost.tolist(), estimate.tolist(), strict=True))
-    nodes = [Node(index=(k,), point=(0.0, 0.0), G=g, H=h) for k, (g, h) in pairs]
-    total = np.array([node.F for node in nodes])
-    best = nodes.index(min(nodes, key=lambda node: node.priority))
-    wrong = {}
-    nearest, cheapest = int(estimate.argmin()), int(cost.argmin())
-    if cheapest != best:
-        wrong[names[cheapest]] = (
-            "This is the node nearest to the start. Dijkstra's algorithm expands it; A* adds the estimate."
-        )
-    if nearest not in (best, cheapest):
-        wrong[names[nearest]] = (
-            "This is the node nearest to the target by its estimate. A* also counts the way from the start."
-        )
-    tied = np.flatnonzero(np.isclose(total, total.min()))
-    for k, name in enumerate(names):
-        if k not in tied and name not in wrong:
-            wrong[name] = (
-                f"The sum $G + H = {total[k]:.4g}$ of this node is not the smallest."
-            )
-    parts = []
-    for k, name in enumerate(names):
-        x = 1 + 1.4 * CELL * k
-        cell = box(x, 1, 1.3 * CELL, CELL, fill="transparent")
-        cell += label(x + 0.65 * CELL, 14, name, size=13)
-        cell += label(x + 0.65 * CELL, 34, f"G = {cost[k]:g}", size=13)
-        cell += label(x + 0.65 * CELL, 52, f"H = {estimate[k]:g}", size=13)
-        parts.append(place(name, cell))
-    shown = picture(
-        1.4 * CELL * 5,
-        CELL + 2,
-        *parts,
-        title="Five open nodes, each with its cost G and its estimate H.",
-    )
-    sums = ", ".join(f"{name} {t:.4g}" for name, t in zip(names, total, strict=True))
-    return Question(
-        "Five nodes are open. $G$ is the cost of the way from the start, $H$ the estimate of the way that is left. "
-        "Which node does A* expand next?",
-        Place([*names], [names[k] for k in tied], wrong),
-        f"A* expands the node with the smallest $F = G + H$: {sums}.",
-        shown,
     )
 
 
@@ -117,33 +68,65 @@ def effective_steps(rng: Rng) -> Question:
     )
 
 
-PARTS = [[3, 4], [6, 8], [8, 6], [5, 12], [4, 3], [4, -3], [8, -6], [12, 5], [3, -4], [12, -9]]  # fmt: skip
+BY_ANGLE = ("R60", "R30", "F", "L30", "L60")
 
 
-@drill("demonstrations", "The length of a path")
-def path_length(rng: Rng) -> Question:
-    """Compare the length of a planned path with the distance of its ends."""
-    points = np.cumsum(
-        [[20, 40], *rng.choice(PARTS, size=3)],
-        axis=0,
-    ).astype(float)
-    steps = np.diff(points, axis=0)
-    lengths = np.linalg.norm(steps, axis=1)
-    straight = float(np.linalg.norm(points[-1] - points[0]))
-    answer = float(lengths.sum())
-    shown = ", ".join(f"({x:g}, {y:g})" for x, y in points)
+@drill("demonstrations", "An expert that slips")
+def slipping_expert(rng: Rng) -> Question:
+    """Compute which actions an expert with an unsteady hand demonstrates."""
+    chance = float(rng.integers(5, 46)) / 100
+    meant = str(rng.choice(BY_ANGLE))
+    numbers = [int(robot.Action[name]) for name in BY_ANGLE]
+    answer = robot.neighbour_slip(chance)[int(robot.Action[meant]), numbers]
+    at = BY_ANGLE.index(meant)
+    beside = [k for k in (at - 1, at + 1) if 0 <= k < 5]
+    whole, half = np.zeros(5), np.zeros(5)
+    whole[at], half[at] = 1 - 2 * chance, 1 - chance
+    whole[beside], half[beside] = chance, chance / 2
+    wrong = {
+        "Without slips only the intended action happens. It slips with the given probability.": np.eye(
+            5
+        )[at][:, None].tolist(),
+    }
+    if len(beside) == 2:
+        wrong[
+            "The given probability is that of a slip to either side, half to each."
+        ] = whole[:, None].tolist()
+    else:
+        wrong["There is only one side, so it has the whole probability of a slip."] = (
+            half[:, None].tolist()
+        )
+    named = " or ".join(BY_ANGLE[k] for k in beside)
     return Question(
-        f"A path leads through the points {shown}. How long is it?",
+        f"An expert's turns slip with probability ${chance:g}$: they come out $30°$ too large or too small, "
+        "equally often; where only one of these actions exists, it is always that one. The expert means "
+        f"{meant}. With which probability does the robot do each action?",
+        Table(BY_ANGLE, ["probability"], answer[:, None].tolist(), wrong=wrong),
+        f"With probability ${1 - chance:g}$ it does {meant}. The rest, ${chance:g}$, goes to {named}.",
+    )
+
+
+@drill("demonstrations", "What does caution add to a step?")
+def cautious_step(rng: Rng) -> Question:
+    """Compute what a step near an obstacle costs a cautious planner."""
+    length, caution = float(rng.choice([1.0, 2.0, 3.0])), float(rng.integers(1, 6))
+    distance = float(rng.integers(1, 10))
+    near = 1 - distance / SENSED
+    answer = length * (1 + caution * near**2)
+    return Question(
+        f"A step of ${length:g}$ m ends ${distance:g}$ m from the nearest obstacle. What does it cost an expert with "
+        f"caution ${caution:g}$?",
         Number(
             answer,
-            unit="m",
             wrong={
-                "This is the distance of the two ends, a lower bound as the heuristic of A* is.": straight,
-                "Distances are Euclidean; this adds up the differences of the coordinates.": float(
-                    abs(steps).sum()
-                ),
-                "The last part is missing.": float(lengths[:-1].sum()),
+                "This is the part that caution adds. The length of the step counts too.": length
+                * caution
+                * near**2,
+                "The nearness is squared.": length * (1 + caution * near),
+                "A step costs more where the obstacle is nearer: $1 - d / 10$ is squared, not $d / 10$.": length
+                * (1 + caution * (distance / SENSED) ** 2),
+                "The factor multiplies the length.": 1 + caution * near**2 + length,
             },
         ),
-        f"${' + '.join(f'{n:g}' for n in lengths)} = {answer:g}$ m.",
+        f"${length:g} \\cdot (1 + {caution:g} \\cdot (1 - {distance:g} / 10)^2) = {answer:.4g}$.",
     )

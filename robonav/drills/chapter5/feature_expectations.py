@@ -149,34 +149,3 @@ def refined(rng: Rng) -> Question:
         f"$P(s | \\text{{left}}) = {share[0]:.3g}$ and $P(s | \\text{{right}}) = {share[1]:.3g}$ decide: "
         f"{'left' if uniform == 0 else 'right'}.",
     )
-
-
-@drill("feature-expectations", "The soft maximum")
-def soft_maximum_of_values(rng: Rng) -> Question:
-    """Compute the soft maximum of two action values."""
-    q = rng.choice(np.arange(0, 31), size=2, replace=False) / 10
-    temperature = float(rng.choice([0.5, 1.0, 2.0]))
-    answer = float(nirl.soft_maximum(q, temperature))
-    scaled = np.exp(q / temperature)
-    share = scaled / scaled.sum()
-    wrong = {
-        "This is the maximum. The soft maximum is larger, and tends to it as $T$ falls to 0.": float(
-            q.max()
-        ),
-        "This is the mean under the softmax policy. The entropy of the policy is missing.": float(
-            share @ q
-        ),
-        "The logarithm is missing.": float(temperature * scaled.sum()),
-    }
-    if temperature != 1:
-        wrong[
-            "Each exponential must be of $Q / T$, and the logarithm is multiplied by $T$."
-        ] = float(np.log(np.exp(q).sum()))
-    return Question(
-        f"Two actions have the values ${q[0]:g}$ and ${q[1]:g}$. What is the soft maximum at the temperature "
-        f"$T = {temperature:g}$?",
-        Number(answer, wrong=wrong),
-        f"$T \\ln(e^{{{q[0]:g} / {temperature:g}}} + e^{{{q[1]:g} / {temperature:g}}}) = {temperature:g} "
-        f"\\ln({scaled[0]:.4g} + {scaled[1]:.4g}) = {answer:.4g}$. It lies at most $T \\ln 2 = "
-        f"{temperature * np.log(2):.4g}$ above the maximum.",
-    )

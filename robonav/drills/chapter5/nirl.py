@@ -74,43 +74,6 @@ def sarsa_target(rng: Rng) -> Question:
     )
 
 
-@drill("nirl", "Plain and balanced accuracy")
-def two_accuracies(rng: Rng) -> Question:
-    """Compute both accuracies from a confusion matrix."""
-    often, seldom = int(rng.choice([40, 50, 60, 80, 90])), int(rng.choice([5, 8, 10, 20]))  # fmt: skip
-    hit_often = int(often * rng.uniform(0.7, 1.0))
-    hit_seldom = int(seldom * rng.uniform(0.0, 0.8))
-    own = np.repeat([0, 1], [often, seldom])
-    predicted = np.concatenate(
-        [
-            np.repeat([0, 1], [hit_often, often - hit_often]),
-            np.repeat([1, 0], [hit_seldom, seldom - hit_seldom]),
-        ]
-    )
-    plain = float(nirl.accuracy(predicted, own))
-    balanced = float(nirl.balanced_accuracy(predicted, own))
-    return Question(
-        f"The expert took F in {often} decisions and L30 in {seldom}. A policy predicts {hit_often} of the F and "
-        f"{hit_seldom} of the L30. What are its accuracy and its balanced accuracy, from 0 to 1?",
-        Table(
-            ["value"],
-            ["accuracy", "balanced accuracy"],
-            [[plain, balanced]],
-            wrong={
-                "The two are exchanged: the balanced accuracy is the mean of the two actions' shares.": [
-                    [balanced, plain]
-                ],
-                "The balanced accuracy gives both actions the same weight.": [
-                    [plain, plain]
-                ],
-                "The accuracy counts decisions, not actions.": [[balanced, balanced]],
-            },
-        ),
-        f"Accuracy: $({hit_often} + {hit_seldom}) / {often + seldom} = {plain:.4g}$. Balanced: "
-        f"$({hit_often / often:.3g} + {hit_seldom / seldom:.3g}) / 2 = {balanced:.4g}$.",
-    )
-
-
 @drill("nirl", "A learned reward on the unit interval")
 def scaled_rewards(rng: Rng) -> Question:
     """Map rewards into the network's range."""

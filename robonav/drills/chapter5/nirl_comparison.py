@@ -7,85 +7,10 @@ import numpy as np
 from robonav import nirl
 from robonav.experiments import probability_of_improvement
 
-from ..question import Choice, Number, Question, Table
+from ..question import Choice, Number, Question
 from ..registry import drill
-from ..text import sign
 
 Rng = np.random.Generator
-
-
-@drill("nirl-comparison", "Importance weights")
-def importance_weights(rng: Rng) -> Question:
-    """Weight sampled trajectories by the reward."""
-    features = rng.choice(np.arange(0, 6), size=3, replace=False).astype(float)
-    base = int(rng.choice([2, 3]))
-    weights = nirl.importance_weights([np.log(base)], features[:, None], np.zeros(3))
-    powers = base**features
-    return Question(
-        f"Three trajectories were sampled with the baseline policy. Their discounted features are "
-        f"${', '.join(f'{f:g}' for f in features)}$. What are their importance weights at "
-        f"$\\theta = \\ln {base}$?",
-        Table(
-            ["weight"],
-            ["first", "second", "third"],
-            [weights.tolist()],
-            wrong={
-                "Equal weights do not depend on $\\theta$: the factor $\\exp(\\theta f)$ has cancelled.": [
-                    [1 / 3] * 3
-                ],
-                "These factors do not sum to 1. Divide them by their sum.": [
-                    powers.tolist()
-                ],
-                "The weights are proportional to $\\exp(\\theta f)$, not to $f$.": [
-                    (features / features.sum()).tolist()
-                ],
-                "The larger the reward is, the larger is the weight. Here the sign is wrong.": [
-                    ((1 / powers) / (1 / powers).sum()).tolist()
-                ],
-            },
-        ),
-        f"$\\exp(\\theta f) = {base}^f$: ${', '.join(f'{p:g}' for p in powers)}$. Their sum is ${powers.sum():g}$, and "
-        f"divided by it they are ${', '.join(f'{w:.4g}' for w in weights)}$.",
-    )
-
-
-@drill("nirl-comparison", "The gradient of relative entropy")
-def gradient_of_the_dual(rng: Rng) -> Question:
-    """Compute the gradient of the dual function at one reward."""
-    features = rng.choice(np.arange(0, 4), size=2, replace=False).astype(float)
-    base = int(rng.choice([2, 3, 4]))
-    rising = bool(rng.integers(2))
-    theta = float(np.log(base)) * (1 if rising else -1)
-    expert = round(float(rng.uniform(features.min(), features.max())), 1)
-    slack = float(rng.choice([0.05, 0.1]))
-    given = ([theta], [expert], features[:, None], [0.0, 0.0])
-    answer = float(nirl.dual_gradient(*given, [slack])[0])
-    weights = nirl.importance_weights([theta], features[:, None], [0.0, 0.0])
-    mean = float(weights @ features)
-    pull = slack * float(np.sign(theta))
-    shown = f"{'' if rising else '-'}\\ln {base}"
-    return Question(
-        f"The expert has the feature $\\mu_E = {expert:g}$. Two trajectories, sampled with the baseline policy, have "
-        f"${features[0]:g}$ and ${features[1]:g}$. The slack is ${slack:g}$. What is the gradient "
-        f"$\\nabla g(\\theta)$ at $\\theta = {shown}$?",
-        Number(
-            answer,
-            wrong={
-                "The samples have equal weights here. They depend on $\\theta$.": expert
-                - float(features.mean())
-                - pull,
-                "The slack is missing.": expert - mean,
-                "The slack pulls $\\theta$ towards 0: its sign is that of $-\\theta$.": expert
-                - mean
-                + pull,
-                "This is the samples' mean minus the expert's feature. It is the other way round.": mean
-                - expert
-                - pull,
-            },
-        ),
-        f"The weights are ${weights[0]:.4g}$ and ${weights[1]:.4g}$, and the weighted mean is ${mean:.4g}$. "
-        f"${expert:g} - {mean:.4g} {sign(-pull)} = {answer:.4g}$.",
-    )
 
 
 @drill("nirl-comparison", "The cost of one step in SCIRL")

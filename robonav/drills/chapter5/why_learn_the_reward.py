@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav import mdp, nirl, robot
+from robonav import mdp, nirl
 from robonav.nirl.refinement import count_pairs
 
 from ..pictures import grid_picture
@@ -283,44 +283,6 @@ def belief_over_rewards(rng: Rng) -> Question:
         f"{likelihoods[0]:.4g}$ and ${policy[1][0]:.4g}^{times[0]} \\cdot {policy[1][1]:.4g}^{times[1]} = "
         f"{likelihoods[1]:.4g}$. By Bayes' rule ${prior:g} \\cdot {likelihoods[0]:.4g}$ is divided by the sum of both "
         f"products: {answer:.4g}.",
-    )
-
-
-BY_ANGLE = ("R60", "R30", "F", "L30", "L60")
-
-
-@drill("why-learn-the-reward", "An expert that slips")
-def slipping_expert(rng: Rng) -> Question:
-    """Compute which actions an expert with an unsteady hand demonstrates."""
-    chance = float(rng.integers(5, 46)) / 100
-    meant = str(rng.choice(BY_ANGLE))
-    numbers = [int(robot.Action[name]) for name in BY_ANGLE]
-    answer = robot.neighbour_slip(chance)[int(robot.Action[meant]), numbers]
-    at = BY_ANGLE.index(meant)
-    beside = [k for k in (at - 1, at + 1) if 0 <= k < 5]
-    whole, half = np.zeros(5), np.zeros(5)
-    whole[at], half[at] = 1 - 2 * chance, 1 - chance
-    whole[beside], half[beside] = chance, chance / 2
-    wrong = {
-        "Without slips only the intended action happens. It slips with the given probability.": np.eye(
-            5
-        )[at][:, None].tolist(),
-    }
-    if len(beside) == 2:
-        wrong[
-            "The given probability is that of a slip to either side, half to each."
-        ] = whole[:, None].tolist()
-    else:
-        wrong["There is only one side, so it has the whole probability of a slip."] = (
-            half[:, None].tolist()
-        )
-    named = " or ".join(BY_ANGLE[k] for k in beside)
-    return Question(
-        f"An expert's turns slip with probability ${chance:g}$: they come out $30°$ too large or too small, "
-        "equally often; where only one of these actions exists, it is always that one. The expert means "
-        f"{meant}. With which probability does the robot do each action?",
-        Table(BY_ANGLE, ["probability"], answer[:, None].tolist(), wrong=wrong),
-        f"With probability ${1 - chance:g}$ it does {meant}. The rest, ${chance:g}$, goes to {named}.",
     )
 
 

@@ -203,7 +203,7 @@ def varied(drills: Sequence[Drill], papers: int, each: int = 1) -> list[Drill]:
     Examples
     --------
     >>> [drill.name for drill in varied(selected(drills=["td-error", "epsilon-greedy"]), papers=30, each=2)]
-    ['td-error', 'epsilon-greedy']
+    ['epsilon-greedy', 'td-error']
     """
     check_integer("papers", papers, at_least=1)
     needed = each * min(papers, VARIED)

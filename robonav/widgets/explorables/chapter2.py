@@ -235,6 +235,20 @@ def best_while_exploring(model: mdp.FiniteMDP, epsilon: float) -> NDArray[np.flo
 
 
 @asks(
+    "How far does an update reach?",
+    "Four tilings of tiles that are 1 m wide are shifted by a quarter of a tile each. "
+    "An update raises the value of one place by 1. "
+    "By how much does it raise the value half a metre away?",
+    guesses=["not at all", "by a quarter", "by a half", "by 1"],
+    right="by a half",
+    because="Half a metre away, two of the four tiles are still the same.",
+)
+def shared_tiles(length: int = 6, most: int = 8) -> dict[str, Any]:
+    """The length of the line in metres, and the largest number of tilings."""
+    return {"length": length, "most": most}
+
+
+@asks(
     "A belief in a corridor of your own",
     "This corridor has two doors and seven walls, and the robot knows only its plan. "
     "Which observation tells it more about its position?",

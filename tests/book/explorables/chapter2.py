@@ -20,7 +20,7 @@ from robonav.widgets.explorables.chapter2 import (
 
 from .grids import Grid, grid_of
 from .hashed_numbers import HashedNumbers
-from .reader import keys, press, slide, touch_part, write
+from .reader import choose, keys, press, slide, slide_all, touch_part, write
 from .shown import Shown
 from .table import expects
 
@@ -467,6 +467,32 @@ def belief_of(shown: Shown) -> Values:
         elif act in ("3", "touch"):
             belief = np.full(9, 1 / 9)
     return belief
+
+
+@expects(choose("width of a tile", "1.5 m"), by_keyboard=[slide_all])
+def shared_tiles(shown: Shown) -> None:
+    width, count = shown.number("width of a tile"), int(shown.number("tilings"))
+    place = shown.number("place of the update (m)") + 0.03
+    apart = shown.number("metres to the other place")
+    line = mdp.Tiles((0.0,), (6.0,), (round(6 / width),), count, n_actions=1)
+
+    def shared(other: float) -> int:
+        return int((line.active([place]) == line.active([other])).sum())
+
+    same = shared(place + apart)
+    rise = same / count
+    tiles = "tile" if count == 1 else "tiles"
+    shown.says(
+        f"The other place shares {same} of {count} {tiles} with it, so its value rises by {rise}.",
+        f"No place that is {width} m or more away shares a tile with it.",
+    )
+    chart = shown.picture()
+    places = np.arange(60) / 10 + 0.03
+    heights = [shared(x) / count for x in places]
+    chart.has_curve(GREY, np.column_stack([places, heights]))
+    chart.has_dots(BLUE, [[place, 1.0]])
+    chart.has_dots(ORANGE, [[place + apart, rise]])
+    assert len(shown.picture(1).of("rect", fill=BLUE)) == count
 
 
 @expects(

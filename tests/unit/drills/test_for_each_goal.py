@@ -11,6 +11,8 @@ import pytest
 from numbers_in_texts import drawn, numbers
 from scipy.optimize import minimize_scalar
 
+from robonav import mdp
+
 BOOK = Path(__file__).parents[3] / "book"
 
 
@@ -220,3 +222,134 @@ def test_fair_or_not() -> None:
         for option in question.asked.options:
             wanted = ("is unfair" in question.text) != bool(fair.search(option))
             assert wanted == (option == question.asked.right), option
+
+
+def test_running_mean_of_a_list() -> None:
+    for question in drawn("running-mean"):
+        n, mean, new = numbers(question.text)
+        returns = [mean] * int(n) + [new]
+        assert question.asked.answer == pytest.approx(sum(returns) / len(returns))
+
+
+def test_news_of_an_episode_as_a_matrix() -> None:
+    """All targets are made of the old values, so one product gives them."""
+    for question in drawn("news-of-an-episode"):
+        *given, alpha, gamma = numbers(question.text)
+        old, rewards = np.reshape(given, (2, 3))
+        targets = rewards + gamma * np.eye(3, k=1) @ old
+        assert question.asked.answer[0] == pytest.approx(old + alpha * (targets - old))
+
+
+def test_admissible_or_consistent_by_the_definitions() -> None:
+    found = set()
+    for question in drawn("admissible-or-consistent"):
+        first, second, x, y, end = numbers(question.text)
+        steps = [(x, y, first), (y, end, second)]
+        consistent = all(here <= there + step for here, there, step in steps)
+        admissible = x <= first + second and y <= second
+        wanted = ["neither", "but not consistent", "admissible and consistent"]
+        expected = wanted[admissible + consistent]
+        assert expected in question.asked.right
+        found.add(expected)
+    assert found == set(wanted)
+
+
+def test_path_to_open_node() -> None:
+    for question in drawn("path-to-open-node"):
+        here, step, old, estimate = numbers(question.text)
+        expected = sorted([here + step, old])[0] + estimate
+        assert question.asked.answer == pytest.approx(expected)
+
+
+def test_cautious_step_is_what_the_planner_pays() -> None:
+    for question in drawn("cautious-step"):
+        length, distance, caution = numbers(question.text)
+        far = [(caution / 100) * (10 - distance) ** 2, 1]
+        assert question.asked.answer == pytest.approx(length * sum(far))
+
+
+def test_weight_of_share_gives_the_share() -> None:
+    for question in drawn("weight-of-share"):
+        first, second, share = numbers(question.text)
+        theta = question.asked.answer
+        odds = math.exp(theta * first) / math.exp(theta * second)
+        assert odds / (1 + odds) == pytest.approx(share / 100)
+
+
+def test_draws_of_a_decision_counted_iteration_by_iteration() -> None:
+    for question in drawn("draws-of-a-decision"):
+        added, kept, draws = numbers(question.text)
+        each = draws / (added * kept)  # in one iteration
+        assert question.asked.answer == pytest.approx(sum([each] * int(kept)))
+
+
+def test_kept_policy_decision_by_decision() -> None:
+    agree = []
+    for question in drawn("kept-policy"):
+        often, seldom, *hits = numbers(question.text)
+        (f_a, l_a), (f_b, l_b) = np.reshape(hits, (2, 2))
+        plain = "A" if f_a + l_a > f_b + l_b else "B"
+        ahead = (f_a - f_b) / often + (l_a - l_b) / seldom
+        expected = (
+            f"accuracy keeps {plain}, balanced accuracy {'A' if ahead > 0 else 'B'}"
+        )
+        assert question.asked.right == expected
+        agree.append(plain == expected[-1])
+    assert 0.25 < np.mean(agree) < 0.75
+
+
+def test_change_of_each_weight_counted_unit_by_unit() -> None:
+    for question in drawn("change-of-each-weight"):
+        inputs, hidden, outputs, first, second = numbers(question.text)
+        weights = [0, 0]
+        for layer, (before, units) in enumerate([(inputs, hidden), (hidden, outputs)]):
+            for _ in range(int(units)):
+                weights[layer] += int(before) + 1
+        expected = 1000 * first / weights[0], 1000 * second / weights[1]
+        assert question.asked.answer[0] == pytest.approx(expected)
+
+
+def test_tiles_in_common_weight_by_weight() -> None:
+    for question in drawn("tiles-in-common"):
+        tilings, *given, one, same_tilings, error = numbers(
+            question.text.replace("weights are 0", "")
+        )
+        count = int(tilings)
+        assert (one, same_tilings) == (1, count)
+        weights = dict.fromkeys(enumerate(given[:count]), error / count)
+        value = sum(weights.get((k, tile), 0) for k, tile in enumerate(given[count:]))
+        assert question.asked.answer == pytest.approx(value)
+
+
+def test_weights_of_tilings_tile_by_tile() -> None:
+    for question in drawn("weights-of-tilings"):
+        tilings, side, also, actions = map(int, numbers(question.text))
+        assert side == also
+        low, high, tiles = (0, 0), (1, 1), (side, side)
+        coding = mdp.Tiles(low, high, tiles, tilings, n_actions=actions)
+        unshifted = coding([0.3, 0.6])[0].size * side**2 // (side + 1) ** 2
+        changed = (coding([0.3, 0.6])[0] != 0).sum()
+        assert question.asked.answer[0] == [unshifted, changed]
+
+
+def test_rate_for_features_by_a_derivative() -> None:
+    for question in drawn("rate-for-features"):
+        active, value, target, rate = numbers(
+            re.sub(r"are 1 and all others 0", "", question.text)
+        )
+
+        def cost(x: float, value=value, target=target) -> float:
+            return (target - value - x) ** 2 / 2
+
+        slope = (cost(1e-6) - cost(-1e-6)) / 2e-6
+        expected = value - active * rate * slope
+        assert question.asked.answer == pytest.approx(expected, abs=1e-5)
+
+
+def test_target_of_expected_sarsa_action_by_action() -> None:
+    for question in drawn("target-of-expected-sarsa"):
+        reward, *values, epsilon, gamma = numbers(question.text)
+        mean = 0.0
+        for value in values:
+            mean += value * (epsilon / 3 + (1 - epsilon) * (value == max(values)))
+        assert question.asked.answer == pytest.approx(reward + gamma * mean)

@@ -44,7 +44,7 @@ def test_solutions_stand_in_the_instructors_build_alone(tmp_path, solutions):
     (tmp_path / "index.md").write_text(
         (COURSE.root / "book/exercises-5.md").read_text()
     )
-    (tmp_path / "nirl.md").write_text(
+    (tmp_path / "nirl-in-practice.md").write_text(
         "---\norphan: true\n---\n# A page\n\n```{exercises}\n```\n"
     )
     subprocess.run(
@@ -73,12 +73,12 @@ def test_solutions_stand_in_the_instructors_build_alone(tmp_path, solutions):
         assert bool([line for line in answer(exercise) if line in page]) == bool(
             solutions
         ), exercise.id
-    listed = (tmp_path / "built/nirl.html").read_text()
+    listed = (tmp_path / "built/nirl-in-practice.html").read_text()
     assert 'href="index.html#exercise-5-6"' in listed
     assert "5.6 The accuracy trap" in listed
     assert "about 10 minutes" in listed
     assert "5.1" not in listed
-    assert 'href="nirl.html"' in (tmp_path / "built/index.html").read_text()
+    assert 'href="nirl-in-practice.html"' in (tmp_path / "built/index.html").read_text()
     assert page.count("Known mistakes") == (len(exercises) if solutions else 0)
     for path in (tmp_path / "built").rglob("*"):
         assert path.is_dir() or b"BEGIN SOLUTION" not in path.read_bytes()

@@ -513,7 +513,7 @@ def test_the_page_shows_the_variant(tmp_path):
     book.mkdir()
     (book / "conf.py").write_text(PAGE.format(folder=str(COURSE.root / "book/_ext")))
     (book / "index.md").write_text((COURSE.root / "book/exercises-2.md").read_text())
-    for page in ("dynamic-programming", "nirl"):
+    for page in ("dynamic-programming", "max-margin"):
         text = "---\norphan: true\n---\n# A page\n\n```{exercises}\n```\n"
         (book / f"{page}.md").write_text(text)
     subprocess.run(
@@ -528,5 +528,5 @@ def test_the_page_shows_the_variant(tmp_path):
     listed = (tmp_path / "built/dynamic-programming.html").read_text()
     assert "2.2 Improvement where actions tie" in listed
     assert "2.3" not in listed
-    nothing = (tmp_path / "built/nirl.html").read_text()
+    nothing = (tmp_path / "built/max-margin.html").read_text()
     assert "No exercise of this term belongs to this page." in nothing

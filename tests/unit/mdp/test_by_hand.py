@@ -67,7 +67,7 @@ def test_three_sweeps(written):
 
 
 def test_returns_of_an_episode(written):
-    text = written("model-free-learning", "## Monte Carlo prediction", "The code below")
+    text = written("prediction", "## Monte Carlo prediction", "The code below")
     returns = mdp.discounted_return([0, 2, 0, 10], 0.9)
     assert [f"{value:g}" for value in returns.round(2)] == ["9.09", "10.1", "9", "10"]
     assert "9.09" in text

@@ -864,6 +864,18 @@ def test_work_of_an_episode(compute):
     assert compute("work_of_an_episode", "return page.stepsOf(40, 3);") == pairs == 2460
 
 
+@pytest.mark.parametrize(("width", "tilings"), [(1.0, 4), (0.5, 3), (1.5, 8), (2.0, 1)])
+def test_shared_tiles_are_those_of_the_package(compute, width, tilings):
+    body = "return data.places.map((x) => page.sharedTiles(2.53, x, data.width, data.tilings));"
+    places = (np.arange(60) / 10 + 0.03).tolist()
+    seen = compute("shared_tiles", body, places=places, width=width, tilings=tilings)
+    line = mdp.Tiles((0.0,), (6.0,), (int(6 / width),), tilings, n_actions=1)
+    expected = [(line.active([2.53]) == line.active([x])).mean() for x in places]
+    assert seen == pytest.approx(expected)
+    assert max(seen) == 1
+    assert min(seen) == 0
+
+
 def test_largest_of_normal_numbers():
     means = explorable("overestimation").data["given"]["means"]
     drawn = np.random.default_rng(0).normal(size=(200_000, 10)).max(axis=1)
