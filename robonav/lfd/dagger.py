@@ -207,10 +207,11 @@ def labelled_rollout(
     >>> bool((visited.effective.actions != 0).any())  # straight always goes on, the expert does not
     True
     """
+    # asked for actions, the mixture also keeps what the expert would have done
     mixture = Mixture(policy, expert, beta, rng, len(simulator))
     steps: list[Transition] = []
     for step in run_episodes(simulator, mixture, reflex=reflex):  # one second
-        labels = mixture.labels[step.robots]  # what the expert would have done
+        labels = mixture.labels[step.robots]  # the expert's actions there
         labels = np.where(step.asked, labels, step.actions)  # elsewhere: the reflex
         steps.append(replace(step, actions=labels))
     return by_trajectory(simulator, steps)

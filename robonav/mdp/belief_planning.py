@@ -1,7 +1,21 @@
 """Planning with beliefs: QMDP and point-based value iteration.
 
-The value of a belief is convex and, over a finite horizon, the largest of finitely many linear functions (Smallwood and
-Sondik 1973). Each linear function is an alpha vector: one value a state, and the action that it stands for.
+The value of a belief b is convex and, over a finite horizon, the largest of finitely many linear functions (Smallwood
+and Sondik 1973). Each linear function is an alpha vector: one value a state, and the action that it stands for:
+
+    V(b) = max over alpha of b . alpha,    b . alpha = sum over s of b(s) alpha(s).
+
+The vectors for one more step follow from the known ones. For each action a and observation o, a known vector, which
+holds values of the next state s', is carried back to the present state s. A belief then takes the best vector for each
+observation, and the best action:
+
+    g(s)     = sum over s' of T(s, a, s') Z(o, s', a) alpha(s'),
+    alpha_ab = r_a + gamma * sum over o of argmax over g of b . g,
+    alpha_b  = argmax over alpha_ab of b . alpha_ab.
+
+For all beliefs together the number of vectors can grow exponentially. :func:`point_based_value_iteration` keeps one
+vector for each belief of a fixed set, which :func:`spread_beliefs` chooses; :func:`backup` is its step. :func:`qmdp`
+has one vector an action, from the values of the MDP.
 """
 
 from __future__ import annotations
@@ -124,58 +138,6 @@ def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
     values = value_iteration(pomdp.mdp, tolerance).values
     q = pomdp.mdp.action_values(values)
     return AlphaVectors(q.T.copy(), np.arange(pomdp.mdp.n_actions))
-
-
-@checked
-def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
-    """Up to ``count`` beliefs that can be reached from ``start``, as far apart as possible.
-
-    Each new belief is the successor, by any action and observation, that is furthest (sum of absolute differences)
-    from those taken before, so nothing is random.
-
-    Parameters
-    ----------
-    pomdp : POMDP
-    start : (S,) array
-        The first belief.
-    count : int
-
-    Returns
-    -------
-    (N, S) array
-        N is less than ``count`` if fewer can be reached.
-
-    Examples
-    --------
-    >>> from robonav.mdp import spread_beliefs, tiger
-    >>> spread_beliefs(tiger(), [0.5, 0.5], 3).round(2)
-    array([[0.5 , 0.5 ],
-           [0.85, 0.15],
-           [0.15, 0.85]])
-    """
-    taken = [pomdp.as_belief(start)]
-    candidates, distances = np.empty((0, pomdp.mdp.n_states)), np.empty(0)
-    while len(taken) < count:
-        distances = np.minimum(distances, abs(candidates - taken[-1]).sum(axis=1))
-        new = all_successors(pomdp, taken[-1])
-        new_distances = np.min([abs(new - b).sum(axis=1) for b in taken], axis=0)
-        candidates = np.concatenate([candidates, new])
-        distances = np.concatenate([distances, new_distances])
-        furthest = int(distances.argmax())
-        if distances[furthest] <= SAME:
-            break
-        taken.append(candidates[furthest])
-        keep = distances > SAME
-        keep[furthest] = False
-        candidates, distances = candidates[keep], distances[keep]
-    return np.stack(taken)
-
-
-def all_successors(pomdp: POMDP, belief: Floats) -> Floats:
-    """Beliefs (K, S) that can follow a belief by any action."""
-    beliefs = BeliefMDP(pomdp)
-    actions = range(pomdp.mdp.n_actions)
-    return np.concatenate([beliefs.successors(belief, a)[0] for a in actions])
 
 
 def largest_rise(pomdp: POMDP, tolerance: float) -> float:
@@ -306,3 +268,55 @@ def best_at(points: Floats, vectors: Floats) -> NDArray[np.intp]:
     rounding = 16 * np.finfo(float).eps * abs(vectors).max()
     ties = values >= values.max(axis=1, keepdims=True) - rounding
     return np.where(ties, vectors.sum(axis=1), -np.inf).argmax(axis=1)
+
+
+@checked
+def spread_beliefs(pomdp: POMDP, start: ArrayLike, count: int) -> Floats:
+    """Up to ``count`` beliefs that can be reached from ``start``, as far apart as possible.
+
+    Each new belief is the successor, by any action and observation, that is furthest (sum of absolute differences)
+    from those taken before, so nothing is random.
+
+    Parameters
+    ----------
+    pomdp : POMDP
+    start : (S,) array
+        The first belief.
+    count : int
+
+    Returns
+    -------
+    (N, S) array
+        N is less than ``count`` if fewer can be reached.
+
+    Examples
+    --------
+    >>> from robonav.mdp import spread_beliefs, tiger
+    >>> spread_beliefs(tiger(), [0.5, 0.5], 3).round(2)
+    array([[0.5 , 0.5 ],
+           [0.85, 0.15],
+           [0.15, 0.85]])
+    """
+    taken = [pomdp.as_belief(start)]
+    candidates, distances = np.empty((0, pomdp.mdp.n_states)), np.empty(0)
+    while len(taken) < count:
+        distances = np.minimum(distances, abs(candidates - taken[-1]).sum(axis=1))
+        new = all_successors(pomdp, taken[-1])
+        new_distances = np.min([abs(new - b).sum(axis=1) for b in taken], axis=0)
+        candidates = np.concatenate([candidates, new])
+        distances = np.concatenate([distances, new_distances])
+        furthest = int(distances.argmax())
+        if distances[furthest] <= SAME:
+            break
+        taken.append(candidates[furthest])
+        keep = distances > SAME
+        keep[furthest] = False
+        candidates, distances = candidates[keep], distances[keep]
+    return np.stack(taken)
+
+
+def all_successors(pomdp: POMDP, belief: Floats) -> Floats:
+    """Beliefs (K, S) that can follow a belief by any action."""
+    beliefs = BeliefMDP(pomdp)
+    actions = range(pomdp.mdp.n_actions)
+    return np.concatenate([beliefs.successors(belief, a)[0] for a in actions])
