@@ -160,6 +160,109 @@ def test_leave_where_the_way_is_free(answer, rng):
         answer.agrees(*followed(rng, 4, blocked=0.8))
 
 
+def recorded(rng, steps, robots, *, lasting=False, terminates=0.0, late=0.0):
+    """What some robots recorded, with the shares of the steps that end an episode in one of the two ways."""
+    shape = steps, robots
+    rewards, values, next_values = rng.normal(size=(3, *shape))
+    chance = rng.random(shape)
+    terminated = chance < terminates
+    truncated = ~terminated & (chance < terminates + late)
+    going_on = ~(terminated | truncated)[:-1]
+    next_values[:-1][going_on] = values[1:][going_on]
+    seconds = rng.uniform(0.3, 3.0, size=shape) if lasting else np.ones(shape)
+    table = [rewards, values, next_values, seconds, terminated, truncated]
+    return *(one[:] for one in table), rng.uniform(0.6, 0.9), rng.uniform(0.4, 0.9)
+
+
+@pytest.mark.part("6.4", points=1)
+def test_advantages_without_an_end(answer, rng):
+    """Finds the advantages where each step lasts a second and no episode ends."""
+    for robots in (1, 3):
+        answer.agrees(*recorded(rng, 6, robots))
+
+
+@pytest.mark.part("6.4", points=2)
+def test_advantages_of_long_steps(answer, rng):
+    """Finds the advantages where steps last differently long."""
+    for _ in range(3):
+        answer.agrees(*recorded(rng, 7, 2, lasting=True))
+
+
+@pytest.mark.part("6.4", points=1)
+def test_advantages_of_episodes_that_terminate(answer, rng):
+    """Finds the advantages where some episodes terminate."""
+    for _ in range(3):
+        answer.agrees(*recorded(rng, 12, 3, lasting=True, terminates=0.3))
+
+
+@pytest.mark.part("6.4", points=1)
+def test_advantages_of_episodes_that_the_limit_ends(answer, rng):
+    """Finds the advantages where the time limit ends some episodes, and others terminate."""
+    for _ in range(3):
+        answer.agrees(*recorded(rng, 14, 3, lasting=True, terminates=0.15, late=0.2))
+
+
+def taken(rng, *, outside=False, entropy=0.0, large=0.0, m=8, k=4):
+    """Outputs of a network in recorded steps, whose ratios lie within 15 % of 1, or outside of the interval, too.
+
+    Large outputs are all far from 0, and in half of the steps the last action has the probability 0.
+    """
+    outputs = rng.normal(size=(m, k)) + large * rng.choice([-1, 1], size=(m, 1))
+    outputs[: m // 2, -1] -= large
+    shifted = outputs - outputs.max(axis=1, keepdims=True)
+    log_policy = shifted - np.log(np.exp(shifted).sum(axis=1, keepdims=True))
+    actions = rng.integers(k - 1, size=m) if large else rng.integers(k, size=m)
+    change = rng.uniform(-0.15, 0.15, size=m)
+    if outside:
+        change[: m // 2] = rng.uniform(0.3, 0.8, size=m // 2) * [1, -1, 1, -1]
+    log_before = log_policy[np.arange(m), actions] - change
+    advantages = rng.normal(size=m)
+    advantages[:4] = np.abs(advantages[:4]) * [1, 1, -1, -1]
+    return outputs, actions, log_before, advantages, 0.2, entropy
+
+
+@pytest.mark.part("6.5", points=2)
+def test_clipped_value_within_the_interval(answer, rng):
+    """Finds the objective where all ratios lie within the interval, without the entropy."""
+    for _ in range(3):
+        answer.agrees(*taken(rng), at=0)
+
+
+@pytest.mark.part("6.5", points=2)
+def test_clipped_value_outside_the_interval(answer, rng):
+    """Finds the objective where some ratios lie outside, and the advantage is positive or negative."""
+    for _ in range(3):
+        answer.agrees(*taken(rng, outside=True), at=0)
+
+
+@pytest.mark.part("6.5", points=2)
+def test_clipped_gradient_within_the_interval(answer, rng):
+    """Finds the gradient where all ratios lie within the interval, without the entropy."""
+    for _ in range(3):
+        answer.agrees(*taken(rng), at=1)
+
+
+@pytest.mark.part("6.5", points=2)
+def test_clipped_gradient_outside_the_interval(answer, rng):
+    """Finds the gradient where some ratios lie outside, and the advantage is positive or negative."""
+    for _ in range(3):
+        answer.agrees(*taken(rng, outside=True), at=1)
+
+
+@pytest.mark.part("6.5", points=1)
+def test_clipped_with_the_entropy(answer, rng):
+    """Adds the entropy with its weight, and its gradient."""
+    for _ in range(3):
+        answer.agrees(*taken(rng, entropy=rng.uniform(0.5, 2.0)))
+
+
+@pytest.mark.part("6.5", points=1)
+def test_clipped_with_large_outputs(answer, rng):
+    """Stays finite where outputs are in the thousands, and some actions have the probability zero."""
+    for _ in range(3):
+        answer.agrees(*taken(rng, entropy=rng.uniform(0.5, 2.0), large=3000.0))
+
+
 def pockets(rng, n, depths):
     """Worlds with a pocket across the way, three walls that open towards the robot, in any direction."""
     from robonav.robot import concatenate, make_world
