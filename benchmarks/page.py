@@ -81,7 +81,8 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         True,
         "Sixteen seeds of PPO, trained until each crosses maps with 10 obstacles, "
         "compared with stable-baselines3's PPO. The ratio is that of steps of actors "
-        "in a second, learning included.",
+        "in a second, learning included. The last training is that of the page on deep "
+        "reinforcement learning.",
     ),
     "Inverse reinforcement learning": (
         "nirl.py",

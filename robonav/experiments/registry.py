@@ -21,6 +21,7 @@ MODULES = (
     "chapter5.tuning",
     "chapter6.planners",
     "chapter6.tuning",
+    "chapter6.ppo",
     "single_runs",
     "leaderboard",
     "labs",

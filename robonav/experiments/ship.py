@@ -1,8 +1,8 @@
 """The networks of the package. ``python -m robonav.experiments.ship`` trains them again.
 
-The networks of chapter 3 are those of the first run of its tables. For each method of chapters 4 and 5, some seeds
-train under the conditions of Tables 4.3 and 5.2, and the package has the policy with the greatest success in the worlds
-that are reserved for tuning.
+The networks of chapter 3 are those of the first run of its tables. For each method of chapters 4 and 5 and for PPO,
+some seeds train under the conditions of Tables 4.3 and 5.2 and of the page on deep reinforcement learning, and the
+package has the policy with the greatest success in the worlds that are reserved for tuning.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from robonav.deep import train_ppo
 from robonav.networks import NetworkPolicy, Weights, save_weights
 from robonav.nnql import METHODS
 from robonav.progress import bar
@@ -23,11 +24,13 @@ from .chapter4 import setup as chapter4
 from .chapter4 import tuning as tuning4
 from .chapter5 import setup as chapter5
 from .chapter5 import tuning as tuning5
+from .chapter6 import ppo as chapter6
 from .runner.setup import Setup
 
 SEED = 0  # the seed of chapter 3's networks
 SEEDS_4 = tuple(range(tuning4.TUNING_SEEDS, tuning4.TUNING_SEEDS + 8))
 SEEDS_5 = tuple(range(tuning5.TUNING_SEEDS + 10, tuning5.TUNING_SEEDS + 14))
+SEEDS_6 = tuple(range(100, 108))
 TEMPERATURE_5 = (
     0.05  # a robot without memory can go in circles, which a little randomness ends
 )
@@ -35,7 +38,7 @@ COMMAND = "python -m robonav.experiments.ship"
 
 
 def folder_of(chapter: str) -> Path:
-    """Return the folder of a chapter's networks: that of "lfd", "nnql" or "nirl".
+    """Return the folder of a chapter's networks: that of "lfd", "nnql", "nirl" or "deep".
 
     Parameters
     ----------
@@ -136,6 +139,25 @@ def nirl_weights(
     return weights_of(method, policy, made)
 
 
+def ppo_weights(seeds: Sequence[int] = SEEDS_6) -> Weights:
+    """Return the best actor of some seeds of PPO, with the settings of its page."""
+    result = train_ppo(seeds, task=chapter6.task(), **chapter6.TRAINING)
+    policies = dict(zip(seeds, result.policies, strict=True))
+    setup = chapter6.SETUP
+    worlds = setup.tuning_worlds(0, setup.navigations["thesis"])
+    seed, policy, success = best_of(policies.__getitem__, seeds, setup, worlds)
+    made = {
+        "command": COMMAND,
+        "seed": seed,
+        "seeds": list(seeds),
+        "speed": setup.speed,
+        "obstacles": setup.obstacles,
+        "settings": result.settings,
+        "success in tuning worlds (%)": success,
+    }
+    return weights_of("ppo", policy, made)
+
+
 def best_of(
     train_seed: Callable[[int], NetworkPolicy],
     seeds: Sequence[int],
@@ -165,11 +187,12 @@ def all_weights() -> Iterator[tuple[str, str, Weights]]:
         yield "nnql", method, nnql_weights(method)
     for method in chapter5.LEARNERS:
         yield "nirl", method, nirl_weights(method)
+    yield "deep", "ppo", ppo_weights()
 
 
 def ship() -> None:
     """Write a file for every network to the folder from which the package loads it."""
-    total = 2 + len(METHODS) + len(chapter5.LEARNERS)
+    total = 2 + len(METHODS) + len(chapter5.LEARNERS) + 1
     with bar("networks that ship") as progress:
         for done, (chapter, name, weights) in enumerate(all_weights()):
             folder_of(chapter).mkdir(exist_ok=True)

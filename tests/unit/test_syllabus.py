@@ -74,7 +74,8 @@ def test_each_chapter_page_and_each_deck_occurs(name: str) -> None:
     sessions = PLANS[name].sessions
     pages = [page for session in sessions for page in session.pages]
     lectures = {page for part in make_slides.lectures().values() for page in part}
-    assert {*chapter_pages(), "planners", "conclusions"} <= lectures <= set(pages)
+    later = {"planners", "deep-reinforcement-learning", "conclusions"}
+    assert {*chapter_pages(), *later} <= lectures <= set(pages)
     assert len(pages) == len(set(pages))
     decks = [d for session in sessions for d in session.lecture + session.long_lecture]
     assert sorted(decks) == sorted(lectures - {"playground"})

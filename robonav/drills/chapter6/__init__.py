@@ -1,4 +1,5 @@
 """Drills of chapter 6. Importing a file registers its drills."""
 
 from . import conclusions as conclusions
+from . import deep_reinforcement_learning as deep_reinforcement_learning
 from . import planners as planners

@@ -62,3 +62,43 @@ def polar_histogram_openings() -> dict[str, Any]:
         size=40.0,
     )
     return {"world": page_world(world), "pose": [17.0, 20.0]}
+
+
+@asks(
+    "An action that became likelier by mistake",
+    "An action has the advantage −1, so it was worse than expected. "
+    "A few steps of gradient ascent on other states have made it likelier all the same: its ratio "
+    "is 1.5, and ε is 0.2. "
+    "What does the gradient of the clipped objective do now?",
+    guesses=[
+        "nothing, because 1.5 is outside of 0.8 to 1.2",
+        "it makes the action less likely",
+        "it makes the action likelier",
+    ],
+    right="it makes the action less likely",
+    because="The objective takes the smaller of ρ A = −1.5 and the clipped −1.2, and −1.5 is the one "
+    "that still depends on the ratio.",
+)
+def clipped_objective() -> dict[str, Any]:
+    """The advantage and epsilon with which it begins."""
+    return {"advantage": 1.0, "epsilon": 0.2}
+
+
+@asks(
+    "Which steps learn from the end?",
+    "A robot earns 1 if it arrives, −1 if it collides, and nothing on the way. "
+    "λ is 0. "
+    "The same episode ends with a collision in place of an arrival. "
+    "Which advantages change?",
+    guesses=[
+        "only that of the last step",
+        "those of all steps, all alike",
+        "those of all steps, the last one's most",
+    ],
+    right="only that of the last step",
+    because="With λ = 0 an advantage is a single error of the value function, and only the last "
+    "error contains the reward.",
+)
+def advantages_of_an_episode() -> dict[str, Any]:
+    """The values of six states, and that of the state in which the robot is when the time is over."""
+    return {"values": [0.5, 0.6, 0.4, 0.5, 0.8, 0.7], "after": 0.6}

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import torch
 
+from robonav.deep import advantages, clipped_surrogate
 from robonav.planners import (
     PotentialField,
     polar_histogram,
@@ -86,3 +88,56 @@ def polar_histogram_openings(shown: Shown) -> None:
         way = heading + bearing
         end = (x + 8 * np.cos(way), y + 8 * np.sin(way))
         shown.map(world.size).has_line(VERMILION, [(x, y), end])
+
+
+@expects(
+    slide("advantage A", 0.2),
+    slide("ratio ρ", 0.8),
+    slide("ratio ρ", 0.2),
+    slide("ε", 0.7),
+    by_keyboard=[slide("advantage A", 0.7), slide("ratio ρ", 0.9)],
+)
+def clipped_objective(shown: Shown) -> None:
+    """The gradient is torch's, of the package's own function."""
+    now, advantage = shown.number("ratio ρ"), shown.number("advantage A")
+    epsilon = shown.number("ε")
+    corners = [0.0, round(1 - epsilon, 10), round(1 + epsilon, 10), 2.0, now]
+    ratio = torch.tensor(corners, dtype=torch.float64, requires_grad=True)
+    gains = clipped_surrogate(ratio, torch.full_like(ratio, advantage), epsilon)
+    gains.sum().backward()
+    gain, slope = gains[-1].item(), ratio.grad[-1].item()
+    clipped = min(max(now, 1 - epsilon), 1 + epsilon)
+    shown.says(
+        f"Gain: the smaller of {now} · {advantage} and {clipped} · {advantage}, which is {gain:.9f}.",
+        f"Gradient with respect to the ratio: {slope}.",
+        "this step does not change the policy"
+        if slope == 0
+        else f"makes the action {'likelier' if slope > 0 else 'less likely'}.",
+    )
+    chart = shown.picture()
+    chart.has_curve(BLUE, np.column_stack([corners[:4], gains[:4].detach()]))
+    chart.has_dots(VERMILION, [(now, gain)])
+
+
+@expects(
+    slide("λ", 0.6),
+    slide("discount γ", 0.4),
+    by_keyboard=[choose("how the episode ends", "it collides"), slide("λ", 0.9)],
+    by_touch=[choose("how the episode ends", "the time is over")],
+)
+def advantages_of_an_episode(shown: Shown) -> None:
+    discount, trace_decay = shown.number("discount γ"), shown.number("λ")
+    end = shown.chosen("how the episode ends")
+    values = torch.tensor(shown.given["values"], dtype=torch.float64)
+    rewards, terminal = torch.zeros_like(values), torch.zeros(len(values)) > 0
+    rewards[-1] = {"it arrives": 1.0, "it collides": -1.0}.get(end, 0.0)
+    terminal[-1] = end != "the time is over"
+    next_values = torch.cat([values[1:], values.new_tensor([shown.given["after"]])])
+    ended = torch.arange(len(values)) == len(values) - 1
+    episode = (rewards, values, next_values, terminal, ended, discount)
+    errors, found = (advantages(*episode, decay) for decay in (0.0, trace_decay))
+    for name, numbers in (("Errors δ", errors), ("Advantages", found)):
+        shown.says(f"{name}: {', '.join(f'{number:.9f}' for number in numbers)}.")
+    shown.says(f"= {(discount * trace_decay) ** (len(values) - 1):.9f}.")
+    for number, (colour, heights) in enumerate(((ORANGE, errors), (BLUE, found))):
+        shown.picture(number).has_bars(colour, heights)

@@ -101,3 +101,56 @@ def test_leave_or_follow_by_the_distance_of_the_free_point() -> None:
         least, distance, free, step = numbers(question.text)
         leaves = distance - free < least - step
         assert ("leaves" in question.asked.right) == leaves
+
+
+def test_step_of_the_gradient_by_a_small_change_of_the_score() -> None:
+    for question in drawn("step-of-the-gradient"):
+        probability, advantage, rate = numbers(question.text.replace("$", " "))
+
+        def gain(change: float, p=probability, advantage=advantage) -> float:
+            raised = p * math.exp(change)
+            return advantage * math.log(raised / (raised + 1 - p))
+
+        slope = (gain(1e-5) - gain(-1e-5)) / 2e-5
+        assert question.asked.answer == pytest.approx(rate * slope, abs=1e-6)
+
+
+def test_last_three_advantages_by_the_sums_of_the_errors() -> None:
+    for question in drawn("last-three-advantages"):
+        *_, end, v1, v2, v3, gamma, decay = numbers(question.text.replace("$", " "))
+        errors = [gamma * v2 - v1, gamma * v3 - v2, end - v3]
+        expected = [
+            sum((gamma * decay) ** k * error for k, error in enumerate(errors[t:]))
+            for t in range(3)
+        ]
+        assert question.asked.answer[0] == pytest.approx(expected)
+
+
+def test_clipped_gain_by_cases() -> None:
+    for question in drawn("clipped-gain"):
+        before, now, advantage, clip = numbers(question.text.replace("$", " "))
+        ratio = now / before
+        limited = min(ratio, 1 + clip) if advantage > 0 else max(ratio, 1 - clip)
+        assert question.asked.answer == pytest.approx(limited * advantage)
+
+
+def test_push_of_the_gradient_by_a_small_change_of_the_ratio() -> None:
+    words = {1: "likelier", -1: "less likely", 0: "nothing"}
+    for question in drawn("push-of-the-gradient"):
+        ratio, advantage, clip = numbers(question.text.replace("$", " "))
+
+        def gain(rho: float, advantage=advantage, clip=clip) -> float:
+            clipped = min(max(rho, 1 - clip), 1 + clip)
+            return min(rho * advantage, clipped * advantage)
+
+        slope = gain(ratio + 1e-3) - gain(ratio - 1e-3)
+        pushed = 0 if abs(slope) < 1e-9 else int(math.copysign(1, slope))
+        assert words[pushed] in question.asked.right
+
+
+def test_data_of_a_training_by_counting() -> None:
+    for question in drawn("data-of-a-training"):
+        actors, steps, epochs, batches, updates = map(int, numbers(question.text))
+        of_actors = sum(steps for _ in range(updates) for _ in range(actors))
+        of_adam = len([0 for _ in range(updates * epochs) for _ in range(batches)])
+        assert question.asked.answer[0] == [of_actors, of_adam]

@@ -1,13 +1,16 @@
-"""The tuning of the planners, and what the page says about the results."""
+"""The tuning of the planners, the variations of PPO, and what the pages say about the results."""
 
 import functools
 import json
+from pathlib import Path
 
+import numpy as np
 import pytest
 
+from robonav.deep import train_ppo
 from robonav.experiments import read_results
 from robonav.experiments.chapter4 import tuning as learners
-from robonav.experiments.chapter6 import planners, tuning
+from robonav.experiments.chapter6 import planners, ppo, tuning
 from robonav.experiments.chapter6.setup import PLANNERS, SETUP, planner, tuned
 from robonav.planners import DynamicWindow
 
@@ -101,3 +104,39 @@ def test_known_map_is_the_upper_end():
 def test_trials_differ(method):
     drawn = {tuning.trial_settings(method, trial) for trial in range(tuning.TRIALS)}
     assert len(drawn) >= 12
+
+
+PPO_PAGE = Path(__file__).parents[3] / "book/deep-reinforcement-learning.md"
+
+
+def test_the_page_trains_as_the_committed_variations():
+    source = PPO_PAGE.read_text("utf-8")
+    assert f"train_ppo(seeds=16, updates={ppo.TRAINING['updates']}, task=task)" in source  # fmt: skip
+    assert ppo.TRAINING["actors"] == 16  # the default, which the page leaves out
+    assert f"navigation_task(obstacles={ppo.SETUP.obstacles}, reflex=Reflex(" in source
+
+
+def test_the_wrong_sign_turns_rewards_round():
+    right, wrong = (ppo.task(**changes).reward for changes in ({}, {"reward": ppo.wrong_sign}))  # fmt: skip
+    outcome = np.array([0, 1, 2], np.int8)
+    rewards = right(None, None, outcome)
+    assert set(rewards) == {-1.0, 0.0, 1.0}
+    np.testing.assert_array_equal(wrong(None, None, outcome), -rewards)
+
+
+def test_a_seed_of_a_variation_is_a_training_of_this_seed(monkeypatch):
+    monkeypatch.setattr(ppo, "TRAINING", {"updates": 2, "actors": 3})
+    monkeypatch.setattr(ppo, "SEEDS", {"quick": 2})
+    monkeypatch.setitem(ppo.SETUP.navigations, "quick", 4)
+    monkeypatch.setattr(ppo, "trained", ppo.trained.__wrapped__)
+    numbers = ppo.vary({"variation": "10 epochs"}, 1, "quick")
+    alone = train_ppo([1], 2, actors=3, epochs=10, task=ppo.task())
+    assert numbers["episodes"] == alone.ended.sum()
+    assert (numbers["steps of the actors"], numbers["steps of Adam"]) == (768, 80)
+    assert len(numbers["arrivals of an update"]) == 2
+
+
+def variation(name, statistic="mean"):
+    results = published("ppo-variations")
+    place = [case["variation"] for case in results.experiment.cases].index(name)
+    return getattr(results.summary("success", place), statistic)

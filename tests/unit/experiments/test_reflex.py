@@ -69,9 +69,9 @@ def test_every_learned_policy_trains_and_drives_with_either():
 
 HAVE_REFLEX = {
     "navigate", "run_episodes", "record", "demonstrate", "demonstrate_by_hand", "dagger", "collect",
-    "NavigationTask", "RobotTask", "CountedTask", "NavigationEnv", "NavigationVectorEnv",
+    "NavigationTask", "navigation_task", "RobotTask", "CountedTask", "NavigationEnv", "NavigationVectorEnv",
 }  # fmt: skip
-HAVE_TASK = {"train", "learn", "learn_under_reward", "nirl", "apprenticeship", "scirl"}
+HAVE_TASK = {"train", "train_ppo", "learn", "learn_under_reward", "nirl", "apprenticeship", "scirl"}  # fmt: skip
 PACKAGE = Path(robonav.__file__).parent
 FILES = [*(PACKAGE / "experiments").rglob("*.py"), PACKAGE / "benchmark/leaderboard.py"]
 
