@@ -29,6 +29,7 @@ METHODS: dict[str, str] = {
     "apprenticeship": ORANGE,
     "relative-entropy": PURPLE,
     "scirl": SKY,
+    "ppo": SKY,
     "potential-field": BLUE,
     "vfh": ORANGE,
     "dynamic-window": GREEN,

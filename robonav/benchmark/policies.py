@@ -45,6 +45,7 @@ DISPLAY_NAMES: dict[str, str] = {
     "scirl": "SCIRL",
     "zero-reward": "zero reward",
     "random-reward": "random reward",
+    "ppo": "PPO",
     "potential-field": "potential field",
     "vfh": "VFH",
     "dynamic-window": "dynamic window",
@@ -60,7 +61,7 @@ DISPLAY_NAMES: dict[str, str] = {
 }
 """The names of methods on pages and in figures, where they differ from those in result files and commands."""
 
-CHAPTERS = ("lfd", "nnql", "nirl")
+CHAPTERS = ("lfd", "nnql", "nirl", "deep")
 
 
 def methods() -> list[str]:

@@ -142,7 +142,10 @@ def nirl_weights(
 def ppo_weights(seeds: Sequence[int] = SEEDS_6) -> Weights:
     """Return the best actor of some seeds of PPO, with the settings of its page."""
     result = train_ppo(seeds, task=chapter6.task(), **chapter6.TRAINING)
-    policies = dict(zip(seeds, result.policies, strict=True))
+    policies = {
+        seed: replace(policy, temperature=chapter6.TEMPERATURE)
+        for seed, policy in zip(seeds, result.policies, strict=True)
+    }
     setup = chapter6.SETUP
     worlds = setup.tuning_worlds(0, setup.navigations["thesis"])
     seed, policy, success = best_of(policies.__getitem__, seeds, setup, worlds)

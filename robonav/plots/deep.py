@@ -41,8 +41,9 @@ def draw_clipped_surrogate(axes: Axes, advantage: float, clip: float) -> None:
     gain = clipped_surrogate(rho, torch.full_like(rho, advantage), clip)
     for end in (1 - clip, 1 + clip):
         axes.axvline(end, color=style.ORANGE, linestyle="--", linewidth=1)
-    unclipped = {"color": style.GREY, "linestyle": "--", "label": "not clipped"}
-    axes.plot(ratio, ratio * advantage, **unclipped)
+    axes.plot(
+        ratio, ratio * advantage, color=style.GREY, linestyle="--", label="not clipped"
+    )
     axes.plot(ratio, gain.numpy(), color=style.BLUE, linewidth=2.5, label="clipped")
     axes.set(xlabel=r"ratio $\rho$", title=f"advantage {advantage:+g}".replace("-", "−"))  # fmt: skip
 

@@ -19,8 +19,11 @@ from ..runner.setup import Setup
 from .setup import CONDITIONS
 
 SETUP = Setup(**CONDITIONS["ppo"])
-TRAINING: Mapping[str, int] = CONDITIONS["ppo-training"]
+TRAINING: Mapping[str, Any] = CONDITIONS["ppo-training"]
 """The updates and the actors of the page's training; all other settings are the defaults."""
+
+TEMPERATURE = 0.4
+"""At which the shipped policy draws its actions, as those of chapter 4 do; in training the temperature is 1."""
 
 SEEDS = {"quick": 1, "thesis": 16}
 

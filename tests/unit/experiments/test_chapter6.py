@@ -140,3 +140,14 @@ def variation(name, statistic="mean"):
     results = published("ppo-variations")
     place = [case["variation"] for case in results.experiment.cases].index(name)
     return getattr(results.summary("success", place), statistic)
+
+
+def test_what_the_page_says_about_the_faults_of_ppo():
+    worst = {name: variation(name, "worst") for name in ppo.VARIATIONS}
+    usual = variation("as on the page")
+    assert variation("hardly clipped, ε = 0.99", "best") > usual
+    assert max(worst[name] for name in ("hardly clipped, ε = 0.99", "λ = 0", "no entropy")) < 30  # fmt: skip
+    assert worst["10 times the entropy"] > 80
+    assert variation("10 times the entropy", "high") < usual
+    assert worst["10 epochs"] == max(worst.values())
+    assert variation("rewards with the wrong sign", "high") < 5
