@@ -7,11 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from robonav.benchmark import method
 from robonav.deep import train_ppo
 from robonav.experiments import read_results
 from robonav.experiments.chapter4 import tuning as learners
 from robonav.experiments.chapter6 import planners, ppo, tuning
 from robonav.experiments.chapter6.setup import PLANNERS, SETUP, planner, tuned
+from robonav.experiments.ship import SEEDS_6, folder_of, ppo_weights
+from robonav.networks import load_weights
+from robonav.nnql import METHODS
 from robonav.planners import DynamicWindow
 
 
@@ -151,3 +155,38 @@ def test_what_the_page_says_about_the_faults_of_ppo():
     assert variation("10 times the entropy", "high") < usual
     assert worst["10 epochs"] == max(worst.values())
     assert variation("rewards with the wrong sign", "high") < 5
+
+
+def test_the_ppo_that_ships_is_the_best_of_its_seeds_and_drives():
+    weights = load_weights(folder_of("deep") / "ppo.safetensors")
+    made = weights.made
+    assert (weights.method, weights.temperature) == ("ppo", ppo.TEMPERATURE)
+    assert made["seeds"] == list(SEEDS_6)
+    assert made["seed"] in SEEDS_6
+    assert made["settings"] | dict(ppo.TRAINING) == made["settings"]
+    policy = method("ppo")
+    found = ppo.SETUP.evaluate(policy, ppo.SETUP.worlds(200, 77))
+    assert found["success"] > 97
+
+
+@pytest.mark.slow
+def test_the_best_seed_of_ppo_ships(monkeypatch):
+    monkeypatch.setattr(ppo, "TRAINING", {"updates": 6, "actors": 8})
+    monkeypatch.setitem(ppo.SETUP.navigations, "thesis", 40)
+    best = ppo_weights((0, 1, 2))
+    alone = [ppo_weights((seed,)).made["success in tuning worlds (%)"] for seed in range(3)]  # fmt: skip
+    assert best.made["success in tuning worlds (%)"] == max(alone)
+    assert best.made["seed"] == int(np.argmax(alone))
+
+
+def test_what_the_page_says_about_the_leaderboard():
+    """PPO is among the methods of chapter 4 with 20 and 30 obstacles, and behind DAgger."""
+    board = published("leaderboard")
+    success = {
+        (case["method"], case["setting"]): board.summary("success", place).mean
+        for place, case in enumerate(board.experiment.cases)
+    }
+    for setting in ("20 obstacles", "30 obstacles"):
+        chapter4 = [success[name, setting] for name in METHODS]
+        assert min(chapter4) < success["ppo", setting] < max(chapter4)
+        assert success["ppo", setting] < success["dagger", setting]

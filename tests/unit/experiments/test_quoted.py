@@ -125,9 +125,15 @@ def test_where_the_policies_of_the_board_lose_most():
         min(settings, key=lambda setting: success[method, setting])
         for method in methods
     ]
-    assert len(methods) == 11
+    assert len(methods) == 12
     assert worst.count("30 obstacles") == 6
-    assert worst.count("20, 4 m/s") == 4
+    assert worst.count("20, 4 m/s") == 5
+    learned = {method: success[method, "20, 4 m/s"] for method in methods}
+    learned.pop("freer-side")
+    assert set(sorted(learned, key=learned.__getitem__)[:2]) == {"ppo", "nirl"}
+    assert abs(learned["ppo"] - learned["nirl"]) < 1
+    slow = {name for name in methods if success[name, "20, 1 m/s"] < success["freer-side", "20, 1 m/s"]}  # fmt: skip
+    assert slow == {"nnql", "nfq", "online", "ppo"}
     assert success["online", "20, 1 m/s"] == min(
         success["online", setting] for setting in settings
     )
