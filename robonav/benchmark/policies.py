@@ -13,6 +13,7 @@ from robonav.networks import NetworkPolicy, load_weights
 from robonav.robot import (
     OUTCOMES,
     Policy,
+    Reflex,
     navigate,
     random_worlds,
     straight,
@@ -165,7 +166,14 @@ def fingerprint(name: str) -> str:
 
 
 def evaluate(
-    name: str, *, obstacles: int, moving: int, speed: float, worlds: int, seed: int
+    name: str,
+    *,
+    obstacles: int,
+    moving: int,
+    speed: float,
+    worlds: int,
+    seed: int,
+    reflex: str = Reflex().direction,
 ) -> dict[str, Any]:
     """Evaluate a method in new worlds. The command ``robonav navigate`` prints the result.
 
@@ -181,6 +189,8 @@ def evaluate(
         The number of worlds.
     seed : int
         The seed of the worlds.
+    reflex : {"sector", "exact"}
+        What the robot's reflex knows of the direction of its target, see :class:`robonav.robot.Reflex`.
 
     Returns
     -------
@@ -197,7 +207,10 @@ def evaluate(
     """
     policy = method(name)
     navigation = navigate(
-        policy, random_worlds(worlds, obstacles, moving, seed=seed), speed
+        policy,
+        random_worlds(worlds, obstacles, moving, seed=seed),
+        speed,
+        reflex=Reflex(reflex),
     )
     arrived = navigation.success
     low, high = success_interval(int(arrived.sum()), worlds)
@@ -208,6 +221,7 @@ def evaluate(
         "speed": speed,
         "worlds": worlds,
         "seed": seed,
+        "reflex": reflex,
         "success": float(arrived.mean()),
         "collision": float(navigation.collision.mean()),
         "interval": [low, high],

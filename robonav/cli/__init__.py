@@ -159,6 +159,12 @@ def navigate(
     speed: Annotated[float, typer.Option(help="Speed of the robot in m/s.")] = 2.0,
     worlds: Annotated[int, typer.Option(help="Number of random worlds.")] = 200,
     seed: Annotated[int, typer.Option(help="Seed of the random worlds.")] = 0,
+    reflex: Annotated[
+        str,
+        typer.Option(
+            help="What the robot's reflex knows of the direction of the target: its sector, or exact as in all tables."
+        ),
+    ] = "sector",
     json_file: Annotated[
         Path | None,
         typer.Option(
@@ -185,13 +191,14 @@ def navigate(
         speed=speed,
         worlds=worlds,
         seed=seed,
+        reflex=reflex,
     )
     rate, (low, high) = result["success"], result["interval"]
     _print_beside(
         json_file,
         f"{method}: {100 * rate:.1f} % arrive in {counted(worlds, 'world')} (95 % interval {100 * low:.1f} to "
         f"{100 * high:.1f}), {result['outcomes']['collided']} collide, "
-        f"{result['outcomes']['out of steps']} run out of steps",
+        f"{result['outcomes']['out of steps']} run out of steps; reflex: {reflex}",
     )
     if json_file is not None:
         _write_json(json_file, result)

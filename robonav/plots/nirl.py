@@ -106,7 +106,7 @@ def draw_slips(axes: Axes, demonstrations: Demonstrations, meant: ArrayLike) -> 
     >>> axes = Figure().add_subplot()
     >>> draw_slips(axes, demonstrations, demonstrations.actions)  # no step slipped
     >>> axes.get_title()
-    '0 of 63 actions slipped'
+    '0 of 64 actions slipped'
     """
     own = demonstrations.trajectory == 0
     slipped = (np.asarray(meant) != demonstrations.actions)[own]

@@ -54,7 +54,7 @@ def imitation_lab(
     policy: NetworkPolicy,
     *,
     demonstrations: int = 100,
-    expert_seed: int = 7,
+    expert_seed: int = 9,
     maps: int = 200,
     test_seed: int = 2024,
     playground: str = "playground.html",

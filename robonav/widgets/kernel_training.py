@@ -18,7 +18,7 @@ import traitlets
 
 from robonav.experiments import bootstrap_interval
 from robonav.progress import Progress
-from robonav.robot import Worlds, navigate
+from robonav.robot import REFLEX, ReflexRule, Worlds, navigate
 
 PAUSE = 0.05  # seconds between two messages to the page
 
@@ -140,7 +140,12 @@ class KernelTraining(anywidget.AnyWidget):
 
 
 def success_rates(
-    policies: Iterable[Any], worlds: Worlds, *, speed: float = 2.0, max_steps: int = 500
+    policies: Iterable[Any],
+    worlds: Worlds,
+    *,
+    speed: float = 2.0,
+    max_steps: int = 500,
+    reflex: ReflexRule = REFLEX,
 ) -> list[float]:
     """Return the percentage of the worlds in which each policy arrives.
 
@@ -151,10 +156,10 @@ def success_rates(
     >>> success_rates([straight], random_worlds(10, obstacles=0, seed=1))
     [100.0]
     """
-    return [
-        100 * float(navigate(policy, worlds, speed, max_steps).success.mean())
-        for policy in policies
-    ]
+    driven = (
+        navigate(policy, worlds, speed, max_steps, reflex=reflex) for policy in policies
+    )
+    return [100 * float(each.success.mean()) for each in driven]
 
 
 def sentence_on_rates(rates: Sequence[float], maps: int) -> str:

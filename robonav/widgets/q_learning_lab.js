@@ -240,10 +240,10 @@ export function* learnAndDrive({ settings, start = null, trial }) {
   }
   const policies = Object.entries(contestants(network, start?.encoder ?? encoderOf(settings), settings, trial));
   const keys = worldKeysOf(trial.maps, trial.seed);
-  const { speed, maxSteps, obstacles, moving } = settings;
+  const { speed, maxSteps, direction, obstacles, moving } = settings;
   for (let i = 0; i < trial.maps; i += 1) {
     const world = drawWorld(keys[i], { obstacles, moving, ...NNQL_ENDS });
-    const found = policies.map(([, policy]) => driveWith(policy, world, { speed, maxSteps }));
+    const found = policies.map(([, policy]) => driveWith(policy, world, { speed, maxSteps, direction }));
     const outcomes = Object.fromEntries(policies.map(([name], k) => [name, found[k].outcome]));
     yield { done: settings.episodes + i + 1, total, live: { test: { world, path: found[0].poses.map(({ x, y }) => [x, y]), outcome: found[0].outcome, outcomes } } };
   }

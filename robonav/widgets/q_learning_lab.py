@@ -11,7 +11,7 @@ from robonav.experiments.chapter4.setup import EVALUATION_TEMPERATURE, THESIS
 from robonav.networks import NetworkPolicy
 from robonav.nnql import STARTS, TARGETS, TrainingResult, train
 from robonav.nnql.reward import TABLE
-from robonav.robot import random_worlds
+from robonav.robot import Reflex, random_worlds
 from robonav.validation import check_instance, check_integer, check_one_of
 
 from .kernel_training import (
@@ -133,6 +133,7 @@ class QLearningLab(KernelTraining):
                     worlds,
                     speed=settings.speed,
                     max_steps=settings.max_steps,
+                    reflex=Reflex(settings.direction),
                 )
                 report(
                     before + batch * settings.episodes,
@@ -188,7 +189,7 @@ def q_learning_lab(
             ],
             "open": list(open_groups),
             "first": settings.for_page(),
-            "usual": QLearningSettings().for_page(),
+            "usual": QLearningSettings(direction=settings.direction).for_page(),
             "thesis": thesis_settings(settings).for_page(),
             "presets": [
                 {

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from robonav.experiments.chapter4.ablations import EVADING, RawNumbers
 from robonav.nnql import NavigationTask, double_dqn_targets, reward_row
 from robonav.nnql.reward import REWARDS
-from robonav.robot import NNQL_SENSORS, TARGET_ENCODINGS, Encoder, Sensing
+from robonav.robot import NNQL_SENSORS, TARGET_ENCODINGS, Encoder, Reflex, Sensing
 from robonav.robot.environment_settings import Reward
 from robonav.validation import (
     check_array,
@@ -44,6 +44,8 @@ class QLearningSettings:
         Whether staying away is rewarded only if the nearest thing is farther away than before.
     obstacles, moving, speed, max_steps
         See :class:`robonav.nnql.NavigationTask`.
+    direction : {"sector", "exact"}
+        What the robot's reflex knows of the direction of its target, see :class:`robonav.robot.Reflex`.
     inputs : {"number", "signed", "one-hot", "sine-cosine", "raw"}
         How the target's sector is encoded, or raw numbers.
     hidden : int
@@ -66,6 +68,7 @@ class QLearningSettings:
     moving: int = 0
     speed: float = 2.5
     max_steps: int = 400
+    direction: str = Reflex().direction
     inputs: str = "number"
     hidden: int = 8
     episodes: int = 300
@@ -82,6 +85,7 @@ class QLearningSettings:
         check_one_of("method", self.method, METHODS)
         check_one_of("inputs", self.inputs, INPUTS)
         check_one_of("rescale", self.rescale, ("shift", "clip"))
+        Reflex(self.direction)  # which checks it
         check_array("rewards", self.rewards, shape=(len(REWARDS),))
         for name in ("hidden", "episodes", "max_steps", "passes"):
             check_integer(name, getattr(self, name), at_least=1)
@@ -123,6 +127,7 @@ class QLearningSettings:
             self.max_steps,
             encoder=self.encoder(),
             reward=self.reward(),
+            reflex=Reflex(self.direction),
         )
 
     def hyperparameters(self) -> dict[str, Any]:

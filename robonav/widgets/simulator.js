@@ -20,7 +20,7 @@ export const ROBOT = {
   backward: 5,
   toTarget: 6,
   toSector: 7,
-  direction: "exact", // what the reflex knows of the direction of the target, unless something else is said
+  direction: "sector", // what the reflex knows of the direction of the target, unless something else is said
   dangerBorders: [3, 7, 11, 15, 20, 25, 30].map((border) => (border * 10) / 30),
 };
 const [DRIFTING, SENSING, SLIPPING, CHOOSING, ITEMS, TURN_PROBABILITY] = [2, 3, 4, 5, 1024, 0.1];

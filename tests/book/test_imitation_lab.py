@@ -308,7 +308,7 @@ def test_a_robot_is_trained_on_from_a_file_of_python_and_numbered_on(
     begin = setting(lab, "begin with").and_(lab.locator("select"))
     expect(begin).to_be_disabled()
     encoder = Encoder(target="signed")
-    drives = demonstrate(random_worlds(30, 10, seed=7)).select_trajectories(range(25))
+    drives = demonstrate(random_worlds(30, 10, seed=9)).select_trajectories(range(25))
     x, y = labelled_states(drives, encoder)
     settings = {"regularisation": 0.1, "iterations": 3}
     first = lbfgs(random_network((encoder.size, 4, 5), seed=5), x, y, **settings)

@@ -23,7 +23,7 @@ from robonav.networks import (
 )
 from robonav.nnql import STARTS, TARGETS, NavigationTask, nnql
 from robonav.robot import Encoder, navigate, random_worlds
-from robonav.widgets.q_learning_faults import FAULTS
+from robonav.widgets.q_learning_faults import FAULTS, OF_THE_TABLES
 from robonav.widgets.q_learning_lab import MAPS_SEED, q_learning_lab
 from robonav.widgets.q_learning_settings import QLearningSettings
 
@@ -212,7 +212,9 @@ def test_train_is_pressed_while_a_number_is_typed(view):
 
 
 def test_a_fault_is_watched_and_cured(view):
-    lab = mounted_alone(view, q_learning_lab(presets=[PAYS_FOR_SAFETY]))
+    lab = mounted_alone(
+        view, q_learning_lab(settings=OF_THE_TABLES, presets=[PAYS_FOR_SAFETY])
+    )
     expect(lab.get_by_text(PAYS_FOR_SAFETY.watch)).to_be_visible()
     group(lab, "Reward")
     paid = lab.get_by_label("reward for any to safe")

@@ -171,7 +171,7 @@ COLOURS = """(map) => {
 
 
 def test_map_shows_the_reward_of_the_chosen_action(lab):
-    set_number(lab, "iterations", 3)
+    set_number(lab, "iterations", 2)
     lab.get_by_role("button", name="Learn the reward").click()
     said = lab.locator(".status").nth(1)
     expect(said).to_contain_text("straight on in", timeout=SLOW)

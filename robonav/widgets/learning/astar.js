@@ -25,6 +25,15 @@ function exactHypot(a, b) {
   return root + (sum - square + rest - squareRest) / (2 * root);
 }
 
+/** Cosine and sine, rounded right, as C nearly always does and `Math.cos` often does not: Taylor's series in whole numbers of 2 ** -100. */
+function exactCosineAndSine(angle) {
+  const one = 1n << 100n;
+  const x = BigInt(Math.trunc(angle * 2 ** 100));
+  const sums = [0n, 0n, 0n, 0n]; // of the terms x^n / n!, by the remainder of n over 4
+  for (let [n, term] = [0n, one]; term !== 0n; n += 1n, term = (term * x) / (n * one)) sums[n % 4n] += term;
+  return [sums[0] - sums[2], sums[1] - sums[3]].map((sum) => Number(sum) / 2 ** 100);
+}
+
 /** A heap of [F, H, node], the least first. */
 function makeHeap() {
   const items = [];
@@ -99,7 +108,7 @@ function searchMoves(world, pose, { move, margin, caution = 0, cell, limit = 200
   const parents = new Int32Array(xs.length).fill(-1);
   const closed = new Uint8Array(xs.length);
   const headings = Array.from({ length: TURN_COUNT }, (_, turns) => pose.heading + 30 * turns * (Math.PI / 180));
-  const ways = headings.map((heading) => [move * Math.cos(heading), move * Math.sin(heading)]);
+  const ways = headings.map((heading) => exactCosineAndSine(heading).map((part) => move * part));
   const farEnough = margin + move + cell;
   const most = caution > 0 ? ROBOT.range : farEnough;
   const clear = new Float64Array(cells * cells).fill(-1);

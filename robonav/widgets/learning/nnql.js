@@ -190,7 +190,7 @@ export function* neuralQLearning(settings, { watch = () => {}, start = null } = 
     while (outcome === "running" && step < maxSteps) { // 8
       const q = learner.values(state); // 9
       let action = sampleAction(softmaxPolicy(q, temperature), rng.random()); // 10
-      const own = reflex(sensing, speed);
+      const own = reflex(sensing, speed, settings.direction);
       if (own >= 0) action = own;
       ({ world, pose, outcome } = advance(world, pose, step, action, speed)); // 11
       const reached = sense(world, pose);

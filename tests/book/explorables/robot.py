@@ -133,7 +133,13 @@ def pocket(shown: Shown) -> None:
     arms = [(60 - depth / 2, 50 + side, depth, 2, 0) for side in sides if depth > 0]
     walls = [(60, 50, 2, width + 4, 0), *arms]
     world = make_world(rectangles=walls, start=(20, 50), target=(90, 50))
-    result = navigate(turn_to_clearer_side, world, max_steps=300, record_paths=True)
+    result = navigate(
+        turn_to_clearer_side,
+        world,
+        max_steps=300,
+        record_paths=True,
+        reflex=Reflex("exact"),
+    )
     shown.says(ending(result, 300, "it is still going to and fro."))
     colour = BLUE if result.success[0] else VERMILION
     shown.map(world.size).has_line(colour, result.paths[0][:, :2])

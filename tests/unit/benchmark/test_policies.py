@@ -9,7 +9,13 @@ from robonav.benchmark.policies import evaluate, method, methods
 from robonav.cli import app, main
 from robonav.networks import Weights, save_weights
 from robonav.networks.multilayer_perceptron import random_network
-from robonav.robot import Encoder, navigate, random_worlds, turn_to_clearer_side
+from robonav.robot import (
+    Encoder,
+    Reflex,
+    navigate,
+    random_worlds,
+    turn_to_clearer_side,
+)
 
 OWN = "import numpy as np\n\ndef policy(sensing, rng):\n    return np.where(sensing.ranges[:, 0] < 6, 2, 0)\n"
 
@@ -29,6 +35,20 @@ def test_a_drive_is_navigate():
     assert result["success"] == expected.success.mean()
     low, high = result["interval"]
     assert low < result["success"] < high
+
+
+@pytest.mark.parametrize("direction", ["sector", "exact"])
+def test_a_drive_takes_and_names_the_reflex(direction):
+    done = run(
+        "navigate", "--method", "freer-side", "--obstacles", "20", "--seed", "7", "--json", "-",
+        *(["--reflex", direction] if direction == "exact" else []),
+    )  # fmt: skip
+    expected = navigate(
+        turn_to_clearer_side, random_worlds(200, 20, seed=7), reflex=Reflex(direction)
+    )
+    result = json.loads(done.stdout)
+    assert (result["reflex"], result["success"]) == (direction, expected.success.mean())
+    assert f"reflex: {direction}" in done.stderr
 
 
 def test_a_readers_own_code_and_weights(tmp_path):
@@ -123,6 +143,7 @@ def test_the_reproduce_command(tmp_path):
     [
         ["navigate", "--method", "straight", "--speed", "0"],
         ["navigate", "--method", "straight", "--worlds", "0"],
+        ["navigate", "--method", "straight", "--reflex", "north"],
         ["reproduce", "table-9.9"],
         ["reproduce", "baselines", "--json", "/dev/null/y.json"],
         ["navigate", "--method", "straight", "--json", "/dev"],

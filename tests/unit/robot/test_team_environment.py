@@ -106,10 +106,10 @@ def test_who_has_ended_is_no_agent_any_more_and_the_others_go_on():
     assert env.agents == ["robot_1"]
     observations, *_, infos = env.step({"robot_1": 0, "robot_0": 3})
     assert list(observations) == list(infos) == ["robot_1"]
-    simulator.step(np.array([6, 6]))
-    simulator.step(np.array([6]), np.array([1]))
+    simulator.step(np.array([7, 7]))
+    simulator.step(np.array([7]), np.array([1]))
     np.testing.assert_array_equal(infos["robot_1"]["pose"], simulator.poses[1])
-    assert infos["robot_1"]["reflex"] == Action.TO_TARGET
+    assert infos["robot_1"]["reflex"] == Action.TO_SECTOR
 
 
 def test_the_limit_of_steps_truncates():

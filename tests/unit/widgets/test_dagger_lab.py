@@ -128,7 +128,7 @@ def test_the_robot_learns_from_corrections_as_in_python(node):
         if not navigate(straight, random_worlds(1, 10, seed=600_000 + k)).success[0]
     )
     worlds = random_worlds(1, 10, seed=600_000 + number)[np.zeros(len(steps), int)]
-    first = demonstrate(random_worlds(1, 10, seed=7))
+    first = demonstrate(random_worlds(1, 10, seed=9))
     x, y = labelled_states(first)
     x = np.vstack([x, Encoder()(sense(worlds, steps[:, :3]))])
     y = np.vstack([y, one_hot(steps[:, 3].astype(int), 5)])

@@ -40,7 +40,7 @@ def lab() -> ImitationLab:
 
 @pytest.fixture(scope="module")
 def demonstrations():
-    return demonstrate(random_worlds(25, 10, seed=7))
+    return demonstrate(random_worlds(25, 10, seed=9))
 
 
 def test_the_expert_drives_in_the_page_as_in_python(node, lab, demonstrations):

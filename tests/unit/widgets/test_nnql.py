@@ -23,7 +23,7 @@ from robonav.nnql import (
 )
 from robonav.nnql.reward import REWARDS
 from robonav.robot import Sensing, navigate, random_worlds
-from robonav.widgets.q_learning_faults import FAULTS
+from robonav.widgets.q_learning_faults import FAULTS, OF_THE_TABLES
 from robonav.widgets.q_learning_lab import MAPS_SEED
 from robonav.widgets.q_learning_settings import INPUTS, QLearningSettings
 from robonav.widgets.simulator import page_world
@@ -323,10 +323,10 @@ const drive = (settings) => {
     if (episode.outside !== null) outside.push(episode.outside);
     ({ network } = episode);
   }
-  const { speed, maxSteps, obstacles, moving } = settings;
+  const { speed, maxSteps, direction, obstacles, moving } = settings;
   const policy = { network, encoder: page.encoderOf(settings) };
   const ends = page.randomWorlds(100, { seed: data.seed, obstacles, moving, ...page.NNQL_ENDS })
-    .map((world) => page.driveWith(policy, world, { speed, maxSteps }).outcome);
+    .map((world) => page.driveWith(policy, world, { speed, maxSteps, direction }).outcome);
   const count = (list, end) => list.filter((outcome) => outcome === end).length;
   const late = outside.slice(-100);
   return {
@@ -349,7 +349,7 @@ def test_faults_show_where_the_lab_says_and_are_cured(node):
     """Each fault with its seed, and its cure with the same seed in the same maps: 100 that no training has seen."""
     faults = [fault.settings for fault in FAULTS]
     cures = [
-        QLearningSettings(seed=own.seed, obstacles=own.obstacles) for own in faults
+        replace(OF_THE_TABLES, seed=own.seed, obstacles=own.obstacles) for own in faults
     ]
     data = {"settings": [own.for_page() for own in faults + cures], "seed": MAPS_SEED}
     trained = node(FILES, FAULTY, data)
