@@ -10,7 +10,7 @@ from driving import keep_robots
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 
-from robonav.benchmark import SETTINGS, board_worlds
+from robonav.benchmark import EXACT_REFLEX, SETTINGS, board_worlds
 from robonav.benchmark.policies import method
 from robonav.networks import NetworkPolicy, Weights, save_weights
 from robonav.robot import navigate, neighbour_slip
@@ -48,7 +48,14 @@ def expected(policy: NetworkPolicy) -> list[str]:
     for name, setting in SETTINGS.items():
         slip = neighbour_slip(setting.slip) if setting.slip else None
         worlds = board_worlds(name, 0, FEW)
-        found = navigate(policy, worlds, setting.speed, noise=setting.noise, slip=slip)
+        found = navigate(
+            policy,
+            worlds,
+            setting.speed,
+            noise=setting.noise,
+            slip=slip,
+            reflex=EXACT_REFLEX,
+        )
         rates.append(f"{100 * found.success.mean():.0f}")
     return rates
 
