@@ -14,7 +14,7 @@ import re
 import tokenize
 import tomllib
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -161,8 +161,14 @@ def documented(package: Path = PACKAGE) -> list[Documented]:
 
 def definitions(kind: str, package: Path = PACKAGE) -> dict[Number, list[Documented]]:
     """Return the definitions of each number of a kind."""
+    return _defined_by(documented(package), kind)
+
+
+def _defined_by(
+    items: Iterable[Documented], kind: str
+) -> dict[Number, list[Documented]]:
     found: dict[Number, list[Documented]] = defaultdict(list)
-    for item in documented(package):
+    for item in items:
         for number in item.defines(kind):
             found[number].append(item)
     return found
@@ -188,7 +194,8 @@ def symbols() -> dict[Number, str]:
 def faults(package: Path = PACKAGE) -> list[str]:
     """Return one sentence for each fault in the definitions of equations and algorithms."""
     found: list[str] = []
-    equations = definitions("equations", package)
+    items = documented(package)
+    equations = _defined_by(items, "equations")
     for number in EQUATIONS:
         name = f"Eq. ({written(number)})"
         places = equations.pop(number, [])
@@ -207,7 +214,7 @@ def faults(package: Path = PACKAGE) -> list[str]:
         f"Eq. ({written(number)}) is not an equation of the thesis: {_names(places)}"
         for number, places in equations.items()
     ]
-    algorithms = definitions("algorithms", package)
+    algorithms = _defined_by(items, "algorithms")
     for number in ALGORITHMS:
         name = f"Algorithm {written(number)}"
         places = algorithms.pop(number, [])
