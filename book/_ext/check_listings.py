@@ -33,7 +33,7 @@ NODES: dict[type[ast.AST], str] = {
 }
 NAMES = {
     "an input check": re.compile(
-        r"_?(?:check|validat|requir|ensur|verif)\w*|isinstance|issubclass|callable|hasattr|as(?:_\w+|\w*array)"
+        r"_?(?:check|validat|requir|ensur|verif)\w*|isinstance|issubclass|callable|hasattr|valid_\w+|as(?:_\w+|\w*array)"
     ),
     "a warning": re.compile(r"\w*warn\w*"),
 }

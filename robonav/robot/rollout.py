@@ -9,9 +9,11 @@ another policy acts.
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from functools import wraps
+from typing import ParamSpec, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +24,9 @@ from robonav.validation import check_callable, check_generator
 from ._fast import NO_REFLEX, RUNNING
 from .simulator import OUTCOMES, Reflex, Sensing, Simulator, check_actions
 from .worlds import Worlds
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 Policy = Callable[[Sensing, np.random.Generator], ArrayLike]
 """``policy(sensing, rng) -> (N,)`` indices of actions, for any number N of robots."""
@@ -127,6 +132,33 @@ class Transition:
     outcome: NDArray[np.int8]
 
 
+def asks_for_valid_actions(run: Callable[P, R]) -> Callable[P, R]:
+    """Decorate a loop of (simulator, select_actions, ...): it checks each answer of ``select_actions``.
+
+    TypeError or ValueError unless they are whole numbers 0 to 5, one for each robot.
+    """
+    signature = inspect.signature(run)
+
+    @wraps(run)
+    def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+        """Run the loop with a selector that also checks the actions."""
+        call = signature.bind(*args, **kwargs)
+        select_actions = call.arguments["select_actions"]
+
+        def valid(
+            simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
+        ) -> NDArray[np.int64]:
+            """Ask the selector, and check its actions."""
+            actions = select_actions(simulator, sensing, robots)
+            return check_actions(actions, (len(robots),))
+
+        call.arguments["select_actions"] = valid
+        return run(*call.args, **call.kwargs)
+
+    return checked
+
+
+@asks_for_valid_actions
 def run_episodes(
     simulator: Simulator,
     select_actions: ActionSelector,
@@ -167,7 +199,7 @@ def run_episodes(
     >>> seconds[0].robots.tolist(), seconds[-1].robots.tolist()
     ([0, 1, 2], [0])
     """
-    reflex, select_actions = reflex or undecided, valid_actions(select_actions)
+    reflex = reflex or undecided
     robots = np.flatnonzero(simulator.outcome == RUNNING)
     sensing = simulator.sense(robots)
     while len(robots):
@@ -187,18 +219,6 @@ def run_episodes(
             sensing = simulator.sense(robots)
         else:
             sensing = after[~left] if left.any() else after
-
-
-def valid_actions(select_actions: ActionSelector) -> ActionSelector:
-    """Return a selector that also checks the actions: whole numbers 0 to 5, one for each robot."""
-
-    def checked(
-        simulator: Simulator, sensing: Sensing, robots: NDArray[np.int64]
-    ) -> NDArray[np.int64]:
-        """Ask the selector, and check its actions."""
-        return check_actions(select_actions(simulator, sensing, robots), (len(robots),))
-
-    return checked
 
 
 def undecided(sensing: Sensing, speed: float) -> NDArray[np.int64]:
