@@ -80,4 +80,4 @@ def draw_arrivals(axes: Axes, shares: Mapping[str, ArrayLike], *, steps: int) ->
         ylim=(0, 101),
     )
     if len(shares) > 1:
-        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+        axes.figure.legend(loc="outside upper left", ncols=2)
