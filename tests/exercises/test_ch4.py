@@ -371,3 +371,90 @@ def test_cure_changes_little(answer, rng):
             own >= right - 2, f"expected {right} of 100 drives to arrive, got {own}"
         )
         answer.check(changed <= 2, f"expected at most 2 changed rewards, got {changed}")
+
+
+def values_of(weights, inputs):
+    """The outputs of the network for some inputs."""
+    hidden = np.tanh(weights[0][:, 0] + inputs @ weights[0][:, 1:].T)
+    return weights[1][:, 0] + hidden @ weights[1][:, 1:].T
+
+
+class Learner:
+    """A robot whose sensors and motors are wired at random, in signs, too, and the network that chooses its actions."""
+
+    def __init__(self, rng):
+        from robonav.robot import Encoder
+
+        self.rng, self.encoder = rng, Encoder()
+        self.sensors, self.motors = rng.permutation(9), rng.permutation(5)
+        self.signs = rng.choice([-1.0, 1.0], size=12)
+        layers = rng.normal(size=(16, 13)), rng.normal(size=(5, 17))
+        self.weights = [0.3 * layer for layer in layers]
+
+    def inputs(self, sensing):
+        found = self.encoder(sensing)
+        return self.signs * np.hstack([found[:, self.sensors], found[:, 9:]])
+
+    def drive(self, sensing, rng):
+        """The policy after the last round."""
+        best = values_of(self.weights, self.inputs(sensing)).argmax(axis=1)
+        return self.motors[best]
+
+    def practised(self, worlds, chance):
+        """States, actions, next states and ends of the steps in which the network was asked."""
+        from robonav.robot import Outcome, Simulator, run_episodes
+
+        simulator, n = Simulator(worlds, max_steps=150), len(worlds)
+        states, actions = np.zeros((n, 12)), np.zeros(n, dtype=np.int64)
+        asked, steps = np.zeros(n, dtype=bool), []
+
+        def select_actions(simulator, sensing, robots):
+            now = self.inputs(sensing)
+            best = values_of(self.weights, now).argmax(axis=1)
+            at_random = self.rng.random(len(now)) < chance
+            chosen = np.where(at_random, self.rng.integers(5, size=len(now)), best)
+            again = asked[robots]
+            before = robots[again]
+            going_on = np.zeros(len(before), dtype=np.int64)
+            steps.append((states[before], actions[before], now[again], going_on))
+            states[robots], actions[robots], asked[robots] = now, chosen, True
+            return self.motors[chosen]
+
+        for _ in run_episodes(simulator, select_actions):
+            pass
+        arrived = simulator.outcome == Outcome.ARRIVED
+        ends = np.where(arrived, 1, -1)[asked]
+        steps.append((states[asked], actions[asked], np.zeros((len(ends), 12)), ends))
+        return [np.concatenate(column) for column in zip(*steps, strict=True)]
+
+
+def learned(answer, rng, obstacles):
+    """Let a robot practise in five rounds, and count its arrivals in 100 new worlds."""
+    from robonav.robot import navigate, random_worlds
+
+    robot, steps = Learner(rng), None
+    for number in range(5):
+        chance = max(0.1, 1 - number / 3)
+        new = robot.practised(random_worlds(60, obstacles, seed=rng), chance)
+        old = steps or [column[:0] for column in new]
+        steps = [np.concatenate(pair) for pair in zip(old, new, strict=True)]
+        states, actions, next_states, ends = steps
+        given = robot.weights
+        got = answer.ask(given, states, actions, next_states, ends, 4 - number)
+        layers = got if isinstance(got, list | tuple) else []
+        weights = [as_numbers(layer) for layer in layers]
+        fits = [w is not None and w.shape for w in weights] == [(16, 13), (5, 17)]
+        answer.check(
+            fits and all(np.isfinite(w.astype(float)).all() for w in weights),
+            "the answer must be the layers (16, 13) and (5, 17), finite numbers",
+        )
+        robot.weights = [w.astype(float) for w in weights]
+    worlds = random_worlds(100, obstacles, seed=rng)
+    return int(navigate(robot.drive, worlds, max_steps=150).success.sum())
+
+
+@pytest.mark.part("4.9", points=10)
+def test_practise_and_drive(answer, rng):
+    """Arrives in two of three worlds with two robots that are wired otherwise; going straight, in two of five."""
+    arrived = learned(answer, rng, 10) + learned(answer, rng, 10)
+    answer.check(arrived >= 132, f"expected 132 arrivals in 200 worlds, got {arrived}")

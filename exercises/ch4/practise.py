@@ -1,0 +1,58 @@
+# Exercise 4.9: Learn to drive by trial and error.
+# 10 points, open task, about 90 minutes.
+# Your marks come from new random cases, which are drawn again whenever your submission
+# changes. Of 30 draws of the cases, two right answers passed all parts in 30 and 29. A
+# call may take 5 s and all calls 30 s; theirs took at most 0.4 s and 2.1 s.
+# Check it with: robonav check 4.9
+r"""An open task: let a robot learn by trial and error. The check makes a small network
+with random weights, whose five outputs are to become the values $Q(s, a)$ of five
+actions. Then robots practise in five rounds, each in 60 new worlds with ten obstacles.
+Where nothing is near, a robot turns to its target and goes. Elsewhere it takes a random
+action, always in the first round and in every tenth step in the last, or else the
+action of the largest output. After each round your function gets the weights and all
+steps so far, and returns better weights. Nobody gives a reward: a step only says how
+the episode went on. So you choose the reward, the discount, the target of a step, and
+how the network is trained: Q-learning, fitted Q iteration, NNQL, or what you like.
+
+Nobody knows in which order the sensors and the motors of a robot are wired, and which
+of its inputs have the opposite sign, so that weights found for one robot are of no use
+to the next. After the last round the robot drives through 100 new worlds, always with
+the action of the largest output. The check lets two robots learn one after the other
+and counts the arrivals of both. A robot that has not arrived after 150 s has failed,
+and one that goes in circles never arrives. A call may take five seconds.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def practise(
+    weights: list[NDArray[np.float64]],
+    states: NDArray[np.float64],
+    actions: NDArray[np.int64],
+    next_states: NDArray[np.float64],
+    ends: NDArray[np.int64],
+    rounds_left: int,
+) -> list[NDArray[np.float64]]:
+    """Weights of the network after a round.
+
+    Parameters
+    ----------
+    weights : the layers (16, 13) and (5, 17) of the network that drove in this round,
+        with the bias in column 0. The hidden units are hyperbolic tangents, the outputs
+        are linear.
+    states, next_states : (M, 12), what the network was asked in all steps so far, and
+        what it was asked next in the episode, zeros if it was not: nine degrees of
+        danger over 7, in the order in which the sensors are wired, cosine and sine of
+        the direction of the target's sector, and whether the target is in range. Some
+        of these twelve are negated, always the same.
+    actions : (M,), the action that was taken, 0 to 4, as the motors are wired.
+    ends : (M,), 1 if the robot arrived before the network was asked again, -1 if it
+        collided or the time was over, else 0.
+    rounds_left : rounds still to come, from 4 to 0; then the weights count.
+
+    Returns
+    -------
+    The layers (16, 13) and (5, 17) of the network after the training.
+    """
+    raise NotImplementedError("practise is yours to write")
