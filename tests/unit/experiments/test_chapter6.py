@@ -190,3 +190,23 @@ def test_what_the_page_says_about_the_leaderboard():
         chapter4 = [success[name, setting] for name in METHODS]
         assert min(chapter4) < success["ppo", setting] < max(chapter4)
         assert success["ppo", setting] < success["dagger", setting]
+
+
+def remembered(metric, network, k):
+    results = published("memory")
+    case = {"network": network, "k": k, "reflex": "none"}
+    return results.summary(metric, list(results.experiment.cases).index(case))
+
+
+def test_only_a_memory_that_is_long_enough_holds_the_niche():
+    assert abs(remembered("niche read", "window", 1).mean - 50) < 5
+    assert remembered("niche read", "window", 20).low > 95
+    assert remembered("niche read", "gru", 0).low > 95
+
+
+def test_a_window_of_20_steps_arrives_more_often_in_time_than_none():
+    assert (
+        remembered("success", "window", 20).mean
+        > remembered("success", "window", 1).mean + 15
+    )
+    assert remembered("success in 300 s", "window", 1).low > 90

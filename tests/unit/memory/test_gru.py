@@ -107,3 +107,18 @@ def test_equal_seeds_give_equal_weights():
     assert torch.equal(one.W, same.W)
     assert not torch.equal(one.W, other.W)
     assert one.U.abs().max() <= 0.5
+
+
+def test_the_reset_gate_multiplies_the_state_before_the_matrix():
+    """As in the paper; torch multiplies afterwards, which differs if the matrix is not diagonal."""
+    gru = GRU(1, 2, seed=0)
+    with torch.no_grad():
+        gru.W.zero_()
+        gru.U.zero_()
+        gru.b.zero_()
+        gru.b[0] = torch.tensor([100.0, -100.0])  # r is 1 and 0
+        gru.b[1] = -100.0  # z is 0
+        gru.U[2] = torch.tensor([[0.0, 2.0], [3.0, 0.0]])
+    h = torch.tensor([[0.5, 0.7]]).double()
+    after = gru.step(torch.zeros(1, 1).double(), h)[0].tolist()
+    assert after == pytest.approx([0.0, np.tanh(2.0 * 0.5)], abs=1e-12)
