@@ -47,6 +47,7 @@ DISPLAY_NAMES: dict[str, str] = {
     "zero-reward": "zero reward",
     "random-reward": "random reward",
     "ppo": "PPO",
+    "gail": "GAIL",
     "potential-field": "potential field",
     "vfh": "VFH",
     "dynamic-window": "dynamic window",

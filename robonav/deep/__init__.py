@@ -2,6 +2,7 @@
 
 from .adversarial_training import GAILResult, train_gail
 from .gail import (
+    best_discriminator,
     constant_reward,
     deceiving_reward,
     discriminator_loss,
@@ -28,6 +29,7 @@ __all__ = [
     "PPOResult",
     "actor_critic",
     "advantages",
+    "best_discriminator",
     "clipped_surrogate",
     "constant_reward",
     "deceiving_reward",

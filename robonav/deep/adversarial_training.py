@@ -21,6 +21,8 @@ from ._arguments import RULES, check_batches
 from ._fast import Actors, StackedModule, by_seed
 from .gail import (
     Reward,
+    adam,
+    ascend,
     deceiving_reward,
     discriminator_loss,
     first_discriminator,
@@ -66,7 +68,7 @@ class GAILResult(PPOResult):
 
 @one_thread()
 def train_gail(
-    demonstrations: Demonstrations,
+    demonstrations: Demonstrations | Sequence[Demonstrations],
     seeds: int | Sequence[int] = 16,
     updates: int = 50,
     *,
@@ -81,8 +83,8 @@ def train_gail(
 
     Parameters
     ----------
-    demonstrations : Demonstrations
-        Of the expert. Steps in which a reflex acted are left out.
+    demonstrations : Demonstrations or sequence of Demonstrations
+        Of the expert: the same for all seeds, or one set for each seed. Steps in which a reflex acted are left out.
     seeds : int or sequence of int
         A number S for the seeds 0 to S - 1, or the seeds themselves.
     updates : int
@@ -122,7 +124,6 @@ def train_gail(
     seeds = check_seeds(seeds)
     task = navigation_task() if task is None else task
     check_instance("task", task, NavigationTask)
-    check_instance("demonstrations", demonstrations, Demonstrations)
     check_callable("reward", reward, "reward(logits)")
     checked = {"updates": updates, "actors": actors, "hidden": hidden}
     updates, actors, hidden = (
@@ -131,7 +132,7 @@ def train_gail(
     )
     options = ppo_settings(settings)
     check_batches(options["batches"], actors * options["steps"])
-    expert = expert_pairs(demonstrations, task)
+    experts = [expert_pairs(own, task) for own in one_each(demonstrations, len(seeds))]
     size = task.encoder.size
     started = [random_actor_critic(size, hidden, ACTIONS, seed) for seed in seeds]
     policy = StackedModule(stacked([one.policy for one in started]))
@@ -140,19 +141,14 @@ def train_gail(
         stacked([first_discriminator(size, ACTIONS, hidden, seed) for seed in seeds])
     )
     robots = Actors(task, seeds, actors)
-    optimiser, judging = (
-        torch.optim.Adam(parameters, lr=options["gradient_step"])
-        for parameters in (
-            [*policy.parameters(), *value.parameters()],
-            judge.parameters(),
-        )
-    )
+    step = options["gradient_step"]
+    optimiser, judging = adam(step, policy, value), adam(step, judge)
     ended, arrived = np.zeros((2, len(seeds), updates), np.int64)
     for update in range(updates):
         rollout = robots.act(policy, options["steps"])
         ended[:, update], arrived[:, update] = robots.ended, robots.arrived
         rngs = [make_rng(seed, REPLAYING, update) for seed in seeds]
-        discriminate(judge, judging, rollout, expert, rngs, options)
+        discriminate_all(judge, judging, rollout, experts, rngs, options)
         rollout = rewarded(rollout, judge, reward)
         learn(policy, value, optimiser, rollout, rngs, options)
         if progress is not None:
@@ -164,6 +160,22 @@ def train_gail(
     )  # fmt: skip
 
 
+def one_each(
+    demonstrations: Demonstrations | Sequence[Demonstrations], seeds: int
+) -> Sequence[Demonstrations]:
+    """Return the demonstrations of each seed."""
+    if not isinstance(demonstrations, Sequence):
+        check_instance("demonstrations", demonstrations, Demonstrations)
+        return [demonstrations] * seeds
+    if len(demonstrations) != seeds:
+        raise ValueError(
+            f"demonstrations must be one set or one for each of {seeds} seeds, got {len(demonstrations)}"
+        )
+    return [
+        check_instance("demonstrations", own, Demonstrations) for own in demonstrations
+    ]
+
+
 def expert_pairs(demonstrations: Demonstrations, task: NavigationTask) -> torch.Tensor:
     """What the discriminator reads of the expert's decisions."""
     chosen = demonstrations[demonstrations.actions < ACTIONS]
@@ -172,11 +184,11 @@ def expert_pairs(demonstrations: Demonstrations, task: NavigationTask) -> torch.
     return pairs(task.encoder(chosen.sensing), chosen.actions, ACTIONS)
 
 
-def discriminate(
+def discriminate_all(
     judge: StackedModule,
     judging: torch.optim.Optimizer,
     rollout: Rollout,
-    expert: torch.Tensor,
+    experts: Sequence[torch.Tensor],
     rngs: Sequence[np.random.Generator],
     options: dict[str, Any],
 ) -> None:
@@ -188,18 +200,16 @@ def discriminate(
         minibatch_pairs(
             own.shape[1], len(expert), options["epochs"], options["batches"], rng
         )
-        for rng in rngs
+        for expert, rng in zip(experts, rngs, strict=True)
     ]
     for each in zip(*orders, strict=True):
-        chosen, drawn = (np.stack(rows) for rows in zip(*each, strict=True))
-        loss = discriminator_loss(
-            judge(own[seeds, chosen])[..., 0],
-            judge(expert[drawn])[..., 0],
-            decided[seeds, chosen],
+        chosen = np.stack([rows for rows, _ in each])
+        drawn = [expert[rows] for expert, (_, rows) in zip(experts, each, strict=True)]
+        of_learner = judge(own[seeds, chosen])[..., 0]
+        of_expert = judge(torch.stack(drawn))[..., 0]
+        ascend(
+            judging, -discriminator_loss(of_learner, of_expert, decided[seeds, chosen])
         )
-        judging.zero_grad()
-        loss.sum().backward()  # the seeds share no parameter
-        judging.step()
 
 
 def rewarded(rollout: Rollout, judge: StackedModule, reward: Reward) -> Rollout:

@@ -177,10 +177,8 @@ def gail(
     """
     policy, value = as_module(networks.policy), as_module(networks.value)
     judge = as_module(discriminator)
-    optimiser = torch.optim.Adam(
-        [*policy.parameters(), *value.parameters()], lr=gradient_step
-    )
-    judging = torch.optim.Adam(judge.parameters(), lr=gradient_step)
+    optimiser, judging = adam(gradient_step, policy, value), adam(gradient_step, judge)
+    weights = clip, value_weight, entropy_weight
     n_actions = networks.policy.sizes[-1]
     expert = pairs(states, actions, n_actions)
     actors = [Actor(env, seed, number) for number, env in enumerate(envs)]
@@ -188,25 +186,41 @@ def gail(
         rollouts = [actor.act(policy, steps) for actor in actors]  # 3
         rng = make_rng(seed, REPLAYING, update)
         own, decided = own_pairs(rollouts, n_actions)
-        for rows, drawn in minibatch_pairs(
-            len(own), len(expert), epochs, batches, rng
-        ):  # 4
-            loss = discriminator_loss(
-                judge(own[rows])[..., 0], judge(expert[drawn])[..., 0], decided[rows]
-            )
-            judging.zero_grad()
-            loss.backward()
-            judging.step()
+        discriminate(judge, judging, own, decided, expert, epochs, batches, rng)  # 4
         rollouts = [rewarded(one, judge, reward, n_actions) for one in rollouts]
         batch = batch_of(rollouts, policy, value, discount, trace_decay)
         for rows in minibatches(len(batch), epochs, batches, rng):  # 5, by PPO
-            gain = objective(
-                policy, value, batch[rows], clip, value_weight, entropy_weight
-            )
-            optimiser.zero_grad()
-            (-gain).backward()
-            optimiser.step()
+            ascend(optimiser, objective(policy, value, batch[rows], *weights))
     return ActorCritic(as_network(policy), as_network(value))
+
+
+def discriminate(
+    judge: torch.nn.Module,
+    judging: torch.optim.Optimizer,
+    own: torch.Tensor,
+    decided: torch.Tensor,
+    expert: torch.Tensor,
+    epochs: int,
+    batches: int,
+    rng: np.random.Generator,
+) -> None:
+    """Improve the discriminator in some epochs of minibatches."""
+    for rows, drawn in minibatch_pairs(len(own), len(expert), epochs, batches, rng):
+        of_learner, of_expert = judge(own[rows])[..., 0], judge(expert[drawn])[..., 0]
+        ascend(judging, -discriminator_loss(of_learner, of_expert, decided[rows]))
+
+
+def adam(step: float, *modules: torch.nn.Module) -> torch.optim.Optimizer:
+    """Return Adam for the parameters of some networks."""
+    parameters = [part for module in modules for part in module.parameters()]
+    return torch.optim.Adam(parameters, lr=step)
+
+
+def ascend(optimiser: torch.optim.Optimizer, gain: torch.Tensor) -> None:
+    """Make one step of gradient ascent. The sum is over seeds, which share no parameter."""
+    optimiser.zero_grad()
+    (-gain.sum()).backward()
+    optimiser.step()
 
 
 def discriminator_loss(
@@ -237,6 +251,29 @@ def discriminator_loss(
     counted = decided.sum(dim=-1).clamp(min=1)
     of_learner = (decided * softplus(-learners)).sum(dim=-1) / counted  # -log D
     return of_learner + softplus(experts).mean(dim=-1)  # -log(1 - D)
+
+
+def best_discriminator(learner: ArrayArgument, expert: ArrayArgument) -> Any:
+    """The D of each pair that makes :func:`discriminator_loss` as small as it can be.
+
+    Parameters
+    ----------
+    learner, expert : (...) array
+        p and q: how often each of both makes a pair, not both 0.
+
+    Returns
+    -------
+    (...) array
+        p / (p + q): 1/2 where both make a pair equally often.
+
+    Examples
+    --------
+    >>> from robonav.deep import best_discriminator
+    >>> best_discriminator([0.6, 0.3], [0.2, 0.3])
+    array([0.75, 0.5 ])
+    """
+    p, q = np.asarray(learner), np.asarray(expert)
+    return p / (p + q)
 
 
 def pairs(states: Any, actions: Any, n_actions: int) -> torch.Tensor:

@@ -23,6 +23,7 @@ MODULES = (
     "chapter6.tuning",
     "chapter6.ppo",
     "chapter6.memory",
+    "chapter6.gail",
     "single_runs",
     "leaderboard",
     "labs",

@@ -1,5 +1,6 @@
 """Drills of chapter 6. Importing a file registers its drills."""
 
+from . import adversarial_imitation as adversarial_imitation
 from . import conclusions as conclusions
 from . import deep_reinforcement_learning as deep_reinforcement_learning
 from . import planners as planners

@@ -7,6 +7,7 @@ import torch
 
 from robonav.deep import (
     actor_critic,
+    best_discriminator,
     constant_reward,
     deceiving_reward,
     discriminator_loss,
@@ -90,7 +91,7 @@ def test_the_best_discriminator_is_the_share_of_the_learner():
 
     optimiser.step(closure)
     found = sigmoid(logits.detach().numpy())
-    np.testing.assert_allclose(found, p / (p + q), atol=1e-6)
+    np.testing.assert_allclose(found, best_discriminator(p, q), atol=1e-6)
 
 
 def test_rewards():
@@ -157,7 +158,8 @@ def test_twin_equal_to_readable_function(shown, reward):
     chosen = shown[shown.actions < ACTIONS]
     states = task.encoder(chosen.sensing)
     readable = gail(envs, start, judge, states, chosen.actions, seed=7, **settings)
-    twin = train_gail(shown, [3, 7], task=task, actors=3, hidden=(9, 6), **settings)
+    others = shown.select_trajectories([0, 1])
+    twin = train_gail([others, shown], [3, 7], task=task, actors=3, hidden=(9, 6), **settings)  # fmt: skip
     assert twin.ended[1].sum() > 3
     for one, several in ((readable.policy, twin.policy), (readable.value, twin.value)):
         parts = zip(
@@ -222,3 +224,5 @@ def test_demonstrations_without_decisions_are_refused(shown):
         train_gail(reflexes, 1, 1)
     with pytest.raises(TypeError, match="demonstrations must be Demonstrations"):
         train_gail(3, 1, 1)
+    with pytest.raises(ValueError, match="one for each of 2 seeds, got 3"):
+        train_gail([shown] * 3, 2, 1)

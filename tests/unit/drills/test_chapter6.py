@@ -154,3 +154,36 @@ def test_data_of_a_training_by_counting() -> None:
         of_actors = sum(steps for _ in range(updates) for _ in range(actors))
         of_adam = len([0 for _ in range(updates * epochs) for _ in range(batches)])
         assert question.asked.answer[0] == [of_actors, of_adam]
+
+
+def test_best_judge_by_the_least_cost_of_a_grid() -> None:
+    for question in drawn("best-judge"):
+        _, learner, _, expert = numbers(question.text.replace("$", " "))
+        grid = [k / 1000 for k in range(1, 1000)]
+        cost = [-learner * math.log(d) - expert * math.log(1 - d) for d in grid]
+        best = grid[cost.index(min(cost))]
+        assert question.asked.answer == pytest.approx(best, abs=6e-4)
+
+
+def test_rewards_of_a_pair_by_logarithms() -> None:
+    for question in drawn("rewards-of-a-pair"):
+        (d,) = numbers(question.text.replace("$", " "))
+        first, second, third = question.asked.answer[0]
+        assert math.exp(-first) == pytest.approx(d)
+        assert math.exp(second) == pytest.approx(1 - d)
+        assert third == pytest.approx(first + second)
+
+
+def test_cost_of_the_judge_by_the_product_of_probabilities() -> None:
+    for question in drawn("cost-of-the-judge"):
+        own, expert = numbers(question.text.replace("$", " "))
+        assert math.exp(-question.asked.answer) == pytest.approx(own * (1 - expert))
+
+
+def test_stay_or_end_by_adding_up() -> None:
+    for question in drawn("stay-or-end"):
+        d, *_, short, long = numbers(question.text.replace("$", " "))
+        each = math.log(1 - d) if "log(1 - D)" in question.text else -math.log(d)
+        returns = [sum(each for _ in range(int(n))) for n in (long, short)]
+        longer = returns[0] > returns[1]
+        assert ("longer" in question.asked.right) == longer

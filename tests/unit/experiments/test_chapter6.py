@@ -2,21 +2,23 @@
 
 import functools
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from robonav.benchmark import method
-from robonav.deep import train_ppo
+from robonav.deep import constant_reward, navigation_task, train_gail, train_ppo
 from robonav.experiments import read_results
 from robonav.experiments.chapter4 import tuning as learners
-from robonav.experiments.chapter6 import planners, ppo, tuning
+from robonav.experiments.chapter6 import gail, planners, ppo, tuning
 from robonav.experiments.chapter6.setup import PLANNERS, SETUP, planner, tuned
 from robonav.experiments.ship import SEEDS_6, folder_of, ppo_weights
 from robonav.networks import load_weights
 from robonav.nnql import METHODS
 from robonav.planners import DynamicWindow
+from robonav.robot import Reflex
 
 
 def test_planners_have_as_many_trials_as_the_learners():
@@ -51,8 +53,6 @@ def test_each_trial_makes_a_planner():
 @pytest.mark.slow
 def test_both_stages_and_the_table_by_one_call(tmp_path, monkeypatch):
     """At the quick scale, with two trials of each planner, into other files."""
-    from dataclasses import replace
-
     few = [case for case in tuning.TUNING.cases if case["trial"] < 2]
     monkeypatch.setattr(tuning, "TUNING", replace(tuning.TUNING, cases=few))
     monkeypatch.setattr(tuning, "FINALISTS", tmp_path / "finalists.toml")
@@ -210,3 +210,34 @@ def test_a_window_of_20_steps_arrives_more_often_in_time_than_none():
         > remembered("success", "window", 1).mean + 15
     )
     assert remembered("success in 300 s", "window", 1).low > 90
+
+
+def test_a_run_of_gail_is_trained_as_it_would_alone(monkeypatch):
+    monkeypatch.setattr(gail, "TRAINING", {"updates": 2, "actors": 3})
+    monkeypatch.setattr(gail, "SEEDS", {"quick": 2})
+    monkeypatch.setitem(gail.SETUP.navigations, "quick", 4)
+    monkeypatch.setattr(gail, "trained", gail.trained.__wrapped__)
+    case = {"method": "gail", "reward": "constant 1", "demonstrations": 2}
+    numbers = gail.run(case, 1, "quick")
+    task = navigation_task(obstacles=10, speed=2.0, reflex=Reflex("exact"))
+    alone = train_gail(gail.shown(2, 1), [1], 2, actors=3, task=task, reward=constant_reward)  # fmt: skip
+    policy = replace(alone.policies[0], temperature=ppo.TEMPERATURE)
+    expected = gail.SETUP.evaluate(policy, gail.SETUP.test_worlds(1, "quick"))
+    assert numbers == expected
+
+
+def test_what_the_page_says_about_gail():
+    results = published("gail")
+    mean = {
+        tuple(case.values()): np.mean(results.values("success", k))
+        for k, case in enumerate(results.experiment.cases)
+    }
+    assert mean["gail", "-log D", 10] > 2 * mean["gail", "constant 1", 10]
+    assert mean["gail", "log(1 - D)", 10] < 10
+    odds = results.values("success", 2)
+    assert sorted(odds)[-2] < 20 < max(odds)  # nine of ten runs
+    for number in (1, 3, 10):
+        assert mean["gail", "-log D", number] > mean["lfd", "no reward", number]
+    steps = gail.TRAINING["updates"] * gail.TRAINING["actors"] * 128
+    page = Path("book/adversarial-imitation.md").read_text("utf-8")
+    assert f"{steps:,} steps" in page
