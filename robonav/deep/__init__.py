@@ -20,6 +20,7 @@ from .ppo import (
     objective,
     ppo,
 )
+from .team import TeamTraining, train_team
 from .training import PPOResult, navigation_task, train_ppo
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "Batch",
     "GAILResult",
     "PPOResult",
+    "TeamTraining",
     "actor_critic",
     "advantages",
     "best_discriminator",
@@ -43,4 +45,5 @@ __all__ = [
     "random_discriminator",
     "train_gail",
     "train_ppo",
+    "train_team",
 ]

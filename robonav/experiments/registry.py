@@ -24,6 +24,7 @@ MODULES = (
     "chapter6.ppo",
     "chapter6.memory",
     "chapter6.gail",
+    "chapter6.team",
     "single_runs",
     "leaderboard",
     "labs",

@@ -187,3 +187,34 @@ def test_stay_or_end_by_adding_up() -> None:
         returns = [sum(each for _ in range(int(n))) for n in (long, short)]
         longer = returns[0] > returns[1]
         assert ("longer" in question.asked.right) == longer
+
+
+def test_nearest_moment_by_many_moments() -> None:
+    for question in drawn("nearest-moment"):
+        x0, y0, x1, y1 = numbers(question.text)[:4]
+        moments = np.linspace(0, 1, 100_001)
+        distances = np.hypot(x0 + moments * (x1 - x0), y0 + moments * (y1 - y0))
+        assert question.asked.answer == pytest.approx(distances.min(), abs=1e-6)
+
+
+def test_reading_of_another_robot_by_complex_numbers() -> None:
+    for question in drawn("reading-of-another-robot"):
+        x0, y0, x1, y1 = numbers(question.text)[:4]
+        assert question.asked.answer == pytest.approx(
+            abs(complex(x1 - x0, y1 - y0)) - 1
+        )
+
+
+def test_second_of_the_collision_by_counting_seconds() -> None:
+    for question in drawn("second-of-the-collision"):
+        speed, apart = numbers(question.text)[:2]
+        gaps = apart - 2 * speed * np.arange(60)
+        assert question.asked.answer == np.flatnonzero(gaps < 2)[0]
+
+
+def test_gain_of_learning_together_by_a_hundred_robots() -> None:
+    for question in drawn("gain-of-learning-together"):
+        alone, together = numbers(question.text)[:2]
+        saved = [robot for robot in range(100) if alone <= robot < together]
+        failed = [robot for robot in range(100) if robot >= alone]
+        assert question.asked.answer == pytest.approx(100 * len(saved) / len(failed))

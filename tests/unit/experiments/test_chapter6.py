@@ -241,3 +241,34 @@ def test_what_the_page_says_about_gail():
     steps = gail.TRAINING["updates"] * gail.TRAINING["actors"] * 128
     page = Path("book/adversarial-imitation.md").read_text("utf-8")
     assert f"{steps:,} steps" in page
+
+
+def of_team(metric, name="team", **wanted):
+    results = published(name)
+    place = list(results.experiment.cases).index(wanted)
+    return results.summary(metric, place).mean
+
+
+def test_what_the_page_says_about_several_robots():
+    alone = {
+        name: of_team("success", method=name, robots=1)
+        for name in ("freer-side", "dagger", "nnql", "nirl", "potential-field")
+    }
+    assert min(alone.values()) > 98
+    assert abs(alone["nirl"] - alone["dagger"]) < 0.1
+    for name in alone:
+        rates = [of_team("success", method=name, robots=n) for n in (1, 2, 4, 8, 16)]
+        assert sorted(rates, reverse=True) == rates
+        hit = of_team("collision with a robot", method=name, robots=16)
+        assert hit > of_team("collision with an obstacle", method=name, robots=16)
+
+
+def test_what_the_page_says_about_learning_together():
+    def arrived(learners, robots):
+        case = {"robots in training": learners, "robots": robots}
+        return of_team("success", "team-learning", **case)
+
+    assert arrived(8, 16) > arrived(1, 16) + 10
+    assert arrived(8, 1) > 95
+    assert arrived(1, 1) > 95
+    assert abs(arrived(8, 16) - of_team("success", method="dagger", robots=16)) < 10

@@ -1,0 +1,221 @@
+"""Robots that learn together: PPO whose actors share one map, and one set of weights.
+
+Each robot of a team acts by the same policy and learns from what all of them experience (parameter sharing; Tan 1993,
+Gupta et al. 2017). To a robot the others are moving obstacles that get better while it learns. Its reward is its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from robonav.networks.policy import NetworkPolicy
+from robonav.networks.torch_lbfgs import one_thread
+from robonav.networks.torch_module import as_module, as_network
+from robonav.nnql.task import ACTIONS, EXPLORING, REPLAYING, WORLDS, make_rng
+from robonav.robot import (
+    REFLEX,
+    Encoder,
+    Outcome,
+    Transition,
+    follow_policy,
+    run_episodes,
+)
+from robonav.robot.environment_settings import arrival_or_collision
+from robonav.robot.rollout import ReflexRule
+from robonav.robot.team import TeamSimulator, random_teams
+from robonav.validation import check_integer, check_positive, checks
+
+from ._arguments import RULES
+from .networks import ActorCritic, random_actor_critic
+from .ppo import Rollout, batch_of, minibatches, objective
+
+TEAM_RULES = RULES | {
+    "robots": lambda name, value: check_integer(name, value, at_least=1),
+    "maps": lambda name, value: check_integer(name, value, at_least=1),
+    "obstacles": lambda name, value: check_integer(name, value, at_least=0),
+    "max_steps": lambda name, value: check_integer(name, value, at_least=1),
+    "speed": check_positive,
+}
+
+
+@dataclass(frozen=True, eq=False)
+class TeamTraining:
+    """A policy that several robots learned together, and how its training went, over U updates.
+
+    Attributes
+    ----------
+    networks : ActorCritic
+        The trained networks.
+    encoder : Encoder
+        Turns what is sensed into the networks' inputs.
+    arrived, met : (U,) arrays
+        The share of the robots that arrived, and that collided with another robot, while they acted for an update.
+    steps : (U,) int array
+        How many steps all robots made for an update.
+
+    Examples
+    --------
+    >>> from robonav.deep import train_team
+    >>> train_team(robots=4, updates=2, maps=2, seed=0).arrived.shape
+    (2,)
+    """
+
+    networks: ActorCritic
+    encoder: Encoder
+    arrived: NDArray[np.float64]
+    met: NDArray[np.float64]
+    steps: NDArray[np.int64]
+
+    @property
+    def policy(self) -> NetworkPolicy:
+        """The policy, which draws its actions as it did in training."""
+        return NetworkPolicy(self.networks.policy, self.encoder, temperature=1.0)
+
+
+@checks(TEAM_RULES)
+@one_thread()
+def train_team(
+    robots: int = 8,
+    updates: int = 60,
+    *,
+    maps: int = 8,
+    obstacles: int = 10,
+    speed: float = 2.0,
+    max_steps: int = 300,
+    reflex: ReflexRule | None = REFLEX,
+    hidden: Sequence[int] = (32,),
+    epochs: int = 4,
+    batches: int = 16,
+    clip: float = 0.2,
+    discount: float = 0.99,
+    trace_decay: float = 0.95,
+    gradient_step: float = 0.01,
+    value_weight: float = 0.5,
+    entropy_weight: float = 0.03,
+    seed: int,
+) -> TeamTraining:
+    """Train one policy for all robots by PPO with shared weights.
+
+    Before each update, all robots of some new maps act until their episodes have ended. Each robot is an actor of
+    :func:`robonav.deep.ppo`, and the policy learns from the steps of all. With one robot on each map, nobody meets
+    anybody: the same training alone, to compare with.
+
+    Parameters
+    ----------
+    robots : int
+        R, on each map.
+    updates : int
+        How often the robots act, and the networks learn from it.
+    maps : int
+        N, new ones for each update.
+    obstacles : int
+        Obstacles of a map that stand still.
+    speed : float
+        Of the robots, in m/s.
+    max_steps : int
+        A robot's episode ends as "out of steps" after this many seconds.
+    reflex : callable, optional
+        What a robot does before the policy is asked.
+    hidden : sequence of int
+        Units of each hidden layer.
+    epochs : int
+        How often an update goes through the steps of all robots.
+    batches : int
+        Minibatches into which an epoch divides the steps.
+    clip : float
+        epsilon of Eq. (7) of :func:`robonav.deep.ppo`.
+    discount : float
+        gamma of its Eqs. (11) and (12).
+    trace_decay : float
+        lambda of its Eq. (11).
+    gradient_step : float
+        Step of Adam.
+    value_weight : float
+        c_1 of its Eq. (9), the weight of the error of the value function.
+    entropy_weight : float
+        c_2 of its Eq. (9), the weight of the entropy.
+    seed : int
+        Of the weights, the maps, the actions and the minibatches.
+
+    Returns
+    -------
+    TeamTraining
+        With the networks, the policy, and how the training went.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is out of bounds.
+
+    Examples
+    --------
+    >>> from robonav.deep import train_team
+    >>> train_team(robots=4, updates=1, maps=2, seed=0).policy.network.sizes
+    (12, 32, 5)
+    """
+    encoder = Encoder()
+    start = random_actor_critic(encoder.size, hidden, ACTIONS, seed)
+    policy, value = as_module(start.policy), as_module(start.value)
+    parameters = [*policy.parameters(), *value.parameters()]
+    optimiser = torch.optim.Adam(parameters, lr=gradient_step)
+    went = []
+    for update in range(updates):
+        teams = random_teams(maps, robots, obstacles, seed=make_rng(seed, WORLDS, update))  # fmt: skip
+        simulator = TeamSimulator(teams, speed, max_steps=max_steps)
+        acting = NetworkPolicy(as_network(policy), encoder, temperature=1.0)
+        rollouts = act_together(
+            simulator, acting, reflex, make_rng(seed, EXPLORING, update)
+        )
+        batch = batch_of(rollouts, policy, value, discount, trace_decay)
+        rng = make_rng(seed, REPLAYING, update)
+        for rows in minibatches(len(batch), epochs, batches, rng):
+            gain = objective(
+                policy, value, batch[rows], clip, value_weight, entropy_weight
+            )
+            optimiser.zero_grad()
+            (-gain).backward()
+            optimiser.step()
+        arrived = simulator.outcome == Outcome.ARRIVED
+        went.append((arrived.mean(), simulator.met.mean(), simulator.steps.sum()))
+    arrived, met, steps = np.array(went).T
+    learned = ActorCritic(as_network(policy), as_network(value))
+    return TeamTraining(learned, encoder, arrived, met, steps.astype(np.int64))
+
+
+def act_together(
+    simulator: TeamSimulator,
+    policy: NetworkPolicy,
+    reflex: ReflexRule | None,
+    rng: np.random.Generator,
+) -> list[Rollout]:
+    """Let all robots act until their episodes have ended, and return the steps of each."""
+    seconds = list(run_episodes(simulator, follow_policy(policy, rng), reflex=reflex))
+    robots = np.concatenate([second.robots for second in seconds])
+    columns = zip(*(learned_from(second, policy.encoder) for second in seconds), strict=True)  # fmt: skip
+    order = np.argsort(robots, kind="stable")  # robot by robot, each in time
+    cuts = np.cumsum(np.bincount(robots, minlength=len(simulator)))[:-1].tolist()
+    parts = [
+        torch.as_tensor(np.concatenate(column)[order]).tensor_split(cuts)
+        for column in columns
+    ]
+    return [Rollout(*own) for own in zip(*parts, strict=True)]
+
+
+def learned_from(second: Transition, encoder: Encoder) -> tuple[NDArray[Any], ...]:
+    """Return one simulated second in the columns of a :class:`robonav.deep.ppo.Rollout`."""
+    outcome = second.outcome
+    return (
+        encoder(second.sensing),
+        np.where(second.asked, second.actions, 0),
+        arrival_or_collision(second.sensing, second.next_sensing, outcome),
+        encoder(second.next_sensing),
+        (outcome == Outcome.ARRIVED) | (outcome == Outcome.COLLIDED),
+        outcome != Outcome.RUNNING,
+        second.asked,
+    )
