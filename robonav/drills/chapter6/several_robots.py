@@ -61,7 +61,8 @@ def reading_of_another_robot(rng: Rng) -> Question:
     right, up = legs[int(rng.integers(len(legs)))]
     place = (x + right, y + up)
     beyond = (x + 5 * right, y + 5 * up)  # the target: the robot faces the other
-    teams = Teams(make_world(), [[(x, y), place]], [[beyond, (50.0, 50.0)]])
+    starts, targets = [[(x, y), place]], [[beyond, (50.0, 50.0)]]
+    teams = Teams(make_world(), np.array(starts), np.array(targets))
     answer = float(TeamSimulator(teams).sense().ranges[0, 0])
     distance = math.hypot(right, up)
     return Question(
@@ -88,7 +89,8 @@ def reading_of_another_robot(rng: Rng) -> Question:
 def second_of_the_collision(rng: Rng) -> Question:
     """Say in which second two robots collide that go towards each other."""
     speed, apart = int(rng.integers(1, 4)), int(rng.integers(12, 41))
-    teams = Teams(make_world(), [[(20, 50), (20 + apart, 50)]], [[(95, 50), (5, 50)]])
+    starts, targets = [[(20, 50), (20 + apart, 50)]], [[(95, 50), (5, 50)]]
+    teams = Teams(make_world(), np.array(starts), np.array(targets))
     crossed = navigate_team(straight, teams, float(speed), reflex=None)
     answer = int(crossed.steps[0, 0])
     seconds = (apart - 2 * ROBOT_RADIUS) / (2 * speed)
