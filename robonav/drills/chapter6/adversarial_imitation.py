@@ -133,7 +133,6 @@ def stay_or_end(rng: Rng) -> Question:
                     "It says the same of each step. But the two episodes have different numbers of steps."
                 ),
             },
-            order=(LONGER, SHORTER, "Neither: the discriminator says the same of both"),
         ),
         f"Each step earns ${each:.3g}$, so the returns are ${long} \\cdot {_factor(each)} = {long * each:.3g}$ and "
         f"${short} \\cdot {_factor(each)} = {short * each:.3g}$.",

@@ -102,3 +102,54 @@ def clipped_objective() -> dict[str, Any]:
 def advantages_of_an_episode() -> dict[str, Any]:
     """The values of six states, and that of the state in which the robot is when the time is over."""
     return {"values": [0.5, 0.6, 0.4, 0.5, 0.8, 0.7], "after": 0.6}
+
+
+@asks(
+    "Stay or end?",
+    "The discriminator takes every step for the expert's with the probability 0.7, so D is 0.3. "
+    "One episode ends after 10 steps at the target, another one goes on for 40 steps and never arrives. "
+    "Which one has the larger return under the reward −log D?",
+    guesses=[
+        "the one that arrives",
+        "the one that goes on",
+        "neither, as all steps are alike",
+    ],
+    right="the one that goes on",
+    because="−log D is positive for every D, so each further step adds to the return.",
+)
+def return_under_a_judge() -> dict[str, Any]:
+    """The probability D with which it begins."""
+    return {"d": 0.3}
+
+
+@asks(
+    "What is left of the niche?",
+    "A unit stores the side of the niche as a number. "
+    "Then its update gate is 0.9 in every step, and its candidate is 0. "
+    "How much of the number is left after 20 steps?",
+    guesses=["nine tenths", "about an eighth", "nothing"],
+    right="about an eighth",
+    because="Each step keeps nine tenths of what the step before has left: 0.9 to the power of 20 is 0.12.",
+)
+def what_a_memory_keeps() -> dict[str, Any]:
+    """The update gate with which it begins."""
+    return {"z": 0.9}
+
+
+@asks(
+    "How near do two robots come?",
+    "Two robots drive at 2 m/s towards each other. "
+    "The second one is 3.5 m ahead of the first, and 1 m to its left. "
+    "At the end of the second it is 0.5 m behind the first. "
+    "Do they collide, though their centres are 1 m apart in the sideways direction all the time?",
+    guesses=[
+        "no, they pass beside each other",
+        "yes, because their centres come nearer than 2 m",
+        "only if one of them turns",
+    ],
+    right="yes, because their centres come nearer than 2 m",
+    because="Each robot is a disc with a radius of 1 m, and their centres come as near as 1 m.",
+)
+def nearest_moment() -> dict[str, Any]:
+    """Where the second robot is seen from the first, and where it goes."""
+    return {"x": 3.5, "y": 1.0, "heading": 180}

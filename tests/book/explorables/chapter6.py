@@ -5,7 +5,14 @@ from __future__ import annotations
 import numpy as np
 import torch
 
-from robonav.deep import advantages, clipped_surrogate
+from robonav.deep import (
+    advantages,
+    clipped_surrogate,
+    deceiving_reward,
+    hurrying_reward,
+    log_odds,
+)
+from robonav.memory import GRU
 from robonav.planners import (
     PotentialField,
     polar_histogram,
@@ -15,6 +22,7 @@ from robonav.planners import (
 )
 from robonav.planners.vector_field_histogram import DIRECTIONS, FARTHEST
 from robonav.robot import navigate
+from robonav.robot.team.plain import least_distance
 from robonav.style import BLUE, GREEN, OBSTACLE, ORANGE, SKY, VERMILION
 
 from .maps import pose_of, sensed, towards_target, world_of
@@ -141,3 +149,92 @@ def advantages_of_an_episode(shown: Shown) -> None:
     shown.says(f"= {(discount * trace_decay) ** (len(values) - 1):.9f}.")
     for number, (colour, heights) in enumerate(((ORANGE, errors), (BLUE, found))):
         shown.picture(number).has_bars(colour, heights)
+
+
+@expects(
+    slide("D of every step", 0.8),
+    slide("steps of the longer episode", 0.9),
+    by_keyboard=[choose("reward", "log(1 − D)"), slide("D of every step", 0.5)],
+    by_touch=[choose("reward", "log(1 − D) − log D")],
+)
+def return_under_a_judge(shown: Shown) -> None:
+    """The rewards are the package's own, of the logit of D."""
+    rewards = {
+        "−log D": deceiving_reward,
+        "log(1 − D)": hurrying_reward,
+        "log(1 − D) − log D": log_odds,
+    }
+    d, steps = (
+        shown.number("D of every step"),
+        shown.number("steps of the longer episode"),
+    )
+    logit = torch.tensor(d, dtype=torch.float64).logit()
+    reward = rewards[shown.chosen("reward")](logit).item()
+    shown.says(
+        f"Reward of a step: {reward:.9f}.",
+        f"Return of 10 steps: {10 * reward:.9f}.",
+        f"Return of {steps:.0f} steps: {steps * reward:.9f}.",
+        "Both earn the same."
+        if abs(reward) < 1e-9
+        else f"The {'longer' if reward > 0 else 'shorter'} episode earns more.",
+    )
+    chart = shown.picture()
+    chart.has_curve(BLUE, [(0, 0), (60, 60 * reward)])
+    chart.has_dots(VERMILION, [(10, 10 * reward), (steps, steps * reward)])
+
+
+@expects(
+    slide("update gate z", 0.98),
+    slide("window k", 0.6),
+    slide("steps since the niche", 0.5),
+    by_keyboard=[slide("window k", 0.1), slide("steps since the niche", 0.9)],
+)
+def what_a_memory_keeps(shown: Shown) -> None:
+    """A unit of the package with this update gate, and inputs of 0."""
+    z, k = shown.number("update gate z"), int(shown.number("window k"))
+    now = int(shown.number("steps since the niche"))
+    gru = GRU(1, 1, seed=0)
+    with torch.no_grad():
+        for weights in (gru.W, gru.U):
+            weights.zero_()
+        gru.b[1] = torch.tensor([z], dtype=torch.float64).logit()
+        later = gru(torch.zeros(40, 1, 1).double(), torch.ones(1, 1).double())
+    left = [1.0, *later[:, 0, 0].tolist()]
+    shown.says(
+        f"The unit keeps {z:.9f} in each step, and {left[now]:.9f} after {now} steps.",
+        f"The window of {k} "
+        + ("still holds" if now in range(k) else "has lost")
+        + " the step beside the niche.",
+    )
+    chart = shown.picture()
+    chart.has_curve(BLUE, list(enumerate(left)))
+    chart.has_curve(ORANGE, [(0, 1), (k, 1), (k, 0), (40, 0)])
+    chart.has_dots(VERMILION, [(now, left[now])])
+
+
+@expects(
+    slide("ahead of the first robot", 0.3),
+    slide("to its left", 0.8),
+    slide("heading of the second robot", 0.25),
+    by_keyboard=[slide("to its left", 0.5), slide("heading of the second robot", 0.75)],
+)
+def nearest_moment(shown: Shown) -> None:
+    """The least distance is the package's own."""
+    before = np.array(
+        [shown.number("ahead of the first robot"), shown.number("to its left")]
+    )
+    heading = np.radians(shown.number("heading of the second robot"))
+    after = before + 2 * np.array([np.cos(heading), np.sin(heading)]) - [2.0, 0.0]
+    nearest = float(least_distance(before, after))
+    times = np.linspace(0, 1, 41)
+    distances = np.hypot(*(before + times[:, None] * (after - before)).T)
+    # the squared distance is a parabola
+    curved, slope, _ = np.polyfit(times, distances**2, 2)
+    moment = min(max(-slope / (2 * curved), 0.0), 1.0) if curved > 1e-9 else 0.0
+    shown.says(
+        f"At the ends the distance is {distances[0]:.9f} m and {distances[-1]:.9f} m.",
+        f"{nearest:.9f} m. They {'collide' if nearest < 2 else 'pass'}.",
+    )
+    chart = shown.picture()
+    chart.has_curve(BLUE, np.column_stack([times, distances]))
+    chart.has_dots(VERMILION, [(moment, nearest)])
