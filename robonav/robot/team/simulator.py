@@ -214,9 +214,11 @@ class TeamSimulator(Simulator):
         --------
         >>> from robonav.robot.team import TeamSimulator, random_teams
         >>> simulator = TeamSimulator(random_teams(3, robots=4, seed=1))
-        >>> simulator.restart([0], simulator.worlds[0])
-        Traceback (most recent call last):
-        TypeError: restart: robots of a team begin together; make a new TeamSimulator
+        >>> try:
+        ...     simulator.restart([0], simulator.worlds[0])
+        ... except TypeError as error:
+        ...     print(error)
+        restart: robots of a team begin together; make a new TeamSimulator
         """
         raise TypeError(
             "restart: robots of a team begin together; make a new TeamSimulator"
