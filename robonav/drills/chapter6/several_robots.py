@@ -88,14 +88,14 @@ def reading_of_another_robot(rng: Rng) -> Question:
 @drill("several-robots", "In which second do they collide?")
 def second_of_the_collision(rng: Rng) -> Question:
     """Say in which second two robots collide that go towards each other."""
-    speed, apart = int(rng.integers(1, 4)), int(rng.integers(12, 41))
+    speed, apart = float(rng.choice([1, 1.5, 2, 2.5, 3])), int(rng.integers(12, 61))
     starts, targets = [[(20, 50), (20 + apart, 50)]], [[(95, 50), (5, 50)]]
     teams = Teams(make_world(), np.array(starts), np.array(targets))
-    crossed = navigate_team(straight, teams, float(speed), reflex=None)
+    crossed = navigate_team(straight, teams, speed, reflex=None)
     answer = int(crossed.steps[0, 0])
     seconds = (apart - 2 * ROBOT_RADIUS) / (2 * speed)
     return Question(
-        f"Two robots go straight towards each other at ${speed}$ m/s each. Their centres are ${apart}$ m apart. In "
+        f"Two robots go straight towards each other at ${speed:g}$ m/s each. Their centres are ${apart}$ m apart. In "
         "which second do they collide? The first second is number 1.",
         Number(
             answer,
@@ -113,7 +113,7 @@ def second_of_the_collision(rng: Rng) -> Question:
                 ),
             },
         ),
-        f"Every second they come ${2 * speed}$ m nearer. They are 2 m apart after $({apart} - 2) / {2 * speed} = "
+        f"Every second they come ${2 * speed:g}$ m nearer. They are 2 m apart after $({apart} - 2) / {2 * speed:g} = "
         f"{seconds:.3g}$ s, and nearer in second {answer}.",
     )
 
