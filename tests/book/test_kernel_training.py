@@ -19,6 +19,7 @@ from robonav.benchmark.policies import method
 from robonav.lfd import demonstrate
 from robonav.networks import NetworkPolicy, fit, toy_datasets
 from robonav.robot import Sensing, random_worlds
+from robonav.style import BLUE
 from robonav.widgets.boundary_lab import boundary_lab
 from robonav.widgets.dagger_lab import dagger_lab
 from robonav.widgets.explorables import explorable, robot_trainings
@@ -297,6 +298,25 @@ def speed_is_shown(lab: Locator, slowest: Any) -> None:
     expect(picture).to_have_attribute("aria-label", re.compile("Forty episodes"))
 
 
+def rooms_are_shown(lab: Locator, first_run: Any) -> None:
+    lab.get_by_role("slider", name="episodes", exact=True).press("End")
+    assert number_after(lab, "TD(0) with α =") == 0.5
+    dots = lab.locator(".pictures svg").first.locator(f"circle[fill='{BLUE}']")
+    assert dots.count() == 5
+    heights = [float(dot.get_attribute("cy") or "nan") for dot in dots.all()]
+    values = first_run.history[100, 1:6]
+    slopes = np.diff(heights) / np.diff(values)
+    np.testing.assert_allclose(slopes, slopes[0], rtol=1e-6)
+    assert slopes[0] < 0
+
+
+def tilings_are_shown(lab: Locator, learned: Any) -> None:
+    assert learned.features.tilings == 1
+    tilings = lab.get_by_role("slider", name="tilings", exact=True)
+    expect(tilings).to_have_value("0")  # the first of its steps
+    expect(lab.locator(".pictures + .status")).to_contain_text("shares 1 of 1 tile ")
+
+
 def vectors_are_shown(lab: Locator, plan: Any) -> None:
     lab.get_by_role("slider", name="steps to go").first.press("End")
     shown = number_after(lab, "Value")
@@ -373,6 +393,16 @@ EXPLORED: dict[str, tuple[dict[str, str], str, Callable[[Locator, Any], None]]] 
         {"policy": "an optimal one", "reward of a step": "Home", "episodes": "Home"},
         r"The mean return is -[\d.]+, with a standard error of ",
         grid_is_shown,
+    ),
+    "td_step_size": (
+        {"learning rate α of TD(0)": "End", "episodes of each run": "Home"},
+        r"TD\(0\) with α = 0\.50: after 100 episodes the error is [\d.]+, mean of 20 runs\.",
+        rooms_are_shown,
+    ),
+    "shared_tiles": (
+        {"tilings of 8 × 8 tiles": "Home", "episodes": "Home"},
+        r"The first episode takes \d+ steps, and the last 10 take ",
+        tilings_are_shown,
     ),
 }
 """For each explorable: keys for sliders and options of lists, the sentence at the end, and what is shown."""

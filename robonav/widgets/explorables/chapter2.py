@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import gymnasium as gym
@@ -135,6 +135,20 @@ def two_states(discount: float) -> mdp.FiniteMDP:
 
 
 RUNS, EPISODES = 20, 100
+ROOMS = slice(1, 6)
+"""The five rooms among the states; state 0 is the hole, and state 6 the goal."""
+COIN = np.tile([0.5, 0.0, 0.5, 0.0], (7, 1))  # left, down, right, up
+TRUTH = np.arange(1, 6) / 6
+
+
+def five_rooms() -> gym.Env[Any, Any]:
+    """The five rooms in a row, between a hole and the goal."""
+    return gym.make("FrozenLake-v1", desc=["HFFSFFG"], is_slippery=False)
+
+
+def page_walks(walks: Iterable[Iterable[int]]) -> str:
+    """Pack walks for the page, as the numbers of the states passed."""
+    return " ".join("".join(map(str, walk)) for walk in walks)
 
 
 @asks(
@@ -151,17 +165,15 @@ RUNS, EPISODES = 20, 100
     "later the noise of the last walks matters, and a small one averages it out.",
 )
 def td_step_size() -> dict[str, Any]:
-    """Walks through the five rooms, as letters of the rooms passed, and the true values."""
-    rooms = gym.make("FrozenLake-v1", desc=["HFFSFFG"], is_slippery=False)
-    coin = np.tile([0.5, 0.0, 0.5, 0.0], (7, 1))  # left, down, right, up
+    """Walks through the five rooms, the true values, and the learning rate that the page begins with."""
+    rooms = five_rooms()
     walks = [
-        " ".join(
-            "".join(map(str, episode.states))
-            for episode in mdp.rollouts(rooms, coin, EPISODES, seed=seed)
+        page_walks(
+            episode.states for episode in mdp.rollouts(rooms, COIN, EPISODES, seed=seed)
         )
         for seed in range(RUNS)
     ]
-    return {"walks": walks, "truth": (np.arange(1, 6) / 6).tolist(), "prize": 6}
+    return {"walks": walks, "truth": TRUTH.tolist(), "prize": 6, "rate": 0.1}
 
 
 CLIFF = """
@@ -243,9 +255,9 @@ def best_while_exploring(model: mdp.FiniteMDP, epsilon: float) -> NDArray[np.flo
     right="by a half",
     because="Half a metre away, two of the four tiles are still the same.",
 )
-def shared_tiles(length: int = 6, most: int = 8) -> dict[str, Any]:
-    """The length of the line in metres, and the largest number of tilings."""
-    return {"length": length, "most": most}
+def shared_tiles(length: int = 6, most: int = 8, tilings: int = 4) -> dict[str, Any]:
+    """The length of the line in metres, the largest number of tilings, and the number that the page begins with."""
+    return {"length": length, "most": most, "tilings": tilings}
 
 
 @asks(

@@ -12,8 +12,8 @@ export function sharedTiles(place, other, width, grids) {
 const OFF = 0.03; // no place lies on the border of a tile
 
 export default explorable({
-  controls: ({ length, most }) => ({
-    grids: range({ label: "tilings", from: 1, to: most, value: 4 }),
+  controls: ({ length, most, tilings }) => ({
+    grids: range({ label: "tilings", from: 1, to: most, value: tilings }),
     width: segments({ label: "width of a tile", options: [[0.5, "0.5 m"], [1, "1 m"], [1.5, "1.5 m"], [2, "2 m"]], value: 1 }),
     place: range({ label: "place of the update (m)", from: 1, to: length - 3, step: 0.1, value: 2.2, text: (value) => value.toFixed(1) }),
     apart: range({ label: "metres to the other place", from: 0, to: 2, step: 0.1, value: 0, text: (value) => value.toFixed(1) }),

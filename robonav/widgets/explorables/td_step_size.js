@@ -36,8 +36,8 @@ export const errorOf = (values, truth) => Math.sqrt(truth.reduce((sum, value, i)
 const EPISODES = 100;
 
 export default explorable({
-  controls: () => ({
-    alpha: range({ label: "learning rate α", from: 0.01, to: 0.5, step: 0.01, value: 0.1, text: (value) => value.toFixed(2) }),
+  controls: ({ rate }) => ({
+    alpha: range({ label: "learning rate α", from: 0.01, to: 0.5, step: 0.01, value: rate, text: (value) => value.toFixed(2) }),
     episode: range({ label: "episodes", from: 0, to: EPISODES, value: 10 }),
     run: range({ label: "run in the first picture", from: 1, to: 20, value: 1 }),
   }),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 
+import gymnasium as gym
 import numpy as np
 import pytest
 
@@ -23,6 +24,12 @@ QUICK = {
     "steps": 5,
     "hidden": 2,
 }
+FEWER_EPISODES = {
+    "moving_together": {"episodes": 20},
+    "seeds_to_tell_apart": {"episodes": 25},
+    "shared_tiles": {"episodes": 10},
+    "td_step_size": {"episodes": 100},
+}
 
 
 def at_first(name: str) -> dict:
@@ -31,11 +38,7 @@ def at_first(name: str) -> dict:
         key: own.options[0] if isinstance(own, Menu) else own.value
         for key, own in TRAININGS[name].settings.items()
     }
-    less = QUICK | (
-        {"episodes": 25 if name == "seeds_to_tell_apart" else 20}
-        if name in ("moving_together", "seeds_to_tell_apart")
-        else {}
-    )
+    less = QUICK | FEWER_EPISODES.get(name, {})
     return settings | {key: less[key] for key in settings.keys() & less.keys()}
 
 
@@ -213,6 +216,58 @@ def test_a_robot_gets_faster():
     assert page.points("collided") == [100 * r.collision.mean() for r in results]
     assert results[given["speed"] - 1].collision.any()
     assert given["turnAt"] == 4
+
+
+def learned_alone(method: str, seed: int) -> mdp.PredictionResult:
+    """What the package's function learns in the five rooms, in 100 episodes."""
+    rooms = gym.make("FrozenLake-v1", desc=["HFFSFFG"], is_slippery=False)
+    coin = np.tile([0.5, 0.0, 0.5, 0.0], (7, 1))
+    options = {"discount": 1.0, "record": True, "seed": seed}
+    if method == "TD(0)":
+        return mdp.td_prediction(
+            rooms, coin, 100, learning_rate=0.15, initial=0.5, **options
+        )
+    visit = "first" if "first" in method else "every"
+    return mdp.monte_carlo_prediction(rooms, coin, 100, visit=visit, **options)
+
+
+@pytest.mark.parametrize("method", TRAININGS["td_step_size"].settings["method"].options)
+def test_values_of_the_rooms_are_those_of_the_package(method):
+    page = Page("td_step_size")
+    given = page.train(method=method, learning_rate=0.15, seed=40)["given"]
+    runs = page.lab.trainings
+    assert len(runs) == len(given["walks"]) == 20
+    assert given["rate"] == 0.15
+    for run, seed in ((runs[0], 40), (runs[19], 59)):
+        alone = learned_alone(method, seed)
+        inside = slice(1, 6)
+        np.testing.assert_array_equal(
+            run.history[:, inside], np.nan_to_num(alone.history, nan=0.5)[:, inside]
+        )
+        np.testing.assert_array_equal(run.visits, alone.visits)
+    histories = np.array([run.history for run in runs])[:, ::20, 1:6]
+    errors = np.sqrt(((histories - np.arange(1, 6) / 6) ** 2).mean(axis=2)).mean(axis=0)
+    np.testing.assert_allclose(page.points("error"), errors)
+    for run, walks in zip(runs, given["walks"], strict=True):
+        assert len(walks.split()) == 100
+        if method != "Monte Carlo, first visit":
+            passed = "".join(walk[:-1] for walk in walks.split())
+            assert [passed.count(str(room)) for room in range(7)] == run.visits.tolist()
+
+
+def test_a_car_learns_with_the_reader_s_tilings():
+    page = Page("shared_tiles")
+    ended = page.train(tilings=4, learning_rate=0.8, episodes=20, seed=3)
+    (learned,) = page.lab.trainings
+    car = gym.make("MountainCar-v0", max_episode_steps=2000)
+    tiles = mdp.Tiles((-1.2, -0.07), (0.6, 0.07), (8, 8), 4, n_actions=3)
+    options = {"discount": 1.0, "learning_rate": 0.2, "epsilon": 0.0, "seed": 3}
+    alone = mdp.linear_sarsa(car, 20, tiles, **options)
+    np.testing.assert_array_equal(learned.weights, alone.weights)
+    assert page.points("steps") == alone.lengths.tolist()
+    assert f"The first episode takes {alone.lengths[0]} steps" in ended["sentence"]
+    assert ended["given"] == {"tilings": 4}
+    assert alone.lengths[-5:].mean() < alone.lengths[:5].mean() / 2
 
 
 def test_plans_for_the_reader_s_tiger():
