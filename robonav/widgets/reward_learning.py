@@ -16,6 +16,7 @@ from robonav.nirl import (
     IRLResult,
     ReplaySGD,
     RobotTask,
+    accuracy,
     balanced_accuracy,
     expert_decisions,
     greedy_actions,
@@ -170,6 +171,7 @@ def iteration_callback(
             before + done,
             total,
             at=done,
+            accuracy=100 * accuracy(predicted, expert.actions),
             balanced=100 * balanced_accuracy(predicted, expert.actions),
             arrived=100 * float(decisions.arrived[-task.n_episodes :].mean()),
         )

@@ -16,7 +16,7 @@ from playwright.sync_api import Locator, expect
 
 from robonav import mdp, nirl
 from robonav.benchmark.policies import method
-from robonav.lfd import demonstrate
+from robonav.lfd import demonstrate, plan_on_grid
 from robonav.networks import NetworkPolicy, fit, toy_datasets
 from robonav.robot import Sensing, random_worlds
 from robonav.style import BLUE
@@ -28,6 +28,7 @@ from robonav.widgets.grid_lab import Replay, grid_lab
 from robonav.widgets.imitation_lab import imitation_lab
 from robonav.widgets.key_points_lab import key_points_lab
 from robonav.widgets.reward_learning import reward_learning
+from robonav.widgets.simulator import page_world
 
 
 def grids() -> Any:
@@ -339,6 +340,45 @@ def grid_is_shown(lab: Locator, returns: Any) -> None:
     np.testing.assert_allclose(shown, best[:3], atol=0.006)
 
 
+def search_is_shown(lab: Locator, made: Any) -> None:
+    world = random_worlds(
+        1,
+        40,
+        seed=robot_trainings.SEED,
+        starts=(robot_trainings.START,),
+        targets=(robot_trainings.TARGET,),
+    )
+    np.testing.assert_array_equal(
+        made.points, plan_on_grid(world, margin=1.0, cell=1.0).points
+    )
+    picture = lab.locator("svg.search")
+    turned = picture.locator("rect[transform]").count()
+    shapes = page_world(world)["obstacles"]
+    assert turned == sum(not shape["circle"] for shape in shapes)
+    lab.get_by_role("button", name="Run to the end").press("Enter")
+    coarse = plan_on_grid(world, margin=1.0, cell=robot_trainings.COARSE)
+    assert coarse.found
+    assert number_after(lab, "the path is") == pytest.approx(coarse.length, abs=0.06)
+
+
+def walks_are_shown(lab: Locator, found: Any) -> None:
+    theta = lab.get_by_text("θ, per step to the right").locator("output")
+    shown = float(theta.inner_text().replace("−", "-"))
+    assert shown == pytest.approx(found.weights[0] / 20, abs=0.026)
+    dots = lab.locator(".pictures svg circle")
+    expect(dots).to_have_count(1000)
+    counted = number_after(lab, "The weighted samples correspond to")
+    assert counted == pytest.approx(found.effective_samples, rel=0.2)
+
+
+def measures_are_shown(lab: Locator, result: Any) -> None:
+    best = result.history.balanced.max()
+    assert result.history.balanced[result.chosen] == best
+    assert number_after(lab, "Balanced accuracy") == pytest.approx(
+        max(best, 0.2), abs=0.03
+    )
+
+
 EXPLORED: dict[str, tuple[dict[str, str], str, Callable[[Locator, Any], None]]] = {
     "projection_steps": (
         {"features of the reward": "mud and road", "policies to find at most": "Home"},
@@ -383,6 +423,26 @@ EXPLORED: dict[str, tuple[dict[str, str], str, Callable[[Locator, Any], None]]] 
         {"a wrong door costs": "End", "beliefs to back up": "Home"},
         r"Beliefs backed up: 1\. Vectors with 30 steps to go: \d\. The uniform belief has ",
         vectors_are_shown,
+    ),
+    "astar_by_hand": (
+        {
+            "search": "A* on a grid",
+            "obstacles": "End",
+            "margin": "Home",
+            "maps": "Home",
+        },
+        r"With A\* on a grid, a path was found in 20 of 20 maps\. On average it is [\d.]+ % longer ",
+        search_is_shown,
+    ),
+    "weights_of_samples": (
+        {"a step goes to the right": "ArrowRight", "random walks": "End"},
+        r"θ is [\d.]+ per step to the right\. Without slack it tends to 1\.19 as ",
+        walks_are_shown,
+    ),
+    "accuracy_or_balance": (
+        {"the policy is kept by": "balanced accuracy", "iterations": "Home"},
+        r"Balanced accuracy keeps the policy after iteration \d, and accuracy the one ",
+        measures_are_shown,
     ),
     "reflex_map": (
         {"rule": "straight on", "obstacles that move": "End", "maps": "Home"},

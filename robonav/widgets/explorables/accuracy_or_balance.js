@@ -11,8 +11,8 @@ export function scores(frequency, predicted) {
 }
 
 export default explorable({
-  controls: ({ careful }) => ({
-    forward: range({ label: "the expert goes forward in", from: 0.2, to: 0.95, step: 0.05, value: 0.5, text: (value) => `${Math.round(100 * value)} %` }),
+  controls: ({ forward, careful }) => ({
+    forward: range({ label: "the expert goes forward in", from: 0.2, to: 0.95, step: 0.05, value: forward, text: (value) => `${Math.round(100 * value)} %` }),
     careful: range({ label: "the careful policy predicts", from: 0.2, to: 1, step: 0.05, value: careful, text: (value) => `${Math.round(100 * value)} %` }),
   }),
   draw({ given: { others }, stage }) {

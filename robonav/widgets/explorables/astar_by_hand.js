@@ -61,7 +61,7 @@ export default explorable({
   },
   start: (given) => ({ search: newSearch(given), marked: 0 }),
   draw({ given, stage, act }) {
-    const { points, size, boxes, start, target } = given;
+    const { points, size, obstacles, start, target } = given;
     const SCALE = 360 / size;
     const [X, Y] = [(x) => 4 + x * SCALE, (y) => 4 + (size - y) * SCALE];
     const picture = svg("svg", { viewBox: "0 0 368 368", width: 368, height: 368, role: "img", class: "search" });
@@ -82,7 +82,12 @@ export default explorable({
       const { search, marked, rule } = state;
       const ended = over(search, given);
       const cursor = document.activeElement === holder ? search.open[marked % Math.max(1, search.open.length)] : -1;
-      const walls = boxes.map(([x, y, a, b]) => svg("rect", { x: X(x - a / 2), y: Y(y + b / 2), width: a * SCALE, height: b * SCALE, fill: PALETTE.OBSTACLE }));
+      const walls = obstacles.map(({ circle, x, y, a, b, turned }) => circle
+        ? svg("circle", { cx: X(x), cy: Y(y), r: a * SCALE, fill: PALETTE.OBSTACLE })
+        : svg("rect", {
+          x: X(x - a), y: Y(y + b), width: 2 * a * SCALE, height: 2 * b * SCALE, fill: PALETTE.OBSTACLE,
+          transform: `rotate(${(-180 * turned) / Math.PI} ${X(x)} ${Y(y)})`, // upwards is negative in the picture
+        }));
       const nodes = points.map(([x, y], k) => {
         const [open, closed] = [search.open.includes(k), search.closed.includes(k)];
         const box = svg("circle", {

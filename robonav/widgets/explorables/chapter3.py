@@ -101,9 +101,13 @@ def small_map() -> Worlds:
     because="H directs the search towards the target; without it, 39 nodes are expanded instead of "
     "22, and the path is still a shortest one.",
 )
-def astar_by_hand(cell: float = 5.0, margin: float = 2.0) -> dict[str, Any]:
+def astar_by_hand() -> dict[str, Any]:
     """The points of a coarse grid over a small map, and the steps that keep the margin."""
-    world = small_map()
+    return grid_to_search(small_map(), cell=5.0, margin=2.0)
+
+
+def grid_to_search(world: Worlds, cell: float, margin: float) -> dict[str, Any]:
+    """The points of a grid that has start and target of a map among them, and the steps that keep the margin."""
     middles = np.arange(cell, world.size, cell)
     points = [(float(x), float(y)) for x, y in product(middles, middles)]
     place = {point: number for number, point in enumerate(points)}
@@ -118,16 +122,13 @@ def astar_by_hand(cell: float = 5.0, margin: float = 2.0) -> dict[str, Any]:
                 and step_clearance(world, (x, y), point, margin) >= margin
             ]
         )
-    boxes = [
-        [o["x"], o["y"], 2 * o["a"], 2 * o["b"]] for o in page_world(world)["obstacles"]
-    ]
     return {
         "points": points,
         "steps": steps,
-        "start": place[(5.0, 5.0)],
-        "target": place[(35.0, 35.0)],
+        "start": place[tuple(world.starts[0].tolist())],
+        "target": place[tuple(world.targets[0].tolist())],
         "size": world.size,
-        "boxes": boxes,
+        "obstacles": page_world(world)["obstacles"],
     }
 
 

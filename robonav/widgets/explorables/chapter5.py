@@ -13,6 +13,9 @@ from robonav.nirl.benchmark_mdps import CELLS, TERRAIN
 from ..grid import page_grid
 from .registry import asks
 
+WALK_STEPS = 20
+"""Steps of each random walk of ``weights_of_samples``."""
+
 
 def terrain_with(target: tuple[int, int]) -> tuple[mdp.GridWorld, nirl.RewardFreeMDP]:
     """The terrain of mud, road and grass with its target in another cell."""
@@ -254,8 +257,8 @@ def boltzmann_temperature() -> dict[str, Any]:
     because="Always going forward is right in 75 % of the decisions, and the careful policy in 70 %.",
 )
 def accuracy_or_balance() -> dict[str, Any]:
-    """How many actions there are besides going forward, and how well the careful policy predicts."""
-    return {"others": 4, "careful": 0.7}
+    """How often the expert goes forward, how many other actions there are, and how well the careful policy predicts."""
+    return {"forward": 0.5, "others": 4, "careful": 0.7}
 
 
 @asks(
@@ -269,10 +272,10 @@ def accuracy_or_balance() -> dict[str, Any]:
     "have nearly all of it.",
 )
 def weights_of_samples() -> dict[str, Any]:
-    """Features of fifty random walks: how many of twenty steps go to the right."""
+    """Features of fifty random walks, the share of twenty steps that go to the right, and theta per step at first."""
     rng = np.random.default_rng(9)
-    features = rng.binomial(20, 0.5, size=50) / 20
-    return {"features": features.tolist(), "expert": 0.8}
+    features = rng.binomial(WALK_STEPS, 0.5, size=50) / WALK_STEPS
+    return {"features": features.tolist(), "expert": 0.8, "theta": 0.0}
 
 
 @asks(

@@ -7,17 +7,18 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import logit
 
 from robonav import mdp, nirl
 from robonav.errors import ConvergenceWarning
 from robonav.lfd import demonstrate
 from robonav.networks.multilayer_perceptron import Network
 from robonav.nirl.decisions import Decisions
-from robonav.robot import navigate, random_worlds
+from robonav.robot import Action, navigate, random_worlds
 
 from ..kernel_training import TRIED, Report, sentence_on_rates
 from ..reward_learning import ReplaySGDWithCallback, iteration_callback
-from .chapter5 import TARGETS, terrain_with, transferred
+from .chapter5 import TARGETS, WALK_STEPS, terrain_with, transferred
 from .training import Curve, Dial, Menu, Trained, trains
 
 Floats = NDArray[np.float64]
@@ -340,5 +341,163 @@ def reward_and_ends(settings: dict[str, Any], report: Report) -> Trained:
             "reward": round(means[-1] / 0.05) * 0.05,
             "end": terminal_values[1],
             "discount": settings["discount"],
+        },
+    )
+
+
+EXPERT_RIGHT = 0.8
+"""How often the expert of ``weights_of_samples`` goes to the right."""
+
+POINTS = 25
+"""Points of the curves over the number of samples."""
+
+
+@trains(
+    "weights_of_samples",
+    "The weight θ of relative entropy, from more and more walks",
+    action="Compute in Python",
+    unit="random walks",
+    length="samples",
+    settings={
+        "right": Dial(
+            "a step goes to the right with probability", 0.5, 0.85, 0.05, 0.5
+        ),
+        "samples": Dial("random walks", 50, 1000, 50, 500),
+        "demonstrations": Dial("demonstrations", 1, 100, 1, 20),
+        "slack": Dial("slack ε", 0.0, 0.1, 0.01, 0.01),
+        "seed": Dial("seed", 0, 20, 1, 0),
+    },
+    curves={
+        "gap": Curve(
+            "gap",
+            "How far the weighted mean of the walks is from the expert's.",
+            digits=3,
+        ),
+        "effective": Curve(
+            "effective samples",
+            "As many walks of equal weight would be as good.",
+            digits=1,
+        ),
+    },
+)
+def weighted_walks(settings: dict[str, Any], report: Report) -> Trained:
+    """Relative entropy with a growing number of walks; the page gets the walks, the expert's mean and theta."""
+    right, total = settings["right"], settings["samples"]
+    rng = np.random.default_rng(settings["seed"])
+    shown = rng.binomial(WALK_STEPS, EXPERT_RIGHT, size=settings["demonstrations"])
+    expert = float(shown.mean()) / WALK_STEPS
+    walks = rng.binomial(WALK_STEPS, right, size=total) / WALK_STEPS
+    for number in range(total // POINTS, total + 1, total // POINTS):
+        with warnings.catch_warnings():
+            # The reader sees the gap.
+            warnings.simplefilter("ignore", ConvergenceWarning)
+            found = nirl.relative_entropy_weights(
+                [expert],
+                walks[:number, None],
+                np.zeros(number),
+                slack=settings["slack"],
+            )
+        report(
+            number,
+            total,
+            at=number,
+            gap=float(abs(found.gap[0])),
+            effective=found.effective_samples,
+        )
+    theta = float(found.weights[0]) / WALK_STEPS
+    exact = float(logit(EXPERT_RIGHT) - logit(right))
+    return Trained(
+        [found],
+        f"θ is {theta:.2f} per step to the right. Without slack it tends to {exact:.2f} as the walks and the "
+        f"demonstrations become more. The weighted mean is {expert - found.gap[0]:.2f}, and the expert's "
+        f"{expert:.2f}. The {total} walks are as good as {found.effective_samples:.1f} of equal weight.",
+        {
+            "features": walks.tolist(),
+            "expert": expert,
+            "theta": on_slider(theta, -1.0, 3.0),
+        },
+    )
+
+
+def on_slider(value: float, least: float, most: float) -> float:
+    """The nearest place on a slider of the page that goes from ``least`` to ``most`` in steps of 0.05."""
+    return min(max(round(round(value / 0.05) * 0.05, 2), least), most)
+
+
+MEASURES = {
+    "accuracy": nirl.accuracy,
+    "balanced accuracy": nirl.balanced_accuracy,
+}
+
+
+@trains(
+    "accuracy_or_balance",
+    "NIRL, and the policy that a measure keeps",
+    unit="iteration",
+    length="iterations",
+    settings={
+        "measure": Menu("the policy is kept by", tuple(MEASURES)),
+        "caution": Dial("caution of the expert", 0.0, 2.0, 0.5, 0.0),
+        "demonstrations": Dial("demonstrations", 2, 40, 2, 10),
+        "iterations": Dial("iterations", 5, 140, 5, 40),
+        "seed": Dial("seed", 0, 20, 1, 0),
+    },
+    curves={
+        "accuracy": Curve(
+            "accuracy (%)",
+            "How many of the expert's decisions the iteration's policy predicts.",
+            high=100.0,
+            digits=0,
+        ),
+        "balanced": Curve(
+            "balanced accuracy (%)",
+            "The same with equal weight for each action of the expert.",
+            high=100.0,
+            digits=0,
+        ),
+        "arrived": Curve(
+            "arrived (%)",
+            "How many of the iteration's episodes reach the target.",
+            high=100.0,
+            digits=0,
+        ),
+    },
+)
+def kept_policy(settings: dict[str, Any], report: Report) -> Trained:
+    """NIRL on the robot; the page gets how often the expert goes forward, and how well the kept policy predicts."""
+    measure, total = settings["measure"], settings["iterations"]
+    demonstrations = demonstrate(
+        random_worlds(settings["demonstrations"], OBSTACLES, seed=DEMONSTRATION_SEED),
+        caution=settings["caution"],
+    )
+    task = nirl.RobotTask(obstacles=OBSTACLES)
+    expert = nirl.expert_decisions(demonstrations, task.encoder)
+    tell = iteration_callback(expert, task, report, 0, total)
+    result = nirl.learn(
+        demonstrations,
+        seed=settings["seed"],
+        task=task,
+        improver=ReplaySGDWithCallback(callback=tell),
+        score=MEASURES[measure],
+        iterations=total,
+    )
+    tried = navigate(result.policy, random_worlds(TRIED, OBSTACLES, seed=MAPS_SEED))
+    report(total, total)
+    scores = {
+        "accuracy": result.history.accuracies,
+        "balanced accuracy": result.history.balanced,
+    }
+    (other,) = MEASURES.keys() - {measure}
+    forward = float((expert.actions == Action.F).mean())
+    kept = {name: float(values[result.chosen]) for name, values in scores.items()}
+    return Trained(
+        [result],
+        f"{measure.capitalize()} keeps the policy after iteration {result.chosen}, and {other} the one after iteration "
+        f"{scores[other].argmax()}. The policy that is kept has an accuracy of {100 * kept['accuracy']:.0f} % and a "
+        f"balanced accuracy of {100 * kept['balanced accuracy']:.0f} %; always going forward has an accuracy of "
+        f"{100 * forward:.0f} %. {sentence_on_rates([100 * float(tried.success.mean())], TRIED)}",
+        {
+            "forward": on_slider(forward, 0.2, 0.95),
+            "careful": on_slider(kept["balanced accuracy"], 0.2, 1.0),
         },
     )

@@ -1,13 +1,15 @@
-"""What the kernel computes for the explorables on the robot: how often a rule arrives in the reader's worlds."""
+"""What the kernel computes for the explorables on the robot: paths and drives in many of the reader's worlds."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from robonav.lfd import GridPlan, Plan, plan, plan_on_grid
 from robonav.robot import (
     Action,
     Navigation,
@@ -21,6 +23,7 @@ from robonav.robot import (
 
 from ..kernel_training import Report
 from ..simulator import page_world
+from .chapter3 import grid_to_search
 from .training import Curve, Dial, Menu, Trained, trains
 
 RULES = {"turn to the clearer side": turn_to_clearer_side, "straight on": straight}
@@ -183,3 +186,85 @@ def faster_and_faster(settings: dict[str, Any], report: Report) -> Trained:
         f"{shown}",
         {"world": page_world(worlds[world]), "speed": speed, "turnAt": sight},
     )
+
+
+SEARCHES: dict[str, Callable[..., Plan | GridPlan]] = {
+    "modified A*": plan,
+    "A* on a grid": plan_on_grid,
+}
+COARSE = 12.5
+"""Metres between the points of the grid on which the page searches."""
+
+START, TARGET = (COARSE, COARSE), (7 * COARSE, 7 * COARSE)
+STRAIGHT = math.dist(START, TARGET)
+
+
+def planned_length(found: Plan | GridPlan) -> float:
+    """The length of a path, and the straight distance that it leaves to the target."""
+    return found.length + math.dist(found.points[-1], TARGET)
+
+
+@trains(
+    "astar_by_hand",
+    "Paths through many random maps",
+    action="Plan in Python",
+    unit="maps",
+    length="maps",
+    settings={
+        "search": Menu("search", tuple(SEARCHES)),
+        "obstacles": Dial("obstacles", 0, 40, 5, 20),
+        "margin": Dial("margin", 1.0, 4.0, 0.5, 2.0, " m"),
+        "maps": Dial("maps", 20, 500, 20, 100),
+        "seed": Dial("seed", 0, 20, 1, 0),
+    },
+    curves={
+        "longer": Curve(
+            "longer (%)",
+            "By how much the paths found so far are longer than the straight line, on average.",
+            digits=1,
+        ),
+        "expanded": Curve(
+            "nodes expanded", "How many nodes a search expands, on average.", digits=0
+        ),
+    },
+)
+def many_searches(settings: dict[str, Any], report: Report) -> Trained:
+    """Searches in random maps; the page gets the first of them, with a coarse grid on which to search by hand."""
+    search, margin, total = settings["search"], settings["margin"], settings["maps"]
+    worlds = random_worlds(
+        total,
+        settings["obstacles"],
+        seed=SEED + settings["seed"],
+        starts=(START,),
+        targets=(TARGET,),
+    )
+    plans: list[Plan | GridPlan] = []
+    lengths: list[float] = []
+    for number in range(total):
+        plans.append(SEARCHES[search](worlds[number], margin=margin))
+        if plans[-1].found:
+            lengths.append(planned_length(plans[-1]))
+        report(
+            len(plans),
+            total,
+            at=len(plans),
+            expanded=float(np.mean([made.expanded for made in plans])),
+            **({"longer": longer_than_straight(lengths)} if lengths else {}),
+        )
+    expanded = np.mean([made.expanded for made in plans])
+    lengthened = (
+        f" On average it is {longer_than_straight(lengths):.1f} % longer than the straight line."
+        if lengths
+        else ""
+    )
+    return Trained(
+        plans,
+        f"With {search}, a path was found in {len(lengths)} of {total} maps.{lengthened} A search expands "
+        f"{expanded:.0f} nodes on average. The picture has the first map and a coarse grid.",
+        grid_to_search(worlds[0], COARSE, margin),
+    )
+
+
+def longer_than_straight(lengths: list[float]) -> float:
+    """By how many per cent paths are longer than the straight line, on average."""
+    return 100 * (float(np.mean(lengths)) / STRAIGHT - 1)

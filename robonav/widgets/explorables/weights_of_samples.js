@@ -7,8 +7,8 @@ export const sampleWeights = (features, theta) => softmax(features.map((feature)
 export const effectiveSamples = (weights) => 1 / weights.reduce((sum, weight) => sum + weight * weight, 0);
 
 export default explorable({
-  controls: () => ({
-    theta: range({ label: "θ, per step to the right", from: -1, to: 3, step: 0.05, value: 0, text: (value) => number(value) }),
+  controls: ({ theta }) => ({
+    theta: range({ label: "θ, per step to the right", from: -1, to: 3, step: 0.05, value: theta, text: (value) => number(value) }),
   }),
   draw({ given: { features, expert }, stage }) {
     const chart = plot({ x: [0, 1], y: [0, 0.5], xLabel: "share of steps to the right", yLabel: "weight", height: 230 });

@@ -9,8 +9,14 @@ import numpy as np
 import pytest
 
 from robonav import mdp, nirl, nnql
+from robonav.lfd import demonstrate, plan_on_grid
 from robonav.robot import navigate, random_worlds, straight
-from robonav.widgets.explorables import EXPLORABLES, explorable, robot_trainings
+from robonav.widgets.explorables import (
+    EXPLORABLES,
+    explorable,
+    nirl_trainings,
+    robot_trainings,
+)
 from robonav.widgets.explorables.training import TRAININGS, Dial, Menu
 from robonav.widgets.kernel_training import Cancelled, Report
 
@@ -293,3 +299,90 @@ def test_the_mean_return_is_the_value():
     error = returns.std() / np.sqrt(len(returns))
     assert returns.mean() == pytest.approx(value, abs=4 * error)
     assert page.points("error")[-1] == pytest.approx(error, rel=1e-3)
+
+
+def test_paths_through_many_maps_are_the_planner_s():
+    page = Page("astar_by_hand")
+    ended = page.train(search="A* on a grid", margin=4.0, obstacles=40, seed=1, maps=40)
+    plans = page.lab.trainings
+    start, target = robot_trainings.START, robot_trainings.TARGET
+    worlds = random_worlds(
+        40, 40, seed=robot_trainings.SEED + 1, starts=(start,), targets=(target,)
+    )
+    alone = [plan_on_grid(worlds[k], margin=4.0) for k in range(40)]
+    for one, other in zip(plans, alone, strict=True):
+        np.testing.assert_array_equal(one.points, other.points)
+    found = [made for made in alone if made.found]
+    assert 0 < len(found) < 40
+    assert f"found in {len(found)} of 40 maps" in ended["sentence"]
+    left = [np.hypot(*(made.points[-1] - target)) for made in found]
+    longer = np.mean([made.length for made in found] + np.array(left)) / np.hypot(
+        75, 75
+    )
+    assert page.points("longer")[-1] == pytest.approx(100 * (longer - 1))
+    assert page.points("expanded")[-1] == np.mean([made.expanded for made in alone])
+    given = ended["given"]
+    assert given["points"][given["start"]] == start
+    assert given["points"][given["target"]] == target
+    assert len(given["obstacles"]) == 40
+
+
+def test_no_path_in_any_map_is_said(monkeypatch):
+    nowhere = plan_on_grid(random_worlds(1, 0, seed=0), margin=50.0)
+    assert not nowhere.found
+    searches = {"modified A*": lambda _world, margin: nowhere}
+    monkeypatch.setattr(robot_trainings, "SEARCHES", searches)
+    page = Page("astar_by_hand")
+    ended = page.train()
+    assert "found in 0 of 20 maps. A search expands" in ended["sentence"]
+    assert page.points("longer") == []
+
+
+@pytest.mark.parametrize("right", [0.5, 0.7, 0.85])
+def test_the_weight_of_the_walks_tends_to_the_exact_one(right):
+    page = Page("weights_of_samples")
+    exact = np.log(0.8 / 0.2) - np.log(right / (1 - right))
+    ended = page.train(right=right, samples=1000, demonstrations=100, slack=0.0)
+    (found,) = page.lab.trainings
+    given = ended["given"]
+    samples = np.array(given["features"])[:, None]
+    again = nirl.relative_entropy_weights([given["expert"]], samples, np.zeros(1000))
+    np.testing.assert_array_equal(found.weights, again.weights)
+    assert found.weights[0] / 20 == pytest.approx(exact, abs=0.5)
+    assert f"tends to {exact:.2f}" in ended["sentence"]
+    assert given["theta"] == pytest.approx(found.weights[0] / 20, abs=0.0251)
+    assert page.points("gap")[-1] < 0.005
+    assert page.points("effective")[-1] == found.effective_samples
+    assert len(page.points("gap")) == nirl_trainings.POINTS
+
+
+def test_samples_near_the_expert_s_count_for_more():
+    counted = []
+    for right in (0.5, 0.65, 0.8):
+        page = Page("weights_of_samples")
+        page.train(right=right)
+        counted.append(page.points("effective")[-1])
+    assert counted == sorted(counted)
+    assert counted[0] < 25 < 400 < counted[-1]
+
+
+@pytest.mark.parametrize("measure", nirl_trainings.MEASURES)
+def test_the_policy_is_kept_by_the_chosen_measure(measure):
+    page = Page("accuracy_or_balance")
+    ended = page.train(measure=measure, caution=0.0, seed=2)
+    (result,) = page.lab.trainings
+    history = result.history
+    of = {"accuracy": history.accuracies, "balanced accuracy": history.balanced}
+    assert result.chosen == of[measure].argmax()
+    np.testing.assert_allclose(page.points("accuracy"), 100 * history.accuracies[1:])
+    np.testing.assert_allclose(page.points("balanced"), 100 * history.balanced[1:])
+    begun = f"{measure.capitalize()} keeps the policy after iteration {result.chosen}, "
+    assert ended["sentence"].startswith(begun)
+    shown = demonstrate(
+        random_worlds(5, 20, seed=nirl_trainings.DEMONSTRATION_SEED), caution=0.0
+    )
+    forward = (nirl.expert_decisions(shown).actions == 0).mean()
+    assert ended["given"]["forward"] == pytest.approx(forward, abs=0.0251)
+    balanced = history.balanced[result.chosen]
+    careful = ended["given"]["careful"]
+    assert careful == pytest.approx(max(balanced, 0.2), abs=0.0251)
