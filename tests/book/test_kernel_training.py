@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from functools import partial
@@ -351,10 +352,15 @@ def search_is_shown(lab: Locator, made: Any) -> None:
     np.testing.assert_array_equal(
         made.points, plan_on_grid(world, margin=1.0, cell=1.0).points
     )
-    picture = lab.locator("svg.search")
-    turned = picture.locator("rect[transform]").count()
     shapes = page_world(world)["obstacles"]
-    assert turned == sum(not shape["circle"] for shape in shapes)
+    rectangles = lab.locator("svg.search rect[transform]")
+    turned = rectangles.evaluate_all(
+        "all => all.map((r) => r.getAttribute('transform'))"
+    )
+    np.testing.assert_allclose(
+        [float(text.removeprefix("rotate(").split()[0]) for text in turned],
+        [-math.degrees(o["turned"]) for o in shapes if not o["circle"]],
+    )
     lab.get_by_role("button", name="Run to the end").press("Enter")
     coarse = plan_on_grid(world, margin=1.0, cell=robot_trainings.COARSE)
     assert coarse.found

@@ -351,6 +351,9 @@ EXPERT_RIGHT = 0.8
 POINTS = 25
 """Points of the curves over the number of samples."""
 
+THETAS = (-1.0, 3.0)
+"""The ends of the page's slider for theta."""
+
 
 @trains(
     "weights_of_samples",
@@ -368,6 +371,12 @@ POINTS = 25
         "seed": Dial("seed", 0, 20, 1, 0),
     },
     curves={
+        "theta": Curve(
+            "θ per step",
+            "The weight of a step to the right; beyond the slider of the page, the slider's end.",
+            low=THETAS[0],
+            high=THETAS[1],
+        ),
         "gap": Curve(
             "gap",
             "How far the weighted mean of the walks is from the expert's.",
@@ -401,6 +410,7 @@ def weighted_walks(settings: dict[str, Any], report: Report) -> Trained:
             number,
             total,
             at=number,
+            theta=float(np.clip(found.weights[0] / WALK_STEPS, *THETAS)),
             gap=float(abs(found.gap[0])),
             effective=found.effective_samples,
         )
@@ -414,7 +424,7 @@ def weighted_walks(settings: dict[str, Any], report: Report) -> Trained:
         {
             "features": walks.tolist(),
             "expert": expert,
-            "theta": on_slider(theta, -1.0, 3.0),
+            "theta": on_slider(theta, *THETAS),
         },
     )
 

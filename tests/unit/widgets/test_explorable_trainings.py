@@ -351,6 +351,7 @@ def test_the_weight_of_the_walks_tends_to_the_exact_one(right):
     assert found.weights[0] / 20 == pytest.approx(exact, abs=0.5)
     assert f"tends to {exact:.2f}" in ended["sentence"]
     assert given["theta"] == pytest.approx(found.weights[0] / 20, abs=0.0251)
+    assert page.points("theta")[-1] == found.weights[0] / 20
     assert page.points("gap")[-1] < 0.005
     assert page.points("effective")[-1] == found.effective_samples
     assert len(page.points("gap")) == nirl_trainings.POINTS
@@ -369,11 +370,12 @@ def test_samples_near_the_expert_s_count_for_more():
 @pytest.mark.parametrize("measure", nirl_trainings.MEASURES)
 def test_the_policy_is_kept_by_the_chosen_measure(measure):
     page = Page("accuracy_or_balance")
-    ended = page.train(measure=measure, caution=0.0, seed=2)
+    ended = page.train(measure=measure, caution=0.0, seed=0, iterations=10)
     (result,) = page.lab.trainings
     history = result.history
     of = {"accuracy": history.accuracies, "balanced accuracy": history.balanced}
     assert result.chosen == of[measure].argmax()
+    assert history.accuracies.argmax() != history.balanced.argmax()
     np.testing.assert_allclose(page.points("accuracy"), 100 * history.accuracies[1:])
     np.testing.assert_allclose(page.points("balanced"), 100 * history.balanced[1:])
     begun = f"{measure.capitalize()} keeps the policy after iteration {result.chosen}, "
