@@ -85,7 +85,7 @@ def stopping_bound(rng: Rng) -> Question:
             },
         ),
         f"$\\epsilon (1 - \\gamma) / (2 \\gamma) = {loss:g} \\cdot {1 - discount:.2g} / {2 * discount:g} "
-        f"= {answer:.3g}$.",
+        f"= {answer:.4g}$.",
     )
 
 

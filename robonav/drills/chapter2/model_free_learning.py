@@ -131,9 +131,8 @@ def along_the_edge(rng: Rng) -> Question:
             },
         ),
         f"In each step it falls with probability ${epsilon:g} / {actions} = {down:.4g}$, so it arrives with "
-        f"$(1 - {down:.4g})^{{{length}}} = {1 - answer:.4g}$. SARSA learns from these falls and keeps away from the "
-        f"edge; Q-learning values "
-        "the greedy path and goes along it.",
+        f"$(1 - {down:.4g})^{{{length}}} = {1 - answer:.4g}$, and falls with ${answer:.4g}$. SARSA learns from these "
+        "falls and keeps away from the edge; Q-learning values the greedy path and goes along it.",
     )
 
 

@@ -36,7 +36,8 @@ def best_judge(rng: Rng) -> Question:
     answer = float(best_discriminator(learner, expert))
     return Question(
         f"Of 100 steps of the learner, {learner} are a certain pair of state and action. Of 100 steps of the expert, "
-        f"{expert} are this pair. Which $D(s, a)$ makes the discriminator's cost as small as it can be?",
+        f"{expert} are this pair. $D(s, a)$ is the probability that the pair is the learner's. Which $D(s, a)$ makes "
+        "the discriminator's cost as small as it can be?",
         Number(
             answer,
             wrong={
@@ -58,8 +59,8 @@ def rewards_of_a_pair(rng: Rng) -> Question:
     logit = _logits(d)
     answer = [f(logit).item() for f in (deceiving_reward, hurrying_reward, log_odds)]
     return Question(
-        f"The discriminator gives a pair $D = {d:g}$. Compute its three rewards with natural logarithms, and round to "
-        "two digits.",
+        f"The discriminator gives a pair the probability $D = {d:g}$ to be the learner's. Compute its three rewards "
+        "with natural logarithms.",
         Table(
             rows=("reward",),
             columns=("$-\\log D$", "$\\log(1 - D)$", "$\\log(1 - D) - \\log D$"),
@@ -89,7 +90,8 @@ def cost_of_the_judge(rng: Rng) -> Question:
     swapped = discriminator_loss(_logits(expert), _logits(own), yes).item()
     return Question(
         f"The discriminator gives $D = {own:g}$ for a pair of the learner, and $D = {expert:g}$ for a pair of the "
-        "expert. What is its cost for these two? Use natural logarithms, and round to two digits.",
+        "expert. $D$ is the probability that a pair is the learner's. What is the discriminator's cost for these two? "
+        "Use natural logarithms.",
         Number(
             answer,
             wrong={

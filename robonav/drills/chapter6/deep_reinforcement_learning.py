@@ -88,7 +88,7 @@ def last_three_advantages(rng: Rng) -> Question:
     return Question(
         f"The last three steps of an episode have the rewards $0$, $0$ and ${end:g}$, and their states have the values "
         f"{values[0]:g}, {values[1]:g} and {values[2]:g}. Let $\\gamma = {discount:g}$ and $\\lambda = {decay:g}$. "
-        "Compute the advantages by generalised advantage estimation, and round to two digits.",
+        "Compute the advantages by generalised advantage estimation.",
         Table(
             rows=("advantage",),
             columns=("first step", "second step", "last step"),
@@ -169,12 +169,17 @@ def push_of_the_gradient(rng: Rng) -> Question:
         if right == (RISES if slope > 0 else FALLS if slope < 0 else STAYS):
             break
     clipped = float(np.clip(ratio, 1 - clip, 1 + clip))
-    smaller = "ratio" if gain == ratio * advantage else "clipped ratio"
-    why = (
-        f"The products are ${ratio:g} \\cdot {_factor(advantage)} = {ratio * advantage:.4g}$ and "
-        f"${clipped:g} \\cdot {_factor(advantage)} = {clipped * advantage:.4g}$. The smaller one has the {smaller}, "
-        + ("which does not change with the policy." if right == STAYS else "so its gradient is that of $\\rho A$.")
-    )  # fmt: skip
+    gains = f"${ratio:g} \\cdot {_factor(advantage)} = {ratio * advantage:.4g}$"
+    if ratio == clipped:
+        why = f"The ratio lies within the bounds, so the gain is {gains}, with the gradient of $\\rho A$."
+    else:
+        smaller = "ratio" if gain == ratio * advantage else "clipped ratio"
+        why = (
+            f"The products are {gains} and "
+            f"${clipped:g} \\cdot {_factor(advantage)} = {clipped * advantage:.4g}$. "
+            f"The smaller one has the {smaller}, "
+            + ("which does not change with the policy." if right == STAYS else "so its gradient is that of $\\rho A$.")
+        )  # fmt: skip
     return Question(
         f"An action has the ratio $\\rho = {ratio:g}$ and the advantage ${advantage:g}$, and "
         f"$\\varepsilon = {clip:g}$. What does gradient ascent on the clipped objective of this step alone do?",
@@ -185,6 +190,11 @@ def push_of_the_gradient(rng: Rng) -> Question:
         ),
         why,
     )
+
+
+def _thousands(number: float) -> str:
+    """A whole number in a formula, with a comma that makes no gap."""
+    return f"{number:,.0f}".replace(",", "{,}")
 
 
 @drill(PAGE, "How many episodes, how many steps?")
@@ -215,6 +225,6 @@ def data_of_a_training(rng: Rng) -> Question:
                 ],
             },
         ),
-        f"${actors} \\cdot {steps} \\cdot {updates} = {experience:,.0f}$ steps of the actors, and "
-        f"${epochs} \\cdot {batches} \\cdot {updates} = {gradient_steps:,.0f}$ steps of Adam.",
+        f"${actors} \\cdot {steps} \\cdot {updates} = {_thousands(experience)}$ steps of the actors, and "
+        f"${epochs} \\cdot {batches} \\cdot {updates} = {_thousands(gradient_steps)}$ steps of Adam.",
     )

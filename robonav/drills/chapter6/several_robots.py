@@ -67,7 +67,7 @@ def reading_of_another_robot(rng: Rng) -> Question:
     distance = math.hypot(right, up)
     return Question(
         f"A robot at $({x:g}, {y:g})$ m faces another robot, which is at $({place[0]:g}, {place[1]:g})$ m. Nothing "
-        "else is near. What does its sensor 1, which looks ahead, read, in metres?",
+        "else is near. Both are discs with a radius of 1 m. What does sensor 1, which looks ahead, read, in metres?",
         Number(
             answer,
             unit="m",

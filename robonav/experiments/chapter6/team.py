@@ -17,7 +17,7 @@ from .setup import CONDITIONS, PLANNERS, planner, tuned
 TEAM: dict[str, Any] = CONDITIONS["team"]
 LEARNING: dict[str, Any] = CONDITIONS["team_learning"]
 METHODS = ("freer-side", "potential-field", "dagger", "nnql", "nirl")
-REFLEX = Reflex(TEAM["direction"])
+REFLEX_OF_TEAMS = Reflex(TEAM["direction"])
 
 
 def policy_of(name: str) -> Policy | PolicyWithMemory:
@@ -55,7 +55,7 @@ def drive_team(
     """Outcome rates of one policy for all robots, the first so many, in the maps of a run."""
     teams = teams_of_run(seed, scale).first(robots)
     navigation = navigate_team(
-        policy, teams, TEAM["speed"], TEAM["max_steps"], reflex=REFLEX
+        policy, teams, TEAM["speed"], TEAM["max_steps"], reflex=REFLEX_OF_TEAMS
     )
     arrived = navigation.steps[navigation.success]
     return team_rates(navigation) | {"seconds to the target": float(arrived.mean())}
@@ -76,7 +76,7 @@ def learned_policy(robots: int, seed: int, scale: str) -> Policy:
         obstacles=TEAM["obstacles"],
         speed=TEAM["speed"],
         max_steps=TEAM["max_steps"],
-        reflex=REFLEX,
+        reflex=REFLEX_OF_TEAMS,
         seed=seed,
     ).policy
 
