@@ -64,7 +64,8 @@ def q_targets(
     taken = np.arange(q.shape[-1]) == action[..., None]
     target = (reward + discount * next_value)[..., None]
     alpha = learning_rate[..., None]
-    return np.where(taken, q + alpha * (target - q), q)  # Eq. (4.9)
+    moved = q + alpha * (target - q)  # Eq. (4.9)
+    return np.where(taken, moved, q)
 
 
 @checked_arguments
