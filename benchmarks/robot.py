@@ -22,6 +22,7 @@ from pathlib import Path
 
 import gymnasium
 from peer_process import printed_by_peer
+from timing import in_turn
 
 import robonav  # noqa: F401  (registers the environments)
 
@@ -70,18 +71,6 @@ def single(name: str, **settings: object) -> Callable[[], float]:
     return measure
 
 
-def in_turn(
-    ours: Callable[[], float], peer: Callable[[], float]
-) -> tuple[float, float, float]:
-    """Medians of both, and of their ratio, round by round."""
-    rounds = [(ours(), peer()) for _ in range(ROUNDS)]
-    return (
-        statistics.median(a for a, _ in rounds),
-        statistics.median(b for _, b in rounds),
-        statistics.median(a / b for a, b in rounds),
-    )
-
-
 def import_and_compile() -> None:
     """Seconds to import the package, to the first step where nothing is compiled, and after it, as `make` leaves it."""
     imports = [seconds("import robonav") - seconds("pass") for _ in range(5)]
@@ -116,13 +105,15 @@ def main() -> None:
     )
     folder = parser.parse_args().peers
     import_and_compile()
-    ours, peer, ratio = in_turn(single(NAME, obstacles=20), single("CartPole-v1"))
+    ours, peer, ratio = in_turn(
+        single(NAME, obstacles=20), single("CartPole-v1"), ROUNDS
+    )
     print(
         f"single, 20 obstacles: {ours:,.0f} steps/s; CartPole {peer:,.0f}; ratio {ratio:.2f} (at least 0.33)"
     )
     for number in (1024, 4096, 16384):
         ours, peer, ratio = in_turn(
-            batched(NAME, number, obstacles=20), batched("CartPole-v1", number)
+            batched(NAME, number, obstacles=20), batched("CartPole-v1", number), ROUNDS
         )
         print(
             f"{number} at once, 20 obstacles: {ours:,.0f} steps/s; CartPole {peer:,.0f}; ratio {ratio:.3f}"
@@ -138,6 +129,7 @@ def main() -> None:
         ours, peer, ratio = in_turn(
             batched(NAME, 4096, obstacles=20),
             partial(printed_by_peer, folder, environment, script),
+            ROUNDS,
         )
         print(
             f"4096 at once, 20 obstacles: {ours:,.0f} steps/s; {what} {peer:,.0f}; ratio {ratio:.1f}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -12,26 +12,22 @@ import torch
 from robonav.lfd import Demonstrations
 from robonav.networks.network_stack import NetworkStack, stacked
 from robonav.networks.torch_lbfgs import one_thread
-from robonav.nnql.task import ACTIONS, REPLAYING, NavigationTask, make_rng
-from robonav.nnql.training import check_seeds
+from robonav.nnql.task import ACTIONS, NavigationTask
 from robonav.progress import Progress
-from robonav.validation import check_argument, check_callable, check_instance
+from robonav.validation import check_callable, check_instance
 
-from ._arguments import RULES, check_batches
-from ._fast import Actors, StackedModule, by_seed
+from ._fast import StackedModule, by_seed
 from .gail import (
     Reward,
-    adam,
-    ascend,
     deceiving_reward,
     discriminator_loss,
     first_discriminator,
     minibatch_pairs,
     pairs,
 )
-from .networks import random_actor_critic
+from .gradient_ascent import adam, ascend
 from .ppo import Rollout
-from .training import PPOResult, learn, navigation_task, ppo_settings
+from .training import PPOResult, Training, train_seeds
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,43 +117,75 @@ def train_gail(
     >>> len(train_gail(shown, seeds=2, updates=1, actors=4, steps=16).policies)
     2
     """
-    seeds = check_seeds(seeds)
-    task = navigation_task() if task is None else task
-    check_instance("task", task, NavigationTask)
     check_callable("reward", reward, "reward(logits)")
-    checked = {"updates": updates, "actors": actors, "hidden": hidden}
-    updates, actors, hidden = (
-        check_argument(RULES, "train_gail", name, value)
-        for name, value in checked.items()
-    )
-    options = ppo_settings(settings)
-    check_batches(options["batches"], actors * options["steps"])
-    experts = [expert_pairs(own, task) for own in one_each(demonstrations, len(seeds))]
-    size = task.encoder.size
-    started = [random_actor_critic(size, hidden, ACTIONS, seed) for seed in seeds]
-    policy = StackedModule(stacked([one.policy for one in started]))
-    value = StackedModule(stacked([one.value for one in started]))
-    judge = StackedModule(
-        stacked([first_discriminator(size, ACTIONS, hidden, seed) for seed in seeds])
-    )
-    robots = Actors(task, seeds, actors)
-    step = options["gradient_step"]
-    optimiser, judging = adam(step, policy, value), adam(step, judge)
-    ended, arrived = np.zeros((2, len(seeds), updates), np.int64)
-    for update in range(updates):
-        rollout = robots.act(policy, options["steps"])
-        ended[:, update], arrived[:, update] = robots.ended, robots.arrived
-        rngs = [make_rng(seed, REPLAYING, update) for seed in seeds]
-        discriminate_all(judge, judging, rollout, experts, rngs, options)
-        rollout = rewarded(rollout, judge, reward)
-        learn(policy, value, optimiser, rollout, rngs, options)
-        if progress is not None:
-            progress(update + 1, updates)
-    about = options | {"updates": updates, "actors": actors, "hidden": hidden}
-    return GAILResult(
-        seeds, policy.stack(), value.stack(), task.encoder, ended, arrived, about,
-        judge.stack(),
-    )  # fmt: skip
+    training = Training.checked(seeds, updates, actors, task, hidden, settings)
+    judges = Judges(training, demonstrations, reward)
+    trained = train_seeds(training, progress, judges.reward)
+    of_ppo = {part.name: getattr(trained, part.name) for part in fields(trained)}
+    return GAILResult(**of_ppo, discriminator=judges.networks.stack())
+
+
+class Judges:
+    """The discriminators of all seeds, which learn in each update before they give its rewards.
+
+    Parameters
+    ----------
+    training : Training
+        What is trained.
+    demonstrations : Demonstrations or sequence of Demonstrations
+        Of the expert, for all seeds or one set for each.
+    reward : callable
+        Turns logits into rewards.
+    """
+
+    def __init__(
+        self,
+        training: Training,
+        demonstrations: Demonstrations | Sequence[Demonstrations],
+        reward: Reward,
+    ) -> None:
+        self.settings, self.rewards = training.settings, reward
+        task, seeds = training.task, training.seeds
+        self.experts = [
+            expert_pairs(own, task) for own in one_each(demonstrations, len(seeds))
+        ]
+        size, hidden = task.encoder.size, training.hidden
+        self.networks = StackedModule(
+            stacked(
+                [first_discriminator(size, ACTIONS, hidden, seed) for seed in seeds]
+            )
+        )
+        self.optimiser = adam(self.settings["gradient_step"], self.networks)
+
+    def reward(self, rollout: Rollout, rngs: Sequence[np.random.Generator]) -> Rollout:
+        """Improve on the steps of all seeds, and return these steps with their rewards."""
+        own = pairs(by_seed(rollout.states), by_seed(rollout.actions), ACTIONS)
+        self._improve(own, by_seed(rollout.decided), rngs)
+        steps, *shape = rollout.actions.shape
+        with torch.no_grad():
+            logits = self.networks(own)[..., 0].reshape(*shape, steps).movedim(-1, 0)
+        return replace(rollout, rewards=rollout.decided * self.rewards(logits))
+
+    def _improve(
+        self,
+        own: torch.Tensor,
+        decided: torch.Tensor,
+        rngs: Sequence[np.random.Generator],
+    ) -> None:
+        """Go through the pairs in some epochs of minibatches, as :func:`robonav.deep.gail.discriminate` does."""
+        seeds = np.arange(len(rngs))[:, None]
+        epochs, batches = self.settings["epochs"], self.settings["batches"]
+        orders = [
+            minibatch_pairs(own.shape[1], len(expert), epochs, batches, rng)
+            for expert, rng in zip(self.experts, rngs, strict=True)
+        ]
+        for each in zip(*orders, strict=True):
+            chosen = np.stack([rows for rows, _ in each])
+            drawn = [expert[rows] for expert, (_, rows) in zip(self.experts, each, strict=True)]  # fmt: skip
+            of_learner = self.networks(own[seeds, chosen])[..., 0]
+            of_expert = self.networks(torch.stack(drawn))[..., 0]
+            loss = discriminator_loss(of_learner, of_expert, decided[seeds, chosen])
+            ascend(self.optimiser, -loss)
 
 
 def one_each(
@@ -182,40 +210,3 @@ def expert_pairs(demonstrations: Demonstrations, task: NavigationTask) -> torch.
     if not len(chosen):
         raise ValueError("demonstrations must have at least one step without a reflex")
     return pairs(task.encoder(chosen.sensing), chosen.actions, ACTIONS)
-
-
-def discriminate_all(
-    judge: StackedModule,
-    judging: torch.optim.Optimizer,
-    rollout: Rollout,
-    experts: Sequence[torch.Tensor],
-    rngs: Sequence[np.random.Generator],
-    options: dict[str, Any],
-) -> None:
-    """Improve the discriminators of all seeds in some epochs of minibatches."""
-    own = pairs(by_seed(rollout.states), by_seed(rollout.actions), ACTIONS)
-    decided = by_seed(rollout.decided)
-    seeds = np.arange(len(rngs))[:, None]
-    orders = [
-        minibatch_pairs(
-            own.shape[1], len(expert), options["epochs"], options["batches"], rng
-        )
-        for expert, rng in zip(experts, rngs, strict=True)
-    ]
-    for each in zip(*orders, strict=True):
-        chosen = np.stack([rows for rows, _ in each])
-        drawn = [expert[rows] for expert, (_, rows) in zip(experts, each, strict=True)]
-        of_learner = judge(own[seeds, chosen])[..., 0]
-        of_expert = judge(torch.stack(drawn))[..., 0]
-        ascend(
-            judging, -discriminator_loss(of_learner, of_expert, decided[seeds, chosen])
-        )
-
-
-def rewarded(rollout: Rollout, judge: StackedModule, reward: Reward) -> Rollout:
-    """Return the rollout of all seeds with the rewards that their discriminators give."""
-    own = pairs(by_seed(rollout.states), by_seed(rollout.actions), ACTIONS)
-    steps, *shape = rollout.actions.shape
-    with torch.no_grad():
-        logits = judge(own)[..., 0].reshape(*shape, steps).movedim(-1, 0)
-    return replace(rollout, rewards=rollout.decided * reward(logits))

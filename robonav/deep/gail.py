@@ -43,6 +43,7 @@ from robonav.nnql.task import INITIAL, REPLAYING, make_rng
 from robonav.validation import ArrayArgument
 
 from ._arguments import checked
+from .gradient_ascent import adam, ascend
 from .networks import ActorCritic
 from .ppo import Actor, Rollout, batch_of, minibatches, objective
 
@@ -208,19 +209,6 @@ def discriminate(
     for rows, drawn in minibatch_pairs(len(own), len(expert), epochs, batches, rng):
         of_learner, of_expert = judge(own[rows])[..., 0], judge(expert[drawn])[..., 0]
         ascend(judging, -discriminator_loss(of_learner, of_expert, decided[rows]))
-
-
-def adam(step: float, *modules: torch.nn.Module) -> torch.optim.Optimizer:
-    """Return Adam for the parameters of some networks."""
-    parameters = [part for module in modules for part in module.parameters()]
-    return torch.optim.Adam(parameters, lr=step)
-
-
-def ascend(optimiser: torch.optim.Optimizer, gain: torch.Tensor) -> None:
-    """Make one step of gradient ascent. The sum is over seeds, which share no parameter."""
-    optimiser.zero_grad()
-    (-gain.sum()).backward()
-    optimiser.step()
 
 
 def discriminator_loss(

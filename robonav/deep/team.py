@@ -32,6 +32,7 @@ from robonav.robot.team import TeamSimulator, random_teams
 from robonav.validation import check_integer, check_positive, checks
 
 from ._arguments import RULES
+from .gradient_ascent import adam, ascend
 from .networks import ActorCritic, random_actor_critic
 from .ppo import Rollout, batch_of, minibatches, objective
 
@@ -162,8 +163,7 @@ def train_team(
     encoder = Encoder()
     start = random_actor_critic(encoder.size, hidden, ACTIONS, seed)
     policy, value = as_module(start.policy), as_module(start.value)
-    parameters = [*policy.parameters(), *value.parameters()]
-    optimiser = torch.optim.Adam(parameters, lr=gradient_step)
+    optimiser = adam(gradient_step, policy, value)
     went = []
     for update in range(updates):
         teams = random_teams(maps, robots, obstacles, seed=make_rng(seed, WORLDS, update))  # fmt: skip
@@ -178,9 +178,7 @@ def train_team(
             gain = objective(
                 policy, value, batch[rows], clip, value_weight, entropy_weight
             )
-            optimiser.zero_grad()
-            (-gain).backward()
-            optimiser.step()
+            ascend(optimiser, gain)
         arrived = simulator.outcome == Outcome.ARRIVED
         went.append((arrived.mean(), simulator.met.mean(), simulator.steps.sum()))
     arrived, met, steps = np.array(went).T

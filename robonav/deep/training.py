@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -25,6 +25,7 @@ from robonav.validation import check_argument, check_instance
 
 from ._arguments import RULES, check_batches
 from ._fast import Actors, StackedModule, batch_of
+from .gradient_ascent import adam, ascend
 from .networks import random_actor_critic
 from .ppo import Rollout, minibatches, objective, ppo
 
@@ -149,37 +150,79 @@ def train_ppo(
     >>> train_ppo(seeds=2, updates=1, actors=4, steps=16).policy.sizes
     (12, 32, 5)
     """
-    seeds = check_seeds(seeds)
-    task = navigation_task() if task is None else task
-    check_instance("task", task, NavigationTask)
-    checked = {"updates": updates, "actors": actors, "hidden": hidden}
-    updates, actors, hidden = (
-        check_argument(RULES, "train_ppo", name, value)
-        for name, value in checked.items()
-    )
-    options = ppo_settings(settings)
-    check_batches(options["batches"], actors * options["steps"])
+    training = Training.checked(seeds, updates, actors, task, hidden, settings)
+    return train_seeds(training, progress)
+
+
+@dataclass(frozen=True, eq=False)
+class Training:
+    """A training of several seeds at once, with checked arguments; :func:`train_ppo` says what they mean."""
+
+    seeds: tuple[int, ...]
+    updates: int
+    actors: int
+    task: NavigationTask
+    hidden: tuple[int, ...]
+    settings: dict[str, Any]
+
+    @classmethod
+    def checked(
+        cls,
+        seeds: int | Sequence[int],
+        updates: int,
+        actors: int,
+        task: NavigationTask | None,
+        hidden: Sequence[int],
+        settings: dict[str, Any],
+    ) -> Training:
+        """Check the arguments, and fill in what was left out."""
+        seeds = check_seeds(seeds)
+        task = navigation_task() if task is None else task
+        check_instance("task", task, NavigationTask)
+        given = {"updates": updates, "actors": actors, "hidden": hidden}
+        updates, actors, hidden = (
+            check_argument(RULES, "train_ppo", name, value)
+            for name, value in given.items()
+        )
+        options = ppo_settings(settings)
+        check_batches(options["batches"], actors * options["steps"])
+        return cls(seeds, updates, actors, task, tuple(hidden), options)
+
+
+Rewards = Callable[[Rollout, Sequence[np.random.Generator]], Rollout]
+"""Gives the steps of an update their rewards. The generators are those of the seeds for this update."""
+
+
+def rewards_of_task(rollout: Rollout, rngs: Sequence[np.random.Generator]) -> Rollout:
+    """Leave the rewards that the task gave."""
+    return rollout
+
+
+def train_seeds(
+    training: Training, progress: Progress | None, rewards: Rewards = rewards_of_task
+) -> PPOResult:
+    """Train all seeds by PPO."""
+    seeds, task, options = training.seeds, training.task, training.settings
     started = [
-        random_actor_critic(task.encoder.size, hidden, ACTIONS, seed) for seed in seeds
+        random_actor_critic(task.encoder.size, training.hidden, ACTIONS, seed)
+        for seed in seeds
     ]
     policy = StackedModule(stacked([one.policy for one in started]))
     value = StackedModule(stacked([one.value for one in started]))
-    robots = Actors(task, seeds, actors)
-    optimiser = torch.optim.Adam(
-        [*policy.parameters(), *value.parameters()], lr=options["gradient_step"]
-    )
-    ended, arrived = np.zeros((2, len(seeds), updates), np.int64)
-    for update in range(updates):
+    robots = Actors(task, seeds, training.actors)
+    optimiser = adam(options["gradient_step"], policy, value)
+    ended, arrived = np.zeros((2, len(seeds), training.updates), np.int64)
+    for update in range(training.updates):
         rollout = robots.act(policy, options["steps"])
         ended[:, update], arrived[:, update] = robots.ended, robots.arrived
         rngs = [make_rng(seed, REPLAYING, update) for seed in seeds]
-        learn(policy, value, optimiser, rollout, rngs, options)
+        learn(policy, value, optimiser, rewards(rollout, rngs), rngs, options)
         if progress is not None:
-            progress(update + 1, updates)
-    about = options | {"updates": updates, "actors": actors, "hidden": hidden}
+            progress(update + 1, training.updates)
+    about = {name: getattr(training, name) for name in ("updates", "actors", "hidden")}
     return PPOResult(
-        seeds, policy.stack(), value.stack(), task.encoder, ended, arrived, about
-    )
+        seeds, policy.stack(), value.stack(), task.encoder, ended, arrived, options | about
+    )  # fmt: skip
 
 
 def learn(
@@ -204,9 +247,7 @@ def learn(
             policy, value, batch[own, np.stack(rows)], options["clip"],
             options["value_weight"], options["entropy_weight"],
         )  # fmt: skip
-        optimiser.zero_grad()
-        (-gains.sum()).backward()  # the seeds share no parameter
-        optimiser.step()
+        ascend(optimiser, gains)
 
 
 def ppo_settings(given: dict[str, Any]) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from torch.nn.functional import cross_entropy
 
 from robonav.lfd import ComputerExpert
 from robonav.lfd.demonstrations import Expert
+from robonav.networks.policy import draw_actions
 from robonav.networks.torch_lbfgs import one_thread
 from robonav.progress import Progress
 from robonav.robot import (
@@ -27,7 +28,7 @@ from robonav.robot import (
     run_episodes,
 )
 
-from .policies import Actions, Memories, MemoryPolicy, draw
+from .policies import Actions, Memories, MemoryPolicy
 
 UNKNOWN = (
     -100
@@ -185,7 +186,9 @@ def labelled_episodes(
         """Record one step of K robots, and return their actions."""
         wanted = expert(simulator, robots)
         x, logits = memories.read(sensing, robots)
-        chosen = wanted if expert_acts else draw(logits, policy.temperature, rng)
+        chosen = (
+            wanted if expert_acts else draw_actions(logits, policy.temperature, rng)
+        )
         memories.acted(robots, chosen)
         for row, robot in enumerate(robots):
             inputs[robot].append(x[row])

@@ -8,6 +8,7 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
+from robonav.networks.policy import draw_actions
 from robonav.robot import ActionSelector, Encoder, Sensing, Simulator
 from robonav.validation import check_real
 
@@ -129,24 +130,8 @@ class MemoryPolicy:
             memories.forget(robots[simulator.steps[robots] <= asked[robots]])
             asked[robots] = simulator.steps[robots]
             _, logits = memories.read(sensing, robots)
-            actions = draw(logits, self.temperature, rng)
+            actions = draw_actions(logits, self.temperature, rng)
             memories.acted(robots, actions)
             return actions
 
         return select_actions
-
-
-def draw(
-    logits: NDArray[np.float64], temperature: float, rng: np.random.Generator
-) -> Actions:
-    """Draw actions (K,) by :class:`robonav.networks.NetworkPolicy`'s rule from logits (K, 5).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> draw(np.array([[0.0, 2.0, 1.0]]), 0.0, np.random.default_rng(0))
-    array([1])
-    """
-    if temperature > 0:
-        logits = logits + temperature * rng.gumbel(size=logits.shape)
-    return logits.argmax(axis=1).astype(np.int64)

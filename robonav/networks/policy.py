@@ -79,14 +79,42 @@ class NetworkPolicy:
         return self.network.logits(self.encoder(sensing))
 
     def __call__(self, sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
-        """Return actions (N,).
+        """Return actions (N,)."""
+        return draw_actions(self.logits(sensing), self.temperature, rng)
 
-        The largest of ``z + T * Gumbel noise`` is distributed as ``exp(z / T)`` over its sum (the Gumbel-max trick).
-        """
-        z = self.logits(sensing)
-        if self.temperature > 0:
-            z = z + self.temperature * rng.gumbel(size=z.shape)
-        return z.argmax(axis=1).astype(np.int64)
+
+def draw_actions(
+    logits: NDArray[np.float64], temperature: float, rng: np.random.Generator
+) -> NDArray[np.int64]:
+    """Draw one action from each row of logits z, with the probabilities ``exp(z / T)`` over their sum.
+
+    The largest of ``z + T * Gumbel noise`` has these probabilities (the Gumbel-max trick). At the temperature 0 it is
+    the action with the largest logit.
+
+    Parameters
+    ----------
+    logits : (N, A) array
+        z.
+    temperature : float
+        T, at least 0.
+    rng : numpy.random.Generator
+        Draws the noise.
+
+    Returns
+    -------
+    (N,) array of int
+        Indices of actions.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks.policy import draw_actions
+    >>> draw_actions(np.array([[0.0, 2.0, 1.0]]), 0.0, np.random.default_rng(0))
+    array([1])
+    """
+    if temperature > 0:
+        logits = logits + temperature * rng.gumbel(size=logits.shape)
+    return logits.argmax(axis=1).astype(np.int64)
 
 
 def sample_actions(
