@@ -108,7 +108,7 @@ def second_of_the_collision(rng: Rng) -> Question:
                     apart / (2 * speed)
                 )
                 + 1,
-                "So many whole seconds go by without harm. They collide in the next.": (
+                "This is the number of whole seconds before the collision. They collide in the next one.": (
                     answer - 1
                 ),
             },

@@ -40,7 +40,7 @@ SEEDS = {"quick": 1, "thesis": 10}
 
 
 @cache
-def shown(number: int, seed: int) -> Demonstrations:
+def demonstrations_of_run(number: int, seed: int) -> Demonstrations:
     """Return demonstrations of one run, each in a world of its own."""
     worlds = SETUP.worlds(number, SETUP.tuning_seed + seed)
     return demonstrate(worlds, speed=SETUP.speed, reflex=SETUP.reflex)
@@ -52,7 +52,7 @@ def trained(reward: str, number: int, seeds: int) -> GAILResult:
     task = navigation_task(
         obstacles=SETUP.obstacles, speed=SETUP.speed, reflex=SETUP.reflex
     )
-    demonstrations = [shown(number, seed) for seed in range(seeds)]
+    demonstrations = [demonstrations_of_run(number, seed) for seed in range(seeds)]
     return train_gail(
         demonstrations, seeds, task=task, reward=REWARDS[reward], **TRAINING
     )
@@ -62,7 +62,7 @@ def policy(case: Case, seed: int, scale: str) -> Policy:
     """Learn from demonstrations, by the method and under the reward of a case."""
     number = int(case["demonstrations"])
     if case["method"] == "lfd":
-        return behaviour_cloning(shown(number, seed), seed=seed)
+        return behaviour_cloning(demonstrations_of_run(number, seed), seed=seed)
     result = trained(str(case["reward"]), number, SEEDS[scale])
     return replace(result.policies[seed], temperature=TEMPERATURE)
 

@@ -52,7 +52,7 @@ def team_rates(navigation: TeamNavigation) -> dict[str, float]:
 def drive_team(
     policy: Policy | PolicyWithMemory, robots: int, seed: int, scale: str
 ) -> Numbers:
-    """Outcome rates of one policy for all robots, the first so many, in the maps of a run."""
+    """Outcome rates of one policy that drives the first robots of each map of a run."""
     teams = teams_of_run(seed, scale).first(robots)
     navigation = navigate_team(
         policy, teams, TEAM["speed"], TEAM["max_steps"], reflex=REFLEX_OF_TEAMS
@@ -68,7 +68,7 @@ def evaluate_team(case: Case, seed: int, scale: str) -> Numbers:
 
 @lru_cache(maxsize=64)
 def learned_policy(robots: int, seed: int, scale: str) -> Policy:
-    """Return the policy that so many robots a map learned together, by PPO with shared weights."""
+    """Return the policy that robots learned together, with this number of them on each map."""
     return train_team(
         robots,
         LEARNING["updates"][scale],

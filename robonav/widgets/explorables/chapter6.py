@@ -92,7 +92,7 @@ def clipped_objective() -> dict[str, Any]:
     "Which advantages change?",
     guesses=[
         "only that of the last step",
-        "those of all steps, all alike",
+        "those of all steps, by the same amount",
         "those of all steps, the last one's most",
     ],
     right="only that of the last step",
@@ -112,7 +112,7 @@ def advantages_of_an_episode() -> dict[str, Any]:
     guesses=[
         "the one that arrives",
         "the one that goes on",
-        "neither, as all steps are alike",
+        "neither, as all steps earn the same",
     ],
     right="the one that goes on",
     because="−log D is positive for every D, so each further step adds to the return.",

@@ -220,7 +220,8 @@ def test_a_run_of_gail_is_trained_as_it_would_alone(monkeypatch):
     case = {"method": "gail", "reward": "constant 1", "demonstrations": 2}
     numbers = gail.run(case, 1, "quick")
     task = navigation_task(obstacles=10, speed=2.0, reflex=Reflex("exact"))
-    alone = train_gail(gail.shown(2, 1), [1], 2, actors=3, task=task, reward=constant_reward)  # fmt: skip
+    own = gail.demonstrations_of_run(2, 1)
+    alone = train_gail(own, [1], 2, actors=3, task=task, reward=constant_reward)
     policy = replace(alone.policies[0], temperature=ppo.TEMPERATURE)
     expected = gail.SETUP.evaluate(policy, gail.SETUP.test_worlds(1, "quick"))
     assert numbers == expected
