@@ -253,7 +253,7 @@ def descend(
 ) -> Network:
     """One step of gradient descent, Eqs. (3.8), (3.28) and (4.12).
 
-    The thesis prints this step three times: for the two costs, and for the Q-network of chapter 4.
+    The thesis numbers this step three times: for the two costs, and for the Q-network of chapter 4.
     """
     pairs = zip(network.weights, gradient.weights, strict=True)
     weights = [W - gradient_step * dW for W, dW in pairs]  # Eqs. (3.8), (3.28), (4.12)

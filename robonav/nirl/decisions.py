@@ -17,7 +17,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 ENCODER = Encoder(NNQL_SENSORS, walls=True)
-"""phi(s) of section 5.4.1: seven degrees of danger, the target's sector as sine and cosine, target seen, wall flags."""
+"""phi(s) of section 5.4.1, with sine and cosine in place of the number of the target's sector.
+
+Seven degrees of danger, the target's sector, whether the target is seen, and seven wall flags.
+"""
 
 
 @dataclass(frozen=True, eq=False)

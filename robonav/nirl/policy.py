@@ -1,4 +1,4 @@
-"""The neural policy: action values by a network, and two policies over these values (section 5.5.2)."""
+"""The neural policy: action values by a network, and two policies over these values (sections 5.4.2 and 5.4.3)."""
 
 from __future__ import annotations
 

@@ -163,9 +163,9 @@ class Reflex:
     ----------
     direction : {"exact", "sector"}
         What the robot knows of the direction of its target in a safe state. "exact": it turns to the target itself.
-        "sector": it knows only which sector the target lies in, as section 3.6 says, and turns to the middle of that
-        sector. The target then lies in the sector ahead, so the robot goes straight on until the target has left that
-        sector.
+        "sector": it knows only which sector the target lies in, as section 4.4.5.1 says, and turns to the middle of
+        that sector. The target then lies in the sector ahead, so the robot goes straight on until the target has
+        left that sector.
 
     Raises
     ------

@@ -379,7 +379,7 @@ def random_worlds(
     moving_speeds: tuple[float, float] = MOVING_SPEEDS,
     size: float = SIZE,
 ) -> Worlds:
-    """Draw n worlds in which the target can be reached with 2 m to spare (section 3.6).
+    """Draw n worlds with obstacles at random places, as in section 3.6, whose target can be reached with 2 m to spare.
 
     Half of the obstacles are circles of radius 1.5 to 4 m, half are rectangles of sides 3 to 8 m, turned at random.
     None is within 6 m of start or target. World i depends on (seed, i) alone. The generator is frozen: a test compares

@@ -168,7 +168,7 @@ GIVEN = {
     "the number of episodes in an iteration": "10",
     "the number of iterations": "about 140",
     "the range of the sensors": "10 m",
-    "the distance from which on a state is dangerous": "5 m",
+    "the warning distance": "5 m",
     "the number of demonstrations": "30",
 }
 OPEN = {

@@ -137,8 +137,8 @@ def test_left_open_is_what_the_page_s_table_says() -> None:
         "hidden units": "hidden units",
         "number of episodes in": "episodes an iteration, iterations",
         "number of iterations": "episodes an iteration, iterations",
-        "range of the sensors": "sensor range, border of danger ($d_{bou}$, $d_{warn}$)",
-        "a state is dangerous": "sensor range, border of danger ($d_{bou}$, $d_{warn}$)",
+        "range of the sensors": "sensor range, warning distance ($d_{bou}$, $d_{warn}$)",
+        "warning distance": "sensor range, warning distance ($d_{bou}$, $d_{warn}$)",
         "seconds of an episode": "seconds of an episode, at most",
         "gradient steps": "gradient steps an iteration",
     }
