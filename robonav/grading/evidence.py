@@ -18,8 +18,8 @@ from .grade import Part
 from .reference import Case, Reference
 
 NOT_FINITE = (
-    "The answer holds {what}. Look for a division by zero, the logarithm of zero, an exponential that is too large, or "
-    "infinity times zero."
+    "The answer holds {what}. If you do not put it there yourself, look for a division by zero, the logarithm of zero, "
+    "an exponential that is too large, or infinity times zero."
 )
 NEAR = "All numbers are nearly right. Perhaps an iteration stops too early, or a number is rounded."
 NONE = "Your function returned None: does every way through it end in a return?"

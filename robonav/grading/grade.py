@@ -29,7 +29,8 @@ STATES: tuple[State, ...] = (
     "grader-fault",
 )
 FAULT = "The grader failed here, which is not your fault: this exercise will be graded again."
-MOST_FEEDBACK = 4_000
+MOST_FEEDBACK = 4_000  # characters of what a part says
+MOST_FOR_HINT = 1_000  # for its name and its hint, which come besides
 
 
 class Unaccepted(Exception):
@@ -91,7 +92,10 @@ def exercise_grade(exercise: Exercise, parts: Sequence[Part]) -> dict[str, Any]:
         "state": _state(parts),
         "feedback": "Not attempted."
         if _state(parts) == "missing"
-        else printable("\n".join(map(_line, _once(parts)))),
+        else "\n".join(
+            printable(_line(part), MOST_FEEDBACK + MOST_FOR_HINT)
+            for part in _once(parts)
+        ),
         "parts": [
             {
                 "test": part.test,
@@ -120,11 +124,11 @@ def fault_grade(exercises: Iterable[Exercise], tier: str) -> dict[str, Any]:
     return grade([exercise_grade(exercise, []) for exercise in exercises], tier)
 
 
-def printable(text: str) -> str:
+def printable(text: str, most: int = MOST_FEEDBACK) -> str:
     """Replace characters that files and terminals cannot show, because a student's error message may contain any."""
     kept = "".join(
         c if c == "\n" or c.isprintable() else "\N{REPLACEMENT CHARACTER}"
-        for c in text[:MOST_FEEDBACK]
+        for c in text[:most]
     )
     return kept.encode("utf-8", "replace").decode()
 

@@ -64,7 +64,7 @@ def binned(rng, bins=24, *, opening=0.5):
     histogram = rng.integers(1, 10, size=bins) / 2
     histogram[rng.random(bins) < opening] = 0.5
     blocked = rng.random(bins) < 0.5
-    target, last = rng.integers(1, bins // 2, size=2)
+    target, last = rng.choice(np.arange(1, bins // 2), size=2, replace=False)
     weights = rng.uniform(1.0, 5.0, size=3).round(3)
     return histogram, blocked, 1.75, 3.25, int(target), int(last), weights
 
@@ -95,13 +95,16 @@ def test_direction_and_its_cost(answer, rng):
 
 @pytest.mark.part("6.2", points=1)
 def test_direction_where_costs_are_equal(answer, rng):
-    """Of several free bins with the least cost, chooses the one with the lowest number."""
+    """Chooses the free bin of the least cost, and of several the one with the lowest number."""
+    for _ in range(4):
+        answer.agrees(*binned(rng, opening=0.2), at=2)
     for _ in range(12):
         histogram, blocked, low, high, *_ = binned(rng, opening=0.2)
         histogram[1:] = np.minimum(histogram[1:], histogram[:0:-1])
         blocked[1:] = blocked[:0:-1]
         histogram[0], weights = 9.0, rng.integers(1, 5, size=3).astype(float)
-        answer.agrees(histogram, blocked, low, high, 0, 0, weights, at=2)
+        target, last = map(int, rng.choice([0, 12], size=2))
+        answer.agrees(histogram, blocked, low, high, target, last, weights, at=2)
 
 
 @pytest.mark.part("6.2", points=1)
@@ -156,6 +159,7 @@ def test_leave_nearer(answer, rng):
 def test_leave_where_the_way_is_free(answer, rng):
     """Does not leave where the way is not free. Returns -1 where the robot goes on to the end."""
     for _ in range(24):
+        answer.agrees(*followed(rng, 30, blocked=0.5))
         answer.agrees(*followed(rng, 30, blocked=0.85))
         answer.agrees(*followed(rng, 4, blocked=0.8))
 

@@ -2,15 +2,17 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from robonav.grading.cases import outcome
 from robonav.grading.check import InProcessCalls, check_submission, graded
 from robonav.grading.course import Course
 from robonav.grading.evidence import Evidence
-from robonav.grading.grade import Part
+from robonav.grading.grade import Part, Unaccepted, exercise_grade
 from robonav.grading.reference import Case, Solutions
 from robonav.grading.session import Session
 from robonav.grading.submission import Submission
@@ -201,3 +203,58 @@ def test_a_check_needs_little_time(tmp_path):
         capture_output=True,
     )
     assert spent() - begin < 3
+
+
+def test_a_hint_is_whole_however_long_the_feedback_of_all_parts_is():
+    """Four parts may show calls with many tables each, and the hint of the last one is not cut off."""
+    told = Unaccepted("wrong", "a call with many tables " * 200)
+    parts = [
+        replace(part, feedback=f"{part.feedback}\nHint: Raise it.")
+        for part in [
+            outcome(test_a_number_that_is_none_may_have_been_put_there, 1, told)
+        ]
+        * 5
+    ]
+    result = exercise_grade(COURSE.named("6.4"), parts)
+    assert len(result["feedback"]) > 15_000
+    assert result["feedback"].count("Hint: Raise it.") == 5
+
+
+@pytest.mark.parametrize(
+    "price", [np.inf, np.nan, 0.0, -1.0], ids=["infinity", "nan", "0", "-1"]
+)
+def test_a_price_for_blocked_bins_gets_the_hint_that_each_bin_has_its_cost(price):
+    """No division by zero is to be looked for: the student put the number there."""
+
+    def direction(histogram, blocked, low, high, target, last, weights):
+        now = (histogram >= high) | (blocked & (histogram > low))
+        apart = abs(np.arange(len(now)) - np.array([target, 0, last])[:, None])
+        cost = weights @ np.minimum(apart, len(now) - apart)
+        best = int(np.where(now, np.inf, cost).argmin())
+        return now, np.where(now, price, cost), -1 if now.all() else best
+
+    said = feedback("6.2", direction)["feedback"]
+    assert said.count("Hint: ") == 1
+    assert "Hint: The cost is asked for each bin, whether free or not" in said
+
+
+def test_a_number_that_is_none_may_have_been_put_there():
+    said = feedback("2.2", lambda q, policy, tolerance: np.full(len(q), np.nan))
+    assert "If you do not put it there yourself, look for" in said["feedback"]
+
+
+@pytest.mark.parametrize("choice", ["lowest", "nearest to the target"])
+def test_the_chosen_bin_depends_on_the_cost(choice):
+    """Neither the lowest free number nor the free bin nearest to the target is enough."""
+
+    def direction(histogram, blocked, low, high, target, last, weights):
+        now = (histogram >= high) | (blocked & (histogram > low))
+        apart = abs(np.arange(len(now)) - np.array([target, 0, last])[:, None])
+        angles = np.minimum(apart, len(now) - apart)
+        by = np.arange(len(now)) if choice == "lowest" else angles[0]
+        best = int(np.where(now, np.inf, by).argmin())
+        return now, weights @ angles, -1 if now.all() else best
+
+    result = feedback("6.2", direction)
+    assert result["points"] < result["max_points"]
+    assert result["feedback"].count("Hint: ") == result["feedback"].count("✗")
