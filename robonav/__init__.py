@@ -2,9 +2,9 @@
 
 Each chapter has its subpackage: ``mdp`` (chapter 2), ``robot`` (section 2.5), ``lfd`` (3, imitation learning),
 ``nnql`` (4, reinforcement learning), ``nirl`` (5, inverse reinforcement learning), ``planners`` (6, which learn
-nothing), ``deep`` (6, deep reinforcement learning) and ``memory`` (6, policies that remember). Chapters 3 to 6 use
-``networks``. Importing this package only registers the Gymnasium environments. Subpackages load when they are first
-used.
+nothing), ``deep`` (6, deep reinforcement learning), ``memory`` (6, policies that remember) and ``sensing`` (6, richer
+sensors). Chapters 3 to 6 use ``networks``. Importing this package only registers the Gymnasium environments.
+Subpackages load when they are first used.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ _SUBPACKAGES = (
     "planners",
     "plots",
     "robot",
+    "sensing",
     "widgets",
 )
 
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
         planners,
         plots,
         robot,
+        sensing,
         widgets,
     )
 

@@ -37,6 +37,7 @@ CHAPTERS = {
     "planners",
     "deep",
     "memory",
+    "sensing",
 }
 ALLOWED = {
     "mdp": set(),
@@ -48,6 +49,7 @@ ALLOWED = {
     "planners": {"robot", "lfd"},
     "deep": {"mdp", "robot", "networks", "lfd", "nnql"},
     "memory": {"robot", "networks", "lfd"},
+    "sensing": {"robot", "networks", "lfd"},
     "experiments": CHAPTERS | {"benchmark"},
     "benchmark": CHAPTERS,
     "plots": CHAPTERS | {"experiments", "benchmark"},
