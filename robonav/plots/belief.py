@@ -17,6 +17,12 @@ SURE = LinearSegmentedColormap.from_list(
     "sure", [to_rgba(style.SKY, 0), to_rgba(style.SKY, 1), to_rgba(style.BLUE, 1)]
 )
 
+PLAN_COLOURS = (style.BLUE, style.GREEN, style.ORANGE, style.PURPLE, style.SKY)
+"""The colours of a plan's first action, as in the explorable of the tiger."""
+
+Plan = tuple[str, Mapping[str, "Plan"]]
+"""An action, and the plan that follows each observation."""
+
 
 def draw_belief(
     axes: Axes, belief: ArrayLike, cells: str, *, state: int | None = None
@@ -91,7 +97,6 @@ def draw_values_of_beliefs(
     >>> len(axes.lines) > 2  # a line for each vector, and their maximum
     True
     """
-    colours = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.SKY)
     belief = np.linspace(0, 1, 501)
     both = np.stack([belief, 1 - belief], axis=1)
     lines = both @ values.vectors.T
@@ -100,12 +105,66 @@ def draw_values_of_beliefs(
     for k, action in enumerate(values.actions.tolist()):
         label = names[action] if action not in named else None
         named.add(action)
-        axes.plot(belief, lines[:, k], color=colours[action], linewidth=0.8, alpha=0.7)
+        axes.plot(
+            belief, lines[:, k], color=PLAN_COLOURS[action], linewidth=0.8, alpha=0.7
+        )
         best = np.where(lines[:, k] >= edge - 1e-9, edge, np.nan)
-        axes.plot(belief, best, color=colours[action], linewidth=3.5, label=label)
+        axes.plot(belief, best, color=PLAN_COLOURS[action], linewidth=3.5, label=label)
     margin = 0.1 * np.ptp(edge)
     axes.set(ylim=(edge.min() - 3 * margin, edge.max() + margin), xlim=(0, 1))
     axes.legend()
+
+
+def draw_plan(axes: Axes, plan: Plan, *, colour: str = style.INK) -> None:
+    """Draw a plan as a tree: actions in boxes, and observations on the lines between them.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes to draw on.
+    plan : tuple of str and mapping
+        The action, and a plan for each observation; no observations at the end.
+    colour : str
+        The colour of the boxes and lines.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot()
+    >>> draw_plan(axes, ("listen", {"left": ("open", {}), "right": ("listen", {})}))
+    >>> [text.get_text() for text in axes.texts]
+    ['left', 'open', 'right', 'listen', 'listen']
+    """
+    _draw_node(axes, plan, 0.0, 0, colour)
+    axes.axis("off")
+    axes.set(xlim=(0, _leaves(plan)), ylim=(-_depth(plan) - 0.25, 0.25))
+
+
+def _draw_node(
+    axes: Axes, plan: Plan, left: float, depth: int, colour: str
+) -> tuple[float, float]:
+    """Draw a plan whose leaves begin at ``left``; return where its action stands."""
+    action, further = plan
+    here = (left + _leaves(plan) / 2, -float(depth))
+    for observation, after in further.items():
+        there = _draw_node(axes, after, left, depth + 1, colour)
+        axes.plot(*zip(here, there, strict=True), color=colour, linewidth=1, zorder=0)
+        middle = np.add(here, there) / 2
+        axes.text(
+            *middle, observation, ha="center", va="center", backgroundcolor="white"
+        )
+        left += _leaves(after)
+    box = {"boxstyle": "round", "facecolor": "white", "edgecolor": colour}
+    axes.text(*here, action, ha="center", va="center", bbox=box)
+    return here
+
+
+def _leaves(plan: Plan) -> int:
+    return sum(map(_leaves, plan[1].values())) or 1
+
+
+def _depth(plan: Plan) -> int:
+    return max((1 + _depth(after) for after in plan[1].values()), default=0)
 
 
 def draw_pose_belief(

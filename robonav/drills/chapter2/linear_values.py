@@ -114,18 +114,22 @@ def weights_of_tilings(rng: Rng) -> Question:
     """Count the weights of a tile coding, and those that one update changes."""
     side, tilings = int(rng.integers(4, 13)), int(rng.choice([2, 4, 8, 16]))
     actions = int(rng.choice([2, 3, 4, 5]))
-    weights = side**2 * tilings * actions
+    tiles = tilings * (side + 1) ** 2  # a shifted grid needs one more row and column
+    weights = tiles * actions
     return Question(
-        f"Position and speed are covered by {tilings} tilings of ${side} \\times {side}$ tiles, and there are "
-        f"{actions} actions, each with weights of its own. How many weights are there, and how many does one update "
-        "change?",
+        f"Position and speed are covered by {tilings} tilings of ${side} \\times {side}$ tiles. Each tiling has one "
+        f"more row and one more column, because it may be shifted. There are {actions} actions, each with weights of "
+        "its own. How many weights are there, and how many does one update change?",
         Table(
             ["number"],
             ["weights", "changed by an update"],
             [[weights, tilings]],
             tolerance=0.1,
             wrong={
-                "Each action has weights of its own.": [[weights // actions, tilings]],
+                "Each tiling has one more row and one more column.": [
+                    [side**2 * tilings * actions, tilings]
+                ],
+                "Each action has weights of its own.": [[tiles, tilings]],
                 "Only the weights of the action taken change.": [
                     [weights, tilings * actions]
                 ],
@@ -134,8 +138,8 @@ def weights_of_tilings(rng: Rng) -> Question:
                 ],
             },
         ),
-        f"${tilings} \\cdot {side}^2 \\cdot {actions} = {weights}$ weights. A state lies in one tile of each tiling, "
-        f"so {tilings} weights of the action taken change.",
+        f"${tilings} \\cdot {side + 1}^2 \\cdot {actions} = {weights}$ weights. A state lies in one tile of each "
+        f"tiling, so {tilings} weights of the action taken change.",
     )
 
 

@@ -66,6 +66,31 @@ def test_three_sweeps(written):
     assert_written(text, swept[1:][swept[1:] > 0], 3)
 
 
+def test_numbers_of_tiles(written):
+    """Shifted grids have one more row and one more column of tiles, on the page as in the package."""
+    text = written("linear-values", "## Tiles", "## In short")
+    car = mdp.Tiles((0, 0), (1, 1), tiles=(8, 8), tilings=8, n_actions=3)
+    assert f"8 \\cdot 9^2 = {np.prod(car.shape)}$ tiles" in text
+    square = mdp.Tiles((0, 0), (4, 4), tiles=(4, 4), tilings=2, n_actions=1)
+    assert f"2 \\cdot 5^2 = {np.prod(square.shape)}$" in text
+    quiz = written("linear-values", "## Check yourself", "With ten features")
+    asked = mdp.Tiles((0, 0), (1, 1), tiles=(10, 10), tilings=8, n_actions=3)
+    weights = asked((0.5, 0.5)).shape[1]
+    assert f"- [x] {weights:,} and 8" in quiz
+    assert f"= {weights}$ weights" in quiz
+
+
+def test_weights_of_two_states_grow(written):
+    """The factor of an update is larger than 1 for a discount above 1/2."""
+    text = written("linear-values", "Two states show why", "An on-policy method")
+    assert r"\bigl( 1 + \alpha\, (2 \gamma - 1) \bigr)\, w" in text
+    weight, alpha = 1.0, 0.1
+    for discount, grows in ((0.4, False), (0.5, None), (0.9, True)):
+        moved = weight + alpha * (discount * 2 * weight - weight)
+        assert moved == pytest.approx(1 + alpha * (2 * discount - 1))
+        assert grows is None or (moved > weight) == grows
+
+
 def test_returns_of_an_episode(written):
     text = written("prediction", "## Monte Carlo prediction", "The code below")
     returns = mdp.discounted_return([0, 2, 0, 10], 0.9)
@@ -127,6 +152,40 @@ def test_a_belief_update(written):
     assert_written(text, predicted * three.likelihood(1, 0), 3)
     assert_written(text, probability, 3)
     assert_written(text, three.update(three.uniform(), 1, 0), 3)
+
+
+def test_belief_after_three_observations(written):
+    text = written("partial-observation", "### In the corridor", "How uncertain is")
+    corridor = mdp.corridor("..D.....D.D....", accuracy=0.9, slip=0.1)
+    belief = corridor.uniform()
+    for seen in (1, 0, 1):
+        belief = corridor.update(belief, 1, seen)
+    assert belief.argmax() == 10
+    assert "cell 10 holds" in text
+    assert_written(text, np.sort(belief)[-2:], 2)
+
+
+def test_three_plans_for_the_tiger(written):
+    text = written("partial-observation", "A *plan* says", "The robot does not know")
+    tiger = mdp.tiger(accuracy=0.85, discount=0.95)
+    listen, _, right = tiger.mdp.rewards.T
+    heard_left, heard_right = (tiger.likelihood(0, seen) for seen in (0, 1))
+    again = np.full(2, listen.mean())
+    waits = listen + 0.95 * (heard_left * right + heard_right * listen)
+    vectors = [waits, listen + 0.95 * again, right + 0.95 * again]
+    for vector in vectors:
+        assert f"[{vector[0]:.2f}, {vector[1]:.2f}]" in text
+    assert f"$[{waits[0]:.2f}, {waits[1]:.2f}]$" in text
+
+
+def test_qmdp_at_the_fork(written):
+    text = written("partial-observation", "QMDP waits forever", "## Localisation")
+    fork = mdp.fork()
+    belief = np.array([0.5, 0.5, 0.0])
+    q = belief @ fork.mdp.action_values(mdp.value_iteration(fork.mdp).values)
+    assert q[:2] == pytest.approx([9, 8])
+    assert "= 9$ for waiting" in text
+    assert "= 8$ for reading" in text
 
 
 def test_a_backup_of_an_alpha_vector(written):

@@ -1,5 +1,8 @@
 """Beliefs over cells and poses, their values, their uncertainty, and the scheme of Fig. 2.3."""
 
+import re
+from pathlib import Path
+
 import matplotlib as mpl
 import numpy as np
 import pytest
@@ -7,14 +10,16 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 
 from robonav import style
-from robonav.mdp import AlphaVectors, PoseGrid
+from robonav.mdp import AlphaVectors, PoseGrid, qmdp, tiger
 from robonav.plots.belief import (
     draw_belief,
+    draw_plan,
     draw_pomdp,
     draw_pose_belief,
     draw_values_of_beliefs,
     plot_uncertainty,
 )
+from robonav.widgets import explorables
 
 
 @pytest.fixture
@@ -51,6 +56,27 @@ def test_the_thick_line_is_the_upper_edge(axes):
         "left",
         "right",
     }
+
+
+def test_a_door_has_the_same_colour_in_the_figure_and_in_the_explorable(axes):
+    script = Path(explorables.__file__).with_name("tiger_vectors.js").read_text("utf-8")
+    (shown,) = re.findall(r"const colours = \[(PALETTE.*)\];", script)
+    named = [getattr(style, name) for name in re.findall(r"PALETTE\.(\w+)", shown)]
+    draw_values_of_beliefs(axes, qmdp(tiger()), ["listen", "open left", "open right"])
+    drawn = {line.get_label(): line.get_color() for line in axes.lines}
+    assert [drawn[door] for door in ("open left", "open right")] == named[1:]
+
+
+def test_a_plan_is_a_tree_of_actions_and_observations(axes):
+    further = {"left": ("open", {}), "right": ("listen", {"either": ("open", {})})}
+    draw_plan(axes, ("listen", further))
+    places = {text.get_position(): text.get_text() for text in axes.texts}
+    assert places[1.0, 0.0] == "listen"
+    assert [places[0.5, -1.0], places[1.5, -1.0]] == ["open", "listen"]
+    assert places[1.5, -2.0] == "open"
+    assert places[0.75, -0.5] == "left"
+    assert len(axes.lines) == 3
+    axes.figure.canvas.draw()
 
 
 def test_poses_are_summed_over_headings_and_pointed_out(axes):
