@@ -133,7 +133,7 @@ def draw_plan(axes: Axes, plan: Plan, *, colour: str = style.INK) -> None:
     >>> axes = Figure().add_subplot()
     >>> draw_plan(axes, ("listen", {"left": ("open", {}), "right": ("listen", {})}))
     >>> [text.get_text() for text in axes.texts]
-    ['left', 'open', 'right', 'listen', 'listen']
+    ['open', 'left', 'listen', 'right', 'listen']
     """
     _draw_node(axes, plan, 0.0, 0, colour)
     axes.axis("off")
@@ -149,10 +149,8 @@ def _draw_node(
     for observation, after in further.items():
         there = _draw_node(axes, after, left, depth + 1, colour)
         axes.plot(*zip(here, there, strict=True), color=colour, linewidth=1, zorder=0)
-        middle = np.add(here, there) / 2
-        axes.text(
-            *middle, observation, ha="center", va="center", backgroundcolor="white"
-        )
+        x, y = np.add(here, there) / 2
+        axes.text(x, y, observation, ha="center", va="center", backgroundcolor="white")
         left += _leaves(after)
     box = {"boxstyle": "round", "facecolor": "white", "edgecolor": colour}
     axes.text(*here, action, ha="center", va="center", bbox=box)
