@@ -50,20 +50,20 @@ def return_backwards(rng: Rng) -> Question:
     discount = rng.choice([0.5, 0.8, 0.9, 0.95])
     answer = mdp.discounted_return([reward, following], discount)[0]
     return Question(
-        f"The return from step 8 on is $G_8 = {following:g}$, and step 7 gave the reward $r_7 = {reward:g}$. "
+        f"The return from step 8 on is $G_8 = {following:g}$, and step 7 gave the reward $R_8 = {reward:g}$. "
         f"What is $G_7$ with $\\gamma = {discount:g}$?",
         Number(
             answer,
             wrong={
                 "The return of the next step must be discounted once.": reward
                 + following,
-                "The discount belongs to $G_8$. The reward $r_7$ comes at once.": following
+                "The discount belongs to $G_8$. The reward $R_8$ comes at once.": following
                 + discount * reward,
-                "The reward $r_7$ is not discounted.": discount * (reward + following),
-                "The reward $r_7$ is missing.": discount * following,
+                "The reward $R_8$ is not discounted.": discount * (reward + following),
+                "The reward $R_8$ is missing.": discount * following,
             },
         ),
-        f"$G_7 = r_7 + \\gamma G_8 = {reward:g} {sign(discount * following)} = {answer:.4g}$.",
+        f"$G_7 = R_8 + \\gamma G_8 = {reward:g} {sign(discount * following)} = {answer:.4g}$.",
     )
 
 

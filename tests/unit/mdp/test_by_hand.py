@@ -50,6 +50,29 @@ def test_two_states(written):
     )
 
 
+def test_one_cell_of_the_grid(written):
+    text = written(
+        "decision-processes", "We check one value by hand", "We test the value"
+    )
+    model = mdp.four_by_three().mdp(0.95)
+    around = [1, 1, 1, 1, 0, 0, 0, 0, 3, 3, 3]
+    values = mdp.policy_evaluation(model, around)
+    assert model.rewards[2, 1] == pytest.approx(0.76)
+    assert values[2] == pytest.approx(
+        0.76 + 0.95 * (0.8 * 0 + 0.1 * values[2] + 0.1 * values[5])
+    )
+    assert_written(text, values[[2, 5]], 3)
+
+
+def test_test_of_optimality_without_discount_in_the_grid():
+    """It holds although a policy that pushes into a wall never ends: no such policy is any good."""
+    model = mdp.four_by_three().mdp(1.0)
+    best = mdp.policy_iteration(model)
+    assert mdp.advantage(model, best.policy).max() == pytest.approx(0, abs=1e-9)
+    with pytest.raises(ValueError, match="forever"):
+        mdp.policy_evaluation(model, np.where(model.terminal, 0, 3))
+
+
 def test_three_sweeps(written):
     text = written(
         "dynamic-programming", "Take three cells A, B and C", "```{code-cell}"
